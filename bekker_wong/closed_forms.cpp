@@ -1,0 +1,51 @@
+#include "bekker_wong/closed_forms.hpp"
+
+#include <cmath>
+
+#include "bekker_wong/gsl.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::bekker_wong {
+
+double bekker_static_sinkage(const SoilValues& soil, double radius, double width, double load) {
+  const double n = soil.exponent;
+  if (!(n < 3.0)) throw InputError("Bekker's static sinkage holds for n < 3 only");
+  const double k = soil.pressure_modulus(width);
+  return std::pow(3 * load / ((3 - n) * width * k * std::sqrt(2 * radius)), 2 / (2 * n + 1));
+}
+
+double compaction_resistance(const SoilValues& soil, double width, double sinkage) {
+  const double m = soil.exponent + 1;
+  return width * soil.pressure_modulus(width) * std::pow(sinkage, m) / m;
+}
+
+double rolling_resistance(const SoilValues& soil, double radius, double width, double load) {
+  return compaction_resistance(soil, width, bekker_static_sinkage(soil, radius, width, load));
+}
+
+double critical_ground_pressure(const SoilValues& soil, double radius, double width, double load) {
+  const double z = bekker_static_sinkage(soil, radius, width, load);
+  return soil.pressure_modulus(width) * std::pow(z, soil.exponent);
+}
+
+namespace paper {
+
+double drawbar_pull(double (*shear)(double), double (*normal)(double), double radius, double width, double theta_1) {
+  const auto density = [&](double t) { return shear(t) * std::cos(t) - normal(t) * std::sin(t); };
+  return radius * width * gsl::integrate(density, 0.0, theta_1, 1e-10, "the paper's Eq. 1");
+}
+
+double axle_torque(double driving_couple, double friction_couple) { return driving_couple - friction_couple; }
+
+double tractive_efficiency(double drawbar_pull, double torque, double radius, double slip) {
+  return drawbar_pull * radius / torque * (1 - slip);
+}
+
+double slip(double speed, double spin, double radius) { return 1 - speed / (spin * radius); }
+
+double sinkage(const SoilValues& soil, double radius, double width, double load, double slip, double theta_m) {
+  return bekker_static_sinkage(soil, radius, width, load) + radius * (1 - slip) * theta_m;
+}
+
+}  // namespace paper
+}  // namespace soilbin::bekker_wong

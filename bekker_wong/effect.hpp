@@ -1,0 +1,133 @@
+// An effect is a small value: its parameters and what it does at the joints that the wheel offers.
+// It never names another effect. Adding one: a file in effects/, a line in effects/catalogue.cpp, a test, a line in
+// docs/effects.md.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bekker_wong/contact_patch.hpp"
+#include "bekker_wong/kinematics.hpp"
+#include "scenario/scenario.hpp"
+
+namespace soilbin::bekker_wong {
+
+/// What an effect may look at.
+struct Surroundings {
+  const Tire& tire;
+  const SoilValues& declared;  ///< the soil before any effect
+  const OperatingCondition& at;
+  const Kinematics& motion;
+  const std::optional<Bin>& bin;
+  double normal_load = 0.0;  ///< share of the load normal to the ground [N]
+};
+
+/// A force that an effect adds to the stress integrals, in the wheel's axes.
+struct AddedForce {
+  std::string_view name;  ///< of the budget's row; must outlive the result (a literal)
+  double forward = 0.0;   ///< [N]
+  double lateral = 0.0;   ///< [N], to the left
+  double vertical = 0.0;  ///< [N], upward: carries load
+  double torque = 0.0;    ///< [N m], adds to the driving torque needed
+};
+
+/// The added forces of one evaluation. Holds at most 16.
+class ForceLedger {
+ public:
+  void add(const AddedForce& force);
+  std::span<const AddedForce> rows() const { return {rows_.data(), count_}; }
+  double vertical() const;
+
+ private:
+  std::array<AddedForce, 16> rows_;
+  std::size_t count_ = 0;
+};
+
+/// The contact as the added forces see it: everything but the forces themselves.
+struct Rolling {
+  const Surroundings& around;
+  const SoilValues& soil;    ///< after the soil joint
+  const Outline& outline;    ///< after the outline joint
+  const ContactPatch& patch;
+  double sinkage = 0.0;      ///< z [m]
+};
+
+/// The four channels as instruments show them, in the axes that the condition asks for.
+struct Reading {
+  double drawbar_pull = 0.0, torque = 0.0, sinkage = 0.0, lateral_force = 0.0;
+};
+
+/// Joints of the wheel model, in the order in which they are called. Defaults do nothing.
+class Effect {
+ public:
+  virtual ~Effect() = default;
+  /// Once a condition: the soil's values.
+  virtual void soil(SoilValues&, const Surroundings&) const {}
+  /// Once a condition: radius, width, shear radius.
+  virtual void outline(Outline&, const Surroundings&) const {}
+  /// Every trial sinkage: theta_m and theta_2, from theta_1.
+  virtual void angles(ContactAngles&, const Outline&, const Surroundings&) const {}
+  /// Every trial sinkage: depth, normals, arcs, arms at the nodes (a carcass that flattens, a shifted depth).
+  virtual void geometry(ContactPatch&, const Outline&, const Surroundings&) const {}
+  /// sigma is filled; change it in place.
+  virtual void pressure(ContactPatch&, const SoilValues&, const Outline&, const Surroundings&) const {}
+  /// j_x, j_y are filled; change them in place.
+  virtual void displacement(ContactPatch&, const Outline&, const Surroundings&) const {}
+  /// strength and modulus are filled; change them in place.
+  virtual void strength(ContactPatch&, const SoilValues&, const Outline&, const Surroundings&) const {}
+  /// mobilised is filled from |j|/K; change it in place. displacement: |j| at the nodes [m].
+  virtual void mobilise(ContactPatch&, [[maybe_unused]] std::span<const double> displacement, const SoilValues&,
+                        const Surroundings&) const {}
+  /// Forces beside the stress integrals.
+  virtual void added_forces(ForceLedger&, const Rolling&) const {}
+  /// After the balance: total sinkage from the one that balances the load [m]. Where an effect deepens it, forces are
+  /// taken at the deeper position with the stresses scaled so that they still carry the load.
+  virtual double settle(double sinkage, const Rolling&) const { return sinkage; }
+  /// What the rig's instruments make of it.
+  virtual void sensor(Reading&, const Surroundings&) const {}
+};
+
+/// A parameter of an effect's form.
+struct EffectParameter {
+  std::string name;
+  std::string unit;      ///< as in files: "-", "deg", "mm", "kPa", ...; values here are SI
+  double fallback = 0.0; ///< default [SI]
+  double lower = 0.0;    ///< [SI]
+  double upper = 0.0;    ///< [SI]
+  std::string meaning;
+  /// "moisture", "position" or "run" where this is a reference value about which the effect is centred: the loop then
+  /// sets it to the campaign's mean and does not fit it. Empty for every other parameter.
+  std::string centred_on = {};
+};
+
+/// One published (or stated) form of an effect. parameters[0] is its amplitude: at 0 the form is the base model.
+struct EffectForm {
+  std::string id;        ///< of the catalogue
+  std::string form;
+  std::string equation;  ///< one line, plain text
+  std::string source;    ///< paper and equation, or "after X"
+  std::vector<EffectParameter> parameters;
+  bool measurement = false;  ///< an effect of the rig or the bed, not of the wheel on the soil
+  std::function<std::unique_ptr<const Effect>(const std::vector<double>& parameters)> make;
+};
+
+/// Every form of every effect, in the catalogue's order. Built once.
+const std::vector<EffectForm>& effect_catalogue();
+
+/// The form that a choice names. Throws InputError with the nearest right word for an unknown id, form or parameter,
+/// and for a value outside its bounds.
+const EffectForm& find_form(const EffectChoice& choice);
+
+/// The effect that a choice names, with the form's defaults for what it leaves out.
+std::unique_ptr<const Effect> make_effect(const EffectChoice& choice);
+
+using EffectList = std::vector<std::shared_ptr<const Effect>>;
+EffectList make_effects(const std::vector<EffectChoice>& choices);
+
+}  // namespace soilbin::bekker_wong

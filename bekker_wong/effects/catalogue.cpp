@@ -1,0 +1,85 @@
+#include <fmt/core.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "bekker_wong/effects/forms.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin::bekker_wong {
+namespace {
+
+/// One line an effect, in the catalogue's order (docs/effects.md).
+constexpr std::vector<EffectForm> (*effects_of_the_catalogue[])() = {
+    exit_angle_forms,
+    slip_sinkage_forms,
+};
+
+std::vector<EffectForm> collect() {
+  std::vector<EffectForm> all;
+  for (const auto forms : effects_of_the_catalogue) {
+    std::vector<EffectForm> some = forms();
+    std::move(some.begin(), some.end(), std::back_inserter(all));
+  }
+  return all;
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& right) {
+  const std::string near = nearest_word(word, right);
+  return near.empty() ? std::string() : fmt::format(", did you mean '{}'?", near);
+}
+
+std::vector<double> values_of(const EffectForm& form, const EffectChoice& choice) {
+  std::vector<double> values;
+  std::vector<std::string> names;
+  for (const EffectParameter& p : form.parameters) values.push_back(p.fallback), names.push_back(p.name);
+  for (const auto& [name, value] : choice.parameters) {
+    std::size_t i = 0;
+    while (i < names.size() && names[i] != name) ++i;
+    if (i == names.size())
+      throw InputError(fmt::format("effect '{}' ({}) has no parameter '{}'{}", form.id, form.form, name,
+                                   suggestion(name, names)));
+    const EffectParameter& p = form.parameters[i];
+    if (!(value >= p.lower && value <= p.upper))
+      throw InputError(fmt::format("effect '{}' ({}): {} = {:.6g} lies outside {:.6g} .. {:.6g} (SI)", form.id,
+                                   form.form, name, value, p.lower, p.upper));
+    values[i] = value;
+  }
+  return values;
+}
+
+}  // namespace
+
+const std::vector<EffectForm>& effect_catalogue() {
+  static const std::vector<EffectForm> all = collect();
+  return all;
+}
+
+const EffectForm& find_form(const EffectChoice& choice) {
+  std::vector<std::string> ids, forms;
+  for (const EffectForm& f : effect_catalogue()) {
+    if (f.id != choice.id) {
+      if (ids.empty() || ids.back() != f.id) ids.push_back(f.id);
+      continue;
+    }
+    if (choice.form.empty() || f.form == choice.form) return f;
+    forms.push_back(f.form);
+  }
+  if (forms.empty()) throw InputError(fmt::format("unknown effect '{}'{}", choice.id, suggestion(choice.id, ids)));
+  throw InputError(
+      fmt::format("effect '{}' has no form '{}'{}", choice.id, choice.form, suggestion(choice.form, forms)));
+}
+
+std::unique_ptr<const Effect> make_effect(const EffectChoice& choice) {
+  const EffectForm& form = find_form(choice);
+  return form.make(values_of(form, choice));
+}
+
+EffectList make_effects(const std::vector<EffectChoice>& choices) {
+  EffectList list;
+  for (const EffectChoice& choice : choices) list.push_back(make_effect(choice));
+  return list;
+}
+
+}  // namespace soilbin::bekker_wong

@@ -1,0 +1,110 @@
+// slip_sinkage: the wheel digs itself in as slip grows.
+//
+// A turning wheel carries soil backward from under itself; at 60 % slip measured sinkage is several times the static
+// one where the base model's is flat (Ding et al. 2010). Forms differ in what gives: the soil's law (stiffness falls
+// with slip, so the balance moves deeper) or the position (the wheel settles deeper at stresses that still carry the
+// load).
+#include <algorithm>
+#include <cmath>
+
+#include "bekker_wong/effects/forms.hpp"
+
+namespace soilbin::bekker_wong {
+namespace {
+
+double driven_slip(const Surroundings& around) { return std::max(0.0, around.motion.slip); }
+
+/// n = n0 + n1 |s| (Ding): the exponent grows, so the same load sits deeper.
+class GrowingExponent final : public Effect {
+ public:
+  explicit GrowingExponent(const std::vector<double>& p) : n1_(p[0]) {}
+  void soil(SoilValues& soil, const Surroundings& around) const override {
+    soil.exponent += n1_ * std::abs(around.motion.slip);
+  }
+
+ private:
+  double n1_;
+};
+
+/// Total sinkage z = z_b f(s) with f(0) = 1; the wheel settles deeper after the balance.
+template <double (*Factor)(double amplitude, double slip)>
+class Settling final : public Effect {
+ public:
+  explicit Settling(const std::vector<double>& p) : amplitude_(p[0]) {}
+  double settle(double sinkage, const Rolling& rolling) const override {
+    return sinkage * Factor(amplitude_, driven_slip(rolling.around));
+  }
+
+ private:
+  double amplitude_;
+};
+
+/// Pressure at depth z f(s)^-1: the soil answers as if it had been pressed less deep by what slip has dug away.
+template <double (*Factor)(double amplitude, double slip)>
+class Loosening final : public Effect {
+ public:
+  explicit Loosening(const std::vector<double>& p) : amplitude_(p[0]) {}
+  void pressure(ContactPatch& patch, const SoilValues& soil, const Outline&, const Surroundings& around) const override {
+    const double factor = std::pow(Factor(amplitude_, driven_slip(around)), -soil.exponent);
+    for (double& sigma : patch.of(&ContactPatch::sigma)) sigma *= factor;
+  }
+
+ private:
+  double amplitude_;
+};
+
+double lyasko(double a, double s) { return (1 + a * s) / (1 - 0.5 * a * s); }
+double linear(double a, double s) { return 1 + a * s; }
+
+/// Reece: added sinkage h s/(1 - s), with a length h of the order of the lug height or the shear displacement.
+class Reece final : public Effect {
+ public:
+  explicit Reece(const std::vector<double>& p) : length_(p[0]) {}
+  double settle(double sinkage, const Rolling& rolling) const override {
+    const double s = std::min(driven_slip(rolling.around), 0.95);
+    return sinkage + length_ * s / (1 - s);
+  }
+
+ private:
+  double length_;
+};
+
+}  // namespace
+
+std::vector<EffectForm> slip_sinkage_forms() {
+  const std::string id = "slip_sinkage";
+  return {
+      {.id = id,
+       .form = "lyasko",
+       .equation = "z = z_b (1 + a s)/(1 - a s/2), a = 1: Lyasko; stresses scaled to carry the load",
+       .source = "after Lyasko 2010, J. Terramechanics 47(4):261",
+       .parameters = {{"a", "-", 1.0, 0.0, 1.6, "amplitude; 1 gives Lyasko's factor"}},
+       .make = maker<Settling<lyasko>>()},
+      {.id = id,
+       .form = "ding",
+       .equation = "n = n0 + n1 |s|",
+       .source = "after Ding, Gao, Deng, Nagatani, Yoshida 2011, J. Terramechanics 48(1):27",
+       .parameters = {{"n1", "-", 0.4, -0.5, 3.0, "growth of the exponent with slip"}},
+       .make = maker<GrowingExponent>()},
+      {.id = id,
+       .form = "linear",
+       .equation = "z = z_b (1 + S s); stresses scaled to carry the load",
+       .source = "after Steiner 1979, J. Terramechanics 16 (linear slip-sinkage coefficient)",
+       .parameters = {{"S", "-", 1.0, 0.0, 5.0, "slip sinkage at full slip over the balanced sinkage"}},
+       .make = maker<Settling<linear>>()},
+      {.id = id,
+       .form = "loosening",
+       .equation = "sigma = k (z/f)^n, f = (1 + a s)/(1 - a s/2)",
+       .source = "after Lyasko 2010, the factor taken inside the pressure law",
+       .parameters = {{"a", "-", 1.0, 0.0, 1.6, "amplitude; 1 gives Lyasko's factor"}},
+       .make = maker<Loosening<lyasko>>()},
+      {.id = id,
+       .form = "reece",
+       .equation = "z = z_b + h s/(1 - s), s held below 0.95; stresses scaled to carry the load",
+       .source = "after Reece 1965, Principles of Soil-Vehicle Mechanics, Proc. IMechE 180(2A)",
+       .parameters = {{"h", "mm", 0.01, 0.0, 0.2, "length of soil that slip digs away"}},
+       .make = maker<Reece>()},
+  };
+}
+
+}  // namespace soilbin::bekker_wong

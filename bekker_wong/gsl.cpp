@@ -1,0 +1,98 @@
+#include "bekker_wong/gsl.hpp"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_integration.h>
+#include <gsl/gsl_roots.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <vector>
+
+namespace soilbin::gsl {
+namespace {
+
+/// GSL's default handler aborts the program; ours leaves the status to the caller. Set once, before main's work.
+const bool handler_off = [] {
+  gsl_set_error_handler_off();
+  return true;
+}();
+
+template <auto Free>
+struct Freed {
+  template <class T>
+  void operator()(T* p) const { Free(p); }
+};
+using RootSolver = std::unique_ptr<gsl_root_fsolver, Freed<gsl_root_fsolver_free>>;
+using LegendreTable = std::unique_ptr<gsl_integration_glfixed_table, Freed<gsl_integration_glfixed_table_free>>;
+using Workspace = std::unique_ptr<gsl_integration_workspace, Freed<gsl_integration_workspace_free>>;
+
+gsl_function as_gsl(FunctionRef& f) {
+  return {[](double x, void* o) { return (*static_cast<FunctionRef*>(o))(x); }, &f};
+}
+
+constexpr int max_rule = 128;
+struct StoredRule {
+  std::once_flag once;
+  std::vector<double> nodes, weights;
+};
+
+void build(StoredRule& rule, int n) {
+  const LegendreTable table(gsl_integration_glfixed_table_alloc(static_cast<size_t>(n)));
+  if (!table) throw std::bad_alloc();
+  for (int i = 0; i < n; ++i) {
+    double node = 0.0, weight = 0.0;
+    gsl_integration_glfixed_point(0.0, 1.0, static_cast<size_t>(i), &node, &weight, table.get());
+    rule.nodes.push_back(node);
+    rule.weights.push_back(weight);
+  }
+}
+
+}  // namespace
+
+LegendreRule legendre_rule(int n) {
+  static std::array<StoredRule, max_rule + 1> rules;
+  if (n < 2 || n > max_rule) throw std::invalid_argument("legendre_rule: n must be 2 .. 128");
+  StoredRule& rule = rules[static_cast<size_t>(n)];
+  std::call_once(rule.once, build, rule, n);
+  return {rule.nodes, rule.weights};
+}
+
+double bracketed_root(FunctionRef f, double lower, double upper, double rel_tol, double f_tol,
+                      const std::string& what) {
+  thread_local const RootSolver solver(gsl_root_fsolver_alloc(gsl_root_fsolver_brent));
+  double best = lower, best_f = std::numeric_limits<double>::infinity();
+  const auto noted = [&](double x) {
+    const double y = f(x);
+    if (std::abs(y) < best_f) best = x, best_f = std::abs(y);
+    return y;
+  };
+  FunctionRef watched(noted);
+  gsl_function g = as_gsl(watched);
+  if (const int status = gsl_root_fsolver_set(solver.get(), &g, lower, upper); status != GSL_SUCCESS)
+    throw std::domain_error(what + ": " + gsl_strerror(status));
+  constexpr int max_iterations = 200;
+  for (int i = 0; i < max_iterations; ++i) {
+    if (best_f <= f_tol) return best;
+    if (const int status = gsl_root_fsolver_iterate(solver.get()); status != GSL_SUCCESS)
+      throw std::domain_error(what + ": " + gsl_strerror(status));
+    const double a = gsl_root_fsolver_x_lower(solver.get()), b = gsl_root_fsolver_x_upper(solver.get());
+    if (gsl_root_test_interval(a, b, 0.0, rel_tol) == GSL_SUCCESS) return gsl_root_fsolver_root(solver.get());
+  }
+  throw std::domain_error(what + ": no convergence in 200 iterations");
+}
+
+double integrate(FunctionRef f, double a, double b, double rel_tol, const std::string& what) {
+  constexpr size_t intervals = 1000;
+  thread_local const Workspace workspace(gsl_integration_workspace_alloc(intervals));
+  gsl_function g = as_gsl(f);
+  double value = 0.0, error = 0.0;
+  const int status = gsl_integration_qags(&g, a, b, 0.0, rel_tol, intervals, workspace.get(), &value, &error);
+  if (status != GSL_SUCCESS) throw std::runtime_error(what + ": " + gsl_strerror(status));
+  return value;
+}
+
+}  // namespace soilbin::gsl

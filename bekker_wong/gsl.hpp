@@ -1,0 +1,40 @@
+// The one place where GSL is called: owners that free themselves, errors that become exceptions with context.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+
+namespace soilbin::gsl {
+
+/// Non-owning reference to a callable double(double); lives no longer than the call it is passed to.
+class FunctionRef {
+ public:
+  template <class F>
+  FunctionRef(const F& f)  // NOLINT(google-explicit-constructor): a parameter type
+      : object_(&f), call_([](const void* o, double x) { return (*static_cast<const F*>(o))(x); }) {}
+  double operator()(double x) const { return call_(object_, x); }
+
+ private:
+  const void* object_;
+  double (*call_)(const void*, double);
+};
+
+/// Nodes and weights of the n-point Gauss-Legendre rule on [0, 1] (gsl_integration_glfixed).
+/// Built once per n and kept for the life of the program; n from 2 to 128.
+struct LegendreRule {
+  std::span<const double> nodes;
+  std::span<const double> weights;
+};
+LegendreRule legendre_rule(int n);
+
+/// Root of a continuous f bracketed by f(lower) <= 0 <= f(upper) or the reverse, by Brent's method
+/// (gsl_root_fsolver_brent): done where |f| <= f_tol or the bracket is narrower than rel_tol of the root. Throws
+/// std::domain_error with `what` where the bracket holds no change of sign or f is not finite.
+double bracketed_root(FunctionRef f, double lower, double upper, double rel_tol, double f_tol,
+                      const std::string& what);
+
+/// Integral over [a, b] by QAGS to rel_tol. Throws std::runtime_error with `what` where it does not converge.
+double integrate(FunctionRef f, double a, double b, double rel_tol, const std::string& what);
+
+}  // namespace soilbin::gsl

@@ -1,0 +1,132 @@
+#include "bekker_wong/model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "scenario/errors.hpp"
+
+namespace soilbin::bekker_wong {
+
+SoilValues values_of(const SemiEmpiricalSoil& soil) {
+  return {.exponent = soil.exponent.value,
+          .k_c = soil.k_c.value,
+          .k_phi = soil.k_phi.value,
+          .cohesion = soil.cohesion.value,
+          .friction_angle = soil.friction_angle.value,
+          .shear_modulus = soil.shear_modulus.value,
+          .c1 = soil.stress_angle_c1.value,
+          .c2 = soil.stress_angle_c2.value,
+          .density = soil.density};
+}
+
+namespace {
+
+/// Force (forward, lateral) in the wheel's axes -> its part of the drawbar pull in the axes asked for.
+double along_travel(double forward, double lateral, const OperatingCondition& at) {
+  if (at.force_frame == ForceFrame::wheel) return forward;
+  return forward * std::cos(at.yaw) - lateral * std::sin(at.yaw);
+}
+
+std::vector<Contribution> budget_of(const RolledWheel& wheel) {
+  const OperatingCondition& at = wheel.at;
+  std::vector<Contribution> budget = {
+      {"shear_thrust", along_travel(wheel.forces.thrust, 0.0, at)},
+      {"compaction_resistance", along_travel(wheel.forces.compaction, 0.0, at)},
+  };
+  if (wheel.forces.side != 0.0 && at.force_frame == ForceFrame::travel)
+    budget.push_back({"side_force", along_travel(0.0, wheel.forces.side, at)});
+  for (const AddedForce& added : wheel.forces.added.rows())
+    budget.push_back({std::string(added.name), along_travel(added.forward, added.lateral, at)});
+  double slope = -at.load * std::sin(at.longitudinal_incline);
+  if (at.force_frame == ForceFrame::wheel)
+    slope = slope * std::cos(at.yaw) -
+            at.load * std::cos(at.longitudinal_incline) * std::sin(at.transverse_incline) * std::sin(at.yaw);
+  if (slope != 0.0) budget.push_back({"slope", slope});
+  const double sum =
+      std::accumulate(budget.begin(), budget.end(), 0.0, [](double a, const Contribution& c) { return a + c.force; });
+  const double rest = wheel.reading.drawbar_pull - sum;
+  if (std::abs(rest) > 1e-12 * (std::abs(wheel.forces.thrust) + std::abs(wheel.forces.compaction) + at.load))
+    budget.push_back({"measurement", rest});
+  return budget;
+}
+
+std::vector<StressSample> stresses_of(const ContactPatch& patch) {
+  std::vector<StressSample> samples;
+  samples.reserve(static_cast<std::size_t>(patch.count));
+  for (int i = 0; i < patch.count; ++i)
+    samples.push_back({patch.theta[i], patch.sigma[i], patch.tau_x[i], patch.tau_y[i]});
+  std::sort(samples.begin(), samples.end(), [](const auto& a, const auto& b) { return a.theta < b.theta; });
+  return samples;
+}
+
+/// Adds standard errors: sd of each soil value times the central difference of the results over it.
+void propagate(TractionResult& result, const Scenario& scenario, const EffectList& effects,
+               const OperatingCondition& at) {
+  const SemiEmpiricalSoil& soil = *scenario.soil.semi_empirical;
+  using Value = double SoilValues::*;
+  const std::array<std::pair<Value, double>, 8> uncertain = {{
+      {&SoilValues::exponent, soil.exponent.std_error},
+      {&SoilValues::k_c, soil.k_c.std_error},
+      {&SoilValues::k_phi, soil.k_phi.std_error},
+      {&SoilValues::cohesion, soil.cohesion.std_error},
+      {&SoilValues::friction_angle, soil.friction_angle.std_error},
+      {&SoilValues::shear_modulus, soil.shear_modulus.std_error},
+      {&SoilValues::c1, soil.stress_angle_c1.std_error},
+      {&SoilValues::c2, soil.stress_angle_c2.std_error},
+  }};
+  std::array<double, 4> variance{};
+  const SoilValues base = values_of(soil);
+  for (const auto& [value, sd] : uncertain) {
+    if (!(sd > 0.0)) continue;
+    const double step = 1e-3 * sd;
+    SoilValues up = base, down = base;
+    up.*value += step;
+    down.*value -= std::min(step, value == &SoilValues::cohesion ? base.cohesion : step);
+    const Reading a = RollingWheel(scenario.tire, up, effects, scenario.bin).roll(at).reading;
+    const Reading b = RollingWheel(scenario.tire, down, effects, scenario.bin).roll(at).reading;
+    const double share = sd / (up.*value - down.*value);
+    const std::array<double, 4> moved = {a.drawbar_pull - b.drawbar_pull, a.torque - b.torque, a.sinkage - b.sinkage,
+                                         a.lateral_force - b.lateral_force};
+    for (std::size_t i = 0; i < moved.size(); ++i) variance[i] += std::pow(share * moved[i], 2);
+  }
+  result.drawbar_pull.std_error = std::sqrt(variance[0]);
+  result.torque.std_error = std::sqrt(variance[1]);
+  result.sinkage.std_error = std::sqrt(variance[2]);
+  result.lateral_force.std_error = std::sqrt(variance[3]);
+}
+
+}  // namespace
+
+TractionResult traction_result(const RolledWheel& wheel, const Tire& tire, bool with_patch) {
+  TractionResult result;
+  result.at = wheel.at;
+  result.drawbar_pull.value = wheel.reading.drawbar_pull;
+  result.torque.value = wheel.reading.torque;
+  result.sinkage.value = wheel.reading.sinkage;
+  result.lateral_force.value = wheel.reading.lateral_force;
+  result.tractive_efficiency =
+      wheel.motion.locked || wheel.reading.torque == 0.0
+          ? std::numeric_limits<double>::quiet_NaN()
+          : wheel.reading.drawbar_pull * tire.radius * wheel.motion.travel_ratio / wheel.reading.torque;
+  result.entry_angle = wheel.patch.angles.entry;
+  result.max_stress_angle = wheel.patch.angles.max_stress;
+  result.exit_angle = wheel.patch.angles.exit;
+  result.budget = budget_of(wheel);
+  if (with_patch) result.patch = stresses_of(wheel.patch);
+  return result;
+}
+
+TractionResult BekkerWong::evaluate(const Scenario& scenario, const OperatingCondition& at) const {
+  if (!scenario.soil.semi_empirical)
+    throw InputError("soil '" + scenario.soil.name + "' has no semi_empirical values, which bekker_wong needs");
+  const EffectList effects = make_effects(scenario.effects);
+  const RollingWheel wheel(scenario.tire, values_of(*scenario.soil.semi_empirical), effects, scenario.bin);
+  TractionResult result = traction_result(wheel.roll(at), scenario.tire, detail_.patch);
+  if (detail_.errors) propagate(result, scenario, effects, at);
+  return result;
+}
+
+}  // namespace soilbin::bekker_wong

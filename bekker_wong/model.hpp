@@ -1,0 +1,34 @@
+#pragma once
+
+#include "bekker_wong/contact_patch.hpp"
+#include "bekker_wong/rolling_wheel.hpp"
+#include "scenario/scenario.hpp"
+
+namespace soilbin::bekker_wong {
+
+/// The declared values of a soil, without their standard deviations.
+SoilValues values_of(const SemiEmpiricalSoil& soil);
+
+/// How much a result is to hold beside the four numbers.
+struct Detail {
+  bool errors = true;  ///< standard errors from the soil's standard deviations, propagated to first order
+  bool patch = true;   ///< stresses under the wheel
+};
+
+/// The Bekker / Wong-Reece model behind the common interface.
+class BekkerWong final : public Model {
+ public:
+  explicit BekkerWong(Detail detail = {}) : detail_(detail) {}
+  std::string name() const override { return "bekker_wong"; }
+  /// Throws InputError where the scenario has no semi-empirical soil or an impossible condition, NoSolution where the
+  /// wheel would bury itself.
+  TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override;
+
+ private:
+  Detail detail_;
+};
+
+/// The result of a balanced wheel: forces, budget (adds up to the drawbar pull), angles and, if asked for, stresses.
+TractionResult traction_result(const RolledWheel& wheel, const Tire& tire, bool with_patch);
+
+}  // namespace soilbin::bekker_wong

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+
+#include "bekker_wong/contact_patch.hpp"
+#include "bekker_wong/effect.hpp"
+#include "scenario/scenario.hpp"
+
+namespace soilbin::bekker_wong {
+
+/// Forces at one trial sinkage, in the wheel's axes, without the slope's share of the load.
+struct WheelForces {
+  double thrust = 0.0;      ///< b Int tau_x cos ds [N]
+  double compaction = 0.0;  ///< -b Int sigma sin ds [N]: the compaction resistance, negative
+  double side = 0.0;        ///< b Int tau_y ds [N], to the left
+  double vertical = 0.0;    ///< load carried: b Int (sigma cos + tau_x sin) ds + added [N]
+  double torque = 0.0;      ///< [N m], added torques included
+  ForceLedger added;
+};
+
+/// A wheel in balance: angles, stresses, forces, readings.
+struct RolledWheel {
+  OperatingCondition at;
+  Kinematics motion;
+  ContactPatch patch;
+  WheelForces forces;
+  double balance_angle = 0.0;  ///< theta_1 that balances the load [rad]
+  double sinkage = 0.0;        ///< z [m]
+  Reading reading;             ///< what conventions.md calls F_DP, M, z, F_y, after the sensor joint
+};
+
+/// Deepest sinkage that the model answers for, as a share of the radius.
+inline constexpr double max_sinkage_share = 0.9;
+
+/// The Bekker / Wong-Reece wheel: a rigid wheel on soil, with effects (Wong and Reece 1967; docs/conventions.md).
+/// A value without hidden state; const members may be called from any number of threads.
+class RollingWheel {
+ public:
+  /// Throws InputError where a value is missing or outside its range (radius, width, K > 0; n > 0; 0 <= phi < 90 deg).
+  RollingWheel(const Tire& tire, const SoilValues& soil, EffectList effects = {}, std::optional<Bin> bin = {});
+
+  /// The balanced wheel. Throws InputError for an impossible condition, NoSolution where the wheel would sink deeper
+  /// than 0.9 r or no sinkage carries the load.
+  RolledWheel roll(const OperatingCondition& at) const;
+
+  /// The wheel at a given theta_1 [rad], balanced or not: forces.vertical says what it carries. For derivatives by the
+  /// implicit function theorem and for looking at the balance.
+  RolledWheel at_entry_angle(const OperatingCondition& at, double theta_1) const;
+
+  const SoilValues& soil() const { return soil_; }
+  const Tire& tire() const { return tire_; }
+
+ private:
+  struct Prepared;
+  Prepared prepare(const OperatingCondition& at) const;
+  void fill_patch(const Prepared&, double theta_1, ContactPatch&) const;
+  WheelForces integrate(const Prepared&, const ContactPatch&) const;
+  double balance(const Prepared&) const;
+  void settle(const Prepared&, RolledWheel&) const;
+  void read(const Prepared&, RolledWheel&) const;
+
+  Tire tire_;
+  SoilValues soil_;
+  EffectList effects_;
+  std::optional<Bin> bin_;
+};
+
+}  // namespace soilbin::bekker_wong

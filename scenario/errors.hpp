@@ -1,0 +1,35 @@
+// What can go wrong, as types. The command turns InputError into exit status 2 and every other error into 1.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace soilbin {
+
+/// A place in a file that a person wrote. Lines and columns count from 1; 0 means "the file as a whole".
+struct SourcePosition {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+/// Input that is refused. what() reads "file:line:column: message", then an excerpt and a hint where there are any.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(const std::string& message) : std::runtime_error(message) {}
+  InputError(const SourcePosition& at, const std::string& message, const std::string& excerpt = "",
+             const std::string& hint = "");
+  const SourcePosition& position() const { return position_; }
+
+ private:
+  SourcePosition position_;
+};
+
+/// A question that the model has no answer to: the wheel would bury itself, or no sinkage carries the load.
+/// what() says which and by how much. Never answered with a zero.
+class NoSolution : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace soilbin

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+
+namespace soilbin {
+
+/// Which speed the slip was computed from, where the wheel is yawed (docs/conventions.md).
+enum class SlipBy {
+  wheel_plane_speed,  ///< s = 1 - v cos(yaw)/(r w): the speed's component in the wheel's plane
+  travel_speed,       ///< s = 1 - v/(r w): the whole speed of travel
+};
+
+/// In which axes drawbar pull and lateral force are given.
+enum class ForceFrame {
+  travel,  ///< along the direction of travel, and to its left
+  wheel,   ///< in the wheel's plane, and across it to the left
+};
+
+/// What the wheel is asked to do. Signs and symbols: docs/conventions.md.
+struct OperatingCondition {
+  double load = 0.0;   ///< W [N], vertical, weight of the wheel included, > 0
+  double slip = 0.0;   ///< s [-], -1 .. 1; > 0 drives
+  double speed = 0.1;  ///< v [m/s], forward speed of the axle along its travel, >= 0
+  double longitudinal_incline = 0.0;  ///< alpha [rad], uphill positive
+  double transverse_incline = 0.0;    ///< beta_t [rad], left side up positive
+  double yaw = 0.0;                   ///< psi [rad], wheel points to the left of its travel: positive
+  int pass = 1;                       ///< 1: undisturbed soil, 2: second pass in the same rut, ...
+  SlipBy slip_by = SlipBy::wheel_plane_speed;
+  ForceFrame force_frame = ForceFrame::travel;  ///< axes of drawbar pull and lateral force in the answer
+  // Where and when in a campaign; only some effects ask for these.
+  std::optional<double> moisture;  ///< water content by mass [-]
+  std::optional<double> position;  ///< mean distance along the bin [m]
+  std::optional<int> run;          ///< order in which the runs were made
+};
+
+}  // namespace soilbin

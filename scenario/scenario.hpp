@@ -1,0 +1,45 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/operating_condition.hpp"
+#include "scenario/soil.hpp"
+#include "scenario/tire.hpp"
+#include "scenario/traction_result.hpp"
+
+namespace soilbin {
+
+/// The soil bin's inner measures [m]; only some effects ask for them.
+struct Bin {
+  double depth = 0.0;
+  double width = 0.0;
+};
+
+/// An effect that a case switches on, as a person names it. Parameters left out keep the form's defaults.
+struct EffectChoice {
+  std::string id;    ///< of the catalogue, e.g. "slip_sinkage"
+  std::string form;  ///< published form, e.g. "lyasko"; empty: the effect's first form
+  std::map<std::string, double> parameters;  ///< SI units
+};
+
+/// Everything but the operating condition: which tire, on which soil, seen through which effects.
+struct Scenario {
+  Tire tire;
+  Soil soil;
+  std::optional<Bin> bin;
+  std::vector<EffectChoice> effects;
+};
+
+/// One way of answering: semi-empirical, discrete elements, or measurements.
+struct Model {
+  virtual ~Model() = default;
+  /// Name as the command and the files spell it, e.g. "bekker_wong".
+  virtual std::string name() const = 0;
+  /// Throws InputError where the scenario lacks what this model needs, NoSolution where it has no answer.
+  virtual TractionResult evaluate(const Scenario&, const OperatingCondition&) const = 0;
+};
+
+}  // namespace soilbin

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scenario/estimate.hpp"
+
+namespace soilbin {
+
+/// Values of the Bekker / Wong-Reece model, each with its standard deviation (0: taken as exact).
+/// Pressure under a plate of smaller width b at depth z: p = (k_c/b + k_phi) z^n.
+struct SemiEmpiricalSoil {
+  Estimate exponent;         ///< n [-], 0.1 .. 2
+  Estimate k_c;              ///< cohesive modulus [N/m^(n+1)]
+  Estimate k_phi;            ///< frictional modulus [N/m^(n+2)]
+  Estimate cohesion;         ///< c [Pa], >= 0
+  Estimate friction_angle;   ///< phi [rad], 0 .. pi/2 (exclusive)
+  Estimate shear_modulus;    ///< Janosi's shear deformation modulus K [m], > 0
+  Estimate stress_angle_c1;  ///< c1 [-]: theta_m = (c1 + c2 |s|) theta_1
+  Estimate stress_angle_c2;  ///< c2 [-]
+  double density = 1500.0;   ///< bulk density [kg/m^3]
+};
+
+/// Contact of two materials in the discrete element model.
+struct ContactPair {
+  double restitution = 0.5;       ///< [-], 0 .. 1
+  double sliding_friction = 0.5;  ///< [-], >= 0
+  double rolling_friction = 0.1;  ///< [-], >= 0
+};
+
+/// The same soil as grains, for the discrete element model.
+struct GranularSoil {
+  double radius_min = 0.0;      ///< [m] radii are uniform between radius_min and radius_max
+  double radius_max = 0.0;      ///< [m]
+  double grain_density = 0.0;   ///< [kg/m^3]
+  double youngs_modulus = 0.0;  ///< [Pa]
+  double poisson_ratio = 0.25;  ///< [-], -1 .. 0.5
+  ContactPair grain_grain;
+  ContactPair grain_tire;
+};
+
+/// A soil: what the analytic model needs, what the grains need, or both.
+struct Soil {
+  std::string name;
+  std::optional<SemiEmpiricalSoil> semi_empirical;
+  std::optional<GranularSoil> granular;
+  std::optional<double> moisture;  ///< water content by mass [-]
+};
+
+}  // namespace soilbin

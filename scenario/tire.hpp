@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace soilbin {
+
+/// How the lugs (grousers) run across the tread.
+enum class LugPattern {
+  straight,  ///< bars parallel to the axle
+  chevron,   ///< two slanted bars that meet on the centre line
+};
+
+/// Lugs of a tire or grousers of a rover wheel.
+struct Lugs {
+  double height = 0.0;           ///< h [m], from the tread base outward; 0 means smooth
+  std::optional<int> count;      ///< number around the circumference; unknown in some measured campaigns
+  std::optional<double> thickness;  ///< [m] along the circumference
+  LugPattern pattern = LugPattern::straight;
+};
+
+/// A wheel as the soil meets it. Radius and width belong to the tread base, without lugs.
+struct Tire {
+  std::string name;
+  double radius = 0.0;  ///< r [m], > 0
+  double width = 0.0;   ///< b [m], > 0
+  Lugs lugs;
+  std::optional<double> inflation_pressure;  ///< [Pa]; absent: rigid
+  std::optional<double> carcass_pressure;    ///< [Pa] pressure that the carcass itself carries (Wong's p_c)
+};
+
+inline bool is_lugged(const Tire& tire) { return tire.lugs.height > 0.0; }
+
+}  // namespace soilbin

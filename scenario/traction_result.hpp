@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenario/estimate.hpp"
+#include "scenario/operating_condition.hpp"
+
+namespace soilbin {
+
+/// One named part of the drawbar pull [N]; positive pulls forward.
+struct Contribution {
+  std::string name;
+  double force = 0.0;
+};
+
+/// Stresses on the wheel's surface at one angle from the vertical (entry side positive).
+struct StressSample {
+  double theta = 0.0;          ///< [rad]
+  double normal = 0.0;         ///< sigma [Pa]
+  double shear = 0.0;          ///< tau [Pa] in the wheel's plane; positive pushes the wheel forward
+  double lateral_shear = 0.0;  ///< tau_y [Pa]; positive pushes to the left of the wheel's plane
+};
+
+/// The answer of a model or of a measurement at one operating condition.
+struct TractionResult {
+  OperatingCondition at;
+  Estimate drawbar_pull;   ///< F_DP [N] along travel, less the slope's share of the load
+  Estimate torque;         ///< M [N m]; positive drives
+  Estimate sinkage;        ///< z [m]
+  Estimate lateral_force;  ///< F_y [N] to the left of travel
+  double tractive_efficiency = 0.0;  ///< TE = F_DP v/(M w) [-]; NaN where M w is 0
+  double entry_angle = 0.0;          ///< theta_1 [rad]
+  double max_stress_angle = 0.0;     ///< theta_m [rad]
+  double exit_angle = 0.0;           ///< theta_2 [rad]; negative behind the axle
+  std::vector<Contribution> budget;  ///< parts that add up to the drawbar pull
+  std::vector<StressSample> patch;   ///< ordered from exit to entry
+};
+
+}  // namespace soilbin

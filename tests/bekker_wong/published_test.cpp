@@ -1,0 +1,83 @@
+// The base model and exit_angle against published inputs and closed forms (docs/verification.md).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "bekker_wong/closed_forms.hpp"
+#include "bekker_wong/effect.hpp"
+#include "bekker_wong/rolling_wheel.hpp"
+
+namespace soilbin::bekker_wong {
+namespace {
+
+constexpr double deg = std::numbers::pi / 180;
+
+Tire wheel(double radius, double width) {
+  Tire tire;
+  tire.radius = radius;
+  tire.width = width;
+  return tire;
+}
+
+OperatingCondition driven(double load, double slip) {
+  OperatingCondition at;
+  at.load = load;
+  at.slip = slip;
+  return at;
+}
+
+// Two independent public codes agree on this point to all digits given.
+TEST(Published, LightWheelAtSixtyPercentSlip) {
+  const SoilValues soil{.exponent = 1, .k_c = 1.4e3, .k_phi = 8.2e5, .cohesion = 170, .friction_angle = 46 * deg,
+                        .shear_modulus = 0.018, .c1 = 0.4, .c2 = 0.2};
+  const RolledWheel w = RollingWheel(wheel(0.1, 0.1), soil).roll(driven(40, 0.6));
+  EXPECT_NEAR(w.reading.sinkage, 17.789e-3, 0.5e-6);
+  EXPECT_NEAR(w.reading.drawbar_pull, 11.7861, 5e-5);
+  EXPECT_NEAR(w.reading.torque, 2.3489, 5e-5);
+}
+
+TEST(Published, Ishigami2007WithAndWithoutRebound) {
+  const SoilValues soil{.exponent = 1, .k_c = 1370, .k_phi = 8.14e5, .cohesion = 800, .friction_angle = 37.2 * deg,
+                        .shear_modulus = 0.036, .c1 = 0.4, .c2 = 0.15};
+  const Tire tire = wheel(0.09, 0.11);
+  const RolledWheel flat = RollingWheel(tire, soil).roll(driven(64.68, 0.2));
+  EXPECT_NEAR(flat.reading.sinkage, 23.7341e-3, 5e-8);
+  EXPECT_NEAR(flat.reading.drawbar_pull, -9.11318, 5e-6);
+  EXPECT_NEAR(flat.reading.torque, 1.275805, 5e-7);
+  const EffectList rebound = make_effects({{"exit_angle", "rebound", {{"lambda", 0.9}}}});
+  const RolledWheel back = RollingWheel(tire, soil, rebound).roll(driven(64.68, 0.2));
+  EXPECT_NEAR(back.reading.sinkage, 15.5711e-3, 5e-8);
+  EXPECT_NEAR(back.reading.drawbar_pull, 10.05743, 5e-6);
+  EXPECT_NEAR(back.reading.torque, 1.471679, 5e-7);
+}
+
+TEST(Published, Azimi2013) {
+  const SoilValues soil{.exponent = 0.8, .k_c = 0, .k_phi = 4.1e5, .cohesion = 234, .friction_angle = 30 * deg,
+                        .shear_modulus = 0.013, .c1 = 0.18, .c2 = 0.32};
+  const RolledWheel w = RollingWheel(wheel(0.15, 0.1), soil).roll(driven(165, 0.2));
+  EXPECT_NEAR(w.reading.sinkage, 31.7033e-3, 5e-8);
+  EXPECT_NEAR(w.reading.drawbar_pull, 15.6228, 5e-5);
+  EXPECT_NEAR(w.reading.torque, 9.42284, 5e-6);
+}
+
+// Reece's form p = (k1 + k2 b)(z/b)^n is Bekker's with k = (k1 + k2 b)/b^n.
+TEST(Published, WongReece1967CompactSand) {
+  constexpr double psi = 6894.757293168361, inch = 0.0254, pound = 4.4482216152605;
+  const double b = 6 * inch, n = 0.47;
+  const SoilValues soil{.exponent = n, .k_c = 0, .k_phi = (20 * psi + 2.5 * psi / inch * b) / std::pow(b, n),
+                        .cohesion = 0.1 * psi, .friction_angle = 33.3 * deg, .shear_modulus = 1.5 * inch,
+                        .c1 = 0.43, .c2 = 0.32};
+  const RolledWheel w = RollingWheel(wheel(24.7 * inch, b), soil).roll(driven(2006 * pound, 0.221));
+  EXPECT_NEAR(w.reading.sinkage, 123.318e-3, 5e-7);
+  EXPECT_NEAR(w.reading.drawbar_pull, 1292.51, 5e-3);
+  EXPECT_NEAR(w.reading.torque, 2553.46, 5e-3);
+}
+
+TEST(Published, CriticalGroundPressure) {
+  const SoilValues soil{.exponent = 0.7, .k_phi = 1541390};
+  EXPECT_NEAR(critical_ground_pressure(soil, 0.3, 0.2, 3000), 140078, 0.5);
+}
+
+}  // namespace
+}  // namespace soilbin::bekker_wong
