@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "bekker_wong/gsl.hpp"
+#include "bekker_wong/node_functions.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
@@ -15,43 +16,46 @@ constexpr double max_stress_share = 0.98;  // of theta_1, conventions.md
 /// Where a segment's ends are singular, so that its nodes crowd there.
 enum Crowd { nowhere = 0, at_start = 1, at_end = 2, at_both = 3 };
 
-/// A rule on [0, 1] whose nodes crowd toward an end as t^4: an integrand x^n becomes t^(4n+3), smooth enough for
-/// Gauss-Legendre even at n = 0.1. Distances from both ends are kept so that neither is lost to cancellation.
+constexpr int most_nodes = 64;
+
+/// A rule on [0, 1] whose nodes crowd toward an end as t^p: an integrand x^n becomes t^(p (n + 1) - 1), smooth enough
+/// for Gauss-Legendre even at n = 0.1. Distances from both ends are kept so that neither is lost to cancellation.
 struct CrowdedRule {
-  std::array<double, 64> from_start, from_end, weight;
+  std::array<double, most_nodes> from_start, from_end, weight;
 };
 
-void build(CrowdedRule& rule, int n, Crowd crowd) {
+double power(double t, int p) { return p == 0 ? 1.0 : t * power(t, p - 1); }
+
+/// t^p at both ends, p = 3 or 4: the incomplete beta function of (p, p), and its derivative.
+double crowd_both(double t, int p) {
+  return p == 3 ? power(t, 3) * (10 + t * (-15 + t * 6)) : power(t, 4) * (35 + t * (-84 + t * (70 - 20 * t)));
+}
+double crowd_both_slope(double t, double u, int p) { return p == 3 ? 30 * power(t * u, 2) : 140 * power(t * u, 3); }
+
+void build(CrowdedRule& rule, int n, int p, Crowd crowd) {
   const gsl::LegendreRule gauss = gsl::legendre_rule(n);
-  const auto quartic = [](double t) { return t * t * t * t; };
-  // 35 t^4 - 84 t^5 + 70 t^6 - 20 t^7: t^4 at both ends; derivative 140 t^3 (1 - t)^3
-  const auto both = [&](double t) { return quartic(t) * (35 + t * (-84 + t * (70 - 20 * t))); };
   for (int i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const double t = gauss.nodes[k], u = 1.0 - t, w = gauss.weights[k];
+    const double t = gauss.nodes[k], u = gauss.nodes[static_cast<std::size_t>(n - 1 - i)];  // u = 1 - t
+    double start = t, end = u, slope = 1.0;
     switch (crowd) {
-      case nowhere: rule.from_start[k] = t, rule.from_end[k] = u, rule.weight[k] = w; break;
-      case at_start:
-        rule.from_start[k] = quartic(t), rule.from_end[k] = 1.0 - quartic(t), rule.weight[k] = 4 * t * t * t * w;
-        break;
-      case at_end:
-        rule.from_start[k] = 1.0 - quartic(u), rule.from_end[k] = quartic(u), rule.weight[k] = 4 * u * u * u * w;
-        break;
-      case at_both:
-        rule.from_start[k] = both(t), rule.from_end[k] = both(u), rule.weight[k] = 140 * std::pow(t * u, 3) * w;
-        break;
+      case nowhere: break;
+      case at_start: start = power(t, p), end = 1.0 - start, slope = p * power(t, p - 1); break;
+      case at_end: end = power(u, p), start = 1.0 - end, slope = p * power(u, p - 1); break;
+      case at_both: start = crowd_both(t, p), end = crowd_both(u, p), slope = crowd_both_slope(t, u, p); break;
     }
+    rule.from_start[k] = start, rule.from_end[k] = end, rule.weight[k] = slope * gauss.weights[k];
   }
 }
 
-const CrowdedRule& crowded_rule(int n, Crowd crowd) {
+const CrowdedRule& crowded_rule(const NodeLayout& layout, Crowd crowd) {
   struct Stored {
     std::once_flag once;
     CrowdedRule rule;
   };
-  static std::array<std::array<Stored, 4>, 65> stored;
-  Stored& s = stored[static_cast<std::size_t>(n)][crowd];
-  std::call_once(s.once, [&] { build(s.rule, n, crowd); });
+  static std::array<std::array<std::array<Stored, 4>, 2>, most_nodes + 1> stored;
+  Stored& s = stored[static_cast<std::size_t>(layout.per_segment)][layout.crowding == 3 ? 0 : 1][crowd];
+  std::call_once(s.once, [&] { build(s.rule, layout.per_segment, layout.crowding, crowd); });
   return s.rule;
 }
 
@@ -75,40 +79,58 @@ struct Segment {
   Crowd crowd;
 };
 
-/// cos(theta_1 - x) - cos(theta_1) without cancellation, from sin x and 1 - cos x.
-double cosine_rise(double sine_1, double cosine_1, double sine_x, double versine_x) {
-  return sine_1 * sine_x - cosine_1 * versine_x;
-}
-
-void add_segment(ContactPatch& p, const Segment& segment, bool front, const Outline& outline, int nodes) {
-  const CrowdedRule& rule = crowded_rule(nodes, segment.crowd);
+/// Distances from entry, weights, and into `depth` the distance from entry at which the pressure law looks: the node's
+/// own in front, its mirror angle's behind theta_m.
+void add_segment(ContactPatch& p, const Segment& segment, bool front, const Outline& outline,
+                 const NodeLayout& layout) {
+  const CrowdedRule& rule = crowded_rule(layout, segment.crowd);
   const double length = segment.high - segment.low;
   const double before = p.angles.entry - segment.high, after = segment.low - p.angles.exit;
-  const double sine_1 = std::sin(p.angles.entry), cosine_1 = std::cos(p.angles.entry);
   const double mirror =
       front ? 0.0 : (p.angles.entry - p.angles.max_stress) / (p.angles.max_stress - p.angles.exit);
-  const int first = p.count;
-  p.count += nodes;
-  for (int k = 0; k < nodes; ++k) {
-    const auto i = static_cast<std::size_t>(first + k), q = static_cast<std::size_t>(k);
-    const double x = before + length * rule.from_start[q];
-    const double sh = std::sin(0.5 * x), ch = std::cos(0.5 * x);
-    const double sine_x = 2 * sh * ch, versine_x = 2 * sh * sh;
-    p.since_entry[i] = x;
-    p.theta[i] = p.angles.entry - x;
-    p.sine_drop[i] = sine_1 * versine_x + cosine_1 * sine_x;
-    p.normal_sine[i] = sine_1 - p.sine_drop[i];
-    const double rise = cosine_rise(sine_1, cosine_1, sine_x, versine_x);
-    p.normal_cosine[i] = cosine_1 + rise;
-    p.arc[i] = outline.radius * length * rule.weight[q];
-    p.arm[i] = outline.shear_radius;
-    p.depth[i] = outline.radius * rise;
-    if (!front) {
-      const double x_e = mirror * (after + length * rule.from_end[q]);
-      const double she = std::sin(0.5 * x_e), che = std::cos(0.5 * x_e);
-      p.depth[i] = outline.radius * cosine_rise(sine_1, cosine_1, 2 * she * che, 2 * she * she);
-    }
+  double *const x = &p.since_entry[p.count], *const seen = &p.depth[p.count], *const arc = &p.arc[p.count];
+  for (int k = 0; k < layout.per_segment; ++k) {
+    const auto q = static_cast<std::size_t>(k);
+    x[k] = before + length * rule.from_start[q];
+    arc[k] = outline.radius * length * rule.weight[q];
+    seen[k] = front ? x[k] : mirror * (after + length * rule.from_end[q]);
   }
+  p.count += layout.per_segment;
+}
+
+/// Angles, normals, arms and depths from the distances that add_segment laid; first_rear: first node behind theta_m.
+/// All from half angles, so that the depth cos(theta_1 - x) - cos(theta_1) loses nothing to cancellation.
+void fill_trigonometry(ContactPatch& p, const Outline& outline, int first_rear) {
+  const double sine_1 = std::sin(p.angles.entry), cosine_1 = std::cos(p.angles.entry), radius = outline.radius;
+  ContactPatch::Array sine, cosine;
+  const auto count = static_cast<std::size_t>(p.count), rear = static_cast<std::size_t>(first_rear);
+  half_angle({p.since_entry.data(), count}, {sine.data(), count}, {cosine.data(), count});
+  for (std::size_t i = 0; i < count; ++i) {
+    const double s = sine[i], c = cosine[i];
+    const double sine_drop = 2 * s * (sine_1 * s + cosine_1 * c), rise = 2 * s * (sine_1 * c - cosine_1 * s);
+    p.theta[i] = p.angles.entry - p.since_entry[i];
+    p.sine_drop[i] = sine_drop;
+    p.normal_sine[i] = sine_1 - sine_drop;
+    p.normal_cosine[i] = cosine_1 + rise;
+    p.arm[i] = outline.shear_radius;
+    sine[i] = rise;
+  }
+  for (std::size_t i = 0; i < rear; ++i) p.depth[i] = radius * sine[i];
+  if (rear == count) return;
+  half_angle({&p.depth[rear], count - rear}, {&sine[rear], count - rear}, {&cosine[rear], count - rear});
+  for (std::size_t i = rear; i < count; ++i)
+    p.depth[i] = radius * 2 * sine[i] * (sine_1 * cosine[i] - cosine_1 * sine[i]);
+}
+
+/// |j| at a distance x from entry [m], on the shear radius.
+double displacement_at(double x, double entry, const Outline& outline, const Kinematics& motion) {
+  const double along = x - motion.forward * (std::sin(entry) - std::sin(entry - x));
+  return outline.shear_radius * std::hypot(along, motion.lateral * x);
+}
+
+/// A braked wheel's shear displacement along the wheel grows, turns and may change sign.
+bool turns_back(const ContactAngles& angles, const Kinematics& motion) {
+  return !motion.locked && motion.forward > 1.0 && motion.forward * std::cos(angles.entry) < 1.0;
 }
 
 }  // namespace
@@ -118,39 +140,65 @@ ContactAngles base_angles(double theta_1, const SoilValues& soil, const Kinemati
   return {.entry = theta_1, .max_stress = share * theta_1, .exit = 0.0};
 }
 
-int nodes_per_segment(const SoilValues& soil, const Outline& outline, const Kinematics& motion) {
-  const double stiffness = outline.shear_radius / soil.shear_modulus;
-  int nodes = stiffness < 10 ? 16 : stiffness < 50 ? 20 : stiffness < 200 ? 24 : stiffness < 1000 ? 32 : 48;
-  if (motion.slip < 0.0 && !motion.locked) nodes += 16;
-  return std::min(nodes, 64);
+NodeLayout node_layout(const SoilValues& soil, const Outline& outline, const Kinematics& motion,
+                       const ContactAngles& angles) {
+  NodeLayout layout;
+  layout.crowding = soil.exponent < 0.7 ? 4 : 3;
+  double nodes = 10.0;
+  if (soil.exponent < 0.3) nodes += 4;
+  if (motion.locked) {
+    if (motion.lateral != 0.0) nodes += 10;
+  } else {
+    const auto hardness = [&](double x) { return displacement_at(x, angles.entry, outline, motion) / soil.shear_modulus; };
+    const double extent = angles.entry - angles.exit, front = hardness(angles.entry - angles.max_stress);
+    const double whole = std::max(hardness(extent), hardness(0.5 * extent));
+    layout.crowd_at_crest = front < 20.0 && whole > 8.0 * std::max(1.0, front);
+    if (layout.crowd_at_crest) nodes += 8;
+    if (turns_back(angles, motion)) {
+      nodes = 16.0 + (motion.lateral != 0.0 ? 16.0 : 0.0) + 12.0 * std::log10(1.0 + whole);
+    } else {
+      nodes += 8.0 * std::log10(1.0 + whole);
+    }
+  }
+  layout.per_segment = std::min(4 * static_cast<int>(std::ceil(std::min(nodes, 1e3) / 4)), most_nodes);
+  return layout;
+}
+
+NodeLayout coarse(const NodeLayout& layout) {
+  NodeLayout half = layout;
+  half.per_segment = std::max(8, (layout.per_segment + 7) / 8 * 4);
+  return half;
 }
 
 void fill_geometry(ContactPatch& patch, const ContactAngles& angles, const Outline& outline, const Kinematics& motion,
-                   int nodes) {
+                   const NodeLayout& layout) {
   patch.count = 0;
   patch.angles = angles;
   patch.deflection = 0.0;
+  const bool may_turn = turns_back(angles, motion), no_rear = !(angles.max_stress > angles.exit);
   double split = angles.exit - 1.0;  // out of reach
-  if (motion.forward > 1.0 && !motion.locked) {
+  if (may_turn) {
     const double x = sign_change(angles.entry, angles.entry - angles.exit, motion.forward);
     if (x > 0.0) split = angles.entry - x;
   }
   const auto lay = [&](double high, double low, Crowd crowd, bool front) {
     if (!(high > low)) return;
     if (split < high && split > low) {
-      add_segment(patch, {high, split, Crowd(at_end | (crowd & at_start))}, front, outline, nodes);
-      add_segment(patch, {split, low, Crowd(at_start | (crowd & at_end))}, front, outline, nodes);
+      add_segment(patch, {high, split, Crowd(at_end | (crowd & at_start))}, front, outline, layout);
+      add_segment(patch, {split, low, Crowd(at_start | (crowd & at_end))}, front, outline, layout);
     } else {
-      add_segment(patch, {high, low, crowd}, front, outline, nodes);
+      add_segment(patch, {high, low, crowd}, front, outline, layout);
     }
   };
-  lay(angles.entry, angles.max_stress, at_start, true);
-  lay(angles.max_stress, angles.exit, at_end, false);
+  lay(angles.entry, angles.max_stress, may_turn && no_rear ? at_both : at_start, true);
+  const int first_rear = patch.count;
+  lay(angles.max_stress, angles.exit, layout.crowd_at_crest ? at_both : at_end, false);
+  fill_trigonometry(patch, outline, first_rear);
 }
 
 void fill_pressure(ContactPatch& p, const SoilValues& soil, const Outline& outline) {
-  const double modulus = soil.pressure_modulus(outline.width);
-  for (int i = 0; i < p.count; ++i) p.sigma[i] = modulus * std::pow(p.depth[i], soil.exponent);
+  scaled_power(p.of(&ContactPatch::depth), soil.exponent, soil.pressure_modulus(outline.width),
+               p.of(&ContactPatch::sigma));
 }
 
 void fill_displacement(ContactPatch& p, const Outline& outline, const Kinematics& motion) {
@@ -172,11 +220,12 @@ void fill_strength(ContactPatch& p, const SoilValues& soil) {
 }
 
 void fill_mobilised(ContactPatch& p, ContactPatch::Array& j, const Kinematics& motion) {
-  for (int i = 0; i < p.count; ++i) j[i] = std::sqrt(p.j_x[i] * p.j_x[i] + p.j_y[i] * p.j_y[i]);
+  const std::span<double> displacement{j.data(), static_cast<std::size_t>(p.count)};
+  length(p.of(&ContactPatch::j_x), p.of(&ContactPatch::j_y), displacement);
   if (motion.locked) {
-    for (int i = 0; i < p.count; ++i) p.mobilised[i] = 1.0;
+    std::ranges::fill(p.of(&ContactPatch::mobilised), 1.0);
   } else {
-    for (int i = 0; i < p.count; ++i) p.mobilised[i] = 1.0 - std::exp(-j[i] / p.modulus[i]);
+    mobilised_share(displacement, p.of(&ContactPatch::modulus), p.of(&ContactPatch::mobilised));
   }
 }
 

@@ -9,13 +9,25 @@ namespace soilbin::bekker_wong {
 /// theta_m = (c1 + c2 |s|) theta_1, held below 0.98 theta_1 and not behind the exit; theta_2 = 0.
 ContactAngles base_angles(double theta_1, const SoilValues& soil, const Kinematics& motion);
 
-/// Nodes a segment that give the stress integrals to 1e-9: more for a hard shear curve (small K/r) and for braking.
-int nodes_per_segment(const SoilValues& soil, const Outline& outline, const Kinematics& motion);
+/// How quadrature nodes are laid over the contact.
+struct NodeLayout {
+  int per_segment = 16;        ///< a multiple of 4, 8 .. 64
+  int crowding = 4;            ///< nodes crowd toward singular ends as t^crowding, 3 or 4
+  bool crowd_at_crest = false; ///< also behind theta_m: where a short front leaves the shear curve's rise to the rear
+};
+
+/// The layout that gives the stress integrals to 2e-9 of their scale: more nodes for a hard shear curve (much shear
+/// displacement over K), for braking, and for the z^n of a small n. Found by measurement (docs/performance.md).
+NodeLayout node_layout(const SoilValues& soil, const Outline& outline, const Kinematics& motion,
+                       const ContactAngles& angles);
+
+/// The same with half the nodes: good to about 1e-4, for the first steps of a search.
+NodeLayout coarse(const NodeLayout& layout);
 
 /// Lays nodes over [theta_2, theta_1], split at theta_m and, for a braked wheel, where the shear displacement changes
 /// sign; crowded toward the ends where the pressure law's z^n is singular (theta_1, theta_2).
 void fill_geometry(ContactPatch& patch, const ContactAngles& angles, const Outline& outline, const Kinematics& motion,
-                   int nodes);
+                   const NodeLayout& layout);
 
 /// sigma = (k_c/b + k_phi) depth^n (Bekker 1969; Wong and Reece 1967).
 void fill_pressure(ContactPatch& patch, const SoilValues& soil, const Outline& outline);

@@ -3,12 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "bekker_wong/balance_search.hpp"
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/contact_stages.hpp"
-#include "bekker_wong/gsl.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::bekker_wong {
@@ -31,7 +32,7 @@ struct RollingWheel::Prepared {
   SoilValues soil;
   Outline outline;
   Surroundings around;
-  int nodes;
+  NodeLayout layout;
 };
 
 RollingWheel::RollingWheel(const Tire& tire, const SoilValues& soil, EffectList effects, std::optional<Bin> bin)
@@ -56,19 +57,18 @@ RollingWheel::Prepared RollingWheel::prepare(const OperatingCondition& at) const
              .soil = soil_,
              .outline = {.radius = tire_.radius, .width = tire_.width, .shear_radius = tire_.radius},
              .around = {tire_, soil_, at, p.motion, bin_, 0.0},
-             .nodes = 0};
+             .layout = {}};
   p.around.normal_load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
   if (!(p.around.normal_load > 0.0)) throw InputError("on this incline no load presses on the ground");
   for (const auto& effect : effects_) effect->soil(p.soil, p.around);
   for (const auto& effect : effects_) effect->outline(p.outline, p.around);
-  p.nodes = nodes_per_segment(p.soil, p.outline, p.motion);
   return p;
 }
 
 void RollingWheel::fill_patch(const Prepared& p, double theta_1, ContactPatch& patch) const {
   ContactAngles angles = base_angles(theta_1, p.soil, p.motion);
   for (const auto& effect : effects_) effect->angles(angles, p.outline, p.around);
-  fill_geometry(patch, angles, p.outline, p.motion, p.nodes);
+  fill_geometry(patch, angles, p.outline, p.motion, p.layout);
   for (const auto& effect : effects_) effect->geometry(patch, p.outline, p.around);
   fill_pressure(patch, p.soil, p.outline);
   for (const auto& effect : effects_) effect->pressure(patch, p.soil, p.outline, p.around);
@@ -90,20 +90,30 @@ double sinkage_of(const ContactPatch& patch, const Outline& outline) {
   return outline.radius * 2 * s * s - patch.deflection;
 }
 
+/// Sum over the nodes in four lanes, an order that the compiler may take side by side and that is always the same.
+template <class Term>
+double sum_over(const ContactPatch& patch, const Term& term) {
+  std::array<double, 4> lane{};
+  const auto count = static_cast<std::size_t>(patch.count), whole = count / 4 * 4;
+  for (std::size_t i = 0; i < whole; i += 4)
+    for (std::size_t k = 0; k < 4; ++k) lane[k] += term(i + k);
+  for (std::size_t i = whole; i < count; ++i) lane[i - whole] += term(i);
+  return (lane[0] + lane[1]) + (lane[2] + lane[3]);
+}
+
 double deepest_angle() { return std::acos(1.0 - max_sinkage_share); }
 
 }  // namespace
 
 WheelForces RollingWheel::integrate(const Prepared& p, const ContactPatch& patch) const {
-  double thrust = 0, compaction = 0, side = 0, vertical = 0, torque = 0;
-  for (int i = 0; i < patch.count; ++i) {
-    const double w = patch.arc[i], c = patch.normal_cosine[i], s = patch.normal_sine[i];
-    thrust += w * patch.tau_x[i] * c;
-    compaction -= w * patch.sigma[i] * s;
-    vertical += w * (patch.sigma[i] * c + patch.tau_x[i] * s);
-    side += w * patch.tau_y[i];
-    torque += w * patch.tau_x[i] * patch.arm[i];
-  }
+  const auto sum = [&](auto term) { return sum_over(patch, [&](std::size_t i) { return patch.arc[i] * term(i); }); };
+  const double thrust = sum([&](std::size_t i) { return patch.tau_x[i] * patch.normal_cosine[i]; });
+  const double compaction = -sum([&](std::size_t i) { return patch.sigma[i] * patch.normal_sine[i]; });
+  const double side = sum([&](std::size_t i) { return patch.tau_y[i]; });
+  const double torque = sum([&](std::size_t i) { return patch.tau_x[i] * patch.arm[i]; });
+  const double vertical = sum([&](std::size_t i) {
+    return patch.sigma[i] * patch.normal_cosine[i] + patch.tau_x[i] * patch.normal_sine[i];
+  });
   const double b = p.outline.width;
   WheelForces f;
   if (!effects_.empty()) {
@@ -119,43 +129,54 @@ WheelForces RollingWheel::integrate(const Prepared& p, const ContactPatch& patch
   return f;
 }
 
-double RollingWheel::balance(const Prepared& p) const {
-  const double load = p.around.normal_load, deepest = deepest_angle(), growth = 2 * p.soil.exponent + 1;
-  ContactPatch patch;
+NodeLayout RollingWheel::layout_at(const Prepared& p, double theta_1) const {
+  ContactAngles angles = base_angles(theta_1, p.soil, p.motion);
+  for (const auto& effect : effects_) effect->angles(angles, p.outline, p.around);
+  return node_layout(p.soil, p.outline, p.motion, angles);
+}
+
+/// Load carried [N]: all that a search asks of a trial sinkage.
+double RollingWheel::vertical(const Prepared& p, const ContactPatch& patch) const {
+  if (!effects_.empty()) return integrate(p, patch).vertical;
+  return p.outline.width * sum_over(patch, [&](std::size_t i) {
+    return patch.arc[i] * (patch.sigma[i] * patch.normal_cosine[i] + patch.tau_x[i] * patch.normal_sine[i]);
+  });
+}
+
+double RollingWheel::balance(Prepared& p, ContactPatch& patch) const {
+  const double load = p.around.normal_load, upper = std::log(deepest_angle());
   // ln(carried/load) against ln(theta_1) is nearly a line of slope 2n + 1; continued as a line where little is carried.
   const auto imbalance = [&](double log_theta) {
     fill_patch(p, std::exp(log_theta), patch);
-    const double share = integrate(p, patch).vertical / load;
+    const double share = vertical(p, patch) / load;
     constexpr double small = 0.05;
     return share > small ? std::log(share) : std::log(small) + (share - small) / small;
   };
-  const double static_sinkage =
-      bekker_static_sinkage(p.soil, p.outline.radius, p.outline.width, load) / p.outline.radius;
-  double upper_limit = std::log(deepest);
-  double near = std::min(std::log(std::acos(1.0 - std::min(static_sinkage, 0.8 * max_sinkage_share))), upper_limit);
-  double f_near = imbalance(near);
-  const bool up = f_near < 0.0;
-  double far = near, f_far = f_near, most = f_near;
-  while ((f_far < 0.0) == up && f_far != 0.0) {
-    near = far, f_near = f_far;
-    if (up && near >= upper_limit) break;
-    const double step = std::clamp(1.05 * std::abs(f_near) / growth + 1e-3, 0.0, up ? 0.25 : 1.5);
-    far = up ? std::min(near + step, upper_limit) : near - step;
-    if (far < -40.0) throw NoSolution("no sinkage balances the load: the added forces alone lift the wheel");
-    f_far = imbalance(far);
-    most = std::max(most, f_far);
+  SoilValues guessed = p.soil;
+  guessed.exponent = std::min(guessed.exponent, 2.5);  // Bekker's formula ends at 3
+  const double static_share = bekker_static_sinkage(guessed, p.outline.radius, p.outline.width, load) / p.outline.radius;
+  const double start = std::acos(1.0 - std::min(static_share, 0.8 * max_sinkage_share));
+  p.layout = coarse(layout_at(p, start));
+  const auto near = rising_root(imbalance, std::log(start), 2 * p.soil.exponent + 1, upper, 1e-4);
+  if (near) {
+    p.layout = layout_at(p, std::exp(near->x));
+    if (const auto root = rising_root(imbalance, near->x, near->slope, upper, 1e-12)) return std::exp(root->x);
   }
-  if (f_far == 0.0) return std::exp(far);
-  if ((f_far < 0.0) == up) {
-    const double carried = integrate(p, (fill_patch(p, deepest, patch), patch)).vertical;
-    throw NoSolution(fmt::format(
-        "the wheel would sink deeper than {} of its radius: there the soil carries {:.4g} N of {:.4g} N{}",
-        max_sinkage_share, carried, load,
-        most > imbalance(upper_limit) + 1e-9 ? fmt::format(" (at most {:.3g} of the load at any depth)", std::exp(most))
-                                            : std::string()));
-  }
-  const auto [lower, upper] = std::minmax(near, far);
-  return std::exp(gsl::bracketed_root(imbalance, lower, upper, 1e-15, 1e-14, "the balance of the load"));
+  p.layout = layout_at(p, deepest_angle());
+  const FirstRoot found = first_rising_root(imbalance, upper);
+  if (!found.x) refuse(p, found.highest, patch);
+  fill_patch(p, std::exp(*found.x), patch);
+  return std::exp(*found.x);
+}
+
+void RollingWheel::refuse(const Prepared& p, double highest, ContactPatch& patch) const {
+  if (highest >= 0.0) throw NoSolution("no sinkage balances the load: the added forces alone lift the wheel");
+  fill_patch(p, deepest_angle(), patch);
+  const double load = p.around.normal_load, carried = vertical(p, patch), most = std::exp(highest) * load;
+  throw NoSolution(fmt::format(
+      "the wheel would sink deeper than {} of its radius: there the soil carries {:.4g} N of {:.4g} N{}",
+      max_sinkage_share, carried, load,
+      most > carried + 1e-6 * load ? fmt::format(", and at most {:.4g} N at any depth above", most) : std::string()));
 }
 
 void RollingWheel::settle(const Prepared& p, RolledWheel& wheel) const {
@@ -201,12 +222,11 @@ void RollingWheel::read(const Prepared& p, RolledWheel& wheel) const {
 }
 
 RolledWheel RollingWheel::roll(const OperatingCondition& at) const {
-  const Prepared p = prepare(at);
+  Prepared p = prepare(at);
   RolledWheel wheel;
   wheel.at = at;
   wheel.motion = p.motion;
-  wheel.balance_angle = balance(p);
-  fill_patch(p, wheel.balance_angle, wheel.patch);
+  wheel.balance_angle = balance(p, wheel.patch);
   wheel.forces = integrate(p, wheel.patch);
   settle(p, wheel);
   read(p, wheel);
@@ -215,7 +235,8 @@ RolledWheel RollingWheel::roll(const OperatingCondition& at) const {
 
 RolledWheel RollingWheel::at_entry_angle(const OperatingCondition& at, double theta_1) const {
   if (!(theta_1 > 0.0 && theta_1 <= std::numbers::pi / 2)) throw InputError("theta_1 must lie in 0 .. 90 deg");
-  const Prepared p = prepare(at);
+  Prepared p = prepare(at);
+  p.layout = layout_at(p, theta_1);
   RolledWheel wheel;
   wheel.at = at;
   wheel.motion = p.motion;

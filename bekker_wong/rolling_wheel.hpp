@@ -8,6 +8,8 @@
 
 namespace soilbin::bekker_wong {
 
+struct NodeLayout;
+
 /// Forces at one trial sinkage, in the wheel's axes, without the slope's share of the load.
 struct WheelForces {
   double thrust = 0.0;      ///< b Int tau_x cos ds [N]
@@ -54,8 +56,12 @@ class RollingWheel {
   struct Prepared;
   Prepared prepare(const OperatingCondition& at) const;
   void fill_patch(const Prepared&, double theta_1, ContactPatch&) const;
+  NodeLayout layout_at(const Prepared&, double theta_1) const;
   WheelForces integrate(const Prepared&, const ContactPatch&) const;
-  double balance(const Prepared&) const;
+  double vertical(const Prepared&, const ContactPatch&) const;
+  /// Finds theta_1 and leaves the patch filled for it; refines p's node layout on the way.
+  double balance(Prepared& p, ContactPatch& patch) const;
+  [[noreturn]] void refuse(const Prepared&, double highest, ContactPatch& patch) const;
   void settle(const Prepared&, RolledWheel&) const;
   void read(const Prepared&, RolledWheel&) const;
 

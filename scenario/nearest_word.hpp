@@ -9,4 +9,10 @@ namespace soilbin {
 /// enough to be meant (distance above a third of the word's length, at least 2).
 std::string nearest_word(const std::string& word, const std::vector<std::string>& right);
 
+/// ", did you mean 'radius'?" for the end of a message, or "" where no word is near enough.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& right);
+
+/// "radius, width, lugs"
+std::string listed(const std::vector<std::string>& words);
+
 }  // namespace soilbin

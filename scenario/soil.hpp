@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -19,6 +20,7 @@ struct SemiEmpiricalSoil {
   Estimate stress_angle_c1;  ///< c1 [-]: theta_m = (c1 + c2 |s|) theta_1
   Estimate stress_angle_c2;  ///< c2 [-]
   double density = 1500.0;   ///< bulk density [kg/m^3]
+  std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "k_c"
 };
 
 /// Contact of two materials in the discrete element model.
@@ -37,6 +39,7 @@ struct GranularSoil {
   double poisson_ratio = 0.25;  ///< [-], -1 .. 0.5
   ContactPair grain_grain;
   ContactPair grain_tire;
+  std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "grain_tire.restitution"
 };
 
 /// A soil: what the analytic model needs, what the grains need, or both.
@@ -45,6 +48,8 @@ struct Soil {
   std::optional<SemiEmpiricalSoil> semi_empirical;
   std::optional<GranularSoil> granular;
   std::optional<double> moisture;  ///< water content by mass [-]
+  std::string source{};            ///< where the soil as a whole is described
+  std::map<std::string, std::string> sources{};  ///< where single numbers beside the two sections come from
 };
 
 }  // namespace soilbin

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -27,6 +28,8 @@ struct Tire {
   Lugs lugs;
   std::optional<double> inflation_pressure;  ///< [Pa]; absent: rigid
   std::optional<double> carcass_pressure;    ///< [Pa] pressure that the carcass itself carries (Wong's p_c)
+  std::string source{};                          ///< where the wheel as a whole is described
+  std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "lugs.height"
 };
 
 inline bool is_lugged(const Tire& tire) { return tire.lugs.height > 0.0; }

@@ -14,6 +14,24 @@ namespace {
 constexpr std::vector<EffectForm> (*effects_of_the_catalogue[])() = {
     exit_angle_forms,
     slip_sinkage_forms,
+    lug_thrust_forms,
+    bulldozing_forms,
+    multipass_forms,
+    tire_flexibility_forms,
+    rate_dependence_forms,
+    interface_limit_forms,
+    shear_hump_forms,
+    pressure_dependent_shear_modulus_forms,
+    hard_layer_forms,
+    moisture_forms,
+    slope_weakening_forms,
+    sidewall_bulldozing_forms,
+    bed_tilt_forms,
+    rig_friction_forms,
+    sensor_offset_forms,
+    cross_talk_forms,
+    soil_gradient_forms,
+    drift_forms,
 };
 
 std::vector<EffectForm> collect() {

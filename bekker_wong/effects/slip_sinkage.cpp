@@ -14,12 +14,12 @@ namespace {
 
 double driven_slip(const Surroundings& around) { return std::max(0.0, around.motion.slip); }
 
-/// n = n0 + n1 |s| (Ding): the exponent grows, so the same load sits deeper.
+/// n = n0 + n1 |s| (Ding): the exponent grows, so the same load sits deeper (z < 1 m, the unit that k is fixed at).
 class GrowingExponent final : public Effect {
  public:
   explicit GrowingExponent(const std::vector<double>& p) : n1_(p[0]) {}
   void soil(SoilValues& soil, const Surroundings& around) const override {
-    soil.exponent += n1_ * std::abs(around.motion.slip);
+    if (n1_ != 0.0) soil.exponent = std::max(0.05, soil.exponent + n1_ * std::abs(around.motion.slip));
   }
 
  private:
@@ -44,7 +44,8 @@ template <double (*Factor)(double amplitude, double slip)>
 class Loosening final : public Effect {
  public:
   explicit Loosening(const std::vector<double>& p) : amplitude_(p[0]) {}
-  void pressure(ContactPatch& patch, const SoilValues& soil, const Outline&, const Surroundings& around) const override {
+  void pressure(ContactPatch& patch, const SoilValues& soil, const Outline&,
+                const Surroundings& around) const override {
     const double factor = std::pow(Factor(amplitude_, driven_slip(around)), -soil.exponent);
     for (double& sigma : patch.of(&ContactPatch::sigma)) sigma *= factor;
   }
@@ -77,25 +78,25 @@ std::vector<EffectForm> slip_sinkage_forms() {
       {.id = id,
        .form = "lyasko",
        .equation = "z = z_b (1 + a s)/(1 - a s/2), a = 1: Lyasko; stresses scaled to carry the load",
-       .source = "after Lyasko 2010, J. Terramechanics 47(4):261",
+       .source = "Lyasko 2010, J. Terramechanics 47(1):21 (a = 1)",
        .parameters = {{"a", "-", 1.0, 0.0, 1.6, "amplitude; 1 gives Lyasko's factor"}},
        .make = maker<Settling<lyasko>>()},
       {.id = id,
        .form = "ding",
        .equation = "n = n0 + n1 |s|",
-       .source = "after Ding, Gao, Deng, Nagatani, Yoshida 2011, J. Terramechanics 48(1):27",
+       .source = "Ding, Gao, Deng, Tao 2010, J. Cent. South Univ. Technol. 17:129 (sinkage exponent grows with slip)",
        .parameters = {{"n1", "-", 0.4, -0.5, 3.0, "growth of the exponent with slip"}},
        .make = maker<GrowingExponent>()},
       {.id = id,
        .form = "linear",
        .equation = "z = z_b (1 + S s); stresses scaled to carry the load",
-       .source = "after Steiner 1979, J. Terramechanics 16 (linear slip-sinkage coefficient)",
+       .source = "after Lyasko 2010, J. Terramechanics 47(1):21 (linear slip-sinkage coefficient S)",
        .parameters = {{"S", "-", 1.0, 0.0, 5.0, "slip sinkage at full slip over the balanced sinkage"}},
        .make = maker<Settling<linear>>()},
       {.id = id,
        .form = "loosening",
        .equation = "sigma = k (z/f)^n, f = (1 + a s)/(1 - a s/2)",
-       .source = "after Lyasko 2010, the factor taken inside the pressure law",
+       .source = "after Lyasko 2010, J. Terramechanics 47(1):21, the factor taken inside the pressure law",
        .parameters = {{"a", "-", 1.0, 0.0, 1.6, "amplitude; 1 gives Lyasko's factor"}},
        .make = maker<Loosening<lyasko>>()},
       {.id = id,

@@ -1,0 +1,28 @@
+#include "bekker_wong/effect_vocabulary.hpp"
+
+#include <algorithm>
+
+#include "bekker_wong/effect.hpp"
+
+namespace soilbin::bekker_wong {
+
+std::vector<std::string> CatalogueVocabulary::ids() const {
+  std::vector<std::string> all;
+  for (const EffectForm& form : effect_catalogue())
+    if (std::find(all.begin(), all.end(), form.id) == all.end()) all.push_back(form.id);
+  return all;
+}
+
+std::vector<EffectFormWords> CatalogueVocabulary::forms(const std::string& id) const {
+  std::vector<EffectFormWords> forms;
+  for (const EffectForm& form : effect_catalogue()) {
+    if (form.id != id) continue;
+    EffectFormWords words{form.form, {}};
+    for (const EffectParameter& p : form.parameters)
+      words.parameters.push_back({p.name, p.unit, p.fallback, p.lower, p.upper, p.meaning});
+    forms.push_back(std::move(words));
+  }
+  return forms;
+}
+
+}  // namespace soilbin::bekker_wong

@@ -1,0 +1,95 @@
+// bed_tilt: the bed is not level, a share of the load leaks into drawbar pull.
+//
+// W sin(a) of the load lies along a bed that tilts by a. 1 deg of it is 1.7 % of the load: as much as a light wheel's
+// whole drawbar pull. The leak is proportional to the load and blind to slip. a is counted like the inclines.
+#include <cmath>
+
+#include "bekker_wong/effects/channels.hpp"
+#include "bekker_wong/effects/forms.hpp"
+
+namespace soilbin::bekker_wong {
+namespace {
+
+/// The load's share along travel at a longitudinal incline of `extra` more [N].
+double leak_along(const OperatingCondition& at, double extra) {
+  return -at.load * (std::sin(at.longitudinal_incline + extra) - std::sin(at.longitudinal_incline));
+}
+
+/// The load's share to the left of travel at a transverse incline of `extra` more [N].
+double leak_across(const OperatingCondition& at, double extra) {
+  const double share = std::sin(at.transverse_incline + extra) - std::sin(at.transverse_incline);
+  return -at.load * std::cos(at.longitudinal_incline) * share;
+}
+
+class Along final : public Effect {
+ public:
+  explicit Along(const std::vector<double>& p) : tilt_(p[0]) {}
+  void sensor(Reading& reading, const Surroundings& around) const override {
+    add_force_of_travel(reading, leak_along(around.at, tilt_), 0.0, around.at);
+  }
+
+ private:
+  double tilt_;
+};
+
+class Across final : public Effect {
+ public:
+  explicit Across(const std::vector<double>& p) : tilt_(p[0]) {}
+  void sensor(Reading& reading, const Surroundings& around) const override {
+    add_force_of_travel(reading, 0.0, leak_across(around.at, tilt_), around.at);
+  }
+
+ private:
+  double tilt_;
+};
+
+/// The bed truly tilts: the leak, and only W cos(alpha + a) cos(beta_t) presses on the ground.
+class AlongWithLoad final : public Effect {
+ public:
+  explicit AlongWithLoad(const std::vector<double>& p) : tilt_(p[0]) {}
+  void added_forces(ForceLedger& ledger, const Rolling& rolling) const override {
+    if (tilt_ == 0.0) return;
+    const OperatingCondition& at = rolling.around.at;
+    const double less = std::cos(at.longitudinal_incline) - std::cos(at.longitudinal_incline + tilt_);
+    const double leak = leak_along(at, tilt_);
+    ledger.add({.name = "bed_tilt",
+                .forward = leak * std::cos(at.yaw),
+                .lateral = -leak * std::sin(at.yaw),
+                .vertical = at.load * std::cos(at.transverse_incline) * less});
+  }
+
+ private:
+  double tilt_;
+};
+
+}  // namespace
+
+std::vector<EffectForm> bed_tilt_forms() {
+  constexpr double degree = 0.017453292519943295;
+  const std::string id = "bed_tilt", source = "statics, stated here";
+  return {
+      {.id = id,
+       .form = "along",
+       .equation = "F_DP - W [sin(alpha + a) - sin(alpha)]",
+       .source = source,
+       .parameters = {{"a", "deg", 0.5 * degree, -10 * degree, 10 * degree, "tilt along travel, uphill positive"}},
+       .measurement = true,
+       .make = maker<Along>()},
+      {.id = id,
+       .form = "across",
+       .equation = "F_y - W cos(alpha) [sin(beta_t + a) - sin(beta_t)]",
+       .source = source,
+       .parameters = {{"a", "deg", 0.5 * degree, -10 * degree, 10 * degree, "cross tilt, left side up positive"}},
+       .measurement = true,
+       .make = maker<Across>()},
+      {.id = id,
+       .form = "along_with_load",
+       .equation = "F_DP - W [sin(alpha + a) - sin(alpha)]; normal load W cos(alpha + a) cos(beta_t)",
+       .source = source,
+       .parameters = {{"a", "deg", 0.5 * degree, -10 * degree, 10 * degree, "tilt along travel, uphill positive"}},
+       .measurement = true,
+       .make = maker<AlongWithLoad>()},
+  };
+}
+
+}  // namespace soilbin::bekker_wong

@@ -1,0 +1,46 @@
+// The four measured channels as effects of the rig see them.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "bekker_wong/effect.hpp"
+
+namespace soilbin::bekker_wong {
+
+/// A measured channel: its place in a reading, and the sizes that an error of its instrument plausibly has [SI].
+struct Channel {
+  const char* name;
+  const char* unit;           ///< as in files
+  double Reading::*value;
+  double usual;               ///< a default size of its error
+  double limit;               ///< beyond it the reading would be useless
+};
+
+inline constexpr std::array<Channel, 4> measured_channels = {{
+    {"drawbar_pull", "N", &Reading::drawbar_pull, 5.0, 1e4},
+    {"torque", "N m", &Reading::torque, 1.0, 1e4},
+    {"sinkage", "mm", &Reading::sinkage, 0.002, 0.2},
+    {"lateral_force", "N", &Reading::lateral_force, 5.0, 1e4},
+}};
+
+/// Adds a force given along travel and to its left [N] to a reading, in the axes that the condition asks for.
+inline void add_force_of_travel(Reading& reading, double forward, double left, const OperatingCondition& at) {
+  if (at.force_frame == ForceFrame::travel) {
+    reading.drawbar_pull += forward;
+    reading.lateral_force += left;
+  } else {
+    const double c = std::cos(at.yaw), s = std::sin(at.yaw);
+    reading.drawbar_pull += forward * c + left * s;
+    reading.lateral_force += left * c - forward * s;
+  }
+}
+
+/// Rim speed r w [m/s]. At full slip the forward speed says nothing of it, so v/(r w) is held above 0.02; 0 where the
+/// wheel is locked.
+inline double rim_speed(const Surroundings& around) {
+  if (around.motion.locked) return 0.0;
+  return around.at.speed / std::max(around.motion.travel_ratio, 0.02);
+}
+
+}  // namespace soilbin::bekker_wong

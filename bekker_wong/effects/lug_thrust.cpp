@@ -1,0 +1,142 @@
+// lug_thrust: lugs shear on a larger radius and push soil with their faces.
+//
+// A lug of height h raises what the tread can pull: it moves the shear surface out to a larger circle, shears soil on
+// its sides, and pushes the soil behind its face. Every form rises with h/b or h/r; they differ in what the gain grows
+// with: slip (shear_radius: already at s = 0), cohesion and load (side_factors), load (passive_blade), lug size alone
+// (free_blade).
+//
+// The amplitude is the share of the lug height that acts. Where the tire declares no lugs the height it multiplies is
+// 5 % of the radius, and 24 lugs where it declares no count, so that an undeclared lug has a trace as well.
+#include <cmath>
+#include <numbers>
+
+#include "bekker_wong/earth_pressure.hpp"
+#include "bekker_wong/effects/forms.hpp"
+
+namespace soilbin::bekker_wong {
+namespace {
+
+constexpr double undeclared_height_over_radius = 0.05;
+constexpr int undeclared_count = 24;
+
+double height(const Tire& tire) {
+  return is_lugged(tire) ? tire.lugs.height : undeclared_height_over_radius * tire.radius;
+}
+
+double spacing(const Tire& tire) {
+  return 2 * std::numbers::pi * tire.radius / tire.lugs.count.value_or(undeclared_count);
+}
+
+/// The soil shears on R_s = r + lambda_s h, which is the torque's arm too. By the conventions slip is that of the tread
+/// base, so the soil's path keeps its length: j_x = R_s (theta_1 - theta) - r v_x/(r w) (sin theta_1 - sin theta). The
+/// base model scales both terms with R_s, which is what slip counted at R_s means (ShearRadiusOwnSlip).
+class ShearRadiusOwnSlip : public Effect {
+ public:
+  explicit ShearRadiusOwnSlip(const std::vector<double>& p) : share_(p[0]) {}
+  void outline(Outline& outline, const Surroundings& around) const override {
+    outline.shear_radius += share_ * height(around.tire);
+  }
+
+ protected:
+  double share_;
+};
+
+class ShearRadius final : public ShearRadiusOwnSlip {
+ public:
+  using ShearRadiusOwnSlip::ShearRadiusOwnSlip;
+  void displacement(ContactPatch& patch, const Outline&, const Surroundings& around) const override {
+    const double beyond = share_ * height(around.tire);
+    for (int i = 0; i < patch.count && !around.motion.locked; ++i) {
+      patch.j_x[i] += beyond * around.motion.forward * patch.sine_drop[i];
+      patch.j_y[i] -= beyond * around.motion.lateral * patch.since_entry[i];
+    }
+  }
+};
+
+/// Bekker's factors for the soil sheared on the sides of the lugs.
+class SideFactors final : public Effect {
+ public:
+  explicit SideFactors(const std::vector<double>& p) : share_(p[0]) {}
+  void strength(ContactPatch& patch, const SoilValues& soil, const Outline& outline,
+                const Surroundings& around) const override {
+    const double ratio = share_ * height(around.tire) / outline.width;
+    const double acot = std::numbers::pi / 2 - std::atan(ratio);
+    const double cohesive = 2 * ratio * soil.cohesion;
+    const double frictional = 0.64 * ratio * acot * std::tan(soil.friction_angle);
+    for (int i = 0; i < patch.count; ++i) patch.strength[i] += cohesive + frictional * patch.sigma[i];
+  }
+
+ private:
+  double share_;
+};
+
+/// Passive force on the faces of the lugs in contact, spread over their spacing; the shear displacement mobilises it as
+/// it does the soil's strength. With the surcharge the soil before a face carries the wheel's pressure at that place.
+template <bool with_surcharge>
+class Blade final : public Effect {
+ public:
+  explicit Blade(const std::vector<double>& p) : share_(p[0]) {}
+  void added_forces(ForceLedger& ledger, const Rolling& r) const override {
+    if (share_ == 0.0) return;
+    const double h = share_ * height(r.around.tire);
+    const double lugs_per_metre = r.outline.width / spacing(r.around.tire);
+    AddedForce force{.name = "lug_thrust"};
+    for (int i = 0; i < r.patch.count; ++i) {
+      const double j = std::hypot(r.patch.j_x[i], r.patch.j_y[i]);
+      if (!(j > 0.0)) continue;
+      const double surcharge = with_surcharge ? r.patch.sigma[i] : 0.0;
+      const double push = lugs_per_metre * r.patch.arc[i] * passive_force(r.soil, h, surcharge) * r.patch.mobilised[i] *
+                          r.patch.j_x[i] / j;
+      force.forward += push * r.patch.normal_cosine[i];
+      force.vertical += push * r.patch.normal_sine[i];
+      force.torque += push * (r.patch.arm[i] + 0.5 * h);
+    }
+    ledger.add(force);
+  }
+
+ private:
+  double share_;
+};
+
+}  // namespace
+
+std::vector<EffectForm> lug_thrust_forms() {
+  const std::string id = "lug_thrust";
+  const std::string meaning =
+      "share of the lug height that acts (of 5 % of the radius where the tire declares no lugs)";
+  return {
+      {.id = id,
+       .form = "shear_radius",
+       .equation = "R_s = r + lambda_s h: shear surface and torque's arm; slip counted at the tread base",
+       .source = "after Ding, Gao, Deng, Nagatani, Yoshida 2011, J. Terramechanics 48:27 (equivalent shearing radius)",
+       .parameters = {{"lambda_s", "-", 0.5, 0.0, 4.0, meaning}},
+       .make = maker<ShearRadius>()},
+      {.id = id,
+       .form = "shear_radius_own_slip",
+       .equation = "R_s = r + lambda_s h: shear surface and torque's arm; slip counted at R_s",
+       .source = "after Ding, Gao, Deng, Nagatani, Yoshida 2011, J. Terramechanics 48:27, with the slip of their wheel",
+       .parameters = {{"lambda_s", "-", 0.5, 0.0, 4.0, meaning}},
+       .make = maker<ShearRadiusOwnSlip>()},
+      {.id = id,
+       .form = "side_factors",
+       .equation = "tau_max = c (1 + 2 h/b) + sigma tan(phi) [1 + 0.64 (h/b) acot(h/b)], h = a h_lug",
+       .source = "after Bekker 1969, Introduction to Terrain-Vehicle Systems (thrust of a spud), taken per unit area",
+       .parameters = {{"a", "-", 1.0, 0.0, 10.0, meaning}},
+       .make = maker<SideFactors>()},
+      {.id = id,
+       .form = "passive_blade",
+       .equation =
+           "F = b (gamma h^2 N_phi/2 + sigma h N_phi + 2 c h sqrt(N_phi)) a lug, times 1 - exp(-j/K), h = a h_lug",
+       .source = "after Wong, Theory of Ground Vehicles, ch. 2 (passive earth pressure on a grouser with surcharge)",
+       .parameters = {{"a", "-", 0.3, 0.0, 3.0, meaning}},
+       .make = maker<Blade<true>>()},
+      {.id = id,
+       .form = "free_blade",
+       .equation = "F = b (gamma h^2 N_phi/2 + 2 c h sqrt(N_phi)) a lug, times 1 - exp(-j/K), h = a h_lug",
+       .source = "after Bekker 1956, Theory of Land Locomotion (passive pressure without surcharge)",
+       .parameters = {{"a", "-", 1.0, 0.0, 10.0, meaning}},
+       .make = maker<Blade<false>>()},
+  };
+}
+
+}  // namespace soilbin::bekker_wong

@@ -1,0 +1,70 @@
+// rig_friction: bearings and drive train take torque.
+//
+// A torque cell between motor and bearing reads the soil's moment plus what the bearing takes; friction opposes the
+// rotation, which is forward (w > 0) for driven and braked wheels alike, so it always adds. A locked wheel does not
+// turn: nothing is added. Drawbar pull and sinkage do not know of it.
+#include <cmath>
+
+#include "bekker_wong/effects/channels.hpp"
+#include "bekker_wong/effects/forms.hpp"
+
+namespace soilbin::bekker_wong {
+namespace {
+
+/// Torque that friction takes [N m] at amplitude a.
+using Loss = double (*)(double a, const Reading&, const Surroundings&);
+
+template <Loss loss>
+class Taken final : public Effect {
+ public:
+  explicit Taken(const std::vector<double>& p) : amplitude_(p[0]) {}
+  void sensor(Reading& reading, const Surroundings& around) const override {
+    if (!around.motion.locked) reading.torque += loss(amplitude_, reading, around);
+  }
+
+ private:
+  double amplitude_;
+};
+
+double coulomb(double a, const Reading&, const Surroundings&) { return a; }
+double bearing(double a, const Reading&, const Surroundings& around) { return a * around.at.load * around.tire.radius; }
+double viscous(double a, const Reading&, const Surroundings& around) { return a * rim_speed(around); }
+double gears(double a, const Reading& reading, const Surroundings&) { return a * std::abs(reading.torque); }
+
+}  // namespace
+
+std::vector<EffectForm> rig_friction_forms() {
+  const std::string id = "rig_friction", source = "machine elements, stated here";
+  return {
+      {.id = id,
+       .form = "coulomb",
+       .equation = "M + a",
+       .source = source,
+       .parameters = {{"a", "N m", 1.0, 0.0, 1e4, "torque that seals and bearings take"}},
+       .measurement = true,
+       .make = maker<Taken<coulomb>>()},
+      {.id = id,
+       .form = "load_proportional",
+       .equation = "M + a W r",
+       .source = source,
+       .parameters = {{"a", "-", 0.01, 0.0, 0.5, "bearing's friction times its radius over the wheel's"}},
+       .measurement = true,
+       .make = maker<Taken<bearing>>()},
+      {.id = id,
+       .form = "viscous",
+       .equation = "M + a (r w)/(1 m/s), v/(r w) held above 0.02",
+       .source = source,
+       .parameters = {{"a", "N m", 1.0, 0.0, 1e4, "torque taken at a rim speed of 1 m/s"}},
+       .measurement = true,
+       .make = maker<Taken<viscous>>()},
+      {.id = id,
+       .form = "transmission",
+       .equation = "M + a |M|",
+       .source = source,
+       .parameters = {{"a", "-", 0.05, 0.0, 1.0, "share of the torque lost in the gears"}},
+       .measurement = true,
+       .make = maker<Taken<gears>>()},
+  };
+}
+
+}  // namespace soilbin::bekker_wong

@@ -1,0 +1,174 @@
+// tire_flexibility: the carcass flattens: longer, shallower contact.
+//
+// Where the soil would press harder than the tire's ground pressure p_g = p_i + p_c, the tread gives way and rolls on a
+// flat. The load then spreads over a longer contact behind and before the axle: sinkage and compaction resistance fall,
+// drawbar pull rises, the more the harder the soil and the heavier the load. A tire that declares no inflation pressure
+// is given p_g = 100 kPa, so that an undeclared softness has a trace as well.
+//
+// The belt neither stretches nor loses energy: it runs at r w over any outline, so the torque's arm stays r, a point's
+// displacement is dj = ds - v_x/(r w) dx, and the normal stress takes no torque. M w - F v is then what slip and
+// compaction dissipate, as for the rigid wheel. What the carcass itself loses in flexing is not in here.
+//
+// A form is a law S: the tread reaches the depth y = S(d) where the rigid circle would reach d = r (cos theta -
+// cos theta_1). Slope, arc and belt travel follow from the outline y(x), x = r sin theta. The contact ends where
+// the circle rises from the rut behind the axle: theta_2 = -theta_f, r (1 - cos theta_f) = deflection under the axle.
+// S takes the declared soil.
+#include <algorithm>
+#include <cmath>
+
+#include "bekker_wong/closed_forms.hpp"
+#include "bekker_wong/effects/forms.hpp"
+
+namespace soilbin::bekker_wong {
+namespace {
+
+constexpr double undeclared_ground_pressure = 100e3;  // [Pa]
+
+double ground_pressure(const Tire& tire) {
+  const double p = tire.inflation_pressure.value_or(0.0) + tire.carcass_pressure.value_or(0.0);
+  return tire.inflation_pressure && p > 0.0 ? p : undeclared_ground_pressure;
+}
+
+struct Depth {
+  double value, slope;  // S(d) and dS/dd
+};
+
+/// Wong's flat: the pressure stays below p_g/a, so the depth below z_g = (p_g/(a k))^(1/n). The corner is rounded by
+/// the power 6 (the depth is 11 % below z_g where the circle's is z_g), so that the balance stays smooth.
+struct PressureCap {
+  static constexpr double sharpness = 6.0;
+  double deepest;
+  PressureCap(double a, const Outline& outline, const Surroundings& around)
+      : deepest(std::pow(ground_pressure(around.tire) / (a * around.declared.pressure_modulus(outline.width)),
+                         1 / around.declared.exponent)) {}
+  Depth operator()(double d) const {
+    const double q = 1 + std::pow(d / deepest, sharpness), root = std::pow(q, -1 / sharpness);
+    return {d * root, root / q};
+  }
+};
+
+/// Carcass and soil in series: d = S + (r a^2/2) sigma(S)/p_g; a is the half angle of the flat at sigma = p_g.
+struct CarcassSpring {
+  double n, give;  // give [m^(1-n)]: deflection = give S^n
+  CarcassSpring(double a, const Outline& outline, const Surroundings& around)
+      : n(around.declared.exponent),
+        give(0.5 * a * a * outline.radius * around.declared.pressure_modulus(outline.width) /
+             ground_pressure(around.tire)) {}
+  /// u = S/d solves u + B u^n = 1. In t = ln u that is ln(e^t + B e^(n t)) = 0, a convex function of slope 1 .. n:
+  /// Newton falls monotonically to the root from where the larger term is 1, in three or four steps.
+  Depth operator()(double d) const {
+    if (!(d > 0.0)) return {0.0, n > 1.0 ? 1.0 : n < 1.0 ? 0.0 : 1 / (1 + give)};
+    const double log_b = std::log(give) + (n - 1) * std::log(d);
+    double t = std::min(0.0, -log_b / n), step = 1.0;
+    for (int i = 0; i < 20 && step > 1e-8; ++i) {  // the last step is exact to its square
+      const double linear = std::exp(t), power = std::exp(log_b + n * t), sum = linear + power;
+      step = std::log(sum) * sum / (linear + n * power);
+      t -= step;
+    }
+    const double u = std::exp(t), slope = 1 + n * std::exp(log_b + (n - 1) * t);
+    return {d * u, 1 / slope};
+  }
+};
+
+template <class Law>
+class Flattening final : public Effect {
+ public:
+  explicit Flattening(const std::vector<double>& p) : amplitude_(p[0]) {}
+
+  void angles(ContactAngles& a, const Outline& outline, const Surroundings& around) const override {
+    if (amplitude_ == 0.0) return;
+    const double deflection = deflection_of(Law(amplitude_, outline, around), a.entry, outline);
+    a.exit = std::min(a.exit, -2 * std::asin(std::sqrt(std::clamp(deflection / (2 * outline.radius), 0.0, 1.0))));
+  }
+
+  void geometry(ContactPatch& p, const Outline& outline, const Surroundings& around) const override {
+    if (amplitude_ == 0.0) return;
+    const Law law(amplitude_, outline, around);
+    const double r = outline.radius, axle = r * std::cos(p.angles.entry);
+    double lost = 0.0, rate_before = 0.0, angle_before = p.angles.entry;
+    for (int i = 0; i < p.count; ++i) {  // from the entry to the exit
+      const double sine = p.normal_sine[i], cosine = p.normal_cosine[i];
+      const Depth outline_depth = law(std::max(0.0, r * cosine - axle));
+      const double incline = std::atan2(outline_depth.slope * sine, cosine);
+      p.normal_sine[i] = std::sin(incline);
+      p.normal_cosine[i] = std::cos(incline);
+      const double stretch = cosine / p.normal_cosine[i];  // arc length of the tread over the circle's
+      p.arc[i] *= stretch;
+      const bool mirrored = p.theta[i] < p.angles.max_stress;
+      p.depth[i] = mirrored ? law(p.depth[i]).value : outline_depth.value;
+      lost += 0.5 * (1 - stretch + rate_before) * (angle_before - p.theta[i]);
+      p.since_entry[i] -= lost;  // the belt's travel since the entry, over r
+      rate_before = 1 - stretch;
+      angle_before = p.theta[i];
+    }
+    p.deflection = deflection_of(law, p.angles.entry, outline);
+  }
+
+ private:
+  static double deflection_of(const Law& law, double entry, const Outline& outline) {
+    const double half = std::sin(0.5 * entry), depth = 2 * outline.radius * half * half;
+    return depth - law(depth).value;
+  }
+  double amplitude_;
+};
+
+/// Schmid: the deflected tire's contact is that of a larger rigid circle, sqrt(R/r) = sqrt(1 + f/z) + sqrt(f/z), with
+/// the deflection f = (r a^2/2) W/(2 r b p_g) and Bekker's static sinkage z of the rigid wheel. The formula says that
+/// the contact sqrt(2r (z + f)) before the axle and sqrt(2r f) behind it has the circle's length sqrt(2R z): the circle
+/// stands sqrt(2r f) behind the axle.
+class SubstituteCircle final : public Effect {
+ public:
+  explicit SubstituteCircle(const std::vector<double>& p) : amplitude_(p[0]) {}
+
+  void outline(Outline& outline, const Surroundings& around) const override {
+    if (amplitude_ == 0.0) return;
+    const double larger = enlargement(outline.radius, outline.width, around);
+    outline.shear_radius += (larger - 1) * outline.radius;
+    outline.radius *= larger;
+  }
+
+  void geometry(ContactPatch& p, const Outline& outline, const Surroundings& around) const override {
+    if (amplitude_ == 0.0) return;
+    for (double& arm : p.of(&ContactPatch::arm)) arm -= outline.radius - around.tire.radius;
+  }
+
+ private:
+  double deflection(double width, const Surroundings& around) const {
+    return 0.25 * amplitude_ * amplitude_ * around.normal_load / (width * ground_pressure(around.tire));
+  }
+  double enlargement(double radius, double width, const Surroundings& around) const {
+    const double z = bekker_static_sinkage(around.declared, radius, width, around.normal_load);
+    const double share = deflection(width, around) / z, root = std::sqrt(1 + share) + std::sqrt(share);
+    return root * root;
+  }
+  double amplitude_;
+};
+
+}  // namespace
+
+std::vector<EffectForm> tire_flexibility_forms() {
+  const std::string id = "tire_flexibility";
+  return {
+      {.id = id,
+       .form = "flat_section",
+       .equation = "sigma <= p_g/a, p_g = p_i + p_c; d -> d (1 + (d/z_g)^6)^(-1/6), k z_g^n = p_g/a",
+       .source = "after Wong, Theory of Ground Vehicles, ch. 2 (pneumatic tire below the critical ground pressure)",
+       .parameters = {{"a", "-", 1.0, 0.0, 30.0,
+                       "declared ground pressure (100 kPa where none is) over the one that acts"}},
+       .make = maker<Flattening<PressureCap>>()},
+      {.id = id,
+       .form = "carcass_spring",
+       .equation = "d = y + (r a^2/2) k y^n/p_g: carcass and soil in series, theta_2 = -theta_f",
+       .source = "stated: radial springs of stiffness 2 p_g/(r a^2) between rim and tread",
+       .parameters = {{"a", "rad", 0.3, 0.0, 2.0, "half angle of the flat where the soil presses with p_g"}},
+       .make = maker<Flattening<CarcassSpring>>()},
+      {.id = id,
+       .form = "substitute_circle",
+       .equation = "sqrt(R/r) = sqrt(1 + f/z0) + sqrt(f/z0), f = (r a^2/2) W/(2 r b p_g), z0: Bekker's static sinkage",
+       .source = "after Schmid 1995, J. Terramechanics 32(1):3",
+       .parameters = {{"a", "rad", 0.5, 0.0, 2.0, "half angle of the flat where W/(2 r b) = p_g"}},
+       .make = maker<SubstituteCircle>()},
+  };
+}
+
+}  // namespace soilbin::bekker_wong

@@ -1,0 +1,31 @@
+// One function a command: each adds its subcommand and options, and says what to do once they are parsed.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "cli/workplace.hpp"
+
+namespace soilbin::cli {
+
+/// How a program ends.
+enum ExitStatus { done = 0, failed = 1, bad_input = 2, interrupted = 130 };
+
+/// What the commands share.
+struct Session {
+  Workplace place;
+  std::function<int()> action;  ///< of the subcommand that was parsed; gives the exit status
+};
+
+void add_estimate(CLI::App& app, Session& session);
+void add_explain(CLI::App& app, Session& session);
+void add_run(CLI::App& app, Session& session);
+void add_predict(CLI::App& app, Session& session);
+void add_report(CLI::App& app, Session& session);
+void add_check(CLI::App& app, Session& session);
+void add_init(CLI::App& app, Session& session);
+void add_list(CLI::App& app, Session& session);
+void add_schema(CLI::App& app, Session& session);
+void add_doctor(CLI::App& app, Session& session);
+
+}  // namespace soilbin::cli

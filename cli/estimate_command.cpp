@@ -1,0 +1,66 @@
+// soilbin estimate: one tire, one soil, one condition (or a case's), answered in plain text.
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "cli/question.hpp"
+#include "cli/text_output.hpp"
+#include "compare/report/result_json.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+/// The soil values whose doubt the standard errors carry.
+std::string doubt_in_words(const Soil& soil) {
+  if (!soil.semi_empirical) return "";
+  const SemiEmpiricalSoil& s = *soil.semi_empirical;
+  const std::pair<const char*, const Estimate*> values[] = {
+      {"n", &s.exponent}, {"k_c", &s.k_c}, {"k_phi", &s.k_phi}, {"c", &s.cohesion}, {"phi", &s.friction_angle},
+      {"K", &s.shear_modulus}, {"c1", &s.stress_angle_c1}, {"c2", &s.stress_angle_c2}};
+  std::string words;
+  for (const auto& [name, value] : values)
+    if (value->std_error > 0.0) words += (words.empty() ? "" : ", ") + std::string(name);
+  if (words.empty()) return "The soil's values are taken as exact.\n";
+  return "± is one standard error, from the standard deviations of the soil's " + words + ".\n";
+}
+
+void print_text(const Case& question, const std::vector<compare::ModelAnswers>& study) {
+  fmt::print("{} on {}\n\n", in_words(question.scenario.tire), question.scenario.soil.name);
+  if (question.study.conditions.size() > 1) {
+    fmt::print("{}", study_text(study));
+  } else {
+    for (const compare::ModelAnswers& model : study) fmt::print("{}\n", answer_text(model, model.answers.front()));
+  }
+  fmt::print("{}", doubt_in_words(question.scenario.soil));
+}
+
+int estimate(const Question& inputs, bool json, const Session& session) {
+  const Case question = inputs.ask(session.place);
+  const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
+  if (json) {
+    fmt::print("{}", compare::json_text({{"format", "soilbin-estimate/1"},
+                                         {"tire", question.scenario.tire.name},
+                                         {"soil", question.scenario.soil.name},
+                                         {"rows", compare::rows_json(study)}}));
+  } else if (compare::any_result(study)) {
+    print_text(question, study);
+  }
+  if (compare::any_result(study)) return done;
+  fmt::print(stderr, "soilbin: no solution: {}\n", study.front().answers.front().error);
+  return failed;
+}
+
+}  // namespace
+
+void add_estimate(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("estimate", "drawbar pull, torque, sinkage and side force, from flags or a case");
+  const auto inputs = std::make_shared<Question>(*command);
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "the answers as JSON, in SI");
+  command->footer("Example: soilbin estimate --soil dry-sand --radius 110mm --width 100mm --load 80N --slip 20%");
+  command->callback([=, &session] { session.action = [=, &session] { return estimate(*inputs, *json, session); }; });
+}
+
+}  // namespace soilbin::cli

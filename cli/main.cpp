@@ -1,0 +1,98 @@
+// soilbin: what does this tire do on this soil?
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+/// Every command, in the order of the help; one line each.
+void add_commands(CLI::App& app, Session& session) {
+  add_estimate(app, session);
+  add_explain(app, session);
+  add_run(app, session);
+  add_predict(app, session);
+  add_report(app, session);
+  add_check(app, session);
+  add_init(app, session);
+  add_list(app, session);
+  add_schema(app, session);
+  add_doctor(app, session);
+}
+
+int refuse(const std::string& message) {
+  fmt::print(stderr, "soilbin: {}\n", message);
+  return bad_input;
+}
+
+/// Names the nearest right word for the first word on the command line that is no subcommand or flag; "" for none.
+std::string misspelt(const CLI::App& app, const std::vector<std::string>& words) {
+  if (words.empty()) return "";
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+  const std::string& first = words.front();
+  if (first.starts_with("-")) return "";
+  const CLI::App* command = app.get_subcommand_no_throw(first);
+  if (command == nullptr)
+    return fmt::format("unknown command '{}'{}\n  hint: commands are {}", clipped(first), did_you_mean(first, commands),
+                       listed(commands));
+  std::vector<std::string> flags;
+  for (const CLI::Option* option : command->get_options())
+    for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+  for (const std::string& word : words) {
+    if (word == "--") break;
+    const std::string flag = word.substr(0, word.find('='));
+    if (!flag.starts_with("--") || std::find(flags.begin(), flags.end(), flag) != flags.end()) continue;
+    return fmt::format("'{}' has no option '{}'{}\n  hint: see soilbin {} --help", first, clipped(flag),
+                       did_you_mean(flag, flags), first);
+  }
+  return "";
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"soilbin - what does this tire do on this soil?", "soilbin"};
+  app.set_version_flag("--version", SOILBIN_VERSION);
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(36);
+  Session session{find_workplace(), {}};
+  add_commands(app, session);
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.empty()) return fmt::print("{}", app.help()), bad_input;
+  if (const std::string hint = misspelt(app, words); !hint.empty()) return refuse(hint);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    return refuse(fmt::format("{}\n  hint: see soilbin {}--help", error.what(),
+                              words.front().starts_with("-") ? "" : words.front() + " "));
+  }
+  return session.action();
+}
+
+}  // namespace
+}  // namespace soilbin::cli
+
+int main(int argc, char** argv) {
+  using namespace soilbin;
+  try {
+    cli::catch_interrupts();
+    const int status = cli::run(argc, argv);
+    return std::fflush(stdout) == 0 ? status : cli::failed;
+  } catch (const InputError& error) {
+    return cli::refuse(error.what());
+  } catch (const cli::Interrupted&) {
+    fmt::print(stderr, "\nsoilbin: stopped\n");
+    return cli::interrupted;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "soilbin: {}\n", error.what());
+    return cli::failed;
+  }
+}

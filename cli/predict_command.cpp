@@ -1,0 +1,68 @@
+// soilbin predict: a measured campaign, row by row, as the model predicts it. Nothing is fitted.
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "cli/text_output.hpp"
+#include "compare/report/curves.hpp"
+#include "compare/report/result_json.hpp"
+#include "compare/sweep/prediction.hpp"
+#include "scenario/atomic_file.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+struct PredictOptions {
+  std::string campaign, model, plot;
+  bool json = false;
+};
+
+/// The campaign's wheel and bin with its declared soil and effects, or those of a resolved model file.
+Scenario scenario_for(const PredictOptions& options, const compare::Campaign& campaign, const Workplace& place) {
+  Scenario scenario = compare::scenario_of(campaign);
+  if (options.model.empty()) return scenario;
+  const Case fitted = find_case(place, options.model);
+  if (fitted.study.models.size() != 1 || fitted.study.models.front().model != ModelKind::bekker_wong)
+    throw InputError(options.model + ": a model file for predict holds one model, bekker_wong");
+  scenario.soil = fitted.scenario.soil;
+  scenario.effects = fitted.study.models.front().effects;
+  return scenario;
+}
+
+int predict(const PredictOptions& options, const Session& session) {
+  const compare::Campaign campaign = find_campaign(session.place, options.campaign);
+  const Scenario scenario = scenario_for(options, campaign, session.place);
+  const auto model = compare::make_model(ModelKind::bekker_wong);
+  const compare::Prediction prediction = compare::predict(*model, scenario, campaign, shown_progress());
+  if (!options.plot.empty())
+    write_file_atomically(options.plot, compare::svg(compare::campaign_sheet(campaign, prediction)));
+  if (options.json) {
+    fmt::print("{}", compare::json_text(compare::to_json(prediction, campaign.name)));
+  } else {
+    fmt::print("{}: {} runs of {}, predicted with {} and not fitted\n\n{}", campaign.name, prediction.runs.size(),
+               in_words(campaign.wheel), options.model.empty() ? "the declared soil" : options.model,
+               prediction_text(prediction));
+  }
+  if (prediction.unsolved < prediction.runs.size()) return done;
+  fmt::print(stderr, "soilbin: no run of the campaign has a solution\n");
+  return failed;
+}
+
+}  // namespace
+
+void add_predict(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("predict", "each run of a measured campaign as the model predicts it, unfitted");
+  const auto options = std::make_shared<PredictOptions>();
+  command->add_option("campaign", options->campaign, "of the library, or its folder")->type_name("CAMPAIGN")->required();
+  command->add_option("--model", options->model, "a resolved model (soilbin-case/1) in place of the declared soil and effects")
+      ->type_name("FILE");
+  command->add_option("--plot", options->plot, "draw measured and predicted against slip")->type_name("FILE.svg");
+  command->add_flag("--json", options->json, "soilbin-predict/1, in SI");
+  command->footer("Example: soilbin predict cmu-smooth --plot predicted.svg");
+  command->callback([=, &session] { session.action = [=, &session] { return predict(*options, session); }; });
+}
+
+}  // namespace soilbin::cli

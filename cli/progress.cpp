@@ -1,0 +1,49 @@
+#include "cli/progress.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+
+namespace soilbin::cli {
+namespace {
+
+volatile std::sig_atomic_t stop_asked = 0;
+
+void remember(int signal) {
+  stop_asked = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+void catch_interrupts() {
+  std::signal(SIGINT, remember);
+  std::signal(SIGTERM, remember);
+}
+
+compare::Progress shown_progress() {
+  using Clock = std::chrono::steady_clock;
+  const bool terminal = isatty(STDERR_FILENO) == 1;
+  return [terminal, start = Clock::now(), shown = Clock::now(), open = false](std::size_t done,
+                                                                             std::size_t total) mutable {
+    if (stop_asked) throw Interrupted();
+    if (!terminal) return;
+    const Clock::time_point now = Clock::now();
+    const double passed = std::chrono::duration<double>(now - start).count();
+    const bool last = done == total;
+    if (passed < 0.5 || (!last && now - shown < std::chrono::milliseconds(100))) return;
+    shown = now;
+    if (last) {
+      if (open) fmt::print(stderr, "\r\033[K");
+      return;
+    }
+    open = true;
+    const double left = passed * static_cast<double>(total - done) / static_cast<double>(done);
+    fmt::print(stderr, "\r\033[K{:3.0f} %  {} of {}, {:.0f} s left", 100.0 * static_cast<double>(done) / static_cast<double>(total),
+               done, total, left);
+  };
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,53 @@
+// The question that flags and, where there is one, a case file put together.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/described_flags.hpp"
+#include "cli/workplace.hpp"
+
+namespace soilbin::cli {
+
+/// An effect as a flag spells it: 'id[:form][,parameter=value...]', values with units. Form and parameters left out
+/// are filled in. Throws InputError with the nearest right word. `n` is the soil's exponent.
+EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocabulary, double n);
+
+/// Flags that pick or override a study's conditions.
+class ConditionFlags {
+ public:
+  void add_to(CLI::App& app) { flags_.add_to(app, "Condition"); }
+  bool given(const std::string& key) const { return flags_.given(key); }
+  void apply(OperatingCondition& at) const { flags_.apply(at); }
+
+  /// Keeps the conditions that agree with the flags given; where none does, sets the flags in all of them (and keeps
+  /// each distinct one once).
+  std::vector<OperatingCondition> pick(const std::vector<OperatingCondition>& conditions) const;
+
+ private:
+  DescribedFlags<OperatingCondition> flags_;
+};
+
+/// The inputs of `estimate` and `explain`: a case, or a tire, a soil and a condition given by flags; or both, the flags
+/// then going before what the case says.
+class Question {
+ public:
+  explicit Question(CLI::App& app);
+
+  /// Throws InputError that names the flag that is missing or wrong.
+  Case ask(const Workplace& place) const;
+
+ private:
+  Case from_flags(const Workplace& place) const;
+  void override_tire(Tire& tire, const Workplace& place) const;
+
+  std::string case_name_, tire_, soil_;
+  std::vector<std::string> effects_;
+  DescribedFlags<Tire> wheel_;
+  DescribedFlags<Lugs> lugs_;
+  DescribedFlags<Bin> bin_;
+  ConditionFlags condition_;
+};
+
+}  // namespace soilbin::cli

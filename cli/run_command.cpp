@@ -1,0 +1,96 @@
+// soilbin run: a study, by each of its models at each of its conditions.
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "cli/question.hpp"
+#include "cli/text_output.hpp"
+#include "compare/report/curves.hpp"
+#include "compare/report/result_json.hpp"
+#include "scenario/atomic_file.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunOptions {
+  std::string study, model, plot, csv, output;
+  bool json = false;
+  ConditionFlags conditions;
+};
+
+void keep_model(Case& question, const std::string& name) {
+  if (name.empty()) return;
+  std::vector<std::string> right;
+  std::optional<ModelKind> kind;
+  for (const Word<ModelKind>& word : words_of(std::type_identity<ModelKind>{})) {
+    if (word.text == name) kind = word.value;
+    right.emplace_back(word.text);
+  }
+  if (!kind) throw InputError("--model: unknown model '" + clipped(name) + "'" + did_you_mean(name, right));
+  std::vector<ModelChoice> kept;
+  for (const ModelChoice& choice : question.study.models)
+    if (choice.model == *kind) kept.push_back(choice);
+  if (kept.empty()) kept.push_back({*kind, {}, name});
+  question.study.models = std::move(kept);
+}
+
+nlohmann::ordered_json document_of(const Case& question, const std::vector<compare::ModelAnswers>& study) {
+  return {{"format", "soilbin-run/1"},
+          {"study", question.study.name},
+          {"tire", question.scenario.tire.name},
+          {"soil", question.scenario.soil.name},
+          {"rows", compare::rows_json(study)}};
+}
+
+void save(const RunOptions& options, const Case& question, const std::vector<compare::ModelAnswers>& study,
+          const Workplace& place) {
+  if (!options.csv.empty()) write_file_atomically(options.csv, compare::study_csv(study));
+  if (!options.plot.empty()) write_file_atomically(options.plot, compare::svg(compare::study_sheet(question, study)));
+  if (options.output.empty()) return;
+  const fs::path folder = options.output;
+  fs::create_directories(folder);
+  write_file_atomically(folder / "case.yaml", write_case(question, place.effects));
+  write_file_atomically(folder / "results.csv", compare::study_csv(study));
+  write_file_atomically(folder / "results.json", compare::json_text(document_of(question, study)));
+}
+
+int run(const RunOptions& options, const Session& session) {
+  Case question = find_case(session.place, options.study);
+  keep_model(question, options.model);
+  question.study.conditions = options.conditions.pick(question.study.conditions);
+  const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
+  save(options, question, study, session.place);
+  if (options.json) {
+    fmt::print("{}", compare::json_text(document_of(question, study)));
+  } else {
+    fmt::print("{}: {} on {}\n\n{}", question.study.name, in_words(question.scenario.tire), question.scenario.soil.name,
+               study_text(study));
+  }
+  if (compare::any_result(study)) return done;
+  fmt::print(stderr, "soilbin: no condition of the study has a solution\n");
+  return failed;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("run", "a study: every model at every condition");
+  const auto options = std::make_shared<RunOptions>();
+  command->add_option("study", options->study, "of the library, or a case file")->type_name("STUDY")->required();
+  command->add_option("--model", options->model, "only this model: bekker_wong")->type_name("NAME");
+  command->add_option("--plot", options->plot, "draw the curves against slip")->type_name("FILE.svg");
+  command->add_option("--csv", options->csv, "save the table")->type_name("FILE.csv");
+  command->add_option("--output", options->output, "save the resolved case and the results")->type_name("DIR");
+  command->add_flag("--json", options->json, "the results as JSON, in SI");
+  options->conditions.add_to(*command);
+  command->footer("A condition flag keeps the study's conditions that agree with it; where none does, it overrides them.\n"
+                  "Example: soilbin run paper-straight --load 4kN --plot pull.svg");
+  command->callback([=, &session] { session.action = [=, &session] { return run(*options, session); }; });
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,199 @@
+#include "cli/text_output.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+
+#include "compare/sweep/channels.hpp"
+#include "compare/sweep/varying.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+using namespace soilbin::compare;
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Characters of a UTF-8 text.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+bool is_number(const std::string& text) {
+  if (text.empty() || text == "-") return true;
+  const std::size_t first = text.front() == '-' || text.front() == '+' ? 1 : 0;
+  return first < text.size() && std::isdigit(static_cast<unsigned char>(text[first])) != 0;
+}
+
+std::vector<OperatingCondition> conditions_of(const std::vector<Answer>& answers) {
+  std::vector<OperatingCondition> all;
+  for (const Answer& answer : answers) all.push_back(answer.at);
+  return all;
+}
+
+bool any_side_force(const std::vector<ModelAnswers>& study) {
+  for (const ModelAnswers& model : study)
+    for (const Answer& answer : model.answers)
+      if (answer.result && answer.result->lateral_force.value != 0.0) return true;
+  return false;
+}
+
+std::string capital(std::string text) {
+  if (!text.empty()) text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text;
+}
+
+std::string heading(const ChannelView& channel) { return fmt::format("{} [{}]", channel.title, channel.unit); }
+
+}  // namespace
+
+std::string TextTable::text() const {
+  std::vector<std::size_t> widths(rows_.front().size(), 0);
+  std::vector<bool> right(widths.size(), true);
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    for (std::size_t c = 0; c < rows_[r].size(); ++c) {
+      widths[c] = std::max(widths[c], width(rows_[r][c]));
+      if (r > 0 && !is_number(rows_[r][c])) right[c] = false;
+    }
+  std::string text;
+  for (const std::vector<std::string>& row : rows_) {
+    std::string line;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string blanks(widths[c] - width(row[c]), ' ');
+      line += (c == 0 ? "" : "  ") + (right[c] ? blanks + row[c] : row[c] + blanks);
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+std::string number(double value) {
+  if (!std::isfinite(value)) return "-";
+  if (value == 0.0) return "0";
+  const double size = std::abs(value);
+  if (size < 1e-4 || size >= 1e7) return fmt::format("{:.3e}", value);
+  const int places = std::clamp(3 - static_cast<int>(std::floor(std::log10(size))), 0, 7);
+  return fmt::format("{:.{}f}", value, places);
+}
+
+std::string number(const Estimate& estimate, double per_unit) {
+  const double value = estimate.value * per_unit, error = estimate.std_error * per_unit;
+  if (!(error > 1e-9 * std::abs(value)) || !std::isfinite(error)) return number(value);
+  const int places = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9);
+  return fmt::format("{:.{}f} ± {:.{}f}", value, places, error, places);
+}
+
+std::string in_words(const Tire& tire) {
+  std::string words = fmt::format("{} (r {:.4g} mm, b {:.4g} mm, ", tire.name, 1000 * tire.radius, 1000 * tire.width);
+  if (!is_lugged(tire)) words += "smooth";
+  else if (tire.lugs.count) words += fmt::format("{} lugs of {:.4g} mm", *tire.lugs.count, 1000 * tire.lugs.height);
+  else words += fmt::format("lugs of {:.4g} mm", 1000 * tire.lugs.height);
+  if (tire.inflation_pressure) words += fmt::format(", {:.4g} kPa", *tire.inflation_pressure / 1000);
+  return words + ")";
+}
+
+std::string answer_text(const ModelAnswers& model, const Answer& answer) {
+  std::string text = fmt::format("{}: {}\n", model.choice.label, in_words(answer.at));
+  if (!answer.result) return text + "  no solution: " + answer.error + "\n";
+  const TractionResult& r = *answer.result;
+  const auto line = [&](const std::string& name, const std::string& value, std::string_view unit) {
+    text += fmt::format("  {:<21}{} {}\n", name, value, unit);
+  };
+  text += "\n";
+  for (const ChannelView& channel : channel_views)
+    line(capital(std::string(channel.title)), number(r.*channel.predicted, channel.per_si), channel.unit);
+  line("Tractive efficiency", std::isfinite(r.tractive_efficiency) ? number(100 * r.tractive_efficiency) : "undefined",
+       std::isfinite(r.tractive_efficiency) ? "%" : "");
+  text += fmt::format("  {:<21}soil meets the wheel {:.1f}° before the axle, presses most at {:.1f}°, lets go at {:.1f}°\n",
+                      "Contact", r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree + 0.0);
+  text += fmt::format("  {:<21}", "Drawbar pull is");
+  for (std::size_t i = 0; i < r.budget.size(); ++i) {
+    std::string name = r.budget[i].name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    const double force = r.budget[i].force;
+    const std::string sign = i == 0 ? (force < 0 ? "-" : "") : (force < 0 ? " - " : " + ");
+    text += fmt::format("{}{} N ({})", sign, number(std::abs(force)), name);
+  }
+  return text + "\n";
+}
+
+std::string study_text(const std::vector<ModelAnswers>& study) {
+  const bool side = any_side_force(study);
+  std::string text;
+  for (const ModelAnswers& model : study) {
+    const Curves curves = curves_against_slip(conditions_of(model.answers), Spread::exact);
+    std::vector<std::string> header;
+    if (!curves.varying.empty()) header.push_back(curves.varying);
+    header.push_back("slip [%]");
+    for (std::size_t c = 0; c < channel_views.size(); ++c)
+      if (side || channel_views[c].name != "lateral_force") header.push_back(heading(channel_views[c]));
+    header.push_back("efficiency [%]");
+    TextTable table(header);
+    std::string notes;
+    for (std::size_t i = 0; i < model.answers.size(); ++i) {
+      const Answer& answer = model.answers[i];
+      std::vector<std::string> row;
+      if (!curves.varying.empty()) row.push_back(curves.labels[curves.curve_of[i]]);
+      row.push_back(fmt::format("{:.4g}", 100 * answer.at.slip));
+      for (const ChannelView& channel : channel_views)
+        if (side || channel.name != "lateral_force")
+          row.push_back(answer.result ? number((*answer.result).*channel.predicted, channel.per_si) : "-");
+      row.push_back(answer.result ? number(100 * answer.result->tractive_efficiency) : "-");
+      table.add(std::move(row));
+      if (!answer.result) notes += fmt::format("no solution at {}: {}\n", in_words(answer.at), answer.error);
+    }
+    text += (text.empty() ? "" : "\n") + model.choice.label + "\n" + table.text() + notes;
+  }
+  return text;
+}
+
+std::string errors_text(const Prediction& prediction) {
+  TextTable table({"channel", "runs", "rms error", "bias (predicted - measured)", "measured range", "rms/range [%]"});
+  for (const ChannelError& error : prediction.errors) {
+    const ChannelView& channel = channel_views[error.channel];
+    const auto in_unit = [&](double si) { return fmt::format("{} {}", number(si * channel.per_si), channel.unit); };
+    table.add({std::string(channel.title), std::to_string(error.runs), in_unit(error.rmse), in_unit(error.bias),
+               in_unit(error.range), number(100 * error.share_of_range)});
+  }
+  return table.text();
+}
+
+std::string prediction_text(const Prediction& prediction) {
+  std::vector<OperatingCondition> conditions;
+  for (const PredictedRun& run : prediction.runs) conditions.push_back(run.measured.at);
+  const Curves curves = curves_against_slip(conditions, Spread::measured);
+  std::vector<std::string> header = {"run"};
+  if (!curves.varying.empty()) header.push_back(curves.varying);
+  header.insert(header.end(), {"load [N]", "slip [%]"});
+  for (const ChannelError& error : prediction.errors) {
+    const ChannelView& channel = channel_views[error.channel];
+    header.push_back(heading(channel));
+    header.insert(header.end(), {"predicted", "residual"});
+  }
+  TextTable table(header);
+  std::string notes;
+  for (std::size_t i = 0; i < prediction.runs.size(); ++i) {
+    const PredictedRun& run = prediction.runs[i];
+    std::vector<std::string> row = {std::to_string(run.run)};
+    if (!curves.varying.empty()) row.push_back(curves.labels[curves.curve_of[i]]);
+    row.push_back(number(run.measured.at.load));
+    row.push_back(fmt::format("{:.4g}", 100 * run.measured.at.slip));
+    for (const ChannelError& error : prediction.errors) {
+      const ChannelView& channel = channel_views[error.channel];
+      const auto measured = run.measured.*channel.measured;
+      const auto rest = residual(run, channel);
+      row.push_back(measured ? number(*measured * channel.per_si) : "-");
+      row.push_back(run.predicted.result ? number(((*run.predicted.result).*channel.predicted).value * channel.per_si) : "-");
+      row.push_back(rest ? number(*rest * channel.per_si) : "-");
+    }
+    if (!run.predicted.result) notes += fmt::format("run {}: no solution: {}\n", run.run, run.predicted.error);
+    table.add(std::move(row));
+  }
+  return table.text() + notes + "\n" + errors_text(prediction);
+}
+
+}  // namespace soilbin::cli

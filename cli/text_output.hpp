@@ -1,0 +1,42 @@
+// Results as text on a terminal.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compare/sweep/answers.hpp"
+#include "compare/sweep/prediction.hpp"
+#include "scenario/estimate.hpp"
+#include "scenario/tire.hpp"
+
+namespace soilbin::cli {
+
+/// A table with aligned columns: text to the left, numbers (by their first character) to the right.
+class TextTable {
+ public:
+  explicit TextTable(std::vector<std::string> header) : rows_{std::move(header)} {}
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  std::string text() const;
+
+ private:
+  std::vector<std::vector<std::string>> rows_;
+};
+
+/// Four digits, never "-0" and never an exponent for everyday sizes.
+std::string number(double value);
+/// "4.18 ± 0.31": the error to two digits, the value to the error's place; the value alone for an error of 0.
+std::string number(const Estimate& estimate, double per_unit = 1.0);
+
+/// "rover-wheel (r 90 mm, b 110 mm, smooth)".
+std::string in_words(const Tire& tire);
+
+/// The whole of one answer: condition, four results with standard errors, efficiency, angles, budget.
+std::string answer_text(const compare::ModelAnswers& model, const compare::Answer& answer);
+/// One line an answer, the conditions that vary in the first columns.
+std::string study_text(const std::vector<compare::ModelAnswers>& study);
+/// The runs of a campaign, measured and predicted, then the error table.
+std::string prediction_text(const compare::Prediction& prediction);
+std::string errors_text(const compare::Prediction& prediction);
+
+}  // namespace soilbin::cli

@@ -1,0 +1,35 @@
+// Where the command finds its library of cases, and how it turns names into files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bekker_wong/effect_vocabulary.hpp"
+#include "compare/measured/campaign.hpp"
+#include "scenario/case.hpp"
+
+namespace soilbin::cli {
+
+/// Folders of cases, in the order in which they are searched, and the words that files may use.
+struct Workplace {
+  std::vector<std::filesystem::path> folders;
+  Library library;
+  bekker_wong::CatalogueVocabulary effects;
+};
+
+/// Searches $SOILBIN_CASES (folders separated by ':'), then ../share/soilbin/cases beside the program, then the source
+/// tree that the program was built from.
+Workplace find_workplace();
+
+/// The file behind a name on a shelf, or a path to a file (or, for a campaign, its folder). A name without '/' and
+/// '.yaml' is looked up in the library first. Throws InputError with the nearest name.
+std::filesystem::path find_file(const Workplace& place, Shelf shelf, const std::string& name);
+
+/// Reads a case: the name of a study in the library, or a path.
+Case find_case(const Workplace& place, const std::string& name);
+
+/// Reads a campaign: a name of the library, its folder, or its campaign.yaml.
+compare::Campaign find_campaign(const Workplace& place, const std::string& name);
+
+}  // namespace soilbin::cli

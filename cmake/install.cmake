@@ -1,0 +1,31 @@
+# What `cmake --install` lays down: the command, the libraries with their headers, the cases, the docs, and a CMake
+# package, so that find_package(soilbin) gives soilbin::scenario, soilbin::bekker_wong and soilbin::compare.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(floors scenario bekker_wong compare)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/soilbin)
+
+if(TARGET soilbin)
+  install(TARGETS soilbin RUNTIME COMPONENT runtime)
+endif()
+install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/soilbin COMPONENT runtime)
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT runtime)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+
+install(TARGETS soilbin_options EXPORT soilbin)
+foreach(floor IN LISTS floors)
+  set_target_properties(soilbin_${floor} PROPERTIES EXPORT_NAME ${floor})
+  install(TARGETS soilbin_${floor} EXPORT soilbin ARCHIVE COMPONENT development)
+  # Headers are included as in the project itself, "scenario/tire.hpp", from a folder of soilbin's own.
+  install(DIRECTORY ${floor} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/soilbin COMPONENT development
+    FILES_MATCHING PATTERN "*.hpp")
+endforeach()
+install(EXPORT soilbin NAMESPACE soilbin:: DESTINATION ${package_folder} FILE soilbin-targets.cmake COMPONENT development)
+
+configure_package_config_file(cmake/soilbin-config.cmake.in ${PROJECT_BINARY_DIR}/soilbin-config.cmake
+  INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/soilbin-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/soilbin-config.cmake ${PROJECT_BINARY_DIR}/soilbin-config-version.cmake
+  DESTINATION ${package_folder} COMPONENT development)

@@ -1,0 +1,30 @@
+# `cmake --build --preset release --target package`: two Debian packages, soilbin (the command and its cases) and
+# libsoilbin-dev (the libraries).
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME soilbin)
+set(CPACK_PACKAGE_CONTACT "The soilbin developers <soilbin@users.noreply.github.com>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_VERBATIM_VARIABLES ON)
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL runtime development)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME soilbin)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsoilbin-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+  "libeigen3-dev, libfmt-dev, libgsl-dev, libyaml-cpp-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS soilbin)
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
+  "The command soilbin with its tires, soils, studies and measured campaigns: drawbar pull, torque, sinkage and
+lateral force of a wheel on soil by the Bekker / Wong-Reece model with published effects, and the comparison with
+measurements.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
+  "Static libraries, headers and a CMake package: find_package(soilbin) gives soilbin::scenario,
+soilbin::bekker_wong and soilbin::compare.")
+include(CPack)

@@ -1,0 +1,102 @@
+// LoopAnswer in the contract's form.
+#include <cmath>
+#include <numbers>
+
+#include "compare/loop/loop.hpp"
+
+namespace soilbin::compare {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
+
+ordered_json effects_json(const LoopAnswer& answer) {
+  ordered_json list = ordered_json::array();
+  for (const AcceptedEffect& effect : answer.effects) {
+    ordered_json parameters = ordered_json::object(), ci = ordered_json::object();
+    for (const auto& [name, value] : effect.choice.parameters) parameters[name] = number(value);
+    for (std::size_t i = 0; i < effect.fitted.size(); ++i)
+      ci[effect.fitted[i]] = {number(effect.ci95[i].first), number(effect.ci95[i].second)};
+    list.push_back({{"id", effect.choice.id},
+                    {"form", effect.choice.form},
+                    {"parameters", parameters},
+                    {"ci95", ci},
+                    {"p_value", number(effect.p_value)}});
+  }
+  return list;
+}
+
+ordered_json error_json(const LoopAnswer& answer) {
+  ordered_json error = ordered_json::object();
+  for (int c = 0; c < channel_count; ++c) {
+    const std::string name(channel_names[static_cast<std::size_t>(c)]);
+    const ErrorPair& e = answer.validation.channels[static_cast<std::size_t>(c)];
+    error[name] = ordered_json::object();
+    if (e.cells == 0) continue;
+    error[name] = {{"unit", channel_units[static_cast<std::size_t>(c)]},
+                   {"before", number(e.before)},
+                   {"after", number(e.after)},
+                   {"noise_floor", number(e.noise_floor)},
+                   {"kind", "held_out"}};
+  }
+  const ErrorPair& all = answer.validation.overall;
+  error["overall"] = ordered_json::object();
+  if (all.cells > 0)
+    error["overall"] = {{"unit", "sigma"},
+                        {"before", number(all.before)},
+                        {"after", number(all.after)},
+                        {"gain", number(answer.validation.gain)},
+                        {"gain_std_error", number(answer.validation.gain_error)},
+                        {"kind", "held_out"}};
+  return error;
+}
+
+/// A condition by the names and units of the campaign's columns.
+ordered_json condition_json(const NextTest& next) {
+  constexpr double deg = 180 / std::numbers::pi;
+  ordered_json at = ordered_json::object();
+  for (const std::string& q : next.quantities) {
+    if (q == "slip") at["slip"] = next.at.slip;
+    if (q == "load") at["load_N"] = next.at.load;
+    if (q == "speed") at["speed_m_s"] = next.at.speed;
+    if (q == "pass") at["pass"] = next.at.pass;
+    if (q == "yaw") at["yaw_deg"] = next.at.yaw * deg;
+    if (q == "longitudinal_incline") at["longitudinal_incline_deg"] = next.at.longitudinal_incline * deg;
+    if (q == "transverse_incline") at["transverse_incline_deg"] = next.at.transverse_incline * deg;
+    if (q == "position" && next.at.position) at["position_m"] = *next.at.position;
+    if (q == "moisture" && next.at.moisture) at["moisture_percent"] = 100 * *next.at.moisture;
+  }
+  return at;
+}
+
+ordered_json next_json(const LoopAnswer& answer) {
+  if (!answer.next) return nullptr;
+  ordered_json separates = ordered_json::array();
+  for (const auto& ids : answer.next->separates) {
+    std::string joined;
+    for (const std::string& id : ids) joined += (joined.empty() ? "" : "+") + id;
+    separates.push_back(joined.empty() ? "base" : joined);
+  }
+  return {{"condition", condition_json(*answer.next)}, {"separates", separates}, {"runs", answer.next->runs}};
+}
+
+}  // namespace
+
+ordered_json to_json(const LoopAnswer& answer) {
+  ordered_json ambiguity = ordered_json::array();
+  for (const Weighted& w : answer.ambiguity_set) ambiguity.push_back({{"effects", w.ids}, {"weight", number(w.weight)}});
+  return {{"format", "soilbin-loop/1"},
+          {"campaign", answer.campaign},
+          {"verdict", word(answer.verdict)},
+          {"reason", answer.reason},
+          {"effects", effects_json(answer)},
+          {"ambiguity_set", ambiguity},
+          {"not_testable", answer.not_testable},
+          {"error", error_json(answer)},
+          {"next_test", next_json(answer)},
+          {"outliers", answer.outliers}};
+}
+
+}  // namespace soilbin::compare

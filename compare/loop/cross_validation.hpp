@@ -1,0 +1,43 @@
+// Errors on conditions that neither the choice of the effect nor the fit has seen.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "compare/loop/identify.hpp"
+
+namespace soilbin::compare {
+
+/// One held-out cell: what base model and chosen model, both made without its condition, predicted.
+struct HeldOut {
+  int row = 0;  ///< of the observations given
+  int channel = 0;
+  double measured = 0.0, before = 0.0, after = 0.0;
+  double sd = 0.0;  ///< noise of this cell
+};
+
+struct ErrorPair {
+  int cells = 0;
+  double before = 0.0, after = 0.0, noise_floor = 0.0;  ///< root mean squares
+};
+
+/// The whole procedure redone with each fold of conditions left out.
+struct CrossValidation {
+  std::vector<HeldOut> cells;
+  std::vector<std::set<std::string>> chosen;  ///< of each fold
+  std::array<ErrorPair, channel_count> channels;  ///< in the channels' units
+  ErrorPair overall;              ///< in sigma
+  double gain = 0.0;              ///< mean fall of the squared error over conditions [sigma^2]
+  double gain_error = 0.0;        ///< its standard error, over conditions
+  int unpredicted = 0;            ///< held-out cells for which a fold's model had no balance
+};
+
+/// Folds are made of whole conditions, dealt by a seeded shuffle. Steps from the noise estimate to the choice of the
+/// effect are redone in each. threads: folds at once; the answer does not depend on it.
+CrossValidation cross_validate(const Campaign& campaign, const Identification& whole, const IdentifyOptions& options,
+                               int folds, int threads);
+
+}  // namespace soilbin::compare

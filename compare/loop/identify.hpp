@@ -1,0 +1,60 @@
+// From observations to a name: noise, base fit, trace, rivals, and which of them the data can't tell apart.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "compare/loop/trace.hpp"
+
+namespace soilbin::compare {
+
+/// A set of effects that competes, fitted in full.
+struct Rival {
+  std::set<std::string> ids;
+  std::vector<Term> terms;
+  Fit fit;
+  double log_evidence = 0.0;
+};
+
+/// Sets of effects with their share of the evidence, best first.
+struct Weighted {
+  std::set<std::string> ids;
+  double weight = 0.0;
+  std::size_t best_rival = 0;  ///< index of the set's best form(s) in Identification::rivals
+};
+
+struct IdentifyOptions {
+  int simulations = 4000;      ///< of the maximum statistic
+  double level = 0.05;         ///< family-wise
+  int most_effects = 3;
+  int refits = 16;             ///< forms refitted in full at each stage, at the most
+  std::uint64_t seed = 1;
+  bool drop_outliers = true;
+};
+
+/// What one pass over a set of observations finds.
+struct Identification {
+  Observations observations;   ///< after outliers were set aside
+  std::vector<bool> outlier;   ///< of the cells given
+  NoiseFloor noise;
+  std::shared_ptr<const Whitening> whitening;
+  Fit base;
+  std::vector<Signature> signatures;  ///< against the base model
+  double p_value = 1.0;        ///< family-wise, of the strongest signature against the base model
+  std::vector<double> p_steps; ///< family-wise p of each accepted effect, in the order of acceptance
+  std::vector<Rival> rivals;   ///< all that were refitted, base model not among them
+  double base_log_evidence = 0.0;
+  double unnamed_log_evidence = 0.0;   ///< base model + an unnamed smooth term
+  double residual_unnamed_gain = 0.0;  ///< ln evidence that an unnamed term adds to the best rival, tolerance included
+  std::vector<Weighted> weights;       ///< over sets of effects, best first
+  std::optional<std::size_t> best;     ///< rival that the test accepts
+};
+
+/// Throws NoSolution where no soil near the declared one carries the wheel in every run.
+Identification identify(const Campaign& campaign, const Observations& observations, const IdentifyOptions& options);
+
+}  // namespace soilbin::compare

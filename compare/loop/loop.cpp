@@ -1,0 +1,196 @@
+#include "compare/loop/loop.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+
+std::string_view word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::effect_found: return "effect_found";
+    case Verdict::nothing_missing: return "nothing_missing";
+    case Verdict::unknown_effect: return "unknown_effect";
+    case Verdict::not_enough_data: return "not_enough_data";
+  }
+  return "";
+}
+
+namespace {
+
+/// Thresholds of the verdict, set once on the tuning sets of bench/loop (docs/loop.md), never on those reported.
+constexpr double least_weight = 0.03;        // of a set of effects to stay in the ambiguity set
+constexpr double superset_weight = 0.25;     // of a set that holds the best one and more
+constexpr double unexplained_share = 0.4;    // of the base model's excess chi2: above it the best name is no name
+constexpr double unnamed_bayes_factor = 3.0; // ln 20: P(reached by chance) <= 5 % (Kass and Raftery 1995)
+
+std::vector<std::string> not_testable(const Campaign& campaign, const Identification& id) {
+  std::map<std::string, bool> testable;
+  for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue()) testable[form.id] = false;
+  for (const Signature& s : id.signatures)
+    if (s.testable) testable[s.term.form->id] = true;
+  for (const EffectChoice& declared : campaign.effects) testable.erase(declared.id);
+  std::vector<std::string> hidden;
+  for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue())
+    if (testable.count(form.id) && !testable[form.id] && (hidden.empty() || hidden.back() != form.id))
+      hidden.push_back(form.id);
+  return hidden;
+}
+
+/// The sets that the data can't tell from the best, best first.
+std::vector<Weighted> ambiguity(const Identification& id) {
+  std::vector<Weighted> set;
+  if (id.weights.empty()) return set;
+  const Weighted& best = id.weights.front();
+  for (const Weighted& w : id.weights) {
+    const bool more = w.ids.size() > best.ids.size() &&
+                      std::includes(w.ids.begin(), w.ids.end(), best.ids.begin(), best.ids.end());
+    if (&w == &best || w.weight >= (more ? superset_weight : least_weight)) set.push_back(w);
+  }
+  return set;
+}
+
+/// Share of the base model's excess over the noise that the best named rival leaves.
+double unexplained(const Identification& id) {
+  const double cells = static_cast<double>(id.observations.cells.size());
+  const double excess = id.base.chi2 - cells;
+  if (!(excess > 0)) return 0.0;
+  return std::max(0.0, id.rivals[*id.best].fit.chi2 - cells) / excess;
+}
+
+AcceptedEffect accepted(const WheelPredictor& predictor, const Rival& rival, int term, double p_value) {
+  constexpr double two_sided = 1.96;
+  const Eigen::VectorXd errors = standard_errors(rival.fit, predictor);
+  const Term& t = rival.terms[static_cast<std::size_t>(term)];
+  AcceptedEffect effect;
+  const auto all = predictor.choices(rival.fit.theta);
+  effect.choice = all[all.size() - rival.terms.size() + static_cast<std::size_t>(term)];
+  effect.p_value = p_value;
+  for (std::size_t k = 0; k < t.free.size(); ++k) {
+    const Eigen::Index i = predictor.amplitude_index(term) + static_cast<Eigen::Index>(k);
+    const FreeParameter& bounds = predictor.parameters()[static_cast<std::size_t>(i)];
+    effect.fitted.push_back(t.form->parameters[static_cast<std::size_t>(t.free[k])].name);
+    effect.ci95.emplace_back(std::max(bounds.lower, rival.fit.theta[i] - two_sided * errors[i]),
+                             std::min(bounds.upper, rival.fit.theta[i] + two_sided * errors[i]));
+  }
+  return effect;
+}
+
+SemiEmpiricalSoil fitted_soil(const Campaign& campaign, const WheelPredictor& predictor, const Fit& fit) {
+  SemiEmpiricalSoil soil = campaign.soil;
+  const Eigen::VectorXd errors = standard_errors(fit, predictor);
+  const std::map<std::string, Estimate SemiEmpiricalSoil::*> members = {
+      {"exponent", &SemiEmpiricalSoil::exponent},
+      {"k_c", &SemiEmpiricalSoil::k_c},
+      {"k_phi", &SemiEmpiricalSoil::k_phi},
+      {"cohesion", &SemiEmpiricalSoil::cohesion},
+      {"friction_angle", &SemiEmpiricalSoil::friction_angle},
+      {"shear_modulus", &SemiEmpiricalSoil::shear_modulus},
+      {"stress_angle_c1", &SemiEmpiricalSoil::stress_angle_c1},
+      {"stress_angle_c2", &SemiEmpiricalSoil::stress_angle_c2},
+  };
+  for (int i = 0; i < predictor.soil_parameters(); ++i)
+    soil.*members.at(predictor.parameters()[static_cast<std::size_t>(i)].name) = {fit.theta[i], errors[i]};
+  return soil;
+}
+
+void decide(const Campaign& campaign, LoopAnswer& answer) {
+  const Identification& id = answer.details;
+  const CrossValidation& cv = answer.validation;
+  const bool improves = cv.gain > cv.gain_error;
+  if (!id.best) {
+    const double unnamed = id.unnamed_log_evidence - id.base_log_evidence;
+    if (unnamed > unnamed_bayes_factor && answer.before.p_value < 0.05) {
+      answer.verdict = Verdict::unknown_effect;
+      answer.reason = fmt::format(
+          "no effect of the catalogue passes its test (p = {:.3g}), but a smooth function of the conditions explains "
+          "the residual e^{:.1f} times better than noise",
+          id.p_value, unnamed);
+      return;
+    }
+    answer.verdict = Verdict::nothing_missing;
+    answer.reason = fmt::format("the strongest of all effects reaches p = {:.3g} among the whole catalogue", id.p_value);
+    return;
+  }
+  const double left = unexplained(id);
+  if (left > unexplained_share || id.residual_unnamed_gain > unnamed_bayes_factor) {
+    answer.verdict = Verdict::unknown_effect;
+    answer.reason = fmt::format(
+        "the residual is real (p = {:.2g}), but the best set of named effects leaves {:.0f} % of it", id.p_value,
+        100 * left);
+    return;
+  }
+  if (!improves) {
+    answer.verdict = Verdict::nothing_missing;
+    answer.reason = fmt::format(
+        "the best effect fits (p = {:.2g}) but does not predict held-out conditions better by a standard error "
+        "({:.2g} +- {:.2g} sigma^2)",
+        id.p_value, cv.gain, cv.gain_error);
+    return;
+  }
+  answer.verdict = Verdict::effect_found;
+  const Rival& best = id.rivals[*id.best];
+  const WheelPredictor predictor(campaign, id.observations, best.terms);
+  for (int t = 0; t < static_cast<int>(best.terms.size()); ++t)
+    answer.effects.push_back(accepted(predictor, best, t, id.p_value));
+  answer.soil = fitted_soil(campaign, predictor, best.fit);
+  answer.after = lack_of_fit(best.fit, id.noise, static_cast<Eigen::Index>(id.observations.cells.size()));
+  answer.dependences_after =
+      dependences(id.observations, best.fit.residual.head(static_cast<Eigen::Index>(id.observations.cells.size())),
+                  999, 11);
+  answer.reason = fmt::format("p = {:.2g} among the whole catalogue; held-out error falls by {:.2g} +- {:.2g} sigma^2",
+                              id.p_value, cv.gain, cv.gain_error);
+}
+
+bool too_small(const Campaign& campaign, const Observations& observations, std::string& reason) {
+  const WheelPredictor base(campaign, observations);
+  const int spare = static_cast<int>(observations.cells.size()) - base.soil_parameters();
+  if (spare >= 6 && observations.conditions >= 6) return false;
+  reason = fmt::format("{} measured values of {} conditions for {} soil values leave too little to judge by",
+                       observations.cells.size(), observations.conditions, base.soil_parameters());
+  return true;
+}
+
+}  // namespace
+
+LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
+  LoopAnswer answer;
+  answer.campaign = campaign.name;
+  answer.soil = campaign.soil;
+  const Observations observations = observe(campaign);
+  if (too_small(campaign, observations, answer.reason)) return answer;
+  answer.details = identify(campaign, observations, options.identify);
+  const Identification& id = answer.details;
+  answer.outliers = static_cast<int>(std::count(id.outlier.begin(), id.outlier.end(), true));
+  answer.not_testable = not_testable(campaign, id);
+  const Eigen::Index cells = static_cast<Eigen::Index>(id.observations.cells.size());
+  answer.before = lack_of_fit(id.base, id.noise, cells);
+  answer.dependences_before = dependences(id.observations, id.base.residual.head(cells), 999, 7);
+  answer.soil = fitted_soil(campaign, WheelPredictor(campaign, id.observations), id.base);
+  if (std::none_of(id.signatures.begin(), id.signatures.end(), [](const Signature& s) { return s.testable; })) {
+    answer.reason = "no effect of the catalogue would show in these data, whatever its size";
+    return answer;
+  }
+  IdentifyOptions inner = options.identify;
+  inner.simulations = std::max(500, inner.simulations / 4);
+  inner.drop_outliers = false;  // set aside once, by the whole
+  if (options.validate) answer.validation = cross_validate(campaign, id, inner, options.folds, options.threads);
+  decide(campaign, answer);
+  if (answer.verdict == Verdict::effect_found || answer.verdict == Verdict::unknown_effect)
+    answer.ambiguity_set = ambiguity(id);
+  if (answer.verdict == Verdict::effect_found) {
+    std::vector<std::size_t> rivals;
+    for (std::size_t i = 0; i < id.weights.size(); ++i)
+      for (const Weighted& w : answer.ambiguity_set)
+        if (w.ids == id.weights[i].ids) rivals.push_back(i);
+    answer.next =
+        next_test(campaign, id, rivals, options.limits.empty() ? limits_of(id.observations) : options.limits);
+  }
+  return answer;
+}
+
+}  // namespace soilbin::compare

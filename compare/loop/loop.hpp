@@ -1,0 +1,58 @@
+// The loop on measured data: residual, cause, effect added, error before and after (docs/loop.md).
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "compare/loop/cross_validation.hpp"
+#include "compare/loop/detection.hpp"
+#include "compare/loop/next_test.hpp"
+
+namespace soilbin::compare {
+
+enum class Verdict { effect_found, nothing_missing, unknown_effect, not_enough_data };
+std::string_view word(Verdict verdict);
+
+struct LoopOptions {
+  IdentifyOptions identify;
+  int folds = 5;
+  int threads = 2;       ///< changes the time, never the answer
+  Limits limits;         ///< of the next test; empty: the campaign's own ranges
+  bool validate = true;  ///< honest errors by cross-validation; without it no effect is accepted
+};
+
+/// An effect that the loop accepts, in the form that fits best.
+struct AcceptedEffect {
+  EffectChoice choice;  ///< with fitted parameters [SI]
+  std::vector<std::string> fitted;        ///< names of the parameters that were fitted
+  std::vector<std::pair<double, double>> ci95;  ///< of each fitted parameter
+  double p_value = 1.0;                   ///< family-wise
+};
+
+struct LoopAnswer {
+  std::string campaign;
+  Verdict verdict = Verdict::not_enough_data;
+  std::string reason;  ///< one plain sentence
+  std::vector<AcceptedEffect> effects;
+  std::vector<Weighted> ambiguity_set;     ///< best first; empty unless effects compete
+  std::vector<std::string> not_testable;
+  std::optional<NextTest> next;
+  CrossValidation validation;
+  LackOfFit before, after;
+  std::vector<Dependence> dependences_before, dependences_after;
+  Identification details;
+  SemiEmpiricalSoil soil;  ///< refitted with the accepted effects, with standard errors
+  int outliers = 0;        ///< cells set aside
+};
+
+/// Runs the loop. Throws InputError for a campaign that can't be used; a campaign too small to say anything is a
+/// verdict, not an error.
+LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options);
+
+/// The answer in the contract's form, soilbin-loop/1.
+nlohmann::ordered_json to_json(const LoopAnswer& answer);
+
+}  // namespace soilbin::compare

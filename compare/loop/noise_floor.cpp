@@ -1,0 +1,294 @@
+#include "compare/loop/noise_floor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace soilbin::compare {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+double ChannelNoise::sd(double prediction) const { return std::hypot(floor, growth * prediction); }
+
+double NoiseFloor::freedom() const {
+  return std::accumulate(channels.begin(), channels.end(), 0.0,
+                         [](double sum, const ChannelNoise& c) { return sum + c.freedom; });
+}
+
+Whitening::Whitening(const Observations& observations, const NoiseFloor& noise, const VectorXd& prediction) {
+  const std::vector<Cell>& cells = observations.cells;
+  for (std::size_t first = 0; first < cells.size();) {
+    std::size_t last = first;
+    while (last < cells.size() && cells[last].row == cells[first].row) ++last;
+    const Index n = static_cast<Index>(last - first);
+    MatrixXd covariance(n, n);
+    for (Index i = 0; i < n; ++i)
+      for (Index j = 0; j < n; ++j) {
+        const Cell &a = cells[first + static_cast<std::size_t>(i)], &b = cells[first + static_cast<std::size_t>(j)];
+        covariance(i, j) = noise.correlation(a.channel, b.channel) *
+                           noise.channels[static_cast<std::size_t>(a.channel)].sd(prediction[static_cast<Index>(first) + i]) *
+                           noise.channels[static_cast<std::size_t>(b.channel)].sd(prediction[static_cast<Index>(first) + j]);
+      }
+    const MatrixXd factor = covariance.llt().matrixL();
+    blocks_.push_back({static_cast<Index>(first),
+                       factor.triangularView<Eigen::Lower>().solve(MatrixXd::Identity(n, n))});
+    first = last;
+  }
+}
+
+MatrixXd Whitening::operator()(const MatrixXd& columns) const {
+  MatrixXd white(columns.rows(), columns.cols());
+  for (const Block& b : blocks_) {
+    const Index n = b.inverse_factor.rows();
+    white.middleRows(b.first, n).noalias() = b.inverse_factor * columns.middleRows(b.first, n);
+  }
+  return white;
+}
+
+VectorXd Whitening::operator()(const VectorXd& column) const {
+  VectorXd white(column.size());
+  for (const Block& b : blocks_) {
+    const Index n = b.inverse_factor.rows();
+    white.segment(b.first, n).noalias() = b.inverse_factor * column.segment(b.first, n);
+  }
+  return white;
+}
+
+namespace {
+
+/// Adds a column scaled to mean 0 and mean square 1, unless it is (nearly) a combination of those there.
+class BasisBuilder {
+ public:
+  BasisBuilder(Index rows, int most) : rows_(rows), most_(most) {}
+  void add(VectorXd column) {
+    if (static_cast<int>(columns_.size()) >= most_) return;
+    column.array() -= column.mean();
+    const double size = std::sqrt(column.squaredNorm() / static_cast<double>(rows_));
+    if (!(size > 1e-9)) return;
+    column /= size;
+    VectorXd rest = column;
+    for (const VectorXd& q : orthonormal_) rest -= q.dot(rest) * q;
+    if (rest.squaredNorm() < 1e-4 * static_cast<double>(rows_)) return;
+    orthonormal_.push_back(rest.normalized());
+    columns_.push_back(std::move(column));
+  }
+  MatrixXd build() const {
+    MatrixXd basis(rows_, static_cast<Index>(columns_.size()));
+    for (std::size_t i = 0; i < columns_.size(); ++i) basis.col(static_cast<Index>(i)) = columns_[i];
+    return basis;
+  }
+
+ private:
+  Index rows_;
+  int most_;
+  std::vector<VectorXd> columns_, orthonormal_;
+};
+
+VectorXd to_unit_interval(const VectorXd& values) {
+  const double low = values.minCoeff(), high = values.maxCoeff();
+  return ((values.array() - low) * (2 / (high - low)) - 1).matrix();
+}
+
+}  // namespace
+
+MatrixXd smooth_basis(const Observations& observations, int max_columns) {
+  BasisBuilder basis(static_cast<Index>(observations.rows.size()), max_columns);
+  std::vector<VectorXd> u;
+  for (const Covariate& c : covariates(observations)) u.push_back(to_unit_interval(c.values));
+  for (const VectorXd& x : u) basis.add(x);
+  if (!u.empty()) basis.add(u[0].array().square());
+  if (!u.empty()) basis.add(u[0].array().cube());
+  for (std::size_t i = 1; i < u.size(); ++i) basis.add(u[0].array() * u[i].array());
+  for (std::size_t i = 1; i < u.size(); ++i) basis.add(u[i].array().square());
+  for (std::size_t i = 2; i < u.size(); ++i) basis.add(u[1].array() * u[i].array());
+  for (std::size_t i = 1; i < u.size(); ++i) basis.add(u[0].array().square() * u[i].array());
+  return basis.build();
+}
+
+namespace {
+
+/// Noise + random columns of given variances, for one channel: -2 ln likelihood and what follows from the best fit.
+class VarianceComponents {
+ public:
+  VarianceComponents(const VectorXd& e, const MatrixXd& soil, const MatrixXd& smooth, const VectorXd& shape)
+      : n_(e.size()), soil_(soil.cols()), q_(soil.cols() + smooth.cols()), root_shape_(shape.cwiseSqrt()) {
+    a_.resize(n_, q_);
+    a_ << soil, smooth;
+    a_ = root_shape_.cwiseInverse().asDiagonal() * a_;
+    e_ = e.cwiseQuotient(root_shape_);
+    gram_ = a_.transpose() * a_;
+    projected_ = a_.transpose() * e_;
+    log_shape_ = 2 * root_shape_.array().log().sum();
+  }
+
+  double deviance(double sigma, double tau) const {
+    const VectorXd d = weights(tau);
+    MatrixXd m = d.asDiagonal() * gram_ * d.asDiagonal() / (sigma * sigma);
+    m.diagonal().array() += 1.0;
+    const Eigen::LLT<MatrixXd> llt(m);
+    const VectorXd b = d.cwiseProduct(projected_) / sigma;
+    const double fit = (e_.squaredNorm() - llt.matrixL().solve(b).squaredNorm()) / (sigma * sigma);
+    const double log_det = 2 * llt.matrixLLT().diagonal().array().log().sum();
+    return 2 * static_cast<double>(n_) * std::log(sigma) + log_shape_ + log_det + fit;
+  }
+
+  /// Residual of the smooth fit in units of its own leave-one-out sd, and the trace of the smoother.
+  VectorXd studentized(double sigma, double tau, double& trace, VectorXd& plain) const {
+    const VectorXd d = weights(tau);
+    MatrixXd m = d.asDiagonal() * gram_ * d.asDiagonal() / (sigma * sigma);
+    m.diagonal().array() += 1.0;
+    const Eigen::LLT<MatrixXd> llt(m);
+    const MatrixXd scaled = a_ * d.asDiagonal() / sigma;  // n x q
+    const MatrixXd half = llt.matrixL().solve(scaled.transpose());  // q x n; smoother = half' half
+    plain = e_ - half.transpose() * (half * e_);
+    const VectorXd leverage = half.colwise().squaredNorm();
+    trace = leverage.sum();
+    const VectorXd room = (1 - leverage.array()).max(0.02);
+    VectorXd score = plain.array() / (sigma * room.array());  // leave-one-out residual times sqrt(1 - h)
+    score.array() *= room.array().sqrt();
+    plain = plain.cwiseProduct(root_shape_);
+    return score;
+  }
+
+ private:
+  VectorXd weights(double tau) const {
+    VectorXd d = VectorXd::Ones(q_);
+    d.tail(q_ - soil_).setConstant(tau);
+    return d;
+  }
+
+  Index n_, soil_, q_;
+  VectorXd root_shape_, e_, projected_;
+  MatrixXd a_, gram_;
+  double log_shape_ = 0.0;
+};
+
+struct ChannelFit {
+  ChannelNoise noise;
+  VectorXd score, plain;
+};
+
+/// Cells of one channel, gathered.
+struct ChannelCells {
+  std::vector<Index> cell;
+  std::vector<int> row;
+};
+
+ChannelCells gather(const Observations& observations, int channel) {
+  ChannelCells found;
+  for (std::size_t i = 0; i < observations.cells.size(); ++i)
+    if (observations.cells[i].channel == channel) {
+      found.cell.push_back(static_cast<Index>(i));
+      found.row.push_back(observations.cells[i].row);
+    }
+  return found;
+}
+
+double pooled_rerun_sd(const Observations& observations, const ChannelCells& cells, const VectorXd& residual) {
+  std::vector<double> sum(static_cast<std::size_t>(observations.conditions)), count(sum.size());
+  for (std::size_t i = 0; i < cells.cell.size(); ++i) {
+    const auto c = static_cast<std::size_t>(observations.condition[static_cast<std::size_t>(cells.row[i])]);
+    sum[c] += residual[cells.cell[i]], count[c] += 1;
+  }
+  double squares = 0.0, freedom = 0.0;
+  for (std::size_t i = 0; i < cells.cell.size(); ++i) {
+    const auto c = static_cast<std::size_t>(observations.condition[static_cast<std::size_t>(cells.row[i])]);
+    squares += std::pow(residual[cells.cell[i]] - sum[c] / count[c], 2);
+  }
+  for (const double n : count) freedom += std::max(0.0, n - 1);
+  return freedom > 0 ? std::sqrt(squares / freedom) : 0.0;
+}
+
+/// Median of the noise's prior: 2 % of the predictions' range; where the model predicts next to nothing (a lateral force
+/// without yaw), the spread of the residuals.
+double typical_noise(const VectorXd& residual, const VectorXd& prediction) {
+  const double range =
+      std::max(prediction.maxCoeff() - prediction.minCoeff(), 0.2 * prediction.cwiseAbs().maxCoeff());
+  const double spread = std::sqrt(residual.squaredNorm() / static_cast<double>(residual.size()));
+  return std::max(spread > range ? spread : 0.02 * range, 1e-12);
+}
+
+ChannelFit fit_channel(const Observations& observations, const NoiseData& data, const MatrixXd& basis, int channel) {
+  const ChannelCells cells = gather(observations, channel);
+  const Index n = static_cast<Index>(cells.cell.size());
+  const int columns = static_cast<int>(std::clamp<Index>(n / 3, 1, basis.cols() + 1));
+  VectorXd e(n), f(n);
+  MatrixXd soil(n, data.soil_columns.cols()), smooth(n, columns);
+  for (Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    e[i] = data.residual[cells.cell[k]];
+    f[i] = data.prediction[cells.cell[k]];
+    soil.row(i) = data.soil_columns.row(cells.cell[k]);
+    smooth(i, 0) = 1.0;
+    for (int c = 1; c < columns; ++c) smooth(i, c) = basis(cells.row[k], c - 1);
+  }
+  const double typical = typical_noise(e, f), mean_square = f.squaredNorm() / static_cast<double>(n);
+  double best = std::numeric_limits<double>::infinity(), sigma = typical, tau = 0.0, share = 0.0;
+  const std::vector<double> shares = n >= 30 && mean_square > 0 ? std::vector<double>{0.0, 0.5, 1.0} : std::vector<double>{0.0};
+  const auto shape_of = [&](double w) -> VectorXd {
+    return (1 - w) + w * (0.02 + 0.98 * f.array().square() / std::max(mean_square, 1e-300));
+  };
+  for (const double w : shares) {
+    const VarianceComponents model(e, soil, smooth, shape_of(w));
+    for (int i = -32; i <= 20; ++i)
+      for (const double ratio : {0.0, 0.3, 1.0, 3.0, 10.0, 40.0}) {
+        const double s = typical * std::exp(0.12 * i);
+        const double deviance = model.deviance(s, ratio * s) + std::pow(0.12 * i, 2) + 1.0 * w;
+        if (deviance < best) best = deviance, sigma = s, tau = ratio * s, share = w;
+      }
+  }
+  ChannelFit fit;
+  double trace = 0.0;
+  fit.score = VarianceComponents(e, soil, smooth, shape_of(share)).studentized(sigma, tau, trace, fit.plain);
+  fit.noise = {.measured = true,
+               .floor = sigma * std::sqrt(1 - 0.98 * share),
+               .growth = share > 0 ? sigma * std::sqrt(0.98 * share / mean_square) : 0.0,
+               .freedom = std::max(1.0, static_cast<double>(n) - trace),
+               .rerun_sd = pooled_rerun_sd(observations, cells, data.residual)};
+  return fit;
+}
+
+}  // namespace
+
+NoiseEstimate estimate_noise(const Observations& observations, const NoiseData& data) {
+  NoiseEstimate estimate;
+  estimate.floor.rerun_freedom = observations.rerun_freedom();
+  estimate.outlier_score.assign(observations.cells.size(), 0.0);
+  const MatrixXd basis = smooth_basis(observations, 40);
+  const Index rows = static_cast<Index>(observations.rows.size());
+  MatrixXd standard = MatrixXd::Constant(rows, channel_count, std::numeric_limits<double>::quiet_NaN());
+  for (int channel = 0; channel < channel_count; ++channel) {
+    const ChannelCells cells = gather(observations, channel);
+    if (cells.cell.size() < 3) continue;
+    const ChannelFit fit = fit_channel(observations, data, basis, channel);
+    estimate.floor.channels[static_cast<std::size_t>(channel)] = fit.noise;
+    for (std::size_t i = 0; i < cells.cell.size(); ++i) {
+      const Index k = static_cast<Index>(i);
+      estimate.outlier_score[static_cast<std::size_t>(cells.cell[i])] = std::abs(fit.score[k]);
+      standard(cells.row[i], channel) = fit.plain[k] / fit.noise.sd(data.prediction[cells.cell[i]]);
+    }
+  }
+  for (int a = 0; a < channel_count; ++a)
+    for (int b = 0; b < a; ++b) {
+      double ab = 0, aa = 0, bb = 0, n = 0;
+      for (Index i = 0; i < rows; ++i) {
+        const double x = standard(i, a), y = standard(i, b);
+        if (!std::isfinite(x) || !std::isfinite(y)) continue;
+        ab += x * y, aa += x * x, bb += y * y, n += 1;
+      }
+      const double shrink = n / (n + 10);  // toward independence, where few runs tell
+      const double rho = aa > 0 && bb > 0 ? std::clamp(shrink * ab / std::sqrt(aa * bb), -0.9, 0.9) : 0.0;
+      estimate.floor.correlation(a, b) = estimate.floor.correlation(b, a) = rho;
+    }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(estimate.floor.correlation);
+  if (eigen.eigenvalues()[0] < 0.05) {  // keep it a correlation matrix
+    estimate.floor.correlation *= 0.7;
+    estimate.floor.correlation.diagonal().setOnes();
+  }
+  return estimate;
+}
+
+}  // namespace soilbin::compare

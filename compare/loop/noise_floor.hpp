@@ -1,0 +1,66 @@
+// The noise of each channel, from what no smooth function of the conditions explains.
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <vector>
+
+#include "compare/loop/observations.hpp"
+
+namespace soilbin::compare {
+
+/// Standard deviation of a channel's noise, sqrt(a^2 + b^2 f^2) at prediction f, and what it rests on.
+struct ChannelNoise {
+  bool measured = false;  ///< the campaign holds this channel
+  double floor = 0.0;     ///< a, in the channel's unit
+  double growth = 0.0;    ///< b [-]
+  double freedom = 0.0;   ///< degrees of freedom behind the estimate
+  double rerun_sd = 0.0;  ///< pooled standard deviation within re-run setpoints alone; 0 without re-runs
+  double sd(double prediction) const;
+};
+
+struct NoiseFloor {
+  std::array<ChannelNoise, channel_count> channels;
+  Eigen::Matrix4d correlation = Eigen::Matrix4d::Identity();  ///< between channels of one run
+  int rerun_freedom = 0;  ///< rows that repeat a setpoint
+  double freedom() const;  ///< of all channels together
+};
+
+/// Removes the noise's scale and correlation: L^-1 with L L' = covariance of one row's cells, row by row.
+class Whitening {
+ public:
+  Whitening(const Observations& observations, const NoiseFloor& noise, const Eigen::VectorXd& prediction);
+  Eigen::MatrixXd operator()(const Eigen::MatrixXd& columns) const;
+  Eigen::VectorXd operator()(const Eigen::VectorXd& column) const;
+
+ private:
+  struct Block {
+    Eigen::Index first;
+    Eigen::MatrixXd inverse_factor;
+  };
+  std::vector<Block> blocks_;
+};
+
+/// Smooth functions of the covariates over the rows, each of mean 0 and mean square 1, the plainest first: linear
+/// terms, powers of slip, products with slip and load, squares. At most max_columns.
+Eigen::MatrixXd smooth_basis(const Observations& observations, int max_columns);
+
+/// What a noise estimate starts from: the cells' residuals about the declared soil's linearised prediction,
+/// e = y - f + J (theta - prior), their predictions, and the soil's columns in units of the priors' sd.
+struct NoiseData {
+  Eigen::VectorXd residual;
+  Eigen::VectorXd prediction;
+  Eigen::MatrixXd soil_columns;
+};
+
+struct NoiseEstimate {
+  NoiseFloor floor;
+  std::vector<double> outlier_score;  ///< of each cell: |residual| of the smooth fit in sd of its own, leave-one-out
+};
+
+/// Maximum likelihood of noise + soil values within their priors + a smooth function of the conditions of unknown size
+/// (a variance-component model, as in Patterson and Thompson 1971), channel by channel, with a weak prior on the noise
+/// (median 2 % of the channel's range, a factor e each way). Re-runs count by having the same smooth function.
+NoiseEstimate estimate_noise(const Observations& observations, const NoiseData& data);
+
+}  // namespace soilbin::compare

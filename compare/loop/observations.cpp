@@ -1,0 +1,108 @@
+#include "compare/loop/observations.hpp"
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <tuple>
+
+namespace soilbin::compare {
+
+Eigen::VectorXd Observations::values() const {
+  Eigen::VectorXd y(static_cast<Eigen::Index>(cells.size()));
+  for (std::size_t i = 0; i < cells.size(); ++i) y[static_cast<Eigen::Index>(i)] = cells[i].value;
+  return y;
+}
+
+int Observations::rerun_freedom() const { return static_cast<int>(rows.size()) - conditions; }
+
+namespace {
+
+/// What makes two unlabelled runs re-runs of one setpoint: every stated condition, to the digit.
+auto fingerprint(const OperatingCondition& at) {
+  return std::make_tuple(at.load, at.slip, at.speed, at.longitudinal_incline, at.transverse_incline, at.yaw, at.pass,
+                         at.moisture.value_or(0.0), at.position.value_or(0.0));
+}
+
+std::array<std::optional<double>, channel_count> channels(const Run& run) {
+  return {run.drawbar_pull, run.torque, run.sinkage, run.lateral_force};
+}
+
+}  // namespace
+
+Observations observe(const Campaign& campaign) {
+  Observations all;
+  std::map<std::string, int> by_label;
+  std::map<decltype(fingerprint(std::declval<const OperatingCondition&>())), int> by_values;
+  for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
+    const Run& run = campaign.runs[i];
+    const int next = all.conditions;
+    const int condition = run.setpoint ? by_label.emplace(*run.setpoint, next).first->second
+                                       : by_values.emplace(fingerprint(run.at), next).first->second;
+    if (condition == next) ++all.conditions;
+    const int row = static_cast<int>(all.rows.size());
+    all.rows.push_back(run.at);
+    all.condition.push_back(condition);
+    all.source_row.push_back(static_cast<int>(i));
+    const auto values = channels(run);
+    for (int c = 0; c < channel_count; ++c)
+      if (const auto& value = values[static_cast<std::size_t>(c)]) all.cells.push_back({row, c, *value});
+  }
+  return all;
+}
+
+Observations of_conditions(const Observations& all, const std::vector<bool>& keep) {
+  Observations part;
+  std::vector<int> renumbered(keep.size(), -1), new_row(all.rows.size(), -1);
+  for (std::size_t c = 0; c < keep.size(); ++c)
+    if (keep[c]) renumbered[c] = part.conditions++;
+  for (std::size_t i = 0; i < all.rows.size(); ++i) {
+    const int condition = renumbered[static_cast<std::size_t>(all.condition[i])];
+    if (condition < 0) continue;
+    new_row[i] = static_cast<int>(part.rows.size());
+    part.rows.push_back(all.rows[i]);
+    part.condition.push_back(condition);
+    part.source_row.push_back(all.source_row[i]);
+  }
+  for (const Cell& cell : all.cells)
+    if (const int row = new_row[static_cast<std::size_t>(cell.row)]; row >= 0)
+      part.cells.push_back({row, cell.channel, cell.value});
+  return part;
+}
+
+Observations without_cells(const Observations& all, const std::vector<bool>& drop) {
+  Observations part = all;
+  part.cells.clear();
+  for (std::size_t i = 0; i < all.cells.size(); ++i)
+    if (!drop[i]) part.cells.push_back(all.cells[i]);
+  return part;
+}
+
+std::vector<Covariate> covariates(const Observations& observations) {
+  using Getter = double (*)(const OperatingCondition&);
+  static constexpr double absent = std::numeric_limits<double>::quiet_NaN();
+  const std::pair<const char*, Getter> getters[] = {
+      {"slip", [](const OperatingCondition& at) { return at.slip; }},
+      {"load", [](const OperatingCondition& at) { return at.load; }},
+      {"pass", [](const OperatingCondition& at) { return static_cast<double>(at.pass); }},
+      {"yaw", [](const OperatingCondition& at) { return at.yaw; }},
+      {"longitudinal_incline", [](const OperatingCondition& at) { return at.longitudinal_incline; }},
+      {"transverse_incline", [](const OperatingCondition& at) { return at.transverse_incline; }},
+      {"speed", [](const OperatingCondition& at) { return at.speed; }},
+      {"position", [](const OperatingCondition& at) { return at.position.value_or(absent); }},
+      {"moisture", [](const OperatingCondition& at) { return at.moisture.value_or(absent); }},
+      {"run", [](const OperatingCondition& at) { return at.run ? static_cast<double>(*at.run) : absent; }},
+  };
+  std::vector<Covariate> varying;
+  for (const auto& [name, get] : getters) {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(observations.rows.size()));
+    for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = get(observations.rows[static_cast<std::size_t>(i)]);
+    if (values.size() == 0 || !values.allFinite()) continue;
+    const double spread = values.maxCoeff() - values.minCoeff();
+    const double scale = values.cwiseAbs().maxCoeff();
+    if (spread > 1e-3 * scale) varying.push_back({name, std::move(values)});
+  }
+  return varying;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,60 @@
+// A campaign as the loop sees it: rows, cells (one measured channel of one row), conditions, covariates.
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compare/measured/campaign.hpp"
+
+namespace soilbin::compare {
+
+/// The measured channels, in the order of every array over channels.
+enum Channel { drawbar_pull = 0, torque = 1, sinkage = 2, lateral_force = 3 };
+inline constexpr int channel_count = 4;
+inline constexpr std::array<std::string_view, channel_count> channel_names = {"drawbar_pull", "torque", "sinkage",
+                                                                              "lateral_force"};
+inline constexpr std::array<std::string_view, channel_count> channel_units = {"N", "N m", "m", "N"};
+
+/// One measured number.
+struct Cell {
+  int row = 0;      ///< of Observations::rows
+  int channel = 0;  ///< Channel
+  double value = 0.0;
+};
+
+/// What may explain a residual: one column of numbers over the rows, only where it varies.
+struct Covariate {
+  std::string name;
+  Eigen::VectorXd values;  ///< a row each [SI]; standardised copies are made where needed
+};
+
+/// The part of a campaign that a fit looks at.
+struct Observations {
+  std::vector<OperatingCondition> rows;
+  std::vector<int> condition;  ///< of each row: rows of one condition are re-runs of one setpoint
+  std::vector<int> source_row; ///< index into Campaign::runs
+  std::vector<Cell> cells;     ///< ordered by row, then channel
+  int conditions = 0;
+
+  Eigen::VectorXd values() const;
+  /// Rows per condition beyond the first, summed: the degrees of freedom that re-runs alone give.
+  int rerun_freedom() const;
+};
+
+/// All runs of a campaign. Rows share a condition where their setpoint labels agree or, without labels, where every
+/// stated condition agrees.
+Observations observe(const Campaign& campaign);
+
+/// The rows for which keep[condition] holds (conditions keep their numbers' order, renumbered from 0).
+Observations of_conditions(const Observations& all, const std::vector<bool>& keep);
+
+/// Without the cells for which drop holds.
+Observations without_cells(const Observations& all, const std::vector<bool>& drop);
+
+/// Every covariate that takes at least two values: slip, load, speed, pass, position, moisture, run, inclines, yaw.
+std::vector<Covariate> covariates(const Observations& observations);
+
+}  // namespace soilbin::compare

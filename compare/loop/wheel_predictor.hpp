@@ -1,0 +1,75 @@
+// Predictions of every cell of a campaign, and their derivatives, by the Bekker / Wong-Reece wheel with some effects.
+#pragma once
+
+#include <Eigen/Dense>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bekker_wong/effect.hpp"
+#include "compare/loop/observations.hpp"
+
+namespace soilbin::compare {
+
+/// A number that a fit may move. Prior: normal about `prior` with `prior_sd`; infinite sd: none.
+struct FreeParameter {
+  std::string name;
+  double prior = 0.0;
+  double prior_sd = std::numeric_limits<double>::infinity();
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  double scale = 1.0;  ///< typical size of a change [SI]
+};
+
+/// A form of an effect as a term of a model: its amplitude is free, its shape parameters too where they have room,
+/// with a prior about their defaults.
+struct Term {
+  const bekker_wong::EffectForm* form = nullptr;
+  std::vector<double> defaults;  ///< parameters' values to start from [SI], reference values already centred
+  std::vector<int> free;         ///< indices of the parameters that a fit moves; 0 is the amplitude
+};
+
+/// A form with its reference values set to the observations' means (moisture, position, run).
+Term make_term(const bekker_wong::EffectForm& form, const Observations& observations, bool free_shape);
+
+/// What the declared campaign and some terms predict. theta: the soil's free values in the contract's order (those
+/// declared with sd > 0), then each term's free parameters. All const members may be called from any thread.
+class WheelPredictor {
+ public:
+  WheelPredictor(const Campaign& campaign, const Observations& observations, std::vector<Term> terms = {});
+
+  const std::vector<FreeParameter>& parameters() const { return parameters_; }
+  int soil_parameters() const { return static_cast<int>(soil_members_.size()); }
+  const std::vector<Term>& terms() const { return terms_; }
+  /// Index in theta of a term's amplitude.
+  int amplitude_index(int term) const { return first_of_term_[static_cast<std::size_t>(term)]; }
+  Eigen::VectorXd start() const;
+
+  /// Predictions of all cells; false where any row has no balance at theta.
+  bool predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction) const;
+
+  /// Predictions and their Jacobian over theta by implicit differentiation of the balance: at fixed theta_1 the forces
+  /// and the carried load are differenced, then dtheta_1 = -dV/(dV/dtheta_1). False where a row has no balance.
+  bool linearise(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction, Eigen::MatrixXd& jacobian) const;
+
+  /// One condition's four channels at theta. Throws NoSolution.
+  bekker_wong::Reading reading(const Eigen::VectorXd& theta, const OperatingCondition& at) const;
+
+  /// The choices that theta stands for, for a resolved model.
+  std::vector<EffectChoice> choices(const Eigen::VectorXd& theta) const;
+  bekker_wong::SoilValues soil(const Eigen::VectorXd& theta) const;
+
+ private:
+  bekker_wong::EffectList effects(const Eigen::VectorXd& theta) const;
+  std::vector<double> term_values(std::size_t term, const Eigen::VectorXd& theta) const;
+
+  const Campaign* campaign_;
+  const Observations* observations_;
+  std::vector<Term> terms_;
+  std::vector<FreeParameter> parameters_;
+  std::vector<double bekker_wong::SoilValues::*> soil_members_;
+  std::vector<int> first_of_term_;
+  bekker_wong::EffectList declared_;
+};
+
+}  // namespace soilbin::compare

@@ -1,0 +1,192 @@
+#include "compare/measured/campaign.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+
+#include "compare/measured/csv.hpp"
+#include "compare/measured/run_columns.hpp"
+#include "scenario/atomic_file.hpp"
+#include "scenario/effect_choices.hpp"
+#include "scenario/mapping_reader.hpp"
+#include "scenario/mapping_writer.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The `columns:` of a campaign: header -> what stands below it, and where that was said.
+struct Renamed {
+  ColumnChoice choice;
+  const YamlNode* node = nullptr;
+  bool used = false;
+};
+using Renames = std::map<std::string, Renamed>;
+
+Renamed read_rename(const YamlNode& node, const Reading& reading) {
+  expect_keys(node, {"quantity", "unit"}, reading);
+  std::vector<std::string> quantities;
+  for (const RunColumn& column : run_columns()) quantities.push_back(column.quantity);
+  const YamlNode& quantity = *value_of(node, "quantity", Need::required, "what the column holds", reading);
+  const RunColumn& column = run_columns()[read_word(quantity, quantities, reading)];
+  const bool plain = column.measure.unit == "-";
+  const YamlNode* unit = value_of(node, "unit", plain ? Need::optional : Need::required,
+                                  fmt::format("of {}, such as '{}'", column.quantity, column.measure.unit), reading);
+  Renamed renamed{{&column, column.measure.unit}, &node};
+  if (unit == nullptr) return renamed;
+  if (column.content != RunColumn::Content::number)
+    reading.refuse(*unit, fmt::format("'{}' has no unit", column.quantity));
+  renamed.choice.unit = read_text(*unit, reading);
+  const Unit expected = parse_unit(column.measure.unit);
+  try {
+    const Unit written = parse_unit(renamed.choice.unit);
+    if (!same_dimension(written.dimension, expected.dimension))
+      reading.refuse(*unit,
+                     fmt::format("the unit of '{}' must be that of {}, such as '{}'; '{}' is {}", column.quantity,
+                                 dimension_name(expected), expected.text, written.text, dimension_name(written)));
+  } catch (const InputError& error) {
+    if (error.position().line > 0) throw;
+    reading.refuse(*unit, error.what());
+  }
+  return renamed;
+}
+
+Renames read_renames(const YamlNode* columns, const Reading& reading) {
+  Renames renames;
+  if (columns == nullptr) return renames;
+  if (!columns->is_mapping())
+    reading.refuse(*columns, "expected a mapping of column names, not " + columns->kind_name());
+  for (std::size_t i = 0; i + 1 < columns->items.size(); i += 2)
+    renames[columns->items[i].scalar] = read_rename(columns->items[i + 1], reading);
+  return renames;
+}
+
+ColumnChoice choose_column(const CsvCell& header, Renames& renames, const SourceText& csv) {
+  if (const auto renamed = renames.find(header.text); renamed != renames.end()) {
+    renamed->second.used = true;
+    return renamed->second.choice;
+  }
+  std::vector<std::string> right;
+  for (const RunColumn& column : run_columns()) {
+    if (column.canonical == header.text) return {&column, column.measure.unit};
+    right.push_back(column.canonical);
+  }
+  for (const auto& [name, renamed] : renames) right.push_back(name);
+  csv.refuse(header.offset,
+             fmt::format("unknown column '{}'{}", clipped(header.text), did_you_mean(header.text, right)),
+             "columns: " + listed(right) + "; others are named in campaign.yaml under 'columns'");
+}
+
+std::vector<ColumnChoice> choose_columns(const CsvTable& table, Renames& renames, const SourceText& csv) {
+  std::vector<ColumnChoice> choices;
+  for (const CsvCell& header : table.header.cells) {
+    const ColumnChoice choice = choose_column(header, renames, csv);
+    for (std::size_t i = 0; i < choices.size(); ++i)
+      if (choices[i].column == choice.column)
+        csv.refuse(header.offset,
+                   fmt::format("columns '{}' and '{}' both hold '{}'", clipped(table.header.cells[i].text),
+                               clipped(header.text), choice.column->quantity));
+    choices.push_back(choice);
+  }
+  const auto present = [&](const RunColumn& column) {
+    return std::any_of(choices.begin(), choices.end(), [&](const ColumnChoice& c) { return c.column == &column; });
+  };
+  const CsvCell& first = table.header.cells.front();
+  for (const RunColumn& column : run_columns())
+    if (column.required && !present(column))
+      csv.refuse(first.offset, fmt::format("column '{}' is missing", column.canonical));
+  if (std::none_of(choices.begin(), choices.end(), [](const ColumnChoice& c) { return c.column->channel; }))
+    csv.refuse(first.offset, "no measured channel",
+               "one of drawbar_pull_N, torque_Nm, sinkage_m, lateral_force_N is needed");
+  return choices;
+}
+
+void check_amount(const Campaign& campaign, const SourceText& csv) {
+  const auto rows = std::count_if(campaign.runs.begin(), campaign.runs.end(), has_channel);
+  if (rows == 0) csv.refuse(0, "no measured channel: no row holds a measured value");
+  const int parameters = free_parameters(campaign.soil);
+  if (rows < parameters)
+    csv.refuse(0,
+               fmt::format("{} rows with a measured value are fewer than the {} free parameters of the soil", rows,
+                           parameters),
+               "a soil value is free where it has an sd above 0");
+}
+
+void read_model(const YamlNode* model, Campaign& campaign, const EffectVocabulary& effects, Reading reading) {
+  if (model == nullptr) return;
+  expect_keys(*model, {"effects"}, reading);
+  reading.n = campaign.soil.exponent.value;
+  if (const YamlNode* list = value_of(*model, "effects", Need::optional, "list of ids; [] for none", reading))
+    campaign.effects = read_effects(*list, effects, reading);
+}
+
+std::string campaign_yaml(const Campaign& campaign, const EffectVocabulary& effects) {
+  YamlLines lines;
+  lines.value("format", campaign_format);
+  Writing writing{&lines, std::nullopt, nullptr, ""};
+  write_members(campaign, writing);
+  lines.open("model");
+  write_effects(campaign.effects, effects, campaign.soil.exponent.value, lines);
+  lines.close();
+  return lines.text();
+}
+
+}  // namespace
+
+Scenario scenario_of(const Campaign& campaign) {
+  Scenario scenario;
+  scenario.tire = campaign.wheel;
+  scenario.soil.name = campaign.name;
+  scenario.soil.semi_empirical = campaign.soil;
+  scenario.bin = campaign.bin;
+  scenario.effects = campaign.effects;
+  return scenario;
+}
+
+int free_parameters(const SemiEmpiricalSoil& soil) {
+  const auto values = {soil.exponent,       soil.k_c,           soil.k_phi,           soil.cohesion,
+                       soil.friction_angle, soil.shear_modulus, soil.stress_angle_c1, soil.stress_angle_c2};
+  return static_cast<int>(
+      std::count_if(values.begin(), values.end(), [](const Estimate& e) { return e.std_error > 0.0; }));
+}
+
+Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(const std::string&)>& open,
+                        const EffectVocabulary& effects) {
+  const YamlNode document = parse_yaml(yaml);
+  const Reading reading{&yaml, std::nullopt, nullptr, ""};
+  expect_format(document, campaign_format, reading);
+  Campaign campaign = read_mapping<Campaign>(document, reading, {"format", "model", "columns"});
+  read_model(value_of(document, "model", Need::optional, "{effects: []}", reading), campaign, effects, reading);
+  Renames renames =
+      read_renames(value_of(document, "columns", Need::optional, "names and units; {} for none", reading), reading);
+  const SourceText csv = open(campaign.data);
+  const CsvTable table = parse_csv(csv);
+  const std::vector<ColumnChoice> columns = choose_columns(table, renames, csv);
+  for (const auto& [name, renamed] : renames)
+    if (!renamed.used) reading.refuse(*renamed.node, fmt::format("'{}' has no column '{}'", csv.file, clipped(name)));
+  campaign.runs = read_runs(table, columns, csv);
+  for (Run& run : campaign.runs) {
+    run.at.slip_by = campaign.slip_by;
+    run.at.force_frame = campaign.force_frame;
+  }
+  check_amount(campaign, csv);
+  return campaign;
+}
+
+Campaign read_campaign(const fs::path& path, const EffectVocabulary& effects) {
+  std::error_code error;
+  const fs::path file = fs::is_directory(path, error) ? path / "campaign.yaml" : path;
+  const auto open = [&](const std::string& name) { return read_source_text(file.parent_path() / name, largest_csv); };
+  return parse_campaign(read_source_text(file, largest_yaml), open, effects);
+}
+
+void write_campaign(const fs::path& folder, const Campaign& campaign, const EffectVocabulary& effects) {
+  fs::create_directories(folder);
+  write_file_atomically(folder / campaign.data, write_runs(campaign.runs));
+  write_file_atomically(folder / "campaign.yaml", campaign_yaml(campaign, effects));
+}
+
+}  // namespace soilbin::compare

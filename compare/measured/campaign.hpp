@@ -1,0 +1,74 @@
+// A measured campaign: campaign.yaml and a CSV of runs (docs/campaigns.md tells the contract).
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/description.hpp"
+#include "scenario/effect_vocabulary.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/source_text.hpp"
+
+namespace soilbin::compare {
+
+/// The steady-state mean of one independent run.
+struct Run {
+  OperatingCondition at;                ///< slip_by and force_frame are the campaign's
+  std::optional<std::string> setpoint;  ///< runs with the same label are re-runs of one setpoint
+  std::optional<double> drawbar_pull;   ///< [N]
+  std::optional<double> torque;         ///< [N m]
+  std::optional<double> sinkage;        ///< [m]
+  std::optional<double> lateral_force;  ///< [N]
+  int csv_line = 0;
+};
+
+inline bool has_channel(const Run& run) { return run.drawbar_pull || run.torque || run.sinkage || run.lateral_force; }
+
+/// What was measured, and what is known beforehand.
+struct Campaign {
+  std::string name;
+  Tire wheel;
+  SemiEmpiricalSoil soil;  ///< std_error: what plate and shear tests leave open; 0: taken as exact
+  std::optional<Bin> bin;
+  std::vector<EffectChoice> effects;  ///< already in the analyst's model
+  std::string data = "runs.csv";
+  ForceFrame force_frame = ForceFrame::travel;
+  SlipBy slip_by = SlipBy::wheel_plane_speed;
+  std::vector<Run> runs;
+};
+
+inline constexpr const char* campaign_format = "soilbin-campaign/1";
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<Campaign>) {
+  v.text("name", &Campaign::name, Need::required, "what to call the campaign");
+  v.group("wheel", &Campaign::wheel, Need::required, "radius, width and, where there are any, lugs");
+  v.group("soil", &Campaign::soil, Need::required, "what plate and shear tests say: value and sd");
+  v.group("bin", &Campaign::bin, Need::optional, "inner measures of the soil bin");
+  v.text("data", &Campaign::data, Need::optional, "the CSV of the runs, beside campaign.yaml");
+  v.choice("force_frame", &Campaign::force_frame, Need::optional, "axes of drawbar pull and lateral force");
+  v.choice("slip_by", &Campaign::slip_by, Need::optional, "the speed from which slip was computed");
+}
+
+/// The wheel and soil of a campaign as a scenario for a model.
+Scenario scenario_of(const Campaign& campaign);
+
+/// Soil values that a fit may move: those with sd > 0, of the eight of the semi-empirical model.
+int free_parameters(const SemiEmpiricalSoil& soil);
+
+/// Reads a campaign: its folder or its campaign.yaml. Throws InputError with file, line, column and the nearest right
+/// word for everything that the contract refuses.
+Campaign read_campaign(const std::filesystem::path& path, const EffectVocabulary& effects);
+
+/// The same from texts in memory; `open` supplies the data file by the name that stands in the YAML.
+Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(const std::string&)>& open,
+                        const EffectVocabulary& effects);
+
+/// Writes campaign.yaml and the data file into a folder (made where it is missing). Reading them gives the same
+/// campaign; an angle may differ in the last bit. Throws std::runtime_error where a file can't be written.
+void write_campaign(const std::filesystem::path& folder, const Campaign& campaign, const EffectVocabulary& effects);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,131 @@
+#include "compare/measured/csv.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+namespace soilbin::compare {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+/// Reads rows one after the other.
+class CsvReader {
+ public:
+  explicit CsvReader(const SourceText& source) : source_(source), text_(source.text) {}
+
+  bool at_end() const { return at_ >= text_.size(); }
+
+  /// The next row that is not blank; false at the end.
+  bool next(CsvRow& row, std::size_t most_cells) {
+    do {
+      if (at_end()) return false;
+      row = {};
+      row.line = line_;
+      read_row(row, most_cells);
+    } while (row.cells.size() == 1 && row.cells.front().text.empty());
+    return true;
+  }
+
+ private:
+  void read_row(CsvRow& row, std::size_t most_cells) {
+    while (true) {
+      if (row.cells.size() >= most_cells)
+        source_.refuse(at_, fmt::format("more cells in a row than the {} expected", most_cells));
+      row.cells.push_back(read_cell());
+      if (at_end()) return;
+      if (text_[at_] == ',') {
+        ++at_;
+        continue;
+      }
+      end_line();
+      return;
+    }
+  }
+
+  CsvCell read_cell() {
+    while (!at_end() && is_blank(text_[at_])) ++at_;
+    CsvCell cell{"", at_};
+    if (!at_end() && text_[at_] == '"') {
+      read_quoted(cell);
+    } else {
+      const std::size_t begin = at_;
+      while (!at_end() && !ends_cell(text_[at_])) ++at_;
+      cell.text = text_.substr(begin, at_ - begin);
+      while (!cell.text.empty() && is_blank(cell.text.back())) cell.text.pop_back();
+    }
+    return cell;
+  }
+
+  void read_quoted(CsvCell& cell) {
+    ++at_;
+    while (true) {
+      if (at_end()) source_.refuse(cell.offset, "a quote is opened here and never closed");
+      const char c = text_[at_++];
+      if (c == '\n') ++line_;
+      if (c != '"') {
+        cell.text += c;
+      } else if (!at_end() && text_[at_] == '"') {
+        cell.text += text_[at_++];
+      } else {
+        break;
+      }
+    }
+    while (!at_end() && is_blank(text_[at_])) ++at_;
+    if (!at_end() && !ends_cell(text_[at_])) source_.refuse(at_, "text behind a closing quote");
+  }
+
+  static bool ends_cell(char c) { return c == ',' || c == '\n' || c == '\r'; }
+
+  void end_line() {
+    if (text_[at_] == '\r') ++at_;
+    if (!at_end() && text_[at_] == '\n') ++at_;
+    ++line_;
+  }
+
+  const SourceText& source_;
+  std::string_view text_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+};
+
+void check_header(const CsvRow& header, const SourceText& source) {
+  std::set<std::string_view> seen;
+  for (const CsvCell& cell : header.cells) {
+    if (cell.text.empty()) source.refuse(cell.offset, "a column without a name");
+    if (!seen.insert(cell.text).second)
+      source.refuse(cell.offset, fmt::format("column '{}' appears twice", clipped(cell.text)));
+  }
+}
+
+}  // namespace
+
+CsvTable parse_csv(const SourceText& source) {
+  CsvReader reader(source);
+  CsvTable table;
+  if (!reader.next(table.header, most_csv_columns)) source.refuse(0, "the file is empty: a header line is expected");
+  check_header(table.header, source);
+  const std::size_t columns = table.header.cells.size();
+  CsvRow row;
+  while (reader.next(row, columns)) {
+    if (row.cells.size() != columns)
+      source.refuse(row.cells.front().offset,
+                    fmt::format("a row of {} cells under a header of {}", row.cells.size(), columns));
+    if (table.rows.size() >= most_csv_rows)
+      source.refuse(row.cells.front().offset, fmt::format("more than {} rows", most_csv_rows));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string csv_cell(const std::string& text) {
+  const bool edge_blank = !text.empty() && (is_blank(text.front()) || is_blank(text.back()));
+  if (!edge_blank && text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace soilbin::compare

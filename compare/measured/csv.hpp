@@ -1,0 +1,39 @@
+// Comma-separated text as a table whose cells know their places (RFC 4180: quotes, CRLF; blank lines are skipped).
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "scenario/source_text.hpp"
+
+namespace soilbin::compare {
+
+struct CsvCell {
+  std::string text;        ///< without quotes and the blanks around it
+  std::size_t offset = 0;  ///< of its first byte in the source
+};
+
+struct CsvRow {
+  std::vector<CsvCell> cells;
+  int line = 0;  ///< from 1
+};
+
+struct CsvTable {
+  CsvRow header;
+  std::vector<CsvRow> rows;  ///< each with as many cells as the header
+};
+
+inline constexpr std::size_t largest_csv = 1U << 24U;  ///< [bytes]
+inline constexpr std::size_t most_csv_rows = 100'000;
+inline constexpr std::size_t most_csv_columns = 200;
+
+/// Throws InputError with line and column for a quote that is never closed, text behind a closing quote, a row with
+/// more or fewer cells than the header, an empty or repeated name in the header, no header at all, and too many rows
+/// or columns.
+CsvTable parse_csv(const SourceText& source);
+
+/// A text as a cell: quoted where it must be.
+std::string csv_cell(const std::string& text);
+
+}  // namespace soilbin::compare

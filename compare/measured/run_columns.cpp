@@ -1,0 +1,167 @@
+#include "compare/measured/run_columns.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace soilbin::compare {
+namespace {
+
+using Content = RunColumn::Content;
+using C = OperatingCondition;
+
+/// A condition whose default is not worth a column.
+RunColumn condition(std::string quantity, std::string canonical, Measure measure, double C::*member) {
+  return {.quantity = std::move(quantity),
+          .canonical = std::move(canonical),
+          .measure = std::move(measure),
+          .set = [member](Run& run, double x) { run.at.*member = x; },
+          .get = [member](const Run& run) { return std::optional(run.at.*member); }};
+}
+
+RunColumn condition(std::string quantity, std::string canonical, Measure measure, std::optional<double> C::*member) {
+  return {.quantity = std::move(quantity),
+          .canonical = std::move(canonical),
+          .measure = std::move(measure),
+          .set = [member](Run& run, double x) { run.at.*member = x; },
+          .get = [member](const Run& run) { return run.at.*member; }};
+}
+
+RunColumn channel(std::string quantity, std::string canonical, std::string unit, std::optional<double> Run::*member) {
+  return {.quantity = std::move(quantity),
+          .canonical = std::move(canonical),
+          .measure = {std::move(unit), any_value},
+          .channel = true,
+          .set = [member](Run& run, double x) { run.*member = x; },
+          .get = [member](const Run& run) { return run.*member; }};
+}
+
+RunColumn order_of_runs() {
+  return {.quantity = "run",
+          .canonical = "run",
+          .content = Content::whole_number,
+          .measure = {"-", zero_or_more},
+          .set = [](Run& run, double x) { run.at.run = static_cast<int>(x); },
+          .get = [](const Run& run) { return run.at.run ? std::optional<double>(*run.at.run) : std::nullopt; }};
+}
+
+RunColumn pass() {
+  return {.quantity = "pass",
+          .canonical = "pass",
+          .content = Content::whole_number,
+          .measure = {"-", {.lower = 1.0}},
+          .set = [](Run& run, double x) { run.at.pass = static_cast<int>(x); },
+          .get = [](const Run& run) { return std::optional<double>(run.at.pass); }};
+}
+
+std::vector<RunColumn> make_columns() {
+  std::vector<RunColumn> all;
+  all.push_back(order_of_runs());
+  all.push_back({.quantity = "setpoint", .canonical = "setpoint", .content = Content::label});
+  all.push_back(condition("load", "load_N", {"N", above_zero}, &C::load));
+  all.back().required = true;
+  all.push_back(condition("slip", "slip", {"-", {.lower = -1.0, .upper = 1.0}}, &C::slip));
+  all.back().required = true;
+  all.push_back(condition("speed", "speed_m_s", {"m/s", zero_or_more}, &C::speed));
+  all.push_back(pass());
+  all.push_back(condition("position", "position_m", {"m", any_value}, &C::position));
+  all.push_back(condition("moisture", "moisture_percent", {"%", fractions}, &C::moisture));
+  all.push_back(
+      condition("longitudinal_incline", "longitudinal_incline_deg", {"deg", inclines}, &C::longitudinal_incline));
+  all.push_back(condition("transverse_incline", "transverse_incline_deg", {"deg", inclines}, &C::transverse_incline));
+  all.push_back(condition("yaw", "yaw_deg", {"deg", yaws}, &C::yaw));
+  all.push_back(channel("drawbar_pull", "drawbar_pull_N", "N", &Run::drawbar_pull));
+  all.push_back(channel("torque", "torque_Nm", "N m", &Run::torque));
+  all.push_back(channel("sinkage", "sinkage_m", "m", &Run::sinkage));
+  all.push_back(channel("lateral_force", "lateral_force_N", "N", &Run::lateral_force));
+  return all;
+}
+
+/// Reads a cell that must hold a bare number, in SI.
+double read_cell(const CsvCell& cell, const std::string& header, const ColumnChoice& choice, const SourceText& source) {
+  const auto refuse = [&](const std::string& why, const std::string& hint = "") {
+    source.refuse(cell.offset, fmt::format("column '{}': {}", clipped(header), why), hint);
+  };
+  if (!read_number(cell.text)) {
+    const bool comma = cell.text.find(',') != std::string::npos;
+    refuse(fmt::format("expected a finite number, not '{}'", clipped(cell.text)),
+           comma ? "a decimal point is '.'" : "the unit stands in the column's name, not in the cell");
+  }
+  double value = 0.0;
+  try {
+    const std::string text = choice.unit == "-" ? cell.text : cell.text + " " + choice.unit;
+    value = read_quantity(text, choice.column->measure);
+  } catch (const InputError& error) {
+    refuse(error.what());
+  }
+  constexpr double largest_whole = 1e9;
+  if (choice.column->content == Content::whole_number && (std::floor(value) != value || value > largest_whole))
+    refuse(fmt::format("expected a whole number, not '{}'", clipped(cell.text)));
+  return value;
+}
+
+std::string cell_text(const RunColumn& column, const Run& run) {
+  if (column.content == Content::label) return csv_cell(run.setpoint.value_or(""));
+  const std::optional<double> value = column.get(run);
+  if (!value) return "";
+  if (column.measure.unit == "-") return write_number(*value);
+  const std::string text = write_quantity(*value, column.measure.unit);
+  if (text.ends_with(" " + column.measure.unit)) return text.substr(0, text.size() - column.measure.unit.size() - 1);
+  const Unit unit = parse_unit(column.measure.unit);
+  return write_number(*value * unit.denominator / unit.numerator / std::pow(10.0, unit.decimal));
+}
+
+/// Whether a column says more than its default does in every run.
+bool worth_writing(const RunColumn& column, const std::vector<Run>& runs) {
+  const Run plain;
+  return column.required || std::any_of(runs.begin(), runs.end(), [&](const Run& run) {
+           return cell_text(column, run) != cell_text(column, plain);
+         });
+}
+
+}  // namespace
+
+const std::vector<RunColumn>& run_columns() {
+  static const std::vector<RunColumn> all = make_columns();
+  return all;
+}
+
+std::vector<Run> read_runs(const CsvTable& table, std::span<const ColumnChoice> columns, const SourceText& source) {
+  std::vector<Run> runs;
+  for (const CsvRow& row : table.rows) {
+    Run run;
+    run.csv_line = row.line;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const CsvCell& cell = row.cells[i];
+      const std::string& header = table.header.cells[i].text;
+      const RunColumn& column = *columns[i].column;
+      if (cell.text.empty()) {
+        if (column.required) source.refuse(cell.offset, fmt::format("column '{}': empty; every run needs it", header));
+      } else if (column.content == Content::label) {
+        run.setpoint = cell.text;
+      } else {
+        column.set(run, read_cell(cell, header, columns[i], source));
+      }
+    }
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+std::string write_runs(const std::vector<Run>& runs) {
+  std::vector<const RunColumn*> columns;
+  for (const RunColumn& column : run_columns())
+    if (worth_writing(column, runs)) columns.push_back(&column);
+  std::string text;
+  for (const RunColumn* column : columns) text += (text.empty() ? "" : ",") + column->canonical;
+  text += "\n";
+  for (const Run& run : runs) {
+    std::string line;
+    for (const RunColumn* column : columns) line += (column == columns.front() ? "" : ",") + cell_text(*column, run);
+    text += line + "\n";
+  }
+  return text;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,44 @@
+// The columns of a campaign's CSV: what each measures, and how a cell becomes a member of a Run.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compare/measured/campaign.hpp"
+#include "compare/measured/csv.hpp"
+#include "scenario/quantity.hpp"
+
+namespace soilbin::compare {
+
+/// A quantity that a column can hold.
+struct RunColumn {
+  enum class Content { number, whole_number, label };
+  std::string quantity;   ///< as `columns:` names it: "drawbar_pull"
+  std::string canonical;  ///< the header without any `columns:`: "drawbar_pull_N"
+  Content content = Content::number;
+  Measure measure{};                                       ///< unit of the canonical column, range
+  bool required = false;                                   ///< the column, and a value in every row
+  bool channel = false;                                    ///< measured, not set
+  std::function<void(Run&, double)> set{};                 ///< SI; empty for labels
+  std::function<std::optional<double>(const Run&)> get{};  ///< what to write; no value: an empty cell
+};
+
+/// Every column of the contract, in its order.
+const std::vector<RunColumn>& run_columns();
+
+/// A column of an actual file.
+struct ColumnChoice {
+  const RunColumn* column = nullptr;
+  std::string unit;  ///< of the numbers in it
+};
+
+/// Turns the table's rows into runs. Throws InputError at the cell for whatever can't be one.
+std::vector<Run> read_runs(const CsvTable& table, std::span<const ColumnChoice> columns, const SourceText& source);
+
+/// The CSV of a campaign, canonical columns, those that hold anything.
+std::string write_runs(const std::vector<Run>& runs);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,20 @@
+// The sheets of plots that studies and campaigns are shown by.
+#pragma once
+
+#include "compare/report/plot.hpp"
+#include "compare/sweep/answers.hpp"
+#include "compare/sweep/prediction.hpp"
+
+namespace soilbin::compare {
+
+/// Drawbar pull, torque, sinkage, tractive efficiency (and the lateral force where there is one) against slip: a colour
+/// for each combination of the other conditions, a dash for each model; with up to three curves also error bands.
+Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study);
+
+/// Each measured channel against slip: measured runs as points, predictions as lines through their setpoints' means.
+Sheet campaign_sheet(const Campaign& campaign, const Prediction& prediction);
+
+/// Predicted against measured, a panel for each measured channel.
+Sheet scatter_sheet(const Campaign& campaign, const Prediction& prediction);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,84 @@
+// Line plots as SVG: axes with units, legend, error bands, points with error bars. No scripts, no external resources.
+//
+// Every mark has a class ('c2': third named colour, 'q4': fifth ordered colour, 'ink', 'quiet', 'grid', 'paper') beside
+// its colour, so that a page can give it other colours in the dark (page.hpp does).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace soilbin::compare {
+
+/// How a series is drawn.
+enum class Mark { line, points, line_and_points };
+
+/// Which palette a sheet's colours come from.
+enum class Palette {
+  named,    ///< things that have no order: models, soils
+  ordered,  ///< things that have: loads, angles
+};
+
+/// One curve. x and y have the same length; a y that is not finite breaks the line.
+struct Series {
+  std::string label;  ///< in the legend; empty: not there. Series with one label share its entry.
+  std::vector<double> x, y;
+  std::vector<double> error;  ///< one standard error of each y: a band along lines, bars at points; empty: none
+  Mark mark = Mark::line;
+  int color = 0;  ///< from 0, of the sheet's palette
+  int dash = 0;   ///< 0: solid, then dashed, dotted, dash-dotted
+};
+
+struct Axis {
+  std::string title;            ///< with its unit: "slip [%]"
+  std::optional<double> lower;  ///< absent: what the series need
+  std::optional<double> upper;
+};
+
+/// One panel.
+struct Plot {
+  std::string title;
+  Axis x, y;
+  std::vector<Series> series;
+  bool identity_line = false;  ///< y = x, for predicted against measured
+};
+
+/// Panels that share a legend and a palette.
+struct Sheet {
+  std::string title;
+  std::vector<Plot> plots;
+  Palette palette = Palette::named;
+};
+
+/// Width and height of one panel [px].
+struct PanelSize {
+  double width = 420, height = 300;
+};
+
+/// A sheet as one stand-alone SVG file on white: panels in two columns (one where there is one), the legend below.
+std::string svg(const Sheet& sheet, const PanelSize& size = {});
+
+/// One panel as an <svg> element that scales with the page, without a legend.
+std::string panel_svg(const Sheet& sheet, std::size_t plot, const PanelSize& size = {});
+
+/// One entry of the legend: a small <svg> drawn like the series.
+struct LegendEntry {
+  std::string label;
+  std::string swatch;
+};
+std::vector<LegendEntry> legend(const Sheet& sheet);
+
+/// A palette's colours: in the light, in the dark.
+struct Color {
+  const char* light;
+  const char* dark;
+};
+std::vector<Color> colors(Palette palette);
+
+/// Text fit for HTML and SVG: &, <, > and quotes escaped.
+std::string escaped(const std::string& text);
+
+/// Round values that divide [lower, upper] into about `count` parts.
+std::vector<double> ticks(double lower, double upper, int count);
+
+}  // namespace soilbin::compare

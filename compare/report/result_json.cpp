@@ -1,0 +1,151 @@
+#include "compare/report/result_json.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "compare/measured/csv.hpp"
+#include "compare/sweep/channels.hpp"
+#include "scenario/mapping_writer.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// SI, as null where it is not finite.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// The visitor of OperatingCondition's description that writes its members in SI.
+class ConditionJson {
+ public:
+  using C = OperatingCondition;
+
+  explicit ConditionJson(const C& at) : at_(at) {}
+  Json document;
+
+  void number(const char* key, double C::*member, const Measure&, Need, const char*) { document[key] = at_.*member; }
+  void number(const char* key, std::optional<double> C::*member, const Measure&, Need, const char*) {
+    if (at_.*member) document[key] = *(at_.*member);
+  }
+  void integer(const char* key, int C::*member, int, Need, const char*) { document[key] = at_.*member; }
+  void integer(const char* key, std::optional<int> C::*member, int, Need, const char*) {
+    if (at_.*member) document[key] = *(at_.*member);
+  }
+  template <class E>
+  void choice(const char* key, E C::*member, Need, const char*) {
+    document[key] = std::string(word_of(at_.*member));
+  }
+
+ private:
+  const C& at_;
+};
+
+void add_channels(const TractionResult& result, Json& row) {
+  for (const ChannelView& channel : channel_views) row[std::string(channel.name)] = number((result.*channel.predicted).value);
+  row["theta_1"] = number(result.entry_angle);
+}
+
+void add_rest(const TractionResult& result, Json& row) {
+  for (const ChannelView& channel : channel_views)
+    row["std_error"][std::string(channel.name)] = number((result.*channel.predicted).std_error);
+  row["tractive_efficiency"] = number(result.tractive_efficiency);
+  row["theta_m"] = number(result.max_stress_angle);
+  row["theta_2"] = number(result.exit_angle);
+  row["budget"] = Json::array();
+  for (const Contribution& part : result.budget) row["budget"].push_back({{"name", part.name}, {"force", number(part.force)}});
+}
+
+Json errors_json(const std::vector<ChannelError>& errors) {
+  Json all = Json::object();
+  for (const ChannelError& error : errors) {
+    const ChannelView& channel = channel_views[error.channel];
+    const std::string unit = channel.name == "sinkage" ? "m" : std::string(channel.unit);
+    all[std::string(channel.name)] = {{"unit", unit}, {"runs", error.runs}, {"rmse", number(error.rmse)},
+                                      {"bias", number(error.bias)}, {"range", number(error.range)},
+                                      {"share_of_range", number(error.share_of_range)}};
+  }
+  return all;
+}
+
+Json run_json(const PredictedRun& run) {
+  Json row = {{"run", run.run}};
+  if (run.predicted.result) add_channels(*run.predicted.result, row);
+  else row["error"] = run.predicted.error;
+  if (run.measured.setpoint) row["setpoint"] = *run.measured.setpoint;
+  row["at"] = to_json(run.measured.at);
+  for (const ChannelView& channel : channel_views) {
+    const std::string name(channel.name);
+    if (const auto& value = run.measured.*channel.measured) row["measured"][name] = number(*value);
+    if (const auto rest = residual(run, channel)) row["residual"][name] = number(*rest);
+  }
+  return row;
+}
+
+std::string csv_row(const std::string& model, const Answer& answer) {
+  const OperatingCondition& at = answer.at;
+  std::string row = fmt::format("{},{},{},{},{},{},{},{}", csv_cell(model), at.load, at.slip, at.speed,
+                                at.longitudinal_incline / degree, at.transverse_incline / degree, at.yaw / degree, at.pass);
+  if (!answer.result) return row + std::string(12, ',') + ',' + csv_cell(answer.error) + "\n";
+  const TractionResult& r = *answer.result;
+  for (const ChannelView& channel : channel_views)
+    row += fmt::format(",{},{}", (r.*channel.predicted).value, (r.*channel.predicted).std_error);
+  row += std::isfinite(r.tractive_efficiency) ? fmt::format(",{}", r.tractive_efficiency) : std::string(",");
+  return row + fmt::format(",{},{},{},\n", r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree);
+}
+
+}  // namespace
+
+Json to_json(const OperatingCondition& at) {
+  ConditionJson visitor(at);
+  describe(visitor, std::type_identity<OperatingCondition>{});
+  return visitor.document;
+}
+
+Json to_json(const Answer& answer) {
+  Json row = to_json(answer.at);
+  if (answer.result) {
+    add_channels(*answer.result, row);
+    add_rest(*answer.result, row);
+  } else {
+    row["error"] = answer.error;
+  }
+  return row;
+}
+
+Json rows_json(const std::vector<ModelAnswers>& study) {
+  Json rows = Json::array();
+  for (const ModelAnswers& model : study)
+    for (const Answer& answer : model.answers) {
+      Json row = {{"model", std::string(word_of(model.choice.model))}, {"label", model.choice.label}};
+      row.update(to_json(answer));
+      rows.push_back(std::move(row));
+    }
+  return rows;
+}
+
+Json to_json(const Prediction& prediction, const std::string& campaign) {
+  Json document = {{"format", "soilbin-predict/1"}, {"campaign", campaign}, {"rows", Json::array()}};
+  for (const PredictedRun& run : prediction.runs) document["rows"].push_back(run_json(run));
+  document["error"] = errors_json(prediction.errors);
+  return document;
+}
+
+std::string json_text(const Json& document) {
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string study_csv(const std::vector<ModelAnswers>& study) {
+  std::string text =
+      "model,load_N,slip,speed_m_s,longitudinal_incline_deg,transverse_incline_deg,yaw_deg,pass,drawbar_pull_N,"
+      "drawbar_pull_se_N,torque_Nm,torque_se_Nm,sinkage_m,sinkage_se_m,lateral_force_N,lateral_force_se_N,"
+      "tractive_efficiency,theta_1_deg,theta_m_deg,theta_2_deg,error\n";
+  for (const ModelAnswers& model : study)
+    for (const Answer& answer : model.answers) text += csv_row(model.choice.label, answer);
+  return text;
+}
+
+}  // namespace soilbin::compare

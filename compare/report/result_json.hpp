@@ -1,0 +1,30 @@
+// Results as JSON, with the contract's names. A value that is not a number is written as null.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "compare/sweep/answers.hpp"
+#include "compare/sweep/prediction.hpp"
+
+namespace soilbin::compare {
+
+/// {"load": N, "slip": -, ...} in SI; speed, angles, pass and what else differs from nothing.
+nlohmann::ordered_json to_json(const OperatingCondition& at);
+
+/// The contract's names at the top ("drawbar_pull", ..., "theta_1" [rad]), their standard errors under "std_error",
+/// then efficiency, angles and budget; or {"error": "..."} beside the condition.
+nlohmann::ordered_json to_json(const Answer& answer);
+
+/// Every answer of every model as a flat list; each row names its model.
+nlohmann::ordered_json rows_json(const std::vector<ModelAnswers>& study);
+
+/// soilbin-predict/1.
+nlohmann::ordered_json to_json(const Prediction& prediction, const std::string& campaign);
+
+/// The text of a document: indented, and never an exception for bytes that are not UTF-8.
+std::string json_text(const nlohmann::ordered_json& document);
+
+/// Answers as CSV: model, condition, four results with standard errors, angles, error; SI, angles in degrees.
+std::string study_csv(const std::vector<ModelAnswers>& study);
+
+}  // namespace soilbin::compare

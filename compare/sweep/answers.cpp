@@ -1,0 +1,65 @@
+#include "compare/sweep/answers.hpp"
+
+#include <algorithm>
+
+#include "bekker_wong/model.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+
+std::unique_ptr<const Model> make_model(ModelKind kind) {
+  switch (kind) {
+    case ModelKind::bekker_wong: return std::make_unique<const bekker_wong::BekkerWong>();
+    case ModelKind::dem: break;
+  }
+  throw InputError("the model 'dem' (discrete elements) is not in this version of soilbin; 'bekker_wong' is");
+}
+
+Answer ask(const Model& model, const Scenario& scenario, const OperatingCondition& at) {
+  Answer answer{at, std::nullopt, ""};
+  try {
+    answer.result = model.evaluate(scenario, at);
+  } catch (const NoSolution& error) {
+    answer.error = error.what();
+  } catch (const InputError& error) {
+    answer.error = error.what();
+  } catch (const std::domain_error& error) {  // of the root finder: no sign change, or a value that is not finite
+    answer.error = error.what();
+  }
+  return answer;
+}
+
+std::vector<Answer> sweep(const Model& model, const Scenario& scenario,
+                          const std::vector<OperatingCondition>& conditions, const Progress& progress) {
+  std::vector<Answer> answers;
+  answers.reserve(conditions.size());
+  for (const OperatingCondition& at : conditions) {
+    answers.push_back(ask(model, scenario, at));
+    if (progress) progress(answers.size(), conditions.size());
+  }
+  return answers;
+}
+
+std::vector<ModelAnswers> run_study(const Case& question, const Progress& progress) {
+  const std::size_t conditions = question.study.conditions.size();
+  std::vector<std::unique_ptr<const Model>> models;
+  for (const ModelChoice& choice : question.study.models) models.push_back(make_model(choice.model));
+  std::vector<ModelAnswers> study;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    Scenario scenario = question.scenario;
+    scenario.effects = question.study.models[i].effects;
+    const auto part = [&](std::size_t done, std::size_t) {
+      if (progress) progress(i * conditions + done, models.size() * conditions);
+    };
+    study.push_back({question.study.models[i], sweep(*models[i], scenario, question.study.conditions, part)});
+  }
+  return study;
+}
+
+bool any_result(const std::vector<ModelAnswers>& study) {
+  return std::any_of(study.begin(), study.end(), [](const ModelAnswers& model) {
+    return std::any_of(model.answers.begin(), model.answers.end(), [](const Answer& a) { return a.result.has_value(); });
+  });
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,47 @@
+// Running a study: what each of its models answers at each of its conditions.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/case.hpp"
+
+namespace soilbin::compare {
+
+/// What a model says at one condition: a result, or why there is none.
+struct Answer {
+  OperatingCondition at;
+  std::optional<TractionResult> result;
+  std::string error;  ///< empty where there is a result
+};
+
+/// The answers of one of a study's models, in the order of the study's conditions.
+struct ModelAnswers {
+  ModelChoice choice;
+  std::vector<Answer> answers;
+};
+
+/// Called after every condition with the number done and the number in all. May throw to stop the work.
+using Progress = std::function<void(std::size_t done, std::size_t total)>;
+
+/// The model behind a choice. Throws InputError for a model that is not in this version.
+std::unique_ptr<const Model> make_model(ModelKind kind);
+
+/// One condition. A condition without solution, or one that the model refuses, becomes the answer's error.
+Answer ask(const Model& model, const Scenario& scenario, const OperatingCondition& at);
+
+/// Each condition in turn; one without solution carries its error, and the others still come.
+std::vector<Answer> sweep(const Model& model, const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
+                          const Progress& progress = {});
+
+/// Every model of the case's study at every condition. Throws InputError for a model that is not in this version.
+std::vector<ModelAnswers> run_study(const Case& question, const Progress& progress = {});
+
+/// Whether any answer of a study holds a result.
+bool any_result(const std::vector<ModelAnswers>& study);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,120 @@
+#include "compare/sweep/varying.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+namespace soilbin::compare {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// A condition that can tell curves apart.
+struct Axis {
+  std::string name;
+  double (*get)(const OperatingCondition&);
+  std::string (*label)(double);
+  double relative_gap, absolute_gap;  ///< between neighbours of different setpoints, where measured
+  bool follows_slip = false;          ///< may vary with slip alone, and then tells nothing apart
+};
+
+std::string force(double newton) {
+  return newton >= 1000.0 ? fmt::format("{:.4g} kN", newton / 1000) : fmt::format("{:.4g} N", newton);
+}
+std::string angle(const char* name, double radian) { return fmt::format("{} {:.4g}°", name, radian / degree); }
+
+const std::vector<Axis>& axes() {
+  using C = OperatingCondition;
+  static const std::vector<Axis> all = {
+      {"load", [](const C& c) { return c.load; }, [](double x) { return force(x); }, 0.25, 0.0},
+      {"longitudinal incline", [](const C& c) { return c.longitudinal_incline; },
+       [](double x) { return angle("uphill", x); }, 0.0, 2 * degree},
+      {"transverse incline", [](const C& c) { return c.transverse_incline; },
+       [](double x) { return angle("cross slope", x); }, 0.0, 2 * degree},
+      {"yaw", [](const C& c) { return c.yaw; }, [](double x) { return angle("yaw", x); }, 0.0, 2 * degree},
+      {"pass", [](const C& c) { return static_cast<double>(c.pass); },
+       [](double x) { return fmt::format("pass {:g}", x); }, 0.0, 0.5},
+      {"moisture", [](const C& c) { return c.moisture.value_or(0.0); },
+       [](double x) { return fmt::format("moisture {:.3g} %", 100 * x); }, 0.25, 0.01},
+      {"speed", [](const C& c) { return c.speed; }, [](double x) { return fmt::format("{:.4g} m/s", x); }, 0.25, 0.0,
+       true},
+  };
+  return all;
+}
+
+/// Level of each condition along an axis, and each level's mean value.
+struct Levels {
+  std::vector<std::size_t> of;
+  std::vector<double> value;
+};
+
+Levels levels(const Axis& axis, const std::vector<OperatingCondition>& conditions, Spread spread) {
+  std::vector<std::size_t> order(conditions.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto at = [&](std::size_t i) { return axis.get(conditions[i]); };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
+  Levels found{std::vector<std::size_t>(conditions.size()), {}};
+  std::vector<double> members;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const double x = at(order[k]), before = k > 0 ? at(order[k - 1]) : x;
+    const double gap = spread == Spread::exact ? 1e-9 * std::abs(x)
+                                               : std::max(axis.relative_gap * std::abs(x), axis.absolute_gap);
+    if (k == 0 || x - before > gap) found.value.push_back(0.0), members.push_back(0.0);
+    found.value.back() += x, members.back() += 1;
+    found.of[order[k]] = found.value.size() - 1;
+  }
+  for (std::size_t l = 0; l < found.value.size(); ++l) found.value[l] /= members[l];
+  return found;
+}
+
+/// Whether levels differ between conditions that agree in slip and in their curve so far.
+bool splits_a_slip(const Levels& levels, const std::vector<std::vector<std::size_t>>& keys,
+                   const std::vector<OperatingCondition>& conditions) {
+  std::map<std::pair<std::vector<std::size_t>, double>, std::size_t> seen;
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    const auto [place, fresh] = seen.insert({{keys[i], conditions[i].slip}, levels.of[i]});
+    if (!fresh && place->second != levels.of[i]) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Curves curves_against_slip(const std::vector<OperatingCondition>& conditions, Spread spread) {
+  Curves curves;
+  std::vector<std::vector<std::size_t>> keys(conditions.size());
+  std::vector<std::string> labels(conditions.size());
+  for (const Axis& axis : axes()) {
+    const Levels found = levels(axis, conditions, spread);
+    if (found.value.size() < 2 || (axis.follows_slip && !splits_a_slip(found, keys, conditions))) continue;
+    curves.varying += (curves.varying.empty() ? "" : ", ") + axis.name;
+    for (std::size_t i = 0; i < conditions.size(); ++i) {
+      keys[i].push_back(found.of[i]);
+      labels[i] += (labels[i].empty() ? "" : ", ") + axis.label(found.value[found.of[i]]);
+    }
+  }
+  const std::set<std::vector<std::size_t>> distinct(keys.begin(), keys.end());
+  const std::vector<std::vector<std::size_t>> sorted(distinct.begin(), distinct.end());
+  curves.labels.resize(sorted.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const auto place = std::lower_bound(sorted.begin(), sorted.end(), keys[i]) - sorted.begin();
+    curves.curve_of.push_back(static_cast<std::size_t>(place));
+    curves.labels[curves.curve_of.back()] = labels[i];
+  }
+  return curves;
+}
+
+std::string in_words(const OperatingCondition& at) {
+  std::string words = fmt::format("load {}, slip {:.4g} %", force(at.load), 100 * at.slip);
+  const OperatingCondition plain;
+  for (const Axis& axis : axes())
+    if (axis.name != "load" && axis.name != "speed" && axis.get(at) != axis.get(plain)) words += ", " + axis.label(axis.get(at));
+  if (at.speed != plain.speed) words += fmt::format(", {:.4g} m/s", at.speed);
+  return words;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,28 @@
+// Which conditions vary beside slip, and which answers therefore belong to one curve.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenario/operating_condition.hpp"
+
+namespace soilbin::compare {
+
+/// Whether equal setpoints have equal numbers (a study) or scatter about them (a measured campaign).
+enum class Spread { exact, measured };
+
+/// Conditions sorted into curves against slip.
+struct Curves {
+  std::vector<std::string> labels;  ///< of each curve, in rising order of its conditions: "4 kN, yaw 15 deg"; "" alone
+  std::vector<std::size_t> curve_of;  ///< of each condition
+  std::string varying;                ///< what tells the curves apart, for a heading: "load, yaw"; "" for one curve
+};
+
+/// Sorts by load, inclines, yaw, pass and, where they tell conditions of one slip apart, speed and moisture.
+/// Measured loads count as one where neighbours lie within 25 %, angles within 2 deg.
+Curves curves_against_slip(const std::vector<OperatingCondition>& conditions, Spread spread);
+
+/// The condition in words, with what is not at its default: "load 80 N, slip 20 %, yaw 5 deg".
+std::string in_words(const OperatingCondition& at);
+
+}  // namespace soilbin::compare

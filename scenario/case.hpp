@@ -1,0 +1,88 @@
+// A case is a question: this tire, on this soil, at these conditions, answered by these models.
+// The file format soilbin-case/1 is told in docs/case-files.md.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "scenario/description.hpp"
+#include "scenario/effect_vocabulary.hpp"
+#include "scenario/library.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/source_text.hpp"
+
+namespace soilbin {
+
+/// The models that a study can ask.
+enum class ModelKind { bekker_wong, dem };
+
+constexpr std::array<Word<ModelKind>, 2> words_of(std::type_identity<ModelKind>) {
+  return {{{"bekker_wong", ModelKind::bekker_wong}, {"dem", ModelKind::dem}}};
+}
+
+/// A model and the effects that it is to show.
+struct ModelChoice {
+  ModelKind model = ModelKind::bekker_wong;
+  std::vector<EffectChoice> effects;  ///< forms and parameters resolved; none for the discrete element model
+  std::string label;                  ///< for tables and plots; by default made of the model and the effects' ids
+};
+
+/// What is asked of the models.
+struct Study {
+  std::string name;
+  std::vector<ModelChoice> models;
+  std::vector<OperatingCondition> conditions;
+};
+
+/// A whole question. `scenario.effects` is empty: effects belong to the study's models.
+struct Case {
+  std::string name;
+  std::string description;
+  std::string source;
+  Scenario scenario;
+  Study study;
+};
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<Case>) {
+  v.text("name", &Case::name, Need::required, "what to call the case");
+  v.text("description", &Case::description, Need::optional, "what is asked, and why");
+  v.text("source", &Case::source, Need::optional, "where the question comes from");
+}
+
+inline std::string contradiction(const Case& c) { return c.name.empty() ? "the name is empty" : ""; }
+
+inline constexpr const char* case_format = "soilbin-case/1";
+inline constexpr const char* tire_format = "soilbin-tire/1";
+inline constexpr const char* soil_format = "soilbin-soil/1";
+
+/// Reads a case file. A tire or soil that it names is looked up beside the file, then in the library.
+/// Throws InputError with file, line, column, excerpt and hint for everything that is not a valid case.
+Case read_case(const std::filesystem::path& path, const Library& library, const EffectVocabulary& effects);
+
+/// The same from a text in memory; `source.file` is the path to which relative paths in it refer.
+Case parse_case(const SourceText& source, const Library& library, const EffectVocabulary& effects);
+
+/// Reads a tire file (soilbin-tire/1). A tire without a name gets the file's.
+Tire read_tire(const std::filesystem::path& path);
+Tire parse_tire(const SourceText& source);
+
+/// Reads a soil file (soilbin-soil/1). A soil without a name gets the file's.
+Soil read_soil(const std::filesystem::path& path);
+Soil parse_soil(const SourceText& source);
+
+/// The tire or soil that a person names: of the library, or a path to a YAML file (it holds a '/' or ends in .yaml).
+/// Throws InputError with the nearest name.
+Tire find_tire(const std::string& name, const Library& library);
+Soil find_soil(const std::string& name, const Library& library);
+
+/// The case with everything resolved: tire and soil written out, defaults filled in, each condition a mapping of its
+/// own. Reading it gives the same case to the bit; writing that gives the same bytes.
+std::string write_case(const Case& value, const EffectVocabulary& effects);
+std::string write_tire(const Tire& tire);
+std::string write_soil(const Soil& soil);
+
+}  // namespace soilbin

@@ -1,0 +1,187 @@
+#include <fmt/core.h>
+
+#include <utility>
+
+#include "scenario/case.hpp"
+#include "scenario/condition_axes.hpp"
+#include "scenario/effect_choices.hpp"
+#include "scenario/mapping_reader.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What differs between tires and soils when a case names one.
+template <class T>
+struct Kind;
+
+template <>
+struct Kind<Tire> {
+  static constexpr Shelf shelf = Shelf::tires;
+  static constexpr const char* word = "tire";
+  static constexpr const char* format = tire_format;
+};
+
+template <>
+struct Kind<Soil> {
+  static constexpr Shelf shelf = Shelf::soils;
+  static constexpr const char* word = "soil";
+  static constexpr const char* format = soil_format;
+};
+
+template <class T>
+T parse_file(const SourceText& source) {
+  const YamlNode document = parse_yaml(source);
+  const Reading reading{&source, std::nullopt, nullptr, ""};
+  expect_format(document, Kind<T>::format, reading);
+  T value = read_mapping<T>(document, reading, {"format"});
+  if (value.name.empty()) value.name = fs::path(source.file).stem().string();
+  return value;
+}
+
+template <class T>
+T read_file(const fs::path& path) {
+  return parse_file<T>(read_source_text(path, largest_yaml));
+}
+
+bool looks_like_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".yaml"); }
+
+template <class T>
+std::string not_found(const std::string& name, const Library& library) {
+  return fmt::format("no {} '{}' in the library{}", Kind<T>::word, clipped(name),
+                     did_you_mean(name, library.names(Kind<T>::shelf)));
+}
+
+template <class T>
+std::string names_hint(const Library& library) {
+  const std::vector<std::string> names = library.names(Kind<T>::shelf);
+  return names.empty() ? "the library is empty" : std::string(Kind<T>::word) + "s: " + listed(names);
+}
+
+template <class T>
+T find_by_name(const std::string& name, const Library& library) {
+  if (looks_like_path(name)) return read_file<T>(name);
+  if (const auto file = library.find(Kind<T>::shelf, name)) return read_file<T>(*file);
+  throw InputError(not_found<T>(name, library) + "\n  hint: " + names_hint<T>(library));
+}
+
+/// A tire or soil of a case: a mapping, a name of the library, or a path relative to the case file.
+template <class T>
+T read_part(const YamlNode& node, const Library& library, const Reading& reading) {
+  if (node.is_mapping()) return read_mapping<T>(node, reading);
+  if (!node.is_scalar())
+    reading.refuse(node, fmt::format("expected a {}: a mapping, a name of the library, or a path; not {}",
+                                     Kind<T>::word, node.kind_name()));
+  const std::string& name = node.scalar;
+  if (name.find('\0') != std::string::npos) reading.refuse(node, "a name or path can't hold a zero byte");
+  if (looks_like_path(name)) {
+    const fs::path path = fs::path(reading.source->file).parent_path() / name;
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) reading.refuse(node, fmt::format("no such {} file", Kind<T>::word));
+    return read_file<T>(path);
+  }
+  if (const auto file = library.find(Kind<T>::shelf, name)) return read_file<T>(*file);
+  reading.refuse(node, not_found<T>(name, library), names_hint<T>(library));
+}
+
+std::string default_label(const ModelChoice& choice) {
+  std::string label(choice.model == ModelKind::dem ? "dem" : "bekker_wong");
+  for (const EffectChoice& effect : choice.effects) label += " + " + effect.id;
+  return label;
+}
+
+void check_soil_for(const ModelChoice& choice, const Soil& soil, const YamlNode& node, const Reading& reading) {
+  if (choice.model == ModelKind::bekker_wong && !soil.semi_empirical)
+    reading.refuse(node, fmt::format("model 'bekker_wong' needs the soil's 'semi_empirical' section; '{}' has none",
+                                     clipped(soil.name)));
+  if (choice.model == ModelKind::dem && !soil.granular)
+    reading.refuse(node,
+                   fmt::format("model 'dem' needs the soil's 'granular' section; '{}' has none", clipped(soil.name)));
+  if (choice.model == ModelKind::dem && !choice.effects.empty())
+    reading.refuse(node, "model 'dem' takes no effects: grains show them or they don't");
+}
+
+/// A model's name, or {model, effects, label}.
+ModelChoice read_model(const YamlNode& node, const Soil& soil, const EffectVocabulary& effects,
+                       const Reading& reading) {
+  ModelChoice choice;
+  if (!node.is_mapping()) {
+    choice.model = read_choice<ModelKind>(node, reading);
+  } else {
+    expect_keys(node, {"model", "effects", "label"}, reading);
+    choice.model =
+        read_choice<ModelKind>(*value_of(node, "model", Need::required, "bekker_wong or dem", reading), reading);
+    if (const YamlNode* list = value_of(node, "effects", Need::optional, "list of effects; [] for none", reading))
+      choice.effects = read_effects(*list, effects, reading);
+    if (const YamlNode* label = value_of(node, "label", Need::optional, "for tables and plots", reading))
+      choice.label = read_text(*label, reading);
+  }
+  check_soil_for(choice, soil, node, reading);
+  if (choice.label.empty()) choice.label = default_label(choice);
+  return choice;
+}
+
+std::vector<ModelChoice> read_models(const YamlNode* list, const YamlNode& study, const Soil& soil,
+                                     const EffectVocabulary& effects, const Reading& reading) {
+  if (list == nullptr) {
+    ModelChoice base;
+    check_soil_for(base, soil, study, reading);
+    base.label = default_label(base);
+    return {base};
+  }
+  if (!list->is_sequence()) reading.refuse(*list, "expected a list of models, not " + list->kind_name());
+  if (list->items.empty()) reading.refuse(*list, "the list of models is empty");
+  std::vector<ModelChoice> models;
+  for (const YamlNode& node : list->items) models.push_back(read_model(node, soil, effects, reading));
+  return models;
+}
+
+Study read_study(const YamlNode& node, const Case& about, const EffectVocabulary& effects, Reading reading) {
+  expect_keys(node, {"name", "models", "conditions"}, reading);
+  const Soil& soil = about.scenario.soil;
+  if (soil.semi_empirical) reading.n = soil.semi_empirical->exponent.value;
+  Study study;
+  study.name = about.name;
+  if (const YamlNode* name = value_of(node, "name", Need::optional, "what to call the study", reading))
+    study.name = read_text(*name, reading);
+  study.models =
+      read_models(value_of(node, "models", Need::optional, "list of models", reading), node, soil, effects, reading);
+  study.conditions = read_conditions(
+      *value_of(node, "conditions", Need::required, "load, slip, ...: a value, a list or a range each", reading),
+      about.scenario.tire, reading);
+  return study;
+}
+
+}  // namespace
+
+Case parse_case(const SourceText& source, const Library& library, const EffectVocabulary& effects) {
+  const YamlNode document = parse_yaml(source);
+  const Reading reading{&source, std::nullopt, nullptr, ""};
+  expect_format(document, case_format, reading);
+  Case value = read_mapping<Case>(document, reading, {"format", "tire", "soil", "bin", "study"});
+  const Library near = library.beside(source.file);
+  const auto part = [&](const char* key, const char* meaning) -> const YamlNode& {
+    return *value_of(document, key, Need::required, meaning, reading);
+  };
+  value.scenario.tire = read_part<Tire>(part("tire", "a mapping, a name of the library, or a path"), near, reading);
+  value.scenario.soil = read_part<Soil>(part("soil", "a mapping, a name of the library, or a path"), near, reading);
+  if (const YamlNode* bin = value_of(document, "bin", Need::optional, "inner measures of the soil bin", reading))
+    value.scenario.bin = read_mapping<Bin>(*bin, reading);
+  value.study = read_study(part("study", "models and conditions"), value, effects, reading);
+  return value;
+}
+
+Case read_case(const fs::path& path, const Library& library, const EffectVocabulary& effects) {
+  return parse_case(read_source_text(path, largest_yaml), library, effects);
+}
+
+Tire read_tire(const fs::path& path) { return read_file<Tire>(path); }
+Tire parse_tire(const SourceText& source) { return parse_file<Tire>(source); }
+Soil read_soil(const fs::path& path) { return read_file<Soil>(path); }
+Soil parse_soil(const SourceText& source) { return parse_file<Soil>(source); }
+Tire find_tire(const std::string& name, const Library& library) { return find_by_name<Tire>(name, library); }
+Soil find_soil(const std::string& name, const Library& library) { return find_by_name<Soil>(name, library); }
+
+}  // namespace soilbin

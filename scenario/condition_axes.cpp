@@ -1,0 +1,235 @@
+#include "scenario/condition_axes.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace soilbin {
+namespace {
+
+/// A condition in the making.
+struct Point {
+  OperatingCondition at;
+  std::optional<double> rotation;  ///< [rad/s]
+};
+
+using Setter = std::function<void(Point&)>;
+
+/// The values that one key takes.
+struct Axis {
+  std::string key;
+  const YamlNode* node = nullptr;
+  std::vector<Setter> values;
+};
+
+constexpr std::size_t most_values = 10'000;
+
+/// The numbers of {from, to, step | count}. Each is rounded to 12 digits in the unit in which the range is written,
+/// so that 0 % .. 60 % in steps of 10 % gives 30 %, not 30.000000000000004 %.
+class RangeReader {
+ public:
+  RangeReader(const YamlNode& node, const Measure& measure, const Reading& reading)
+      : node_(node), measure_(measure), reading_(reading) {}
+
+  std::vector<double> read() {
+    expect_keys(node_, {"from", "to", "step", "count"}, reading_);
+    from_ = read_scalar(need("from"), measure_, reading_);
+    to_ = read_scalar(need("to"), measure_, reading_).value;
+    const YamlNode* step = value_of(node_, "step", Need::optional, "from one value to the next", reading_);
+    const YamlNode* count = value_of(node_, "count", Need::optional, "number of values", reading_);
+    if ((step == nullptr) == (count == nullptr))
+      reading_.refuse(node_, "a range needs either 'step' or 'count'", "{from: 0 %, to: 60 %, step: 10 %}");
+    return step != nullptr ? by_step(*step) : by_count(*count);
+  }
+
+ private:
+  const YamlNode& need(const char* key) const {
+    return *value_of(node_, key, Need::required, "an end of the range", reading_);
+  }
+
+  std::vector<double> by_step(const YamlNode& node) {
+    const Quantity step = read_scalar(node, Measure{measure_.unit, any_value}, reading_);
+    const double steps = (to_ - from_.value) / step.value;
+    if (step.value == 0.0 || !(steps >= 0.0))
+      reading_.refuse(node, "the step doesn't lead from 'from' to 'to'", "a falling range has a negative step");
+    if (steps > static_cast<double>(most_values))
+      reading_.refuse(node, fmt::format("more than {} values in a range", most_values));
+    constexpr double slack = 1e-9;  // of a step: 'to' counts as reached
+    return values(step.unit, static_cast<std::size_t>(std::floor(steps + slack)) + 1, step.value);
+  }
+
+  std::vector<double> by_count(const YamlNode& node) {
+    const int count = read_integer(node, 2, reading_);
+    if (count > static_cast<int>(most_values))
+      reading_.refuse(node, fmt::format("more than {} values in a range", most_values));
+    return values(from_.unit, static_cast<std::size_t>(count), (to_ - from_.value) / (count - 1));
+  }
+
+  std::vector<double> values(const Unit& unit, std::size_t count, double step) const {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double x = from_.value + static_cast<double>(i) * step;
+      all.push_back(std::clamp(rounded(x, unit), std::min(from_.value, to_), std::max(from_.value, to_)));
+    }
+    return all;
+  }
+
+  double rounded(double value, const Unit& unit) const {
+    const double per_unit = unit.denominator / unit.numerator / std::pow(10.0, unit.decimal);
+    const double largest = std::max(std::abs(from_.value), std::abs(to_)) * per_unit;
+    if (!(largest > 1e-12 && largest < 1e12)) return value;
+    const int places = 12 - static_cast<int>(std::ceil(std::log10(largest)));
+    const std::string number = fmt::format("{:.{}f}", value * per_unit, places);
+    if (std::stod(number) == 0.0) return 0.0;
+    const std::string text = unit.text == "-" ? number : number + " " + unit.text;
+    return read_quantity(text, Measure{measure_.unit, any_value}, reading_.n);
+  }
+
+  const YamlNode& node_;
+  const Measure& measure_;
+  const Reading& reading_;
+  Quantity from_;
+  double to_ = 0.0;
+};
+
+std::vector<double> read_numbers(const YamlNode& node, const Measure& measure, const Reading& reading) {
+  if (node.is_mapping()) return RangeReader(node, measure, reading).read();
+  if (!node.is_sequence()) return {read_scalar(node, measure, reading).value};
+  std::vector<double> values;
+  for (const YamlNode& item : node.items) values.push_back(read_scalar(item, measure, reading).value);
+  return values;
+}
+
+/// One value, or each of a list.
+template <class Read>
+void each(const YamlNode& node, const Read& read) {
+  if (!node.is_sequence()) return read(node);
+  for (const YamlNode& item : node.items) read(item);
+}
+
+/// The visitor of OperatingCondition's description that collects axes.
+class AxisReader {
+ public:
+  using C = OperatingCondition;
+
+  AxisReader(const YamlNode& mapping, const Reading& reading) : mapping_(mapping), reading_(reading) {}
+
+  template <class N>
+  void number(const char* key, N C::*member, const Measure& measure, Need need, const char* meaning) {
+    numbers(key, measure, need, meaning, [member](Point& point, double x) { point.at.*member = x; });
+  }
+
+  void rotation() {
+    numbers("rotation", Measure{"rpm", above_zero}, Need::optional, "speed of rotation",
+            [](Point& point, double x) { point.rotation = x; });
+  }
+
+  template <class N>
+  void integer(const char* key, N C::*member, int lowest, Need need, const char* meaning) {
+    Axis* axis = begin(key, need, meaning);
+    if (axis == nullptr) return;
+    each(*axis->node, [&](const YamlNode& node) {
+      const int value = read_integer(node, lowest, reading_);
+      axis->values.push_back([member, value](Point& point) { point.at.*member = value; });
+    });
+  }
+
+  template <class E>
+  void choice(const char* key, E C::*member, Need need, const char* meaning) {
+    Axis* axis = begin(key, need, meaning);
+    if (axis == nullptr) return;
+    each(*axis->node, [&](const YamlNode& node) {
+      const E value = read_choice<E>(node, reading_);
+      axis->values.push_back([member, value](Point& point) { point.at.*member = value; });
+    });
+  }
+
+  /// The axes in the order in which they are written.
+  std::vector<Axis> in_order() && {
+    for (const Axis& axis : axes_)
+      if (axis.values.empty()) reading_.refuse(*axis.node, fmt::format("the list of '{}' is empty", axis.key));
+    std::sort(axes_.begin(), axes_.end(), [](const Axis& a, const Axis& b) { return a.node < b.node; });
+    return std::move(axes_);
+  }
+
+ private:
+  template <class Set>
+  void numbers(const char* key, const Measure& measure, Need need, const char* meaning, Set set) {
+    Axis* axis = begin(key, need, meaning);
+    if (axis == nullptr) return;
+    for (const double x : read_numbers(*axis->node, measure, reading_))
+      axis->values.push_back([set, x](Point& point) { set(point, x); });
+  }
+
+  Axis* begin(const char* key, Need need, const char* meaning) {
+    const YamlNode* node = value_of(mapping_, key, need, meaning, reading_);
+    return node == nullptr ? nullptr : &axes_.emplace_back(Axis{key, node, {}});
+  }
+
+  const YamlNode& mapping_;
+  const Reading& reading_;
+  std::vector<Axis> axes_;
+};
+
+/// The speed of travel that slip and rotation imply (docs/conventions.md): by the speed in the wheel's plane or, where
+/// the condition says so, by the whole speed of travel.
+double implied_speed(const Point& point, const Tire& tire, const YamlNode& mapping, const Reading& reading) {
+  const OperatingCondition& at = point.at;
+  if (at.slip <= -1.0)
+    reading.refuse(mapping, "a wheel at slip -1 is locked: it has no speed of rotation", "give 'speed' instead");
+  const double rim = tire.radius * *point.rotation;
+  const double along = at.slip >= 0.0 ? rim * (1.0 - at.slip) : rim / (1.0 + at.slip);
+  if (at.slip_by == SlipBy::travel_speed) return along;
+  constexpr double smallest_cosine = 1e-9;
+  if (std::cos(at.yaw) < smallest_cosine)
+    reading.refuse(mapping, "at a yaw of 90 deg slip in the wheel's plane doesn't tell the speed of travel",
+                   "give 'speed' instead of 'rotation'");
+  return along / std::cos(at.yaw);
+}
+
+std::vector<OperatingCondition> read_grid(const YamlNode& mapping, const Tire& tire, const Reading& reading) {
+  std::vector<std::string> keys = keys_of<OperatingCondition>();
+  keys.emplace_back("rotation");
+  expect_keys(mapping, keys, reading);
+  const YamlNode* rotation = mapping.find("rotation");
+  if (rotation != nullptr && mapping.find("speed") != nullptr)
+    reading.refuse(*rotation, "'rotation' and 'speed' exclude each other: slip ties them");
+  AxisReader reader(mapping, reading);
+  describe(reader, std::type_identity<OperatingCondition>{});
+  reader.rotation();
+  std::vector<Point> points(1);
+  for (const Axis& axis : std::move(reader).in_order()) {
+    if (axis.values.size() > most_conditions / points.size())
+      reading.refuse(mapping, fmt::format("more than {} conditions", most_conditions));
+    std::vector<Point> product;
+    for (const Point& point : points)
+      for (const Setter& set : axis.values) set(product.emplace_back(point));
+    points = std::move(product);
+  }
+  std::vector<OperatingCondition> conditions;
+  for (Point& point : points) {
+    if (point.rotation) point.at.speed = implied_speed(point, tire, mapping, reading);
+    conditions.push_back(point.at);
+  }
+  return conditions;
+}
+
+}  // namespace
+
+std::vector<OperatingCondition> read_conditions(const YamlNode& node, const Tire& tire, const Reading& reading) {
+  if (!node.is_sequence()) return read_grid(node, tire, reading);
+  if (node.items.empty()) reading.refuse(node, "the list of conditions is empty");
+  std::vector<OperatingCondition> all;
+  for (const YamlNode& item : node.items) {
+    const std::vector<OperatingCondition> some = read_grid(item, tire, reading);
+    if (all.size() + some.size() > most_conditions)
+      reading.refuse(item, fmt::format("more than {} conditions", most_conditions));
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+}  // namespace soilbin

@@ -1,0 +1,213 @@
+// What each struct of a case looks like in a file, said once. The reader, the writer and the JSON Schema are visitors
+// of these descriptions, so they can't drift apart.
+//
+// describe(visitor, std::type_identity<T>{}) calls, for each key of T in the order in which it is written:
+//   visitor.text    (key, member, need, meaning)             a std::string
+//   visitor.number  (key, member, measure, need, meaning)    a double, an optional one, or an Estimate
+//   visitor.exponent(key, member, range, need, meaning)      the soil's n, on which later units depend
+//   visitor.integer (key, member, lowest, need, meaning)     an int or an optional one
+//   visitor.choice  (key, member, need, meaning)             an enum; its words: words_of
+//   visitor.group   (key, member, need, meaning)             a struct with a description of its own, or an optional one
+// `member` is a pointer to a data member. contradiction(T) names what is wrong between members, "" for nothing.
+#pragma once
+
+#include <array>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "scenario/quantity.hpp"
+#include "scenario/scenario.hpp"
+
+namespace soilbin {
+
+/// Whether a key may be left out; the member then keeps its default.
+enum class Need { required, optional };
+
+/// How files spell a value of an enum.
+template <class E>
+struct Word {
+  std::string_view text;
+  E value;
+};
+
+constexpr std::array<Word<LugPattern>, 2> words_of(std::type_identity<LugPattern>) {
+  return {{{"straight", LugPattern::straight}, {"chevron", LugPattern::chevron}}};
+}
+
+constexpr std::array<Word<SlipBy>, 2> words_of(std::type_identity<SlipBy>) {
+  return {{{"wheel_plane_speed", SlipBy::wheel_plane_speed}, {"travel_speed", SlipBy::travel_speed}}};
+}
+
+constexpr std::array<Word<ForceFrame>, 2> words_of(std::type_identity<ForceFrame>) {
+  return {{{"travel", ForceFrame::travel}, {"wheel", ForceFrame::wheel}}};
+}
+
+/// Largest yaw and (open) largest incline [rad].
+inline constexpr double right_angle = std::numbers::pi / 2;
+inline constexpr Range inclines{.lower = -right_angle, .upper = right_angle, .lower_open = true, .upper_open = true};
+inline constexpr Range yaws{.lower = -right_angle, .upper = right_angle};
+inline constexpr Range fractions{.lower = 0.0, .upper = 1.0};
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<Lugs>) {
+  v.number("height", &Lugs::height, Measure{"mm", zero_or_more}, Need::required,
+           "from the tread base outward; 0 mm: smooth");
+  v.integer("count", &Lugs::count, 1, Need::optional, "number around the circumference");
+  v.number("thickness", &Lugs::thickness, Measure{"mm", above_zero}, Need::optional, "along the circumference");
+  v.choice("pattern", &Lugs::pattern, Need::optional, "how the lugs run across the tread");
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<Tire>) {
+  v.text("name", &Tire::name, Need::optional, "what to call the wheel");
+  v.text("source", &Tire::source, Need::optional, "where the wheel as a whole is described");
+  v.number("radius", &Tire::radius, Measure{"mm", above_zero}, Need::required,
+           "radius to the tread base, without lugs");
+  v.number("width", &Tire::width, Measure{"mm", above_zero}, Need::required, "width of the tread");
+  v.group("lugs", &Tire::lugs, Need::optional, "lugs or grousers; absent: smooth");
+  v.number("inflation_pressure", &Tire::inflation_pressure, Measure{"kPa", zero_or_more}, Need::optional,
+           "absent: a rigid wheel");
+  v.number("carcass_pressure", &Tire::carcass_pressure, Measure{"kPa", zero_or_more}, Need::optional,
+           "pressure that the carcass itself carries (Wong's p_c)");
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<SemiEmpiricalSoil>) {
+  using S = SemiEmpiricalSoil;
+  v.exponent("exponent", &S::exponent, Range{.lower = 0.1, .upper = 2.0}, Need::required,
+             "n of p = (k_c/b + k_phi) z^n");
+  v.number("k_c", &S::k_c, Measure{"kN/m^(n+1)", any_value}, Need::required, "cohesive modulus");
+  v.number("k_phi", &S::k_phi, Measure{"kN/m^(n+2)", any_value}, Need::required, "frictional modulus");
+  v.number("cohesion", &S::cohesion, Measure{"kPa", zero_or_more}, Need::required, "c");
+  v.number("friction_angle", &S::friction_angle,
+           Measure{"deg", {.lower = 0.0, .upper = right_angle, .upper_open = true}}, Need::required, "phi");
+  v.number("shear_modulus", &S::shear_modulus, Measure{"mm", above_zero}, Need::required,
+           "Janosi's shear deformation modulus K");
+  v.number("stress_angle_c1", &S::stress_angle_c1, Measure{"-", fractions}, Need::required,
+           "c1 of theta_m = (c1 + c2 |s|) theta_1");
+  v.number("stress_angle_c2", &S::stress_angle_c2, Measure{"-", {.lower = -1.0, .upper = 2.0}}, Need::required,
+           "c2 of theta_m = (c1 + c2 |s|) theta_1");
+  v.number("density", &S::density, Measure{"kg/m^3", above_zero}, Need::optional, "bulk density");
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<ContactPair>) {
+  v.number("restitution", &ContactPair::restitution, Measure{"-", fractions}, Need::required,
+           "speed after a collision over the speed before");
+  v.number("sliding_friction", &ContactPair::sliding_friction, Measure{"-", zero_or_more}, Need::required,
+           "coefficient of sliding friction");
+  v.number("rolling_friction", &ContactPair::rolling_friction, Measure{"-", zero_or_more}, Need::required,
+           "coefficient of rolling friction");
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<GranularSoil>) {
+  using G = GranularSoil;
+  v.number("radius_min", &G::radius_min, Measure{"mm", above_zero}, Need::required, "smallest grain radius");
+  v.number("radius_max", &G::radius_max, Measure{"mm", above_zero}, Need::required, "largest grain radius");
+  v.number("grain_density", &G::grain_density, Measure{"kg/m^3", above_zero}, Need::required,
+           "density of a grain, not of the bed");
+  v.number("youngs_modulus", &G::youngs_modulus, Measure{"MPa", above_zero}, Need::required, "E of a grain");
+  v.number("poisson_ratio", &G::poisson_ratio, Measure{"-", {.lower = -1.0, .upper = 0.5, .lower_open = true}},
+           Need::required, "nu of a grain");
+  v.group("grain_grain", &G::grain_grain, Need::required, "contact of two grains");
+  v.group("grain_tire", &G::grain_tire, Need::required, "contact of a grain and the tire");
+}
+
+inline std::string contradiction(const GranularSoil& soil) {
+  return soil.radius_max < soil.radius_min ? "radius_max is smaller than radius_min" : "";
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<Soil>) {
+  v.text("name", &Soil::name, Need::optional, "what to call the soil");
+  v.text("source", &Soil::source, Need::optional, "where the soil as a whole is described");
+  v.number("moisture", &Soil::moisture, Measure{"%", fractions}, Need::optional, "water content by mass");
+  v.group("semi_empirical", &Soil::semi_empirical, Need::optional, "values of the Bekker / Wong-Reece model");
+  v.group("granular", &Soil::granular, Need::optional, "grains of the discrete element model");
+}
+
+inline std::string contradiction(const Soil& soil) {
+  return soil.semi_empirical || soil.granular ? "" : "a soil needs 'semi_empirical', 'granular' or both";
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<Bin>) {
+  v.number("depth", &Bin::depth, Measure{"m", above_zero}, Need::required, "depth of the soil over the bin's floor");
+  v.number("width", &Bin::width, Measure{"m", above_zero}, Need::required, "inner width");
+}
+
+template <class Visitor>
+void describe(Visitor& v, std::type_identity<OperatingCondition>) {
+  using C = OperatingCondition;
+  v.number("load", &C::load, Measure{"N", above_zero}, Need::required,
+           "vertical load on the axle, weight of the wheel included");
+  v.number("slip", &C::slip, Measure{"-", {.lower = -1.0, .upper = 1.0}}, Need::required, "positive drives");
+  v.number("speed", &C::speed, Measure{"m/s", zero_or_more}, Need::optional, "forward speed of the axle");
+  v.number("longitudinal_incline", &C::longitudinal_incline, Measure{"deg", inclines}, Need::optional,
+           "uphill positive");
+  v.number("transverse_incline", &C::transverse_incline, Measure{"deg", inclines}, Need::optional,
+           "cross slope, left side up positive");
+  v.number("yaw", &C::yaw, Measure{"deg", yaws}, Need::optional,
+           "positive: the wheel points to the left of its travel");
+  v.integer("pass", &C::pass, 1, Need::optional, "1: undisturbed soil");
+  v.choice("slip_by", &C::slip_by, Need::optional, "the speed from which slip is computed");
+  v.choice("force_frame", &C::force_frame, Need::optional, "axes of drawbar pull and lateral force");
+  v.number("moisture", &C::moisture, Measure{"%", fractions}, Need::optional, "water content by mass");
+  v.number("position", &C::position, Measure{"m", any_value}, Need::optional, "mean distance along the bin");
+  v.integer("run", &C::run, 0, Need::optional, "order in which the runs were made");
+}
+
+/// Members that can't stand together, in words; "" for most structs.
+template <class T>
+std::string contradiction(const T&) {
+  return "";
+}
+
+/// The keys of T's description, in order.
+template <class T>
+std::vector<std::string> keys_of();
+
+namespace description_detail {
+
+struct KeyList {
+  std::vector<std::string> keys;
+  template <class... Rest>
+  void text(const char* key, const Rest&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
+  void number(const char* key, const Rest&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
+  void exponent(const char* key, const Rest&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
+  void integer(const char* key, const Rest&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
+  void choice(const char* key, const Rest&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
+  void group(const char* key, const Rest&...) {
+    keys.emplace_back(key);
+  }
+};
+
+}  // namespace description_detail
+
+template <class T>
+std::vector<std::string> keys_of() {
+  description_detail::KeyList list;
+  describe(list, std::type_identity<T>{});
+  return list.keys;
+}
+
+}  // namespace soilbin

@@ -1,0 +1,35 @@
+// Where tires, soils and studies lie, and their names.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace soilbin {
+
+/// The folders of a library of cases.
+enum class Shelf { tires, soils, studies, measured };
+
+/// Looks names up in folders that hold tires/, soils/, studies/ (NAME.yaml) and measured/ (NAME/campaign.yaml); the
+/// first folder that has a name wins.
+class Library {
+ public:
+  explicit Library(std::vector<std::filesystem::path> folders = {}) : folders_(std::move(folders)) {}
+
+  /// The same library with a file's folder, and the folder above it, searched first.
+  Library beside(const std::filesystem::path& file) const;
+  /// The file behind a name, or no value. A name holds no path separator.
+  std::optional<std::filesystem::path> find(Shelf shelf, const std::string& name) const;
+  /// Every name on a shelf, sorted, each once.
+  std::vector<std::string> names(Shelf shelf) const;
+
+ private:
+  std::vector<std::filesystem::path> folders_;
+};
+
+/// Name of a shelf's folder: "tires".
+std::string_view folder_of(Shelf shelf);
+
+}  // namespace soilbin

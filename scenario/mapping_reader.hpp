@@ -1,0 +1,150 @@
+// Reads a described struct (description.hpp) from a YAML mapping. Every refusal names file, line and column.
+#pragma once
+
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "scenario/description.hpp"
+#include "scenario/yaml_node.hpp"
+
+namespace soilbin {
+
+/// What the reader knows on its way down a document.
+struct Reading {
+  const SourceText* source = nullptr;
+  std::optional<double> n;                                ///< the soil's exponent, once read
+  std::map<std::string, std::string>* sources = nullptr;  ///< where the `source:` of a number is kept, if anywhere
+  std::string path;                                       ///< of this mapping inside the struct that keeps sources
+
+  [[noreturn]] void refuse(const YamlNode& at, const std::string& message, const std::string& hint = "") const {
+    source->refuse(at.offset, message, hint);
+  }
+};
+
+/// Refuses a node that is no mapping, and the first key that is not among `keys`, with the nearest that is.
+void expect_keys(const YamlNode& mapping, const std::vector<std::string>& keys, const Reading& reading);
+
+/// The value behind a key; nullptr where it is absent and may be. Refuses an absent key that is required and a key
+/// with nothing behind it.
+const YamlNode* value_of(const YamlNode& mapping, const std::string& key, Need need, const std::string& meaning,
+                         const Reading& reading);
+
+std::string read_text(const YamlNode& node, const Reading& reading);
+/// A scalar with its unit, for instance one of a list.
+Quantity read_scalar(const YamlNode& node, const Measure& measure, const Reading& reading);
+/// A scalar, or {value, source}.
+double read_number(const YamlNode& node, const Measure& measure, const std::string& key, Reading& reading);
+/// A scalar, or {value, sd, source}.
+Estimate read_estimate(const YamlNode& node, const Measure& measure, const std::string& key, Reading& reading);
+/// A whole number of at least `lowest`.
+int read_integer(const YamlNode& node, int lowest, const Reading& reading);
+/// The place of a word among the right ones.
+std::size_t read_word(const YamlNode& node, const std::vector<std::string>& right, const Reading& reading);
+
+/// Reads one word of an enum.
+template <class E>
+E read_choice(const YamlNode& node, const Reading& reading) {
+  const auto words = words_of(std::type_identity<E>{});
+  std::vector<std::string> right;
+  for (const Word<E>& word : words) right.emplace_back(word.text);
+  return words[read_word(node, right, reading)].value;
+}
+
+template <class T>
+void read_into(const YamlNode& mapping, T& into, Reading& reading);
+
+/// The visitor that fills a T from a mapping.
+template <class T>
+class ReadInto {
+ public:
+  ReadInto(const YamlNode& mapping, T& into, Reading& reading) : mapping_(mapping), into_(into), reading_(reading) {}
+
+  void text(const char* key, std::string T::*member, Need need, const char* meaning) {
+    if (const YamlNode* node = find(key, need, meaning)) into_.*member = read_text(*node, reading_);
+  }
+
+  template <class N>
+  void number(const char* key, N T::*member, const Measure& measure, Need need, const char* meaning) {
+    const YamlNode* node = find(key, need, meaning);
+    if (node == nullptr) return;
+    if constexpr (std::is_same_v<N, Estimate>)
+      into_.*member = read_estimate(*node, measure, key, reading_);
+    else
+      into_.*member = read_number(*node, measure, key, reading_);
+  }
+
+  void exponent(const char* key, Estimate T::*member, const Range& range, Need need, const char* meaning) {
+    number(key, member, Measure{"-", range}, need, meaning);
+    reading_.n = (into_.*member).value;
+  }
+
+  template <class N>
+  void integer(const char* key, N T::*member, int lowest, Need need, const char* meaning) {
+    if (const YamlNode* node = find(key, need, meaning)) into_.*member = read_integer(*node, lowest, reading_);
+  }
+
+  template <class E>
+  void choice(const char* key, E T::*member, Need need, const char* meaning) {
+    if (const YamlNode* node = find(key, need, meaning)) into_.*member = read_choice<E>(*node, reading_);
+  }
+
+  template <class U>
+  void group(const char* key, std::optional<U> T::*member, Need need, const char* meaning) {
+    if (const YamlNode* node = find(key, need, meaning)) descend(key, *node, (into_.*member).emplace());
+  }
+
+  template <class U>
+  void group(const char* key, U T::*member, Need need, const char* meaning) {
+    if (const YamlNode* node = find(key, need, meaning)) descend(key, *node, into_.*member);
+  }
+
+ private:
+  const YamlNode* find(const char* key, Need need, const char* meaning) const {
+    return value_of(mapping_, key, need, meaning, reading_);
+  }
+
+  template <class U>
+  void descend(const std::string& key, const YamlNode& node, U& inner) {
+    Reading below = reading_;
+    below.path = reading_.path + key + ".";
+    expect_keys(node, keys_of<U>(), below);
+    read_into(node, inner, below);
+  }
+
+  const YamlNode& mapping_;
+  T& into_;
+  Reading& reading_;
+};
+
+/// Reads the described keys of T from a mapping whose keys have been checked.
+template <class T>
+void read_into(const YamlNode& mapping, T& into, Reading& reading) {
+  if constexpr (requires { into.sources; }) {
+    reading.sources = &into.sources;
+    reading.path.clear();
+  }
+  ReadInto<T> visitor(mapping, into, reading);
+  describe(visitor, std::type_identity<T>{});
+  if (const std::string wrong = contradiction(into); !wrong.empty()) reading.refuse(mapping, wrong);
+}
+
+/// Reads a T from a mapping that holds its keys and `others` (which the caller reads), and no key beside those.
+template <class T>
+T read_mapping(const YamlNode& mapping, const Reading& reading, const std::vector<std::string>& others = {}) {
+  std::vector<std::string> keys = keys_of<T>();
+  keys.insert(keys.begin(), others.begin(), others.end());
+  expect_keys(mapping, keys, reading);
+  T value;
+  Reading below = reading;
+  read_into(mapping, value, below);
+  return value;
+}
+
+/// Checks that a document is a mapping whose `format` is the one expected, such as "soilbin-case/1".
+void expect_format(const YamlNode& document, const std::string& format, const Reading& reading);
+
+}  // namespace soilbin

@@ -1,0 +1,336 @@
+#include "scenario/unit.hpp"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin {
+namespace {
+
+struct Symbol {
+  std::string_view text;
+  double metre, kilogram, second, radian;
+  int decimal;
+  double factor;
+};
+
+// Factors: SI brochure, 9th edition; inch, foot, mile, pound exact by the 1959 agreement; g_n 9.80665 m/s^2 in lbf,
+// kgf.
+constexpr double pi = std::numbers::pi;
+constexpr std::array symbols = {
+    Symbol{"1", 0, 0, 0, 0, 0, 1},
+    Symbol{"%", 0, 0, 0, 0, -2, 1},
+    Symbol{"m", 1, 0, 0, 0, 0, 1},
+    Symbol{"km", 1, 0, 0, 0, 3, 1},
+    Symbol{"dm", 1, 0, 0, 0, -1, 1},
+    Symbol{"cm", 1, 0, 0, 0, -2, 1},
+    Symbol{"mm", 1, 0, 0, 0, -3, 1},
+    Symbol{"um", 1, 0, 0, 0, -6, 1},
+    Symbol{"\u00b5m", 1, 0, 0, 0, -6, 1},
+    Symbol{"\u03bcm", 1, 0, 0, 0, -6, 1},
+    Symbol{"in", 1, 0, 0, 0, -4, 254},
+    Symbol{"ft", 1, 0, 0, 0, -4, 3048},
+    Symbol{"mi", 1, 0, 0, 0, -3, 1609344},
+    Symbol{"kg", 0, 1, 0, 0, 0, 1},
+    Symbol{"g", 0, 1, 0, 0, -3, 1},
+    Symbol{"t", 0, 1, 0, 0, 3, 1},
+    Symbol{"lb", 0, 1, 0, 0, 0, 0.45359237},
+    Symbol{"s", 0, 0, 1, 0, 0, 1},
+    Symbol{"ms", 0, 0, 1, 0, -3, 1},
+    Symbol{"min", 0, 0, 1, 0, 0, 60},
+    Symbol{"h", 0, 0, 1, 0, 0, 3600},
+    Symbol{"Hz", 0, 0, -1, 0, 0, 1},
+    Symbol{"mph", 1, 0, -1, 0, -5, 44704},
+    Symbol{"N", 1, 1, -2, 0, 0, 1},
+    Symbol{"mN", 1, 1, -2, 0, -3, 1},
+    Symbol{"kN", 1, 1, -2, 0, 3, 1},
+    Symbol{"MN", 1, 1, -2, 0, 6, 1},
+    Symbol{"lbf", 1, 1, -2, 0, 0, 4.4482216152605},
+    Symbol{"kgf", 1, 1, -2, 0, 0, 9.80665},
+    Symbol{"Nm", 2, 1, -2, 0, 0, 1},
+    Symbol{"kNm", 2, 1, -2, 0, 3, 1},
+    Symbol{"J", 2, 1, -2, 0, 0, 1},
+    Symbol{"W", 2, 1, -3, 0, 0, 1},
+    Symbol{"kW", 2, 1, -3, 0, 3, 1},
+    Symbol{"Pa", -1, 1, -2, 0, 0, 1},
+    Symbol{"hPa", -1, 1, -2, 0, 2, 1},
+    Symbol{"kPa", -1, 1, -2, 0, 3, 1},
+    Symbol{"MPa", -1, 1, -2, 0, 6, 1},
+    Symbol{"GPa", -1, 1, -2, 0, 9, 1},
+    Symbol{"bar", -1, 1, -2, 0, 5, 1},
+    Symbol{"psi", -1, 1, -2, 0, 0, 6894.757293168361},
+    Symbol{"rad", 0, 0, 0, 1, 0, 1},
+    Symbol{"mrad", 0, 0, 0, 1, -3, 1},
+    Symbol{"deg", 0, 0, 0, 1, 0, pi / 180},
+    Symbol{"\u00b0", 0, 0, 0, 1, 0, pi / 180},
+    Symbol{"rpm", 0, 0, -1, 1, 0, pi / 30},
+};
+
+struct Named {
+  std::string_view unit, name, example;
+};
+
+constexpr std::array names = {
+    Named{"-", "a plain number or a percentage", "0.2' or '20 %"},
+    Named{"m", "a length", "11 mm"},
+    Named{"m^2", "an area", "0.2 m^2"},
+    Named{"kg", "a mass", "12 kg"},
+    Named{"s", "a time", "10 s"},
+    Named{"rad", "an angle", "5 deg"},
+    Named{"rad/s", "a rotational speed", "10 rpm"},
+    Named{"m/s", "a speed", "0.1 m/s"},
+    Named{"N", "a force", "4 kN"},
+    Named{"N*m", "a torque", "120 N m"},
+    Named{"Pa", "a pressure", "3.63 kPa"},
+    Named{"N/m", "a stiffness", "300 N/m"},
+    Named{"kg/m^3", "a density", "1600 kg/m^3"},
+    Named{"N/m^(n+1)", "a cohesive modulus", "0.99 kN/m^(n+1)"},
+    Named{"N/m^(n+2)", "a frictional modulus", "1528 kN/m^(n+2)"},
+};
+
+const Symbol* find_symbol(std::string_view text) {
+  for (const Symbol& symbol : symbols)
+    if (symbol.text == text) return &symbol;
+  return nullptr;
+}
+
+[[noreturn]] void unknown_symbol(std::string_view text) {
+  std::vector<std::string> right;
+  for (const Symbol& symbol : symbols) right.emplace_back(symbol.text);
+  throw InputError(fmt::format("unknown unit '{}'{}", text, did_you_mean(std::string(text), right)));
+}
+
+void add(Exponent& to, const Exponent& e, double times) {
+  to.constant += e.constant * times;
+  to.per_n += e.per_n * times;
+}
+
+/// Recursive descent over a unit's text; the depth of brackets is bounded by `deepest`.
+class UnitParser {
+ public:
+  UnitParser(std::string_view text, std::optional<double> n) : text_(text), n_(n) {}
+
+  Unit parse() {
+    product({1.0, 0.0}, 0);
+    if (at_ < text_.size()) refuse();
+    Unit unit{std::string(text_), dimension_};
+    resolve(unit);
+    return unit;
+  }
+
+ private:
+  static constexpr int deepest = 8;
+  static constexpr double largest_exponent = 24.0;
+
+  [[noreturn]] void refuse() const {
+    throw InputError(fmt::format("'{}' is no unit: trouble at '{}'", text_, text_.substr(at_)));
+  }
+
+  bool eat(std::string_view word) {
+    if (text_.substr(at_, word.size()) != word) return false;
+    at_ += word.size();
+    return true;
+  }
+
+  void blanks() {
+    while (at_ < text_.size() && text_[at_] == ' ') ++at_;
+  }
+
+  /// factor (('*' | '/' | ' ' | dot) factor)*, the whole raised to `outer`.
+  void product(const Exponent& outer, int depth) {
+    if (depth > deepest) refuse();
+    blanks();
+    factor(outer, +1.0, depth);
+    while (true) {
+      blanks();
+      if (at_ >= text_.size() || text_[at_] == ')') return;
+      const bool divide = eat("/");
+      if (!divide && !eat("*")) eat("\u00b7");
+      blanks();
+      factor(outer, divide ? -1.0 : +1.0, depth);
+    }
+  }
+
+  void factor(const Exponent& outer, double sign, int depth) {
+    if (eat("(")) return bracket(outer, sign, depth);
+    const std::size_t begin = at_;
+    while (const std::size_t bytes = symbol_bytes()) at_ += bytes;
+    const std::string_view name = text_.substr(begin, at_ - begin);
+    if (name.empty()) refuse();
+    const Symbol* symbol = find_symbol(name);
+    if (symbol == nullptr) unknown_symbol(name);
+    apply(*symbol, times(exponent(), outer, sign));
+  }
+
+  void bracket(const Exponent& outer, double sign, int depth) {
+    // The exponent stands behind the bracket: look ahead for it, read the inside with it, then skip it.
+    const std::size_t inside = at_;
+    int open = 1;
+    while (at_ < text_.size() && open > 0) {
+      if (text_[at_] == '(') ++open;
+      if (text_[at_] == ')') --open;
+      ++at_;
+    }
+    if (open > 0) refuse();
+    const Exponent own = times(exponent(), outer, sign);
+    const std::size_t after = at_;
+    at_ = inside;
+    product(own, depth + 1);
+    if (!eat(")")) refuse();
+    at_ = after;
+  }
+
+  /// Bytes of a unit's symbol that start here: a letter, '%', '1', a degree sign or a micro sign; 0 for none.
+  std::size_t symbol_bytes() const {
+    if (at_ >= text_.size()) return 0;
+    const char c = text_[at_];
+    if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '%' || c == '1') return 1;
+    for (const std::string_view sign : {"\u00b0", "\u00b5", "\u03bc"})
+      if (text_.substr(at_, sign.size()) == sign) return sign.size();
+    return 0;
+  }
+
+  Exponent times(const Exponent& e, const Exponent& outer, double sign) const {
+    if (e.per_n != 0.0 && outer.per_n != 0.0) refuse();
+    const Exponent product{sign * e.constant * outer.constant,
+                           sign * (e.per_n * outer.constant + e.constant * outer.per_n)};
+    if (std::abs(product.constant) > largest_exponent || std::abs(product.per_n) > largest_exponent) refuse();
+    return product;
+  }
+
+  /// '^2', '**2', '^-2', '^(n+1)', a superscript two or three, or nothing (1).
+  Exponent exponent() {
+    if (eat("\u00b2")) return {2.0, 0.0};
+    if (eat("\u00b3")) return {3.0, 0.0};
+    if (!eat("^") && !eat("**")) return {1.0, 0.0};
+    if (!eat("(")) return {signed_number(), 0.0};
+    Exponent sum = term();
+    while (at_ < text_.size() && (text_[at_] == '+' || text_[at_] == '-')) add(sum, term(), 1.0);
+    blanks();
+    if (!eat(")")) refuse();
+    return sum;
+  }
+
+  /// One term of a sum: '+2', '-n', '2*n', '2n'; blanks around it are skipped.
+  Exponent term() {
+    blanks();
+    const double sign = eat("-") ? -1.0 : (eat("+"), +1.0);
+    blanks();
+    const bool digit_first = at_ < text_.size() && text_[at_] != 'n';
+    const double number = digit_first ? sign * signed_number() : sign;
+    eat("*");
+    const bool in_n = eat("n");
+    if (!in_n && !digit_first) refuse();
+    blanks();
+    return in_n ? Exponent{0.0, number} : Exponent{number, 0.0};
+  }
+
+  double signed_number() {
+    double value = 0.0;
+    const char* begin = text_.data() + at_;
+    const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value, std::chars_format::fixed);
+    if (error != std::errc() || !std::isfinite(value)) refuse();
+    at_ += static_cast<std::size_t>(end - begin);
+    return value;
+  }
+
+  void apply(const Symbol& symbol, const Exponent& power) {
+    add(dimension_.metre, power, symbol.metre);
+    add(dimension_.kilogram, power, symbol.kilogram);
+    add(dimension_.second, power, symbol.second);
+    add(dimension_.radian, power, symbol.radian);
+    add(decimal_, power, symbol.decimal);
+    if (symbol.factor == 1.0) return;
+    const double p = at_n(power);
+    (p < 0.0 ? denominator_ : numerator_) *= std::pow(symbol.factor, std::abs(p));
+  }
+
+  double at_n(const Exponent& e) const {
+    if (e.per_n == 0.0) return e.constant;
+    if (!n_) throw InputError(fmt::format("the unit '{}' needs the soil's exponent n, and there is none here", text_));
+    return e.constant + e.per_n * *n_;
+  }
+
+  void resolve(Unit& unit) const {
+    const double decimal = at_n(decimal_);
+    const double whole = std::round(decimal);
+    const bool exact = std::abs(decimal - whole) < 1e-9;
+    unit.decimal = exact ? static_cast<int>(whole) : 0;
+    unit.numerator = exact ? numerator_ : numerator_ * std::pow(10.0, decimal);
+    unit.denominator = denominator_;
+    if (!std::isfinite(unit.numerator / unit.denominator) || unit.numerator / unit.denominator == 0.0) refuse();
+  }
+
+  std::string_view text_;
+  std::optional<double> n_;
+  std::size_t at_ = 0;
+  Dimension dimension_;
+  Exponent decimal_;
+  double numerator_ = 1.0;
+  double denominator_ = 1.0;
+};
+
+bool same_exponent(const Exponent& a, const Exponent& b, std::optional<double> n) {
+  constexpr double tolerance = 1e-9;
+  const Exponent gap{a.constant - b.constant, a.per_n - b.per_n};
+  if (std::abs(gap.constant) < tolerance && std::abs(gap.per_n) < tolerance) return true;
+  return n && std::abs(gap.constant + gap.per_n * *n) < tolerance;
+}
+
+const Named* find_name(const Unit& unit) {
+  for (const Named& named : names)
+    if (same_dimension(parse_unit(named.unit).dimension, unit.dimension)) return &named;
+  return nullptr;
+}
+
+void spell(std::string& text, std::string_view symbol, const Exponent& e) {
+  if (e.constant == 0.0 && e.per_n == 0.0) return;
+  if (!text.empty()) text += "*";
+  text += symbol;
+  if (e.per_n != 0.0)
+    text += fmt::format("^({}{:+}*n)", e.constant, e.per_n);
+  else if (e.constant != 1.0)
+    text += fmt::format("^{}", e.constant);
+}
+
+}  // namespace
+
+Unit parse_unit(std::string_view text, std::optional<double> n) {
+  constexpr std::size_t longest = 100;
+  if (text.size() > longest) throw InputError("a unit of more than 100 characters");
+  if (text.empty() || text == "-") return Unit{"-", {}};
+  return UnitParser(text, n).parse();
+}
+
+bool same_dimension(const Dimension& a, const Dimension& b, std::optional<double> n) {
+  return same_exponent(a.metre, b.metre, n) && same_exponent(a.kilogram, b.kilogram, n) &&
+         same_exponent(a.second, b.second, n) && same_exponent(a.radian, b.radian, n);
+}
+
+std::string dimension_name(const Unit& unit) {
+  const Named* named = find_name(unit);
+  return named != nullptr ? std::string(named->name) : fmt::format("a quantity in '{}'", unit.text);
+}
+
+std::string dimension_example(const Unit& unit) {
+  const Named* named = find_name(unit);
+  return named != nullptr ? std::string(named->example) : "1 " + unit.text;
+}
+
+std::string base_unit(const Dimension& dimension) {
+  std::string text;
+  spell(text, "kg", dimension.kilogram);
+  spell(text, "m", dimension.metre);
+  spell(text, "s", dimension.second);
+  spell(text, "rad", dimension.radian);
+  return text.empty() ? "-" : text;
+}
+
+}  // namespace soilbin

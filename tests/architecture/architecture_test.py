@@ -1,0 +1,94 @@
+"""The architecture test: the house keeps its rules (design.md), and each rule catches what it is there for.
+
+Usage: architecture_test.py PROJECT_ROOT
+"""
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import rules
+
+ROOT = Path(sys.argv.pop(1)).resolve()
+
+
+class TheHouse(unittest.TestCase):
+    def test_keeps_its_rules(self):
+        files = rules.project_files(ROOT)
+        self.assertGreater(len(files), 50)
+        for rule, breaches in rules.RULES.items():
+            with self.subTest(rule=rule):
+                found = list(breaches(ROOT, files))
+                if found:
+                    self.fail("\n" + "\n".join(found))
+
+    def test_has_every_floor_that_the_rules_name_or_none_of_its_files(self):
+        with_sources = {name.parts[0] for name in rules.project_files(ROOT) if name.suffix in rules.CPP}
+        self.assertLessEqual(with_sources, set(rules.FLOORS))
+
+    def test_has_every_single_file_that_a_rule_excepts(self):
+        for places in rules.LIBRARIES.values():
+            for place in places:
+                if not place.endswith("/"):
+                    self.assertTrue((ROOT / place).is_file(), place)
+
+
+class TheRules(unittest.TestCase):
+    def breaches(self, rule, **contents):
+        """Breaches of one rule in a tree of files: path with '__' for '/' and '_dot_' for '.', and their text."""
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            files = []
+            for key, text in contents.items():
+                name = Path(key.replace("__", "/").replace("_dot_", "."))
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / name).write_text(text, encoding="utf-8")
+                files.append(name)
+            return list(rules.RULES[rule](root, files))
+
+    def test_a_floor_that_looks_up(self):
+        self.assertEqual(self.breaches("floors", scenario__a_dot_hpp='#include <cmath>\n#include "bekker_wong/model.hpp"\n'),
+                         ['scenario/a.hpp:2: scenario may not include "bekker_wong/model.hpp"'])
+
+    def test_neighbours_that_meet(self):
+        self.assertEqual(len(self.breaches("floors", dem__a_dot_cpp='#include "bekker_wong/gsl.hpp"\n')), 1)
+        self.assertEqual(len(self.breaches("floors", bekker_wong__a_dot_cpp='#  include "dem/engine/grains.hpp"\n')), 1)
+
+    def test_a_floor_that_looks_down(self):
+        self.assertEqual(self.breaches("floors", compare__a_dot_cpp='#include "bekker_wong/model.hpp"\n'), [])
+
+    def test_an_include_not_from_the_root(self):
+        self.assertEqual(len(self.breaches("floors", cli__a_dot_cpp='#include "../scenario/tire.hpp"\n')), 1)
+        self.assertEqual(len(self.breaches("floors", cli__a_dot_cpp='#include "print.hpp"\n')), 1)
+
+    def test_a_floor_of_its_own(self):
+        self.assertEqual(len(self.breaches("floors", engine__a_dot_cpp='#include "scenario/tire.hpp"\n')), 1)
+
+    def test_a_library_out_of_its_room(self):
+        self.assertEqual(len(self.breaches("libraries", bekker_wong__model_dot_cpp="#include <gsl/gsl_math.h>\n")), 1)
+        self.assertEqual(self.breaches("libraries", bekker_wong__gsl_dot_cpp="#include <gsl/gsl_math.h>\n"), [])
+        self.assertEqual(len(self.breaches("libraries", scenario__a_dot_cpp="#include <CLI/CLI.hpp>\n")), 1)
+
+    def test_a_vague_folder(self):
+        self.assertEqual(len(self.breaches("folder names", scenario__utils__a_dot_hpp="")), 1)
+        self.assertEqual(self.breaches("folder names", scenario__units_dot_hpp=""), [])
+
+    def test_a_long_file(self):
+        self.assertEqual(self.breaches("lengths of files", scenario__a_dot_cpp="\n" * 400), [])
+        self.assertEqual(len(self.breaches("lengths of files", scenario__a_dot_cpp="\n" * 401)), 1)
+
+    def test_a_machine_path(self):
+        path = "/" + "tmp" + "/x"
+        self.assertEqual(len(self.breaches("machine paths", docs__a_dot_md=f"see {path}\n")), 1)
+        self.assertEqual(self.breaches("machine paths", docs__a_dot_md="see build" + path + "\n"), [])
+
+    def test_an_effect_that_names_another(self):
+        one = "std::vector<EffectForm> drift_forms() { return {}; }\n"
+        other = 'std::vector<EffectForm> moisture_forms() { return find("drift"); }  // unlike drift\n'
+        self.assertEqual(self.breaches("effects", bekker_wong__effects__drift_dot_cpp=one,
+                                       bekker_wong__effects__moisture_dot_cpp=other),
+                         ["bekker_wong/effects/moisture.cpp:1: effect moisture names effect drift"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,142 @@
+"""The rules of the house as functions over a folder of files; each returns its breaches as lines of text."""
+import re
+import subprocess
+from pathlib import Path
+
+# Which floors a floor may include. Nothing runs back up; bekker_wong and dem never meet.
+FLOORS = {
+    "scenario": {"scenario"},
+    "bekker_wong": {"scenario", "bekker_wong"},
+    "dem": {"scenario", "dem"},
+    "compare": {"scenario", "bekker_wong", "dem", "compare"},
+    "cli": {"scenario", "bekker_wong", "dem", "compare", "cli"},
+    "notebooks": {"scenario", "bekker_wong", "dem", "compare", "notebooks"},
+    "tests": {"scenario", "bekker_wong", "dem", "compare", "cli", "tests"},
+    "bench": {"scenario", "bekker_wong", "dem", "compare", "bench"},
+}
+
+# Where a library's headers may be included: folders (ending in '/') and single files. A single file beside a folder's
+# rule carries its reason.
+LIBRARIES = {
+    "gsl/": ["bekker_wong/gsl.cpp",         # the wrapper: quadrature and roots
+             "compare/loop/detection.cpp"],  # one stateless call, the F distribution's tail: nothing to own or to free
+    "yaml-cpp/": ["scenario/"],
+    "Eigen/": ["scenario/", "bekker_wong/", "compare/", "tests/", "bench/"],
+    "nlohmann/": ["scenario/", "compare/", "cli/", "tests/", "bench/"],
+    "fmt/": ["scenario/", "bekker_wong/", "dem/", "compare/", "cli/", "tests/", "bench/"],
+    "boost/": ["compare/", "tests/"],
+    "CLI/": ["cli/"],
+    "gtest/": ["tests/"],
+    "gmock/": ["tests/"],
+    "rapidcheck": ["tests/"],
+    "benchmark/": ["bench/"],
+    "sundials/": ["bekker_wong/transient/"],
+    "cvode/": ["bekker_wong/transient/"],
+    "hdf5": ["dem/"],
+    "H5": ["dem/"],
+    "hwy/": ["dem/"],
+    "assimp/": ["dem/"],
+    "omp.h": ["dem/", "compare/"],
+    "pybind11/": ["notebooks/"],
+}
+
+VAGUE_FOLDERS = {"utils", "util", "common", "core", "misc", "helpers", "helper"}
+LONGEST_FILE = 400
+CPP = {".cpp", ".hpp", ".h", ".cc", ".ipp"}
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
+# Folders of one machine. Spelt in pieces, or this file would breach its own rule.
+MACHINE_PATH = re.compile(r"(?<![\w.])/(?:" + "|".join(("tmp", "work", "root", "farm", "home")) + r")/")
+
+
+def project_files(root):
+    """Files of the project, relative to its root: those that git tracks or would track, else all but build folders."""
+    listed = subprocess.run(["git", "-c", f"safe.directory={root}", "-C", str(root), "ls-files", "-z", "--cached",
+                             "--others", "--exclude-standard"], capture_output=True, check=False)
+    if listed.returncode == 0:
+        names = [Path(name) for name in listed.stdout.decode().split("\0") if name]
+    else:
+        names = [path.relative_to(root) for path in root.rglob("*")]
+        names = [name for name in names if name.parts[0] not in ("build", ".git", ".ccache", "report")]
+    return sorted(name for name in names if (root / name).is_file())
+
+
+def includes(root, files):
+    """(file, line number, quoted path or '', bracketed path or '') of each #include."""
+    for name in files:
+        if name.suffix in CPP:
+            for number, line in enumerate((root / name).read_text(encoding="utf-8").splitlines(), 1):
+                if found := INCLUDE.match(line):
+                    yield name, number, found[1] or "", found[2] or ""
+
+
+def floor_breaches(root, files):
+    for name, number, quoted, _ in includes(root, files):
+        floor = name.parts[0]
+        if not quoted or "consumer" in name.parts:  # the consumer is a project of its own
+            continue
+        target = quoted.split("/")[0]
+        if floor not in FLOORS:
+            yield f"{name}:{number}: C++ outside the floors {', '.join(FLOORS)}"
+        elif "/" not in quoted or ".." in quoted:
+            yield f'{name}:{number}: "{quoted}" is not written from the root of the project'
+        elif target not in FLOORS[floor]:
+            yield f'{name}:{number}: {floor} may not include "{quoted}"'
+
+
+def library_breaches(root, files):
+    for name, number, quoted, bracketed in includes(root, files):
+        header = bracketed or quoted
+        for library, places in LIBRARIES.items():
+            if not quoted and header.startswith(library):
+                if not any(str(name).startswith(place) if place.endswith("/") else str(name) == place for place in places):
+                    yield f"{name}:{number}: <{header}> belongs to {', '.join(places)}"
+
+
+def folder_breaches(_, files):
+    folders = {parent for name in files for parent in name.parents}
+    for folder in sorted(folders):
+        if folder.name.lower() in VAGUE_FOLDERS:
+            yield f"{folder}/: a folder's name says what is in it"
+
+
+def length_breaches(root, files):
+    for name in files:
+        if name.suffix in CPP and not str(name).startswith("bench/data/"):
+            lines = len((root / name).read_text(encoding="utf-8").splitlines())
+            if lines > LONGEST_FILE:
+                yield f"{name}: {lines} lines, more than {LONGEST_FILE}"
+
+
+def machine_path_breaches(root, files):
+    for name in files:
+        try:
+            text = (root / name).read_text(encoding="utf-8")
+        except UnicodeDecodeError:
+            continue
+        for number, line in enumerate(text.splitlines(), 1):
+            if found := MACHINE_PATH.search(line):
+                yield f"{name}:{number}: '{found[0]}' is a path of one machine"
+
+
+def effect_breaches(root, files):
+    """An effect never names another: neither its forms nor, as a whole literal, its id."""
+    effects = [name for name in files if name.parts[:2] == ("bekker_wong", "effects") and name.suffix == ".cpp"]
+    texts = {name.stem: (name, (root / name).read_text(encoding="utf-8")) for name in effects}
+    ids = {stem for stem, (_, text) in texts.items() if f"{stem}_forms()" in text}
+    for stem in sorted(ids):
+        name, text = texts[stem]
+        for number, line in enumerate(text.splitlines(), 1):
+            code = line.split("//")[0]
+            for other in sorted(ids - {stem}):
+                if re.search(rf'\b{other}_forms\b|"{other}"', code):
+                    yield f"{name}:{number}: effect {stem} names effect {other}"
+
+
+RULES = {
+    "floors": floor_breaches,
+    "libraries": library_breaches,
+    "folder names": folder_breaches,
+    "lengths of files": length_breaches,
+    "machine paths": machine_path_breaches,
+    "effects": effect_breaches,
+}

@@ -1,0 +1,84 @@
+// A wheel on dry sand, with and without one effect: what the tests of the effects of bed, soil and rig share.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "bekker_wong/effect.hpp"
+#include "bekker_wong/rolling_wheel.hpp"
+
+namespace soilbin::bekker_wong::bed {
+
+inline constexpr double deg = std::numbers::pi / 180;
+inline constexpr double radius = 0.25, width = 0.1;
+
+/// Wong's dry sand.
+inline SoilValues sand() {
+  return {.exponent = 1.1, .k_c = 990, .k_phi = 1.52843e6, .cohesion = 1040, .friction_angle = 28 * deg,
+          .shear_modulus = 0.02, .c1 = 0.18, .c2 = 0.32, .density = 1600};
+}
+
+inline OperatingCondition driven(double load = 800, double slip = 0.2) {
+  OperatingCondition at;
+  at.load = load;
+  at.slip = slip;
+  return at;
+}
+
+inline Reading roll(const SoilValues& soil, const EffectList& effects, const OperatingCondition& at,
+                    std::optional<Bin> bin = {}) {
+  Tire tire;
+  tire.radius = radius;
+  tire.width = width;
+  return RollingWheel(tire, soil, effects, bin).roll(at).reading;
+}
+
+inline Reading base(const OperatingCondition& at) { return roll(sand(), {}, at); }
+
+inline Reading with(const EffectChoice& choice, const OperatingCondition& at, std::optional<Bin> bin = {}) {
+  return roll(sand(), make_effects({choice}), at, bin);
+}
+
+inline void expect_same_bits(const Reading& a, const Reading& b) {
+  EXPECT_EQ(a.drawbar_pull, b.drawbar_pull);
+  EXPECT_EQ(a.torque, b.torque);
+  EXPECT_EQ(a.sinkage, b.sinkage);
+  EXPECT_EQ(a.lateral_force, b.lateral_force);
+}
+
+/// Every form of the effect at amplitude 0 gives the base model.
+inline void expect_base_at_zero(const std::string& id, const OperatingCondition& at, std::optional<Bin> bin = {}) {
+  int forms = 0;
+  for (const EffectForm& form : effect_catalogue()) {
+    if (form.id != id) continue;
+    SCOPED_TRACE(form.form);
+    expect_same_bits(with({id, form.form, {{form.parameters[0].name, 0.0}}}, at, bin), base(at));
+    ++forms;
+  }
+  EXPECT_GE(forms, 2);
+}
+
+/// Every form at its defaults leaves this condition as it is.
+inline void expect_silent(const std::string& id, const OperatingCondition& at) {
+  for (const EffectForm& form : effect_catalogue()) {
+    if (form.id != id) continue;
+    SCOPED_TRACE(form.form);
+    expect_same_bits(with({id, form.form, {}}, at), base(at));
+  }
+}
+
+/// Every form at its defaults changes something in this condition.
+inline void expect_heard(const std::string& id, const OperatingCondition& at) {
+  const Reading b = base(at);
+  for (const EffectForm& form : effect_catalogue()) {
+    if (form.id != id) continue;
+    SCOPED_TRACE(form.form);
+    const Reading e = with({id, form.form, {}}, at);
+    EXPECT_TRUE(e.drawbar_pull != b.drawbar_pull || e.torque != b.torque || e.sinkage != b.sinkage ||
+                e.lateral_force != b.lateral_force);
+  }
+}
+
+}  // namespace soilbin::bekker_wong::bed

@@ -1,0 +1,65 @@
+// interface_limit: a wheel smoother than the soil.
+#include "bekker_wong/bed_fixture.hpp"
+
+namespace soilbin::bekker_wong::bed {
+namespace {
+
+double torque_lost(const char* form, const OperatingCondition& at) {
+  return 1 - with({"interface_limit", form, {{"a", 0.3}}}, at).torque / base(at).torque;
+}
+
+TEST(InterfaceLimit, ZeroAmplitudeIsTheBaseModel) {
+  expect_base_at_zero("interface_limit", driven(800, 0.6));
+  expect_heard("interface_limit", driven(800, 0.6));
+}
+
+// Less grip at working slip: less pull and less torque; shear carries less of the load, so the wheel sinks a little.
+TEST(InterfaceLimit, LosesPullAndTorque) {
+  for (const char* form : {"cap", "reduced_strength", "series"}) {
+    SCOPED_TRACE(form);
+    for (const double load : {200.0, 800.0, 2000.0}) {
+      const Reading r = with({"interface_limit", form, {}}, driven(load, 0.5)), b = base(driven(load, 0.5));
+      EXPECT_LT(r.drawbar_pull, b.drawbar_pull);
+      EXPECT_LT(r.torque, b.torque);
+      EXPECT_GT(r.sinkage, b.sinkage);
+    }
+  }
+}
+
+// An interface with its own Janosi law is a weaker soil, c (1 - a) and tan(phi) (1 - a).
+TEST(InterfaceLimit, ReducedStrengthIsAWeakerSoil) {
+  SoilValues weak = sand();
+  weak.cohesion *= 0.7;
+  weak.friction_angle = std::atan(0.7 * std::tan(weak.friction_angle));
+  const Reading a = with({"interface_limit", "reduced_strength", {{"a", 0.3}}}, driven()), b = roll(weak, {}, driven());
+  EXPECT_NEAR(a.drawbar_pull, b.drawbar_pull, 1e-9);
+  EXPECT_NEAR(a.torque, b.torque, 1e-9);
+}
+
+// Where all strength is called up (a locked wheel) every form leaves the same 1 - a of it.
+TEST(InterfaceLimit, FormsAgreeWhereShearIsSaturated) {
+  const OperatingCondition locked = driven(100, -1.0);
+  const Reading weak = with({"interface_limit", "reduced_strength", {{"a", 0.3}}}, locked);
+  for (const char* form : {"cap", "series"}) {
+    const Reading r = with({"interface_limit", form, {{"a", 0.3}}}, locked);
+    EXPECT_NEAR(r.torque, weak.torque, 1e-10);
+    EXPECT_NEAR(r.drawbar_pull, weak.drawbar_pull, 1e-10);
+  }
+}
+
+// At little slip (a light wheel, s = 0.02) little strength is called up: the cap is silent, the series nearly, the
+// reduced strength loses its 30 % at once. At much slip under load all but the entry is saturated: each loses near
+// 30 %.
+TEST(InterfaceLimit, FormsDifferAtLowSlip) {
+  const OperatingCondition low = driven(50, 0.02), high = driven(800, 0.8);
+  EXPECT_EQ(torque_lost("cap", low), 0.0);
+  EXPECT_LT(torque_lost("series", low), 0.4 * torque_lost("reduced_strength", low));
+  EXPECT_NEAR(torque_lost("reduced_strength", low), 0.3, 0.02);
+  for (const char* form : {"cap", "series", "reduced_strength"}) {
+    EXPECT_GT(torque_lost(form, high), 0.2) << form;
+    EXPECT_LT(torque_lost(form, high), 0.31) << form;
+  }
+}
+
+}  // namespace
+}  // namespace soilbin::bekker_wong::bed

@@ -1,0 +1,101 @@
+// sidewall_bulldozing: soil against the wheel's wall.
+#include "bekker_wong/bed_fixture.hpp"
+
+namespace soilbin::bekker_wong::bed {
+namespace {
+
+const std::string id = "sidewall_bulldozing";
+const char* const forms[] = {"ishigami", "passive_wedge", "side_area"};
+
+OperatingCondition yawed(double yaw_deg, double load = 800, double slip = 0.2) {
+  OperatingCondition at = driven(load, slip);
+  at.yaw = yaw_deg * deg;
+  return at;
+}
+
+OperatingCondition across(double beta_deg, double load = 800) {
+  OperatingCondition at = driven(load);
+  at.transverse_incline = beta_deg * deg;
+  return at;
+}
+
+double side_gain(const char* form, OperatingCondition at) {
+  at.force_frame = ForceFrame::wheel;
+  return with({id, form, {}}, at).lateral_force - base(at).lateral_force;
+}
+
+TEST(SidewallBulldozing, ZeroAmplitudeIsTheBaseModel) {
+  expect_base_at_zero(id, yawed(20));
+  expect_base_at_zero(id, across(15));
+  expect_heard(id, yawed(20));
+  expect_heard(id, across(15));
+  expect_silent(id, driven());  // straight and level: nothing pushes sideways
+}
+
+// At positive yaw the wheel slides to its right, so the soil pushes it to the left: F_y rises, and the side force's
+// component along the travel takes pull. Torque and sinkage stay to the bit. The other yaw mirrors it.
+TEST(SidewallBulldozing, PushesAgainstTheSidewaysMotion) {
+  for (const char* form : forms) {
+    SCOPED_TRACE(form);
+    const Reading r = with({id, form, {}}, yawed(20)), b = base(yawed(20)), l = with({id, form, {}}, yawed(-20));
+    EXPECT_GT(r.lateral_force, b.lateral_force);
+    EXPECT_LT(r.drawbar_pull, b.drawbar_pull);
+    EXPECT_EQ(r.torque, b.torque);
+    EXPECT_EQ(r.sinkage, b.sinkage);
+    EXPECT_NEAR(l.lateral_force, -r.lateral_force, 1e-9);
+    EXPECT_NEAR(l.drawbar_pull, r.drawbar_pull, 1e-9);
+  }
+}
+
+// More yaw calls up more, a deeper rut offers more wall, and at full slip the wheel doesn't move sideways at all.
+TEST(SidewallBulldozing, GrowsWithYawAndLoadAndFadesAtFullSlip) {
+  for (const char* form : forms) {
+    SCOPED_TRACE(form);
+    EXPECT_GT(side_gain(form, yawed(5)), 0.0);
+    EXPECT_GT(side_gain(form, yawed(15)), side_gain(form, yawed(5)));
+    EXPECT_GT(side_gain(form, yawed(40)), side_gain(form, yawed(15)));
+    EXPECT_GT(side_gain(form, yawed(15, 1600)), 2 * side_gain(form, yawed(15, 400)));
+    EXPECT_NEAR(side_gain(form, yawed(15, 500, 1.0)), 0.0, 1e-9);
+  }
+  // The exponential saturates where the sine of the side area goes on.
+  const auto rise = [](const char* form) { return side_gain(form, yawed(50)) / side_gain(form, yawed(25)); };
+  EXPECT_LT(rise("passive_wedge"), rise("side_area"));
+}
+
+// Left side up: the wheel leans to its right, soil pushes to the left. F_y, by convention the soil's force less the
+// load's share along the slope, comes closer to zero and never past it.
+TEST(SidewallBulldozing, HoldsOnACrossSlope) {
+  for (const char* form : forms) {
+    SCOPED_TRACE(form);
+    for (const double beta : {3.0, 12.0, 20.0}) {
+      const double before = base(across(beta)).lateral_force;
+      const double after = with({id, form, {{"a", 1.0}}}, across(beta)).lateral_force;
+      EXPECT_LT(before, 0.0);
+      EXPECT_GT(after, before);
+      EXPECT_LT(after, 0.0);
+      EXPECT_NEAR(with({id, form, {{"a", 1.0}}}, across(-beta)).lateral_force, -after, 1e-9);
+    }
+    // A slight slope asks for little, and gets nearly all of it.
+    EXPECT_NEAR(with({id, form, {{"a", 1.0}}}, across(0.1)).lateral_force / base(across(0.1)).lateral_force, 0.0, 0.05);
+  }
+}
+
+// Closed form: sideways and locked all of the wall's resistance is called up. In weightless clay (phi = 0, gamma = 0)
+// Rankine's pressure is 2 c, on the wall's buried half segment r^2 (theta_1 - sin theta_1 cos theta_1)/2.
+TEST(SidewallBulldozing, LockedSidewaysInClosedForm) {
+  SoilValues clay = sand();
+  clay.friction_angle = 0, clay.density = 0, clay.cohesion = 3000;
+  OperatingCondition at = yawed(90, 300, -1.0);
+  at.slip_by = SlipBy::travel_speed;
+  Tire tire;
+  tire.radius = radius;
+  tire.width = width;
+  const EffectList effects = make_effects({{id, "passive_wedge", {{"a", 1.0}}}});
+  const RolledWheel w = RollingWheel(tire, clay, effects).roll(at);
+  const double t = w.balance_angle, wall = radius * radius * (t - std::sin(t) * std::cos(t)) / 2;
+  ASSERT_EQ(w.forces.added.rows().size(), 1u);
+  EXPECT_NEAR(w.forces.added.rows()[0].lateral, 2 * 3000 * wall, 1e-7);
+}
+
+}  // namespace
+}  // namespace soilbin::bekker_wong::bed

@@ -1,0 +1,75 @@
+// slip_sinkage: what slip digs away.
+#include "bekker_wong/bed_fixture.hpp"
+
+namespace soilbin::bekker_wong::bed {
+namespace {
+
+const char* const forms[] = {"lyasko", "ding", "linear", "loosening", "reece"};
+
+TEST(SlipSinkage, ZeroAmplitudeIsTheBaseModel) {
+  expect_base_at_zero("slip_sinkage", driven(800, 0.6));
+  expect_heard("slip_sinkage", driven());
+}
+
+// Nothing digs at zero slip, and a braked wheel pushes soil ahead rather than back (Ding's exponent takes |s|).
+TEST(SlipSinkage, SilentWithoutDrivingSlip) {
+  expect_silent("slip_sinkage", driven(800, 0.0));
+  for (const char* form : {"lyasko", "linear", "loosening", "reece"})
+    expect_same_bits(with({"slip_sinkage", form, {}}, driven(400, -0.4)), base(driven(400, -0.4)));
+}
+
+// Closed forms at s = 0.6: Lyasko (1 + 0.6)/(1 - 0.3) = 16/7, linear 1 + 0.6, Reece z + h 0.6/0.4.
+TEST(SlipSinkage, DepthsOfThePublishedFactors) {
+  const OperatingCondition at = driven(300, 0.6);
+  const double z = base(at).sinkage;
+  EXPECT_NEAR(with({"slip_sinkage", "lyasko", {}}, at).sinkage, 16.0 / 7.0 * z, 1e-14);
+  EXPECT_NEAR(with({"slip_sinkage", "linear", {{"S", 1.0}}}, at).sinkage, 1.6 * z, 1e-14);
+  EXPECT_NEAR(with({"slip_sinkage", "reece", {{"h", 0.01}}}, at).sinkage, z + 0.015, 1e-14);
+}
+
+// Ding's law is the base model on soil of exponent n0 + n1 s; loosened soil is soil of modulus k/f^n.
+TEST(SlipSinkage, WeakenedSoilIsTheBaseModelOnWeakerSoil) {
+  const OperatingCondition at = driven(300, 0.5);
+  SoilValues grown = sand();
+  grown.exponent += 0.4 * 0.5;
+  expect_same_bits(with({"slip_sinkage", "ding", {{"n1", 0.4}}}, at), roll(grown, {}, at));
+  SoilValues loose = sand();
+  const double f = (1 + 0.5) / (1 - 0.25), share = std::pow(f, -loose.exponent);
+  loose.k_c *= share, loose.k_phi *= share;
+  const Reading a = with({"slip_sinkage", "loosening", {}}, at), b = roll(loose, {}, at);
+  EXPECT_NEAR(a.sinkage, b.sinkage, 1e-12);
+  EXPECT_NEAR(a.drawbar_pull, b.drawbar_pull, 1e-9);
+}
+
+// A deeper rut faces more soil: sinkage grows with slip, and at high slip drawbar pull bends down, so that its best
+// slip moves lower than the base model's.
+TEST(SlipSinkage, DigsAndBendsTheDrawbarPullDown) {
+  for (const char* form : forms) {
+    SCOPED_TRACE(form);
+    const EffectChoice choice{"slip_sinkage", form, {}};
+    double before = base(driven(500, 0.0)).sinkage, loss_before = -1e300;
+    for (const double slip : {0.1, 0.2, 0.4, 0.6, 0.8}) {
+      const Reading r = with(choice, driven(500, slip)), b = base(driven(500, slip));
+      EXPECT_GT(r.sinkage, before);
+      before = r.sinkage;
+      const double loss = b.drawbar_pull - r.drawbar_pull;
+      EXPECT_GT(loss, loss_before);
+      loss_before = loss;
+    }
+    EXPECT_GT(loss_before, 0.0);
+  }
+}
+
+// Where the wheel settles, the stresses still carry the load.
+TEST(SlipSinkage, CarriesTheLoadWhereItSettles) {
+  Tire tire;
+  tire.radius = radius;
+  tire.width = width;
+  for (const char* form : forms) {
+    const RollingWheel wheel(tire, sand(), make_effects({{"slip_sinkage", form, {}}}));
+    EXPECT_NEAR(wheel.roll(driven(500, 0.5)).forces.vertical, 500, 1e-9 * 500) << form;
+  }
+}
+
+}  // namespace
+}  // namespace soilbin::bekker_wong::bed

@@ -1,0 +1,213 @@
+// tire_flexibility: a carcass that gives way before the soil does.
+#include <algorithm>
+#include <array>
+
+#include "bekker_wong/bed_fixture.hpp"
+#include "bekker_wong/closed_forms.hpp"
+
+namespace soilbin::bekker_wong::bed {
+namespace {
+
+const char* const forms[] = {"flat_section", "carcass_spring", "substitute_circle"};
+
+Tire tire(std::optional<double> inflation = {}) {
+  Tire t;
+  t.radius = radius;
+  t.width = width;
+  t.inflation_pressure = inflation;
+  return t;
+}
+
+RolledWheel rolled(const EffectChoice& choice, const OperatingCondition& at, const Tire& t = tire()) {
+  return RollingWheel(t, sand(), make_effects({choice})).roll(at);
+}
+
+TEST(TireFlexibility, ZeroAmplitudeIsTheBaseModel) {
+  expect_base_at_zero("tire_flexibility", driven());
+  expect_heard("tire_flexibility", driven());  // on a tire that declares no pressure
+}
+
+// A longer contact carries the load at less depth: less sinkage, less compaction resistance, more pull.
+TEST(TireFlexibility, LongerShallowerContact) {
+  for (const char* form : forms) {
+    SCOPED_TRACE(form);
+    const EffectChoice choice{"tire_flexibility", form, {}};
+    for (const double load : {300.0, 800.0, 2000.0}) {
+      const RolledWheel r = rolled(choice, driven(load)), b = RollingWheel(tire(), sand()).roll(driven(load));
+      EXPECT_LT(r.sinkage, b.sinkage);
+      EXPECT_GT(r.forces.compaction, b.forces.compaction);
+      EXPECT_GT(r.reading.drawbar_pull, b.reading.drawbar_pull);
+    }
+  }
+}
+
+// The cap's mark: a light wheel stays rigid, a heavy one loses a growing share of its sinkage.
+TEST(TireFlexibility, FlatSectionSparesTheLightWheel) {
+  const auto lost = [](double load) {
+    return 1 - rolled({"tire_flexibility", "flat_section", {}}, driven(load)).sinkage / base(driven(load)).sinkage;
+  };
+  EXPECT_LT(lost(50), 1e-3);
+  EXPECT_GT(lost(800), 10 * lost(200));
+  EXPECT_GT(lost(2000), lost(800));
+}
+
+// Softer is softer: sinkage falls with the amplitude and rises with the inflation pressure.
+TEST(TireFlexibility, FollowsAmplitudeAndPressure) {
+  for (const char* form : forms) {
+    SCOPED_TRACE(form);
+    double before = base(driven()).sinkage;
+    for (const double a : {0.2, 0.4, 0.8, 1.6}) {
+      const double z = rolled({"tire_flexibility", form, {{"a", a}}}, driven()).sinkage;
+      EXPECT_LT(z, before);
+      before = z;
+    }
+    const EffectChoice choice{"tire_flexibility", form, {}};
+    const auto at_pressure = [&](double p) { return rolled(choice, driven(), tire(p)).sinkage; };
+    EXPECT_LT(at_pressure(60e3), at_pressure(100e3));
+    EXPECT_LT(at_pressure(100e3), at_pressure(300e3));
+    // 100 kPa is what an undeclared pressure means.
+    EXPECT_EQ(at_pressure(100e3), rolled(choice, driven()).sinkage);
+  }
+}
+
+// The ground pressure caps the soil's: p_g/a = 40 kPa, reached nearly under a load that needs a long flat.
+TEST(TireFlexibility, FlatSectionCapsThePressure) {
+  const RolledWheel w = rolled({"tire_flexibility", "flat_section", {{"a", 2.5}}}, driven(1500));
+  const auto sigma = w.patch.of(&ContactPatch::sigma);
+  const double most = *std::max_element(sigma.begin(), sigma.end());
+  EXPECT_LT(most, 40e3);
+  EXPECT_GT(most, 38e3);
+  const auto rigid = RollingWheel(tire(), sand()).roll(driven(1500));
+  const auto unbounded = rigid.patch.of(&ContactPatch::sigma);
+  EXPECT_GT(*std::max_element(unbounded.begin(), unbounded.end()), 60e3);
+}
+
+// Soil and carcass in series, node by node ahead of theta_m: the circle's depth less the tread's is the spring's
+// deflection (r a^2/2) sigma/p_g. The contact ends where the circle rises from the rut.
+TEST(TireFlexibility, CarcassSpringInEquilibrium) {
+  const double a = 0.4;
+  const RolledWheel w = rolled({"tire_flexibility", "carcass_spring", {{"a", a}}}, driven());
+  const ContactAngles& angles = w.patch.angles;
+  int front = 0;
+  for (int i = 0; i < w.patch.count; ++i) {
+    if (w.patch.theta[i] < angles.max_stress) continue;
+    const double circle = radius * (std::cos(w.patch.theta[i]) - std::cos(angles.entry));
+    EXPECT_NEAR(circle - w.patch.depth[i], 0.5 * radius * a * a * w.patch.sigma[i] / 100e3, 1e-15);
+    ++front;
+  }
+  EXPECT_GT(front, 8);
+  EXPECT_NEAR(w.sinkage + w.patch.deflection, radius * (1 - std::cos(angles.entry)), 1e-15);
+  EXPECT_NEAR(radius * (1 - std::cos(angles.exit)), w.patch.deflection, 1e-15);
+}
+
+/// The flattened wheel at a given theta_1, summed over 20,000 equal steps of theta, in the order of its definition:
+/// outline y = S(d), slope, arc, belt travel, pressure by depth and behind theta_m by mirror angle, Janosi shear.
+template <class Law>
+std::array<double, 3> summed(const Law& law, double theta_1, double slip) {
+  const SoilValues soil = sand();
+  const double k = soil.pressure_modulus(width), theta_m = (soil.c1 + soil.c2 * slip) * theta_1;
+  const auto circle = [&](double t) { return radius * (std::cos(t) - std::cos(theta_1)); };
+  const double exit = -std::acos(std::cos(theta_1) + law(circle(0)) / radius);
+  constexpr int steps = 20000;
+  const double dt = (theta_1 - exit) / steps;
+  double j = 0, forward = 0, vertical = 0, torque = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double t = theta_1 - (i + 0.5) * dt, mirror = theta_1 - (t - exit) / (theta_m - exit) * (theta_1 - theta_m);
+    const double step = 1e-7 * radius, d = circle(t);
+    const double slope = (law(d + step) - law(std::max(0.0, d - step))) / (step + std::min(d, step));
+    const double incline = std::atan(slope * std::tan(t)), dx = radius * std::cos(t) * dt, ds = dx / std::cos(incline);
+    const double sigma = k * std::pow(law(t > theta_m ? d : circle(mirror)), soil.exponent);
+    j += ds - (1 - slip) * dx;
+    const double strength = soil.cohesion + sigma * std::tan(soil.friction_angle);
+    const double tau = strength * (1 - std::exp(-j / soil.shear_modulus));
+    forward += width * ds * (tau * std::cos(incline) - sigma * std::sin(incline));
+    vertical += width * ds * (sigma * std::cos(incline) + tau * std::sin(incline));
+    torque += width * ds * tau * radius;
+  }
+  return {forward, vertical, torque};
+}
+
+template <class Law>
+void expect_summed(const char* form, double a, const Law& law) {
+  const RollingWheel wheel(tire(), sand(), make_effects({{"tire_flexibility", form, {{"a", a}}}}));
+  for (const double theta_1 : {0.4, 0.8, 1.2}) {
+    const RolledWheel w = wheel.at_entry_angle(driven(800, 0.3), theta_1);
+    const std::array<double, 3> sum = summed(law, theta_1, 0.3);
+    EXPECT_NEAR(w.forces.thrust + w.forces.compaction, sum[0], 1e-4 * sum[1]) << form << " " << theta_1;
+    EXPECT_NEAR(w.forces.vertical, sum[1], 1e-4 * sum[1]) << form << " " << theta_1;
+    EXPECT_NEAR(w.forces.torque, sum[2], 1e-4 * sum[1] * radius) << form << " " << theta_1;
+  }
+}
+
+// The patch's few nodes against brute force. The outline bends where the flat begins, so 1e-4 of the load instead of
+// the rigid wheel's 1e-9.
+TEST(TireFlexibility, PatchAgreesWithBruteForce) {
+  const double k = sand().pressure_modulus(width), n = sand().exponent;
+  const double deepest = std::pow(100e3 / k, 1 / n);
+  expect_summed("flat_section", 1.0, [&](double d) { return d * std::pow(1 + std::pow(d / deepest, 6), -1.0 / 6); });
+  expect_summed("carcass_spring", 0.4, [&](double d) {
+    double low = 0, high = d;
+    for (int i = 0; i < 60; ++i) {
+      const double y = 0.5 * (low + high);
+      (y + 0.5 * radius * 0.16 * k * std::pow(y, n) / 100e3 < d ? low : high) = y;
+    }
+    return low;
+  });
+}
+
+// Schmid's circle is as long as the tire's contact before and behind the axle: sqrt(2R z) = sqrt(2r (z + f)) +
+// sqrt(2r f), z Bekker's static sinkage, f = r a^2/2 times W/(2 r b)/100 kPa.
+TEST(TireFlexibility, SubstituteCircleInClosedForm) {
+  const double a = 0.5, load = 800;
+  const RolledWheel w = rolled({"tire_flexibility", "substitute_circle", {{"a", a}}}, driven(load));
+  const double circle = w.sinkage / (1 - std::cos(w.balance_angle));
+  const double z = bekker_static_sinkage(sand(), radius, width, load);
+  const double f = 0.5 * radius * a * a * load / (2 * radius * width * 100e3);
+  EXPECT_NEAR(std::sqrt(2 * circle * z), std::sqrt(2 * radius * (z + f)) + std::sqrt(2 * radius * f), 1e-12);
+}
+
+// What the balance needs: the load carried rises with theta_1, without a jump where the flat sets in.
+TEST(TireFlexibility, LoadCarriedRisesSmoothlyWithDepth) {
+  for (const char* form : forms) {
+    SCOPED_TRACE(form);
+    const RollingWheel wheel(tire(), sand(), make_effects({{"tire_flexibility", form, {}}}));
+    double before = 0.0;
+    for (int i = 1; i <= 400; ++i) {
+      const double carried = wheel.at_entry_angle(driven(), 0.003 * i).forces.vertical;
+      EXPECT_GT(carried, before);
+      if (i > 20) {
+        EXPECT_LT(carried, 1.3 * before);
+      }
+      before = carried;
+    }
+  }
+}
+
+// An inextensible belt on a lossless carcass: dj = ds - v/(r w) dx, torque = r b Int tau ds. So M - r (1 - s) F is what
+// the slipping of the soil and its compaction take: never negative.
+TEST(TireFlexibility, PowerInCoversPowerOut) {
+  for (const char* form : forms) {
+    for (const double slip : {-0.3, 0.0, 0.1, 0.5, 1.0}) {
+      const Reading r = rolled({"tire_flexibility", form, {}}, driven(600, slip)).reading;
+      const double ratio = slip >= 0 ? 1 - slip : 1 / (1 + slip);
+      EXPECT_GT(r.torque, radius * ratio * r.drawbar_pull) << form << " " << slip;
+    }
+  }
+}
+
+// On the flat the tread slides by s of its way: dj/dx = s. A hard cap makes the flat nearly plane there.
+TEST(TireFlexibility, FlatSlidesBySlip) {
+  const double slip = 0.3;
+  const ContactPatch p = rolled({"tire_flexibility", "flat_section", {{"a", 6.0}}}, driven(600, slip)).patch;
+  int ahead = -1, behind = -1;
+  for (int i = 0; i < p.count; ++i) {
+    if (p.theta[i] < 0.3 * p.angles.entry && ahead < 0) ahead = i;
+    if (p.theta[i] > -0.3 * p.angles.entry) behind = i;
+  }
+  ASSERT_GT(behind, ahead);
+  const double way = radius * (std::sin(p.theta[ahead]) - std::sin(p.theta[behind]));
+  EXPECT_NEAR((p.j_x[behind] - p.j_x[ahead]) / way, slip, 2e-3);
+}
+
+}  // namespace
+}  // namespace soilbin::bekker_wong::bed

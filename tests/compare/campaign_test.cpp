@@ -1,0 +1,273 @@
+// The measured campaign's contract: what is read, and how each bad input is refused.
+#include "compare/measured/campaign.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <numbers>
+
+#include "scenario/library.hpp"
+#include "tests/scenario/fake_vocabulary.hpp"
+#include "tests/scenario/refusal.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using test::FakeVocabulary;
+using test::refusal;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr double deg = std::numbers::pi / 180;
+
+const std::string good_yaml = R"(format: soilbin-campaign/1
+name: c042
+wheel:
+  radius: 0.25 m
+  width: 0.10 m
+  lugs: {height: 8 mm}
+soil:
+  exponent:       {value: 1.10, sd: 0.05}
+  k_c:            {value: 0.99 kN/m^(n+1), sd: 0.30 kN/m^(n+1)}
+  k_phi:          {value: 1528 kN/m^(n+2), sd: 150 kN/m^(n+2)}
+  cohesion:       1.04 kPa
+  friction_angle: 28 deg
+  shear_modulus:  20 mm
+  stress_angle_c1: 0.18
+  stress_angle_c2: 0.32
+  density: 1600 kg/m^3
+bin: {depth: 0.5 m, width: 1.0 m}
+model: {effects: []}
+data: runs.csv
+columns: {}
+force_frame: wheel
+slip_by: travel_speed
+)";
+
+const std::string good_csv =
+    "run,setpoint,load_N,slip,pass,moisture_percent,yaw_deg,drawbar_pull_N,torque_Nm\n"
+    "1,a,1000,0.1,1,3.81,15,120,30\n"
+    "2,a,1000,0.1,2,,0,122,\n"
+    "3,b,2000,-1,1,4,0,-300,-80\n";
+
+Campaign parse(const std::string& yaml, const std::string& csv) {
+  const auto open = [&](const std::string& name) { return make_source_text(csv, name); };
+  return parse_campaign(make_source_text(yaml, "campaign.yaml"), open, FakeVocabulary());
+}
+
+std::string refused(const std::string& yaml, const std::string& csv) {
+  return refusal([&] { parse(yaml, csv); });
+}
+
+std::string replaced(std::string text, const std::string& old_text, const std::string& new_text) {
+  const std::size_t at = text.find(old_text);
+  if (at == std::string::npos) ADD_FAILURE() << "no '" << old_text << "' in the example";
+  return text.replace(at, old_text.size(), new_text);
+}
+
+std::string refused_yaml(const std::string& old_text, const std::string& new_text) {
+  return refused(replaced(good_yaml, old_text, new_text), good_csv);
+}
+
+std::string refused_csv(const std::string& old_text, const std::string& new_text) {
+  return refused(good_yaml, replaced(good_csv, old_text, new_text));
+}
+
+TEST(Campaign, IsReadInSi) {
+  const Campaign c = parse(good_yaml, good_csv);
+  EXPECT_EQ(c.name, "c042");
+  EXPECT_EQ(c.wheel.lugs.height, 0.008);
+  EXPECT_FALSE(c.wheel.lugs.count) << "lugs may have a height and no count";
+  EXPECT_EQ(c.soil.k_c.std_error, 300.0);
+  EXPECT_EQ(c.bin->width, 1.0);
+  ASSERT_EQ(c.runs.size(), 3u);
+  EXPECT_EQ(c.runs[0].at.load, 1000.0);
+  EXPECT_EQ(c.runs[0].at.run, 1);
+  EXPECT_EQ(c.runs[0].at.moisture, 0.0381);
+  EXPECT_DOUBLE_EQ(c.runs[0].at.yaw, 15 * deg);
+  EXPECT_EQ(c.runs[0].at.force_frame, ForceFrame::wheel);
+  EXPECT_EQ(c.runs[0].at.slip_by, SlipBy::travel_speed);
+  EXPECT_EQ(c.runs[1].setpoint, "a");
+  EXPECT_EQ(c.runs[1].at.pass, 2);
+  EXPECT_FALSE(c.runs[1].at.moisture) << "a cell may be empty";
+  EXPECT_FALSE(c.runs[1].torque);
+  EXPECT_EQ(c.runs[2].drawbar_pull, -300.0);
+  EXPECT_FALSE(c.runs[2].sinkage) << "a column may be absent";
+  EXPECT_EQ(c.runs[2].csv_line, 4);
+}
+
+TEST(Campaign, EffectsOfTheAnalystsModel) {
+  const Campaign plain = parse(replaced(good_yaml, "effects: []", "effects: [slip_sinkage]"), good_csv);
+  ASSERT_EQ(plain.effects.size(), 1u);
+  EXPECT_EQ(plain.effects[0].form, "lyasko");
+  EXPECT_THAT(refused_yaml("effects: []", "effects: [slip_snkage]"), HasSubstr("did you mean 'slip_sinkage'?"));
+}
+
+TEST(Campaign, ColumnsMayHaveOtherNamesAndUnits) {
+  const std::string columns = "columns: {Fx_kN: {quantity: drawbar_pull, unit: kN}, i: {quantity: slip, unit: '%'}}";
+  const Campaign c = parse(replaced(good_yaml, "columns: {}", columns),
+                           "load_N,i,Fx_kN,sinkage_m\n1000,10,0.12,0.01\n1000,20,0.2,0.01\n1000,30,0.3,0.02\n");
+  EXPECT_EQ(c.runs[0].at.slip, 0.1);
+  EXPECT_EQ(c.runs[0].drawbar_pull, 120.0);
+}
+
+TEST(Campaign, RealFilesHaveQuotesCarriageReturnsMarksAndBlankLines) {
+  const Campaign c = parse(good_yaml,
+                           "\xEF\xBB\xBF\"load_N\",slip, torque_Nm ,setpoint\r\n"
+                           "1000,0.1,30,\"a, \"\"wet\"\"\nbed\"\r\n"
+                           "\r\n"
+                           " 1000 ,\"0.2\",3e1,\r\n"
+                           "1000,0.3,30.5,x");
+  ASSERT_EQ(c.runs.size(), 3u);
+  EXPECT_EQ(c.runs[0].setpoint, "a, \"wet\"\nbed");
+  EXPECT_EQ(c.runs[1].at.slip, 0.2);
+  EXPECT_FALSE(c.runs[1].setpoint);
+  EXPECT_EQ(c.runs[1].csv_line, 5) << "a quoted line feed and a blank line count";
+}
+
+TEST(CampaignRefuses, MissingFiles) {
+  EXPECT_THAT(refusal([] { read_campaign("no/such/folder", FakeVocabulary()); }),
+              HasSubstr("no/such/folder: no such file"));
+  EXPECT_THAT(refusal([] { read_campaign(SOILBIN_SOURCE_DIR "/cases", FakeVocabulary()); }),
+              HasSubstr("campaign.yaml: no such file"));
+}
+
+TEST(CampaignRefuses, UnknownColumns) {
+  EXPECT_THAT(refused_csv("torque_Nm", "torqe_Nm"),
+              AllOf(StartsWith("runs.csv:1:71: unknown column 'torqe_Nm', did you mean 'torque_Nm'?"),
+                    HasSubstr("hint: columns: run, setpoint, load_N")));
+  EXPECT_THAT(refused_csv("torque_Nm", "drawbar_pull_N"), HasSubstr("column 'drawbar_pull_N' appears twice"));
+  EXPECT_THAT(refused_csv("torque_Nm", ""), HasSubstr("a column without a name"));
+}
+
+TEST(CampaignRefuses, TextInANumber) {
+  EXPECT_THAT(refused_csv("122,", "abc,"),
+              StartsWith("runs.csv:3:19: column 'drawbar_pull_N': expected a finite number, not 'abc'"));
+  EXPECT_THAT(refused_csv("122,", "122 N,"), HasSubstr("the unit stands in the column's name"));
+  EXPECT_THAT(refused_csv("122,", "\"1,5\","), HasSubstr("a decimal point is '.'"));
+  EXPECT_THAT(refused_csv("2,a,1000", "two,a,1000"), StartsWith("runs.csv:3:1: column 'run'"));
+  EXPECT_THAT(refused_csv("0.1,2,", "0.1,1.5,"), HasSubstr("column 'pass': expected a whole number, not '1.5'"));
+}
+
+TEST(CampaignRefuses, NumbersThatAreNotFinite) {
+  for (const char* text : {"nan", "NaN", "inf", "-Infinity", "1e999", "#N/A", "-"})
+    EXPECT_THAT(refused_csv("122,", std::string(text) + ","),
+                HasSubstr("column 'drawbar_pull_N': expected a finite number"));
+}
+
+TEST(CampaignRefuses, ValuesOutOfRange) {
+  EXPECT_THAT(refused_csv("-1,1,4", "-1.01,1,4"),
+              StartsWith("runs.csv:4:10: column 'slip': '-1.01' is out of range: must be -1 .. 1"));
+  EXPECT_THAT(refused_csv("1000,0.1", "0,0.1"), HasSubstr("column 'load_N': '0 N' is out of range: must be above 0 N"));
+  EXPECT_THAT(refused_csv("1000,0.1", "-1000,0.1"), HasSubstr("must be above 0 N"));
+  EXPECT_THAT(refused_csv("0.1,2,", "0.1,0,"), HasSubstr("column 'pass'"));
+  EXPECT_THAT(refused_csv("3.81", "381"), HasSubstr("must be 0 % .. 100 %"));
+  EXPECT_THAT(refused_csv(",15,", ",150,"), HasSubstr("must be -90 deg .. 90 deg"));
+}
+
+TEST(CampaignRefuses, MissingConditionsAndChannels) {
+  EXPECT_THAT(refused(good_yaml, "slip,torque_Nm\n0.1,1\n0.1,1\n0.1,1\n"), HasSubstr("column 'load_N' is missing"));
+  EXPECT_THAT(refused(good_yaml, "load_N,torque_Nm\n1,1\n1,1\n1,1\n"), HasSubstr("column 'slip' is missing"));
+  EXPECT_THAT(refused(good_yaml, "load_N,slip\n1,0\n1,0\n1,0\n"), StartsWith("runs.csv:1:1: no measured channel"));
+  EXPECT_THAT(refused(good_yaml, "load_N,slip,torque_Nm\n1,0,\n1,0,\n1,0,\n"), HasSubstr("no measured channel"));
+  EXPECT_THAT(refused_csv("2,a,1000", "2,a,"), StartsWith("runs.csv:3:5: column 'load_N': empty"));
+}
+
+TEST(CampaignRefuses, FewerRowsThanParameters) {
+  EXPECT_EQ(free_parameters(parse(good_yaml, good_csv).soil), 3) << "exponent, k_c and k_phi have an sd";
+  EXPECT_THAT(
+      refused(good_yaml, "load_N,slip,torque_Nm\n1000,0,1\n1000,0.1,2\n"),
+      StartsWith("runs.csv:1:1: 2 rows with a measured value are fewer than the 3 free parameters of the soil"));
+  EXPECT_THAT(refused(good_yaml, "load_N,slip,torque_Nm\n1000,0,1\n1000,0.1,2\n1000,0.2,\n"), HasSubstr("2 rows"));
+  EXPECT_THAT(refused(good_yaml, "load_N,slip,torque_Nm\n"), HasSubstr("no row holds a measured value"));
+}
+
+TEST(CampaignRefuses, BrokenTables) {
+  EXPECT_THAT(refused(good_yaml, ""), HasSubstr("the file is empty: a header line is expected"));
+  EXPECT_THAT(refused_csv("122,\n", "122\n"), StartsWith("runs.csv:3:1: a row of 8 cells under a header of 9"));
+  EXPECT_THAT(refused_csv("122,\n", "122,,\n"), HasSubstr("runs.csv:3:24: more cells in a row than the 9 expected"));
+  EXPECT_THAT(refused_csv("122,", "\"122,"), StartsWith("runs.csv:3:19: a quote is opened here and never closed"));
+  EXPECT_THAT(refused_csv("122,", "\"122\"x,"), HasSubstr("text behind a closing quote"));
+  EXPECT_THAT(refused_csv("122,", "\xff,"), HasSubstr("byte 0xff is no text"));
+  EXPECT_THAT(refused_csv("1,a", "# a comment\n1,a"), HasSubstr("a row of 1 cells")) << "there are no comments";
+}
+
+TEST(CampaignRefuses, UnitsOfAWrongDimension) {
+  EXPECT_THAT(refused_yaml("0.25 m", "0.25 kg"), StartsWith("campaign.yaml:4:11: expected a length"));
+  EXPECT_THAT(refused_yaml("0.25 m", "0.25"), HasSubstr("it has no unit"));
+  EXPECT_THAT(refused_yaml("sd: 150 kN/m^(n+2)", "sd: 150 kPa"),
+              StartsWith("campaign.yaml:10:48: expected a frictional modulus"));
+  EXPECT_THAT(
+      refused_yaml("columns: {}", "columns: {Fx: {quantity: drawbar_pull, unit: kPa}}"),
+      StartsWith(
+          "campaign.yaml:20:46: the unit of 'drawbar_pull' must be that of a force, such as 'N'; 'kPa' is a pressure"));
+  EXPECT_THAT(refused_yaml("columns: {}", "columns: {Fx: {quantity: drawbar_pull}}"),
+              HasSubstr("key 'unit' is missing"));
+}
+
+TEST(CampaignRefuses, MistakesInColumns) {
+  EXPECT_THAT(refused_yaml("columns: {}", "columns: {Fx: {quantity: drawbar_pul, unit: N}}"),
+              HasSubstr("did you mean 'drawbar_pull'?"));
+  EXPECT_THAT(refused_yaml("columns: {}", "columns: {Fx: {quantity: sinkage, unit: mm}}"),
+              HasSubstr("'runs.csv' has no column 'Fx'"));
+  EXPECT_THAT(refused_yaml("columns: {}", "columns: {torque_Nm: {quantity: drawbar_pull, unit: N}}"),
+              HasSubstr("columns 'drawbar_pull_N' and 'torque_Nm' both hold 'drawbar_pull'"));
+  EXPECT_THAT(refused_yaml("columns: {}", "columns: [a]"), HasSubstr("expected a mapping of column names"));
+}
+
+TEST(CampaignRefuses, MistakesInTheYaml) {
+  EXPECT_THAT(refused_yaml("force_frame: wheel", "force_fram: wheel"),
+              StartsWith("campaign.yaml:21:1: unknown key 'force_fram', did you mean 'force_frame'?"));
+  EXPECT_THAT(refused_yaml("force_frame: wheel", "force_frame: wheels"), HasSubstr("did you mean 'wheel'?"));
+  EXPECT_THAT(refused_yaml("cohesion: ", "cohesoin: "), HasSubstr("did you mean 'cohesion'?"));
+  EXPECT_THAT(refused_yaml("format: soilbin-campaign/1", "format: soilbin-case/1"), HasSubstr("unknown format"));
+  EXPECT_THAT(refused_yaml("  shear_modulus:  20 mm\n", ""), HasSubstr("key 'shear_modulus' is missing"));
+  EXPECT_THAT(refused_yaml("1.10, sd", "nan, sd"), HasSubstr("must be finite"));
+  EXPECT_THAT(refused_yaml("28 deg", "95 deg"), HasSubstr("out of range"));
+}
+
+class CampaignFolder : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "soilbin-campaign-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_;
+};
+
+TEST_F(CampaignFolder, IsWrittenAndReadBack) {
+  Campaign c = parse(replaced(good_yaml, "effects: []", "effects: [lug_thrust]"), good_csv);
+  c.runs[1].setpoint = "a, \"wet\"";
+  write_campaign(folder_ / "new", c, FakeVocabulary());
+  const Campaign by_folder = read_campaign(folder_ / "new", FakeVocabulary());
+  const Campaign by_file = read_campaign(folder_ / "new" / "campaign.yaml", FakeVocabulary());
+  EXPECT_EQ(by_folder.effects.at(0).parameters, c.effects.at(0).parameters);
+  EXPECT_EQ(by_file.soil.k_phi.std_error, c.soil.k_phi.std_error);
+  EXPECT_EQ(by_file.force_frame, c.force_frame);
+  ASSERT_EQ(by_folder.runs.size(), c.runs.size());
+  for (std::size_t i = 0; i < c.runs.size(); ++i) {
+    EXPECT_EQ(by_folder.runs[i].setpoint, c.runs[i].setpoint);
+    EXPECT_EQ(by_folder.runs[i].at.moisture, c.runs[i].at.moisture);
+    EXPECT_EQ(by_folder.runs[i].at.yaw, c.runs[i].at.yaw);
+    EXPECT_EQ(by_folder.runs[i].at.pass, c.runs[i].at.pass);
+    EXPECT_EQ(by_folder.runs[i].torque, c.runs[i].torque);
+  }
+}
+
+TEST(Campaign, EveryMeasuredOneIsRead) {
+  const Library library({SOILBIN_SOURCE_DIR "/cases"});
+  const std::vector<std::string> names = library.names(Shelf::measured);
+  EXPECT_GE(names.size(), 4u);
+  for (const std::string& name : names) {
+    const Campaign c = read_campaign(*library.find(Shelf::measured, name), FakeVocabulary());
+    EXPECT_EQ(c.name, name);
+    EXPECT_GE(static_cast<int>(c.runs.size()), free_parameters(c.soil)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace soilbin::compare

@@ -1,0 +1,78 @@
+// The cases that come with soilbin can be read, and say where their numbers come from.
+#include "scenario/library.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenario/case.hpp"
+#include "scenario/yaml_node.hpp"
+#include "tests/scenario/fake_vocabulary.hpp"
+
+namespace soilbin {
+namespace {
+
+using testing::Contains;
+
+const Library& library() {
+  static const Library cases({SOILBIN_SOURCE_DIR "/cases"});
+  return cases;
+}
+
+TEST(Library, ListsNames) {
+  EXPECT_THAT(library().names(Shelf::tires), Contains("paper-lugged"));
+  EXPECT_THAT(library().names(Shelf::soils), Contains("dry-sand"));
+  EXPECT_THAT(library().names(Shelf::studies), Contains("paper-straight"));
+  EXPECT_THAT(library().names(Shelf::measured), Contains("cmu-smooth"));
+  EXPECT_TRUE(Library({"no/such/folder"}).names(Shelf::tires).empty());
+}
+
+TEST(Library, TheFirstFolderWins) {
+  const std::filesystem::path found = *library().beside("elsewhere/case.yaml").find(Shelf::tires, "paper-lugged");
+  EXPECT_EQ(found, std::filesystem::path(SOILBIN_SOURCE_DIR) / "cases/tires/paper-lugged.yaml");
+  EXPECT_FALSE(library().find(Shelf::tires, "../tires/paper-lugged")) << "a name is no path";
+  EXPECT_FALSE(library().find(Shelf::tires, ""));
+}
+
+TEST(Library, EveryTireAndSoilIsReadAndNamesItsSource) {
+  for (const std::string& name : library().names(Shelf::tires)) {
+    const Tire tire = find_tire(name, library());
+    EXPECT_EQ(tire.name, name);
+    EXPECT_NE(tire.source, "") << name;
+  }
+  for (const std::string& name : library().names(Shelf::soils)) {
+    const Soil soil = find_soil(name, library());
+    EXPECT_EQ(soil.name, name);
+    EXPECT_NE(soil.source, "") << name;
+  }
+}
+
+TEST(Library, EveryStudyIsRead) {
+  for (const std::string& name : library().names(Shelf::studies)) {
+    const Case c = read_case(*library().find(Shelf::studies, name), library(), test::FakeVocabulary());
+    EXPECT_EQ(c.name, name);
+    EXPECT_NE(c.source, "") << name;
+    EXPECT_FALSE(c.study.conditions.empty());
+  }
+}
+
+TEST(Library, ThePapersStraightStudyIsItsTwentyEightPoints) {
+  const Case c = read_case(*library().find(Shelf::studies, "paper-straight"), library(), test::FakeVocabulary());
+  ASSERT_EQ(c.study.conditions.size(), 28u) << "four loads, seven slips";
+  EXPECT_EQ(c.study.conditions.front().load, 2000.0);
+  EXPECT_EQ(c.study.conditions.back().slip, 0.6);
+  EXPECT_EQ(c.scenario.tire.lugs.height, 0.011);
+  EXPECT_EQ(c.scenario.soil.granular->grain_tire.sliding_friction, 0.52);
+}
+
+TEST(Library, TheExampleOfTheDocumentationIsACase) {
+  const std::string page = read_source_text(SOILBIN_SOURCE_DIR "/docs/case-files.md", largest_yaml).text;
+  const std::string fence = "```yaml\n";
+  const std::size_t begin = page.find(fence) + fence.size();
+  const std::string example = page.substr(begin, page.find("```", begin) - begin);
+  const Case c = parse_case(make_source_text(example, "docs/case-files.md"), Library(), test::FakeVocabulary());
+  EXPECT_EQ(c.study.models.size(), 3u);
+  EXPECT_EQ(c.study.conditions.size(), 14u);
+}
+
+}  // namespace
+}  // namespace soilbin

@@ -1,0 +1,24 @@
+#include "scenario/nearest_word.hpp"
+
+#include <gtest/gtest.h>
+
+namespace soilbin {
+namespace {
+
+const std::vector<std::string> keys = {"radius", "width", "lugs", "inflation_pressure"};
+
+TEST(NearestWord, FindsWhatWasMeant) {
+  EXPECT_EQ(nearest_word("raduis", keys), "radius") << "neighbours swapped count once";
+  EXPECT_EQ(nearest_word("Width", keys), "width") << "case doesn't count";
+  EXPECT_EQ(nearest_word("lug", keys), "lugs");
+  EXPECT_EQ(nearest_word("inflationpressure", keys), "inflation_pressure");
+}
+
+TEST(NearestWord, SaysNothingWhereNothingIsNear) {
+  EXPECT_EQ(nearest_word("temperature", keys), "");
+  EXPECT_EQ(nearest_word("radius", {}), "");
+  EXPECT_EQ(nearest_word(std::string(100'000, 'x'), keys), "");
+}
+
+}  // namespace
+}  // namespace soilbin

@@ -1,0 +1,145 @@
+// A number in a file carries its unit; what is written reads back to the same bits.
+#include "scenario/quantity.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "tests/scenario/refusal.hpp"
+
+namespace soilbin {
+namespace {
+
+using test::refusal;
+using testing::HasSubstr;
+
+constexpr double pi = std::numbers::pi;
+
+double si(const std::string& text, const std::string& unit, std::optional<double> n = std::nullopt) {
+  return read_quantity(text, {unit, any_value}, n);
+}
+
+TEST(Quantity, DecimalUnitsAreReadAsTheNearestDouble) {
+  EXPECT_EQ(si("11 mm", "m"), 0.011);
+  EXPECT_EQ(si("3.63 kPa", "Pa"), 3630.0);
+  EXPECT_EQ(si("31.75 MPa", "Pa"), 31.75e6);
+  EXPECT_EQ(si("20 %", "-"), 0.2);
+  EXPECT_EQ(si("0.2", "-"), 0.2);
+  EXPECT_EQ(si("1600 kg/m^3", "kg/m^3"), 1600.0);
+  EXPECT_EQ(si("1.6 g/cm^3", "kg/m^3"), 1600.0);
+  EXPECT_EQ(si("4kN", "N"), 4000.0);
+  EXPECT_EQ(si("-1.5e-3 m", "m"), -0.0015);
+  EXPECT_EQ(si("+.5 m", "m"), 0.5);
+}
+
+TEST(Quantity, UnitsWithOtherFactors) {
+  EXPECT_DOUBLE_EQ(si("10 rpm", "rad/s"), pi / 3);
+  EXPECT_DOUBLE_EQ(si("5 deg", "rad"), pi / 36);
+  EXPECT_DOUBLE_EQ(si("36 km/h", "m/s"), 10.0);
+  EXPECT_DOUBLE_EQ(si("1 mph", "m/s"), 0.44704);
+  EXPECT_DOUBLE_EQ(si("24.7 in", "m"), 24.7 * 0.0254);
+  EXPECT_DOUBLE_EQ(si("2006 lbf", "N"), 2006 * 4.4482216152605);
+  EXPECT_DOUBLE_EQ(si("0.1 psi", "Pa"), 689.4757293168361);
+  EXPECT_DOUBLE_EQ(si("120 N m", "Nm"), 120.0);
+  EXPECT_DOUBLE_EQ(si("1 kN*mm", "N m"), 1.0);
+  EXPECT_DOUBLE_EQ(si("2 (m/s)^2", "m^2/s^2"), 2.0);
+  EXPECT_DOUBLE_EQ(si("7\u00b0", "rad"), 7 * pi / 180);
+  EXPECT_DOUBLE_EQ(si("3 cm\u00b2", "m^2"), 3e-4);
+}
+
+TEST(Quantity, UnitsOfSinkageModuliDependOnTheExponent) {
+  EXPECT_EQ(si("0.99 kN/m^(n+1)", "N/m^(n+1)"), 990.0);
+  EXPECT_EQ(si("1528.43 kN/m^(n+2)", "kN/m^(n+2)"), 1528430.0);
+  EXPECT_EQ(si("0.99 kN/m^2.1", "kN/m^(n+1)", 1.1), 990.0) << "spelled out at n = 1.1";
+  EXPECT_DOUBLE_EQ(si("1 N/mm^(n+1)", "N/m^(n+1)", 1.0), 1e6);
+  EXPECT_DOUBLE_EQ(si("1 N/mm^(n+1)", "N/m^(n+1)", 0.5), std::pow(10.0, 4.5));
+  EXPECT_THAT(refusal([] { si("1 N/mm^(n+1)", "N/m^(n+1)"); }), HasSubstr("needs the soil's exponent n"));
+  EXPECT_THAT(refusal([] { si("0.99 kN/m^(n+2)", "kN/m^(n+1)", 1.1); }), HasSubstr("expected a cohesive modulus"));
+  EXPECT_THAT(refusal([] { si("0.99 kN/m^2", "kN/m^(n+1)", 1.1); }), HasSubstr("is a pressure"));
+}
+
+TEST(Quantity, ARefusalSaysWhatWasExpected) {
+  EXPECT_EQ(refusal([] { si("0.25", "m"); }), "expected a length, such as '11 mm', not '0.25': it has no unit");
+  EXPECT_EQ(refusal([] { si("3 kPa", "m"); }), "expected a length, such as '11 mm', not '3 kPa': 'kPa' is a pressure");
+  EXPECT_THAT(refusal([] { si("11 mn", "m"); }), HasSubstr("unknown unit 'mn', did you mean 'm"));
+  EXPECT_THAT(refusal([] { si("5 mm", "-"); }), HasSubstr("expected a plain number or a percentage"));
+  EXPECT_THAT(refusal([] { si("5 mm", "deg"); }), HasSubstr("expected an angle, such as '5 deg'"));
+  EXPECT_THAT(refusal([] { si("20 lb", "N"); }), HasSubstr("a pound-force is written 'lbf'"));
+  EXPECT_THAT(refusal([] { si("1,5 m", "m"); }), HasSubstr("a decimal point is '.'"));
+}
+
+TEST(Quantity, RubbishIsRefused) {
+  for (const char* text :
+       {"",        " ",        "mm",     "m 3",   "1 m m m)", "1 m)",      "1 (m",  "1 m^",  "1 m^(n", "1 m^x",
+        "1 m;",    "1 2 m",    "0x10 m", "--1 m", "1..2 m",   "1e m",      "nan m", "inf m", "-inf m", ".nan",
+        "1e999 m", "1e-999 m", "1 m/",   "1 *m",  "1 m^99",   "1 m^(n*n)", "1 m!",  "one m", "1 m # x"})
+    EXPECT_THROW(si(text, "m"), InputError) << "'" << text << "'";
+  EXPECT_THAT(refusal([] { si("nan", "m"); }), HasSubstr("finite"));
+  EXPECT_THROW(si(std::string(100'000, '('), "m"), InputError);
+  EXPECT_THROW(si("1 " + std::string(90, '('), "m"), InputError);
+  EXPECT_THROW(si(std::string(100'000, '9') + " m", "m"), InputError);
+}
+
+TEST(Quantity, ARangeIsTold) {
+  const Measure width{"mm", above_zero};
+  EXPECT_EQ(refusal([&] { read_quantity("0 mm", width); }), "'0 mm' is out of range: must be above 0 mm");
+  const Measure slip{"-", {.lower = -1.0, .upper = 1.0}};
+  EXPECT_EQ(refusal([&] { read_quantity("120 %", slip); }), "'120 %' is out of range: must be -1 .. 1");
+}
+
+TEST(Quantity, IsWrittenShortest) {
+  EXPECT_EQ(write_quantity(0.011, "mm"), "11 mm");
+  EXPECT_EQ(write_quantity(3630.0, "kPa"), "3.63 kPa");
+  EXPECT_EQ(write_quantity(990.0, "kN/m^(n+1)"), "0.99 kN/m^(n+1)");
+  EXPECT_EQ(write_quantity(si("5 deg", "rad"), "deg"), "5 deg");
+  EXPECT_EQ(write_quantity(0.2, "-"), "0.2");
+  EXPECT_EQ(write_quantity(0.0, "m"), "0 m");
+  EXPECT_EQ(write_quantity(-0.0, "m"), "-0 m");
+  EXPECT_EQ(write_quantity(1e-300, "m"), "1e-300 m");
+}
+
+TEST(Quantity, BaseUnitsAreReadable) {
+  for (const char* unit : {"kN/m^(n+1)", "kPa", "rpm", "deg", "kg/m^3", "m^(2*n-1)", "-", "1/s"}) {
+    const Unit parsed = parse_unit(unit, 1.1);
+    EXPECT_TRUE(same_dimension(parse_unit(base_unit(parsed.dimension)).dimension, parsed.dimension)) << unit;
+  }
+}
+
+/// Any finite double, by its bits, that is no subnormal (whose decimals may underflow in a smaller unit).
+rc::Gen<double> finite_double() {
+  return rc::gen::suchThat(
+      rc::gen::map(rc::gen::arbitrary<std::uint64_t>(),
+                   [](std::uint64_t bits) { return std::bit_cast<double>(bits * 0x9E3779B97F4A7C15ULL); }),
+      [](double x) { return std::isfinite(x) && std::abs(x) > 1e-280 && std::abs(x) < 1e280; });
+}
+
+TEST(Quantity, WrittenAndReadGivesTheSameBits) {
+  EXPECT_TRUE(rc::check("any double in any unit", [] {
+    const std::string unit =
+        *rc::gen::element<std::string>("mm", "kPa", "deg", "rpm", "%", "-", "kN/m^(n+2)", "km/h", "psi", "N/mm^(n+1)");
+    const double n = 0.1 * *rc::gen::inRange(1, 20);
+    const double value = *finite_double();
+    const double again = read_quantity(write_quantity(value, unit, n), {unit, any_value}, n);
+    RC_ASSERT(std::bit_cast<std::uint64_t>(again) == std::bit_cast<std::uint64_t>(value));
+  }));
+}
+
+TEST(Quantity, ReadingNeverCrashes) {
+  EXPECT_TRUE(rc::check("any text is read or refused", [] {
+    const auto text = *rc::gen::container<std::string>(
+        rc::gen::elementOf(std::string("0123456789.eE+-*/^()n mkNPadgsr%\xc2\xb5\xb0")));
+    try {
+      RC_ASSERT(std::isfinite(read_quantity(text, {"kPa", any_value}, 1.1)));
+    } catch (const InputError& error) {
+      RC_ASSERT(std::string(error.what()) != "");
+    }
+  }));
+}
+
+}  // namespace
+}  // namespace soilbin
