@@ -51,7 +51,7 @@ std::optional<RisingRoot> rising_root(gsl::FunctionRef f, double start, double s
 }
 
 FirstRoot first_rising_root(gsl::FunctionRef f, double upper) {
-  Sample before{-std::numeric_limits<double>::infinity(), 0.0}, low{std::min(upper - scan_step, -14.0), 0.0};
+  Sample before{-std::numeric_limits<double>::infinity(), 0.0}, low{std::min(upper - scan_step, -7.0), 0.0};
   for (low.f = f(low.x); low.f >= 0.0; low.f = f(low.x))
     if ((low.x -= 2.0) < lowest) return {{}, low.f};
   const auto root_between = [&](double a, double b) {

@@ -128,9 +128,11 @@ double displacement_at(double x, double entry, const Outline& outline, const Kin
   return outline.shear_radius * std::hypot(along, motion.lateral * x);
 }
 
-/// A braked wheel's shear displacement along the wheel grows, turns and may change sign.
+/// A braked wheel's shear displacement along the wheel may grow, turn and change sign. Past 45 deg of yaw that leaves no
+/// trace in |j|, which the displacement across the wheel rules.
 bool turns_back(const ContactAngles& angles, const Kinematics& motion) {
-  return !motion.locked && motion.forward > 1.0 && motion.forward * std::cos(angles.entry) < 1.0;
+  return !motion.locked && motion.forward > 1.0 && motion.forward * std::cos(angles.entry) < 1.0 &&
+         std::abs(motion.lateral) < motion.forward;
 }
 
 }  // namespace

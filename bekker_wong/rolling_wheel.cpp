@@ -101,6 +101,16 @@ double sum_over(const ContactPatch& patch, const Term& term) {
   return (lane[0] + lane[1]) + (lane[2] + lane[3]);
 }
 
+/// ln(share), continued as a line where next to nothing is carried, or less than nothing (a braked wheel is pulled down).
+constexpr double small_share = 0.05;
+double log_share(double share) {
+  return share > small_share ? std::log(share) : std::log(small_share) + (share - small_share) / small_share;
+}
+double share_of(double log_share) {
+  const double below = log_share - std::log(small_share);
+  return below > 0.0 ? std::exp(log_share) : small_share * (1 + below);
+}
+
 double deepest_angle() { return std::acos(1.0 - max_sinkage_share); }
 
 }  // namespace
@@ -143,14 +153,28 @@ double RollingWheel::vertical(const Prepared& p, const ContactPatch& patch) cons
   });
 }
 
+/// A braked wheel's shear stress pushes it down, so that the load carried may rise, fall and, where the shear displacement
+/// turns back, rise again. Looks from a root downward until even what lifts the wheel would not carry the load.
+bool RollingWheel::is_smallest(const Prepared& p, double log_theta, ContactPatch& patch) const {
+  if (!p.motion.locked && p.motion.forward <= 1.0) return true;
+  constexpr double step = 0.05, lowest = -7.0;
+  for (double x = log_theta - step; x > lowest; x -= step) {
+    fill_patch(p, std::exp(x), patch);
+    if (vertical(p, patch) > p.around.normal_load) return false;
+    const double lifting = p.outline.width * sum_over(patch, [&](std::size_t i) {
+      return patch.arc[i] * (patch.sigma[i] * patch.normal_cosine[i] + std::max(patch.tau_x[i], 0.0) * patch.normal_sine[i]);
+    });
+    if (lifting < p.around.normal_load) return true;
+  }
+  return true;
+}
+
 double RollingWheel::balance(Prepared& p, ContactPatch& patch) const {
   const double load = p.around.normal_load, upper = std::log(deepest_angle());
-  // ln(carried/load) against ln(theta_1) is nearly a line of slope 2n + 1; continued as a line where little is carried.
+  // ln(carried/load) against ln(theta_1) is nearly a line of slope 2n + 1.
   const auto imbalance = [&](double log_theta) {
     fill_patch(p, std::exp(log_theta), patch);
-    const double share = vertical(p, patch) / load;
-    constexpr double small = 0.05;
-    return share > small ? std::log(share) : std::log(small) + (share - small) / small;
+    return log_share(vertical(p, patch) / load);
   };
   SoilValues guessed = p.soil;
   guessed.exponent = std::min(guessed.exponent, 2.5);  // Bekker's formula ends at 3
@@ -158,7 +182,7 @@ double RollingWheel::balance(Prepared& p, ContactPatch& patch) const {
   const double start = std::acos(1.0 - std::min(static_share, 0.8 * max_sinkage_share));
   p.layout = coarse(layout_at(p, start));
   const auto near = rising_root(imbalance, std::log(start), 2 * p.soil.exponent + 1, upper, 1e-4);
-  if (near) {
+  if (near && is_smallest(p, near->x, patch)) {
     p.layout = layout_at(p, std::exp(near->x));
     if (const auto root = rising_root(imbalance, near->x, near->slope, upper, 1e-12)) return std::exp(root->x);
   }
@@ -172,7 +196,7 @@ double RollingWheel::balance(Prepared& p, ContactPatch& patch) const {
 void RollingWheel::refuse(const Prepared& p, double highest, ContactPatch& patch) const {
   if (highest >= 0.0) throw NoSolution("no sinkage balances the load: the added forces alone lift the wheel");
   fill_patch(p, deepest_angle(), patch);
-  const double load = p.around.normal_load, carried = vertical(p, patch), most = std::exp(highest) * load;
+  const double load = p.around.normal_load, carried = vertical(p, patch), most = share_of(highest) * load;
   throw NoSolution(fmt::format(
       "the wheel would sink deeper than {} of its radius: there the soil carries {:.4g} N of {:.4g} N{}",
       max_sinkage_share, carried, load,

@@ -61,6 +61,7 @@ class RollingWheel {
   double vertical(const Prepared&, const ContactPatch&) const;
   /// Finds theta_1 and leaves the patch filled for it; refines p's node layout on the way.
   double balance(Prepared& p, ContactPatch& patch) const;
+  bool is_smallest(const Prepared&, double log_theta, ContactPatch& patch) const;
   [[noreturn]] void refuse(const Prepared&, double highest, ContactPatch& patch) const;
   void settle(const Prepared&, RolledWheel&) const;
   void read(const Prepared&, RolledWheel&) const;

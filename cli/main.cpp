@@ -1,6 +1,7 @@
 // soilbin: what does this tire do on this soil?
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -36,11 +37,14 @@ int refuse(const std::string& message) {
 /// Names the nearest right word for the first word on the command line that is no subcommand or flag; "" for none.
 std::string misspelt(const CLI::App& app, const std::vector<std::string>& words) {
   if (words.empty()) return "";
-  std::vector<std::string> commands;
-  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
   const std::string& first = words.front();
   if (first.starts_with("-")) return "";
-  const CLI::App* command = app.get_subcommand_no_throw(first);
+  const CLI::App* command = nullptr;
+  std::vector<std::string> commands;
+  for (const CLI::App* known : app.get_subcommands({})) {
+    commands.push_back(known->get_name());
+    if (known->get_name() == first) command = known;
+  }
   if (command == nullptr)
     return fmt::format("unknown command '{}'{}\n  hint: commands are {}", clipped(first), did_you_mean(first, commands),
                        listed(commands));

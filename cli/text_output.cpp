@@ -47,6 +47,11 @@ std::string capital(std::string text) {
   return text;
 }
 
+/// In percent; "-" for a wheel that does not both drive and pull.
+std::string efficiency(const TractionResult& result) {
+  return drives_and_pulls(result) ? number(100 * result.tractive_efficiency) : "-";
+}
+
 std::string heading(const ChannelView& channel) { return fmt::format("{} [{}]", channel.title, channel.unit); }
 
 }  // namespace
@@ -97,17 +102,17 @@ std::string in_words(const Tire& tire) {
 }
 
 std::string answer_text(const ModelAnswers& model, const Answer& answer) {
-  std::string text = fmt::format("{}: {}\n", model.choice.label, in_words(answer.at));
+  std::string text = fmt::format("{}: {}\n", model.choice.label, compare::in_words(answer.at));
   if (!answer.result) return text + "  no solution: " + answer.error + "\n";
   const TractionResult& r = *answer.result;
   const auto line = [&](const std::string& name, const std::string& value, std::string_view unit) {
-    text += fmt::format("  {:<21}{} {}\n", name, value, unit);
+    text += fmt::format("  {:<21}{}{}{}\n", name, value, unit.empty() ? "" : " ", unit);
   };
   text += "\n";
   for (const ChannelView& channel : channel_views)
     line(capital(std::string(channel.title)), number(r.*channel.predicted, channel.per_si), channel.unit);
-  line("Tractive efficiency", std::isfinite(r.tractive_efficiency) ? number(100 * r.tractive_efficiency) : "undefined",
-       std::isfinite(r.tractive_efficiency) ? "%" : "");
+  line("Tractive efficiency", drives_and_pulls(r) ? efficiency(r) : "none: the wheel has to be pushed or braked",
+       drives_and_pulls(r) ? "%" : "");
   text += fmt::format("  {:<21}soil meets the wheel {:.1f}° before the axle, presses most at {:.1f}°, lets go at {:.1f}°\n",
                       "Contact", r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree + 0.0);
   text += fmt::format("  {:<21}", "Drawbar pull is");
@@ -142,9 +147,9 @@ std::string study_text(const std::vector<ModelAnswers>& study) {
       for (const ChannelView& channel : channel_views)
         if (side || channel.name != "lateral_force")
           row.push_back(answer.result ? number((*answer.result).*channel.predicted, channel.per_si) : "-");
-      row.push_back(answer.result ? number(100 * answer.result->tractive_efficiency) : "-");
+      row.push_back(answer.result ? efficiency(*answer.result) : "-");
       table.add(std::move(row));
-      if (!answer.result) notes += fmt::format("no solution at {}: {}\n", in_words(answer.at), answer.error);
+      if (!answer.result) notes += fmt::format("no solution at {}: {}\n", compare::in_words(answer.at), answer.error);
     }
     text += (text.empty() ? "" : "\n") + model.choice.label + "\n" + table.text() + notes;
   }

@@ -89,10 +89,10 @@ class Flattening final : public Effect {
     for (int i = 0; i < p.count; ++i) {  // from the entry to the exit
       const double sine = p.normal_sine[i], cosine = p.normal_cosine[i];
       const Depth outline_depth = law(std::max(0.0, r * cosine - axle));
-      const double incline = std::atan2(outline_depth.slope * sine, cosine);
-      p.normal_sine[i] = std::sin(incline);
-      p.normal_cosine[i] = std::cos(incline);
-      const double stretch = cosine / p.normal_cosine[i];  // arc length of the tread over the circle's
+      const double rise = outline_depth.slope * sine;
+      const double stretch = std::sqrt(rise * rise + cosine * cosine);  // arc length of the tread over the circle's
+      p.normal_sine[i] = rise / stretch;
+      p.normal_cosine[i] = cosine / stretch;
       p.arc[i] *= stretch;
       const bool mirrored = p.theta[i] < p.angles.max_stress;
       p.depth[i] = mirrored ? law(p.depth[i]).value : outline_depth.value;

@@ -77,7 +77,7 @@ void settle_base(const Campaign& campaign, const Observations& given, const Iden
     std::vector<bool> drop(id.observations.cells.size());
     for (std::size_t i = 0; i < drop.size(); ++i) drop[i] = estimate.outlier_score[i] > outlier_limit;
     const auto count = std::count(drop.begin(), drop.end(), true);
-    if (count == 0 || count > most_outliers * static_cast<double>(drop.size())) continue;
+    if (count == 0 || static_cast<double>(count) > most_outliers * static_cast<double>(drop.size())) continue;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < id.outlier.size(); ++i)
       if (!id.outlier[i]) id.outlier[i] = drop[kept++];
@@ -114,9 +114,10 @@ LinearProblem problem_of(const Identification& id, const WheelPredictor& predict
                         tolerance_of(id, predictor, fit));
 }
 
-/// Fits the terms in full from several starts: amplitudes as traced, and as the form's default.
+/// Fits the terms in full, from the amplitudes as traced; from smaller ones as well where that gained less than half
+/// of what the trace promised (expected_gain, in chi2).
 std::optional<Rival> refit(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms,
-                           const std::vector<double>& amplitudes) {
+                           const std::vector<double>& amplitudes, double expected_gain) {
   const WheelPredictor predictor(campaign, id.observations, terms);
   std::optional<Rival> best;
   for (const double share : {1.0, 0.3}) {
@@ -132,9 +133,11 @@ std::optional<Rival> refit(const Campaign& campaign, const Identification& id, c
       for (std::size_t t = 0; t < terms.size(); ++t) start[predictor.amplitude_index(static_cast<int>(t))] *= 0.5;
     auto found = fit(predictor, id.observations.values(), *id.whitening, start);
     if (!found || (best && found->chi2 >= best->fit.chi2)) continue;
+    const bool enough = found->chi2 < id.base.chi2 - 0.5 * expected_gain;
     Rival rival{.ids = {}, .terms = terms, .fit = std::move(*found), .log_evidence = 0.0};
     for (const Term& term : terms) rival.ids.insert(term.form->id);
     best = std::move(rival);
+    if (enough) break;
   }
   if (best)
     best->log_evidence = log_evidence(problem_of(id, predictor, best->fit), static_cast<int>(terms.size()));
@@ -165,17 +168,19 @@ double reach_of(const Signature& s) {
   return std::clamp(s.amplitude, p.lower, p.upper);
 }
 
-/// Pairs of forms of different effects by the gain in chi2 of the linear problem, best first.
-std::vector<std::pair<const Signature*, const Signature*>> strongest_pairs(const std::vector<Signature>& signatures,
-                                                                           int most) {
+/// Two forms of different effects and what they gain together in chi2 of the linear problem.
+struct SignaturePair {
+  double gain = 0.0;
+  const Signature* a = nullptr;
+  const Signature* b = nullptr;
+};
+
+/// The pairs of largest gain, at most two a pair of effects.
+std::vector<SignaturePair> strongest_pairs(const std::vector<Signature>& signatures, int most) {
   std::vector<const Signature*> seen;
   for (const Signature& s : signatures)
     if (s.projected_norm > 0) seen.push_back(&s);
-  struct Gain {
-    double chi2;
-    const Signature *a, *b;
-  };
-  std::vector<Gain> gains;
+  std::vector<SignaturePair> pairs;
   for (std::size_t i = 0; i < seen.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const Signature &a = *seen[i], &b = *seen[j];
@@ -184,15 +189,15 @@ std::vector<std::pair<const Signature*, const Signature*>> strongest_pairs(const
       if (det < 0.02) continue;
       const double u = (a.score - c * b.score) / det, v = (b.score - c * a.score) / det;
       if ((a.one_sided && u < 0) || (b.one_sided && v < 0)) continue;
-      gains.push_back({u * a.score + v * b.score, &a, &b});
+      pairs.push_back({u * a.score + v * b.score, &a, &b});
     }
-  std::stable_sort(gains.begin(), gains.end(), [](const Gain& a, const Gain& b) { return a.chi2 > b.chi2; });
-  std::vector<std::pair<const Signature*, const Signature*>> best;
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const SignaturePair& x, const SignaturePair& y) { return x.gain > y.gain; });
+  std::vector<SignaturePair> best;
   std::map<std::set<std::string>, int> sets;
-  for (const Gain& g : gains) {
+  for (const SignaturePair& pair : pairs) {
     if (static_cast<int>(best.size()) >= most) break;
-    if (sets[{g.a->term.form->id, g.b->term.form->id}]++ >= 2) continue;
-    best.emplace_back(g.a, g.b);
+    if (sets[{pair.a->term.form->id, pair.b->term.form->id}]++ < 2) best.push_back(pair);
   }
   return best;
 }
@@ -265,7 +270,8 @@ void extend(const Campaign& campaign, Identification& id, std::size_t index, con
     for (int t = 0; t < static_cast<int>(from.terms.size()); ++t)
       amplitudes.push_back(from.fit.theta[predictor.amplitude_index(t)]);
     amplitudes.push_back(reach_of(*s));
-    if (auto rival = refit(campaign, id, terms, amplitudes)) id.rivals.push_back(std::move(*rival));
+    const double expected = id.base.chi2 - from.fit.chi2 + s->score * s->score;
+    if (auto rival = refit(campaign, id, terms, amplitudes, expected)) id.rivals.push_back(std::move(*rival));
   }
 }
 
@@ -283,17 +289,18 @@ Identification identify(const Campaign& campaign, const Observations& observatio
   id.p_value = family_wise_p(id.signatures, strongest(id.signatures), id.noise.freedom(), options.simulations,
                              options.seed);
   for (const Signature* s : contenders(id.signatures, options.refits))
-    if (auto rival = refit(campaign, id, {make_term(*s->term.form, id.observations, true)}, {reach_of(*s)}))
+    if (auto rival = refit(campaign, id, {make_term(*s->term.form, id.observations, true)}, {reach_of(*s)},
+                           s->score * s->score))
       id.rivals.push_back(std::move(*rival));
   if (id.p_value > options.level || id.rivals.empty()) {
     if (!id.rivals.empty()) weigh(id);
     return id;
   }
-  for (const auto& [a, b] : strongest_pairs(id.signatures, options.refits / 2))
+  for (const SignaturePair& pair : strongest_pairs(id.signatures, options.refits / 2))
     if (auto rival = refit(campaign, id,
-                           {make_term(*a->term.form, id.observations, true),
-                            make_term(*b->term.form, id.observations, true)},
-                           {reach_of(*a), reach_of(*b)}))
+                           {make_term(*pair.a->term.form, id.observations, true),
+                            make_term(*pair.b->term.form, id.observations, true)},
+                           {reach_of(*pair.a), reach_of(*pair.b)}, pair.gain))
       id.rivals.push_back(std::move(*rival));
   for (int effects = 1; effects < options.most_effects; ++effects) {
     std::size_t best = id.rivals.size();

@@ -154,13 +154,15 @@ std::string write_runs(const std::vector<Run>& runs) {
   for (const RunColumn& column : run_columns())
     if (worth_writing(column, runs)) columns.push_back(&column);
   std::string text;
-  for (const RunColumn* column : columns) text += (text.empty() ? "" : ",") + column->canonical;
-  text += "\n";
-  for (const Run& run : runs) {
-    std::string line;
-    for (const RunColumn* column : columns) line += (column == columns.front() ? "" : ",") + cell_text(*column, run);
-    text += line + "\n";
-  }
+  const auto line = [&](const auto& cell_of) {
+    for (const RunColumn* column : columns) {
+      if (column != columns.front()) text += ',';
+      text += cell_of(*column);
+    }
+    text += '\n';
+  };
+  line([](const RunColumn& column) { return column.canonical; });
+  for (const Run& run : runs) line([&](const RunColumn& column) { return cell_text(column, run); });
   return text;
 }
 

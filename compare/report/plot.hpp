@@ -21,7 +21,7 @@ enum class Palette {
 
 /// One curve. x and y have the same length; a y that is not finite breaks the line.
 struct Series {
-  std::string label;  ///< in the legend; empty: not there. Series with one label share its entry.
+  std::string label;  ///< in the legend; empty: not there. Series with one label share an entry.
   std::vector<double> x, y;
   std::vector<double> error;  ///< one standard error of each y: a band along lines, bars at points; empty: none
   Mark mark = Mark::line;
@@ -30,14 +30,14 @@ struct Series {
 };
 
 struct Axis {
-  std::string title;            ///< with its unit: "slip [%]"
+  std::string title;            ///< with its unit: "slip [%]"; of y also empty, the plot's title then says it
   std::optional<double> lower;  ///< absent: what the series need
   std::optional<double> upper;
 };
 
 /// One panel.
 struct Plot {
-  std::string title;
+  std::string title;  ///< what y is, with its unit: "Drawbar pull [N]"
   Axis x, y;
   std::vector<Series> series;
   bool identity_line = false;  ///< y = x, for predicted against measured

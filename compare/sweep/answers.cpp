@@ -1,6 +1,7 @@
 #include "compare/sweep/answers.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "bekker_wong/model.hpp"
 #include "scenario/errors.hpp"
@@ -60,6 +61,10 @@ bool any_result(const std::vector<ModelAnswers>& study) {
   return std::any_of(study.begin(), study.end(), [](const ModelAnswers& model) {
     return std::any_of(model.answers.begin(), model.answers.end(), [](const Answer& a) { return a.result.has_value(); });
   });
+}
+
+bool drives_and_pulls(const TractionResult& result) {
+  return result.torque.value > 0.0 && result.drawbar_pull.value >= 0.0 && std::isfinite(result.tractive_efficiency);
 }
 
 }  // namespace soilbin::compare

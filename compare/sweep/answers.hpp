@@ -44,4 +44,7 @@ std::vector<ModelAnswers> run_study(const Case& question, const Progress& progre
 /// Whether any answer of a study holds a result.
 bool any_result(const std::vector<ModelAnswers>& study);
 
+/// Whether the wheel is driven and pulls: only then is its tractive efficiency a share of the power put in.
+bool drives_and_pulls(const TractionResult& result);
+
 }  // namespace soilbin::compare

@@ -44,8 +44,8 @@ VAGUE_FOLDERS = {"utils", "util", "common", "core", "misc", "helpers", "helper"}
 LONGEST_FILE = 400
 CPP = {".cpp", ".hpp", ".h", ".cc", ".ipp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
-# Folders of one machine. Spelt in pieces, or this file would breach its own rule.
-MACHINE_PATH = re.compile(r"(?<![\w.])/(?:" + "|".join(("tmp", "work", "root", "farm", "home")) + r")/")
+# Folders of one machine, or beside the checkout. Spelt in pieces, or this file would breach its own rule.
+MACHINE_PATH = re.compile(r"(?<![\w.])/(?:" + "|".join(("tmp", "work", "root", "farm", "home")) + r")/|\.\./" + "shared")
 
 
 def project_files(root):

@@ -121,7 +121,8 @@ Real Wheel::growth(Real theta_1) const {
 Real Wheel::entry_angle(Real normal_load, Real deepest) const {
   const auto excess = [&](Real t) { return carried(t) / normal_load - 1; };
   Real lower = 0;
-  for (Real upper = 1e-4L; lower < deepest; lower = upper, upper = std::min(1.15L * upper, deepest)) {
+  const Real stride = locked_ || rate_x_ > 1 ? 1.03L : 1.15L;  // a braked wheel's load may rise, fall and rise again
+  for (Real upper = 1e-2L; lower < deepest; lower = upper, upper = std::min(stride * upper, deepest)) {
     if (carried(upper, 1e-6L) < normal_load) continue;
     if (lower == 0) return 0;
     // the scan's looser quadrature may have misjudged a bracket's end: open it a little

@@ -34,7 +34,8 @@ class Wheel {
   /// d ln(carried)/d ln(theta_1): small where the balance is ill-conditioned.
   Real growth(Real theta_1) const;
 
-  /// Smallest entry angle up to deepest that carries normal_load, from a scan upward in steps of 15 %; 0: none.
+  /// Smallest entry angle in 0.01 .. deepest that carries normal_load, from a scan upward in steps of 3 %
+  /// (driven: 15 %); 0: none.
   Real entry_angle(Real normal_load, Real deepest) const;
 
   /// The balanced wheel. Throws std::runtime_error where no sinkage up to 0.9 r carries the load.

@@ -1,0 +1,53 @@
+// From plates pressed into the soil to Bekker's n, k_c, k_phi: p = (k_c/b + k_phi) z^n, with b the plate's radius (or
+// half the width of a strip). Wong's method: logarithms, weighted by p^2, so that the fit is close in pressure rather
+// than in its logarithm (Wong 1980, J. Terramechanics 17:5; as Oravec 2009, Case Western Reserve University, applied it).
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace soilbin::bekker_wong {
+
+/// One plate pressed in once.
+struct PlateTest {
+  double radius = 0.0;           ///< b [m]
+  std::vector<double> pressure;  ///< [Pa], strictly increasing, at least four
+  std::vector<double> sinkage;   ///< [m], as many
+};
+
+/// Sinkage as a function of pressure for one plate; no zeros.
+struct PlateCurve {
+  double radius = 0.0;           ///< b [m]
+  std::vector<double> pressure;  ///< [Pa]
+  std::vector<double> sinkage;   ///< [m]
+};
+
+/// Pressures at which repeats are compared: first, first + step, .., last [Pa].
+struct PressureGrid {
+  double first = 0.0, step = 0.0, last = 0.0;
+};
+
+/// Mean of repeats with one plate: each one's sinkage by a not-a-knot cubic spline over its pressure, averaged at the
+/// grid's pressures; points where the mean is not above zero are left out. A grid that ends beyond a test continues its
+/// last piece. Throws InputError for plates of different radii or for a test the spline cannot take.
+PlateCurve mean_curve(std::span<const PlateTest> repeats, const PressureGrid& grid);
+
+/// How one exponent comes from several plates.
+enum class PlateExponent {
+  mean_of_plates,  ///< each plate's own exponent, averaged (Wong)
+  common,          ///< one exponent for all in one regression
+};
+
+struct PlateFit {
+  double exponent = 0.0;  ///< n [-]
+  double k_c = 0.0;       ///< [N/m^(n+1)]
+  double k_phi = 0.0;     ///< [N/m^(n+2)]; may come out negative where the plates disagree with Bekker's form
+  std::vector<double> plate_exponents;  ///< of each plate by itself
+  std::vector<double> plate_moduli;     ///< k of each plate at the exponent above [N/m^(n+2)]
+};
+
+/// Fits n by least squares in logarithms with weights p^2, each plate's modulus at that n, then k_c and k_phi by a plain
+/// line through the moduli over 1/b. Throws InputError for fewer than two radii or a curve of fewer than two points.
+PlateFit fit_plates(std::span<const PlateCurve> curves, PlateExponent exponent = PlateExponent::mean_of_plates);
+
+}  // namespace soilbin::bekker_wong

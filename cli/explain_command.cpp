@@ -1,0 +1,117 @@
+// soilbin explain: the budget of forces, the equations with the values put in, closed forms to check by.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/question.hpp"
+#include "cli/text_output.hpp"
+#include "compare/report/result_json.hpp"
+#include "compare/sweep/explanation.hpp"
+#include "compare/sweep/varying.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+using compare::Explanation;
+using compare::Step;
+
+std::string spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+void print_steps(const char* heading, const std::vector<Step>& steps) {
+  if (steps.empty()) return;
+  fmt::print("\n{}\n", heading);
+  for (const Step& step : steps) {
+    const bool plain = step.unit == "SI";  // an effect: its parameters stand in its numbers
+    fmt::print("  {}\n      {}\n      = {}{}\n", step.name, step.equation, step.numbers,
+               plain ? "" : fmt::format(" = {} {}", number(step.value), step.unit));
+    if (!step.remark.empty()) fmt::print("      ({})\n", step.remark);
+  }
+}
+
+void print_budget(const TractionResult& result) {
+  fmt::print("\nBudget of forces along the drawbar pull\n");
+  TextTable table({"part", "force [N]"});
+  double sum = 0.0;
+  for (const Contribution& part : result.budget) {
+    table.add({"  " + spaced(part.name), fmt::format("{:.4f}", part.force)});
+    sum += part.force;
+  }
+  table.add({"  sum", fmt::format("{:.4f}", sum)});
+  table.add({"  drawbar pull", fmt::format("{:.4f}", result.drawbar_pull.value)});
+  fmt::print("{}", table.text());
+}
+
+nlohmann::ordered_json steps_json(const std::vector<Step>& steps) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const Step& step : steps) {
+    nlohmann::ordered_json one = {{"name", step.name}, {"equation", step.equation}, {"numbers", step.numbers},
+                                  {"value", step.value}, {"unit", step.unit}};
+    if (!step.remark.empty()) one["remark"] = step.remark;
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+nlohmann::ordered_json to_json(const ModelChoice& choice, const Explanation& explanation, const OperatingCondition& at) {
+  nlohmann::ordered_json row = {{"model", "bekker_wong"}, {"label", choice.label}};
+  row.update(compare::to_json(compare::Answer{at, explanation.result, ""}));
+  row["steps"] = steps_json(explanation.steps);
+  row["effects"] = steps_json(explanation.effects);
+  row["cross_checks"] = steps_json(explanation.cross_checks);
+  return row;
+}
+
+void print_text(const ModelChoice& choice, const Explanation& explanation, const OperatingCondition& at) {
+  fmt::print("{}", answer_text({choice, {}}, {at, explanation.result, ""}));
+  print_budget(explanation.result);
+  print_steps(choice.effects.empty() ? "Equations with their values"
+                                     : "Equations of the base model at this contact (the effects below change them)",
+              explanation.steps);
+  print_steps("Effects", explanation.effects);
+  print_steps("Closed forms to check by (no balance, no effects)", explanation.cross_checks);
+}
+
+int explain(const Question& inputs, bool json, const Session& session) {
+  const Case question = inputs.ask(session.place);
+  constexpr std::size_t most = 20;
+  if (question.study.conditions.size() > most)
+    throw InputError(fmt::format("{} conditions are too many to explain; pick one with --load, --slip, ...",
+                                 question.study.conditions.size()));
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  if (!json) fmt::print("{} on {}\n\n", in_words(question.scenario.tire), question.scenario.soil.name);
+  bool first = true;
+  for (const ModelChoice& choice : question.study.models) {
+    if (choice.model != ModelKind::bekker_wong) compare::make_model(choice.model);
+    Scenario scenario = question.scenario;
+    scenario.effects = choice.effects;
+    for (const OperatingCondition& at : question.study.conditions) {
+      const Explanation explanation = compare::explain(scenario, at);
+      if (json) rows.push_back(to_json(choice, explanation, at));
+      else fmt::print("{}", first ? "" : "\n"), print_text(choice, explanation, at);
+      first = false;
+    }
+  }
+  if (json)
+    fmt::print("{}", compare::json_text({{"format", "soilbin-explain/1"}, {"tire", question.scenario.tire.name},
+                                         {"soil", question.scenario.soil.name}, {"rows", rows}}));
+  return done;
+}
+
+}  // namespace
+
+void add_explain(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("explain", "why: the budget of forces, and the equations with their values");
+  const auto inputs = std::make_shared<Question>(*command);
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "as JSON");
+  command->footer("Example: soilbin explain --soil dry-sand --tire rover-wheel --load 65N --slip 20%");
+  command->callback([=, &session] { session.action = [=, &session] { return explain(*inputs, *json, session); }; });
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,104 @@
+#include "compare/report/page.hpp"
+
+#include <fmt/core.h>
+
+#include "compare/report/page_style.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+bool is_text(const HtmlTable& table, std::size_t column) {
+  return table.text_columns.empty() ? column == 0 : column < table.text_columns.size() && table.text_columns[column];
+}
+
+/// A cell; a long text may wrap.
+std::string cell(const char* tag, const std::string& text, bool to_the_left) {
+  constexpr std::size_t long_text = 48;
+  std::string classes = to_the_left ? "t" : "";
+  if (text.size() > long_text) classes += " wide";
+  return fmt::format("<{0}{1}>{2}</{0}>", tag, classes.empty() ? "" : " class=\"" + classes + "\"", escaped(text));
+}
+
+std::string anchor(std::size_t section) { return fmt::format("part-{}", section + 1); }
+
+}  // namespace
+
+Page::Page(std::string title, std::string subtitle) : title_(std::move(title)), subtitle_(std::move(subtitle)) {}
+
+void Page::summary(const std::vector<std::string>& sentences) {
+  body_ += "<div class=\"summary\">";
+  for (const std::string& sentence : sentences) body_ += "<p>" + escaped(sentence) + "</p>";
+  body_ += "</div>\n";
+}
+
+void Page::figures_at_a_glance(const std::vector<KeyFigure>& figures) {
+  body_ += "<div class=\"glance\">";
+  for (const KeyFigure& figure : figures)
+    body_ += "<div><b>" + escaped(figure.value) + "</b><span>" + escaped(figure.meaning) + "</span></div>";
+  body_ += "</div>\n";
+}
+
+void Page::section(const std::string& title) {
+  body_ += fmt::format("<h2 id=\"{}\">{}</h2>\n", anchor(sections_.size()), escaped(title));
+  sections_.push_back(title);
+}
+
+void Page::subsection(const std::string& title) { body_ += "<h3>" + escaped(title) + "</h3>\n"; }
+
+void Page::paragraph(const std::string& text) { body_ += "<p>" + escaped(text) + "</p>\n"; }
+
+void Page::list(const std::vector<std::string>& items) {
+  body_ += "<ul>";
+  for (const std::string& item : items) body_ += "<li>" + escaped(item) + "</li>";
+  body_ += "</ul>\n";
+}
+
+void Page::table(const HtmlTable& table) {
+  body_ += "<div class=\"scroll\"><table>";
+  if (!table.caption.empty()) body_ += "<caption>" + escaped(table.caption) + "</caption>";
+  body_ += "<thead><tr>";
+  for (std::size_t c = 0; c < table.header.size(); ++c) body_ += cell("th", table.header[c], is_text(table, c));
+  body_ += "</tr></thead><tbody>\n";
+  for (const std::vector<std::string>& row : table.rows) {
+    body_ += "<tr>";
+    for (std::size_t c = 0; c < row.size(); ++c) body_ += cell("td", row[c], is_text(table, c));
+    body_ += "</tr>\n";
+  }
+  body_ += "</tbody></table></div>\n";
+}
+
+void Page::figure(const Sheet& sheet, const std::string& caption) {
+  body_ += "<figure>";
+  const std::vector<LegendEntry> entries = legend(sheet);
+  if (!entries.empty()) {
+    body_ += "<ul class=\"legend\">";
+    for (const LegendEntry& entry : entries) body_ += "<li>" + entry.swatch + escaped(entry.label) + "</li>";
+    body_ += "</ul>";
+  }
+  body_ += "<div class=\"panels\">\n";
+  for (std::size_t i = 0; i < sheet.plots.size(); ++i) body_ += panel_svg(sheet, i) + "\n";
+  body_ += "</div><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+}
+
+void Page::code(const std::string& text) { body_ += "<pre><code>" + escaped(text) + "</code></pre>\n"; }
+
+void Page::open_fold(const std::string& title) {
+  body_ += "<details><summary>" + escaped(title) + "</summary>\n";
+}
+
+void Page::close_fold() { body_ += "</details>\n"; }
+
+std::string Page::html() const {
+  std::string contents;
+  for (std::size_t i = 0; i < sections_.size(); ++i)
+    contents += fmt::format("<a href=\"#{}\">{}</a>", anchor(i), escaped(sections_[i]));
+  if (sections_.size() < 2) contents.clear();
+  return fmt::format(
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n"
+      "<style>\n{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n<p class=\"subtitle\">{2}</p>\n{3}{4}</main>\n"
+      "</body>\n</html>\n",
+      escaped(title_), page_style(), escaped(subtitle_), contents.empty() ? "" : "<nav>" + contents + "</nav>\n", body_);
+}
+
+}  // namespace soilbin::compare

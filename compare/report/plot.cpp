@@ -1,0 +1,152 @@
+#include "compare/report/plot.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/report/plot_panel.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+constexpr const char* fonts = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', Helvetica, Arial, sans-serif";
+
+/// Width of a text in the legend, near enough [px].
+double text_width(const std::string& text) {
+  const auto characters = std::count_if(text.begin(), text.end(),
+                                        [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+  return 6.6 * static_cast<double>(characters);
+}
+
+/// What the legend says of one label: the first series with it, and the marks of all of them.
+struct Entry {
+  const Series* series = nullptr;
+  bool line = false;
+  bool points = false;
+};
+
+std::vector<Entry> entries_of(const Sheet& sheet) {
+  std::vector<Entry> entries;
+  for (const Plot& plot : sheet.plots)
+    for (const Series& series : plot.series) {
+      if (series.label.empty()) continue;
+      auto entry = std::find_if(entries.begin(), entries.end(),
+                                [&](const Entry& e) { return e.series->label == series.label; });
+      if (entry == entries.end()) entry = entries.insert(entries.end(), Entry{&series});
+      entry->line = entry->line || series.mark != Mark::points;
+      entry->points = entry->points || series.mark != Mark::line;
+    }
+  return entries;
+}
+
+/// An entry's line and point in 26 x 12 px, middle left at (x, y).
+std::string swatch(const Sheet& sheet, const Entry& entry, double x, double y) {
+  std::string out;
+  const int color = color_of(sheet, *entry.series);
+  if (entry.line)
+    out += fmt::format(R"(<line {}{} stroke-width="2" x1="{:.1f}" x2="{:.1f}" y1="{:.1f}" y2="{:.1f}"/>)",
+                       stroke(sheet.palette, color), dashes(entry.series->dash), x, x + 26, y, y);
+  if (entry.points)
+    out += fmt::format(R"(<circle {} r="3.2" cx="{:.1f}" cy="{:.1f}"/>)", fill(sheet.palette, color), x + 13, y);
+  return out;
+}
+
+/// The legend in columns that fit the width; the height it needs is added to `y`.
+std::string legend_rows(const Sheet& sheet, double width, double& y) {
+  const std::vector<Entry> entries = entries_of(sheet);
+  if (entries.empty()) return "";
+  constexpr double margin = 20.0, row_height = 20.0;
+  double column = 0.0;
+  for (const Entry& entry : entries) column = std::max(column, 34.0 + text_width(entry.series->label) + 18.0);
+  const auto columns = static_cast<std::size_t>(std::max(1.0, std::floor((width - margin) / column)));
+  std::string out;
+  y += 14.0;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const double x = margin + column * static_cast<double>(i % columns);
+    const double line = y + row_height * static_cast<double>(i / columns);
+    out += swatch(sheet, entries[i], x, line - 4);
+    out += fmt::format(R"(<text class="ink" fill="#1a1d23" x="{:.1f}" y="{:.1f}">{}</text>)", x + 34, line,
+                       escaped(entries[i].series->label));
+  }
+  y += row_height * static_cast<double>((entries.size() - 1) / columns) + 12.0;
+  return out;
+}
+
+}  // namespace
+
+std::vector<Color> colors(Palette palette) {
+  if (palette == Palette::named)
+    return {{"#0b63a8", "#6cb6ff"}, {"#c2500a", "#ff9a57"}, {"#0a7f5c", "#4fd1a1"}, {"#a3418a", "#e594cf"},
+            {"#8a6d00", "#e3c34b"}, {"#4a5568", "#b4bfce"}};
+  return {{"#2b1a8f", "#8f7dff"}, {"#6a1fa8", "#b584f5"}, {"#a0279a", "#dc86dd"}, {"#c9407a", "#f48fae"},
+          {"#e0654f", "#fba07d"}, {"#e58a1c", "#fcc15c"}, {"#b9a011", "#f2e65a"}};
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') out += "&amp;";
+    else if (c == '<') out += "&lt;";
+    else if (c == '>') out += "&gt;";
+    else if (c == '"') out += "&quot;";
+    else if (c == '\'') out += "&#39;";
+    else out += c;
+  }
+  return out;
+}
+
+std::vector<double> ticks(double lower, double upper, int count) {
+  const double rough = (upper - lower) / std::max(count, 1);
+  if (!(rough > 0.0) || !std::isfinite(rough)) return {lower};
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10 * power;
+  for (const double nice : {1.0, 2.0, 5.0})
+    if (nice * power >= 0.999 * rough) {
+      step = nice * power;
+      break;
+    }
+  std::vector<double> found;
+  for (double k = std::ceil(lower / step - 1e-9); k * step <= upper + 1e-9 * step; ++k) found.push_back(k * step);
+  return found;
+}
+
+std::string svg(const Sheet& sheet, const PanelSize& size) {
+  const std::size_t columns = sheet.plots.size() > 1 ? 2 : 1;
+  const std::size_t rows = (sheet.plots.size() + columns - 1) / columns;
+  const double width = size.width * static_cast<double>(columns);
+  double y = sheet.title.empty() ? 8.0 : 40.0;
+  std::string body;
+  for (std::size_t i = 0; i < sheet.plots.size(); ++i)
+    body += fmt::format(R"svg(<g transform="translate({:.0f} {:.0f})">{}</g>)svg", size.width * static_cast<double>(i % columns),
+                        y + size.height * static_cast<double>(i / columns), panel(sheet, sheet.plots[i], size)) + "\n";
+  y += size.height * static_cast<double>(rows);
+  body += legend_rows(sheet, width, y);
+  std::string title;
+  if (!sheet.title.empty())
+    title = fmt::format(R"(<text class="ink" fill="#1a1d23" font-size="15" font-weight="600" x="20" y="26">{}</text>)",
+                        escaped(sheet.title));
+  return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                     "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
+                     "height=\"{1:.0f}\" font-family=\"{2}\" font-size=\"12\">\n"
+                     "<rect class=\"paper\" width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{3}\n{4}\n</svg>\n",
+                     width, y + 4, fonts, title, body);
+}
+
+std::string panel_svg(const Sheet& sheet, std::size_t plot, const PanelSize& size) {
+  const Plot& one = sheet.plots.at(plot);
+  return fmt::format("<svg class=\"plot\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\" font-size=\"12\">{}</svg>",
+                     size.width, size.height, escaped(one.title + " against " + one.x.title),
+                     panel(sheet, one, size));
+}
+
+std::vector<LegendEntry> legend(const Sheet& sheet) {
+  std::vector<LegendEntry> entries;
+  for (const Entry& entry : entries_of(sheet))
+    entries.push_back({entry.series->label,
+                       fmt::format(R"(<svg viewBox="0 0 26 12" width="26" height="12" aria-hidden="true">{}</svg>)",
+                                   swatch(sheet, entry, 0, 6))});
+  return entries;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,23 @@
+// One panel of a sheet, drawn. Used by plot.cpp alone.
+#pragma once
+
+#include <string>
+
+#include "compare/report/plot.hpp"
+
+namespace soilbin::compare {
+
+/// Attributes that stroke or fill with a palette's colour: class="s c2" stroke="#...".
+std::string stroke(Palette palette, int color);
+std::string fill(Palette palette, int color);
+
+/// Attribute of a dash pattern, "" for solid.
+std::string dashes(int dash);
+
+/// The sheet's colour of a series: ordered palettes are spread over the colours that the sheet uses.
+int color_of(const Sheet& sheet, const Series& series);
+
+/// Everything inside a panel's <svg>, with its origin at the panel's upper left corner.
+std::string panel(const Sheet& sheet, const Plot& plot, const PanelSize& size);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,165 @@
+#include "compare/sweep/explanation.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "bekker_wong/closed_forms.hpp"
+#include "bekker_wong/model.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/quantity.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using namespace soilbin::bekker_wong;
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Everything that the equations take.
+struct Facts {
+  const Scenario& scenario;
+  const OperatingCondition& at;
+  SoilValues soil;
+  RolledWheel wheel;
+  double r, b, k, normal_load, theta_1, theta_m;
+};
+
+Facts gather(const Scenario& scenario, const OperatingCondition& at) {
+  if (!scenario.soil.semi_empirical)
+    throw InputError("soil '" + scenario.soil.name + "' has no semi_empirical values, which bekker_wong needs");
+  const SoilValues soil = values_of(*scenario.soil.semi_empirical);
+  const RollingWheel wheel(scenario.tire, soil, make_effects(scenario.effects), scenario.bin);
+  Facts f{.scenario = scenario, .at = at, .soil = soil, .wheel = wheel.roll(at), .r = scenario.tire.radius,
+          .b = scenario.tire.width, .k = soil.pressure_modulus(scenario.tire.width),
+          .normal_load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline),
+          .theta_1 = 0.0, .theta_m = 0.0};
+  f.theta_1 = f.wheel.patch.angles.entry;
+  f.theta_m = f.wheel.patch.angles.max_stress;
+  return f;
+}
+
+std::vector<Step> contact_steps(const Facts& f) {
+  const SoilValues& s = f.soil;
+  const double n = s.exponent;
+  std::vector<Step> steps;
+  steps.push_back({"soil's stiffness", "k = k_c/b + k_phi",
+                   fmt::format("{} / {:.4g} m + {}", write_quantity(s.k_c, "kN/m^(n+1)", n), f.b,
+                               write_quantity(s.k_phi, "kN/m^(n+2)", n)),
+                   f.k / 1000, "kN/m^(n+2)"});
+  steps.push_back({"load on the ground", "W_n = W cos(alpha) cos(beta_t)",
+                   fmt::format("{:.5g} N cos({:.3g} deg) cos({:.3g} deg)", f.at.load,
+                               f.at.longitudinal_incline / degree, f.at.transverse_incline / degree),
+                   f.normal_load, "N"});
+  steps.push_back({"entry angle", "W_n = r b Int (sigma cos + tau sin) d theta", "solved for theta_1",
+                   f.theta_1 / degree, "deg", fmt::format("the stresses then carry {:.6g} N", f.wheel.forces.vertical)});
+  steps.push_back({"sinkage", "z = r (1 - cos theta_1)",
+                   fmt::format("{:.4g} m (1 - cos {:.4g} deg)", f.r, f.theta_1 / degree),
+                   1000 * f.wheel.sinkage, "mm"});
+  steps.push_back({"angle of largest stress", "theta_m = (c1 + c2 |s|) theta_1",
+                   fmt::format("({:.4g} + {:.4g} * {:.4g}) {:.4g} deg", s.c1, s.c2, std::abs(f.wheel.motion.slip),
+                               f.theta_1 / degree),
+                   f.theta_m / degree, "deg"});
+  return steps;
+}
+
+std::vector<Step> stress_steps(const Facts& f) {
+  const SoilValues& s = f.soil;
+  const double drop = std::cos(f.theta_m) - std::cos(f.theta_1);
+  const double sigma = f.k * std::pow(f.r * drop, s.exponent);
+  const double j = f.r * ((f.theta_1 - f.theta_m) - f.wheel.motion.forward * (std::sin(f.theta_1) - std::sin(f.theta_m)));
+  const double mobilised = f.wheel.motion.locked ? 1.0 : 1 - std::exp(-std::abs(j) / s.shear_modulus);
+  const double tau = std::copysign((s.cohesion + sigma * std::tan(s.friction_angle)) * mobilised, j);
+  return {{"normal stress there", "sigma_m = k r^n (cos theta_m - cos theta_1)^n",
+           fmt::format("k ({:.4g} m * {:.4g})^{:.4g}", f.r, drop, s.exponent), sigma / 1000, "kPa"},
+          {"shear displacement there", "j = r [(theta_1 - theta_m) - v_x/(r w) (sin theta_1 - sin theta_m)]",
+           f.wheel.motion.locked ? "a locked wheel: shear is saturated"
+                                 : fmt::format("v_x/(r w) = {:.4g}", f.wheel.motion.forward),
+           1000 * j, "mm"},
+          {"shear stress there", "tau = (c + sigma tan phi) (1 - exp(-|j|/K)) sign(j)",
+           fmt::format("({:.4g} kPa + {:.4g} kPa tan {:.4g} deg) * {:.4g}", s.cohesion / 1000, sigma / 1000,
+                       s.friction_angle / degree, mobilised),
+           tau / 1000, "kPa"}};
+}
+
+std::vector<Step> result_steps(const Facts& f, const TractionResult& result) {
+  std::string parts;
+  for (const Contribution& part : result.budget) parts += fmt::format("{}{:.6g}", parts.empty() ? "" : " + ", part.force);
+  std::vector<Step> steps;
+  steps.push_back({"drawbar pull", "F_DP = the sum of the budget", parts + " N", result.drawbar_pull.value, "N"});
+  steps.push_back({"torque", "M = r^2 b Int tau d theta", "over the contact", result.torque.value, "N m"});
+  if (drives_and_pulls(result))
+    steps.push_back({"tractive efficiency", "TE = F_DP v/(M w)",
+                     fmt::format("{:.5g} N * {:.4g} m * {:.4g} / {:.5g} N m", result.drawbar_pull.value, f.r,
+                                 f.wheel.motion.travel_ratio, result.torque.value),
+                     100 * result.tractive_efficiency, "%"});
+  return steps;
+}
+
+std::vector<Step> effect_steps(const Scenario& scenario) {
+  std::vector<Step> steps;
+  for (const EffectChoice& choice : scenario.effects) {
+    const EffectForm& form = find_form(choice);
+    Step step{choice.id + " (" + form.form + ")", form.equation, "", 0.0, "", form.source};
+    for (const EffectParameter& p : form.parameters) {
+      const auto given = choice.parameters.find(p.name);
+      const double value = given == choice.parameters.end() ? p.fallback : given->second;
+      step.numbers += (step.numbers.empty() ? "" : ", ") + p.name + " = " +
+                      write_quantity(value, p.unit, scenario.soil.semi_empirical->exponent.value);
+      if (&p == &form.parameters.front()) step.value = value, step.unit = "SI";
+    }
+    steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
+std::string pressure_remark(const Tire& tire, double critical) {
+  if (!tire.inflation_pressure) return "the wheel is declared rigid";
+  const double carried = *tire.inflation_pressure + tire.carcass_pressure.value_or(0.0);
+  return fmt::format("inflation and carcass give {:.4g} kPa: the tire {}", carried / 1000,
+                     carried > critical ? "rolls as if rigid" : "flattens; consider the effect tire_flexibility");
+}
+
+std::vector<Step> closed_forms(const Facts& f, const TractionResult& result) {
+  const double z0 = bekker_static_sinkage(f.soil, f.r, f.b, f.at.load), n = f.soil.exponent;
+  const double rolling = rolling_resistance(f.soil, f.r, f.b, f.at.load);
+  const double critical = critical_ground_pressure(f.soil, f.r, f.b, f.at.load);
+  const double eq5 = paper::sinkage(f.soil, f.r, f.b, f.at.load, f.at.slip, f.theta_m);
+  const double thrust = f.soil.cohesion * f.r * f.b * f.theta_1 + f.normal_load * std::tan(f.soil.friction_angle);
+  return {{"Bekker's static sinkage", "z_0 = [3 W/((3 - n) b k sqrt(D))]^(2/(2n + 1))",
+           fmt::format("W {:.4g} N, D {:.4g} m, n {:.4g}", f.at.load, 2 * f.r, n), 1000 * z0, "mm",
+           fmt::format("a towed wheel; the model's wheel sinks {:.4g} mm", 1000 * result.sinkage.value)},
+          {"Bekker's rolling resistance", "R = b k z_0^(n+1)/(n + 1)", fmt::format("z_0 {:.4g} mm", 1000 * z0), rolling, "N",
+           fmt::format("the model's compaction resistance is {:.4g} N", -f.wheel.forces.compaction)},
+          {"critical ground pressure", "p_gcr = k z_0^n", fmt::format("z_0 {:.4g} mm", 1000 * z0), critical / 1000, "kPa",
+           pressure_remark(f.scenario.tire, critical)},
+          {"largest thrust of this soil", "c A + W_n tan phi",
+           fmt::format("A = r b theta_1 = {:.4g} m^2", f.r * f.b * f.theta_1), thrust, "N",
+           fmt::format("the model's thrust is {:.4g} N", f.wheel.forces.thrust)},
+          {"the paper's Eq. 5 as it stands", "z = z_0 + (D/2) (1 - i) theta_m",
+           fmt::format("{:.4g} mm + {:.4g} mm * {:.4g} * {:.4g} rad", 1000 * z0, 1000 * f.r, 1 - f.at.slip, f.theta_m),
+           1000 * eq5, "mm",
+           "faulty: its second term is an arc length, not a depth, and falls with slip where measured sinkage rises"}};
+}
+
+void append(std::vector<Step>& all, std::vector<Step> more) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+}  // namespace
+
+Explanation explain(const Scenario& scenario, const OperatingCondition& at) {
+  const Facts facts = gather(scenario, at);
+  Explanation explanation;
+  explanation.result = BekkerWong().evaluate(scenario, at);
+  append(explanation.steps, contact_steps(facts));
+  append(explanation.steps, stress_steps(facts));
+  append(explanation.steps, result_steps(facts, explanation.result));
+  explanation.effects = effect_steps(scenario);
+  explanation.cross_checks = closed_forms(facts, explanation.result);
+  return explanation;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,31 @@
+// Why the semi-empirical answer is what it is: its equations with the values put in, and closed forms to check it by.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/sweep/answers.hpp"
+
+namespace soilbin::compare {
+
+/// One equation, once in symbols and once in numbers.
+struct Step {
+  std::string name;      ///< "entry angle"
+  std::string equation;  ///< "z = r (1 - cos theta_1)"
+  std::string numbers;   ///< "0.11 m (1 - cos 35.6 deg)"
+  double value = 0.0;    ///< in `unit`
+  std::string unit;
+  std::string remark = {};  ///< what to think of it
+};
+
+struct Explanation {
+  TractionResult result;
+  std::vector<Step> steps;         ///< of the model, in the order in which it takes them
+  std::vector<Step> effects;       ///< an effect each: equation, parameters
+  std::vector<Step> cross_checks;  ///< closed forms that need no balance
+};
+
+/// Explains one condition. Throws InputError and NoSolution as the model does.
+Explanation explain(const Scenario& scenario, const OperatingCondition& at);
+
+}  // namespace soilbin::compare
