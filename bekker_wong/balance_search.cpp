@@ -7,8 +7,8 @@
 namespace soilbin::bekker_wong {
 namespace {
 
-constexpr double longest_step = 1.0;    // of the secant method, in ln(theta_1)
-constexpr double flattest = 0.02;       // slope below which the secant method is no safe guide
+constexpr double longest_step = 1.0;  // of the secant method, in ln(theta_1)
+constexpr double flattest = 0.02;     // slope below which the secant method is no safe guide
 constexpr double scan_step = 0.05;
 constexpr double lowest = -40.0;
 

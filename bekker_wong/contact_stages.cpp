@@ -39,10 +39,17 @@ void build(CrowdedRule& rule, int n, int p, Crowd crowd) {
     const double t = gauss.nodes[k], u = gauss.nodes[static_cast<std::size_t>(n - 1 - i)];  // u = 1 - t
     double start = t, end = u, slope = 1.0;
     switch (crowd) {
-      case nowhere: break;
-      case at_start: start = power(t, p), end = 1.0 - start, slope = p * power(t, p - 1); break;
-      case at_end: end = power(u, p), start = 1.0 - end, slope = p * power(u, p - 1); break;
-      case at_both: start = crowd_both(t, p), end = crowd_both(u, p), slope = crowd_both_slope(t, u, p); break;
+      case nowhere:
+        break;
+      case at_start:
+        start = power(t, p), end = 1.0 - start, slope = p * power(t, p - 1);
+        break;
+      case at_end:
+        end = power(u, p), start = 1.0 - end, slope = p * power(u, p - 1);
+        break;
+      case at_both:
+        start = crowd_both(t, p), end = crowd_both(u, p), slope = crowd_both_slope(t, u, p);
+        break;
     }
     rule.from_start[k] = start, rule.from_end[k] = end, rule.weight[k] = slope * gauss.weights[k];
   }
@@ -60,7 +67,8 @@ const CrowdedRule& crowded_rule(const NodeLayout& layout, Crowd crowd) {
 }
 
 /// theta_1 - theta where a braked wheel's j_x changes sign, or 0 where it doesn't: root of x = rho (sin theta_1 -
-/// sin(theta_1 - x)) with rho = v_x/(r w) > 1. The function is concave with value 0 at x = 0, so it has one root at most.
+/// sin(theta_1 - x)) with rho = v_x/(r w) > 1. The function is concave with value 0 at x = 0, so it has one root at
+/// most.
 double sign_change(double theta_1, double extent, double rho) {
   if (rho * std::cos(theta_1) >= 1.0) return 0.0;
   const auto f = [&](double x) { return x - rho * (std::sin(theta_1) - std::sin(theta_1 - x)); };
@@ -86,8 +94,7 @@ void add_segment(ContactPatch& p, const Segment& segment, bool front, const Outl
   const CrowdedRule& rule = crowded_rule(layout, segment.crowd);
   const double length = segment.high - segment.low;
   const double before = p.angles.entry - segment.high, after = segment.low - p.angles.exit;
-  const double mirror =
-      front ? 0.0 : (p.angles.entry - p.angles.max_stress) / (p.angles.max_stress - p.angles.exit);
+  const double mirror = front ? 0.0 : (p.angles.entry - p.angles.max_stress) / (p.angles.max_stress - p.angles.exit);
   double *const x = &p.since_entry[p.count], *const seen = &p.depth[p.count], *const arc = &p.arc[p.count];
   for (int k = 0; k < layout.per_segment; ++k) {
     const auto q = static_cast<std::size_t>(k);
@@ -128,8 +135,8 @@ double displacement_at(double x, double entry, const Outline& outline, const Kin
   return outline.shear_radius * std::hypot(along, motion.lateral * x);
 }
 
-/// A braked wheel's shear displacement along the wheel may grow, turn and change sign. Past 45 deg of yaw that leaves no
-/// trace in |j|, which the displacement across the wheel rules.
+/// A braked wheel's shear displacement along the wheel may grow, turn and change sign. Past 45 deg of yaw that leaves
+/// no trace in |j|, which the displacement across the wheel rules.
 bool turns_back(const ContactAngles& angles, const Kinematics& motion) {
   return !motion.locked && motion.forward > 1.0 && motion.forward * std::cos(angles.entry) < 1.0 &&
          std::abs(motion.lateral) < motion.forward;
@@ -148,10 +155,13 @@ NodeLayout node_layout(const SoilValues& soil, const Outline& outline, const Kin
   layout.crowding = soil.exponent < 0.7 ? 4 : 3;
   double nodes = 10.0;
   if (soil.exponent < 0.3) nodes += 4;
+  if (!(angles.max_stress > angles.exit)) nodes += 4;  // one segment where there are two elsewhere
   if (motion.locked) {
     if (motion.lateral != 0.0) nodes += 10;
   } else {
-    const auto hardness = [&](double x) { return displacement_at(x, angles.entry, outline, motion) / soil.shear_modulus; };
+    const auto hardness = [&](double x) {
+      return displacement_at(x, angles.entry, outline, motion) / soil.shear_modulus;
+    };
     const double extent = angles.entry - angles.exit, front = hardness(angles.entry - angles.max_stress);
     const double whole = std::max(hardness(extent), hardness(0.5 * extent));
     layout.crowd_at_crest = front < 20.0 && whole > 8.0 * std::max(1.0, front);
@@ -159,7 +169,8 @@ NodeLayout node_layout(const SoilValues& soil, const Outline& outline, const Kin
     if (turns_back(angles, motion)) {
       nodes = 16.0 + (motion.lateral != 0.0 ? 16.0 : 0.0) + 12.0 * std::log10(1.0 + whole);
     } else {
-      nodes += 8.0 * std::log10(1.0 + whole);
+      const double decades = std::log10(1.0 + whole);
+      nodes += 8.0 * decades + 4.0 * std::max(0.0, decades - 3.0);
     }
   }
   layout.per_segment = std::min(4 * static_cast<int>(std::ceil(std::min(nodes, 1e3) / 4)), most_nodes);

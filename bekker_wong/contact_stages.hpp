@@ -11,9 +11,9 @@ ContactAngles base_angles(double theta_1, const SoilValues& soil, const Kinemati
 
 /// How quadrature nodes are laid over the contact.
 struct NodeLayout {
-  int per_segment = 16;        ///< a multiple of 4, 8 .. 64
-  int crowding = 4;            ///< nodes crowd toward singular ends as t^crowding, 3 or 4
-  bool crowd_at_crest = false; ///< also behind theta_m: where a short front leaves the shear curve's rise to the rear
+  int per_segment = 16;         ///< a multiple of 4, 8 .. 64
+  int crowding = 4;             ///< nodes crowd toward singular ends as t^crowding, 3 or 4
+  bool crowd_at_crest = false;  ///< also behind theta_m: where a short front leaves the shear curve's rise to the rear
 };
 
 /// The layout that gives the stress integrals to 2e-9 of their scale: more nodes for a hard shear curve (much shear

@@ -52,10 +52,10 @@ class ForceLedger {
 /// The contact as the added forces see it: everything but the forces themselves.
 struct Rolling {
   const Surroundings& around;
-  const SoilValues& soil;    ///< after the soil joint
-  const Outline& outline;    ///< after the outline joint
+  const SoilValues& soil;  ///< after the soil joint
+  const Outline& outline;  ///< after the outline joint
   const ContactPatch& patch;
-  double sinkage = 0.0;      ///< z [m]
+  double sinkage = 0.0;  ///< z [m]
 };
 
 /// The four channels as instruments show them, in the axes that the condition asks for.
@@ -96,10 +96,10 @@ class Effect {
 /// A parameter of an effect's form.
 struct EffectParameter {
   std::string name;
-  std::string unit;      ///< as in files: "-", "deg", "mm", "kPa", ...; values here are SI
-  double fallback = 0.0; ///< default [SI]
-  double lower = 0.0;    ///< [SI]
-  double upper = 0.0;    ///< [SI]
+  std::string unit;       ///< as in files: "-", "deg", "mm", "kPa", ...; values here are SI
+  double fallback = 0.0;  ///< default [SI]
+  double lower = 0.0;     ///< [SI]
+  double upper = 0.0;     ///< [SI]
   std::string meaning;
   /// "moisture", "position" or "run" where this is a reference value about which the effect is centred: the loop then
   /// sets it to the campaign's mean and does not fit it. Empty for every other parameter.
@@ -108,12 +108,15 @@ struct EffectParameter {
 
 /// One published (or stated) form of an effect. parameters[0] is its amplitude: at 0 the form is the base model.
 struct EffectForm {
-  std::string id;        ///< of the catalogue
+  std::string id;  ///< of the catalogue
   std::string form;
   std::string equation;  ///< one line, plain text
   std::string source;    ///< paper and equation, or "after X"
   std::vector<EffectParameter> parameters;
   bool measurement = false;  ///< an effect of the rig or the bed, not of the wheel on the soil
+  /// How far nature may differ from this form, as a share of the effect: what a wrong form leaves over is not taken for
+  /// a further effect. Small where the form is kinematics (a tilted bed), large where it is a fit (slip sinkage).
+  double form_tolerance = 0.25;
   std::function<std::unique_ptr<const Effect>(const std::vector<double>& parameters)> make;
 };
 

@@ -24,7 +24,9 @@ const bool handler_off = [] {
 template <auto Free>
 struct Freed {
   template <class T>
-  void operator()(T* p) const { Free(p); }
+  void operator()(T* p) const {
+    Free(p);
+  }
 };
 using RootSolver = std::unique_ptr<gsl_root_fsolver, Freed<gsl_root_fsolver_free>>;
 using LegendreTable = std::unique_ptr<gsl_integration_glfixed_table, Freed<gsl_integration_glfixed_table_free>>;

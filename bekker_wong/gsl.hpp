@@ -31,8 +31,7 @@ LegendreRule legendre_rule(int n);
 /// Root of a continuous f bracketed by f(lower) <= 0 <= f(upper) or the reverse, by Brent's method
 /// (gsl_root_fsolver_brent): done where |f| <= f_tol or the bracket is narrower than rel_tol of the root. Throws
 /// std::domain_error with `what` where the bracket holds no change of sign or f is not finite.
-double bracketed_root(FunctionRef f, double lower, double upper, double rel_tol, double f_tol,
-                      const std::string& what);
+double bracketed_root(FunctionRef f, double lower, double upper, double rel_tol, double f_tol, const std::string& what);
 
 /// Integral over [a, b] by QAGS to rel_tol. Throws std::runtime_error with `what` where it does not converge.
 double integrate(FunctionRef f, double a, double b, double rel_tol, const std::string& what);

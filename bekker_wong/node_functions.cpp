@@ -72,7 +72,7 @@ constexpr double exponential_terms[] = {1.0,
                                         1 / factorial(12),
                                         1 / factorial(13)};
 // (atanh(s)/s - 1)/s^2 in s^2, |s| <= 0.172
-constexpr double inverse_tangent_terms[] = {1.0 / 3,  1.0 / 5,  1.0 / 7,  1.0 / 9, 1.0 / 11,
+constexpr double inverse_tangent_terms[] = {1.0 / 3,  1.0 / 5,  1.0 / 7,  1.0 / 9,  1.0 / 11,
                                             1.0 / 13, 1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21};
 
 constexpr double ln2 = 0.6931471805599453094;

@@ -15,7 +15,8 @@ void half_angle(std::span<const double> angle, std::span<double> sine, std::span
 /// Relative error below 1e-15 * (2 + |exponent ln(base)|); base a normal number, a result below 1e-307 may be 0.
 void scaled_power(std::span<const double> base, double exponent, double scale, std::span<double> out);
 
-/// out = 1 - exp(-displacement/modulus) for displacement >= 0, modulus > 0, to 5e-16 relative (Janosi and Hanamoto 1961).
+/// out = 1 - exp(-displacement/modulus) for displacement >= 0, modulus > 0, to 5e-16 relative (Janosi and Hanamoto
+/// 1961).
 void mobilised_share(std::span<const double> displacement, std::span<const double> modulus, std::span<double> out);
 
 /// out = sqrt(x^2 + y^2).

@@ -51,7 +51,8 @@ class NotAKnotSpline {
       }
     }
     curvature_[last - 1] /= diagonal[last - 1];
-    for (std::size_t i = last - 1; i-- > 1;) curvature_[i] = (curvature_[i] - above[i] * curvature_[i + 1]) / diagonal[i];
+    for (std::size_t i = last - 1; i-- > 1;)
+      curvature_[i] = (curvature_[i] - above[i] * curvature_[i + 1]) / diagonal[i];
     curvature_[0] = (1 + first_ratio) * curvature_[1] - first_ratio * curvature_[2];
     curvature_[last] = (1 + last_ratio) * curvature_[last - 1] - last_ratio * curvature_[last - 2];
   }

@@ -1,6 +1,7 @@
 // From plates pressed into the soil to Bekker's n, k_c, k_phi: p = (k_c/b + k_phi) z^n, with b the plate's radius (or
 // half the width of a strip). Wong's method: logarithms, weighted by p^2, so that the fit is close in pressure rather
-// than in its logarithm (Wong 1980, J. Terramechanics 17:5; as Oravec 2009, Case Western Reserve University, applied it).
+// than in its logarithm (Wong 1980, J. Terramechanics 17:5; as Oravec 2009, Case Western Reserve University, applied
+// it).
 #pragma once
 
 #include <span>
@@ -46,8 +47,9 @@ struct PlateFit {
   std::vector<double> plate_moduli;     ///< k of each plate at the exponent above [N/m^(n+2)]
 };
 
-/// Fits n by least squares in logarithms with weights p^2, each plate's modulus at that n, then k_c and k_phi by a plain
-/// line through the moduli over 1/b. Throws InputError for fewer than two radii or a curve of fewer than two points.
+/// Fits n by least squares in logarithms with weights p^2, each plate's modulus at that n, then k_c and k_phi by a
+/// plain line through the moduli over 1/b. Throws InputError for fewer than two radii or a curve of fewer than two
+/// points.
 PlateFit fit_plates(std::span<const PlateCurve> curves, PlateExponent exponent = PlateExponent::mean_of_plates);
 
 }  // namespace soilbin::bekker_wong

@@ -101,7 +101,8 @@ double sum_over(const ContactPatch& patch, const Term& term) {
   return (lane[0] + lane[1]) + (lane[2] + lane[3]);
 }
 
-/// ln(share), continued as a line where next to nothing is carried, or less than nothing (a braked wheel is pulled down).
+/// ln(share), continued as a line where next to nothing is carried, or less than nothing (a braked wheel is pulled
+/// down).
 constexpr double small_share = 0.05;
 double log_share(double share) {
   return share > small_share ? std::log(share) : std::log(small_share) + (share - small_share) / small_share;
@@ -121,9 +122,8 @@ WheelForces RollingWheel::integrate(const Prepared& p, const ContactPatch& patch
   const double compaction = -sum([&](std::size_t i) { return patch.sigma[i] * patch.normal_sine[i]; });
   const double side = sum([&](std::size_t i) { return patch.tau_y[i]; });
   const double torque = sum([&](std::size_t i) { return patch.tau_x[i] * patch.arm[i]; });
-  const double vertical = sum([&](std::size_t i) {
-    return patch.sigma[i] * patch.normal_cosine[i] + patch.tau_x[i] * patch.normal_sine[i];
-  });
+  const double vertical = sum(
+      [&](std::size_t i) { return patch.sigma[i] * patch.normal_cosine[i] + patch.tau_x[i] * patch.normal_sine[i]; });
   const double b = p.outline.width;
   WheelForces f;
   if (!effects_.empty()) {
@@ -149,12 +149,13 @@ NodeLayout RollingWheel::layout_at(const Prepared& p, double theta_1) const {
 double RollingWheel::vertical(const Prepared& p, const ContactPatch& patch) const {
   if (!effects_.empty()) return integrate(p, patch).vertical;
   return p.outline.width * sum_over(patch, [&](std::size_t i) {
-    return patch.arc[i] * (patch.sigma[i] * patch.normal_cosine[i] + patch.tau_x[i] * patch.normal_sine[i]);
-  });
+           return patch.arc[i] * (patch.sigma[i] * patch.normal_cosine[i] + patch.tau_x[i] * patch.normal_sine[i]);
+         });
 }
 
-/// A braked wheel's shear stress pushes it down, so that the load carried may rise, fall and, where the shear displacement
-/// turns back, rise again. Looks from a root downward until even what lifts the wheel would not carry the load.
+/// A braked wheel's shear stress pushes it down, so that the load carried may rise, fall and, where the shear
+/// displacement turns back, rise again. Looks from a root downward until even what lifts the wheel would not carry the
+/// load.
 bool RollingWheel::is_smallest(const Prepared& p, double log_theta, ContactPatch& patch) const {
   if (!p.motion.locked && p.motion.forward <= 1.0) return true;
   constexpr double step = 0.05, lowest = -7.0;
@@ -162,8 +163,9 @@ bool RollingWheel::is_smallest(const Prepared& p, double log_theta, ContactPatch
     fill_patch(p, std::exp(x), patch);
     if (vertical(p, patch) > p.around.normal_load) return false;
     const double lifting = p.outline.width * sum_over(patch, [&](std::size_t i) {
-      return patch.arc[i] * (patch.sigma[i] * patch.normal_cosine[i] + std::max(patch.tau_x[i], 0.0) * patch.normal_sine[i]);
-    });
+                             return patch.arc[i] * (patch.sigma[i] * patch.normal_cosine[i] +
+                                                    std::max(patch.tau_x[i], 0.0) * patch.normal_sine[i]);
+                           });
     if (lifting < p.around.normal_load) return true;
   }
   return true;
@@ -178,7 +180,8 @@ double RollingWheel::balance(Prepared& p, ContactPatch& patch) const {
   };
   SoilValues guessed = p.soil;
   guessed.exponent = std::min(guessed.exponent, 2.5);  // Bekker's formula ends at 3
-  const double static_share = bekker_static_sinkage(guessed, p.outline.radius, p.outline.width, load) / p.outline.radius;
+  const double static_share =
+      bekker_static_sinkage(guessed, p.outline.radius, p.outline.width, load) / p.outline.radius;
   const double start = std::acos(1.0 - std::min(static_share, 0.8 * max_sinkage_share));
   p.layout = coarse(layout_at(p, start));
   const auto near = rising_root(imbalance, std::log(start), 2 * p.soil.exponent + 1, upper, 1e-4);
@@ -212,8 +215,8 @@ void RollingWheel::settle(const Prepared& p, RolledWheel& wheel) const {
   if (deeper == wheel.sinkage) return;
   const double share = (deeper + wheel.patch.deflection) / p.outline.radius;
   if (share > max_sinkage_share)
-    throw NoSolution(fmt::format("the wheel would dig itself in to {:.3g} of its radius, deeper than {}", share,
-                                 max_sinkage_share));
+    throw NoSolution(
+        fmt::format("the wheel would dig itself in to {:.3g} of its radius, deeper than {}", share, max_sinkage_share));
   fill_patch(p, std::acos(1.0 - share), wheel.patch);
   const WheelForces unscaled = integrate(p, wheel.patch);
   const double added = unscaled.added.vertical();

@@ -1,2 +1,98 @@
+// soilbin check: is this file valid, and does it make physical sense?
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+
 #include "cli/commands.hpp"
-namespace soilbin::cli { void add_check(CLI::App&, Session&) {} }
+#include "cli/text_output.hpp"
+#include "compare/report/result_json.hpp"
+#include "compare/sweep/plausibility.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+#include "scenario/yaml_node.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a file turned out to be, and what is doubtful in it.
+struct Verdict {
+  std::string what;
+  std::vector<std::string> warnings;
+};
+
+/// The `format:` of a document, "" where there is none.
+std::string format_of(const fs::path& file) {
+  const YamlNode document = parse_yaml(read_source_text(file, largest_yaml));
+  const YamlNode* format = document.is_mapping() ? document.find("format") : nullptr;
+  return format != nullptr && format->is_scalar() ? format->scalar : "";
+}
+
+/// A name of any shelf, a file, or a campaign's folder.
+fs::path file_named(const std::string& name, const Workplace& place) {
+  std::error_code error;
+  if (name.find('/') == std::string::npos && !name.ends_with(".yaml")) {
+    std::vector<std::string> names;
+    for (const Shelf shelf : {Shelf::studies, Shelf::measured, Shelf::tires, Shelf::soils}) {
+      if (const auto file = place.library.find(shelf, name)) return *file;
+      for (std::string& known : place.library.names(shelf)) names.push_back(std::move(known));
+    }
+    if (!fs::exists(name, error))
+      throw InputError("no file and nothing in the library is called '" + clipped(name) + "'" +
+                       did_you_mean(name, names));
+  }
+  return fs::is_directory(name, error) ? fs::path(name) / "campaign.yaml" : fs::path(name);
+}
+
+Verdict judge(const fs::path& file, const Workplace& place) {
+  const std::string format = format_of(file);
+  if (format == compare::campaign_format) {
+    const compare::Campaign campaign = compare::read_campaign(file, place.effects);
+    return {fmt::format("campaign '{}': {} runs of {}", campaign.name, campaign.runs.size(), in_words(campaign.wheel)),
+            compare::doubts(campaign)};
+  }
+  if (format == tire_format) return {fmt::format("tire {}", in_words(read_tire(file))), {}};
+  if (format == soil_format) {
+    const Soil soil = read_soil(file);
+    return {fmt::format("soil '{}'", soil.name),
+            soil.semi_empirical ? compare::doubts(*soil.semi_empirical) : std::vector<std::string>{}};
+  }
+  const Case question =
+      read_case(file, place.library, place.effects);  // refuses any other format with the nearest word
+  return {
+      fmt::format("case '{}': {} on {}, {} models at {} conditions", question.name, in_words(question.scenario.tire),
+                  question.scenario.soil.name, question.study.models.size(), question.study.conditions.size()),
+      compare::doubts(question)};
+}
+
+int check(const std::string& name, bool json, const Session& session) {
+  const Verdict verdict = judge(file_named(name, session.place), session.place);
+  if (json) {
+    fmt::print(
+        "{}",
+        compare::json_text(
+            {{"format", "soilbin-check/1"}, {"valid", true}, {"what", verdict.what}, {"warnings", verdict.warnings}}));
+    return done;
+  }
+  fmt::print("valid: {}\n", verdict.what);
+  for (const std::string& warning : verdict.warnings) fmt::print("warning: {}\n", warning);
+  if (verdict.warnings.empty()) fmt::print("nothing doubtful found\n");
+  return done;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("check", "is a case, campaign, tire or soil valid, and does it make sense?");
+  const auto name = std::make_shared<std::string>();
+  const auto json = std::make_shared<bool>(false);
+  command->add_option("file", *name, "a file, a campaign's folder, or a name of the library")
+      ->type_name("CASE|CAMPAIGN")
+      ->required();
+  command->add_flag("--json", *json, "as JSON");
+  command->callback([=, &session] { session.action = [=, &session] { return check(*name, *json, session); }; });
+}
+
+}  // namespace soilbin::cli

@@ -66,11 +66,14 @@ class DescribedFlags {
       add(key, measure.unit == "-" ? "NUMBER|%" : measure.unit, meaning);
     }
     template <class N>
-    void integer(const char* key, N T::*, int, Need, const char* meaning) { add(key, "WHOLE", meaning); }
+    void integer(const char* key, N T::*, int, Need, const char* meaning) {
+      add(key, "WHOLE", meaning);
+    }
     template <class E>
     void choice(const char* key, E T::*, Need, const char* meaning) {
       std::string words;
-      for (const Word<E>& word : words_of(std::type_identity<E>{})) words += (words.empty() ? "" : "|") + std::string(word.text);
+      for (const Word<E>& word : words_of(std::type_identity<E>{}))
+        words += (words.empty() ? "" : "|") + std::string(word.text);
       add(key, words, meaning);
     }
     template <class U>
@@ -88,7 +91,8 @@ class DescribedFlags {
     void text(const char*, std::string T::*, Need, const char*) {}
     template <class N>
     void number(const char* key, N T::*member, const Measure& measure, Need, const char*) {
-      if (const std::string* given = text_of(key)) into.*member = read_flag(flag_of(flags.prefix_, key), *given, measure);
+      if (const std::string* given = text_of(key))
+        into.*member = read_flag(flag_of(flags.prefix_, key), *given, measure);
     }
     template <class N>
     void integer(const char* key, N T::*member, int lowest, Need, const char*) {

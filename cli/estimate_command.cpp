@@ -17,8 +17,8 @@ std::string doubt_in_words(const Soil& soil) {
   if (!soil.semi_empirical) return "";
   const SemiEmpiricalSoil& s = *soil.semi_empirical;
   const std::pair<const char*, const Estimate*> values[] = {
-      {"n", &s.exponent}, {"k_c", &s.k_c}, {"k_phi", &s.k_phi}, {"c", &s.cohesion}, {"phi", &s.friction_angle},
-      {"K", &s.shear_modulus}, {"c1", &s.stress_angle_c1}, {"c2", &s.stress_angle_c2}};
+      {"n", &s.exponent},         {"k_c", &s.k_c},         {"k_phi", &s.k_phi},        {"c", &s.cohesion},
+      {"phi", &s.friction_angle}, {"K", &s.shear_modulus}, {"c1", &s.stress_angle_c1}, {"c2", &s.stress_angle_c2}};
   std::string words;
   for (const auto& [name, value] : values)
     if (value->std_error > 0.0) words += (words.empty() ? "" : ", ") + std::string(name);
@@ -55,7 +55,8 @@ int estimate(const Question& inputs, bool json, const Session& session) {
 }  // namespace
 
 void add_estimate(CLI::App& app, Session& session) {
-  CLI::App* command = app.add_subcommand("estimate", "drawbar pull, torque, sinkage and side force, from flags or a case");
+  CLI::App* command =
+      app.add_subcommand("estimate", "drawbar pull, torque, sinkage and side force, from flags or a case");
   const auto inputs = std::make_shared<Question>(*command);
   const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "the answers as JSON, in SI");

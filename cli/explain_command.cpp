@@ -27,9 +27,11 @@ void print_steps(const char* heading, const std::vector<Step>& steps) {
   if (steps.empty()) return;
   fmt::print("\n{}\n", heading);
   for (const Step& step : steps) {
-    const bool plain = step.unit == "SI";  // an effect: its parameters stand in its numbers
-    fmt::print("  {}\n      {}\n      = {}{}\n", step.name, step.equation, step.numbers,
-               plain ? "" : fmt::format(" = {} {}", number(step.value), step.unit));
+    fmt::print("  {}\n      {}\n", step.name, step.equation);
+    if (step.unit == "SI")
+      fmt::print("      with {}\n", step.numbers);  // an effect's parameters
+    else
+      fmt::print("      = {} = {} {}\n", step.numbers, number(step.value), step.unit);
     if (!step.remark.empty()) fmt::print("      ({})\n", step.remark);
   }
 }
@@ -50,15 +52,19 @@ void print_budget(const TractionResult& result) {
 nlohmann::ordered_json steps_json(const std::vector<Step>& steps) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const Step& step : steps) {
-    nlohmann::ordered_json one = {{"name", step.name}, {"equation", step.equation}, {"numbers", step.numbers},
-                                  {"value", step.value}, {"unit", step.unit}};
+    nlohmann::ordered_json one = {{"name", step.name},
+                                  {"equation", step.equation},
+                                  {"numbers", step.numbers},
+                                  {"value", step.value},
+                                  {"unit", step.unit}};
     if (!step.remark.empty()) one["remark"] = step.remark;
     all.push_back(std::move(one));
   }
   return all;
 }
 
-nlohmann::ordered_json to_json(const ModelChoice& choice, const Explanation& explanation, const OperatingCondition& at) {
+nlohmann::ordered_json to_json(const ModelChoice& choice, const Explanation& explanation,
+                               const OperatingCondition& at) {
   nlohmann::ordered_json row = {{"model", "bekker_wong"}, {"label", choice.label}};
   row.update(compare::to_json(compare::Answer{at, explanation.result, ""}));
   row["steps"] = steps_json(explanation.steps);
@@ -92,14 +98,18 @@ int explain(const Question& inputs, bool json, const Session& session) {
     scenario.effects = choice.effects;
     for (const OperatingCondition& at : question.study.conditions) {
       const Explanation explanation = compare::explain(scenario, at);
-      if (json) rows.push_back(to_json(choice, explanation, at));
-      else fmt::print("{}", first ? "" : "\n"), print_text(choice, explanation, at);
+      if (json)
+        rows.push_back(to_json(choice, explanation, at));
+      else
+        fmt::print("{}", first ? "" : "\n"), print_text(choice, explanation, at);
       first = false;
     }
   }
   if (json)
-    fmt::print("{}", compare::json_text({{"format", "soilbin-explain/1"}, {"tire", question.scenario.tire.name},
-                                         {"soil", question.scenario.soil.name}, {"rows", rows}}));
+    fmt::print("{}", compare::json_text({{"format", "soilbin-explain/1"},
+                                         {"tire", question.scenario.tire.name},
+                                         {"soil", question.scenario.soil.name},
+                                         {"rows", rows}}));
   return done;
 }
 

@@ -38,17 +38,24 @@ void add_entry(Listing& listing, const std::string& name, std::size_t columns, c
 }
 
 Listing soils(const Workplace& place) {
-  Listing all{TextTable({"soil", "n", "k_c [kN/m^(n+1)]", "k_phi [kN/m^(n+2)]", "c [kPa]", "phi [deg]", "K [mm]", "source"})};
+  Listing all{
+      TextTable({"soil", "n", "k_c [kN/m^(n+1)]", "k_phi [kN/m^(n+2)]", "c [kPa]", "phi [deg]", "K [mm]", "source"})};
   for (const std::string& name : place.library.names(Shelf::soils))
     add_entry(all, name, 8, [&] {
       const Soil soil = find_soil(name, place.library);
       if (!soil.semi_empirical) return all.table.add({name, "-", "-", "-", "-", "-", "-", soil.source});
       const SemiEmpiricalSoil& s = *soil.semi_empirical;
       all.table.add({name, number(s.exponent), number(s.k_c, 1e-3), number(s.k_phi, 1e-3), number(s.cohesion, 1e-3),
-                     number(s.friction_angle, 180 / std::numbers::pi), number(s.shear_modulus, 1e3), clipped(soil.source)});
-      all.json.push_back({{"name", name}, {"exponent", s.exponent.value}, {"k_c", s.k_c.value}, {"k_phi", s.k_phi.value},
-                          {"cohesion", s.cohesion.value}, {"friction_angle", s.friction_angle.value},
-                          {"shear_modulus", s.shear_modulus.value}, {"granular", soil.granular.has_value()},
+                     number(s.friction_angle, 180 / std::numbers::pi), number(s.shear_modulus, 1e3),
+                     clipped(soil.source)});
+      all.json.push_back({{"name", name},
+                          {"exponent", s.exponent.value},
+                          {"k_c", s.k_c.value},
+                          {"k_phi", s.k_phi.value},
+                          {"cohesion", s.cohesion.value},
+                          {"friction_angle", s.friction_angle.value},
+                          {"shear_modulus", s.shear_modulus.value},
+                          {"granular", soil.granular.has_value()},
                           {"source", soil.source}});
     });
   return all;
@@ -64,8 +71,11 @@ Listing tires(const Workplace& place) {
         lugs = fmt::format("{} of {} mm", tire.lugs.count ? std::to_string(*tire.lugs.count) : "some",
                            number(1000 * tire.lugs.height));
       all.table.add({name, number(1000 * tire.radius), number(1000 * tire.width), lugs, clipped(tire.source)});
-      all.json.push_back({{"name", name}, {"radius", tire.radius}, {"width", tire.width},
-                          {"lug_height", tire.lugs.height}, {"source", tire.source}});
+      all.json.push_back({{"name", name},
+                          {"radius", tire.radius},
+                          {"width", tire.width},
+                          {"lug_height", tire.lugs.height},
+                          {"source", tire.source}});
     });
   return all;
 }
@@ -78,9 +88,12 @@ Listing studies(const Workplace& place) {
       all.table.add({name, question.scenario.tire.name, question.scenario.soil.name,
                      std::to_string(question.study.models.size()), std::to_string(question.study.conditions.size()),
                      question.description});
-      all.json.push_back({{"name", name}, {"tire", question.scenario.tire.name}, {"soil", question.scenario.soil.name},
+      all.json.push_back({{"name", name},
+                          {"tire", question.scenario.tire.name},
+                          {"soil", question.scenario.soil.name},
                           {"models", question.study.models.size()},
-                          {"conditions", question.study.conditions.size()}, {"description", question.description}});
+                          {"conditions", question.study.conditions.size()},
+                          {"description", question.description}});
     });
   return all;
 }
@@ -106,10 +119,18 @@ Listing campaigns(const Workplace& place) {
 Json effect_json(const bekker_wong::EffectForm& form) {
   Json parameters = Json::array();
   for (const bekker_wong::EffectParameter& p : form.parameters)
-    parameters.push_back({{"name", p.name}, {"unit", p.unit}, {"default", p.fallback}, {"lower", p.lower},
-                          {"upper", p.upper}, {"meaning", p.meaning}});
-  return {{"id", form.id}, {"form", form.form}, {"equation", form.equation}, {"source", form.source},
-          {"of", form.measurement ? "measurement" : "wheel"}, {"parameters", parameters}};
+    parameters.push_back({{"name", p.name},
+                          {"unit", p.unit},
+                          {"default", p.fallback},
+                          {"lower", p.lower},
+                          {"upper", p.upper},
+                          {"meaning", p.meaning}});
+  return {{"id", form.id},
+          {"form", form.form},
+          {"equation", form.equation},
+          {"source", form.source},
+          {"of", form.measurement ? "measurement" : "wheel"},
+          {"parameters", parameters}};
 }
 
 /// A value of a parameter in its own unit; units that need the soil's exponent are left in SI.
@@ -130,7 +151,8 @@ int print_effects(bool json) {
       all.push_back(effect_json(form));
       continue;
     }
-    if (form.id != id) fmt::print("{}{}{}\n", id.empty() ? "" : "\n", form.id, form.measurement ? "  (of the measurement)" : "");
+    if (form.id != id)
+      fmt::print("{}{}{}\n", id.empty() ? "" : "\n", form.id, form.measurement ? "  (of the measurement)" : "");
     id = form.id;
     fmt::print("  {}\n      {}\n      {}\n", form.form, form.equation, form.source);
     for (const bekker_wong::EffectParameter& p : form.parameters)
@@ -150,11 +172,14 @@ int list(const std::string& what, bool json, const Session& session) {
     right.push_back(name);
     if (name != what) continue;
     const Listing listing = make(session.place);
-    if (json) fmt::print("{}", compare::json_text({{"format", "soilbin-list/1"}, {name, listing.json}}));
-    else fmt::print("{}", listing.table.text());
+    if (json)
+      fmt::print("{}", compare::json_text({{"format", "soilbin-list/1"}, {name, listing.json}}));
+    else
+      fmt::print("{}", listing.table.text());
     return done;
   }
-  throw InputError("can't list '" + clipped(what) + "'" + did_you_mean(what, right) + "\n  hint: one of " + listed(right));
+  throw InputError("can't list '" + clipped(what) + "'" + did_you_mean(what, right) + "\n  hint: one of " +
+                   listed(right));
 }
 
 }  // namespace

@@ -54,10 +54,15 @@ int predict(const PredictOptions& options, const Session& session) {
 }  // namespace
 
 void add_predict(CLI::App& app, Session& session) {
-  CLI::App* command = app.add_subcommand("predict", "each run of a measured campaign as the model predicts it, unfitted");
+  CLI::App* command =
+      app.add_subcommand("predict", "each run of a measured campaign as the model predicts it, unfitted");
   const auto options = std::make_shared<PredictOptions>();
-  command->add_option("campaign", options->campaign, "of the library, or its folder")->type_name("CAMPAIGN")->required();
-  command->add_option("--model", options->model, "a resolved model (soilbin-case/1) in place of the declared soil and effects")
+  command->add_option("campaign", options->campaign, "of the library, or its folder")
+      ->type_name("CAMPAIGN")
+      ->required();
+  command
+      ->add_option("--model", options->model,
+                   "a resolved model (soilbin-case/1) in place of the declared soil and effects")
       ->type_name("FILE");
   command->add_option("--plot", options->plot, "draw measured and predicted against slip")->type_name("FILE.svg");
   command->add_flag("--json", options->json, "soilbin-predict/1, in SI");

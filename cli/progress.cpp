@@ -27,7 +27,7 @@ compare::Progress shown_progress() {
   using Clock = std::chrono::steady_clock;
   const bool terminal = isatty(STDERR_FILENO) == 1;
   return [terminal, start = Clock::now(), shown = Clock::now(), open = false](std::size_t done,
-                                                                             std::size_t total) mutable {
+                                                                              std::size_t total) mutable {
     if (stop_asked) throw Interrupted();
     if (!terminal) return;
     const Clock::time_point now = Clock::now();
@@ -41,8 +41,8 @@ compare::Progress shown_progress() {
     }
     open = true;
     const double left = passed * static_cast<double>(total - done) / static_cast<double>(done);
-    fmt::print(stderr, "\r\033[K{:3.0f} %  {} of {}, {:.0f} s left", 100.0 * static_cast<double>(done) / static_cast<double>(total),
-               done, total, left);
+    fmt::print(stderr, "\r\033[K{:3.0f} %  {} of {}, {:.0f} s left",
+               100.0 * static_cast<double>(done) / static_cast<double>(total), done, total, left);
   };
 }
 

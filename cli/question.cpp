@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <set>
 #include <sstream>
 
+#include "compare/report/result_json.hpp"
 #include "scenario/mapping_writer.hpp"
 
 namespace soilbin::cli {
@@ -95,8 +97,8 @@ EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocab
   choice.id = parts.front().substr(0, colon);
   const std::vector<EffectFormWords> forms = vocabulary.forms(choice.id);
   if (forms.empty())
-    throw InputError(fmt::format("--effect: unknown effect '{}'{}\n  hint: see soilbin list effects", clipped(choice.id),
-                                 did_you_mean(choice.id, vocabulary.ids())));
+    throw InputError(fmt::format("--effect: unknown effect '{}'{}\n  hint: see soilbin list effects",
+                                 clipped(choice.id), did_you_mean(choice.id, vocabulary.ids())));
   const EffectFormWords& form =
       pick_form(choice.id, colon == std::string::npos ? "" : parts.front().substr(colon + 1), forms);
   choice.form = form.form;
@@ -106,13 +108,14 @@ EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocab
 }
 
 std::vector<OperatingCondition> ConditionFlags::pick(const std::vector<OperatingCondition>& conditions) const {
+  if (!flags_.any_given()) return conditions;
   std::vector<OperatingCondition> kept, changed;
+  std::set<std::string> seen;
   for (const OperatingCondition& at : conditions) {
     OperatingCondition asked = at;
     flags_.apply(asked);
     if (same(asked, at)) kept.push_back(at);
-    const bool again = std::any_of(changed.begin(), changed.end(), [&](const auto& c) { return same(c, asked); });
-    if (!again) changed.push_back(asked);
+    if (seen.insert(compare::to_json(asked).dump()).second) changed.push_back(asked);
   }
   return kept.empty() ? changed : kept;
 }
@@ -143,11 +146,12 @@ Case Question::from_flags(const Workplace& place) const {
     throw InputError("which soil? --soil NAME or a file\n  hint: there are " +
                      listed(place.library.names(Shelf::soils)));
   if (tire_.empty() && !(wheel_.given("radius") && wheel_.given("width")))
-    throw InputError("which wheel? --radius and --width (such as --radius 110mm --width 100mm), or --tire NAME\n"
-                     "  hint: there are " + listed(place.library.names(Shelf::tires)));
+    throw InputError(
+        "which wheel? --radius and --width (such as --radius 110mm --width 100mm), or --tire NAME\n"
+        "  hint: there are " +
+        listed(place.library.names(Shelf::tires)));
   for (const char* key : {"load", "slip"})
-    if (!condition_.given(key))
-      throw InputError(fmt::format("--{} is missing (such as --load 80N --slip 20%)", key));
+    if (!condition_.given(key)) throw InputError(fmt::format("--{} is missing (such as --load 80N --slip 20%)", key));
   Case question;
   question.name = "estimate";
   override_tire(question.scenario.tire, place);

@@ -1,2 +1,69 @@
+// soilbin report: studies and measured campaigns as one HTML page that needs nothing but a browser.
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+
 #include "cli/commands.hpp"
-namespace soilbin::cli { void add_report(CLI::App&, Session&) {} }
+#include "cli/progress.hpp"
+#include "cli/versions.hpp"
+#include "compare/report/analysis_page.hpp"
+#include "scenario/atomic_file.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+struct ReportOptions {
+  std::vector<std::string> studies, campaigns;
+  std::string output = "report.html", title = "soilbin report";
+};
+
+std::string quoted(const std::string& word) { return word.find(' ') == std::string::npos ? word : "'" + word + "'"; }
+
+std::string command_of(const ReportOptions& options) {
+  std::string command = "soilbin report";
+  for (const std::string& study : options.studies) command += " " + quoted(study);
+  if (!options.campaigns.empty()) command += " --measured";
+  for (const std::string& campaign : options.campaigns) command += " " + quoted(campaign);
+  return command + " --title " + quoted(options.title) + " --output " + quoted(options.output);
+}
+
+int report(const ReportOptions& options, const Session& session) {
+  if (options.studies.empty() && options.campaigns.empty())
+    throw InputError("name a study or a campaign: soilbin report paper-straight --measured cmu-smooth");
+  std::vector<compare::StudyPart> studies;
+  for (const std::string& name : options.studies) {
+    compare::StudyPart part{find_case(session.place, name), {}};
+    part.study = compare::run_study(part.question, shown_progress());
+    studies.push_back(std::move(part));
+  }
+  const auto model = compare::make_model(ModelKind::bekker_wong);
+  std::vector<compare::CampaignPart> campaigns;
+  for (const std::string& name : options.campaigns) {
+    compare::CampaignPart part{find_campaign(session.place, name), {}};
+    part.prediction = compare::predict(*model, compare::scenario_of(part.campaign), part.campaign, shown_progress());
+    campaigns.push_back(std::move(part));
+  }
+  const std::filesystem::path file = options.output;
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+  write_file_atomically(file,
+                        compare::analysis_page(studies, campaigns, {options.title, command_of(options), versions()}));
+  fmt::print("wrote {}: open it in a browser\n", file.string());
+  return done;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("report", "studies and campaigns as one HTML page to open");
+  const auto options = std::make_shared<ReportOptions>();
+  command->add_option("studies", options->studies, "of the library, or case files")->type_name("STUDY...");
+  command->add_option("--measured", options->campaigns, "campaigns to predict and compare")->type_name("CAMPAIGN...");
+  command->add_option("--output", options->output, "the page; by default report.html")->type_name("FILE.html");
+  command->add_option("--title", options->title, "of the page")->type_name("TEXT");
+  command->footer("Example: soilbin report paper-straight --measured cmu-smooth --output report.html");
+  command->callback([=, &session] { session.action = [=, &session] { return report(*options, session); }; });
+}
+
+}  // namespace soilbin::cli

@@ -88,8 +88,9 @@ void add_run(CLI::App& app, Session& session) {
   command->add_option("--output", options->output, "save the resolved case and the results")->type_name("DIR");
   command->add_flag("--json", options->json, "the results as JSON, in SI");
   options->conditions.add_to(*command);
-  command->footer("A condition flag keeps the study's conditions that agree with it; where none does, it overrides them.\n"
-                  "Example: soilbin run paper-straight --load 4kN --plot pull.svg");
+  command->footer(
+      "A condition flag keeps the study's conditions that agree with it; where none does, it overrides them.\n"
+      "Example: soilbin run paper-straight --load 4kN --plot pull.svg");
   command->callback([=, &session] { session.action = [=, &session] { return run(*options, session); }; });
 }
 

@@ -1,2 +1,40 @@
+// soilbin schema: the file formats as JSON Schema, for editors.
+#include <fmt/core.h>
+
+#include <memory>
+
 #include "cli/commands.hpp"
-namespace soilbin::cli { void add_schema(CLI::App&, Session&) {} }
+#include "compare/measured/campaign_schema.hpp"
+#include "compare/report/result_json.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+#include "scenario/schema.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+int schema(const std::string& what, const Session& session) {
+  if (what == "case")
+    fmt::print("{}", compare::json_text(case_schema(session.place.effects)));
+  else if (what == "tire")
+    fmt::print("{}", compare::json_text(tire_schema()));
+  else if (what == "soil")
+    fmt::print("{}", compare::json_text(soil_schema()));
+  else if (what == "campaign")
+    fmt::print("{}", compare::json_text(compare::campaign_schema(session.place.effects)));
+  else
+    throw InputError("no schema '" + clipped(what) + "'" + did_you_mean(what, {"case", "tire", "soil", "campaign"}) +
+                     "\n  hint: one of case, tire, soil, campaign");
+  return done;
+}
+
+}  // namespace
+
+void add_schema(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("schema", "a file format as JSON Schema: case, tire, soil, campaign");
+  const auto what = std::make_shared<std::string>("case");
+  command->add_option("format", *what, "case (the default), tire, soil or campaign")->type_name("FORMAT");
+  command->callback([=, &session] { session.action = [=, &session] { return schema(*what, session); }; });
+}
+
+}  // namespace soilbin::cli

@@ -76,27 +76,15 @@ std::string TextTable::text() const {
   return text;
 }
 
-std::string number(double value) {
-  if (!std::isfinite(value)) return "-";
-  if (value == 0.0) return "0";
-  const double size = std::abs(value);
-  if (size < 1e-4 || size >= 1e7) return fmt::format("{:.3e}", value);
-  const int places = std::clamp(3 - static_cast<int>(std::floor(std::log10(size))), 0, 7);
-  return fmt::format("{:.{}f}", value, places);
-}
-
-std::string number(const Estimate& estimate, double per_unit) {
-  const double value = estimate.value * per_unit, error = estimate.std_error * per_unit;
-  if (!(error > 1e-9 * std::abs(value)) || !std::isfinite(error)) return number(value);
-  const int places = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9);
-  return fmt::format("{:.{}f} ± {:.{}f}", value, places, error, places);
-}
-
 std::string in_words(const Tire& tire) {
-  std::string words = fmt::format("{} (r {:.4g} mm, b {:.4g} mm, ", tire.name, 1000 * tire.radius, 1000 * tire.width);
-  if (!is_lugged(tire)) words += "smooth";
-  else if (tire.lugs.count) words += fmt::format("{} lugs of {:.4g} mm", *tire.lugs.count, 1000 * tire.lugs.height);
-  else words += fmt::format("lugs of {:.4g} mm", 1000 * tire.lugs.height);
+  std::string words = fmt::format("{} (r {:.4g} mm, b {:.4g} mm, ", tire.name.empty() ? "a wheel" : tire.name,
+                                  1000 * tire.radius, 1000 * tire.width);
+  if (!is_lugged(tire))
+    words += "smooth";
+  else if (tire.lugs.count)
+    words += fmt::format("{} lugs of {:.4g} mm", *tire.lugs.count, 1000 * tire.lugs.height);
+  else
+    words += fmt::format("lugs of {:.4g} mm", 1000 * tire.lugs.height);
   if (tire.inflation_pressure) words += fmt::format(", {:.4g} kPa", *tire.inflation_pressure / 1000);
   return words + ")";
 }
@@ -113,8 +101,9 @@ std::string answer_text(const ModelAnswers& model, const Answer& answer) {
     line(capital(std::string(channel.title)), number(r.*channel.predicted, channel.per_si), channel.unit);
   line("Tractive efficiency", drives_and_pulls(r) ? efficiency(r) : "none: the wheel has to be pushed or braked",
        drives_and_pulls(r) ? "%" : "");
-  text += fmt::format("  {:<21}soil meets the wheel {:.1f}° before the axle, presses most at {:.1f}°, lets go at {:.1f}°\n",
-                      "Contact", r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree + 0.0);
+  text +=
+      fmt::format("  {:<21}soil meets the wheel {:.1f}° before the axle, presses most at {:.1f}°, lets go at {:.1f}°\n",
+                  "Contact", r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree + 0.0);
   text += fmt::format("  {:<21}", "Drawbar pull is");
   for (std::size_t i = 0; i < r.budget.size(); ++i) {
     std::string name = r.budget[i].name;
@@ -192,7 +181,8 @@ std::string prediction_text(const Prediction& prediction) {
       const auto measured = run.measured.*channel.measured;
       const auto rest = residual(run, channel);
       row.push_back(measured ? number(*measured * channel.per_si) : "-");
-      row.push_back(run.predicted.result ? number(((*run.predicted.result).*channel.predicted).value * channel.per_si) : "-");
+      row.push_back(run.predicted.result ? number(((*run.predicted.result).*channel.predicted).value * channel.per_si)
+                                         : "-");
       row.push_back(rest ? number(*rest * channel.per_si) : "-");
     }
     if (!run.predicted.result) notes += fmt::format("run {}: no solution: {}\n", run.run, run.predicted.error);

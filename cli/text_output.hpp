@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include "compare/report/number_text.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/prediction.hpp"
-#include "scenario/estimate.hpp"
 #include "scenario/tire.hpp"
 
 namespace soilbin::cli {
@@ -23,10 +23,7 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// Four digits, never "-0" and never an exponent for everyday sizes.
-std::string number(double value);
-/// "4.18 ± 0.31": the error to two digits, the value to the error's place; the value alone for an error of 0.
-std::string number(const Estimate& estimate, double per_unit = 1.0);
+using compare::number;
 
 /// "rover-wheel (r 90 mm, b 110 mm, smooth)".
 std::string in_words(const Tire& tire);

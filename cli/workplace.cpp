@@ -15,10 +15,14 @@ namespace fs = std::filesystem;
 
 std::string kind_of(Shelf shelf) {
   switch (shelf) {
-    case Shelf::tires: return "tire";
-    case Shelf::soils: return "soil";
-    case Shelf::studies: return "study";
-    case Shelf::measured: return "campaign";
+    case Shelf::tires:
+      return "tire";
+    case Shelf::soils:
+      return "soil";
+    case Shelf::studies:
+      return "study";
+    case Shelf::measured:
+      return "campaign";
   }
   return "";
 }
@@ -52,9 +56,10 @@ fs::path find_file(const Workplace& place, Shelf shelf, const std::string& name)
   std::error_code error;
   if (fs::exists(name, error)) return name;
   const std::vector<std::string> names = place.library.names(shelf);
-  throw InputError(fmt::format("no {} '{}' in the library, and no such file{}\n  hint: {}", kind_of(shelf),
-                               clipped(name), did_you_mean(name, names),
-                               names.empty() ? "the library is empty; see soilbin doctor" : "there are " + listed(names)));
+  throw InputError(
+      fmt::format("no {} '{}' in the library, and no such file{}\n  hint: {}", kind_of(shelf), clipped(name),
+                  did_you_mean(name, names),
+                  names.empty() ? "the library is empty; see soilbin doctor" : "there are " + listed(names)));
 }
 
 Case find_case(const Workplace& place, const std::string& name) {

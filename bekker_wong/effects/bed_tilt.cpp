@@ -74,6 +74,7 @@ std::vector<EffectForm> bed_tilt_forms() {
        .source = source,
        .parameters = {{"a", "deg", 0.5 * degree, -10 * degree, 10 * degree, "tilt along travel, uphill positive"}},
        .measurement = true,
+       .form_tolerance = 0.05,
        .make = maker<Along>()},
       {.id = id,
        .form = "across",
@@ -81,6 +82,7 @@ std::vector<EffectForm> bed_tilt_forms() {
        .source = source,
        .parameters = {{"a", "deg", 0.5 * degree, -10 * degree, 10 * degree, "cross tilt, left side up positive"}},
        .measurement = true,
+       .form_tolerance = 0.05,
        .make = maker<Across>()},
       {.id = id,
        .form = "along_with_load",
@@ -88,6 +90,7 @@ std::vector<EffectForm> bed_tilt_forms() {
        .source = source,
        .parameters = {{"a", "deg", 0.5 * degree, -10 * degree, 10 * degree, "tilt along travel, uphill positive"}},
        .measurement = true,
+       .form_tolerance = 0.05,
        .make = maker<AlongWithLoad>()},
   };
 }

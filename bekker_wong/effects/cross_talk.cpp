@@ -81,21 +81,22 @@ std::vector<EffectForm> cross_talk_forms() {
   const std::string id = "cross_talk";
   std::vector<EffectForm> forms;
   for (const Leak& leak : leaks)
-    forms.push_back({.id = id,
-                     .form = leak.form,
-                     .equation = leak.equation,
-                     .source = "stated here",
-                     .parameters = {{"a", "-", 0.03, -0.5, 0.5, "share that leaks"}},
-                     .measurement = true,
-                     .make = [&leak](const std::vector<double>& p) {
-                       return std::make_unique<const Leaking>(leak, p[0]);
-                     }});
+    forms.push_back(
+        {.id = id,
+         .form = leak.form,
+         .equation = leak.equation,
+         .source = "stated here",
+         .parameters = {{"a", "-", 0.03, -0.5, 0.5, "share that leaks"}},
+         .measurement = true,
+         .form_tolerance = 0.08,
+         .make = [&leak](const std::vector<double>& p) { return std::make_unique<const Leaking>(leak, p[0]); }});
   forms.push_back({.id = id,
                    .form = "turned_cell",
                    .equation = "F_DP cos(a) + F_y sin(a); F_y cos(a) - F_DP sin(a)",
                    .source = "stated here",
                    .parameters = {{"a", "deg", 2 * degree, -30 * degree, 30 * degree, "turn of the cell, to the left"}},
                    .measurement = true,
+                   .form_tolerance = 0.08,
                    .make = maker<Turned>()});
   forms.push_back({.id = id,
                    .form = "sinkage_from_load",
@@ -103,6 +104,7 @@ std::vector<EffectForm> cross_talk_forms() {
                    .source = "stated here",
                    .parameters = {{"a", "mm", 0.001, -0.2, 0.2, "yielding of the frame at a load of 1 kN"}},
                    .measurement = true,
+                   .form_tolerance = 0.08,
                    .make = maker<Yielding>()});
   return forms;
 }

@@ -42,6 +42,7 @@ std::vector<EffectForm> rig_friction_forms() {
        .source = source,
        .parameters = {{"a", "N m", 1.0, 0.0, 1e4, "torque that seals and bearings take"}},
        .measurement = true,
+       .form_tolerance = 0.15,
        .make = maker<Taken<coulomb>>()},
       {.id = id,
        .form = "load_proportional",
@@ -49,6 +50,7 @@ std::vector<EffectForm> rig_friction_forms() {
        .source = source,
        .parameters = {{"a", "-", 0.01, 0.0, 0.5, "bearing's friction times its radius over the wheel's"}},
        .measurement = true,
+       .form_tolerance = 0.15,
        .make = maker<Taken<bearing>>()},
       {.id = id,
        .form = "viscous",
@@ -56,6 +58,7 @@ std::vector<EffectForm> rig_friction_forms() {
        .source = source,
        .parameters = {{"a", "N m", 1.0, 0.0, 1e4, "torque taken at a rim speed of 1 m/s"}},
        .measurement = true,
+       .form_tolerance = 0.15,
        .make = maker<Taken<viscous>>()},
       {.id = id,
        .form = "transmission",
@@ -63,6 +66,7 @@ std::vector<EffectForm> rig_friction_forms() {
        .source = source,
        .parameters = {{"a", "-", 0.05, 0.0, 1.0, "share of the torque lost in the gears"}},
        .measurement = true,
+       .form_tolerance = 0.15,
        .make = maker<Taken<gears>>()},
   };
 }

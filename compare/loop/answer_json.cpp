@@ -86,17 +86,13 @@ ordered_json next_json(const LoopAnswer& answer) {
 
 ordered_json to_json(const LoopAnswer& answer) {
   ordered_json ambiguity = ordered_json::array();
-  for (const Weighted& w : answer.ambiguity_set) ambiguity.push_back({{"effects", w.ids}, {"weight", number(w.weight)}});
-  return {{"format", "soilbin-loop/1"},
-          {"campaign", answer.campaign},
-          {"verdict", word(answer.verdict)},
-          {"reason", answer.reason},
-          {"effects", effects_json(answer)},
-          {"ambiguity_set", ambiguity},
-          {"not_testable", answer.not_testable},
-          {"error", error_json(answer)},
-          {"next_test", next_json(answer)},
-          {"outliers", answer.outliers}};
+  for (const Weighted& w : answer.ambiguity_set)
+    ambiguity.push_back({{"effects", w.ids}, {"weight", number(w.weight)}});
+  return {{"format", "soilbin-loop/1"},          {"campaign", answer.campaign},
+          {"verdict", word(answer.verdict)},     {"reason", answer.reason},
+          {"effects", effects_json(answer)},     {"ambiguity_set", ambiguity},
+          {"not_testable", answer.not_testable}, {"error", error_json(answer)},
+          {"next_test", next_json(answer)},      {"outliers", answer.outliers}};
 }
 
 }  // namespace soilbin::compare

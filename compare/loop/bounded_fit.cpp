@@ -12,7 +12,8 @@ using Eigen::VectorXd;
 std::optional<VectorXd> feasible_start(const WheelPredictor& predictor, VectorXd start) {
   VectorXd prediction;
   const auto& parameters = predictor.parameters();
-  const auto k_phi = std::find_if(parameters.begin(), parameters.end(), [](const auto& p) { return p.name == "k_phi"; });
+  const auto k_phi =
+      std::find_if(parameters.begin(), parameters.end(), [](const auto& p) { return p.name == "k_phi"; });
   for (int attempt = 0; attempt < 21; ++attempt) {
     if (predictor.predict(start, prediction)) return start;
     if (k_phi == parameters.end()) return std::nullopt;
@@ -69,8 +70,8 @@ std::vector<bool> held(const std::vector<FreeParameter>& parameters, const Vecto
   std::vector<bool> at_bound(parameters.size());
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Index k = static_cast<Index>(i);
-    at_bound[i] = (theta[k] <= parameters[i].lower && downhill[k] < 0) ||
-                  (theta[k] >= parameters[i].upper && downhill[k] > 0);
+    at_bound[i] =
+        (theta[k] <= parameters[i].lower && downhill[k] < 0) || (theta[k] >= parameters[i].upper && downhill[k] > 0);
   }
   return at_bound;
 }
@@ -150,8 +151,8 @@ std::optional<Fit> fit(const WheelPredictor& predictor, const VectorXd& values, 
   }
   const Linearised l = augment(predictor, best.theta, values, whitening, best.prediction, best.jacobian, scale);
   best.residual = l.residual;
-  best.columns = without(l.columns, held(parameters, best.theta, l.columns.transpose() * l.residual),
-                         &best.column_parameter);
+  best.columns =
+      without(l.columns, held(parameters, best.theta, l.columns.transpose() * l.residual), &best.column_parameter);
   best.chi2 = best.residual.squaredNorm();
   best.chi2_cells = best.residual.head(values.size()).squaredNorm();
   return best;

@@ -13,13 +13,13 @@ namespace soilbin::compare {
 /// The end of a fit. "Augmented" rows: the whitened cells, then one row a parameter with a prior.
 struct Fit {
   Eigen::VectorXd theta;
-  Eigen::VectorXd prediction;        ///< of the cells
-  Eigen::MatrixXd jacobian;          ///< cells x parameters, unwhitened
-  Eigen::VectorXd residual;          ///< augmented
-  Eigen::MatrixXd columns;           ///< augmented Jacobian of the parameters that are not held by a bound,
-                                     ///< in units of their scale
-  std::vector<int> column_parameter; ///< which parameter each column belongs to
-  double chi2 = 0.0;                 ///< |residual|^2: cells and priors
+  Eigen::VectorXd prediction;         ///< of the cells
+  Eigen::MatrixXd jacobian;           ///< cells x parameters, unwhitened
+  Eigen::VectorXd residual;           ///< augmented
+  Eigen::MatrixXd columns;            ///< augmented Jacobian of the parameters that are not held by a bound,
+                                      ///< in units of their scale
+  std::vector<int> column_parameter;  ///< which parameter each column belongs to
+  double chi2 = 0.0;                  ///< |residual|^2: cells and priors
   double chi2_cells = 0.0;
 };
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 #include <thread>
+#include <tuple>
 
 #include "scenario/errors.hpp"
 
@@ -82,6 +83,15 @@ ErrorPair errors_over(const std::vector<HeldOut>& cells, int channel) {
   return e;
 }
 
+/// Mean and standard error over conditions of what the cells of each add up to.
+std::pair<double, double> over_conditions(const std::map<int, double>& sums) {
+  const double n = static_cast<double>(sums.size());
+  double mean = 0, square = 0;
+  for (const auto& [condition, sum] : sums) mean += sum / n;
+  for (const auto& [condition, sum] : sums) square += std::pow(sum - mean, 2);
+  return {mean, std::sqrt(square / std::max(1.0, n - 1) / n)};
+}
+
 void pair_by_condition(const Observations& all, CrossValidation& cv) {
   std::map<int, std::pair<double, int>> fall;
   for (const HeldOut& h : cv.cells) {
@@ -90,16 +100,75 @@ void pair_by_condition(const Observations& all, CrossValidation& cv) {
     sum += b * b - a * a;
     ++count;
   }
-  const double n = static_cast<double>(fall.size());
-  if (n < 2) return;
-  double mean = 0, square = 0;
-  for (const auto& [condition, f] : fall) mean += f.first / f.second / n;
-  for (const auto& [condition, f] : fall) square += std::pow(f.first / f.second - mean, 2);
-  cv.gain = mean;
-  cv.gain_error = std::sqrt(square / (n - 1) / n);
+  if (fall.size() < 2) return;
+  std::map<int, double> means;
+  for (const auto& [condition, f] : fall) means[condition] = f.first / f.second;
+  std::tie(cv.gain, cv.gain_error) = over_conditions(means);
+}
+
+/// ln density of each held-out cell under a model fitted to the rest.
+std::optional<Eigen::VectorXd> held_out_density(const Campaign& campaign, const Identification& whole,
+                                                const Observations& training, const Observations& held,
+                                                const std::vector<Term>& terms, const Eigen::VectorXd& start) {
+  const WheelPredictor predictor(campaign, training, terms);
+  Eigen::VectorXd about;
+  if (!predictor.predict(start, about)) return std::nullopt;
+  const Whitening whitening(training, whole.noise, about);
+  const auto found = fit(predictor, training.values(), whitening, start);
+  if (!found) return std::nullopt;
+  const WheelPredictor elsewhere(campaign, held, terms);
+  Eigen::VectorXd prediction;
+  Eigen::MatrixXd jacobian;
+  if (!elsewhere.linearise(found->theta, prediction, jacobian)) return std::nullopt;
+  Eigen::MatrixXd used(jacobian.rows(), static_cast<Eigen::Index>(found->column_parameter.size()));
+  for (std::size_t c = 0; c < found->column_parameter.size(); ++c) {
+    const int p = found->column_parameter[c];
+    used.col(static_cast<Eigen::Index>(c)) =
+        jacobian.col(p) * predictor.parameters()[static_cast<std::size_t>(p)].scale;
+  }
+  Eigen::MatrixXd gram = found->columns.transpose() * found->columns;
+  gram.diagonal().array() += 1e-9;
+  const Eigen::MatrixXd solved = gram.ldlt().solve(used.transpose());
+  Eigen::VectorXd density(prediction.size());
+  for (Eigen::Index i = 0; i < prediction.size(); ++i) {
+    const Cell& cell = held.cells[static_cast<std::size_t>(i)];
+    const double sd = whole.noise.channels[static_cast<std::size_t>(cell.channel)].sd(cell.value);
+    const double variance = sd * sd + used.row(i).dot(solved.col(i));
+    density[i] = -0.5 * std::log(variance) - 0.5 * std::pow(cell.value - prediction[i], 2) / variance;
+  }
+  return density;
 }
 
 }  // namespace
+
+PredictiveGain predictive_gain(const Campaign& campaign, const Identification& whole, const std::vector<Term>& terms,
+                               const Fit& fit, const std::vector<Term>& over_terms, const Fit& over_fit, int folds,
+                               std::uint64_t seed) {
+  const Observations& all = whole.observations;
+  folds = std::min(folds, all.conditions);
+  const std::vector<int> fold = deal(all.conditions, folds, seed);
+  std::map<int, double> gain;
+  for (int f = 0; f < folds; ++f) {
+    std::vector<bool> keep(fold.size()), held(fold.size());
+    std::vector<int> original;
+    for (std::size_t c = 0; c < fold.size(); ++c) {
+      keep[c] = fold[c] != f, held[c] = !keep[c];
+      if (held[c]) original.push_back(static_cast<int>(c));
+    }
+    const Observations training = of_conditions(all, keep), rest = of_conditions(all, held);
+    const auto base = held_out_density(campaign, whole, training, rest, over_terms, over_fit.theta);
+    const auto better = held_out_density(campaign, whole, training, rest, terms, fit.theta);
+    if (!base || !better) continue;
+    for (std::size_t i = 0; i < rest.cells.size(); ++i) {
+      const int condition = rest.condition[static_cast<std::size_t>(rest.cells[i].row)];
+      const Eigen::Index k = static_cast<Eigen::Index>(i);
+      gain[original[static_cast<std::size_t>(condition)]] += (*better)[k] - (*base)[k];
+    }
+  }
+  if (gain.size() < 2) return {};
+  const auto [mean, error] = over_conditions(gain);
+  return {mean, error, static_cast<int>(gain.size())};
+}
 
 CrossValidation cross_validate(const Campaign& campaign, const Identification& whole, const IdentifyOptions& options,
                                int folds, int threads) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
@@ -27,13 +28,24 @@ struct ErrorPair {
 /// The whole procedure redone with each fold of conditions left out.
 struct CrossValidation {
   std::vector<HeldOut> cells;
-  std::vector<std::set<std::string>> chosen;  ///< of each fold
+  std::vector<std::set<std::string>> chosen;      ///< of each fold
   std::array<ErrorPair, channel_count> channels;  ///< in the channels' units
-  ErrorPair overall;              ///< in sigma
-  double gain = 0.0;              ///< mean fall of the squared error over conditions [sigma^2]
-  double gain_error = 0.0;        ///< its standard error, over conditions
-  int unpredicted = 0;            ///< held-out cells for which a fold's model had no balance
+  ErrorPair overall;                              ///< in sigma
+  double gain = 0.0;                              ///< mean fall of the squared error over conditions [sigma^2]
+  double gain_error = 0.0;                        ///< its standard error, over conditions
+  int unpredicted = 0;                            ///< held-out cells for which a fold's model had no balance
 };
+
+/// Gain of one model over another in the ln density that they give to conditions left out, mean over conditions.
+/// Densities include each model's own uncertainty, so that a bold extrapolation costs only what it claims to know.
+struct PredictiveGain {
+  double mean = 0.0;
+  double std_error = 0.0;
+  int conditions = 0;
+};
+PredictiveGain predictive_gain(const Campaign& campaign, const Identification& whole, const std::vector<Term>& terms,
+                               const Fit& fit, const std::vector<Term>& over_terms, const Fit& over_fit, int folds,
+                               std::uint64_t seed);
 
 /// Folds are made of whole conditions, dealt by a seeded shuffle. Steps from the noise estimate to the choice of the
 /// effect are redone in each. threads: folds at once; the answer does not depend on it.

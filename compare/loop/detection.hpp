@@ -27,7 +27,7 @@ struct Dependence {
   double p_value = 1.0;
 };
 /// residual: whitened, a cell each. Deterministic for a seed.
-std::vector<Dependence> dependences(const Observations& observations, const Eigen::VectorXd& residual,
-                                    int permutations, std::uint64_t seed);
+std::vector<Dependence> dependences(const Observations& observations, const Eigen::VectorXd& residual, int permutations,
+                                    std::uint64_t seed);
 
 }  // namespace soilbin::compare

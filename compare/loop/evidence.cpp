@@ -1,8 +1,9 @@
 #include "compare/loop/evidence.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <numbers>
 
 namespace soilbin::compare {
 
@@ -19,7 +20,8 @@ Projector::Projector(const MatrixXd& columns) {
   q_ = qr.householderQ() * MatrixXd::Identity(columns.rows(), qr.rank());
 }
 
-MatrixXd form_columns(const Observations& observations, const Whitening& whitening, const VectorXd& contribution) {
+MatrixXd form_columns(const Observations& observations, const Whitening& whitening, const VectorXd& contribution,
+                      double tolerance) {
   constexpr int smooth_columns = 6;
   const MatrixXd basis = smooth_basis(observations, smooth_columns);
   const Index cells = contribution.size();
@@ -33,7 +35,7 @@ MatrixXd form_columns(const Observations& observations, const Whitening& whiteni
       }
       if (columns.col(used).squaredNorm() > 0) ++used;
     }
-  const double each = form_tolerance / std::sqrt(static_cast<double>(basis.cols() + 1));
+  const double each = tolerance / std::sqrt(static_cast<double>(basis.cols() + 1));
   return each * whitening(MatrixXd(columns.leftCols(used)));
 }
 
@@ -43,8 +45,7 @@ VectorXd LinearProblem::padded(const VectorXd& signature) const {
   return full;
 }
 
-LinearProblem linear_problem(const WheelPredictor& predictor, const Fit& fit, Index cells,
-                             const MatrixXd& tolerance) {
+LinearProblem linear_problem(const WheelPredictor& predictor, const Fit& fit, Index cells, const MatrixXd& tolerance) {
   const Index rows = fit.residual.size(), extra = tolerance.cols();
   LinearProblem p;
   p.cells = cells;
@@ -87,45 +88,102 @@ double log_evidence(const LinearProblem& problem, int terms) {
   return -0.5 * chi2 - 0.5 * log_determinant(problem) - terms * std::log(amplitude_range);
 }
 
-MatrixXd unnamed_columns(const Observations& observations, const NoiseFloor& noise, const Whitening& whitening,
-                         const VectorXd& prediction) {
-  const int most = std::clamp(static_cast<int>(observations.rows.size()) / 4, 2, 14);
-  const MatrixXd basis = smooth_basis(observations, most);
-  const Index cells = prediction.size();
-  MatrixXd columns = MatrixXd::Zero(cells, channel_count * (basis.cols() + 1));
+namespace {
+
+/// Waves of one to `most` periods over a covariate's range.
+MatrixXd waves(const VectorXd& values, int most) {
+  const double low = values.minCoeff(), high = values.maxCoeff();
+  MatrixXd columns(values.size(), 2 * most);
+  for (int k = 1; k <= most; ++k)
+    for (Index i = 0; i < values.size(); ++i) {
+      const double phase = 2 * std::numbers::pi * k * (values[i] - low) / (1.05 * (high - low));
+      columns(i, 2 * k - 2) = std::sqrt(2.0) * std::sin(phase);
+      columns(i, 2 * k - 1) = std::sqrt(2.0) * std::cos(phase);
+    }
+  return columns;
+}
+
+/// Functions of the rows, family by family.
+std::vector<MatrixXd> row_families(const Observations& observations) {
+  const Index rows = static_cast<Index>(observations.rows.size());
+  const int most = std::clamp(static_cast<int>(rows) / 4, 2, 14);
+  const MatrixXd smooth = smooth_basis(observations, most);
+  MatrixXd with_offset(rows, smooth.cols() + 1);
+  with_offset << VectorXd::Ones(rows), smooth;
+  std::vector<MatrixXd> families = {with_offset};
+  for (const Covariate& c : covariates(observations))
+    if (c.name == "slip" || c.name == "position" || c.name == "run")
+      families.push_back(waves(c.values, std::clamp(static_cast<int>(rows) / 10, 1, 5)));
+  return families;
+}
+
+/// One function of the rows in one channel as a whitened column of the cells.
+MatrixXd in_every_channel(const Observations& observations, const NoiseFloor& noise, const Whitening& whitening,
+                          const VectorXd& prediction, const MatrixXd& functions) {
+  const Index cells = prediction.size(), width = functions.cols();
+  MatrixXd columns = MatrixXd::Zero(cells, channel_count * width);
   for (Index i = 0; i < cells; ++i) {
     const Cell& cell = observations.cells[static_cast<std::size_t>(i)];
     const double sd = noise.channels[static_cast<std::size_t>(cell.channel)].sd(prediction[i]);
-    const Index first = cell.channel * (basis.cols() + 1);
-    columns(i, first) = sd;
-    for (Index b = 0; b < basis.cols(); ++b) columns(i, first + 1 + b) = sd * basis(cell.row, b);
+    columns.row(i).segment(cell.channel * width, width) = sd * functions.row(cell.row);
   }
-  std::vector<Index> kept;
-  for (Index c = 0; c < columns.cols(); ++c)
-    if (columns.col(c).squaredNorm() > 0) kept.push_back(c);
-  MatrixXd present(cells, static_cast<Index>(kept.size()));
-  for (std::size_t c = 0; c < kept.size(); ++c) present.col(static_cast<Index>(c)) = columns.col(kept[c]);
-  return whitening(present);
+  return whitening(columns);
 }
 
-double log_evidence_unnamed(const LinearProblem& problem, const MatrixXd& columns) {
+/// Each channel's prediction in the run before, standardised: what a lagging instrument or bed would carry over.
+MatrixXd carried_over(const Observations& observations, const NoiseFloor& noise, const Whitening& whitening,
+                      const VectorXd& prediction) {
+  const Index cells = prediction.size();
+  MatrixXd columns = MatrixXd::Zero(cells, channel_count);
+  std::array<double, channel_count> before{};
+  std::array<bool, channel_count> any{};
+  for (Index i = 0; i < cells; ++i) {
+    const std::size_t c = static_cast<std::size_t>(observations.cells[static_cast<std::size_t>(i)].channel);
+    if (any[c]) columns(i, static_cast<Index>(c)) = before[c] - prediction[i];
+    before[c] = prediction[i];
+    any[c] = true;
+  }
+  for (int c = 0; c < channel_count; ++c) {
+    const double size = columns.col(c).cwiseAbs().maxCoeff();
+    if (size > 0)
+      columns.col(c) *= noise.channels[static_cast<std::size_t>(c)].sd(prediction.cwiseAbs().mean()) * 2 / size;
+  }
+  return whitening(columns);
+}
+
+}  // namespace
+
+std::vector<MatrixXd> unnamed_families(const Observations& observations, const NoiseFloor& noise,
+                                       const Whitening& whitening, const VectorXd& prediction) {
+  std::vector<MatrixXd> families;
+  for (const MatrixXd& functions : row_families(observations))
+    families.push_back(in_every_channel(observations, noise, whitening, prediction, functions));
+  families.push_back(carried_over(observations, noise, whitening, prediction));
+  return families;
+}
+
+double unnamed_gain(const LinearProblem& problem, const std::vector<MatrixXd>& families) {
   const Projector off(problem.nuisance);
   const VectorXd r = off.vector(problem.residual);
-  MatrixXd full = MatrixXd::Zero(problem.residual.size(), columns.cols());
-  full.topRows(columns.rows()) = columns;
-  const MatrixXd b = off(full);
-  const MatrixXd gram = b.transpose() * b;
-  const VectorXd seen = b.transpose() * r;
-  const double base = -0.5 * r.squaredNorm() - 0.5 * log_determinant(problem);
-  double best = -std::numeric_limits<double>::infinity();
-  for (const double size : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) {
-    MatrixXd m = size * size * gram;
-    m.diagonal().array() += 1.0;
-    const Eigen::LLT<MatrixXd> llt(m);
-    const double gain = 0.5 * size * size * llt.matrixL().solve(seen).squaredNorm();
-    best = std::max(best, base + gain - llt.matrixLLT().diagonal().array().log().sum() - std::log(6.0));
+  std::vector<double> gains;
+  for (const MatrixXd& columns : families) {
+    MatrixXd full = MatrixXd::Zero(problem.residual.size(), columns.cols());
+    full.topRows(columns.rows()) = columns;
+    const MatrixXd b = off(full);
+    const MatrixXd gram = b.transpose() * b;
+    const VectorXd seen = b.transpose() * r;
+    for (const double size : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) {
+      MatrixXd m = size * size * gram;
+      m.diagonal().array() += 1.0;
+      const Eigen::LLT<MatrixXd> llt(m);
+      gains.push_back(0.5 * size * size * llt.matrixL().solve(seen).squaredNorm() -
+                      llt.matrixLLT().diagonal().array().log().sum());
+    }
   }
-  return best;
+  const double top = *std::max_element(gains.begin(), gains.end());
+  double sum = 0.0;
+  for (const double g : gains) sum += std::exp(g - top);
+  return top + std::log(sum / static_cast<double>(gains.size()));
 }
 
 }  // namespace soilbin::compare

@@ -20,22 +20,19 @@ class Projector {
   Eigen::MatrixXd q_;
 };
 
-/// Freedom that an accepted effect's form may be wrong: its contribution, channel by channel, times a smooth factor
-/// 1 + g with g of this relative size. Enters every later test as columns with a unit normal prior, so that what a
-/// wrong form leaves over is not taken for a second effect.
-inline constexpr double form_tolerance = 0.25;
-
-/// Columns of form_tolerance * contribution * (1, slip, slip^2, load, the other covariates) by channel, whitened.
-/// contribution: of the effect to each cell, unwhitened.
+/// Freedom that an effect's form may be wrong: its contribution, channel by channel, times a smooth factor 1 + g of the
+/// conditions, with g of the relative size `tolerance`. Such columns enter every later test with a unit normal prior,
+/// so that what a wrong form leaves over is not taken for a second effect. Whitened; contribution: of the effect to
+/// each cell, unwhitened.
 Eigen::MatrixXd form_columns(const Observations& observations, const Whitening& whitening,
-                             const Eigen::VectorXd& contribution);
+                             const Eigen::VectorXd& contribution, double tolerance);
 
 /// A fitted model with the form tolerance of its terms, ready for tests.
 struct LinearProblem {
-  Eigen::VectorXd residual;   ///< augmented with the priors and with a zero a tolerance column
-  Eigen::MatrixXd nuisance;   ///< augmented columns: soil, terms, tolerances
+  Eigen::VectorXd residual;              ///< augmented with the priors and with a zero a tolerance column
+  Eigen::MatrixXd nuisance;              ///< augmented columns: soil, terms, tolerances
   std::vector<Eigen::Index> amplitudes;  ///< columns of nuisance that are amplitudes of terms
-  Eigen::Index cells = 0;     ///< the first rows are whitened cells
+  Eigen::Index cells = 0;                ///< the first rows are whitened cells
   /// A whitened signature over the cells, padded with zeros.
   Eigen::VectorXd padded(const Eigen::VectorXd& signature) const;
 };
@@ -49,12 +46,13 @@ LinearProblem linear_problem(const WheelPredictor& predictor, const Fit& fit, Ei
 /// range of sizes `amplitude_range` in sd (so that no form is favoured by its units).
 double log_evidence(const LinearProblem& problem, int terms);
 
-/// Smooth functions of the conditions, one set a channel, whitened to about 1 sd a cell: what an unnamed effect could
-/// look like.
-Eigen::MatrixXd unnamed_columns(const Observations& observations, const NoiseFloor& noise, const Whitening& whitening,
-                                const Eigen::VectorXd& prediction);
+/// What an unnamed effect could look like: families of functions of the conditions (smooth; waves in slip, in position,
+/// in time; what the run before left behind), each in every channel, whitened to about 1 sd a cell.
+std::vector<Eigen::MatrixXd> unnamed_families(const Observations& observations, const NoiseFloor& noise,
+                                              const Whitening& whitening, const Eigen::VectorXd& prediction);
 
-/// ln evidence of the problem with an unnamed smooth term of the best size, its price paid by the determinant.
-double log_evidence_unnamed(const LinearProblem& problem, const Eigen::MatrixXd& columns);
+/// ln evidence that an unnamed term adds to the problem: the mean over families and sizes, so that it is a Bayes factor
+/// whose price is paid (reached by chance with probability at most its inverse).
+double unnamed_gain(const LinearProblem& problem, const std::vector<Eigen::MatrixXd>& families);
 
 }  // namespace soilbin::compare

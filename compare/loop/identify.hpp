@@ -28,31 +28,38 @@ struct Weighted {
 };
 
 struct IdentifyOptions {
-  int simulations = 4000;      ///< of the maximum statistic
-  double level = 0.05;         ///< family-wise
+  int simulations = 4000;  ///< of the maximum statistic
+  double level = 0.05;     ///< family-wise
   int most_effects = 3;
-  int refits = 16;             ///< forms refitted in full at each stage, at the most
+  int refits = 16;  ///< forms refitted in full at each stage, at the most
   std::uint64_t seed = 1;
   bool drop_outliers = true;
 };
 
 /// What one pass over a set of observations finds.
 struct Identification {
-  Observations observations;   ///< after outliers were set aside
-  std::vector<bool> outlier;   ///< of the cells given
+  Observations observations;  ///< after outliers were set aside
+  std::vector<bool> outlier;  ///< of the cells given
   NoiseFloor noise;
   std::shared_ptr<const Whitening> whitening;
   Fit base;
   std::vector<Signature> signatures;  ///< against the base model
-  double p_value = 1.0;        ///< family-wise, of the strongest signature against the base model
-  std::vector<double> p_steps; ///< family-wise p of each accepted effect, in the order of acceptance
-  std::vector<Rival> rivals;   ///< all that were refitted, base model not among them
+  double p_value = 1.0;               ///< family-wise, of the strongest signature against the base model
+  std::vector<double> p_steps;        ///< family-wise p of each accepted effect, in the order of acceptance
+  std::vector<Rival> rivals;          ///< all that were refitted, base model not among them
   double base_log_evidence = 0.0;
-  double unnamed_log_evidence = 0.0;   ///< base model + an unnamed smooth term
-  double residual_unnamed_gain = 0.0;  ///< ln evidence that an unnamed term adds to the best rival, tolerance included
+  double unnamed_gain = 0.0;           ///< ln evidence that an unnamed term adds to the base model
+  double residual_unnamed_gain = 0.0;  ///< the same for the best rival, with the tolerance of its forms
+  double tolerated_chi2 = 0.0;         ///< of the best rival, once its forms may be wrong by their tolerance
   std::vector<Weighted> weights;       ///< over sets of effects, best first
   std::optional<std::size_t> best;     ///< rival that the test accepts
 };
+
+/// The rival of all those fitted whose effects are one of the best's set, best first; none for a single effect.
+std::optional<std::size_t> best_subset(const Identification& id, std::size_t rival);
+
+/// Makes a rival the best: what a later test decides against the evidence.
+void prefer(const Campaign& campaign, Identification& id, std::size_t rival);
 
 /// Throws NoSolution where no soil near the declared one carries the wheel in every run.
 Identification identify(const Campaign& campaign, const Observations& observations, const IdentifyOptions& options);

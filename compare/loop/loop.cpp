@@ -12,21 +12,29 @@ namespace soilbin::compare {
 
 std::string_view word(Verdict verdict) {
   switch (verdict) {
-    case Verdict::effect_found: return "effect_found";
-    case Verdict::nothing_missing: return "nothing_missing";
-    case Verdict::unknown_effect: return "unknown_effect";
-    case Verdict::not_enough_data: return "not_enough_data";
+    case Verdict::effect_found:
+      return "effect_found";
+    case Verdict::nothing_missing:
+      return "nothing_missing";
+    case Verdict::unknown_effect:
+      return "unknown_effect";
+    case Verdict::not_enough_data:
+      return "not_enough_data";
   }
   return "";
 }
 
 namespace {
 
+constexpr int choice_folds = 10;
+
 /// Thresholds of the verdict, set once on the tuning sets of bench/loop (docs/loop.md), never on those reported.
-constexpr double least_weight = 0.03;        // of a set of effects to stay in the ambiguity set
-constexpr double superset_weight = 0.25;     // of a set that holds the best one and more
-constexpr double unexplained_share = 0.4;    // of the base model's excess chi2: above it the best name is no name
-constexpr double unnamed_bayes_factor = 3.0; // ln 20: P(reached by chance) <= 5 % (Kass and Raftery 1995)
+constexpr double ambiguity_base = 4.0;        // ln evidence by which a set may stand behind the best one
+constexpr double ambiguity_growth = 0.03;     // and more for each ln evidence that the best one gains
+constexpr double superset_allowed = -1.0;     // the same for sets that hold the best one and more
+constexpr double second_test_level = 0.01;    // of lack of fit after the best named effects
+constexpr double unexplained_share = 0.4;     // of the base model's excess chi2: above it the best name is no name
+constexpr double unnamed_bayes_factor = 3.0;  // ln 20: P(reached by chance) <= 5 % (Kass and Raftery 1995)
 
 std::vector<std::string> not_testable(const Campaign& campaign, const Identification& id) {
   std::map<std::string, bool> testable;
@@ -41,16 +49,24 @@ std::vector<std::string> not_testable(const Campaign& campaign, const Identifica
   return hidden;
 }
 
-/// The sets that the data can't tell from the best, best first.
+/// The sets that the data can't tell from the best, best first. How far a set may stand behind grows with what the best
+/// one explains: the more there is to explain, the more a form that nature does not share costs.
 std::vector<Weighted> ambiguity(const Identification& id) {
-  std::vector<Weighted> set;
-  if (id.weights.empty()) return set;
-  const Weighted& best = id.weights.front();
+  const Rival& best = id.rivals[*id.best];
+  const auto own =
+      std::find_if(id.weights.begin(), id.weights.end(), [&](const Weighted& w) { return w.ids == best.ids; });
+  const double allowed = ambiguity_base + ambiguity_growth * std::max(0.0, best.log_evidence - id.base_log_evidence);
+  std::vector<Weighted> set = {*own};
   for (const Weighted& w : id.weights) {
-    const bool more = w.ids.size() > best.ids.size() &&
-                      std::includes(w.ids.begin(), w.ids.end(), best.ids.begin(), best.ids.end());
-    if (&w == &best || w.weight >= (more ? superset_weight : least_weight)) set.push_back(w);
+    if (w.ids == best.ids || !(w.weight > 0)) continue;
+    const bool more =
+        w.ids.size() > best.ids.size() && std::includes(w.ids.begin(), w.ids.end(), best.ids.begin(), best.ids.end());
+    const double behind = std::log(own->weight / w.weight);
+    if (behind <= (more ? superset_allowed : allowed)) set.push_back(w);
   }
+  double total = 0.0;
+  for (const Weighted& w : set) total += w.weight;
+  for (Weighted& w : set) w.weight /= total;
   return set;
 }
 
@@ -101,10 +117,10 @@ SemiEmpiricalSoil fitted_soil(const Campaign& campaign, const WheelPredictor& pr
 void decide(const Campaign& campaign, LoopAnswer& answer) {
   const Identification& id = answer.details;
   const CrossValidation& cv = answer.validation;
-  const bool improves = cv.gain > cv.gain_error;
+  const bool improves = answer.choice_gain.mean > answer.choice_gain.std_error;
   if (!id.best) {
-    const double unnamed = id.unnamed_log_evidence - id.base_log_evidence;
-    if (unnamed > unnamed_bayes_factor && answer.before.p_value < 0.05) {
+    const double unnamed = id.unnamed_gain;
+    if (unnamed > unnamed_bayes_factor) {
       answer.verdict = Verdict::unknown_effect;
       answer.reason = fmt::format(
           "no effect of the catalogue passes its test (p = {:.3g}), but a smooth function of the conditions explains "
@@ -113,23 +129,27 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
       return;
     }
     answer.verdict = Verdict::nothing_missing;
-    answer.reason = fmt::format("the strongest of all effects reaches p = {:.3g} among the whole catalogue", id.p_value);
+    answer.reason =
+        fmt::format("the strongest of all effects reaches p = {:.3g} among the whole catalogue", id.p_value);
     return;
   }
   const double left = unexplained(id);
-  if (left > unexplained_share || id.residual_unnamed_gain > unnamed_bayes_factor) {
+  answer.after =
+      lack_of_fit(id.rivals[*id.best].fit, id.noise, static_cast<Eigen::Index>(id.observations.cells.size()));
+  const bool lacking = answer.after.p_value < second_test_level && left > unexplained_share;
+  if (lacking || id.residual_unnamed_gain > unnamed_bayes_factor) {
     answer.verdict = Verdict::unknown_effect;
-    answer.reason = fmt::format(
-        "the residual is real (p = {:.2g}), but the best set of named effects leaves {:.0f} % of it", id.p_value,
-        100 * left);
+    answer.reason =
+        fmt::format("the residual is real (p = {:.2g}), but the best set of named effects leaves {:.0f} % of it",
+                    id.p_value, 100 * left);
     return;
   }
   if (!improves) {
     answer.verdict = Verdict::nothing_missing;
     answer.reason = fmt::format(
         "the best effect fits (p = {:.2g}) but does not predict held-out conditions better by a standard error "
-        "({:.2g} +- {:.2g} sigma^2)",
-        id.p_value, cv.gain, cv.gain_error);
+        "(gain in ln density a condition {:.2g} +- {:.2g})",
+        id.p_value, answer.choice_gain.mean, answer.choice_gain.std_error);
     return;
   }
   answer.verdict = Verdict::effect_found;
@@ -138,12 +158,25 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
   for (int t = 0; t < static_cast<int>(best.terms.size()); ++t)
     answer.effects.push_back(accepted(predictor, best, t, id.p_value));
   answer.soil = fitted_soil(campaign, predictor, best.fit);
-  answer.after = lack_of_fit(best.fit, id.noise, static_cast<Eigen::Index>(id.observations.cells.size()));
-  answer.dependences_after =
-      dependences(id.observations, best.fit.residual.head(static_cast<Eigen::Index>(id.observations.cells.size())),
-                  999, 11);
+  answer.dependences_after = dependences(
+      id.observations, best.fit.residual.head(static_cast<Eigen::Index>(id.observations.cells.size())), 999, 11);
   answer.reason = fmt::format("p = {:.2g} among the whole catalogue; held-out error falls by {:.2g} +- {:.2g} sigma^2",
                               id.p_value, cv.gain, cv.gain_error);
+}
+
+/// Backward: an effect stays only if conditions left out are predicted better with it by a standard error; then the
+/// same for what stays against the base model.
+void confirm(const Campaign& campaign, LoopAnswer& answer, std::uint64_t seed) {
+  Identification& id = answer.details;
+  for (auto fewer = best_subset(id, *id.best); fewer; fewer = best_subset(id, *id.best)) {
+    const Rival &more = id.rivals[*id.best], &less = id.rivals[*fewer];
+    const PredictiveGain gain =
+        predictive_gain(campaign, id, more.terms, more.fit, less.terms, less.fit, choice_folds, seed);
+    if (gain.mean > gain.std_error) break;
+    prefer(campaign, id, *fewer);
+  }
+  const Rival& best = id.rivals[*id.best];
+  answer.choice_gain = predictive_gain(campaign, id, best.terms, best.fit, {}, id.base, choice_folds, seed);
 }
 
 bool too_small(const Campaign& campaign, const Observations& observations, std::string& reason) {
@@ -164,7 +197,7 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   const Observations observations = observe(campaign);
   if (too_small(campaign, observations, answer.reason)) return answer;
   answer.details = identify(campaign, observations, options.identify);
-  const Identification& id = answer.details;
+  Identification& id = answer.details;
   answer.outliers = static_cast<int>(std::count(id.outlier.begin(), id.outlier.end(), true));
   answer.not_testable = not_testable(campaign, id);
   const Eigen::Index cells = static_cast<Eigen::Index>(id.observations.cells.size());
@@ -178,17 +211,17 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   IdentifyOptions inner = options.identify;
   inner.simulations = std::max(500, inner.simulations / 4);
   inner.drop_outliers = false;  // set aside once, by the whole
+  if (id.best) confirm(campaign, answer, options.identify.seed);
   if (options.validate) answer.validation = cross_validate(campaign, id, inner, options.folds, options.threads);
   decide(campaign, answer);
-  if (answer.verdict == Verdict::effect_found || answer.verdict == Verdict::unknown_effect)
+  if (answer.verdict == Verdict::effect_found || (answer.verdict == Verdict::unknown_effect && id.best))
     answer.ambiguity_set = ambiguity(id);
   if (answer.verdict == Verdict::effect_found) {
     std::vector<std::size_t> rivals;
     for (std::size_t i = 0; i < id.weights.size(); ++i)
       for (const Weighted& w : answer.ambiguity_set)
         if (w.ids == id.weights[i].ids) rivals.push_back(i);
-    answer.next =
-        next_test(campaign, id, rivals, options.limits.empty() ? limits_of(id.observations) : options.limits);
+    answer.next = next_test(campaign, id, rivals, options.limits.empty() ? limits_of(id.observations) : options.limits);
   }
   return answer;
 }

@@ -21,15 +21,15 @@ struct LoopOptions {
   int folds = 5;
   int threads = 2;       ///< changes the time, never the answer
   Limits limits;         ///< of the next test; empty: the campaign's own ranges
-  bool validate = true;  ///< honest errors by cross-validation; without it no effect is accepted
+  bool validate = true;  ///< honest errors by the whole procedure redone in each fold; without it they are absent
 };
 
 /// An effect that the loop accepts, in the form that fits best.
 struct AcceptedEffect {
-  EffectChoice choice;  ///< with fitted parameters [SI]
-  std::vector<std::string> fitted;        ///< names of the parameters that were fitted
+  EffectChoice choice;                          ///< with fitted parameters [SI]
+  std::vector<std::string> fitted;              ///< names of the parameters that were fitted
   std::vector<std::pair<double, double>> ci95;  ///< of each fitted parameter
-  double p_value = 1.0;                   ///< family-wise
+  double p_value = 1.0;                         ///< family-wise
 };
 
 struct LoopAnswer {
@@ -37,9 +37,10 @@ struct LoopAnswer {
   Verdict verdict = Verdict::not_enough_data;
   std::string reason;  ///< one plain sentence
   std::vector<AcceptedEffect> effects;
-  std::vector<Weighted> ambiguity_set;     ///< best first; empty unless effects compete
+  std::vector<Weighted> ambiguity_set;  ///< best first; empty unless effects compete
   std::vector<std::string> not_testable;
   std::optional<NextTest> next;
+  PredictiveGain choice_gain;  ///< of the best rival over the base model
   CrossValidation validation;
   LackOfFit before, after;
   std::vector<Dependence> dependences_before, dependences_after;

@@ -39,15 +39,16 @@ struct Candidate {
 
 Candidate candidate(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms, const Fit& fit,
                     std::set<std::string> ids, double weight) {
-  Candidate c{std::move(ids), weight, WheelPredictor(campaign, id.observations, terms), fit.theta,
+  Candidate c{std::move(ids),       weight, WheelPredictor(campaign, id.observations, terms), fit.theta,
               fit.column_parameter, {}};
   MatrixXd gram = fit.columns.transpose() * fit.columns;
   gram.diagonal().array() += 1e-9;
   c.covariance = gram.ldlt().solve(MatrixXd::Identity(gram.rows(), gram.cols()));
   for (Index i = 0; i < gram.rows(); ++i)
     for (Index j = 0; j < gram.cols(); ++j)
-      c.covariance(i, j) *= c.predictor.parameters()[static_cast<std::size_t>(c.free[static_cast<std::size_t>(i)])].scale *
-                            c.predictor.parameters()[static_cast<std::size_t>(c.free[static_cast<std::size_t>(j)])].scale;
+      c.covariance(i, j) *=
+          c.predictor.parameters()[static_cast<std::size_t>(c.free[static_cast<std::size_t>(i)])].scale *
+          c.predictor.parameters()[static_cast<std::size_t>(c.free[static_cast<std::size_t>(j)])].scale;
   return c;
 }
 
@@ -149,11 +150,13 @@ std::optional<NextTest> next_test(const Campaign& campaign, const Identification
       if (worth <= most || !(widest > 0)) continue;
       most = worth;
       constexpr double decided = 2 * 3.0;  // 2 ln 20
-      best = NextTest{.at = at, .quantities = {}, .separates = {competing[apart.first].ids, competing[apart.second].ids},
-                      .runs = static_cast<int>(std::ceil(decided / widest)), .distance = widest};
+      best = NextTest{.at = at,
+                      .quantities = {},
+                      .separates = {competing[apart.first].ids, competing[apart.second].ids},
+                      .runs = static_cast<int>(std::ceil(decided / widest)),
+                      .distance = widest};
     } catch (const NoSolution&) {  // no balance there: not a condition to ask for
-    } catch (const InputError&) {
-    }
+    } catch (const InputError&) {}
   if (!best || best->runs > 50) return std::nullopt;
   best->runs = std::max(best->runs, 1);
   for (const auto& [name, range] : limits) best->quantities.push_back(name);

@@ -21,7 +21,7 @@ struct NextTest {
   OperatingCondition at;
   std::vector<std::string> quantities;           ///< names of the conditions that matter: those that limits hold
   std::vector<std::set<std::string>> separates;  ///< the rivals that it sets apart
-  int runs = 0;        ///< until the weaker of them is expected to be twenty times less likely
+  int runs = 0;           ///< until the weaker of them is expected to be twenty times less likely
   double distance = 0.0;  ///< squared distance of the rivals' predictions a run, in sd
 };
 

@@ -18,6 +18,12 @@ double NoiseFloor::freedom() const {
                          [](double sum, const ChannelNoise& c) { return sum + c.freedom; });
 }
 
+double NoiseFloor::typical_freedom() const {
+  const auto measured =
+      std::count_if(channels.begin(), channels.end(), [](const ChannelNoise& c) { return c.measured; });
+  return measured > 0 ? freedom() / static_cast<double>(measured) : 1.0;
+}
+
 Whitening::Whitening(const Observations& observations, const NoiseFloor& noise, const VectorXd& prediction) {
   const std::vector<Cell>& cells = observations.cells;
   for (std::size_t first = 0; first < cells.size();) {
@@ -28,13 +34,14 @@ Whitening::Whitening(const Observations& observations, const NoiseFloor& noise, 
     for (Index i = 0; i < n; ++i)
       for (Index j = 0; j < n; ++j) {
         const Cell &a = cells[first + static_cast<std::size_t>(i)], &b = cells[first + static_cast<std::size_t>(j)];
-        covariance(i, j) = noise.correlation(a.channel, b.channel) *
-                           noise.channels[static_cast<std::size_t>(a.channel)].sd(prediction[static_cast<Index>(first) + i]) *
-                           noise.channels[static_cast<std::size_t>(b.channel)].sd(prediction[static_cast<Index>(first) + j]);
+        covariance(i, j) =
+            noise.correlation(a.channel, b.channel) *
+            noise.channels[static_cast<std::size_t>(a.channel)].sd(prediction[static_cast<Index>(first) + i]) *
+            noise.channels[static_cast<std::size_t>(b.channel)].sd(prediction[static_cast<Index>(first) + j]);
       }
     const MatrixXd factor = covariance.llt().matrixL();
-    blocks_.push_back({static_cast<Index>(first),
-                       factor.triangularView<Eigen::Lower>().solve(MatrixXd::Identity(n, n))});
+    blocks_.push_back(
+        {static_cast<Index>(first), factor.triangularView<Eigen::Lower>().solve(MatrixXd::Identity(n, n))});
     first = last;
   }
 }
@@ -141,7 +148,7 @@ class VarianceComponents {
     MatrixXd m = d.asDiagonal() * gram_ * d.asDiagonal() / (sigma * sigma);
     m.diagonal().array() += 1.0;
     const Eigen::LLT<MatrixXd> llt(m);
-    const MatrixXd scaled = a_ * d.asDiagonal() / sigma;  // n x q
+    const MatrixXd scaled = a_ * d.asDiagonal() / sigma;            // n x q
     const MatrixXd half = llt.matrixL().solve(scaled.transpose());  // q x n; smoother = half' half
     plain = e_ - half.transpose() * (half * e_);
     const VectorXd leverage = half.colwise().squaredNorm();
@@ -202,11 +209,10 @@ double pooled_rerun_sd(const Observations& observations, const ChannelCells& cel
   return freedom > 0 ? std::sqrt(squares / freedom) : 0.0;
 }
 
-/// Median of the noise's prior: 2 % of the predictions' range; where the model predicts next to nothing (a lateral force
-/// without yaw), the spread of the residuals.
+/// Median of the noise's prior: 2 % of the predictions' range; where the model predicts next to nothing (a lateral
+/// force without yaw), the spread of the residuals.
 double typical_noise(const VectorXd& residual, const VectorXd& prediction) {
-  const double range =
-      std::max(prediction.maxCoeff() - prediction.minCoeff(), 0.2 * prediction.cwiseAbs().maxCoeff());
+  const double range = std::max(prediction.maxCoeff() - prediction.minCoeff(), 0.2 * prediction.cwiseAbs().maxCoeff());
   const double spread = std::sqrt(residual.squaredNorm() / static_cast<double>(residual.size()));
   return std::max(spread > range ? spread : 0.02 * range, 1e-12);
 }
@@ -227,7 +233,8 @@ ChannelFit fit_channel(const Observations& observations, const NoiseData& data, 
   }
   const double typical = typical_noise(e, f), mean_square = f.squaredNorm() / static_cast<double>(n);
   double best = std::numeric_limits<double>::infinity(), sigma = typical, tau = 0.0, share = 0.0;
-  const std::vector<double> shares = n >= 30 && mean_square > 0 ? std::vector<double>{0.0, 0.5, 1.0} : std::vector<double>{0.0};
+  const std::vector<double> shares =
+      n >= 30 && mean_square > 0 ? std::vector<double>{0.0, 0.5, 1.0} : std::vector<double>{0.0};
   const auto shape_of = [&](double w) -> VectorXd {
     return (1 - w) + w * (0.02 + 0.98 * f.array().square() / std::max(mean_square, 1e-300));
   };

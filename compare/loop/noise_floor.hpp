@@ -22,8 +22,9 @@ struct ChannelNoise {
 struct NoiseFloor {
   std::array<ChannelNoise, channel_count> channels;
   Eigen::Matrix4d correlation = Eigen::Matrix4d::Identity();  ///< between channels of one run
-  int rerun_freedom = 0;  ///< rows that repeat a setpoint
-  double freedom() const;  ///< of all channels together
+  int rerun_freedom = 0;                                      ///< rows that repeat a setpoint
+  double freedom() const;                                     ///< of all channels together
+  double typical_freedom() const;  ///< of one channel, the mean: each channel's scale is known no better
 };
 
 /// Removes the noise's scale and correlation: L^-1 with L L' = covariance of one row's cells, row by row.

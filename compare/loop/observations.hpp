@@ -34,9 +34,9 @@ struct Covariate {
 /// The part of a campaign that a fit looks at.
 struct Observations {
   std::vector<OperatingCondition> rows;
-  std::vector<int> condition;  ///< of each row: rows of one condition are re-runs of one setpoint
-  std::vector<int> source_row; ///< index into Campaign::runs
-  std::vector<Cell> cells;     ///< ordered by row, then channel
+  std::vector<int> condition;   ///< of each row: rows of one condition are re-runs of one setpoint
+  std::vector<int> source_row;  ///< index into Campaign::runs
+  std::vector<Cell> cells;      ///< ordered by row, then channel
   int conditions = 0;
 
   Eigen::VectorXd values() const;

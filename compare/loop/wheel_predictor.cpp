@@ -53,10 +53,14 @@ double mean_of(const std::string& covariate, const Observations& observations, d
 
 double channel_of(const Reading& reading, int channel) {
   switch (channel) {
-    case drawbar_pull: return reading.drawbar_pull;
-    case torque: return reading.torque;
-    case sinkage: return reading.sinkage;
-    default: return reading.lateral_force;
+    case drawbar_pull:
+      return reading.drawbar_pull;
+    case torque:
+      return reading.torque;
+    case sinkage:
+      return reading.sinkage;
+    default:
+      return reading.lateral_force;
   }
 }
 

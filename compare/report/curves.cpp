@@ -24,7 +24,8 @@ std::vector<Shown> shown_of(const std::vector<ModelAnswers>& study) {
   std::vector<Shown> all;
   bool side = false;
   for (const ModelAnswers& model : study)
-    for (const Answer& answer : model.answers) side = side || (answer.result && answer.result->lateral_force.value != 0.0);
+    for (const Answer& answer : model.answers)
+      side = side || (answer.result && answer.result->lateral_force.value != 0.0);
   for (const ChannelView& channel : channel_views)
     if (side || channel.name != "lateral_force")
       all.push_back({std::string(channel.title), std::string(channel.unit), channel.per_si,
@@ -54,7 +55,8 @@ Series series_of(const std::vector<Answer>& answers, const Curves& curves, std::
   std::vector<const Answer*> members;
   for (std::size_t i = 0; i < answers.size(); ++i)
     if (curves.curve_of[i] == curve) members.push_back(&answers[i]);
-  std::stable_sort(members.begin(), members.end(), [](const Answer* a, const Answer* b) { return a->at.slip < b->at.slip; });
+  std::stable_sort(members.begin(), members.end(),
+                   [](const Answer* a, const Answer* b) { return a->at.slip < b->at.slip; });
   Series series;
   for (const Answer* answer : members) {
     const Estimate y = answer->result ? shown.get(*answer->result) : Estimate{not_a_number, 0.0};

@@ -19,15 +19,23 @@ std::string cell(const char* tag, const std::string& text, bool to_the_left) {
   return fmt::format("<{0}{1}>{2}</{0}>", tag, classes.empty() ? "" : " class=\"" + classes + "\"", escaped(text));
 }
 
+/// Escaped prose whose percent signs stay with their numbers.
+std::string prose(const std::string& text) {
+  std::string out = escaped(text);
+  for (std::size_t at = out.find(" %"); at != std::string::npos; at = out.find(" %", at)) out.replace(at, 1, "\u00a0");
+  return out;
+}
+
 std::string anchor(std::size_t section) { return fmt::format("part-{}", section + 1); }
 
 }  // namespace
 
 Page::Page(std::string title, std::string subtitle) : title_(std::move(title)), subtitle_(std::move(subtitle)) {}
 
-void Page::summary(const std::vector<std::string>& sentences) {
+void Page::summary(const std::vector<std::pair<std::string, std::string>>& sentences) {
   body_ += "<div class=\"summary\">";
-  for (const std::string& sentence : sentences) body_ += "<p>" + escaped(sentence) + "</p>";
+  for (const auto& [name, sentence] : sentences)
+    body_ += "<p>" + (name.empty() ? "" : "<b>" + escaped(name) + ".</b> ") + prose(sentence) + "</p>";
   body_ += "</div>\n";
 }
 
@@ -45,11 +53,11 @@ void Page::section(const std::string& title) {
 
 void Page::subsection(const std::string& title) { body_ += "<h3>" + escaped(title) + "</h3>\n"; }
 
-void Page::paragraph(const std::string& text) { body_ += "<p>" + escaped(text) + "</p>\n"; }
+void Page::paragraph(const std::string& text) { body_ += "<p>" + prose(text) + "</p>\n"; }
 
 void Page::list(const std::vector<std::string>& items) {
   body_ += "<ul>";
-  for (const std::string& item : items) body_ += "<li>" + escaped(item) + "</li>";
+  for (const std::string& item : items) body_ += "<li>" + prose(item) + "</li>";
   body_ += "</ul>\n";
 }
 
@@ -82,9 +90,7 @@ void Page::figure(const Sheet& sheet, const std::string& caption) {
 
 void Page::code(const std::string& text) { body_ += "<pre><code>" + escaped(text) + "</code></pre>\n"; }
 
-void Page::open_fold(const std::string& title) {
-  body_ += "<details><summary>" + escaped(title) + "</summary>\n";
-}
+void Page::open_fold(const std::string& title) { body_ += "<details><summary>" + escaped(title) + "</summary>\n"; }
 
 void Page::close_fold() { body_ += "</details>\n"; }
 
@@ -98,7 +104,8 @@ std::string Page::html() const {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n"
       "<style>\n{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n<p class=\"subtitle\">{2}</p>\n{3}{4}</main>\n"
       "</body>\n</html>\n",
-      escaped(title_), page_style(), escaped(subtitle_), contents.empty() ? "" : "<nav>" + contents + "</nav>\n", body_);
+      escaped(title_), page_style(), escaped(subtitle_), contents.empty() ? "" : "<nav>" + contents + "</nav>\n",
+      body_);
 }
 
 }  // namespace soilbin::compare

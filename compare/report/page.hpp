@@ -1,7 +1,7 @@
 // One self-contained HTML page: inline CSS and SVG, light and dark, from a phone to a wide screen, nothing loaded.
 //
 //   Page page("Title", "one line below it");
-//   page.summary({"Plain words first.", "..."});
+//   page.summary({{"Straight driving", "Plain words first."}, {"", "A sentence without a name."}});
 //   page.section("Straight driving");
 //   page.paragraph("What was asked.");
 //   page.figure(sheet, "What to see in it.");
@@ -11,6 +11,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compare/report/plot.hpp"
@@ -35,8 +36,8 @@ class Page {
  public:
   Page(std::string title, std::string subtitle);
 
-  /// Plain-words sentences in a box.
-  void summary(const std::vector<std::string>& sentences);
+  /// Plain-words sentences in a box, each behind the name of what it is about (or "").
+  void summary(const std::vector<std::pair<std::string, std::string>>& sentences);
   void figures_at_a_glance(const std::vector<KeyFigure>& figures);
   /// A heading with an anchor; the page's table of contents lists it.
   void section(const std::string& title);

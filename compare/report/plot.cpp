@@ -14,8 +14,8 @@ constexpr const char* fonts = "system-ui, -apple-system, 'Segoe UI', 'DejaVu San
 
 /// Width of a text in the legend, near enough [px].
 double text_width(const std::string& text) {
-  const auto characters = std::count_if(text.begin(), text.end(),
-                                        [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+  const auto characters =
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
   return 6.6 * static_cast<double>(characters);
 }
 
@@ -31,8 +31,8 @@ std::vector<Entry> entries_of(const Sheet& sheet) {
   for (const Plot& plot : sheet.plots)
     for (const Series& series : plot.series) {
       if (series.label.empty()) continue;
-      auto entry = std::find_if(entries.begin(), entries.end(),
-                                [&](const Entry& e) { return e.series->label == series.label; });
+      auto entry =
+          std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.series->label == series.label; });
       if (entry == entries.end()) entry = entries.insert(entries.end(), Entry{&series});
       entry->line = entry->line || series.mark != Mark::points;
       entry->points = entry->points || series.mark != Mark::line;
@@ -77,8 +77,8 @@ std::string legend_rows(const Sheet& sheet, double width, double& y) {
 
 std::vector<Color> colors(Palette palette) {
   if (palette == Palette::named)
-    return {{"#0b63a8", "#6cb6ff"}, {"#c2500a", "#ff9a57"}, {"#0a7f5c", "#4fd1a1"}, {"#a3418a", "#e594cf"},
-            {"#8a6d00", "#e3c34b"}, {"#4a5568", "#b4bfce"}};
+    return {{"#0b63a8", "#6cb6ff"}, {"#c2500a", "#ff9a57"}, {"#0a7f5c", "#4fd1a1"},
+            {"#a3418a", "#e594cf"}, {"#8a6d00", "#e3c34b"}, {"#4a5568", "#b4bfce"}};
   return {{"#2b1a8f", "#8f7dff"}, {"#6a1fa8", "#b584f5"}, {"#a0279a", "#dc86dd"}, {"#c9407a", "#f48fae"},
           {"#e0654f", "#fba07d"}, {"#e58a1c", "#fcc15c"}, {"#b9a011", "#f2e65a"}};
 }
@@ -86,12 +86,18 @@ std::vector<Color> colors(Palette palette) {
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '"') out += "&quot;";
-    else if (c == '\'') out += "&#39;";
-    else out += c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else if (c == '\'')
+      out += "&#39;";
+    else
+      out += c;
   }
   return out;
 }
@@ -118,26 +124,29 @@ std::string svg(const Sheet& sheet, const PanelSize& size) {
   double y = sheet.title.empty() ? 8.0 : 40.0;
   std::string body;
   for (std::size_t i = 0; i < sheet.plots.size(); ++i)
-    body += fmt::format(R"svg(<g transform="translate({:.0f} {:.0f})">{}</g>)svg", size.width * static_cast<double>(i % columns),
-                        y + size.height * static_cast<double>(i / columns), panel(sheet, sheet.plots[i], size)) + "\n";
+    body += fmt::format(R"svg(<g transform="translate({:.0f} {:.0f})">{}</g>)svg",
+                        size.width * static_cast<double>(i % columns),
+                        y + size.height * static_cast<double>(i / columns), panel(sheet, sheet.plots[i], size)) +
+            "\n";
   y += size.height * static_cast<double>(rows);
   body += legend_rows(sheet, width, y);
   std::string title;
   if (!sheet.title.empty())
     title = fmt::format(R"(<text class="ink" fill="#1a1d23" font-size="15" font-weight="600" x="20" y="26">{}</text>)",
                         escaped(sheet.title));
-  return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-                     "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
-                     "height=\"{1:.0f}\" font-family=\"{2}\" font-size=\"12\">\n"
-                     "<rect class=\"paper\" width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{3}\n{4}\n</svg>\n",
-                     width, y + 4, fonts, title, body);
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
+      "height=\"{1:.0f}\" font-family=\"{2}\" font-size=\"12\">\n"
+      "<rect class=\"paper\" width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{3}\n{4}\n</svg>\n",
+      width, y + 4, fonts, title, body);
 }
 
 std::string panel_svg(const Sheet& sheet, std::size_t plot, const PanelSize& size) {
   const Plot& one = sheet.plots.at(plot);
-  return fmt::format("<svg class=\"plot\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\" font-size=\"12\">{}</svg>",
-                     size.width, size.height, escaped(one.title + " against " + one.x.title),
-                     panel(sheet, one, size));
+  return fmt::format(
+      "<svg class=\"plot\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\" font-size=\"12\">{}</svg>",
+      size.width, size.height, escaped(one.title + " against " + one.x.title), panel(sheet, one, size));
 }
 
 std::vector<LegendEntry> legend(const Sheet& sheet) {

@@ -57,7 +57,7 @@ class Frame {
     y_ticks = ticks(y_.lower, y_.upper, 5);
     std::size_t longest = 1;
     for (const double tick : y_ticks) longest = std::max(longest, label(tick, y_ticks).size());
-    left = (plot.y.title.empty() ? 14.0 : 32.0) + 7.0 * static_cast<double>(longest);
+    left = (plot.y.title.empty() ? 18.0 : 34.0) + 7.0 * static_cast<double>(longest);
   }
 
   double left, top = 30.0;
@@ -92,30 +92,34 @@ std::string grid(const Frame& f) {
   for (const double tick : f.y_ticks) {
     const bool zero = std::abs(tick) < 1e-12 * f.y_span().length();
     out += fmt::format(R"(<line class="{}" stroke="{}" x1="{:.1f}" x2="{:.1f}" y1="{:.1f}" y2="{:.1f}"/>)",
-                       zero ? "quiet-line" : "grid", zero ? "#8a919c" : "#e3e6ea", f.left, f.right(), f.y(tick), f.y(tick));
+                       zero ? "quiet-line" : "grid", zero ? "#8a919c" : "#e3e6ea", f.left, f.right(), f.y(tick),
+                       f.y(tick));
     out += fmt::format(R"(<text class="quiet" fill="#5a6270" x="{:.1f}" y="{:.1f}" text-anchor="end">{}</text>)",
                        f.left - 6, f.y(tick) + 4, with_minus(Frame::label(tick, f.y_ticks)));
   }
   for (const double tick : f.x_ticks) {
-    out += fmt::format(R"(<line class="quiet-line" stroke="#8a919c" x1="{0:.1f}" x2="{0:.1f}" y1="{1:.1f}" y2="{2:.1f}"/>)",
-                       f.x(tick), f.bottom(), f.bottom() + 4);
+    out += fmt::format(
+        R"(<line class="quiet-line" stroke="#8a919c" x1="{0:.1f}" x2="{0:.1f}" y1="{1:.1f}" y2="{2:.1f}"/>)", f.x(tick),
+        f.bottom(), f.bottom() + 4);
     out += fmt::format(R"(<text class="quiet" fill="#5a6270" x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)",
                        f.x(tick), f.bottom() + 17, with_minus(Frame::label(tick, f.x_ticks)));
   }
-  return out + fmt::format(R"(<path class="quiet-line" stroke="#8a919c" fill="none" d="M{0:.1f} {1:.1f}V{2:.1f}H{3:.1f}"/>)",
-                           f.left, f.top, f.bottom(), f.right());
+  return out +
+         fmt::format(R"(<path class="quiet-line" stroke="#8a919c" fill="none" d="M{0:.1f} {1:.1f}V{2:.1f}H{3:.1f}"/>)",
+                     f.left, f.top, f.bottom(), f.right());
 }
 
 std::string words(const Plot& plot, const Frame& f, const PanelSize& size) {
-  std::string out = fmt::format(
-      R"(<text class="ink" fill="#1a1d23" font-size="13" font-weight="600" x="{:.1f}" y="17">{}</text>)", 14.0,
-      escaped(plot.title));
+  std::string out =
+      fmt::format(R"(<text class="ink" fill="#1a1d23" font-size="13" font-weight="600" x="{:.1f}" y="17">{}</text>)",
+                  16.0, escaped(plot.title));
   out += fmt::format(R"(<text class="quiet" fill="#5a6270" x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)",
                      0.5 * (f.left + f.right()), size.height - 8, escaped(plot.x.title));
   if (plot.y.title.empty()) return out;
   const double middle = 0.5 * (f.top + f.bottom());
   return out + fmt::format(R"svg(<text class="quiet" fill="#5a6270" text-anchor="middle" )svg"
-                           R"svg(transform="translate(14 {:.1f}) rotate(-90)">{}</text>)svg", middle, escaped(plot.y.title));
+                           R"svg(transform="translate(14 {:.1f}) rotate(-90)">{}</text>)svg",
+                           middle, escaped(plot.y.title));
 }
 
 /// Runs of neighbouring points whose y is finite: [first, last).
@@ -150,8 +154,9 @@ std::string line(const Sheet& sheet, const Series& series, const Frame& f) {
   for (const auto& [first, last] : unbroken(series))
     for (std::size_t i = first; i < last; ++i)
       path += fmt::format("{}{:.1f} {:.1f}", i == first ? "M" : "L", f.x(series.x[i]), f.y(series.y[i]));
-  return fmt::format(R"(<path {}{} fill="none" stroke-width="2" stroke-linejoin="round" stroke-linecap="round" d="{}"/>)",
-                     stroke(sheet.palette, color_of(sheet, series)), dashes(series.dash), path);
+  return fmt::format(
+      R"(<path {}{} fill="none" stroke-width="2" stroke-linejoin="round" stroke-linecap="round" d="{}"/>)",
+      stroke(sheet.palette, color_of(sheet, series)), dashes(series.dash), path);
 }
 
 std::string points(const Sheet& sheet, const Series& series, const Frame& f) {
@@ -171,9 +176,12 @@ std::string points(const Sheet& sheet, const Series& series, const Frame& f) {
 }
 
 std::string identity(const Frame& f) {
-  const double lower = std::max(f.x_span().lower, f.y_span().lower), upper = std::min(f.x_span().upper, f.y_span().upper);
-  return fmt::format(R"(<line class="quiet-line" stroke="#8a919c" stroke-dasharray="4 4" x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/>)",
-                     f.x(lower), f.y(lower), f.x(upper), f.y(upper));
+  const double lower = std::max(f.x_span().lower, f.y_span().lower),
+               upper = std::min(f.x_span().upper, f.y_span().upper);
+  return fmt::format(
+      R"(<line class="quiet-line" stroke="#8a919c" stroke-dasharray="4 4" )"
+      R"(x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/>)",
+      f.x(lower), f.y(lower), f.x(upper), f.y(upper));
 }
 
 }  // namespace
@@ -199,10 +207,14 @@ std::string fill(Palette palette, int color) {
 
 std::string dashes(int dash) {
   switch (dash % 4) {
-    case 1: return R"( stroke-dasharray="7 4")";
-    case 2: return R"( stroke-dasharray="1 4")";
-    case 3: return R"( stroke-dasharray="8 4 1 4")";
-    default: return "";
+    case 1:
+      return R"( stroke-dasharray="7 4")";
+    case 2:
+      return R"( stroke-dasharray="1 4")";
+    case 3:
+      return R"( stroke-dasharray="8 4 1 4")";
+    default:
+      return "";
   }
 }
 

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 constexpr double degree = std::numbers::pi / 180;
 
 /// SI, as null where it is not finite.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// The visitor of OperatingCondition's description that writes its members in SI.
 class ConditionJson {
@@ -45,18 +45,20 @@ class ConditionJson {
 };
 
 void add_channels(const TractionResult& result, Json& row) {
-  for (const ChannelView& channel : channel_views) row[std::string(channel.name)] = number((result.*channel.predicted).value);
-  row["theta_1"] = number(result.entry_angle);
+  for (const ChannelView& channel : channel_views)
+    row[std::string(channel.name)] = finite((result.*channel.predicted).value);
+  row["theta_1"] = finite(result.entry_angle);
 }
 
 void add_rest(const TractionResult& result, Json& row) {
   for (const ChannelView& channel : channel_views)
-    row["std_error"][std::string(channel.name)] = number((result.*channel.predicted).std_error);
-  row["tractive_efficiency"] = number(result.tractive_efficiency);
-  row["theta_m"] = number(result.max_stress_angle);
-  row["theta_2"] = number(result.exit_angle);
+    row["std_error"][std::string(channel.name)] = finite((result.*channel.predicted).std_error);
+  row["tractive_efficiency"] = finite(result.tractive_efficiency);
+  row["theta_m"] = finite(result.max_stress_angle);
+  row["theta_2"] = finite(result.exit_angle);
   row["budget"] = Json::array();
-  for (const Contribution& part : result.budget) row["budget"].push_back({{"name", part.name}, {"force", number(part.force)}});
+  for (const Contribution& part : result.budget)
+    row["budget"].push_back({{"name", part.name}, {"force", finite(part.force)}});
 }
 
 Json errors_json(const std::vector<ChannelError>& errors) {
@@ -64,31 +66,37 @@ Json errors_json(const std::vector<ChannelError>& errors) {
   for (const ChannelError& error : errors) {
     const ChannelView& channel = channel_views[error.channel];
     const std::string unit = channel.name == "sinkage" ? "m" : std::string(channel.unit);
-    all[std::string(channel.name)] = {{"unit", unit}, {"runs", error.runs}, {"rmse", number(error.rmse)},
-                                      {"bias", number(error.bias)}, {"range", number(error.range)},
-                                      {"share_of_range", number(error.share_of_range)}};
+    all[std::string(channel.name)] = {{"unit", unit},
+                                      {"runs", error.runs},
+                                      {"rmse", finite(error.rmse)},
+                                      {"bias", finite(error.bias)},
+                                      {"range", finite(error.range)},
+                                      {"share_of_range", finite(error.share_of_range)}};
   }
   return all;
 }
 
 Json run_json(const PredictedRun& run) {
   Json row = {{"run", run.run}};
-  if (run.predicted.result) add_channels(*run.predicted.result, row);
-  else row["error"] = run.predicted.error;
+  if (run.predicted.result)
+    add_channels(*run.predicted.result, row);
+  else
+    row["error"] = run.predicted.error;
   if (run.measured.setpoint) row["setpoint"] = *run.measured.setpoint;
   row["at"] = to_json(run.measured.at);
   for (const ChannelView& channel : channel_views) {
     const std::string name(channel.name);
-    if (const auto& value = run.measured.*channel.measured) row["measured"][name] = number(*value);
-    if (const auto rest = residual(run, channel)) row["residual"][name] = number(*rest);
+    if (const auto& value = run.measured.*channel.measured) row["measured"][name] = finite(*value);
+    if (const auto rest = residual(run, channel)) row["residual"][name] = finite(*rest);
   }
   return row;
 }
 
 std::string csv_row(const std::string& model, const Answer& answer) {
   const OperatingCondition& at = answer.at;
-  std::string row = fmt::format("{},{},{},{},{},{},{},{}", csv_cell(model), at.load, at.slip, at.speed,
-                                at.longitudinal_incline / degree, at.transverse_incline / degree, at.yaw / degree, at.pass);
+  std::string row =
+      fmt::format("{},{},{},{},{},{},{},{}", csv_cell(model), at.load, at.slip, at.speed,
+                  at.longitudinal_incline / degree, at.transverse_incline / degree, at.yaw / degree, at.pass);
   if (!answer.result) return row + std::string(12, ',') + ',' + csv_cell(answer.error) + "\n";
   const TractionResult& r = *answer.result;
   for (const ChannelView& channel : channel_views)

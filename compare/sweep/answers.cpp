@@ -10,8 +10,10 @@ namespace soilbin::compare {
 
 std::unique_ptr<const Model> make_model(ModelKind kind) {
   switch (kind) {
-    case ModelKind::bekker_wong: return std::make_unique<const bekker_wong::BekkerWong>();
-    case ModelKind::dem: break;
+    case ModelKind::bekker_wong:
+      return std::make_unique<const bekker_wong::BekkerWong>();
+    case ModelKind::dem:
+      break;
   }
   throw InputError("the model 'dem' (discrete elements) is not in this version of soilbin; 'bekker_wong' is");
 }
@@ -59,7 +61,8 @@ std::vector<ModelAnswers> run_study(const Case& question, const Progress& progre
 
 bool any_result(const std::vector<ModelAnswers>& study) {
   return std::any_of(study.begin(), study.end(), [](const ModelAnswers& model) {
-    return std::any_of(model.answers.begin(), model.answers.end(), [](const Answer& a) { return a.result.has_value(); });
+    return std::any_of(model.answers.begin(), model.answers.end(),
+                       [](const Answer& a) { return a.result.has_value(); });
   });
 }
 

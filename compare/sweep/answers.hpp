@@ -35,8 +35,8 @@ std::unique_ptr<const Model> make_model(ModelKind kind);
 Answer ask(const Model& model, const Scenario& scenario, const OperatingCondition& at);
 
 /// Each condition in turn; one without solution carries its error, and the others still come.
-std::vector<Answer> sweep(const Model& model, const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
-                          const Progress& progress = {});
+std::vector<Answer> sweep(const Model& model, const Scenario& scenario,
+                          const std::vector<OperatingCondition>& conditions, const Progress& progress = {});
 
 /// Every model of the case's study at every condition. Throws InputError for a model that is not in this version.
 std::vector<ModelAnswers> run_study(const Case& question, const Progress& progress = {});

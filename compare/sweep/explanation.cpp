@@ -32,10 +32,16 @@ Facts gather(const Scenario& scenario, const OperatingCondition& at) {
     throw InputError("soil '" + scenario.soil.name + "' has no semi_empirical values, which bekker_wong needs");
   const SoilValues soil = values_of(*scenario.soil.semi_empirical);
   const RollingWheel wheel(scenario.tire, soil, make_effects(scenario.effects), scenario.bin);
-  Facts f{.scenario = scenario, .at = at, .soil = soil, .wheel = wheel.roll(at), .r = scenario.tire.radius,
-          .b = scenario.tire.width, .k = soil.pressure_modulus(scenario.tire.width),
+  Facts f{.scenario = scenario,
+          .at = at,
+          .soil = soil,
+          .wheel = wheel.roll(at),
+          .r = scenario.tire.radius,
+          .b = scenario.tire.width,
+          .k = soil.pressure_modulus(scenario.tire.width),
           .normal_load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline),
-          .theta_1 = 0.0, .theta_m = 0.0};
+          .theta_1 = 0.0,
+          .theta_m = 0.0};
   f.theta_1 = f.wheel.patch.angles.entry;
   f.theta_m = f.wheel.patch.angles.max_stress;
   return f;
@@ -54,10 +60,11 @@ std::vector<Step> contact_steps(const Facts& f) {
                                f.at.longitudinal_incline / degree, f.at.transverse_incline / degree),
                    f.normal_load, "N"});
   steps.push_back({"entry angle", "W_n = r b Int (sigma cos + tau sin) d theta", "solved for theta_1",
-                   f.theta_1 / degree, "deg", fmt::format("the stresses then carry {:.6g} N", f.wheel.forces.vertical)});
+                   f.theta_1 / degree, "deg",
+                   fmt::format("the stresses then carry {:.6g} N", f.wheel.forces.vertical)});
   steps.push_back({"sinkage", "z = r (1 - cos theta_1)",
-                   fmt::format("{:.4g} m (1 - cos {:.4g} deg)", f.r, f.theta_1 / degree),
-                   1000 * f.wheel.sinkage, "mm"});
+                   fmt::format("{:.4g} m (1 - cos {:.4g} deg)", f.r, f.theta_1 / degree), 1000 * f.wheel.sinkage,
+                   "mm"});
   steps.push_back({"angle of largest stress", "theta_m = (c1 + c2 |s|) theta_1",
                    fmt::format("({:.4g} + {:.4g} * {:.4g}) {:.4g} deg", s.c1, s.c2, std::abs(f.wheel.motion.slip),
                                f.theta_1 / degree),
@@ -69,7 +76,8 @@ std::vector<Step> stress_steps(const Facts& f) {
   const SoilValues& s = f.soil;
   const double drop = std::cos(f.theta_m) - std::cos(f.theta_1);
   const double sigma = f.k * std::pow(f.r * drop, s.exponent);
-  const double j = f.r * ((f.theta_1 - f.theta_m) - f.wheel.motion.forward * (std::sin(f.theta_1) - std::sin(f.theta_m)));
+  const double j =
+      f.r * ((f.theta_1 - f.theta_m) - f.wheel.motion.forward * (std::sin(f.theta_1) - std::sin(f.theta_m)));
   const double mobilised = f.wheel.motion.locked ? 1.0 : 1 - std::exp(-std::abs(j) / s.shear_modulus);
   const double tau = std::copysign((s.cohesion + sigma * std::tan(s.friction_angle)) * mobilised, j);
   return {{"normal stress there", "sigma_m = k r^n (cos theta_m - cos theta_1)^n",
@@ -86,7 +94,12 @@ std::vector<Step> stress_steps(const Facts& f) {
 
 std::vector<Step> result_steps(const Facts& f, const TractionResult& result) {
   std::string parts;
-  for (const Contribution& part : result.budget) parts += fmt::format("{}{:.6g}", parts.empty() ? "" : " + ", part.force);
+  for (const Contribution& part : result.budget)
+    parts += fmt::format("{}{:.6g}",
+                         parts.empty()    ? (part.force < 0 ? "-" : "")
+                         : part.force < 0 ? " - "
+                                          : " + ",
+                         std::abs(part.force));
   std::vector<Step> steps;
   steps.push_back({"drawbar pull", "F_DP = the sum of the budget", parts + " N", result.drawbar_pull.value, "N"});
   steps.push_back({"torque", "M = r^2 b Int tau d theta", "over the contact", result.torque.value, "N m"});
@@ -128,20 +141,24 @@ std::vector<Step> closed_forms(const Facts& f, const TractionResult& result) {
   const double critical = critical_ground_pressure(f.soil, f.r, f.b, f.at.load);
   const double eq5 = paper::sinkage(f.soil, f.r, f.b, f.at.load, f.at.slip, f.theta_m);
   const double thrust = f.soil.cohesion * f.r * f.b * f.theta_1 + f.normal_load * std::tan(f.soil.friction_angle);
-  return {{"Bekker's static sinkage", "z_0 = [3 W/((3 - n) b k sqrt(D))]^(2/(2n + 1))",
-           fmt::format("W {:.4g} N, D {:.4g} m, n {:.4g}", f.at.load, 2 * f.r, n), 1000 * z0, "mm",
-           fmt::format("a towed wheel; the model's wheel sinks {:.4g} mm", 1000 * result.sinkage.value)},
-          {"Bekker's rolling resistance", "R = b k z_0^(n+1)/(n + 1)", fmt::format("z_0 {:.4g} mm", 1000 * z0), rolling, "N",
-           fmt::format("the model's compaction resistance is {:.4g} N", -f.wheel.forces.compaction)},
-          {"critical ground pressure", "p_gcr = k z_0^n", fmt::format("z_0 {:.4g} mm", 1000 * z0), critical / 1000, "kPa",
-           pressure_remark(f.scenario.tire, critical)},
-          {"largest thrust of this soil", "c A + W_n tan phi",
-           fmt::format("A = r b theta_1 = {:.4g} m^2", f.r * f.b * f.theta_1), thrust, "N",
-           fmt::format("the model's thrust is {:.4g} N", f.wheel.forces.thrust)},
-          {"the paper's Eq. 5 as it stands", "z = z_0 + (D/2) (1 - i) theta_m",
-           fmt::format("{:.4g} mm + {:.4g} mm * {:.4g} * {:.4g} rad", 1000 * z0, 1000 * f.r, 1 - f.at.slip, f.theta_m),
-           1000 * eq5, "mm",
-           "faulty: its second term is an arc length, not a depth, and falls with slip where measured sinkage rises"}};
+  return {
+      {"Bekker's static sinkage", "z_0 = [3 W/((3 - n) b k sqrt(D))]^(2/(2n + 1))",
+       fmt::format("[3 * {:.4g} N / ({:.4g} * {:.4g} m * k * sqrt({:.4g} m))]^{:.4g}", f.at.load, 3 - n, f.b, 2 * f.r,
+                   2 / (2 * n + 1)),
+       1000 * z0, "mm", fmt::format("a towed wheel; the model's wheel sinks {:.4g} mm", 1000 * result.sinkage.value)},
+      {"Bekker's rolling resistance", "R = b k z_0^(n+1)/(n + 1)",
+       fmt::format("{:.4g} m * k ({:.4g} m)^{:.4g} / {:.4g}", f.b, z0, n + 1, n + 1), rolling, "N",
+       fmt::format("the model's compaction resistance is {:.4g} N", -f.wheel.forces.compaction)},
+      {"critical ground pressure", "p_gcr = k z_0^n", fmt::format("k ({:.4g} m)^{:.4g}", z0, n), critical / 1000, "kPa",
+       pressure_remark(f.scenario.tire, critical)},
+      {"largest thrust of this soil", "c A + W_n tan phi",
+       fmt::format("{:.4g} kPa * {:.4g} m^2 + {:.4g} N tan {:.4g} deg", f.soil.cohesion / 1000, f.r * f.b * f.theta_1,
+                   f.normal_load, f.soil.friction_angle / degree),
+       thrust, "N", fmt::format("the model's thrust is {:.4g} N", f.wheel.forces.thrust)},
+      {"the paper's Eq. 5 as it stands", "z = z_0 + (D/2) (1 - i) theta_m",
+       fmt::format("{:.4g} mm + {:.4g} mm * {:.4g} * {:.4g} rad", 1000 * z0, 1000 * f.r, 1 - f.at.slip, f.theta_m),
+       1000 * eq5, "mm",
+       "faulty: its second term is an arc length, not a depth, and falls with slip where measured sinkage rises"}};
 }
 
 void append(std::vector<Step>& all, std::vector<Step> more) {

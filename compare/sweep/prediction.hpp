@@ -29,9 +29,9 @@ struct ChannelError {
 };
 
 struct Prediction {
-  std::vector<PredictedRun> runs;   ///< in the order of the campaign
-  std::vector<ChannelError> errors; ///< a channel that was measured each
-  std::size_t unsolved = 0;         ///< runs to which the model has no solution
+  std::vector<PredictedRun> runs;    ///< in the order of the campaign
+  std::vector<ChannelError> errors;  ///< a channel that was measured each
+  std::size_t unsolved = 0;          ///< runs to which the model has no solution
 };
 
 /// Predicts every run of a campaign at its own load, slip, angles, ... with the scenario's soil and effects.

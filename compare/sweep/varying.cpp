@@ -61,8 +61,8 @@ Levels levels(const Axis& axis, const std::vector<OperatingCondition>& condition
   std::vector<double> members;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const double x = at(order[k]), before = k > 0 ? at(order[k - 1]) : x;
-    const double gap = spread == Spread::exact ? 1e-9 * std::abs(x)
-                                               : std::max(axis.relative_gap * std::abs(x), axis.absolute_gap);
+    const double gap =
+        spread == Spread::exact ? 1e-9 * std::abs(x) : std::max(axis.relative_gap * std::abs(x), axis.absolute_gap);
     if (k == 0 || x - before > gap) found.value.push_back(0.0), members.push_back(0.0);
     found.value.back() += x, members.back() += 1;
     found.of[order[k]] = found.value.size() - 1;
@@ -112,7 +112,8 @@ std::string in_words(const OperatingCondition& at) {
   std::string words = fmt::format("load {}, slip {:.4g} %", force(at.load), 100 * at.slip);
   const OperatingCondition plain;
   for (const Axis& axis : axes())
-    if (axis.name != "load" && axis.name != "speed" && axis.get(at) != axis.get(plain)) words += ", " + axis.label(axis.get(at));
+    if (axis.name != "load" && axis.name != "speed" && axis.get(at) != axis.get(plain))
+      words += ", " + axis.label(axis.get(at));
   if (at.speed != plain.speed) words += fmt::format(", {:.4g} m/s", at.speed);
   return words;
 }

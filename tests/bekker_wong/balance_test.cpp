@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "bekker_wong/balance_search.hpp"
@@ -42,12 +44,23 @@ std::string refusal(const RollingWheel& wheel, const OperatingCondition& at) {
   return "(answered)";
 }
 
-const SoilValues snow{.exponent = 1.6, .k_c = 4370, .k_phi = 196720, .cohesion = 1030, .friction_angle = 19.7 * deg,
-                      .shear_modulus = 0.04, .c1 = 0.2, .c2 = 0.3};
+const SoilValues snow{.exponent = 1.6,
+                      .k_c = 4370,
+                      .k_phi = 196720,
+                      .cohesion = 1030,
+                      .friction_angle = 19.7 * deg,
+                      .shear_modulus = 0.04,
+                      .c1 = 0.2,
+                      .c2 = 0.3};
 
 /// A soil on which a braked wheel carries most at a middling depth: friction of 45 deg against z^0.5.
-const SoilValues gripping{.exponent = 0.5, .k_phi = 1e6, .cohesion = 0, .friction_angle = 45 * deg,
-                          .shear_modulus = 0.002, .c1 = 0.2, .c2 = 0.3};
+const SoilValues gripping{.exponent = 0.5,
+                          .k_phi = 1e6,
+                          .cohesion = 0,
+                          .friction_angle = 45 * deg,
+                          .shear_modulus = 0.002,
+                          .c1 = 0.2,
+                          .c2 = 0.3};
 
 struct Hump {
   double load = 0.0, theta_1 = 0.0;
@@ -114,6 +127,22 @@ TEST(Balance, OfTwoRisingRootsTheSmallerIsFound) {
   ASSERT_EQ(rising, 2);
   const double theta_1 = wheel.roll(condition(load, slip)).balance_angle;
   for (std::size_t i = 0; angles[i] < theta_1; ++i) EXPECT_LT(loads[i], load);
+}
+
+/// Ten times the pressure that the soil's values foretell: Bekker's sinkage, where the search starts, is then far too
+/// deep.
+class TenfoldPressure final : public Effect {
+ public:
+  void pressure(ContactPatch& patch, const SoilValues&, const Outline&, const Surroundings&) const override {
+    for (double& sigma : patch.of(&ContactPatch::sigma)) sigma *= 10;
+  }
+};
+
+TEST(Balance, TheSmallerIsFoundFromAStartBeyondTheHumpToo) {
+  constexpr double slip = -0.7, load = 5500;
+  const double expected = RollingWheel(tire(0.3, 0.2), gripping).roll(condition(load, slip)).balance_angle;
+  const RollingWheel hardened(tire(0.3, 0.2), gripping, {std::make_shared<TenfoldPressure>()});
+  EXPECT_NEAR(hardened.roll(condition(10 * load, slip)).balance_angle, expected, 1e-9);
 }
 
 TEST(Balance, ADrivenWheelCarriesMoreTheDeeperItStands) {

@@ -34,7 +34,8 @@ TEST(NodeFunctions, ScaledPower) {
     std::vector<double> out(base.size());
     scaled_power(base, exponent, 3.0, out);
     for (std::size_t i = 0; i < base.size(); ++i) {
-      const long double expected = 3.0L * std::pow(static_cast<long double>(base[i]), static_cast<long double>(exponent));
+      const long double expected =
+          3.0L * std::pow(static_cast<long double>(base[i]), static_cast<long double>(exponent));
       const double allowed = 1e-15 * (2 + std::abs(exponent * std::log(base[i])));
       EXPECT_NEAR(static_cast<double>(out[i] / expected), 1.0, allowed) << base[i] << '^' << exponent;
     }

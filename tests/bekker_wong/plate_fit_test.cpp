@@ -64,7 +64,8 @@ TEST(PlateFit, RefusesWhatItCannotFit) {
   const PlateCurve plate = curve(0.05, 1, 0, 1e6);
   EXPECT_THROW(fit_plates(std::vector<PlateCurve>{}), InputError);
   EXPECT_THROW(fit_plates(std::vector<PlateCurve>{plate, plate}), InputError);
-  EXPECT_THROW(fit_plates(std::vector<PlateCurve>{plate, {.radius = 0.1, .pressure = {1}, .sinkage = {1}}}), InputError);
+  EXPECT_THROW(fit_plates(std::vector<PlateCurve>{plate, {.radius = 0.1, .pressure = {1}, .sinkage = {1}}}),
+               InputError);
   const PlateTest backwards{.radius = 0.05, .pressure = {0, 2, 1, 3}, .sinkage = {0, 1, 2, 3}};
   EXPECT_THROW(mean_curve(std::vector<PlateTest>{backwards}, {0.5, 0.5, 2}), InputError);
 }
@@ -98,8 +99,8 @@ PlateFit fit_grc1(const PressureGrid& small, const PressureGrid& medium, const P
   return fit_plates(curves, exponent);
 }
 
-// Oravec 2009, Fig. 5.52: up to 50 kPa (the large plate's tests end near 31 kPa), every 0.5 kPa; the small plate's first
-// pressures are left out. The table's six digits limit the agreement.
+// Oravec 2009, Fig. 5.52: up to 50 kPa (the large plate's tests end near 31 kPa), every 0.5 kPa; the small plate's
+// first pressures are left out. The table's six digits limit the agreement.
 TEST(PlateFit, Grc1UpTo50kPa) {
   const PressureGrid usual{0.5 * kPa, 0.5 * kPa, 50 * kPa};
   const PlateFit fit = fit_grc1({1.5 * kPa, 0.5 * kPa, 50 * kPa}, usual, {0.5 * kPa, 0.5 * kPa, 30 * kPa});
@@ -110,8 +111,8 @@ TEST(PlateFit, Grc1UpTo50kPa) {
 
 // Oravec 2009, Fig. 5.53: the whole range, 160, 105 and 30 kPa.
 TEST(PlateFit, Grc1WholeRange) {
-  const PlateFit fit = fit_grc1({0.5 * kPa, 0.5 * kPa, 160 * kPa}, {0.5 * kPa, 0.5 * kPa, 105 * kPa},
-                                {0.5 * kPa, 0.5 * kPa, 30 * kPa});
+  const PlateFit fit =
+      fit_grc1({0.5 * kPa, 0.5 * kPa, 160 * kPa}, {0.5 * kPa, 0.5 * kPa, 105 * kPa}, {0.5 * kPa, 0.5 * kPa, 30 * kPa});
   EXPECT_NEAR(fit.exponent, 0.80563, 1e-5);
   EXPECT_NEAR(fit.k_c, 97.06 * kN, 1e-4 * 97 * kN);
   EXPECT_NEAR(fit.k_phi, 1744.25 * kN, 1e-4 * 1744 * kN);

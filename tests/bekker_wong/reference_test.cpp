@@ -4,8 +4,6 @@
 // Scales: sinkage, its own value. Drawbar pull and lateral force, the larger of the force itself and thrust +
 // compaction resistance + side force without cancellation (b r Int |tau_x| cos + sigma sin + |tau_y|). Torque, the same
 // without cancellation (b r^2 Int |tau_x|).
-#include "bekker_wong/reference_wheel.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 #include <random>
 #include <sstream>
 
+#include "bekker_wong/reference_wheel.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 
 namespace soilbin::bekker_wong {
@@ -59,8 +58,8 @@ class Draw {
   bool at_corners_;
 };
 
-/// Anything from a 50 mm to a 2 m wheel, n 0.1 .. 2, K 0.5 mm .. 0.2 m, c 0 .. 50 kPa, phi 0 .. 45 deg, theta_m up to its
-/// limit, 1 kPa .. 1 MPa at a depth of a tenth of the radius.
+/// Anything from a 50 mm to a 2 m wheel, n 0.1 .. 2, K 0.5 mm .. 0.2 m, c 0 .. 50 kPa, phi 0 .. 45 deg, theta_m up to
+/// its limit, 1 kPa .. 1 MPa at a depth of a tenth of the radius.
 void draw_wheel_and_soil(Draw& draw, Point& p) {
   p.tire.radius = draw.logarithmic(0.05, 2.0);
   p.tire.width = p.tire.radius * draw.logarithmic(0.1, 2.0);
@@ -163,7 +162,8 @@ TEST(Reference, ItselfReproducesTheClosedForm) {
 TEST(Reference, AgreesWhereTheShearCurveRisesBehindTheCrest) {
   Point p;
   p.tire.radius = 0.05, p.tire.width = 0.0172;
-  p.soil = {.exponent = 0.1, .k_phi = 4270, .friction_angle = 40.3 * deg, .shear_modulus = 0.5e-3, .c1 = 0.7, .c2 = 0.5};
+  p.soil = {
+      .exponent = 0.1, .k_phi = 4270, .friction_angle = 40.3 * deg, .shear_modulus = 0.5e-3, .c1 = 0.7, .c2 = 0.5};
   p.at.slip = 1.0, p.at.yaw = -32 * deg;
   p.entry_angle = 1.46;
   ASSERT_TRUE(give_load(p));

@@ -17,9 +17,17 @@ struct Wheel::Point {
 };
 
 Wheel::Wheel(const Tire& tire, const bekker_wong::SoilValues& soil, const OperatingCondition& at)
-    : r_(tire.radius), b_(tire.width), k_(Real(soil.k_c) / b_ + Real(soil.k_phi)), n_(soil.exponent),
-      cohesion_(soil.cohesion), friction_(std::tan(Real(soil.friction_angle))), shear_modulus_(soil.shear_modulus),
-      load_(at.load), yaw_(at.yaw), incline_(at.longitudinal_incline), cross_slope_(at.transverse_incline) {
+    : r_(tire.radius),
+      b_(tire.width),
+      k_(Real(soil.k_c) / b_ + Real(soil.k_phi)),
+      n_(soil.exponent),
+      cohesion_(soil.cohesion),
+      friction_(std::tan(Real(soil.friction_angle))),
+      shear_modulus_(soil.shear_modulus),
+      load_(at.load),
+      yaw_(at.yaw),
+      incline_(at.longitudinal_incline),
+      cross_slope_(at.transverse_incline) {
   const Real s = at.slip;
   const bool sideways = std::abs(at.yaw) > (1 - 1e-12) * std::numbers::pi / 2;
   const Real cosine = sideways ? 0 : std::cos(yaw_), sine = std::sin(yaw_);
@@ -95,8 +103,8 @@ Real Wheel::integrate(Real theta_1, Real rel_tol, const Integrand& integrand) co
 
 Real Wheel::carried(Real theta_1, Real rel_tol) const {
   return r_ * b_ * integrate(theta_1, rel_tol, [](Real t, const Point& p) {
-    return p.sigma * std::cos(t) + p.tau_x * std::sin(t);
-  });
+           return p.sigma * std::cos(t) + p.tau_x * std::sin(t);
+         });
 }
 
 Forces Wheel::at(Real theta_1, Real rel_tol) const {
@@ -128,8 +136,8 @@ Real Wheel::entry_angle(Real normal_load, Real deepest) const {
     // the scan's looser quadrature may have misjudged a bracket's end: open it a little
     lower *= 1 - 1e-4L, upper = std::min(upper * (1 + 1e-4L), deepest);
     std::uintmax_t iterations = 200;
-    const auto [a, b] =
-        boost::math::tools::toms748_solve(excess, lower, upper, boost::math::tools::eps_tolerance<Real>(60), iterations);
+    const auto [a, b] = boost::math::tools::toms748_solve(excess, lower, upper,
+                                                          boost::math::tools::eps_tolerance<Real>(60), iterations);
     return (a + b) / 2;
   }
   return 0;

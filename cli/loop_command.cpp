@@ -1,0 +1,130 @@
+// soilbin loop: residual, cause, effect added, error before and after, on a measured campaign.
+#include <fmt/core.h>
+
+#include <charconv>
+#include <memory>
+#include <numbers>
+#include <thread>
+
+#include "cli/commands.hpp"
+#include "cli/text_output.hpp"
+#include "compare/loop/answer_words.hpp"
+#include "compare/report/result_json.hpp"
+#include "scenario/atomic_file.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+struct Asked {
+  std::string campaign, report, model;
+  std::vector<std::string> limits;
+  bool json = false, next = false;
+  int folds = 5;
+  unsigned seed = 1;
+};
+
+/// "load=50..200" in the campaign's units (N, m/s, deg, %, m).
+compare::Limits read_limits(const std::vector<std::string>& texts) {
+  constexpr double degree = std::numbers::pi / 180;
+  const std::vector<std::pair<std::string, double>> known = {{"slip", 1.0},
+                                                             {"load", 1.0},
+                                                             {"speed", 1.0},
+                                                             {"pass", 1.0},
+                                                             {"yaw", degree},
+                                                             {"longitudinal_incline", degree},
+                                                             {"transverse_incline", degree},
+                                                             {"position", 1.0},
+                                                             {"moisture", 0.01}};
+  compare::Limits limits;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('='), dots = text.find("..");
+    if (equals == std::string::npos || dots == std::string::npos || dots < equals)
+      throw InputError(fmt::format("--limit '{}': expected NAME=LOW..HIGH, such as load=50..200", text));
+    const std::string name = text.substr(0, equals);
+    std::vector<std::string> names;
+    double unit = 0.0;
+    for (const auto& [word, factor] : known) {
+      names.push_back(word);
+      if (word == name) unit = factor;
+    }
+    if (unit == 0.0)
+      throw InputError(fmt::format("--limit: unknown condition '{}'{}", name, did_you_mean(name, names)));
+    const auto value = [&](const std::string& part) {
+      double v = 0.0;
+      const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), v);
+      if (error != std::errc() || end != part.data() + part.size())
+        throw InputError(fmt::format("--limit '{}': '{}' is not a number", text, part));
+      return v * unit;
+    };
+    const double low = value(text.substr(equals + 1, dots - equals - 1)), high = value(text.substr(dots + 2));
+    if (!(low <= high)) throw InputError(fmt::format("--limit '{}': the lower end is above the upper", text));
+    limits[name] = {low, high};
+  }
+  return limits;
+}
+
+std::string as_text(const compare::HtmlTable& table) {
+  TextTable text(table.header);
+  for (const auto& row : table.rows) text.add(row);
+  return fmt::format("{}\n{}", table.caption, text.text());
+}
+
+void print_answer(const compare::LoopAnswer& answer, bool only_next) {
+  if (!only_next) {
+    fmt::print("{}: {}\n\n", answer.campaign, compare::verdict_sentence(answer));
+    for (const std::string& sentence : compare::explanation(answer)) fmt::print("{}\n", sentence);
+    if (!answer.details.weights.empty()) fmt::print("\n{}", as_text(compare::rivals_table(answer)));
+    if (answer.validation.overall.cells > 0) fmt::print("\n{}", as_text(compare::error_table(answer)));
+    return;
+  }
+  const std::vector<std::string> sentences = compare::explanation(answer);
+  fmt::print("{}\n", sentences.empty() || !answer.next ? "No condition within the limits would decide more."
+                                                       : sentences.back());
+}
+
+int loop(const Asked& asked, const Session& session) {
+  const compare::Campaign campaign = find_campaign(session.place, asked.campaign);
+  compare::LoopOptions options;
+  options.folds = asked.folds;
+  options.identify.seed = asked.seed;
+  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  options.limits = read_limits(asked.limits);
+  const compare::LoopAnswer answer = compare::run_loop(campaign, options);
+  if (!asked.report.empty())
+    write_file_atomically(asked.report, compare::loop_page(campaign, answer,
+                                                           fmt::format("soilbin loop {} --report {} --seed {}",
+                                                                       asked.campaign, asked.report, asked.seed)));
+  if (!asked.model.empty())
+    write_file_atomically(asked.model, write_case(compare::resolved_model(campaign, answer), session.place.effects));
+  if (asked.json)
+    fmt::print("{}", compare::json_text(compare::to_json(answer)));
+  else
+    print_answer(answer, asked.next);
+  return done;
+}
+
+}  // namespace
+
+void add_loop(CLI::App& app, Session& session) {
+  CLI::App* command =
+      app.add_subcommand("loop", "find what the model lacks: residual, cause, effect added, error before and after");
+  const auto asked = std::make_shared<Asked>();
+  command->add_option("campaign", asked->campaign, "of the library, or its folder")->type_name("CAMPAIGN")->required();
+  command->add_option("--report", asked->report, "write the report as one page")->type_name("FILE.html");
+  command->add_option("--save-model", asked->model, "write soil and effects as a case that other commands take")
+      ->type_name("FILE.yaml");
+  command->add_flag("--next", asked->next, "say only what to measure next");
+  command->add_option("--limit", asked->limits, "range that the rig can reach, for --next; repeatable")
+      ->type_name("NAME=LOW..HIGH");
+  command->add_option("--folds", asked->folds, "parts into which conditions are dealt for the honest errors")
+      ->type_name("N")
+      ->check(CLI::Range(2, 50));
+  command->add_option("--seed", asked->seed, "of the simulations and the folds")->type_name("N");
+  command->add_flag("--json", asked->json, "soilbin-loop/1");
+  command->footer("Example: soilbin loop cmu-smooth --report loop.html --save-model fitted.yaml");
+  command->callback([=, &session] { session.action = [=, &session] { return loop(*asked, session); }; });
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,162 @@
+#include "compare/loop/answer_words.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "compare/report/number_text.hpp"
+#include "compare/sweep/channels.hpp"
+
+namespace soilbin::compare {
+
+std::string joined(const std::set<std::string>& ids) {
+  std::string text;
+  for (const std::string& id : ids) text += (text.empty() ? "" : " + ") + id;
+  return text.empty() ? "no effect" : text;
+}
+
+std::string verdict_sentence(const LoopAnswer& answer) {
+  switch (answer.verdict) {
+    case Verdict::effect_found:
+      return fmt::format("The model lacks {}: {}.", joined(answer.details.rivals[*answer.details.best].ids),
+                         answer.reason);
+    case Verdict::nothing_missing:
+      return fmt::format("Nothing is missing that these data show: {}.", answer.reason);
+    case Verdict::unknown_effect:
+      return fmt::format("Something is missing that the catalogue does not name: {}.", answer.reason);
+    case Verdict::not_enough_data:
+      return fmt::format("These data can't decide: {}.", answer.reason);
+  }
+  return "";
+}
+
+namespace {
+
+std::string condition_words(const NextTest& next) {
+  constexpr double degree = std::numbers::pi / 180;
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  for (const std::string& q : next.quantities) {
+    if (q == "slip") add(fmt::format("slip {} %", number(100 * next.at.slip)));
+    if (q == "load") add(fmt::format("load {} N", number(next.at.load)));
+    if (q == "speed") add(fmt::format("speed {} m/s", number(next.at.speed)));
+    if (q == "pass") add(fmt::format("pass {}", next.at.pass));
+    if (q == "yaw") add(fmt::format("yaw {} deg", number(next.at.yaw / degree)));
+    if (q == "longitudinal_incline") add(fmt::format("uphill {} deg", number(next.at.longitudinal_incline / degree)));
+    if (q == "transverse_incline") add(fmt::format("cross slope {} deg", number(next.at.transverse_incline / degree)));
+    if (q == "position" && next.at.position) add(fmt::format("position {} m", number(*next.at.position)));
+    if (q == "moisture" && next.at.moisture) add(fmt::format("moisture {} %", number(100 * *next.at.moisture)));
+  }
+  return text;
+}
+
+std::string effect_sentence(const AcceptedEffect& effect) {
+  std::string parameters;
+  for (std::size_t i = 0; i < effect.fitted.size(); ++i)
+    parameters += fmt::format("{}{} = {} (95 %: {} .. {})", i == 0 ? "" : ", ", effect.fitted[i],
+                              number(effect.choice.parameters.at(effect.fitted[i])), number(effect.ci95[i].first),
+                              number(effect.ci95[i].second));
+  return fmt::format("{} in the form '{}', {} (SI).", effect.choice.id, effect.choice.form, parameters);
+}
+
+std::string listed_words(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& w : words) text += (text.empty() ? "" : ", ") + w;
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> explanation(const LoopAnswer& answer) {
+  std::vector<std::string> sentences;
+  for (const AcceptedEffect& effect : answer.effects) sentences.push_back(effect_sentence(effect));
+  if (answer.ambiguity_set.size() > 1) {
+    std::string rivals;
+    for (const Weighted& w : answer.ambiguity_set)
+      rivals += fmt::format("{}{} ({:.0f} %)", rivals.empty() ? "" : ", ", joined(w.ids), 100 * w.weight);
+    sentences.push_back("These data can't tell apart: " + rivals + ".");
+  }
+  const ErrorPair& all = answer.validation.overall;
+  if (all.cells > 0)
+    sentences.push_back(fmt::format(
+        "On conditions that neither choice nor fit has seen the error is {} sigma before and {} after; the "
+        "squared error falls by {} +- {} sigma^2 a value.",
+        number(all.before), number(all.after), number(answer.validation.gain), number(answer.validation.gain_error)));
+  if (answer.details.noise.rerun_freedom == 0 && answer.verdict != Verdict::not_enough_data)
+    sentences.push_back("No setpoint was run twice: the noise was estimated together with the fit.");
+  if (answer.outliers > 0)
+    sentences.push_back(
+        fmt::format("{} measured value{} stood more than five standard deviations off and {} set aside.",
+                    answer.outliers, answer.outliers == 1 ? "" : "s", answer.outliers == 1 ? "was" : "were"));
+  if (!answer.not_testable.empty())
+    sentences.push_back(
+        "Not testable with these data (which does not mean absent): " + listed_words(answer.not_testable) + ".");
+  if (answer.next)
+    sentences.push_back(fmt::format("Measure next: {}. It sets {} apart from {}; {} run{} should decide.",
+                                    condition_words(*answer.next), joined(answer.next->separates.front()),
+                                    joined(answer.next->separates.back()), answer.next->runs,
+                                    answer.next->runs == 1 ? "" : "s"));
+  else if (answer.ambiguity_set.size() > 1)
+    sentences.push_back("No condition within the limits would set these rivals apart in 50 runs.");
+  return sentences;
+}
+
+HtmlTable rivals_table(const LoopAnswer& answer) {
+  HtmlTable table{
+      "Rivals, each fitted in full", {"effects", "form", "share of evidence [%]", "chi2", "values"}, {}, {true, true}};
+  constexpr std::size_t most = 8;
+  for (const Weighted& w : answer.details.weights) {
+    if (table.rows.size() == most) break;
+    const Rival& rival = answer.details.rivals[w.best_rival];
+    std::string forms;
+    for (const Term& term : rival.terms) forms += (forms.empty() ? "" : " + ") + term.form->form;
+    table.rows.push_back({joined(w.ids), forms, number(std::round(1000 * w.weight) / 10), number(rival.fit.chi2),
+                          std::to_string(answer.details.observations.cells.size())});
+  }
+  table.rows.push_back({"base model", "-", "-", number(answer.details.base.chi2),
+                        std::to_string(answer.details.observations.cells.size())});
+  return table;
+}
+
+HtmlTable error_table(const LoopAnswer& answer) {
+  HtmlTable table{
+      "Root mean square error on held-out conditions", {"channel", "values", "before", "after", "noise floor"}, {}, {}};
+  for (std::size_t c = 0; c < channel_views.size(); ++c) {
+    const ErrorPair& e = answer.validation.channels[c];
+    if (e.cells == 0) continue;
+    const auto in_unit = [&](double si) {
+      return fmt::format("{} {}", number(si * channel_views[c].per_si), channel_views[c].unit);
+    };
+    table.rows.push_back({std::string(channel_views[c].title), std::to_string(e.cells), in_unit(e.before),
+                          in_unit(e.after), in_unit(e.noise_floor)});
+  }
+  const ErrorPair& all = answer.validation.overall;
+  if (all.cells > 0)
+    table.rows.push_back(
+        {"all", std::to_string(all.cells), number(all.before) + " sigma", number(all.after) + " sigma", "1 sigma"});
+  return table;
+}
+
+Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
+  Case model;
+  model.name = campaign.name + "-model";
+  model.description = "Made by soilbin loop: " + verdict_sentence(answer);
+  model.source = "fitted to campaign " + campaign.name;
+  model.scenario = scenario_of(campaign);
+  model.scenario.effects.clear();
+  model.scenario.tire.name = campaign.name + "-wheel";
+  model.scenario.soil.name = campaign.name + "-soil";
+  model.scenario.soil.semi_empirical = answer.soil;
+  model.study.name = model.name;
+  ModelChoice choice;
+  choice.effects = campaign.effects;
+  for (const AcceptedEffect& effect : answer.effects) choice.effects.push_back(effect.choice);
+  choice.label = "fitted";
+  model.study.models = {choice};
+  for (const Run& run : campaign.runs) model.study.conditions.push_back(run.at);
+  return model;
+}
+
+}  // namespace soilbin::compare

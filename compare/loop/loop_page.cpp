@@ -1,0 +1,179 @@
+// The loop's report as one page.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/loop/answer_words.hpp"
+#include "compare/report/number_text.hpp"
+#include "compare/sweep/channels.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// (measured - predicted)/sd of each cell.
+Eigen::VectorXd standardised(const Identification& id, const Eigen::VectorXd& prediction) {
+  Eigen::VectorXd r = id.observations.values() - prediction;
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    const Cell& cell = id.observations.cells[static_cast<std::size_t>(i)];
+    r[i] /= id.noise.channels[static_cast<std::size_t>(cell.channel)].sd(prediction[i]);
+  }
+  return r;
+}
+
+/// Cells of a channel over a covariate.
+Series over(const Observations& observations, const Eigen::VectorXd& y, const Covariate& x, int channel,
+            const std::string& label, int color, Mark mark) {
+  Series series{.label = label, .x = {}, .y = {}, .error = {}, .mark = mark, .color = color};
+  std::vector<std::pair<double, double>> points;
+  for (std::size_t i = 0; i < observations.cells.size(); ++i)
+    if (observations.cells[i].channel == channel)
+      points.emplace_back(x.values[observations.cells[i].row], y[static_cast<Eigen::Index>(i)]);
+  std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [at, value] : points) series.x.push_back(at), series.y.push_back(value);
+  return series;
+}
+
+bool has_cells(const Observations& observations, int channel) {
+  return std::any_of(observations.cells.begin(), observations.cells.end(),
+                     [&](const Cell& c) { return c.channel == channel; });
+}
+
+Sheet residual_sheet(const Identification& id, const Covariate& x, const Eigen::VectorXd& before,
+                     const Eigen::VectorXd* after) {
+  Sheet sheet{"Residuals against " + x.name, {}, Palette::named};
+  for (int channel = 0; channel < channel_count; ++channel) {
+    if (!has_cells(id.observations, channel)) continue;
+    Plot plot{std::string(channel_views[static_cast<std::size_t>(channel)].title),
+              {x.name + " [SI]", {}, {}},
+              {"residual [sd of the noise]", {}, {}},
+              {}};
+    plot.series.push_back(over(id.observations, before, x, channel, "before", 0, Mark::points));
+    if (after != nullptr) plot.series.push_back(over(id.observations, *after, x, channel, "after", 1, Mark::points));
+    sheet.plots.push_back(std::move(plot));
+  }
+  return sheet;
+}
+
+/// What the accepted effects add beyond the refitted soil, over the base model's residual.
+Sheet signature_sheet(const Identification& id, const Eigen::VectorXd& before, const Covariate& x) {
+  Eigen::VectorXd change = id.rivals[*id.best].fit.prediction - id.base.prediction;
+  for (Eigen::Index i = 0; i < change.size(); ++i) {
+    const Cell& cell = id.observations.cells[static_cast<std::size_t>(i)];
+    change[i] /= id.noise.channels[static_cast<std::size_t>(cell.channel)].sd(id.base.prediction[i]);
+  }
+  Sheet sheet{"The effect's signature over the residual", {}, Palette::named};
+  for (int channel = 0; channel < channel_count; ++channel) {
+    if (!has_cells(id.observations, channel)) continue;
+    Plot plot{std::string(channel_views[static_cast<std::size_t>(channel)].title),
+              {x.name + " [SI]", {}, {}},
+              {"[sd of the noise]", {}, {}},
+              {}};
+    plot.series.push_back(over(id.observations, before, x, channel, "residual of the base model", 0, Mark::points));
+    plot.series.push_back(over(id.observations, change, x, channel, "with the effect less without", 1, Mark::points));
+    sheet.plots.push_back(std::move(plot));
+  }
+  return sheet;
+}
+
+HtmlTable dependence_table(const LoopAnswer& answer) {
+  HtmlTable table{"Share of each channel's residual that a parabola in the variable explains, and its p by permutation",
+                  {"channel", "variable", "before [%]", "p", "after [%]", "p"},
+                  {},
+                  {true, true}};
+  for (std::size_t i = 0; i < answer.dependences_before.size(); ++i) {
+    const Dependence& b = answer.dependences_before[i];
+    std::vector<std::string> row = {std::string(channel_views[static_cast<std::size_t>(b.channel)].title),
+                                    b.variable,
+                                    number(100 * b.share),
+                                    number(b.p_value),
+                                    "-",
+                                    "-"};
+    if (i < answer.dependences_after.size()) {
+      row[4] = number(100 * answer.dependences_after[i].share);
+      row[5] = number(answer.dependences_after[i].p_value);
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+HtmlTable noise_table(const LoopAnswer& answer) {
+  HtmlTable table{
+      "Noise: sqrt(a^2 + b^2 f^2)", {"channel", "a", "b [%]", "degrees of freedom", "sd within re-runs"}, {}, {}};
+  for (std::size_t c = 0; c < channel_views.size(); ++c) {
+    const ChannelNoise& n = answer.details.noise.channels[c];
+    if (!n.measured) continue;
+    const ChannelView& view = channel_views[c];
+    table.rows.push_back({std::string(view.title), fmt::format("{} {}", number(n.floor * view.per_si), view.unit),
+                          number(100 * n.growth), number(n.freedom),
+                          n.rerun_sd > 0 ? fmt::format("{} {}", number(n.rerun_sd * view.per_si), view.unit) : "-"});
+  }
+  return table;
+}
+
+HtmlTable trace_table(const LoopAnswer& answer) {
+  HtmlTable table{"The strongest signatures against the base model",
+                  {"effect", "form", "score [sd]", "amplitude [SI]", "share that the soil can't absorb [%]",
+                   "detectable from [SI]"},
+                  {},
+                  {true, true}};
+  std::vector<const Signature*> order;
+  for (const Signature& s : answer.details.signatures)
+    if (s.projected_norm > 0) order.push_back(&s);
+  std::stable_sort(order.begin(), order.end(), [](auto a, auto b) { return a->strength() > b->strength(); });
+  constexpr std::size_t most = 15;
+  std::set<const bekker_wong::EffectForm*> shown;
+  for (const Signature* s : order) {
+    if (table.rows.size() == most) break;
+    if (!shown.insert(s->term.form).second) continue;
+    table.rows.push_back({s->term.form->id, s->term.form->form, number(s->score),
+                          number(Estimate{s->amplitude, s->std_error}), number(100 * s->share_kept),
+                          number(s->detectable)});
+  }
+  return table;
+}
+
+}  // namespace
+
+std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const std::string& command) {
+  Page page("The loop on " + campaign.name, "residual, cause, effect added, error before and after");
+  std::vector<std::pair<std::string, std::string>> summary = {{"Verdict", verdict_sentence(answer)}};
+  for (const std::string& sentence : explanation(answer)) summary.emplace_back("", sentence);
+  page.summary(summary);
+  if (answer.verdict != Verdict::not_enough_data || !answer.details.weights.empty()) {
+    const Identification& id = answer.details;
+    const Eigen::VectorXd before = standardised(id, id.base.prediction);
+    std::optional<Eigen::VectorXd> after;
+    if (answer.verdict == Verdict::effect_found) after = standardised(id, id.rivals[*id.best].fit.prediction);
+    page.section("Error before and after");
+    page.table(error_table(answer));
+    const std::vector<Covariate> variables = covariates(id.observations);
+    if (after && !variables.empty()) {
+      page.section("The effect over the residual");
+      page.figure(signature_sheet(id, before, variables.front()),
+                  "Points: what the base model, refitted, leaves; and what the effect changes in the prediction.");
+    }
+    page.section("Rivals");
+    page.table(rivals_table(answer));
+    page.table(trace_table(answer));
+    page.section("Residuals against every variable");
+    for (const Covariate& x : variables)
+      page.figure(residual_sheet(id, x, before, after ? &*after : nullptr), "In standard deviations of the noise.");
+    page.table(dependence_table(answer));
+    page.section("Noise");
+    page.table(noise_table(answer));
+  }
+  if (!answer.not_testable.empty()) {
+    page.section("Not testable");
+    page.paragraph(
+        "These effects leave no trace in these data beyond what the soil's values absorb. That does not mean "
+        "that they are absent.");
+    page.list(answer.not_testable);
+  }
+  page.section("How to repeat this");
+  page.code(command);
+  return page.html();
+}
+
+}  // namespace soilbin::compare

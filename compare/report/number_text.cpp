@@ -1,0 +1,26 @@
+#include "compare/report/number_text.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace soilbin::compare {
+
+std::string number(double value) {
+  if (!std::isfinite(value)) return "-";
+  if (value == 0.0) return "0";
+  const double size = std::abs(value);
+  if (size < 1e-4 || size >= 1e7) return fmt::format("{:.3e}", value);
+  const int places = std::clamp(3 - static_cast<int>(std::floor(std::log10(size))), 0, 7);
+  return fmt::format("{:.{}f}", value, places);
+}
+
+std::string number(const Estimate& estimate, double per_unit) {
+  const double value = estimate.value * per_unit, error = estimate.std_error * per_unit;
+  if (!(error > 1e-9 * std::abs(value)) || !std::isfinite(error)) return number(value);
+  const int places = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9);
+  return fmt::format("{:.{}f} ± {:.{}f}", value, places, error, places);
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,146 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "cli/command.hpp"
+
+namespace soilbin::cli::test {
+namespace {
+
+using testing::HasSubstr;
+
+const char* const campaign = R"(format: soilbin-campaign/1
+name: small
+wheel: {radius: 0.11 m, width: 0.1 m}
+soil:
+  exponent: 1.1
+  k_c: 0.99 kN/m^(n+1)
+  k_phi: 1528 kN/m^(n+2)
+  cohesion: 1.04 kPa
+  friction_angle: 28 deg
+  shear_modulus: {value: 20 mm, sd: 6 mm}
+  stress_angle_c1: 0.18
+  stress_angle_c2: 0.32
+  density: 1600 kg/m^3
+)";
+
+TEST(Predict, EveryRowOfTheCmuCampaignIsAnswered) {
+  const Outcome r = soilbin("predict cmu-smooth --json");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const nlohmann::json answer = r.json();
+  EXPECT_EQ(answer["format"], "soilbin-predict/1");
+  ASSERT_EQ(answer["rows"].size(), 90U);
+  std::size_t solved = 0;
+  for (const auto& row : answer["rows"]) {
+    EXPECT_TRUE(row["run"].is_number_integer());
+    if (row.contains("error")) continue;
+    ++solved;
+    for (const char* key : {"drawbar_pull", "torque", "sinkage", "lateral_force", "theta_1"})
+      EXPECT_TRUE(row.at(key).is_number()) << key;
+    for (const auto& [key, rest] : row["residual"].items())
+      EXPECT_NEAR(row[key].get<double>() - row["measured"][key].get<double>(), rest.get<double>(), 1e-12);
+  }
+  EXPECT_GT(solved, 80U);
+}
+
+TEST(Predict, TheErrorTableIsThatOfTheRows) {
+  const nlohmann::json answer = soilbin("predict cmu-smooth --json").json();
+  double squares = 0.0, sum = 0.0;
+  int count = 0;
+  for (const auto& row : answer["rows"])
+    if (row.contains("residual")) {
+      const double rest = row["residual"]["sinkage"];
+      squares += rest * rest, sum += rest, ++count;
+    }
+  EXPECT_EQ(answer["error"]["sinkage"]["runs"], count);
+  EXPECT_NEAR(answer["error"]["sinkage"]["rmse"].get<double>(), std::sqrt(squares / count), 1e-12);
+  EXPECT_NEAR(answer["error"]["sinkage"]["bias"].get<double>(), sum / count, 1e-12);
+}
+
+TEST(Predict, AHopelessRowCarriesItsErrorAndRowsAreNumberedWhereNoRunIs) {
+  const Scratch scratch;
+  scratch.write("c/campaign.yaml", campaign);
+  scratch.write("c/runs.csv", "load_N,slip,drawbar_pull_N\n80,0.2,1.0\n900000,0.2,5.0\n80,0.4,3.0\n");
+  const Outcome r = soilbin("predict '" + (scratch / "c").string() + "' --json");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const nlohmann::json rows = r.json()["rows"];
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[1]["run"], 2);
+  EXPECT_THAT(rows[1]["error"].get<std::string>(), HasSubstr("sink deeper"));
+  EXPECT_TRUE(rows[0].contains("drawbar_pull"));
+  EXPECT_TRUE(rows[2].contains("drawbar_pull"));
+}
+
+TEST(Predict, AResolvedModelReplacesTheDeclaredSoilAndEffects) {
+  const Scratch scratch;
+  scratch.write("c/campaign.yaml", campaign);
+  scratch.write("c/runs.csv", "load_N,slip,drawbar_pull_N\n80,0.2,1.0\n80,0.4,3.0\n");
+  const fs::path model = scratch.write("model.yaml", R"(format: soilbin-case/1
+name: fitted
+tire: {radius: 110 mm, width: 100 mm}
+soil: dry-sand
+study:
+  models: [{model: bekker_wong, effects: [slip_sinkage]}]
+  conditions: {load: 80 N, slip: 20 %}
+)");
+  const std::string predict = "predict '" + (scratch / "c").string() + "' --json";
+  const nlohmann::json declared = soilbin(predict).json()["rows"];
+  const nlohmann::json fitted = soilbin(predict + " --model '" + model.string() + "'").json()["rows"];
+  EXPECT_GT(fitted[1]["sinkage"].get<double>(), 1.2 * declared[1]["sinkage"].get<double>());
+}
+
+TEST(Predict, TextShowsMeasuredPredictedAndTheErrorTable) {
+  const Scratch scratch;
+  const std::string plot = (scratch / "p.svg").string();
+  const Outcome r = soilbin("predict cmu-smooth --plot '" + plot + "'");
+  EXPECT_EQ(r.status, 0) << r.err;
+  for (const char* word : {"predicted", "residual", "rms error", "lateral force", "yaw"})
+    EXPECT_THAT(r.out, HasSubstr(word));
+  EXPECT_THAT(text_of(plot), HasSubstr("<circle"));
+}
+
+TEST(Predict, RefusesABadCampaignWithFileAndLine) {
+  const Scratch scratch;
+  scratch.write("c/campaign.yaml", campaign);
+  scratch.write("c/runs.csv", "load_N,slip,drawbar_pull_N\n80,zero,1.0\n");
+  const Outcome r = soilbin("predict '" + (scratch / "c").string() + "' --json");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("runs.csv:2:"));
+  EXPECT_EQ(r.out, "");
+  EXPECT_THAT(soilbin("predict cmu-smoth").err, HasSubstr("did you mean 'cmu-smooth'?"));
+}
+
+TEST(Check, ValidFilesPassAndNonsenseIsWarnedOf) {
+  for (const char* name : {"paper-straight", "cmu-smooth", "dry-sand", "rover-wheel"}) {
+    const Outcome r = soilbin(std::string("check ") + name);
+    EXPECT_EQ(r.status, 0) << r.err;
+    EXPECT_THAT(r.out, HasSubstr("valid: "));
+  }
+  const Scratch scratch;
+  const fs::path file = scratch.write("case.yaml", R"(format: soilbin-case/1
+name: nonsense
+tire: {radius: 50 mm, width: 200 mm}
+soil:
+  semi_empirical: {exponent: 0.15, k_c: 1 kN/m^(n+1), k_phi: 3000 kN/m^(n+2), cohesion: 0 kPa, friction_angle: 0 deg,
+    shear_modulus: 200 mm, stress_angle_c1: 0.8, stress_angle_c2: 0.5, density: 9000 kg/m^3}
+study:
+  conditions: {load: [100 N, 1000 kN], slip: 20 %}
+)");
+  const Outcome r = soilbin("check '" + file.string() + "' --json");
+  EXPECT_EQ(r.status, 0) << r.err;
+  const std::string warnings = r.json()["warnings"].dump();
+  for (const char* word : {"n = 0.15", "c and phi are both 0", "density", "c1 + c2", "K", "no solution", "wider"})
+    EXPECT_THAT(warnings, HasSubstr(word));
+}
+
+TEST(Check, ARefusedFileIsStatusTwo) {
+  const Scratch scratch;
+  const fs::path file = scratch.write("case.yaml", "format: soilbin-case/1\nname: x\ntyre: rover-wheel\n");
+  const Outcome r = soilbin("check '" + file.string() + "'");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("case.yaml:3:1"));
+  EXPECT_THAT(r.err, HasSubstr("did you mean 'tire'?"));
+}
+
+}  // namespace
+}  // namespace soilbin::cli::test

@@ -1,0 +1,82 @@
+// The commands that help a person find the way: help, init, list, schema, doctor.
+#include <gmock/gmock.h>
+
+#include "cli/command.hpp"
+
+namespace soilbin::cli::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Help, OfTheProgramAndOfEveryCommand) {
+  const Outcome all = soilbin("--help");
+  EXPECT_EQ(all.status, 0);
+  EXPECT_EQ(soilbin("").status, 2);
+  EXPECT_EQ(soilbin("--version").status, 0);
+  for (const char* command :
+       {"estimate", "explain", "run", "predict", "report", "check", "init", "list", "schema", "doctor"}) {
+    EXPECT_THAT(all.out, HasSubstr(command));
+    const Outcome one = soilbin(std::string(command) + " --help");
+    EXPECT_EQ(one.status, 0) << command;
+    EXPECT_THAT(one.out, HasSubstr("Usage")) << command;
+  }
+}
+
+TEST(Init, WritesACaseThatRunsAndNeverOverwrites) {
+  const Scratch scratch;
+  const std::string folder = (scratch / "new").string();
+  EXPECT_EQ(soilbin("init '" + folder + "'").status, 0);
+  const std::string before = text_of(fs::path(folder) / "case.yaml");
+  EXPECT_EQ(soilbin("check '" + folder + "/case.yaml'").status, 0);
+  const Outcome run = soilbin("run '" + folder + "/case.yaml' --json");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.json()["rows"].size(), 2U * 2U * 7U);
+  const Outcome again = soilbin("init '" + folder + "'");
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.err, HasSubstr("stays as it is"));
+  EXPECT_EQ(text_of(fs::path(folder) / "case.yaml"), before);
+}
+
+TEST(List, EveryShelfAndTheCatalogue) {
+  for (const char* what : {"soils", "tires", "studies", "measured", "effects"}) {
+    const Outcome r = soilbin(std::string("list ") + what);
+    EXPECT_EQ(r.status, 0) << r.err;
+    EXPECT_THAT(r.out, testing::Not(HasSubstr("unreadable"))) << what;
+    const nlohmann::json json = soilbin(std::string("list --json ") + what).json();
+    EXPECT_GT(json[what].size(), 2U) << what;
+  }
+  EXPECT_THAT(soilbin("list effects").out, HasSubstr("lyasko"));
+  EXPECT_THAT(soilbin("list soil").err, HasSubstr("did you mean 'soils'?"));
+}
+
+TEST(Schema, IsJsonForEachFormat) {
+  for (const char* what : {"case", "tire", "soil", "campaign"}) {
+    const Outcome r = soilbin(std::string("schema ") + what);
+    ASSERT_EQ(r.status, 0) << r.err;
+    const nlohmann::json schema = r.json();
+    EXPECT_TRUE(schema.contains("properties")) << what;
+    EXPECT_EQ(schema["properties"]["format"]["const"], std::string("soilbin-") + what + "/1");
+  }
+  EXPECT_EQ(soilbin("schema tyre").status, 2);
+}
+
+TEST(Doctor, IsWellAndSaysWhereTheLibraryIs) {
+  const Outcome r = soilbin("doctor");
+  EXPECT_EQ(r.status, 0) << r.out;
+  for (const char* word : {"compiler", "GSL", "yaml-cpp", "Library of cases", "pass"})
+    EXPECT_THAT(r.out, HasSubstr(word));
+  EXPECT_EQ(soilbin("doctor --json").json()["self_test"].size(), 3U);
+}
+
+TEST(Library, TheEnvironmentGoesFirst) {
+  const Scratch scratch;
+  scratch.write("mine/soils/secret-sand.yaml", text_of(fs::path(SOILBIN_SOURCE_DIR) / "cases/soils/dry-sand.yaml"));
+  ::setenv("SOILBIN_CASES", (scratch / "mine").c_str(), 1);
+  const Outcome r = soilbin("list soils");
+  ::unsetenv("SOILBIN_CASES");
+  EXPECT_THAT(r.out, HasSubstr("secret-sand"));
+  EXPECT_THAT(r.out, HasSubstr("dry-sand"));
+}
+
+}  // namespace
+}  // namespace soilbin::cli::test

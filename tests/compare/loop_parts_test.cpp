@@ -1,0 +1,154 @@
+// The loop's parts, each against what it must be: derivatives, fits, noise, signatures, p-values.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "compare/loop/detection.hpp"
+#include "compare/loop/identify.hpp"
+#include "compare/loop_fixture.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Term term_of(const Observations& observations, const std::string& id, const std::string& form) {
+  return make_term(bekker_wong::find_form({id, form, {}}), observations, true);
+}
+
+// dF/dp by the implicit function theorem equals the slope of predictions that are balanced anew.
+TEST(WheelPredictor, JacobianIsTheSlopeOfBalancedPredictions) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 3);
+  const Observations observations = observe(campaign);
+  const WheelPredictor predictor(campaign, observations, {term_of(observations, "slip_sinkage", "lyasko")});
+  VectorXd theta = predictor.start();
+  theta[predictor.amplitude_index(0)] = 0.4;
+  VectorXd here, up, down;
+  MatrixXd jacobian;
+  ASSERT_TRUE(predictor.linearise(theta, here, jacobian));
+  for (Eigen::Index p = 0; p < theta.size(); ++p) {
+    const double step = 1e-3 * predictor.parameters()[static_cast<std::size_t>(p)].scale;
+    VectorXd moved = theta;
+    moved[p] += step;
+    ASSERT_TRUE(predictor.predict(moved, up));
+    moved[p] -= 2 * step;
+    ASSERT_TRUE(predictor.predict(moved, down));
+    const VectorXd slope = (up - down) / (2 * step);
+    EXPECT_LT((jacobian.col(p) - slope).norm(), 2e-4 * slope.norm() + 1e-9)
+        << predictor.parameters()[static_cast<std::size_t>(p)].name;
+  }
+}
+
+// Without noise and with the declared soil true, the fit stays where it is: chi2 = 0.
+TEST(Fit, ReturnsTheDeclaredSoilWhereItIsTrue) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, {0, 0, 0, 0}, 1, 0.0);
+  const Observations observations = observe(campaign);
+  NoiseFloor noise;
+  for (ChannelNoise& c : noise.channels) c = {.measured = true, .floor = 1.0};
+  noise.channels[sinkage].floor = 1e-4;
+  const WheelPredictor predictor(campaign, observations);
+  const Whitening whitening(observations, noise, observations.values());
+  VectorXd start = predictor.start();
+  for (Eigen::Index i = 0; i < start.size(); ++i)
+    start[i] += 0.5 * predictor.parameters()[static_cast<std::size_t>(i)].prior_sd;
+  const auto found = fit(predictor, observations.values(), whitening, start);
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->chi2, 1e-2);
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    const FreeParameter& p = predictor.parameters()[static_cast<std::size_t>(i)];
+    EXPECT_NEAR(found->theta[i], p.prior, 0.1 * p.prior_sd) << p.name;
+  }
+}
+
+// Bounds hold: a truth without cohesion pulls c to 0, never below.
+TEST(Fit, StopsAtBounds) {
+  Campaign campaign = sand_campaign();
+  campaign.soil.cohesion = {0.0, 300};
+  measure(campaign, sweep(), {}, fine_noise, 5);
+  campaign.soil.cohesion = {200.0, 300};
+  const Identification id = identify(campaign, observe(campaign), {.simulations = 200});
+  const WheelPredictor predictor(campaign, id.observations);
+  EXPECT_GE(id.base.theta[3], 0.0);
+}
+
+// The floor that is found is the floor that was put in, to the precision that 40 freedoms give (11 %; 3 sd allowed).
+TEST(NoiseFloor, IsTheNoisePutIn) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 7);
+  const Identification id = identify(campaign, observe(campaign), {.simulations = 200});
+  EXPECT_EQ(id.noise.rerun_freedom, 21);
+  for (int c = 0; c < 3; ++c) {
+    const ChannelNoise& n = id.noise.channels[static_cast<std::size_t>(c)];
+    const double typical = n.sd(id.base.prediction.head(3)[c]);
+    EXPECT_NEAR(std::log(typical / fine_noise[static_cast<std::size_t>(c)]), 0.0, 0.35)
+        << channel_names[static_cast<std::size_t>(c)];
+  }
+}
+
+// A signature's direction has nothing left that the soil could do, and unit length.
+TEST(Trace, DirectionsAreOffTheSoilsColumns) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 9);
+  const Identification id = identify(campaign, observe(campaign), {.simulations = 200});
+  const WheelPredictor base(campaign, id.observations);
+  int seen = 0;
+  for (const Signature& s : id.signatures) {
+    if (s.projected_norm == 0.0) continue;
+    ++seen;
+    EXPECT_NEAR(s.direction.norm(), 1.0, 1e-9);
+    EXPECT_LT((id.base.columns.transpose() * s.direction).cwiseAbs().maxCoeff(), 1e-6 * id.base.columns.norm());
+    EXPECT_LE(s.share_kept, 1.0 + 1e-9);
+  }
+  EXPECT_GT(seen, 40);
+}
+
+// Under no effect the family-wise p is uniform: of 200 simulated residuals about 5 % fall below 0.05.
+TEST(FamilyWiseP, IsUniformWithoutEffects) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 9);
+  const Identification id = identify(campaign, observe(campaign), {.simulations = 200});
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  int small = 0;
+  constexpr int trials = 200;
+  for (int k = 0; k < trials; ++k) {
+    VectorXd e(id.signatures.front().direction.size());
+    for (Eigen::Index i = 0; i < e.size(); ++i) e[i] = normal(random);
+    double most = 0.0;
+    for (const Signature& s : id.signatures) {
+      if (s.projected_norm == 0.0) continue;
+      const double t = s.direction.dot(e);
+      most = std::max(most, s.one_sided ? t : std::abs(t));
+    }
+    if (family_wise_p(id.signatures, most, 1e6, 300, 1000 + static_cast<std::uint64_t>(k)) < 0.05) ++small;
+  }
+  EXPECT_GE(small, 2);   // P(X <= 1) = 4e-4 for binomial(200, .05)
+  EXPECT_LE(small, 20);  // P(X >= 21) = 1e-3
+}
+
+// A residual made of the run number is seen against the run number and nothing else.
+TEST(Dependences, FindTheVariable) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 13);
+  const Observations observations = observe(campaign);
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  VectorXd r(static_cast<Eigen::Index>(observations.cells.size()));
+  for (std::size_t i = 0; i < observations.cells.size(); ++i) {
+    const OperatingCondition& at = observations.rows[static_cast<std::size_t>(observations.cells[i].row)];
+    r[static_cast<Eigen::Index>(i)] = normal(random) + (observations.cells[i].channel == torque ? 0.08 * *at.run : 0.0);
+  }
+  for (const Dependence& d : dependences(observations, r, 499, 1)) {
+    if (d.channel == torque && d.variable == "run")
+      EXPECT_LE(d.p_value, 0.01);
+    else
+      EXPECT_GT(d.p_value, 0.002) << d.variable;
+  }
+}
+
+}  // namespace
+}  // namespace soilbin::compare

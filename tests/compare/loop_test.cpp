@@ -1,0 +1,164 @@
+// The loop as a whole, on campaigns whose missing effect the test put in.
+#include "compare/loop/loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bekker_wong/effect_vocabulary.hpp"
+#include "compare/loop/answer_words.hpp"
+#include "compare/loop_fixture.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+LoopOptions quick() {
+  LoopOptions options;
+  options.identify.simulations = 1000;
+  options.folds = 3;
+  return options;
+}
+
+bool in_ambiguity_set(const LoopAnswer& answer, const std::set<std::string>& ids) {
+  for (const Weighted& w : answer.ambiguity_set)
+    if (w.ids == ids) return true;
+  return false;
+}
+
+TEST(Loop, FindsNothingWhereNothingIsMissing) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 21);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  EXPECT_EQ(answer.verdict, Verdict::nothing_missing) << answer.reason;
+  EXPECT_TRUE(answer.effects.empty());
+  EXPECT_NEAR(answer.validation.overall.before, 1.0, 0.25);
+}
+
+// Slip sinkage: found, its amplitude within its interval, and the held-out error falls to the noise.
+TEST(Loop, NamesSlipSinkageAndItsSize) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {{"slip_sinkage", "lyasko", {{"a", 0.8}}}}, fine_noise, 22);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
+  EXPECT_TRUE(in_ambiguity_set(answer, {"slip_sinkage"}));
+  EXPECT_EQ(answer.ambiguity_set.front().ids, (std::set<std::string>{"slip_sinkage"}));
+  EXPECT_GT(answer.validation.overall.before, 1.3 * answer.validation.overall.after);
+  EXPECT_LT(answer.validation.overall.after, 1.3);
+  for (const AcceptedEffect& effect : answer.effects)
+    if (effect.choice.id == "slip_sinkage" && effect.choice.form == "lyasko") {
+      EXPECT_LE(effect.ci95.front().first, 0.8);
+      EXPECT_GE(effect.ci95.front().second, 0.8);
+    }
+}
+
+// A constant torque of the bearings and a torque sensor's offset are one and the same in these data: both are named.
+TEST(Loop, SaysWhatCannotBeToldApart) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {{"rig_friction", "coulomb", {{"a", 12.0}}}}, fine_noise, 23);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
+  EXPECT_TRUE(in_ambiguity_set(answer, {"rig_friction"}));
+  EXPECT_TRUE(in_ambiguity_set(answer, {"sensor_offset"}));
+}
+
+TEST(Loop, NamesTwoEffects) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {{"multipass", "stiffer", {{"a", 0.8}}}, {"sensor_offset", "drawbar_pull", {{"a", 40.0}}}},
+          fine_noise, 24);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
+  bool multipass = false;
+  for (const Weighted& w : answer.ambiguity_set)
+    multipass = multipass || (w.ids.count("multipass") && w.ids.size() == 2);
+  EXPECT_TRUE(multipass);
+}
+
+// A torque that swings five times over the slips belongs to no effect of the catalogue.
+TEST(Loop, SaysUnknownWhereTheCatalogueHasNoName) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 25);
+  for (Run& run : campaign.runs) *run.torque += 10.0 * std::sin(2 * 3.141592653589793 * 3.0 * run.at.slip / 0.65);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  EXPECT_EQ(answer.verdict, Verdict::unknown_effect) << answer.reason;
+  EXPECT_TRUE(answer.effects.empty());
+}
+
+// Effects whose covariate never varies leave no trace: not testable, never absent.
+TEST(Loop, ListsWhatTheDataCannotShow) {
+  Campaign campaign = sand_campaign();
+  std::vector<OperatingCondition> rows = sweep();
+  for (OperatingCondition& at : rows) at.pass = 1, at.position.reset();
+  measure(campaign, rows, {}, fine_noise, 26);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  for (const char* id : {"multipass", "moisture", "slope_weakening", "soil_gradient"})
+    EXPECT_NE(std::find(answer.not_testable.begin(), answer.not_testable.end(), id), answer.not_testable.end()) << id;
+  EXPECT_EQ(std::find(answer.not_testable.begin(), answer.not_testable.end(), "sensor_offset"),
+            answer.not_testable.end());
+}
+
+TEST(Loop, IsNotMovedByOneOutlier) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 27);
+  *campaign.runs[5].drawbar_pull += 200.0;
+  const LoopAnswer answer = run_loop(campaign, quick());
+  EXPECT_EQ(answer.outliers, 1);
+  EXPECT_EQ(answer.verdict, Verdict::nothing_missing) << answer.reason;
+}
+
+TEST(Loop, SaysWhenThereIsTooLittle) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, {sweep()[0], sweep()[4], sweep()[8], sweep()[12]}, {}, fine_noise, 28);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  EXPECT_EQ(answer.verdict, Verdict::not_enough_data);
+}
+
+// Same bits whatever the number of threads.
+TEST(Loop, DoesNotDependOnThreads) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {{"bulldozing", "", {}}}, fine_noise, 29);
+  LoopOptions one = quick(), four = quick();
+  one.threads = 1;
+  four.threads = 4;
+  EXPECT_EQ(to_json(run_loop(campaign, one)).dump(), to_json(run_loop(campaign, four)).dump());
+}
+
+// The model that the loop writes predicts what the loop's fit predicted.
+TEST(Loop, ResolvedModelReproducesTheFit) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {{"slip_sinkage", "lyasko", {{"a", 0.8}}}}, fine_noise, 30);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
+  const bekker_wong::CatalogueVocabulary words;
+  const Case model = parse_case({"model.yaml", write_case(resolved_model(campaign, answer), words)}, Library{}, words);
+  Scenario scenario = model.scenario;
+  scenario.effects = model.study.models.front().effects;
+  const Identification& id = answer.details;
+  const Rival& best = id.rivals[*id.best];
+  for (std::size_t i = 0; i < id.observations.cells.size(); i += 7) {
+    const Cell& cell = id.observations.cells[i];
+    if (cell.channel != drawbar_pull) continue;
+    const TractionResult r = bekker_wong::BekkerWong({false, false})
+                                 .evaluate(scenario, id.observations.rows[static_cast<std::size_t>(cell.row)]);
+    EXPECT_NEAR(r.drawbar_pull.value, best.fit.prediction[static_cast<Eigen::Index>(i)],
+                1e-6 * campaign.runs[0].at.load);
+  }
+}
+
+TEST(Loop, AnswersInTheContractsForm) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {{"rig_friction", "coulomb", {{"a", 12.0}}}}, fine_noise, 31);
+  const auto j = to_json(run_loop(campaign, quick()));
+  EXPECT_EQ(j.at("format"), "soilbin-loop/1");
+  EXPECT_EQ(j.at("verdict"), "effect_found");
+  for (const char* key : {"id", "form", "parameters", "ci95", "p_value"})
+    EXPECT_TRUE(j.at("effects").at(0).contains(key));
+  for (const char* key : {"unit", "before", "after", "noise_floor", "kind"})
+    EXPECT_TRUE(j.at("error").at("torque").contains(key)) << key;
+  EXPECT_EQ(j.at("error").at("overall").at("unit"), "sigma");
+  EXPECT_EQ(j.at("error").at("overall").at("kind"), "held_out");
+  EXPECT_TRUE(j.at("error").at("lateral_force").empty());
+  EXPECT_TRUE(j.contains("next_test"));
+}
+
+}  // namespace
+}  // namespace soilbin::compare

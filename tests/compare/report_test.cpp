@@ -1,0 +1,133 @@
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "compare/report/number_text.hpp"
+#include "compare/report/page.hpp"
+#include "compare/report/plot.hpp"
+#include "compare/report/result_json.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Series line(const std::string& label, std::vector<double> y) {
+  Series series;
+  series.label = label;
+  for (std::size_t i = 0; i < y.size(); ++i) series.x.push_back(static_cast<double>(i));
+  series.y = std::move(y);
+  return series;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(Ticks, AreRoundAndInside) {
+  EXPECT_THAT(ticks(0, 60, 6), ElementsAre(0, 10, 20, 30, 40, 50, 60));
+  EXPECT_THAT(ticks(-1, 1, 4), ElementsAre(-1, -0.5, 0, 0.5, 1));
+  EXPECT_EQ(ticks(2, 2, 5).size(), 1U);
+}
+
+TEST(Numbers, ValueStopsAtTheErrorsPlace) {
+  EXPECT_EQ(number({4.17863, 0.3149}), "4.18 ± 0.31");
+  EXPECT_EQ(number({1234.5, 67.0}), "1234 ± 67");
+  EXPECT_EQ(number({0.0123, 0.0004}, 1000), "12.30 ± 0.40");
+  EXPECT_EQ(number({4.17863, 0.0}), "4.179");
+  EXPECT_EQ(number(-0.0), "0");
+  EXPECT_EQ(number(nan), "-");
+}
+
+TEST(Svg, EscapesTextAndBreaksLinesAtGaps) {
+  const Sheet sheet{"a < b & c",
+                    {Plot{"pull [N]", {"slip [%]", {}, {}}, {}, {line("one & two", {1, 2, nan, 4, 5})}, false}},
+                    Palette::named};
+  const std::string text = svg(sheet);
+  EXPECT_THAT(text, HasSubstr("a &lt; b &amp; c"));
+  EXPECT_THAT(text, HasSubstr("one &amp; two"));
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
+  const std::size_t path = text.find("stroke-linejoin");
+  const std::string d = text.substr(path, text.find("/>", path) - path);
+  EXPECT_EQ(count(d, "M"), 2U);
+}
+
+TEST(Svg, SurvivesEmptyAndConstantSeries) {
+  const Sheet sheet{"",
+                    {Plot{}, Plot{"flat", {}, {}, {line("", {3, 3, 3})}, false},
+                     Plot{"nothing", {}, {}, {line("x", {nan, nan})}, true}},
+                    Palette::ordered};
+  EXPECT_THAT(svg(sheet), Not(HasSubstr("nan")));
+  EXPECT_THAT(svg(sheet), Not(HasSubstr("inf")));
+}
+
+TEST(Svg, ALegendEntryForALabel) {
+  Series points = line("yaw 5", {1, 2});
+  points.mark = Mark::points;
+  const Sheet sheet{
+      "",
+      {Plot{"a", {}, {}, {line("yaw 5", {1, 2}), points}, false}, Plot{"b", {}, {}, {line("yaw 5", {1, 2})}, false}},
+      Palette::named};
+  const std::vector<LegendEntry> entries = legend(sheet);
+  ASSERT_EQ(entries.size(), 1U);
+  EXPECT_THAT(entries[0].swatch, HasSubstr("<circle"));
+  EXPECT_THAT(entries[0].swatch, HasSubstr("<line"));
+}
+
+TEST(Page, EscapesAndClosesWhatItOpens) {
+  Page page("Title <1>", "below");
+  page.summary({{"Name", "text & more"}, {"", "plain"}});
+  page.section("First");
+  page.section("Second");
+  page.figures_at_a_glance({{"4 N", "pull"}});
+  page.list({"<b>"});
+  page.table({"caption", {"a", "b"}, {{"x<y", "1"}}, {}});
+  page.folded("more", [&] { page.code("soilbin run <study>"); });
+  page.figure(Sheet{"", {Plot{"a", {}, {}, {line("s", {1, 2})}, false}}, Palette::ordered}, "caption");
+  const std::string html = page.html();
+  for (const char* tag : {"div", "table", "details", "figure", "ul", "svg", "main", "p", "h2"})
+    EXPECT_EQ(count(html, std::string("<") + tag + ">") + count(html, std::string("<") + tag + " "),
+              count(html, std::string("</") + tag + ">"))
+        << tag;
+  EXPECT_THAT(html, HasSubstr("x&lt;y"));
+  EXPECT_THAT(html, HasSubstr("&lt;b&gt;"));
+  EXPECT_THAT(html, HasSubstr("href=\"#part-2\""));
+}
+
+TEST(ResultJson, NotANumberIsNullAndErrorsStand) {
+  TractionResult result;
+  result.tractive_efficiency = nan;
+  const auto solved = to_json(Answer{{}, result, ""});
+  EXPECT_TRUE(solved["tractive_efficiency"].is_null());
+  EXPECT_FALSE(solved.contains("error"));
+  EXPECT_EQ(to_json(Answer{{}, std::nullopt, "why"})["error"], "why");
+}
+
+TEST(ResultJson, CsvRowsHaveAsManyCellsAsTheHeader) {
+  std::vector<ModelAnswers> study(1);
+  study[0].choice.label = "a, b";
+  study[0].answers = {Answer{{}, TractionResult{}, ""}, Answer{{}, std::nullopt, "no, \"none\""}};
+  const std::string csv = study_csv(study);
+  const auto commas = [](std::string row) {
+    bool quoted = false;
+    std::size_t found = 0;
+    for (const char c : row) {
+      if (c == '"') quoted = !quoted;
+      if (c == ',' && !quoted) ++found;
+    }
+    return found;
+  };
+  std::vector<std::size_t> cells;
+  for (std::size_t at = 0; at < csv.size(); at = csv.find('\n', at) + 1)
+    cells.push_back(commas(csv.substr(at, csv.find('\n', at) - at)));
+  EXPECT_THAT(cells, ElementsAre(20U, 20U, 20U));
+}
+
+}  // namespace
+}  // namespace soilbin::compare
