@@ -20,7 +20,7 @@ namespace {
 struct Asked {
   std::string campaign, report, model;
   std::vector<std::string> limits;
-  bool json = false, next = false;
+  bool json = false, details = false, next = false;
   int folds = 5;
   unsigned seed = 1;
 };
@@ -98,10 +98,13 @@ int loop(const Asked& asked, const Session& session) {
                                                                        asked.campaign, asked.report, asked.seed)));
   if (!asked.model.empty())
     write_file_atomically(asked.model, write_case(compare::resolved_model(campaign, answer), session.place.effects));
-  if (asked.json)
-    fmt::print("{}", compare::json_text(compare::to_json(answer)));
-  else
+  if (asked.json) {
+    nlohmann::ordered_json document = compare::to_json(answer);
+    if (asked.details) document["details"] = compare::details_json(answer);
+    fmt::print("{}", compare::json_text(document));
+  } else {
     print_answer(answer, asked.next);
+  }
   return done;
 }
 
@@ -123,6 +126,7 @@ void add_loop(CLI::App& app, Session& session) {
       ->check(CLI::Range(2, 50));
   command->add_option("--seed", asked->seed, "of the simulations and the folds")->type_name("N");
   command->add_flag("--json", asked->json, "soilbin-loop/1");
+  command->add_flag("--details", asked->details, "with --json: what stands behind the answer");
   command->footer("Example: soilbin loop cmu-smooth --report loop.html --save-model fitted.yaml");
   command->callback([=, &session] { session.action = [=, &session] { return loop(*asked, session); }; });
 }

@@ -49,16 +49,17 @@ struct PressureCap {
 
 /// Carcass and soil in series: d = S + (r a^2/2) sigma(S)/p_g; a is the half angle of the flat at sigma = p_g.
 struct CarcassSpring {
-  double n, give;  // give [m^(1-n)]: deflection = give S^n
+  double n, give, log_give;  // give [m^(1-n)]: deflection = give S^n
   CarcassSpring(double a, const Outline& outline, const Surroundings& around)
       : n(around.declared.exponent),
         give(0.5 * a * a * outline.radius * around.declared.pressure_modulus(outline.width) /
-             ground_pressure(around.tire)) {}
+             ground_pressure(around.tire)),
+        log_give(std::log(give)) {}
   /// u = S/d solves u + B u^n = 1. In t = ln u that is ln(e^t + B e^(n t)) = 0, a convex function of slope 1 .. n:
   /// Newton falls monotonically to the root from where the larger term is 1, in three or four steps.
   Depth operator()(double d) const {
     if (!(d > 0.0)) return {0.0, n > 1.0 ? 1.0 : n < 1.0 ? 0.0 : 1 / (1 + give)};
-    const double log_b = std::log(give) + (n - 1) * std::log(d);
+    const double log_b = log_give + (n - 1) * std::log(d);
     double t = std::min(0.0, -log_b / n), step = 1.0;
     for (int i = 0; i < 20 && step > 1e-8; ++i) {  // the last step is exact to its square
       const double linear = std::exp(t), power = std::exp(log_b + n * t), sum = linear + power;

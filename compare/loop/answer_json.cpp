@@ -95,4 +95,31 @@ ordered_json to_json(const LoopAnswer& answer) {
           {"next_test", next_json(answer)},      {"outliers", answer.outliers}};
 }
 
+ordered_json details_json(const LoopAnswer& answer) {
+  const Identification& id = answer.details;
+  ordered_json sets = ordered_json::array();
+  for (const Weighted& w : id.weights) {
+    const Rival& rival = id.rivals[w.best_rival];
+    ordered_json forms = ordered_json::array();
+    for (const Term& term : rival.terms) forms.push_back(term.form->id + "/" + term.form->form);
+    sets.push_back({{"effects", w.ids},
+                    {"forms", forms},
+                    {"weight", number(w.weight)},
+                    {"log_evidence", number(rival.log_evidence)},
+                    {"chi2", number(rival.fit.chi2)},
+                    {"parameters", rival.fit.theta.size()}});
+  }
+  return {{"p_value", number(id.p_value)},
+          {"values", id.observations.cells.size()},
+          {"chi2_base", number(id.base.chi2)},
+          {"parameters_base", id.base.theta.size()},
+          {"log_evidence_base", number(id.base_log_evidence)},
+          {"unnamed_gain", number(id.unnamed_gain)},
+          {"residual_unnamed_gain", number(id.residual_unnamed_gain)},
+          {"lack_of_fit_p", {number(answer.before.p_value), number(answer.after.p_value)}},
+          {"choice_gain", {number(answer.choice_gain.mean), number(answer.choice_gain.std_error)}},
+          {"sets", sets},
+          {"folds", answer.validation.chosen}};
+}
+
 }  // namespace soilbin::compare

@@ -29,12 +29,13 @@ namespace {
 constexpr int choice_folds = 10;
 
 /// Thresholds of the verdict, set once on the tuning sets of bench/loop (docs/loop.md), never on those reported.
-constexpr double ambiguity_base = 4.0;        // ln evidence by which a set may stand behind the best one
-constexpr double ambiguity_growth = 0.03;     // and more for each ln evidence that the best one gains
-constexpr double superset_allowed = -1.0;     // the same for sets that hold the best one and more
-constexpr double second_test_level = 0.01;    // of lack of fit after the best named effects
-constexpr double unexplained_share = 0.4;     // of the base model's excess chi2: above it the best name is no name
-constexpr double unnamed_bayes_factor = 3.0;  // ln 20: P(reached by chance) <= 5 % (Kass and Raftery 1995)
+constexpr double ambiguity_base = 4.0;      // ln evidence by which a set may stand behind the best one
+constexpr double ambiguity_growth = 0.03;   // and more for each ln evidence that the best one gains
+constexpr double superset_allowed = -1.0;   // the same for sets that hold the best one and more
+constexpr double second_test_level = 0.01;  // of lack of fit after the best named effects
+constexpr double unexplained_share = 0.4;   // of the base model's excess chi2: above it the best name is no name
+constexpr double unnamed_alone = 3.0;       // ln 20 over the base model: P(by chance) <= 5 % (Kass and Raftery 1995)
+constexpr double unnamed_after = 1.0;       // ln evidence beyond the best named effects
 
 std::vector<std::string> not_testable(const Campaign& campaign, const Identification& id) {
   std::map<std::string, bool> testable;
@@ -120,7 +121,7 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
   const bool improves = answer.choice_gain.mean > answer.choice_gain.std_error;
   if (!id.best) {
     const double unnamed = id.unnamed_gain;
-    if (unnamed > unnamed_bayes_factor) {
+    if (unnamed > unnamed_alone) {
       answer.verdict = Verdict::unknown_effect;
       answer.reason = fmt::format(
           "no effect of the catalogue passes its test (p = {:.3g}), but a smooth function of the conditions explains "
@@ -137,11 +138,16 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
   answer.after =
       lack_of_fit(id.rivals[*id.best].fit, id.noise, static_cast<Eigen::Index>(id.observations.cells.size()));
   const bool lacking = answer.after.p_value < second_test_level && left > unexplained_share;
-  if (lacking || id.residual_unnamed_gain > unnamed_bayes_factor) {
+  if (lacking || id.residual_unnamed_gain > unnamed_after) {
     answer.verdict = Verdict::unknown_effect;
     answer.reason =
-        fmt::format("the residual is real (p = {:.2g}), but the best set of named effects leaves {:.0f} % of it",
-                    id.p_value, 100 * left);
+        lacking
+            ? fmt::format("the residual is real (p = {:.2g}), but the best set of named effects leaves {:.0f} % of it",
+                          id.p_value, 100 * left)
+            : fmt::format(
+                  "the residual is real (p = {:.2g}), and after the best set of named effects a function of "
+                  "the conditions that none of them makes explains e^{:.0f} times more than chance would",
+                  id.p_value, id.residual_unnamed_gain);
     return;
   }
   if (!improves) {
@@ -211,6 +217,7 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   IdentifyOptions inner = options.identify;
   inner.simulations = std::max(500, inner.simulations / 4);
   inner.drop_outliers = false;  // set aside once, by the whole
+  inner.refits = std::max(4, inner.refits / 2);
   if (id.best) confirm(campaign, answer, options.identify.seed);
   if (options.validate) answer.validation = cross_validate(campaign, id, inner, options.folds, options.threads);
   decide(campaign, answer);

@@ -56,4 +56,7 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options);
 /// The answer in the contract's form, soilbin-loop/1.
 nlohmann::ordered_json to_json(const LoopAnswer& answer);
 
+/// What stands behind it: p-values, chi2, evidence, every set of effects that competed, the choice of each fold.
+nlohmann::ordered_json details_json(const LoopAnswer& answer);
+
 }  // namespace soilbin::compare

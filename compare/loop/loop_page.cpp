@@ -2,7 +2,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "compare/loop/answer_words.hpp"
 #include "compare/report/number_text.hpp"
@@ -55,13 +57,32 @@ Sheet residual_sheet(const Identification& id, const Covariate& x, const Eigen::
   return sheet;
 }
 
-/// What the accepted effects add beyond the refitted soil, over the base model's residual.
-Sheet signature_sheet(const Identification& id, const Eigen::VectorXd& before, const Covariate& x) {
+/// What the accepted effects change in the prediction, soil refitted, in sd of the noise.
+Eigen::VectorXd signature_of_best(const Identification& id) {
   Eigen::VectorXd change = id.rivals[*id.best].fit.prediction - id.base.prediction;
   for (Eigen::Index i = 0; i < change.size(); ++i) {
     const Cell& cell = id.observations.cells[static_cast<std::size_t>(i)];
     change[i] /= id.noise.channels[static_cast<std::size_t>(cell.channel)].sd(id.base.prediction[i]);
   }
+  return change;
+}
+
+/// The variable that a change depends on most: of the largest share of a channel's variance, by size of the change.
+const Covariate& telling_variable(const Identification& id, const Eigen::VectorXd& change,
+                                  const std::vector<Covariate>& variables) {
+  std::array<double, channel_count> size{};
+  for (std::size_t i = 0; i < id.observations.cells.size(); ++i)
+    size[static_cast<std::size_t>(id.observations.cells[i].channel)] +=
+        std::pow(change[static_cast<Eigen::Index>(i)], 2);
+  std::map<std::string, double> told;
+  for (const Dependence& d : dependences(id.observations, change, 0, 1))
+    told[d.variable] += d.share * size[static_cast<std::size_t>(d.channel)];
+  return *std::max_element(variables.begin(), variables.end(),
+                           [&](const Covariate& a, const Covariate& b) { return told[a.name] < told[b.name]; });
+}
+
+Sheet signature_sheet(const Identification& id, const Eigen::VectorXd& before, const Eigen::VectorXd& change,
+                      const Covariate& x) {
   Sheet sheet{"The effect's signature over the residual", {}, Palette::named};
   for (int channel = 0; channel < channel_count; ++channel) {
     if (!has_cells(id.observations, channel)) continue;
@@ -113,11 +134,11 @@ HtmlTable noise_table(const LoopAnswer& answer) {
 }
 
 HtmlTable trace_table(const LoopAnswer& answer) {
-  HtmlTable table{"The strongest signatures against the base model",
-                  {"effect", "form", "score [sd]", "amplitude [SI]", "share that the soil can't absorb [%]",
-                   "detectable from [SI]"},
-                  {},
-                  {true, true}};
+  HtmlTable table{
+      "The strongest signatures against the base model; kept: the share that the soil's values can't absorb",
+      {"effect", "form", "score [sd]", "amplitude [SI]", "kept [%]", "detectable from [SI]"},
+      {},
+      {true, true}};
   std::vector<const Signature*> order;
   for (const Signature& s : answer.details.signatures)
     if (s.projected_norm > 0) order.push_back(&s);
@@ -151,7 +172,8 @@ std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const 
     const std::vector<Covariate> variables = covariates(id.observations);
     if (after && !variables.empty()) {
       page.section("The effect over the residual");
-      page.figure(signature_sheet(id, before, variables.front()),
+      const Eigen::VectorXd change = signature_of_best(id);
+      page.figure(signature_sheet(id, before, change, telling_variable(id, change, variables)),
                   "Points: what the base model, refitted, leaves; and what the effect changes in the prediction.");
     }
     page.section("Rivals");

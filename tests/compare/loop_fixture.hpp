@@ -1,6 +1,8 @@
 // Campaigns made in the test: the base model with chosen effects at chosen conditions, plus normal noise.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <array>
 #include <cstdint>
 #include <random>
@@ -75,7 +77,7 @@ inline void measure(Campaign& campaign, const std::vector<OperatingCondition>& r
     Run run;
     run.at = rows[order[k]];
     run.at.run = static_cast<int>(k + 1);
-    run.setpoint = "S" + std::to_string(order[k] / 2);
+    run.setpoint = fmt::format("S{}", order[k] / 2);
     const bekker_wong::Reading r = wheel.roll(run.at).reading;
     run.drawbar_pull = r.drawbar_pull + noise[0] * normal(random);
     run.torque = r.torque + noise[1] * normal(random);

@@ -8,10 +8,14 @@ int main() {
   soilbin::Scenario scenario;
   scenario.tire.radius = 0.1;
   scenario.tire.width = 0.1;
-  scenario.soil.semi_empirical = soilbin::SemiEmpiricalSoil{
-      .exponent = {1, 0}, .k_c = {1.4e3, 0}, .k_phi = {8.2e5, 0}, .cohesion = {170, 0},
-      .friction_angle = {46 * 3.14159265358979323846 / 180, 0}, .shear_modulus = {0.018, 0},
-      .stress_angle_c1 = {0.4, 0}, .stress_angle_c2 = {0.2, 0}};
+  scenario.soil.semi_empirical = soilbin::SemiEmpiricalSoil{.exponent = {1, 0},
+                                                            .k_c = {1.4e3, 0},
+                                                            .k_phi = {8.2e5, 0},
+                                                            .cohesion = {170, 0},
+                                                            .friction_angle = {46 * 3.14159265358979323846 / 180, 0},
+                                                            .shear_modulus = {0.018, 0},
+                                                            .stress_angle_c1 = {0.4, 0},
+                                                            .stress_angle_c2 = {0.2, 0}};
   soilbin::OperatingCondition at;
   at.load = 40;
   at.slip = 0.6;
