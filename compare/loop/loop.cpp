@@ -27,6 +27,7 @@ std::string_view word(Verdict verdict) {
 namespace {
 
 constexpr int choice_folds = 10;
+constexpr double least_noise_freedom = 5.0;  // a channel; below it a residual can't be told from noise
 
 /// Thresholds of the verdict, set once on the tuning sets of bench/loop (docs/loop.md), never on those reported.
 constexpr double ambiguity_base = 4.0;      // ln evidence by which a set may stand behind the best one
@@ -210,6 +211,11 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   answer.before = lack_of_fit(id.base, id.noise, cells);
   answer.dependences_before = dependences(id.observations, id.base.residual.head(cells), 999, 7);
   answer.soil = fitted_soil(campaign, WheelPredictor(campaign, id.observations), id.base);
+  if (id.noise.typical_freedom() < least_noise_freedom) {
+    answer.reason = fmt::format("the noise of a channel rests on {:.1f} degrees of freedom only, too few to judge by",
+                                id.noise.typical_freedom());
+    return answer;
+  }
   if (std::none_of(id.signatures.begin(), id.signatures.end(), [](const Signature& s) { return s.testable; })) {
     answer.reason = "no effect of the catalogue would show in these data, whatever its size";
     return answer;
