@@ -18,7 +18,7 @@ struct SoilValues {
   double shear_modulus = 0.01;  ///< K [m]
   double c1 = 0.0;              ///< theta_m = (c1 + c2 |s|) theta_1
   double c2 = 0.0;
-  double density = 1500.0;      ///< [kg/m^3]
+  double density = 1500.0;  ///< [kg/m^3]
   /// k_c/b + k_phi for a contact of width b [m].
   double pressure_modulus(double width) const { return k_c / width + k_phi; }
 };
@@ -46,21 +46,21 @@ struct ContactPatch {
   ContactAngles angles;
   double deflection = 0.0;  ///< of a carcass that flattens: how far the lowest point stays above the circle's [m]
   // geometry
-  Array theta;          ///< angle from the vertical [rad]
-  Array normal_sine;    ///< direction of the surface's normal: sin and cos of its angle from the vertical
+  Array theta;        ///< angle from the vertical [rad]
+  Array normal_sine;  ///< direction of the surface's normal: sin and cos of its angle from the vertical
   Array normal_cosine;
-  Array arc;            ///< quadrature weight times arc length [m]
-  Array arm;            ///< arm of the shear stress about the axle [m]
-  Array depth;          ///< depth that the pressure law sees [m]; behind theta_m that of the mirror angle theta_e
-  Array since_entry;    ///< theta_1 - theta [rad]
-  Array sine_drop;      ///< sin(theta_1) - sin(theta)
+  Array arc;          ///< quadrature weight times arc length [m]
+  Array arm;          ///< arm of the shear stress about the axle [m]
+  Array depth;        ///< depth that the pressure law sees [m]; behind theta_m that of the mirror angle theta_e
+  Array since_entry;  ///< theta_1 - theta [rad]
+  Array sine_drop;    ///< sin(theta_1) - sin(theta)
   // stresses
-  Array sigma;          ///< normal stress [Pa]
-  Array j_x, j_y;       ///< shear displacement in the wheel's plane and across it [m]; locked: direction only
-  Array strength;       ///< shear strength of the soil [Pa]
-  Array modulus;        ///< K [m]
-  Array mobilised;      ///< share of the strength that the displacement calls up, 0 .. 1
-  Array tau_x, tau_y;   ///< shear stress [Pa]
+  Array sigma;         ///< normal stress [Pa]
+  Array j_x, j_y;      ///< shear displacement in the wheel's plane and across it [m]; locked: direction only
+  Array strength;      ///< shear strength of the soil [Pa]
+  Array modulus;       ///< K [m]
+  Array mobilised;     ///< share of the strength that the displacement calls up, 0 .. 1
+  Array tau_x, tau_y;  ///< shear stress [Pa]
 
   /// The arrays are left unset: the stages fill the first `count` of each.
   ContactPatch() {}  // NOLINT(modernize-use-equals-default): = default would zero 30 kB in value-initialisation

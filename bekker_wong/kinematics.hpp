@@ -6,10 +6,10 @@ namespace soilbin::bekker_wong {
 
 /// Motion of the wheel over the soil, as ratios to the rim speed r w, so that nothing depends on how fast it turns.
 struct Kinematics {
-  double slip = 0.0;     ///< s by the speed in the wheel's plane, -1 .. 1
-  double forward = 1.0;  ///< v cos(yaw)/(r w); for a locked wheel cos(yaw)
-  double lateral = 0.0;  ///< v sin(yaw)/(r w); for a locked wheel sin(yaw)
-  bool locked = false;   ///< w = 0 (s = -1): shear is saturated, forward and lateral give only its direction
+  double slip = 0.0;          ///< s by the speed in the wheel's plane, -1 .. 1
+  double forward = 1.0;       ///< v cos(yaw)/(r w); for a locked wheel cos(yaw)
+  double lateral = 0.0;       ///< v sin(yaw)/(r w); for a locked wheel sin(yaw)
+  bool locked = false;        ///< w = 0 (s = -1): shear is saturated, forward and lateral give only its direction
   double travel_ratio = 1.0;  ///< v/(r w); meaningless where locked
 };
 

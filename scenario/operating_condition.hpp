@@ -18,9 +18,9 @@ enum class ForceFrame {
 
 /// What the wheel is asked to do. Signs and symbols: docs/conventions.md.
 struct OperatingCondition {
-  double load = 0.0;   ///< W [N], vertical, weight of the wheel included, > 0
-  double slip = 0.0;   ///< s [-], -1 .. 1; > 0 drives
-  double speed = 0.1;  ///< v [m/s], forward speed of the axle along its travel, >= 0
+  double load = 0.0;                  ///< W [N], vertical, weight of the wheel included, > 0
+  double slip = 0.0;                  ///< s [-], -1 .. 1; > 0 drives
+  double speed = 0.1;                 ///< v [m/s], forward speed of the axle along its travel, >= 0
   double longitudinal_incline = 0.0;  ///< alpha [rad], uphill positive
   double transverse_incline = 0.0;    ///< beta_t [rad], left side up positive
   double yaw = 0.0;                   ///< psi [rad], wheel points to the left of its travel: positive

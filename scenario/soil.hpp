@@ -11,15 +11,15 @@ namespace soilbin {
 /// Values of the Bekker / Wong-Reece model, each with its standard deviation (0: taken as exact).
 /// Pressure under a plate of smaller width b at depth z: p = (k_c/b + k_phi) z^n.
 struct SemiEmpiricalSoil {
-  Estimate exponent;         ///< n [-], 0.1 .. 2
-  Estimate k_c;              ///< cohesive modulus [N/m^(n+1)]
-  Estimate k_phi;            ///< frictional modulus [N/m^(n+2)]
-  Estimate cohesion;         ///< c [Pa], >= 0
-  Estimate friction_angle;   ///< phi [rad], 0 .. pi/2 (exclusive)
-  Estimate shear_modulus;    ///< Janosi's shear deformation modulus K [m], > 0
-  Estimate stress_angle_c1;  ///< c1 [-]: theta_m = (c1 + c2 |s|) theta_1
-  Estimate stress_angle_c2;  ///< c2 [-]
-  double density = 1500.0;   ///< bulk density [kg/m^3]
+  Estimate exponent;                             ///< n [-], 0.1 .. 2
+  Estimate k_c;                                  ///< cohesive modulus [N/m^(n+1)]
+  Estimate k_phi;                                ///< frictional modulus [N/m^(n+2)]
+  Estimate cohesion;                             ///< c [Pa], >= 0
+  Estimate friction_angle;                       ///< phi [rad], 0 .. pi/2 (exclusive)
+  Estimate shear_modulus;                        ///< Janosi's shear deformation modulus K [m], > 0
+  Estimate stress_angle_c1;                      ///< c1 [-]: theta_m = (c1 + c2 |s|) theta_1
+  Estimate stress_angle_c2;                      ///< c2 [-]
+  double density = 1500.0;                       ///< bulk density [kg/m^3]
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "k_c"
 };
 
@@ -47,8 +47,8 @@ struct Soil {
   std::string name;
   std::optional<SemiEmpiricalSoil> semi_empirical;
   std::optional<GranularSoil> granular;
-  std::optional<double> moisture;  ///< water content by mass [-]
-  std::string source{};            ///< where the soil as a whole is described
+  std::optional<double> moisture;                ///< water content by mass [-]
+  std::string source{};                          ///< where the soil as a whole is described
   std::map<std::string, std::string> sources{};  ///< where single numbers beside the two sections come from
 };
 

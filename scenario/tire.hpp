@@ -14,8 +14,8 @@ enum class LugPattern {
 
 /// Lugs of a tire or grousers of a rover wheel.
 struct Lugs {
-  double height = 0.0;           ///< h [m], from the tread base outward; 0 means smooth
-  std::optional<int> count;      ///< number around the circumference; unknown in some measured campaigns
+  double height = 0.0;              ///< h [m], from the tread base outward; 0 means smooth
+  std::optional<int> count;         ///< number around the circumference; unknown in some measured campaigns
   std::optional<double> thickness;  ///< [m] along the circumference
   LugPattern pattern = LugPattern::straight;
 };
@@ -26,8 +26,8 @@ struct Tire {
   double radius = 0.0;  ///< r [m], > 0
   double width = 0.0;   ///< b [m], > 0
   Lugs lugs;
-  std::optional<double> inflation_pressure;  ///< [Pa]; absent: rigid
-  std::optional<double> carcass_pressure;    ///< [Pa] pressure that the carcass itself carries (Wong's p_c)
+  std::optional<double> inflation_pressure;      ///< [Pa]; absent: rigid
+  std::optional<double> carcass_pressure;        ///< [Pa] pressure that the carcass itself carries (Wong's p_c)
   std::string source{};                          ///< where the wheel as a whole is described
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "lugs.height"
 };

@@ -25,10 +25,10 @@ struct StressSample {
 /// The answer of a model or of a measurement at one operating condition.
 struct TractionResult {
   OperatingCondition at;
-  Estimate drawbar_pull;   ///< F_DP [N] along travel, less the slope's share of the load
-  Estimate torque;         ///< M [N m]; positive drives
-  Estimate sinkage;        ///< z [m]
-  Estimate lateral_force;  ///< F_y [N] to the left of travel
+  Estimate drawbar_pull;             ///< F_DP [N] along travel, less the slope's share of the load
+  Estimate torque;                   ///< M [N m]; positive drives
+  Estimate sinkage;                  ///< z [m]
+  Estimate lateral_force;            ///< F_y [N] to the left of travel
   double tractive_efficiency = 0.0;  ///< TE = F_DP v/(M w) [-]; NaN where M w is 0
   double entry_angle = 0.0;          ///< theta_1 [rad]
   double max_stress_angle = 0.0;     ///< theta_m [rad]

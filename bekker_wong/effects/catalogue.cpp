@@ -12,26 +12,16 @@ namespace {
 
 /// One line an effect, in the catalogue's order (docs/effects.md).
 constexpr std::vector<EffectForm> (*effects_of_the_catalogue[])() = {
-    exit_angle_forms,
-    slip_sinkage_forms,
-    lug_thrust_forms,
-    bulldozing_forms,
-    multipass_forms,
-    tire_flexibility_forms,
-    rate_dependence_forms,
-    interface_limit_forms,
-    shear_hump_forms,
-    pressure_dependent_shear_modulus_forms,
-    hard_layer_forms,
-    moisture_forms,
-    slope_weakening_forms,
-    sidewall_bulldozing_forms,
-    bed_tilt_forms,
-    rig_friction_forms,
-    sensor_offset_forms,
-    cross_talk_forms,
-    soil_gradient_forms,
-    drift_forms,
+    exit_angle_forms,      slip_sinkage_forms,
+    lug_thrust_forms,      bulldozing_forms,
+    multipass_forms,       tire_flexibility_forms,
+    rate_dependence_forms, interface_limit_forms,
+    shear_hump_forms,      pressure_dependent_shear_modulus_forms,
+    hard_layer_forms,      moisture_forms,
+    slope_weakening_forms, sidewall_bulldozing_forms,
+    bed_tilt_forms,        rig_friction_forms,
+    sensor_offset_forms,   cross_talk_forms,
+    soil_gradient_forms,   drift_forms,
 };
 
 std::vector<EffectForm> collect() {
@@ -56,8 +46,8 @@ std::vector<double> values_of(const EffectForm& form, const EffectChoice& choice
     std::size_t i = 0;
     while (i < names.size() && names[i] != name) ++i;
     if (i == names.size())
-      throw InputError(fmt::format("effect '{}' ({}) has no parameter '{}'{}", form.id, form.form, name,
-                                   suggestion(name, names)));
+      throw InputError(
+          fmt::format("effect '{}' ({}) has no parameter '{}'{}", form.id, form.form, name, suggestion(name, names)));
     const EffectParameter& p = form.parameters[i];
     if (!(value >= p.lower && value <= p.upper))
       throw InputError(fmt::format("effect '{}' ({}): {} = {:.6g} lies outside {:.6g} .. {:.6g} (SI)", form.id,

@@ -11,10 +11,10 @@ namespace soilbin::bekker_wong {
 /// A measured channel: its place in a reading, and the sizes that an error of its instrument plausibly has [SI].
 struct Channel {
   const char* name;
-  const char* unit;           ///< as in files
+  const char* unit;  ///< as in files
   double Reading::*value;
-  double usual;               ///< a default size of its error
-  double limit;               ///< beyond it the reading would be useless
+  double usual;  ///< a default size of its error
+  double limit;  ///< beyond it the reading would be useless
 };
 
 inline constexpr std::array<Channel, 4> measured_channels = {{

@@ -15,8 +15,8 @@ double with_tail(double u, double u_end, double (*f)(double), double slope) {
   return u <= u_end ? f(u) : f(u_end) + slope * (u - u_end);
 }
 
-double hyperbola(double u) { return 1 / (1 - u); }       // slope 1/(1 - u)^2: 100 at 0.9
-double logarithm(double u) { return -std::log1p(-u); }   // slope 1/(1 - u): 20 at 0.95
+double hyperbola(double u) { return 1 / (1 - u); }      // slope 1/(1 - u)^2: 100 at 0.9
+double logarithm(double u) { return -std::log1p(-u); }  // slope 1/(1 - u): 20 at 0.95
 
 /// Depth of what is hard [m]: the bin's floor where the bin is known, else the parameter.
 double floor_depth(const Surroundings& around, double fallback) {

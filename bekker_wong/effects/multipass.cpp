@@ -93,17 +93,16 @@ class RutPower final : public Effect {
 };
 
 EffectForm reload(const std::string& form, bool from_surface) {
-  return {.id = "multipass",
-          .form = form,
-          .equation = std::string("sigma = k (y + h y/(y + e z_p))^n, h = a z_p [1 - exp(-(pass - 1)/p0)], ") +
-                      (from_surface ? "z = y + h" : "z = y") + "; z_p: Bekker's static sinkage",
-          .source = "after Wong, Theory of Ground Vehicles, ch. 2 (response to repetitive loading)",
-          .parameters = {{"a", "-", 0.6, 0.0, 1.5, "depth of the rut left by many passes over the static sinkage"},
-                         {"p0", "-", 1.0, 0.2, 20.0, "passes after which most of the compaction is done"},
-                         {"e", "-", 0.1, 0.02, 1.0, "elastic share: rebound of the rut over the static sinkage"}},
-          .make = [from_surface](const std::vector<double>& p) {
-            return std::make_unique<const Reload>(p, from_surface);
-          }};
+  return {
+      .id = "multipass",
+      .form = form,
+      .equation = std::string("sigma = k (y + h y/(y + e z_p))^n, h = a z_p [1 - exp(-(pass - 1)/p0)], ") +
+                  (from_surface ? "z = y + h" : "z = y") + "; z_p: Bekker's static sinkage",
+      .source = "after Wong, Theory of Ground Vehicles, ch. 2 (response to repetitive loading)",
+      .parameters = {{"a", "-", 0.6, 0.0, 1.5, "depth of the rut left by many passes over the static sinkage"},
+                     {"p0", "-", 1.0, 0.2, 20.0, "passes after which most of the compaction is done"},
+                     {"e", "-", 0.1, 0.02, 1.0, "elastic share: rebound of the rut over the static sinkage"}},
+      .make = [from_surface](const std::vector<double>& p) { return std::make_unique<const Reload>(p, from_surface); }};
 }
 
 }  // namespace

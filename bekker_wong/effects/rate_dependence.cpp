@@ -54,8 +54,7 @@ class QuasiStatic final : public Effect {
   explicit QuasiStatic(const std::vector<double>& p) : m_(p[0]), v0_(p[1]) {}
   void pressure(ContactPatch& patch, const SoilValues&, const Outline& o, const Surroundings& around) const override {
     if (m_ == 0.0) return;
-    at_penetration_speed(patch, o, around,
-                         [&](double& sigma, double v_z) { sigma *= std::pow(1 + v_z / v0_, m_); });
+    at_penetration_speed(patch, o, around, [&](double& sigma, double v_z) { sigma *= std::pow(1 + v_z / v0_, m_); });
   }
 
  private:
@@ -103,9 +102,8 @@ class Inertial final : public Effect {
     const OperatingCondition& at = rolling.around.at;
     const double force =
         amplitude_ * rolling.soil.density * rolling.outline.width * rolling.sinkage * at.speed * at.speed;
-    ledger.add({.name = "inertial_resistance",
-                .forward = -force * std::cos(at.yaw),
-                .lateral = force * std::sin(at.yaw)});
+    ledger.add(
+        {.name = "inertial_resistance", .forward = -force * std::cos(at.yaw), .lateral = force * std::sin(at.yaw)});
   }
 
  private:

@@ -178,10 +178,9 @@ std::string points(const Sheet& sheet, const Series& series, const Frame& f) {
 std::string identity(const Frame& f) {
   const double lower = std::max(f.x_span().lower, f.y_span().lower),
                upper = std::min(f.x_span().upper, f.y_span().upper);
-  return fmt::format(
-      R"(<line class="quiet-line" stroke="#8a919c" stroke-dasharray="4 4" )"
-      R"(x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/>)",
-      f.x(lower), f.y(lower), f.x(upper), f.y(upper));
+  return fmt::format(R"(<line class="quiet-line" stroke="#8a919c" stroke-dasharray="4 4" )"
+                     R"(x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/>)",
+                     f.x(lower), f.y(lower), f.x(upper), f.y(upper));
 }
 
 }  // namespace

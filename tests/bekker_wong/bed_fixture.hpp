@@ -16,8 +16,15 @@ inline constexpr double radius = 0.25, width = 0.1;
 
 /// Wong's dry sand.
 inline SoilValues sand() {
-  return {.exponent = 1.1, .k_c = 990, .k_phi = 1.52843e6, .cohesion = 1040, .friction_angle = 28 * deg,
-          .shear_modulus = 0.02, .c1 = 0.18, .c2 = 0.32, .density = 1600};
+  return {.exponent = 1.1,
+          .k_c = 990,
+          .k_phi = 1.52843e6,
+          .cohesion = 1040,
+          .friction_angle = 28 * deg,
+          .shear_modulus = 0.02,
+          .c1 = 0.18,
+          .c2 = 0.32,
+          .density = 1600};
 }
 
 inline OperatingCondition driven(double load = 800, double slip = 0.2) {

@@ -16,9 +16,7 @@ TEST(HardLayer, HeavyWheelsNoticeMore) {
   for (const char* form : {"hyperbolic", "transition"}) {
     SCOPED_TRACE(form);
     const EffectChoice effect{"hard_layer", form, {}};
-    const auto lost = [&](double load) {
-      return 1 - with(effect, driven(load)).sinkage / base(driven(load)).sinkage;
-    };
+    const auto lost = [&](double load) { return 1 - with(effect, driven(load)).sinkage / base(driven(load)).sinkage; };
     EXPECT_GT(lost(3000), lost(300));
     EXPECT_GE(lost(300), 0);
     EXPECT_GT(with(effect, driven(3000)).drawbar_pull, base(driven(3000)).drawbar_pull);

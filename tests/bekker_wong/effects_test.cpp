@@ -39,15 +39,42 @@ Tire tire(double r, double b, double lug_height = 0.0, std::optional<double> inf
 const std::vector<Setting>& settings() {
   static const std::vector<Setting> all = {
       {"sand", tire(0.25, 0.10), bed::sand(), 800},
-      {"simulant", tire(0.157, 0.165, 0.010),
-       {.exponent = 1, .k_c = 15600, .k_phi = 2.4e6, .cohesion = 250, .friction_angle = 31.9 * deg,
-        .shear_modulus = 0.0115, .c1 = 0.35, .c2 = 0.1, .density = 1550}, 80},
-      {"clay", tire(0.6, 0.4, 0.03, 120e3),
-       {.exponent = 0.5, .k_c = 13190, .k_phi = 692150, .cohesion = 4140, .friction_angle = 13 * deg,
-        .shear_modulus = 0.015, .c1 = 0.3, .c2 = 0.2, .density = 1700}, 9000},
-      {"snow", tire(0.4, 0.25, 0, 60e3),
-       {.exponent = 1.6, .k_c = 4370, .k_phi = 196720, .cohesion = 1030, .friction_angle = 19.7 * deg,
-        .shear_modulus = 0.04, .c1 = 0.2, .c2 = 0.3, .density = 400}, 1200},
+      {"simulant",
+       tire(0.157, 0.165, 0.010),
+       {.exponent = 1,
+        .k_c = 15600,
+        .k_phi = 2.4e6,
+        .cohesion = 250,
+        .friction_angle = 31.9 * deg,
+        .shear_modulus = 0.0115,
+        .c1 = 0.35,
+        .c2 = 0.1,
+        .density = 1550},
+       80},
+      {"clay",
+       tire(0.6, 0.4, 0.03, 120e3),
+       {.exponent = 0.5,
+        .k_c = 13190,
+        .k_phi = 692150,
+        .cohesion = 4140,
+        .friction_angle = 13 * deg,
+        .shear_modulus = 0.015,
+        .c1 = 0.3,
+        .c2 = 0.2,
+        .density = 1700},
+       9000},
+      {"snow",
+       tire(0.4, 0.25, 0, 60e3),
+       {.exponent = 1.6,
+        .k_c = 4370,
+        .k_phi = 196720,
+        .cohesion = 1030,
+        .friction_angle = 19.7 * deg,
+        .shear_modulus = 0.04,
+        .c1 = 0.2,
+        .c2 = 0.3,
+        .density = 400},
+       1200},
   };
   return all;
 }
@@ -179,10 +206,16 @@ TEST(Effects, DefaultsLieInsideTheirBounds) {
 }
 
 TEST(Effects, EveryIdOfTheCatalogueHasTwoFormsOrMore) {
-  const std::vector<std::string> ids = {
-      "exit_angle", "slip_sinkage", "lug_thrust", "bulldozing", "multipass", "tire_flexibility", "rate_dependence",
-      "interface_limit", "shear_hump", "pressure_dependent_shear_modulus", "hard_layer", "moisture", "slope_weakening",
-      "sidewall_bulldozing", "bed_tilt", "rig_friction", "sensor_offset", "cross_talk", "soil_gradient", "drift"};
+  const std::vector<std::string> ids = {"exit_angle",      "slip_sinkage",
+                                        "lug_thrust",      "bulldozing",
+                                        "multipass",       "tire_flexibility",
+                                        "rate_dependence", "interface_limit",
+                                        "shear_hump",      "pressure_dependent_shear_modulus",
+                                        "hard_layer",      "moisture",
+                                        "slope_weakening", "sidewall_bulldozing",
+                                        "bed_tilt",        "rig_friction",
+                                        "sensor_offset",   "cross_talk",
+                                        "soil_gradient",   "drift"};
   std::vector<std::string> found;
   std::map<std::string, int> forms;
   for (const EffectForm& form : effect_catalogue()) {
