@@ -29,11 +29,6 @@ struct FoldResult {
   int unpredicted = 0;
 };
 
-double channel_value(const bekker_wong::Reading& r, int channel) {
-  const double values[] = {r.drawbar_pull, r.torque, r.sinkage, r.lateral_force};
-  return values[channel];
-}
-
 FoldResult run_fold(const Campaign& campaign, const Identification& whole, const IdentifyOptions& options,
                     const std::vector<int>& fold, int left_out) {
   const Observations& all = whole.observations;
@@ -53,9 +48,8 @@ FoldResult run_fold(const Campaign& campaign, const Identification& whole, const
     const OperatingCondition& at = all.rows[static_cast<std::size_t>(cell.row)];
     try {
       HeldOut held{.row = cell.row, .channel = cell.channel, .measured = cell.value};
-      held.before = channel_value(base.reading(id.base.theta, at), cell.channel);
-      held.after =
-          better ? channel_value(better->reading(id.rivals[*id.best].fit.theta, at), cell.channel) : held.before;
+      held.before = channel_of(base.reading(id.base.theta, at), cell.channel);
+      held.after = better ? channel_of(better->reading(id.rivals[*id.best].fit.theta, at), cell.channel) : held.before;
       held.sd = whole.noise.channels[static_cast<std::size_t>(cell.channel)].sd(cell.value);
       result.cells.push_back(held);
     } catch (const NoSolution&) {

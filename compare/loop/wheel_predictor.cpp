@@ -51,6 +51,13 @@ double mean_of(const std::string& covariate, const Observations& observations, d
   return count > 0 ? sum / count : fallback;
 }
 
+bool finite(const Reading& r) {
+  return std::isfinite(r.drawbar_pull) && std::isfinite(r.torque) && std::isfinite(r.sinkage) &&
+         std::isfinite(r.lateral_force);
+}
+
+}  // namespace
+
 double channel_of(const Reading& reading, int channel) {
   switch (channel) {
     case drawbar_pull:
@@ -63,13 +70,6 @@ double channel_of(const Reading& reading, int channel) {
       return reading.lateral_force;
   }
 }
-
-bool finite(const Reading& r) {
-  return std::isfinite(r.drawbar_pull) && std::isfinite(r.torque) && std::isfinite(r.sinkage) &&
-         std::isfinite(r.lateral_force);
-}
-
-}  // namespace
 
 Term make_term(const bekker_wong::EffectForm& form, const Observations& observations, bool free_shape) {
   Term term{.form = &form, .defaults = {}, .free = {0}};

@@ -11,6 +11,9 @@
 
 namespace soilbin::compare {
 
+/// One channel of a reading, by Channel.
+double channel_of(const bekker_wong::Reading& reading, int channel);
+
 /// A number that a fit may move. Prior: normal about `prior` with `prior_sd`; infinite sd: none.
 struct FreeParameter {
   std::string name;
