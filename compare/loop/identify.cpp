@@ -350,7 +350,6 @@ void prefer(const Campaign& campaign, Identification& id, std::size_t rival) {
   const LinearProblem after = problem_of(id, predictor, best.fit);
   id.residual_unnamed_gain =
       unnamed_gain(after, unnamed_families(id.observations, id.noise, *id.whitening, id.base.prediction));
-  id.tolerated_chi2 = Projector(after.nuisance).vector(after.residual).squaredNorm();
 }
 
 }  // namespace soilbin::compare

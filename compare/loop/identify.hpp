@@ -45,12 +45,10 @@ struct Identification {
   Fit base;
   std::vector<Signature> signatures;  ///< against the base model
   double p_value = 1.0;               ///< family-wise, of the strongest signature against the base model
-  std::vector<double> p_steps;        ///< family-wise p of each accepted effect, in the order of acceptance
   std::vector<Rival> rivals;          ///< all that were refitted, base model not among them
   double base_log_evidence = 0.0;
   double unnamed_gain = 0.0;           ///< ln evidence that an unnamed term adds to the base model
   double residual_unnamed_gain = 0.0;  ///< the same for the best rival, with the tolerance of its forms
-  double tolerated_chi2 = 0.0;         ///< of the best rival, once its forms may be wrong by their tolerance
   std::vector<Weighted> weights;       ///< over sets of effects, best first
   std::optional<std::size_t> best;     ///< rival that the test accepts
 };
