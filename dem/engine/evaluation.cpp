@@ -1,0 +1,201 @@
+// What Simulation tells of the present time: contacts, motion at whole steps, energy. The forces are those that the
+// next step will find; nothing is changed.
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "dem/engine/simulation.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+Vec3 vec3(const Triple<double>& a) { return {a.x, a.y, a.z}; }
+Triple<double> triple(const Vec3& a) { return {a.x, a.y, a.z}; }
+
+/// One contact in all its parts.
+struct Evaluated {
+  std::uint32_t first;
+  std::int64_t second;  ///< row, or -1 - body
+  std::int32_t triangle;
+  Vec3 point;
+  double arm_second;
+  LawConstants<double> constants;
+  Touch<double> touch;
+  Memory<double> memory;
+  Response<double> does;
+};
+
+Touch<double> touch_of(const Grains& grains, std::uint32_t i, std::uint32_t j, const Vec3& between) {
+  const Motion &a = grains.motion[i], &b = grains.motion[j];
+  const Spin &wa = grains.spin[i], &wb = grains.spin[j];
+  const Vec3 normal = unit(between);
+  const double overlap = a.radius + b.radius - length(between);
+  const Vec3 turn = (a.radius - overlap / 2) * wa.rate + (b.radius - overlap / 2) * wb.rate;
+  return {.normal = triple(normal),
+          .overlap = overlap,
+          .radius = a.radius * b.radius / (a.radius + b.radius),
+          .mass = 1 / (a.inverse_mass + b.inverse_mass),
+          .velocity = triple(a.velocity - b.velocity - cross(turn, normal)),
+          .rotation = triple(wa.rate - wb.rate),
+          .inertia = 1 / (wa.inverse_inertia + wb.inverse_inertia)};
+}
+
+Memory<double> memory_of(const PairList& pairs, std::size_t pair) {
+  return {{pairs.remembered(pair, 0), pairs.remembered(pair, 1), pairs.remembered(pair, 2)},
+          {pairs.remembered(pair, 3), pairs.remembered(pair, 4), pairs.remembered(pair, 5)}};
+}
+
+}  // namespace
+
+template <class Visit>
+void Simulation::for_each_contact(const Visit& visit) const {
+  const State& s = state_;
+  const Periods periods(setup_.domain);
+  const double dt = setup_.numerics.dt;
+  for (std::size_t pair = 0; pair < s.pairs.first.size(); ++pair) {
+    const std::uint32_t i = s.pairs.first[pair], j = s.pairs.second[pair];
+    const Motion &a = s.grains.motion[i], &b = s.grains.motion[j];
+    const Vec3 between = periods.shortest(a.position - b.position);
+    const double sum = a.radius + b.radius;
+    if (i == s.grains.idle_first() || (squared(between) >= sum * sum && !s.pairs.touches(pair))) continue;
+    Evaluated c{.first = i,
+                .second = j,
+                .triangle = -1,
+                .point = {},
+                .arm_second = 0,
+                .constants = constants_between(s.grains.material[i], s.grains.material[j]),
+                .touch = touch_of(s.grains, i, j, between),
+                .memory = memory_of(s.pairs, pair),
+                .does = {}};
+    const bool adheres = setup_.laws.cohesion == CohesionLaw::jkr && s.pairs.touches(pair) &&
+                         still_adheres(c.constants, c.touch.overlap, c.touch.radius);
+    if (c.touch.overlap <= 0 && !adheres) continue;
+    c.point = a.position - (a.radius - c.touch.overlap / 2) * vec3(c.touch.normal);
+    c.arm_second = b.radius - c.touch.overlap / 2;
+    c.does = contact_response<double>(setup_.laws, c.constants, c.touch, c.memory, dt, nullptr);
+    visit(c);
+  }
+  std::array<SurfaceTouch, 8> touches;
+  std::vector<SurfaceContact> made;
+  for (const SurfaceContacts& slab : s.surfaces) {
+    std::size_t old = 0;
+    for (const NearSurface& near : slab.near) {
+      const std::size_t begin = old;
+      while (old < slab.made.size() && slab.made[old].who == near) ++old;
+      const Body& body = s.bodies[near.body];
+      const Motion& grain = s.grains.motion[near.grain];
+      const LawConstants<double>& constants =
+          constants_between(s.grains.material[near.grain], body.surfaces[near.surface].material);
+      made.clear();
+      const int count = find_contacts(body, near, grain, {setup_.laws, constants, adhesion_reach_},
+                                      {slab.made.data() + begin, old - begin}, made, touches);
+      for (int k = 0; k < count; ++k) {
+        Evaluated c{.first = near.grain,
+                    .second = -1 - near.body,
+                    .triangle = touches[k].triangle,
+                    .point = touches[k].point,
+                    .arm_second = 0,
+                    .constants = constants,
+                    .touch = dem::touch_of(body, touches[k], grain, s.grains.spin[near.grain]),
+                    .memory = made[k].memory,
+                    .does = {}};
+        c.does = contact_response<double>(setup_.laws, c.constants, c.touch, c.memory, dt, nullptr);
+        visit(c);
+      }
+    }
+  }
+}
+
+std::vector<Contact> Simulation::contacts() const {
+  std::vector<Contact> all;
+  for_each_contact([&](const Evaluated& c) {
+    const std::int64_t second = c.second >= 0 ? static_cast<std::int64_t>(state_.grains.id[c.second]) : c.second;
+    all.push_back({.first = state_.grains.id[c.first],
+                   .second = second,
+                   .triangle = c.triangle,
+                   .point = c.point,
+                   .normal = vec3(c.touch.normal),
+                   .overlap = c.touch.overlap,
+                   .force = vec3(c.does.force),
+                   .couple = vec3(c.does.couple),
+                   .pressing = c.does.pressing});
+  });
+  return all;
+}
+
+std::vector<Load> Simulation::loads() const {
+  std::vector<Load> all(state_.grains.count());
+  for_each_contact([&](const Evaluated& c) {
+    const Vec3 force = vec3(c.does.force), couple = vec3(c.does.couple), normal = vec3(c.touch.normal);
+    Load& first = all[c.first];
+    first.force += force;
+    first.torque += couple + cross(c.point - state_.grains.motion[c.first].position, force);
+    if (c.second < 0) return;
+    Load& second = all[c.second];
+    second.force -= force;
+    second.torque -= couple + c.arm_second * cross(normal, force);
+  });
+  return all;
+}
+
+std::size_t Simulation::row_of(GrainId id) const {
+  const auto found = std::find(state_.grains.id.begin(), state_.grains.id.end(), id);
+  if (found == state_.grains.id.end()) throw std::out_of_range("there is no grain " + std::to_string(id));
+  return found - state_.grains.id.begin();
+}
+
+GrainNow Simulation::grain(GrainId id) const {
+  const std::size_t row = row_of(id);
+  const Motion& grain = state_.grains.motion[row];
+  const Spin& spin = state_.grains.spin[row];
+  GrainNow now{grain.position, grain.velocity, spin.rate, grain.radius};
+  const bool still_new = std::find(state_.new_grains.begin(), state_.new_grains.end(), id) != state_.new_grains.end();
+  if (still_new) return now;
+  const double half = setup_.numerics.dt / 2;
+  const Load load = loads()[row];
+  now.velocity += half * (grain.inverse_mass * load.force + (grain.inverse_mass > 0 ? 1.0 : 0.0) * state_.gravity);
+  now.spin += (half * spin.inverse_inertia) * load.torque;
+  return now;
+}
+
+void Simulation::half_step_back() {
+  State& s = state_;
+  if (s.new_grains.empty()) return;
+  const std::vector<Load> all = loads();
+  const double half = setup_.numerics.dt / 2;
+  std::sort(s.new_grains.begin(), s.new_grains.end());
+  for (std::size_t k = 0; k < s.grains.count(); ++k) {
+    if (!std::binary_search(s.new_grains.begin(), s.new_grains.end(), s.grains.id[k])) continue;
+    Motion& grain = s.grains.motion[k];
+    grain.velocity -= half * (grain.inverse_mass * all[k].force + (grain.inverse_mass > 0 ? 1.0 : 0.0) * s.gravity);
+    s.grains.spin[k].rate -= (half * s.grains.spin[k].inverse_inertia) * all[k].torque;
+  }
+  s.new_grains.clear();
+}
+
+EnergyBalance Simulation::energy() const {
+  const State& s = state_;
+  EnergyBalance out;
+  const std::vector<Load> all = loads();
+  const double half = setup_.numerics.dt / 2;
+  for (std::size_t k = 0; k < s.grains.count(); ++k) {
+    const Motion& grain = s.grains.motion[k];
+    const Spin& spin = s.grains.spin[k];
+    if (grain.inverse_mass == 0) continue;
+    const Vec3 v = grain.velocity + half * (grain.inverse_mass * all[k].force + s.gravity);
+    const Vec3 w = spin.rate + (half * spin.inverse_inertia) * all[k].torque;
+    out.kinetic += 0.5 * (squared(v) / grain.inverse_mass + squared(w) / spin.inverse_inertia);
+    out.potential -= dot(s.gravity, grain.position) / grain.inverse_mass;
+  }
+  for_each_contact([&](const Evaluated& c) {
+    const Stored<double> stored = stored_energy(setup_.laws, c.constants, c.touch, c.memory);
+    out.elastic += stored.normal;
+    out.tangential += stored.tangential;
+    out.rolling += stored.rolling;
+  });
+  for (const Body& body : s.bodies) out.work_of_bodies += body.work;
+  out.ledger = s.ledger;
+  return out;
+}
+
+}  // namespace soilbin::dem

@@ -1,0 +1,41 @@
+// The grains: one row a grain, split by what reads it. Rows, not one array a quantity: a contact needs all of a grain's
+// motion at once, and a row is one or two cache lines (docs/performance.md has the figures).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "dem/engine/grain_rows.hpp"
+
+namespace soilbin::dem {
+
+using GrainId = std::uint32_t;
+
+/// All grains, in the order in which they lie in the cells; a grain's id stays with it.
+struct Grains {
+  std::vector<Motion> motion;  ///< count() rows, then two that nobody touches: they fill up batches of contacts
+  std::vector<Spin> spin;
+  std::vector<Load> load;
+  std::vector<GrainId> id;
+  std::vector<std::uint8_t> material;
+
+  std::size_t count() const { return id.size(); }
+  /// Adds a grain at the end; its row may move at the next sorting.
+  void add(GrainId new_id, const Vec3& position, const Vec3& velocity, const Vec3& rate, double radius, double mass,
+           std::uint8_t of_material);
+  /// Takes away the rows marked.
+  void remove(std::span<const std::uint8_t> gone);
+  /// Row k becomes what row order[k] was.
+  void reorder(std::span<const std::uint32_t> order);
+
+  /// The idle rows' indices.
+  std::uint32_t idle_first() const { return static_cast<std::uint32_t>(count()); }
+  std::uint32_t idle_second() const { return static_cast<std::uint32_t>(count() + 1); }
+
+ private:
+  void close();
+};
+
+}  // namespace soilbin::dem

@@ -1,0 +1,177 @@
+// Compiled once for each instruction set (dem/CMakeLists.txt), each in a namespace of its own.
+#include "dem/engine/kernels/pair_kernel.hpp"
+
+#include "dem/engine/grain_rows.hpp"
+#include "dem/engine/kernels/pack.hpp"
+#include "dem/engine/laws/contact_law.hpp"
+
+namespace soilbin::dem::HWY_NAMESPACE {
+namespace {
+
+using Triad = Triple<Pack>;
+
+/// Both grains of each contact of a pack.
+struct Grain {
+  Triad position, velocity, rate;
+  Pack radius, inverse_mass, inverse_inertia;
+};
+
+HWY_INLINE void read_place(const Motion* motion, const std::uint32_t* at, Grain& out) {
+  const FourPacks p = columns([&](int k) { return &motion[at[k]].position.x; });
+  out.position = {p.a, p.b, p.c};
+  out.radius = p.d;
+}
+
+HWY_INLINE void read_motion(const Motion* motion, const Spin* spin, const std::uint32_t* at, Grain& out) {
+  const FourPacks v = columns([&](int k) { return &motion[at[k]].velocity.x; });
+  out.velocity = {v.a, v.b, v.c};
+  out.inverse_mass = v.d;
+  const FourPacks w = columns([&](int k) { return &spin[at[k]].rate.x; });
+  out.rate = {w.a, w.b, w.c};
+  out.inverse_inertia = w.d;
+}
+
+HWY_INLINE Pack nearest_image(Pack d, double period) {
+  return period > 0 ? d - Pack(period) * round(d * Pack(1 / period)) : d;
+}
+
+HWY_INLINE LawConstants<Pack> broadcast(const double* c) {
+  return {Pack(c[0]), Pack(c[1]), Pack(c[2]), Pack(c[3]),  Pack(c[4]),  Pack(c[5]), Pack(c[6]),
+          Pack(c[7]), Pack(c[8]), Pack(c[9]), Pack(c[10]), Pack(c[11]), Pack(c[12])};
+}
+
+/// Constants of a pack whose contacts are of several kinds.
+HWY_INLINE LawConstants<Pack> gather(const double* table, const std::uint8_t* kind) {
+  const FourPacks a = columns([&](int k) { return table + 16 * kind[k]; });
+  const FourPacks b = columns([&](int k) { return table + 16 * kind[k] + 4; });
+  const FourPacks c = columns([&](int k) { return table + 16 * kind[k] + 8; });
+  const FourPacks d = columns([&](int k) { return table + 16 * kind[k] + 12; });
+  return {a.a, a.b, a.c, a.d, b.a, b.b, b.c, b.d, c.a, c.b, c.c, c.d, d.a};
+}
+
+HWY_INLINE LawConstants<Pack> constants_of(const PairSweep& sweep, std::size_t pair) {
+  const std::uint8_t* kind = sweep.kind + pair;
+  for (int k = 1; k < lanes; ++k)
+    if (kind[k] != kind[0]) return gather(sweep.constants, kind);
+  return broadcast(sweep.constants + 16 * kind[0]);
+}
+
+/// Adds what the contacts did to the loads of their grains, contact by contact.
+HWY_INLINE void scatter(const PairSweep& sweep, std::size_t pair, const Triad& force, const Triad& torque_first,
+                        const Triad& torque_second) {
+  alignas(64) double on_first[4 * lanes], on_second[4 * lanes], turn[4 * lanes];
+  store_rows({force.x, force.y, force.z, torque_first.x}, on_first);
+  store_rows({-force.x, -force.y, -force.z, torque_second.x}, on_second);
+  store_rows({torque_first.y, torque_first.z, torque_second.y, torque_second.z}, turn);
+  const auto add = [&](std::uint32_t grain, const double* f, const double* t) HWY_ATTR {
+    double* row = &sweep.load[grain].force.x;
+    add_to<4>(row, f);
+    add_to<2>(row + 4, t);
+  };
+  for (int k = 0; k < lanes; ++k) {
+    add(sweep.first[pair + k], on_first + 4 * k, turn + 4 * k);
+    add(sweep.second[pair + k], on_second + 4 * k, turn + 4 * k + 2);
+  }
+}
+
+/// The touch of a pack of contacts, but for its normal and overlap, which `out` has already.
+HWY_INLINE void meet(const Grain& i, const Grain& j, Pack distance, Touch<Pack>& out, Pack& arm_i, Pack& arm_j) {
+  const Pack radii = i.radius + j.radius, masses = i.inverse_mass + j.inverse_mass;
+  const Pack inverse = Pack(1.0) / (distance * radii * masses);  // one division for three quotients
+  out.normal = out.normal * (inverse * radii * masses);
+  out.radius = i.radius * j.radius * inverse * distance * masses;
+  out.mass = inverse * distance * radii;
+  const Pack half = Pack(0.5) * out.overlap;
+  arm_i = i.radius - half;
+  arm_j = j.radius - half;
+  out.velocity = i.velocity - j.velocity - cross(arm_i * i.rate + arm_j * j.rate, out.normal);
+  out.rotation = i.rate - j.rate;
+}
+
+HWY_INLINE Memory<Pack> recall(const double* memory) {
+  return {{load(memory), load(memory + 8), load(memory + 16)},
+          {load(memory + 24), load(memory + 32), load(memory + 40)}};
+}
+
+HWY_INLINE void keep(const Triad& what, PackMask where_touching, double* to) {
+  store(where(where_touching, what.x), to);
+  store(where(where_touching, what.y), to + 8);
+  store(where(where_touching, what.z), to + 16);
+}
+
+HWY_INLINE Triad where(PackMask yes, const Triad& a) { return {where(yes, a.x), where(yes, a.y), where(yes, a.z)}; }
+
+HWY_INLINE void count_losses(const Losses<Pack>& losses, PackMask touching, double* sums) {
+  const Pack all[] = {losses.damping, losses.shear_damping, losses.sliding, losses.into_slide, losses.into_roll};
+  for (int k = 0; k < 5; ++k) sums[k] = add_up(sums[k], where(touching, all[k]));
+}
+
+/// Places of a pack's contacts in the list.
+struct Place {
+  std::size_t pair, batch;
+  unsigned within, mask;  ///< first lane in the batch, and the lanes' bits there
+  explicit Place(std::size_t first)
+      : pair(first), batch(first / 8), within(first % 8), mask((lanes == 8 ? 0xffu : (1u << lanes) - 1) << within) {}
+};
+
+/// Laws and scattering, for contacts that touch.
+HWY_INLINE void respond(const PairSweep& sweep, const LawConstants<Pack>& constants, const Place& at, PackMask touching,
+                        Pack distance, Grain& i, Grain& j, Touch<Pack>& touch, PairFindings& found) {
+  read_motion(sweep.motion, sweep.spin, sweep.first + at.pair, i);
+  read_motion(sweep.motion, sweep.spin, sweep.second + at.pair, j);
+  Pack arm_i, arm_j;
+  meet(i, j, distance, touch, arm_i, arm_j);
+  touch.inertia = Pack(0.0);
+  if (sweep.laws.rolling == RollingLaw::directional || sweep.laws.rolling == RollingLaw::elastic_plastic)
+    touch.inertia = Pack(1.0) / (i.inverse_inertia + j.inverse_inertia);
+
+  double* memory = sweep.memory + at.batch * 48 + at.within;
+  Memory<Pack> kept = recall(memory);
+  Losses<Pack> losses;
+  const Response<Pack> does =
+      contact_response(sweep.laws, constants, touch, kept, sweep.dt, sweep.ledger ? &losses : nullptr);
+  if (sweep.ledger) count_losses(losses, touching, found.losses);
+  keep(kept.slide, touching, memory);
+  if (sweep.laws.rolling != RollingLaw::none) keep(kept.roll, touching, memory + 24);
+
+  const Triad lever = cross(touch.normal, does.tangential);
+  scatter(sweep, at.pair, where(touching, does.force), where(touching, does.couple - arm_i * lever),
+          where(touching, -(does.couple + arm_j * lever)));
+}
+
+/// One pack of contacts. `one` holds the constants where all contacts are of one kind.
+HWY_INLINE void work_on(const PairSweep& sweep, const LawConstants<Pack>* one, const Place& at, PairFindings& found) {
+  Grain i, j;
+  read_place(sweep.motion, sweep.first + at.pair, i);
+  read_place(sweep.motion, sweep.second + at.pair, j);
+  Touch<Pack> touch;
+  touch.normal = i.position - j.position;
+  touch.normal.x = nearest_image(touch.normal.x, sweep.period[0]);
+  touch.normal.y = nearest_image(touch.normal.y, sweep.period[1]);
+  touch.normal.z = nearest_image(touch.normal.z, sweep.period[2]);
+  const Pack distance2 = dot(touch.normal, touch.normal), sum = i.radius + j.radius;
+
+  PackMask touching = distance2 < sum * sum;
+  std::uint8_t& made = sweep.touching[at.batch];
+  const unsigned before = made & at.mask;
+  if (before == 0 && none(touching)) return;
+  const LawConstants<Pack> constants = one ? *one : constants_of(sweep, at.pair);
+  const Pack distance = sqrt(distance2);
+  touch.overlap = sum - distance;
+  if (sweep.laws.cohesion == CohesionLaw::jkr)
+    touching =
+        touching | (mask_of(before >> at.within) & still_adheres(constants, touch.overlap, i.radius * j.radius / sum));
+  made = static_cast<std::uint8_t>((made & ~at.mask) | bits(touching) << at.within);
+  if (!none(Pack(sweep.deepest) * min(i.radius, j.radius) < where(touching, touch.overlap))) found.too_deep = true;
+  respond(sweep, constants, at, touching, distance, i, j, touch, found);
+}
+
+}  // namespace
+
+void run_pairs(const PairSweep& sweep, std::size_t begin, std::size_t end, PairFindings& found) {
+  const LawConstants<Pack> one = broadcast(sweep.constants);
+  for (std::size_t pair = 8 * begin; pair < 8 * end; pair += lanes)
+    work_on(sweep, sweep.kinds == 1 ? &one : nullptr, Place(pair), found);
+}
+
+}  // namespace soilbin::dem::HWY_NAMESPACE

@@ -1,0 +1,40 @@
+// A pair of materials, boiled down to the factors that the laws multiply by. Symbols: docs/dem-laws.md.
+#pragma once
+
+#include <cstdint>
+
+namespace soilbin::dem {
+
+enum class NormalLaw : std::uint8_t { hertz, hooke };
+enum class RollingLaw : std::uint8_t { none, directional, elastic_plastic, spring_slider, torsion_spring };
+enum class CohesionLaw : std::uint8_t { none, linear, jkr };
+
+/// Which laws act, in the whole run: asked once a batch, never once a contact.
+struct LawFlags {
+  NormalLaw normal = NormalLaw::hertz;
+  RollingLaw rolling = RollingLaw::none;
+  CohesionLaw cohesion = CohesionLaw::none;
+};
+
+/// Of a pair of materials (double), or of a pack of contacts.
+template <class Real>
+struct LawConstants {
+  Real normal;            ///< hertz: (4/3) E*; hooke: k_n
+  Real damping;           ///< g_n/sqrt(m* a); hooke: g_n/sqrt(m*)
+  Real shear;             ///< k_t/a = 8 G*; hooke: k_t
+  Real shear_damping;     ///< g_t as g_n
+  Real sliding;           ///< mu
+  Real rolling;           ///< mu_r
+  Real roll_stiffness;    ///< k, or torsion_spring's k_r
+  Real roll_damping;      ///< eta, or spring_slider's c
+  Real cohesion;          ///< linear: pi k_c
+  Real adhesion_force;    ///< jkr: sqrt(8 pi w E*)
+  Real adhesion_overlap;  ///< jkr: sqrt(2 pi w/E*)
+  Real adhesion_start;    ///< jkr: above the cube root of adhesion_overlap R* for every contact
+  Real pull_off;          ///< jkr: 2 F_po/R* = 3 pi w
+};
+
+/// How many numbers a LawConstants holds; they lie one after the other.
+inline constexpr int law_constant_count = 13;
+
+}  // namespace soilbin::dem

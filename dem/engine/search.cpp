@@ -1,0 +1,105 @@
+// Simulation's search for pairs and for grains near surfaces: when it is due, and what is carried over.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/engine/cells.hpp"
+#include "dem/engine/simulation.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+double wrapped(double at, double lower, double length) {
+  return length > 0 ? at - length * std::floor((at - lower) / length) : at;
+}
+
+bool within(const Vec3& at, const Domain& domain) {
+  return at.x >= domain.lower.x && at.y >= domain.lower.y && at.z >= domain.lower.z && at.x <= domain.upper.x &&
+         at.y <= domain.upper.y && at.z <= domain.upper.z;
+}
+
+/// Contacts of all slabs by grain id, in order, to hand them out again once grains are sorted.
+std::vector<std::pair<GrainId, SurfaceContact>> by_id(const std::vector<SurfaceContacts>& surfaces,
+                                                      const Grains& grains) {
+  std::vector<std::pair<GrainId, SurfaceContact>> all;
+  for (const SurfaceContacts& slab : surfaces)
+    for (const SurfaceContact& contact : slab.made) all.emplace_back(grains.id[contact.who.grain], contact);
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return all;
+}
+
+}  // namespace
+
+bool Simulation::search_is_due() {
+  State& s = state_;
+  if (s.travel < reach_ / 2) return false;
+  // The bound is reached; now see how far each has really come.
+  double farthest = 0;
+  for (std::size_t k = 0; k < s.grains.count(); ++k)
+    farthest = std::max(farthest, squared(s.grains.motion[k].position - s.searched_at[k]));
+  farthest = std::sqrt(farthest);
+  for (std::size_t b = 0; b < s.bodies.size(); ++b) farthest = std::max(farthest, s.bodies[b].travel);
+  s.travel = farthest;
+  // Less than a hundredth of the margin left would be checked at each step.
+  return farthest > 0.49 * reach_;
+}
+
+void Simulation::search(std::span<const std::uint8_t> gone) {
+  State& s = state_;
+  const Periods periods(setup_.domain);
+  for (std::size_t k = 0; k < s.grains.count(); ++k) {
+    Vec3& at = s.grains.motion[k].position;
+    at.x = wrapped(at.x, setup_.domain.lower.x, periods.length.x);
+    at.y = wrapped(at.y, setup_.domain.lower.y, periods.length.y);
+    at.z = wrapped(at.z, setup_.domain.lower.z, periods.length.z);
+    if ((gone.empty() || !gone[k]) && !within(at, setup_.domain)) stop_for_loss(k);
+  }
+  const KeptContacts kept(s.pairs, s.grains);
+  const auto on_surfaces = by_id(s.surfaces, s.grains);
+
+  if (!gone.empty()) s.grains.remove(gone);
+  double largest = 0;
+  for (std::size_t k = 0; k < s.grains.count(); ++k) largest = std::max(largest, s.grains.motion[k].radius);
+  Cells cells(setup_.domain, {s.grains.motion.data(), s.grains.count()},
+              std::max(2 * largest + reach_ + adhesion_reach_, 1e-12));
+  s.grains.reorder(cells.order(s.grains));
+  cells.index(s.grains);
+  s.pairs = find_pairs(cells, s.grains, setup_.domain, reach_ + adhesion_reach_,
+                       static_cast<int>(setup_.materials.all.size()), kept, threads_);
+
+  const int slabs = cells.slab_count();
+  s.slab_rows.assign(1, 0);
+  for (int slab = 0; slab < slabs; ++slab) s.slab_rows.push_back(cells.slab(slab)[1]);
+  s.surfaces.assign(slabs, {});
+#pragma omp parallel for schedule(dynamic) num_threads(threads_)
+  for (int slab = 0; slab < slabs; ++slab) {
+    SurfaceContacts& here = s.surfaces[slab];
+    here.near = find_near(s.bodies, s.grains, s.slab_rows[slab], s.slab_rows[slab + 1], reach_ + adhesion_reach_);
+    for (std::uint32_t row = s.slab_rows[slab]; row < s.slab_rows[slab + 1]; ++row) {
+      const auto [begin, end] =
+          std::equal_range(on_surfaces.begin(), on_surfaces.end(), std::pair(s.grains.id[row], SurfaceContact{}),
+                           [](const auto& a, const auto& b) { return a.first < b.first; });
+      for (auto it = begin; it != end; ++it) {
+        here.made.push_back(it->second);
+        here.made.back().who.grain = row;
+      }
+    }
+  }
+  s.searched_at.resize(s.grains.count());
+  for (std::size_t k = 0; k < s.grains.count(); ++k) s.searched_at[k] = s.grains.motion[k].position;
+  for (Body& body : s.bodies) body.travel = 0;
+  s.travel = 0;
+  make_room(slabs);
+}
+
+void Simulation::make_room(int slabs) {
+  found_.assign(slabs, {});
+  body_loads_.assign(slabs * state_.bodies.size(), {});
+  fastest_.assign(slabs, 0.0);
+  made_.resize(slabs);
+  extents_.clear();
+  for (const Body& body : state_.bodies) extents_.push_back(extent(body));
+}
+
+}  // namespace soilbin::dem

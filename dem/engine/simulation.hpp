@@ -1,0 +1,164 @@
+// Grains, bodies and what they do to each other, step by step. The laws: docs/dem-laws.md.
+//
+// A step reads as its stages: search for pairs where due; forces of pairs, even slabs then odd ones; forces of
+// surfaces; motion of grains; motion of bodies. The same setup and state give the same bits for any number of threads.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "dem/engine/body.hpp"
+#include "dem/engine/domain.hpp"
+#include "dem/engine/energy.hpp"
+#include "dem/engine/kernels/pair_kernel.hpp"
+#include "dem/engine/materials.hpp"
+#include "dem/engine/pair_list.hpp"
+#include "dem/engine/surface_contacts.hpp"
+
+namespace soilbin::dem {
+
+/// How it is computed. Results depend on skin and instruction set by rounding alone.
+struct Numerics {
+  double dt = 1e-5;              ///< [s]
+  double skin = 0;               ///< margin of the search for pairs [m]; 0: a tenth of the largest radius
+  double deepest_overlap = 0.3;  ///< of the smaller radius; deeper stops the run
+  double safe_share = 0.2;       ///< of the Rayleigh time; a longer step is refused
+  bool force_step = false;       ///< takes a longer one all the same
+  int threads = 0;               ///< 0: one a core
+  std::string instruction_set;   ///< of instruction_sets(); empty: the widest
+  bool ledger = false;           ///< counts where the energy goes; costs about a tenth
+};
+
+/// What doesn't change during a run.
+struct Setup {
+  Materials materials;
+  ContactLaws laws;
+  Domain domain;
+  Numerics numerics;
+};
+
+/// All that changes; what an archive keeps.
+struct State {
+  std::int64_t step = 0;
+  double time = 0;  ///< of positions [s]
+  Vec3 gravity;     ///< [m/s^2]
+  Grains grains;
+  std::vector<Body> bodies;
+  PairList pairs;
+  std::vector<std::uint32_t> slab_rows;   ///< first row of each slab, and the end
+  std::vector<SurfaceContacts> surfaces;  ///< a slab each
+  std::vector<Vec3> searched_at;          ///< positions at the last search for pairs
+  double travel = 0;                      ///< bound on what any grain or body has moved since [m]
+  std::uint32_t next_id = 0;
+  std::vector<GrainId> new_grains;  ///< whose velocity is still at a whole step
+  Ledger ledger;
+};
+
+/// A run that can't go on: an overlap too deep, a grain lost or not finite. what() names the grain and the time.
+class RunStopped : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A contact as it is now.
+struct Contact {
+  GrainId first;
+  std::int64_t second;    ///< id of a grain; or -1 - index of a body
+  std::int32_t triangle;  ///< of the body's mesh, -1 for none
+  Vec3 point, normal;     ///< normal toward `first`
+  double overlap;         ///< [m]
+  Vec3 force, couple;     ///< on `first` [N], [N m]
+  double pressing;        ///< F_N [N]
+};
+
+/// Motion of a grain at a whole step.
+struct GrainNow {
+  Vec3 position, velocity, spin;
+  double radius;
+};
+
+class Simulation {
+ public:
+  /// Throws InputError for a setup that makes no sense.
+  explicit Simulation(Setup setup);
+  /// Goes on from a state, bit by bit as if it had never stopped.
+  Simulation(Setup setup, State state);
+
+  const Setup& setup() const { return setup_; }
+  const State& state() const { return state_; }
+  double time() const { return state_.time; }
+
+  void set_gravity(const Vec3& gravity) { state_.gravity = gravity; }
+  /// Velocities are those at the present time. Throws InputError for a radius that isn't positive, an unknown material,
+  /// or a place outside the domain.
+  GrainId add_grain(const Vec3& position, double radius, int material, const Vec3& velocity = {},
+                    const Vec3& spin = {});
+  /// Removes grains for which `gone` holds; gives how many.
+  std::size_t remove_grains(const std::function<bool(const GrainNow&)>& gone);
+  /// Gives the body's index. Throws InputError for an unknown material or a mass or inertia that isn't positive.
+  int add_body(Body body);
+  /// To change what drives it between steps.
+  Body& body(int index) { return state_.bodies.at(index); }
+  const Body& body(int index) const { return state_.bodies.at(index); }
+  void set_numerics(const Numerics& numerics);
+  /// Changes the interaction of a pair of materials between steps: settle without friction, then switch it on.
+  void set_interaction(int a, int b, const Interaction& interaction);
+
+  /// Throws RunStopped, with the state as it was before the step that failed began to move anything.
+  void run(std::int64_t steps);
+
+  /// A grain at the present time, whole-step velocities included. By its id; throws std::out_of_range.
+  GrainNow grain(GrainId id) const;
+  /// All contacts at the present time, in a fixed order; forces as the next step will apply them.
+  std::vector<Contact> contacts() const;
+  /// What is where: kinetic, potential, elastic, and what the ledger has counted.
+  EnergyBalance energy() const;
+
+ private:
+  void check_step() const;
+  void prepare();
+  void give_grids(double reach);
+  void search(std::span<const std::uint8_t> gone = {});
+  void make_room(int slabs);
+  bool search_is_due();
+  void half_step_back();
+  void step();
+  void pair_stage(int slab);
+  void surface_stage(int slab);
+  void touch_surface(int slab, const NearSurface& near, std::span<const SurfaceContact> before,
+                     std::vector<SurfaceContact>& made, BodyLoad& on_body);
+  void motion_stage(int slab);
+  void finish_step();
+  const LawConstants<double>& constants_between(int a, int b) const;
+  /// Forces as the next step will find them, contact by contact.
+  template <class Visit>
+  void for_each_contact(const Visit& visit) const;
+  std::vector<Load> loads() const;
+  std::size_t row_of(GrainId id) const;
+  [[noreturn]] void stop_for_overlap() const;
+  [[noreturn]] void stop_for_loss(std::size_t row) const;
+  [[noreturn]] void stop_for_motion() const;
+
+  Setup setup_;
+  State state_;
+  // Derived from the setup and the state.
+  AlignedVector<double> constants_;
+  PairKernel kernel_ = nullptr;
+  PairSweep sweep_{};
+  int threads_ = 1;
+  bool dirty_ = true;          ///< grains or materials changed: prepare() is due
+  double reach_ = 0;           ///< margin of the search for motion [m]
+  double adhesion_reach_ = 0;  ///< jkr: how far apart a contact still holds [m]
+  // Of a step, a slab each.
+  std::vector<PairFindings> found_;
+  std::vector<BodyLoad> body_loads_;
+  std::vector<double> fastest_;
+  std::vector<std::vector<SurfaceContact>> made_;
+  std::vector<double> extents_;  ///< of bodies
+};
+
+}  // namespace soilbin::dem

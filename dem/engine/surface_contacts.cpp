@@ -1,0 +1,110 @@
+#include "dem/engine/surface_contacts.hpp"
+
+#include <algorithm>
+
+#include "dem/surface/touching_points.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+constexpr double cos_45 = 0.70710678118654752;
+
+Triple<double> triple(const Vec3& a) { return {a.x, a.y, a.z}; }
+
+bool is_near(const Body& body, const Surface& surface, const Motion& grain, double margin) {
+  const Vec3 centre = body.to_body(grain.position);
+  if (const auto* plane = std::get_if<Plane>(&surface.shape))
+    return dot(centre - plane->point, plane->normal) < grain.radius + margin;
+  return !std::get<MeshSurface>(surface.shape).grid->around(centre).empty();
+}
+
+int touches_of_mesh(const Body& body, const MeshSurface& surface, const Motion& grain, double reach,
+                    std::span<SurfaceTouch, 8> out) {
+  static const MergeAngle merge;
+  const Vec3 centre = body.to_body(grain.position);
+  const auto candidates = surface.grid->around(centre);
+  if (candidates.empty()) return 0;
+  TouchingPoints points;
+  find_touching_points(*surface.mesh, candidates, centre, grain.radius + reach, merge, points);
+  int count = 0;
+  for (const TouchingPoint& point : points) {
+    const double overlap = point.overlap(grain.radius);
+    const Vec3 normal = body.rotation(point.normal);
+    out[count++] = {point.triangle, grain.position - (grain.radius - overlap / 2) * normal, normal, overlap};
+  }
+  return count;
+}
+
+/// The contact whose normal is nearest to this one, within 45 degrees; -1 for none.
+int nearest(std::span<const SurfaceContact> among, const Vec3& normal) {
+  double best = cos_45;
+  int which = -1;
+  for (std::size_t k = 0; k < among.size(); ++k)
+    if (const double near = dot(among[k].normal, normal); near > best) best = near, which = static_cast<int>(k);
+  return which;
+}
+
+/// All points of a surface nearer to a grain's centre than its radius plus `reach`.
+int find_touches(const Body& body, const Surface& surface, const Motion& grain, double reach,
+                 std::span<SurfaceTouch, 8> out) {
+  const auto* plane = std::get_if<Plane>(&surface.shape);
+  if (!plane) return touches_of_mesh(body, std::get<MeshSurface>(surface.shape), grain, reach, out);
+  const Vec3 normal = body.rotation(plane->normal);
+  const double overlap = grain.radius - dot(grain.position - body.to_bin(plane->point), normal);
+  if (overlap <= -reach) return 0;
+  out[0] = {-1, grain.position - (grain.radius - overlap / 2) * normal, normal, overlap};
+  return 1;
+}
+
+/// The contact of before that made[k] goes on with; nullptr for none.
+const SurfaceContact* remembered(std::span<const SurfaceContact> before, std::span<const SurfaceContact> made, int k) {
+  const int old = nearest(before, made[k].normal);
+  return old >= 0 && nearest(made, before[old].normal) == k ? &before[old] : nullptr;
+}
+
+}  // namespace
+
+std::vector<NearSurface> find_near(std::span<const Body> bodies, const Grains& grains, std::uint32_t first,
+                                   std::uint32_t last, double margin) {
+  std::vector<NearSurface> near;
+  for (std::uint32_t grain = first; grain < last; ++grain)
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      for (std::size_t s = 0; s < bodies[b].surfaces.size(); ++s)
+        if (is_near(bodies[b], bodies[b].surfaces[s], grains.motion[grain], margin))
+          near.push_back({grain, static_cast<std::uint16_t>(b), static_cast<std::uint16_t>(s)});
+  return near;
+}
+
+int find_contacts(const Body& body, const NearSurface& who, const Motion& grain, const SurfaceLaw& law,
+                  std::span<const SurfaceContact> before, std::vector<SurfaceContact>& made,
+                  std::span<SurfaceTouch, 8> touches) {
+  const int found = find_touches(body, body.surfaces[who.surface], grain, law.adhesion_reach, touches);
+  const std::size_t begin = made.size();
+  for (int k = 0; k < found; ++k) made.push_back({who, touches[k].triangle, touches[k].normal, {}});
+  int kept = 0;
+  for (int k = 0; k < found; ++k) {
+    SurfaceContact contact = made[begin + k];
+    const SurfaceContact* old = remembered(before, {made.data() + begin, static_cast<std::size_t>(found)}, k);
+    if (old) contact.memory = old->memory;
+    const double overlap = touches[k].overlap;
+    if (overlap <= 0 && !(old && still_adheres(law.constants, overlap, grain.radius))) continue;
+    touches[kept] = touches[k];
+    made[begin + kept++] = contact;
+  }
+  made.resize(begin + kept);
+  return kept;
+}
+
+Touch<double> touch_of(const Body& body, const SurfaceTouch& at, const Motion& grain, const Spin& spin) {
+  const double arm = grain.radius - at.overlap / 2;
+  const Vec3 velocity = grain.velocity - arm * cross(spin.rate, at.normal) - body.velocity_at(at.point);
+  return {.normal = triple(at.normal),
+          .overlap = at.overlap,
+          .radius = grain.radius,
+          .mass = 1 / grain.inverse_mass,
+          .velocity = triple(velocity),
+          .rotation = triple(spin.rate - body.spin),
+          .inertia = 1 / spin.inverse_inertia};
+}
+
+}  // namespace soilbin::dem

@@ -1,0 +1,72 @@
+// Grains on the surfaces of bodies: which may touch, where they touch, and what those contacts remember.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "dem/engine/body.hpp"
+#include "dem/engine/grains.hpp"
+#include "dem/engine/laws/contact_law.hpp"
+#include "dem/engine/periodic.hpp"
+
+namespace soilbin::dem {
+
+/// A grain that is near a surface.
+struct NearSurface {
+  std::uint32_t grain;          ///< row
+  std::uint16_t body, surface;  ///< indices
+  bool operator==(const NearSurface&) const = default;
+};
+
+/// A touch of a grain and a surface. A grain in a corner has several on one mesh; each keeps its memory by its normal,
+/// so it goes on as the grain slides or rolls over edges from one triangle to the next.
+struct SurfaceContact {
+  NearSurface who;
+  std::int32_t triangle = -1;  ///< where it is now; -1 on a plane
+  Vec3 normal;                 ///< toward the grain, in the frame of the bin
+  Memory<double> memory{};
+};
+
+/// Of one slab; both lists are in the order of who.
+struct SurfaceContacts {
+  std::vector<NearSurface> near;
+  std::vector<SurfaceContact> made;
+};
+
+/// What the grains of a slab do to a body.
+struct BodyLoad {
+  Vec3 force, torque;
+};
+
+/// A contact point found, before any law.
+struct SurfaceTouch {
+  std::int32_t triangle;
+  Vec3 point;  ///< in the middle of the overlap
+  Vec3 normal;
+  double overlap;
+};
+
+/// Grains of rows [first, last) that come within `margin` of a surface.
+std::vector<NearSurface> find_near(std::span<const Body> bodies, const Grains& grains, std::uint32_t first,
+                                   std::uint32_t last, double margin);
+
+/// Laws of a grain on a surface, and how far beyond its radius a grain that adheres may be held [m].
+struct SurfaceLaw {
+  LawFlags flags;
+  const LawConstants<double>& constants;
+  double adhesion_reach;
+};
+
+/// Finds all points where a grain touches a surface (none, one, or up to eight in the corners of a mesh), adds a
+/// contact for each to `made` and tells the points in the same order. Each takes the memory of the one among `before`
+/// whose normal is nearest, within 45 degrees and nearest the other way round too; the others start anew. A contact
+/// that adheres is kept beyond the radius.
+int find_contacts(const Body& body, const NearSurface& who, const Motion& grain, const SurfaceLaw& law,
+                  std::span<const SurfaceContact> before, std::vector<SurfaceContact>& made,
+                  std::span<SurfaceTouch, 8> touches);
+
+/// What contact_response needs to know of it.
+Touch<double> touch_of(const Body& body, const SurfaceTouch& at, const Motion& grain, const Spin& spin);
+
+}  // namespace soilbin::dem

@@ -1,0 +1,21 @@
+// Volume, centroid and moments of inertia of the body that a closed mesh bounds.
+#pragma once
+
+#include "dem/surface/triangle_mesh.hpp"
+
+namespace soilbin::dem {
+
+/// At unit density. The tensor is I = Int (|x|^2 1 - x x^T) dV about the centroid, so xy = -Int x y dV.
+struct MassProperties {
+  double volume = 0;                                      ///< [m^3]
+  Vec3 centroid;                                          ///< [m]
+  double xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;  ///< [m^5]
+};
+
+/// The sum over the tetrahedra from the box's centre o to each triangle, with a, b, c its corners from o,
+/// s = a + b + c and D = a . (b x c), six times the tetrahedron's signed volume:
+///   Int dV = D/6,  Int x dV = D s/24,  Int x_i x_j dV = D (s_i s_j + a_i a_j + b_i b_j + c_i c_j)/120.
+/// Throws std::logic_error where the mesh is not closed.
+MassProperties mass_properties(const TriangleMesh& mesh);
+
+}  // namespace soilbin::dem

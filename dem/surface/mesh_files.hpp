@@ -1,0 +1,21 @@
+// Triangle meshes in files: STL (text and binary) and Wavefront OBJ in, binary STL out.
+#pragma once
+
+#include <filesystem>
+
+#include "dem/surface/triangle_mesh.hpp"
+
+namespace soilbin::dem {
+
+/// Reads .stl, text or binary, or .obj (by assimp, which keeps single precision: 6e-8 of a coordinate). `unit` is the
+/// length of the file's unit [m]: 1e-3 for millimetres. Polygons become triangles; points and lines are left out; the
+/// normals in the file are not looked at. Axes are taken as they are: x forward, y along the axle, z up.
+/// `options.name` is replaced by the file's. Throws InputError, naming the file and, in text STL, the line, where it
+/// can't be read, is cut short, or TriangleMesh refuses what is in it.
+TriangleMesh read_mesh(const std::filesystem::path& file, double unit, MeshOptions options = {});
+
+/// Writes binary STL, atomically; coordinates in single precision, in lengths of `unit` [m]. std::runtime_error where
+/// the system refuses.
+void write_stl(const std::filesystem::path& file, const TriangleMesh& mesh, double unit);
+
+}  // namespace soilbin::dem
