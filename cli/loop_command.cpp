@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "cli/commands.hpp"
+#include "cli/progress.hpp"
 #include "cli/text_output.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/report/result_json.hpp"
@@ -91,6 +92,7 @@ int loop(const Asked& asked, const Session& session) {
   options.identify.seed = asked.seed;
   options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   options.limits = read_limits(asked.limits);
+  options.progress = shown_progress();
   const compare::LoopAnswer answer = compare::run_loop(campaign, options);
   if (!asked.report.empty())
     write_file_atomically(asked.report, compare::loop_page(campaign, answer,

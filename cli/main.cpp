@@ -27,6 +27,7 @@ void add_commands(CLI::App& app, Session& session) {
   add_init(app, session);
   add_list(app, session);
   add_schema(app, session);
+  add_verify(app, session);
   add_doctor(app, session);
 }
 

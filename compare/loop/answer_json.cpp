@@ -23,9 +23,21 @@ ordered_json effects_json(const LoopAnswer& answer) {
                     {"form", effect.choice.form},
                     {"parameters", parameters},
                     {"ci95", ci},
-                    {"p_value", number(effect.p_value)}});
+                    {"p_value", number(effect.p_value)},
+                    {"cosines", effect.cosines}});
   }
   return list;
+}
+
+/// What leaving the accepted effects out does to the soil's values [SI].
+ordered_json soil_json(const LoopAnswer& answer) {
+  ordered_json soil = ordered_json::object();
+  for (const SoilShift& s : answer.soil_shifts)
+    soil[s.name] = {{"value", number(s.with.value)},
+                    {"sd", number(s.with.std_error)},
+                    {"without", number(s.without.value)},
+                    {"bias", number(s.without.value - s.with.value)}};
+  return soil;
 }
 
 ordered_json error_json(const LoopAnswer& answer) {
@@ -92,7 +104,8 @@ ordered_json to_json(const LoopAnswer& answer) {
           {"verdict", word(answer.verdict)},     {"reason", answer.reason},
           {"effects", effects_json(answer)},     {"ambiguity_set", ambiguity},
           {"not_testable", answer.not_testable}, {"error", error_json(answer)},
-          {"next_test", next_json(answer)},      {"outliers", answer.outliers}};
+          {"next_test", next_json(answer)},      {"soil", soil_json(answer)},
+          {"outliers", answer.outliers}};
 }
 
 ordered_json details_json(const LoopAnswer& answer) {
@@ -118,6 +131,7 @@ ordered_json details_json(const LoopAnswer& answer) {
           {"residual_unnamed_gain", number(id.residual_unnamed_gain)},
           {"lack_of_fit_p", {number(answer.before.p_value), number(answer.after.p_value)}},
           {"choice_gain", {number(answer.choice_gain.mean), number(answer.choice_gain.std_error)}},
+          {"error_smooth_term", number(answer.validation.overall.smooth)},
           {"sets", sets},
           {"folds", answer.validation.chosen}};
 }

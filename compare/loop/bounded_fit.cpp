@@ -99,6 +99,11 @@ VectorXd damped_step(const Linearised& l, const std::vector<bool>& hold, double 
   return full;
 }
 
+/// What the linearised model expects of a step in chi2.
+double promised_gain(const Linearised& l, const VectorXd& step) {
+  return l.residual.squaredNorm() - (l.residual - l.columns * step).squaredNorm();
+}
+
 double chi2_of(const WheelPredictor& predictor, const VectorXd& theta, const VectorXd& values,
                const Whitening& whitening, const VectorXd& prediction) {
   return whitening(VectorXd(values - prediction)).squaredNorm() +
@@ -120,34 +125,42 @@ std::optional<Fit> fit(const WheelPredictor& predictor, const VectorXd& values, 
   best.theta = *feasible;
   if (!predictor.linearise(best.theta, best.prediction, best.jacobian)) return std::nullopt;
   best.chi2 = chi2_of(predictor, best.theta, values, whitening, best.prediction);
-  double damping = 1e-3;
+  double damping = 1e-3, growth = 2.0;
+  BalanceMemory memory;
   constexpr int max_iterations = 40;
-  constexpr double small_gain = 2e-3;  // in chi2, far below what any decision turns on
+  constexpr double small_gain = 2e-3, small_share = 1e-5;  // of chi2, far below what any decision turns on
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     const Linearised l = augment(predictor, best.theta, values, whitening, best.prediction, best.jacobian, scale);
     const std::vector<bool> hold = held(parameters, best.theta, l.columns.transpose() * l.residual);
+    const double enough = std::max(small_gain, small_share * best.chi2);
     bool better = false;
     double gain = 0.0;
     for (int attempt = 0; attempt < 10 && !better; ++attempt) {
-      VectorXd trial = best.theta + damped_step(l, hold, damping).cwiseProduct(scale);
+      const VectorXd step = damped_step(l, hold, damping);
+      const double promised = promised_gain(l, step);
+      if (promised < enough) break;
+      VectorXd trial = best.theta + step.cwiseProduct(scale);
       for (Index i = 0; i < n; ++i) {
         const FreeParameter& p = parameters[static_cast<std::size_t>(i)];
         trial[i] = std::clamp(trial[i], p.lower, p.upper);
       }
       VectorXd prediction;
-      if (predictor.predict(trial, prediction)) {
+      if (predictor.predict(trial, prediction, memory)) {
         const double chi2 = chi2_of(predictor, trial, values, whitening, prediction);
         if (chi2 < best.chi2) {
           gain = best.chi2 - chi2;
           best.theta = trial, best.prediction = prediction, best.chi2 = chi2;
           better = true;
+          const double kept = 2 * gain / promised - 1;  // Nielsen's rule: the damping follows how well the line held
+          damping = std::max(damping * std::max(0.1, 1 - kept * kept * kept), 1e-9);
+          growth = 2.0;
         }
       }
-      damping = better ? std::max(damping * 0.2, 1e-9) : damping * 6;
+      if (!better) damping *= growth, growth *= 2;
     }
     if (!better) break;
-    if (!predictor.linearise(best.theta, best.prediction, best.jacobian)) return std::nullopt;
-    if (gain < small_gain) break;
+    if (!predictor.linearise(best.theta, best.prediction, best.jacobian, memory.angles)) return std::nullopt;
+    if (gain < enough) break;
   }
   const Linearised l = augment(predictor, best.theta, values, whitening, best.prediction, best.jacobian, scale);
   best.residual = l.residual;

@@ -3,15 +3,21 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <random>
 #include <thread>
 #include <tuple>
 
+#include "compare/loop/smooth_term.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
+
+using Eigen::Index;
+using Eigen::VectorXd;
 
 namespace {
 
@@ -43,36 +49,87 @@ FoldResult run_fold(const Campaign& campaign, const Identification& whole, const
     better.emplace(campaign, training, id.rivals[*id.best].terms);
     result.chosen = id.rivals[*id.best].ids;
   }
+  VectorXd predicted =
+      VectorXd::Constant(static_cast<Index>(all.cells.size()), std::numeric_limits<double>::quiet_NaN());
+  std::vector<Index> of_cell;  // of each held-out cell, its index among all
+  Index trained = 0, index = -1;
   for (const Cell& cell : all.cells) {
-    if (keep[static_cast<std::size_t>(all.condition[static_cast<std::size_t>(cell.row)])]) continue;
+    ++index;
+    if (keep[static_cast<std::size_t>(all.condition[static_cast<std::size_t>(cell.row)])]) {
+      predicted[index] = id.base.prediction[trained++];
+      continue;
+    }
     const OperatingCondition& at = all.rows[static_cast<std::size_t>(cell.row)];
     try {
       HeldOut held{.row = cell.row, .channel = cell.channel, .measured = cell.value};
       held.before = channel_of(base.reading(id.base.theta, at), cell.channel);
       held.after = better ? channel_of(better->reading(id.rivals[*id.best].fit.theta, at), cell.channel) : held.before;
       held.sd = whole.noise.channels[static_cast<std::size_t>(cell.channel)].sd(cell.value);
+      predicted[index] = held.before;
+      of_cell.push_back(index);
       result.cells.push_back(held);
     } catch (const NoSolution&) {
       ++result.unpredicted;
     }
   }
+  std::vector<bool> kept_rows(all.rows.size());
+  for (std::size_t r = 0; r < kept_rows.size(); ++r) kept_rows[r] = keep[static_cast<std::size_t>(all.condition[r])];
+  const VectorXd term = smooth_term(all, kept_rows, predicted, id.noise);
+  for (std::size_t k = 0; k < of_cell.size(); ++k) result.cells[k].smooth = result.cells[k].before + term[of_cell[k]];
   return result;
+}
+
+/// Every fold, some at once. The first exception of any stops them all and is thrown.
+std::vector<std::optional<FoldResult>> run_folds(const Campaign& campaign, const Identification& whole,
+                                                 const IdentifyOptions& options, int folds, int threads,
+                                                 const Progress& progress) {
+  const std::vector<int> fold = deal(whole.observations.conditions, folds, options.seed);
+  std::vector<std::optional<FoldResult>> results(static_cast<std::size_t>(folds));
+  std::atomic<int> next{0}, done{0};
+  std::atomic<bool> stopped{false};
+  std::exception_ptr failure;
+  struct Stopped {};
+  const auto work = [&](const std::function<void()>& pulse) {
+    IdentifyOptions own = options;
+    own.pulse = pulse;
+    for (int f = next++; f < folds && !stopped; f = next++, ++done) try {
+        results[static_cast<std::size_t>(f)] = run_fold(campaign, whole, own, fold, f);
+      } catch (const NoSolution&) {  // this fold's conditions can't be fitted alone: its cells stay unpredicted
+      } catch (const Stopped&) {
+      } catch (...) {
+        if (!stopped.exchange(true)) failure = std::current_exception();
+      }
+  };
+  const auto halt = [&] {
+    if (stopped) throw Stopped();
+  };
+  std::vector<std::thread> crew;
+  for (int t = 1; t < std::min(threads, folds); ++t) crew.emplace_back(work, halt);
+  work([&] {
+    halt();
+    if (progress) progress(static_cast<std::size_t>(done), static_cast<std::size_t>(folds));
+  });
+  for (std::thread& t : crew) t.join();
+  if (failure) std::rethrow_exception(failure);
+  return results;
 }
 
 ErrorPair errors_over(const std::vector<HeldOut>& cells, int channel) {
   ErrorPair e;
-  double before = 0, after = 0, noise = 0;
+  double before = 0, after = 0, smooth = 0, noise = 0;
   for (const HeldOut& h : cells) {
     if (channel >= 0 && h.channel != channel) continue;
     const double unit = channel < 0 ? h.sd : 1.0;
     before += std::pow((h.measured - h.before) / unit, 2);
     after += std::pow((h.measured - h.after) / unit, 2);
+    smooth += std::pow((h.measured - h.smooth) / unit, 2);
     noise += std::pow(h.sd / unit, 2);
     ++e.cells;
   }
   if (e.cells == 0) return e;
   e.before = std::sqrt(before / e.cells);
   e.after = std::sqrt(after / e.cells);
+  e.smooth = std::sqrt(smooth / e.cells);
   e.noise_floor = std::sqrt(noise / e.cells);
   return e;
 }
@@ -165,26 +222,8 @@ PredictiveGain predictive_gain(const Campaign& campaign, const Identification& w
 }
 
 CrossValidation cross_validate(const Campaign& campaign, const Identification& whole, const IdentifyOptions& options,
-                               int folds, int threads) {
-  const std::vector<int> fold = deal(whole.observations.conditions, folds, options.seed);
-  std::vector<std::optional<FoldResult>> results(static_cast<std::size_t>(folds));
-  std::vector<std::exception_ptr> failures(results.size());
-  std::atomic<int> next{0};
-  const auto work = [&] {
-    for (int f = next++; f < folds; f = next++) try {
-        results[static_cast<std::size_t>(f)] = run_fold(campaign, whole, options, fold, f);
-      } catch (const NoSolution&) {  // this fold's conditions can't be fitted alone: its cells stay unpredicted
-      } catch (...) {
-        failures[static_cast<std::size_t>(f)] = std::current_exception();
-      }
-  };
-  std::vector<std::thread> crew;
-  for (int t = 1; t < std::min(threads, folds); ++t) crew.emplace_back(work);
-  work();
-  for (std::thread& t : crew) t.join();
-  for (const auto& failure : failures)
-    if (failure) std::rethrow_exception(failure);
-
+                               int folds, int threads, const Progress& progress) {
+  const auto results = run_folds(campaign, whole, options, folds, threads, progress);
   CrossValidation cv;
   for (const auto& result : results) {
     if (!result) continue;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compare/loop/identify.hpp"
+#include "compare/sweep/answers.hpp"
 
 namespace soilbin::compare {
 
@@ -17,12 +18,13 @@ struct HeldOut {
   int row = 0;  ///< of the observations given
   int channel = 0;
   double measured = 0.0, before = 0.0, after = 0.0;
-  double sd = 0.0;  ///< noise of this cell
+  double smooth = 0.0;  ///< base model plus a smooth term without a name (smooth_term.hpp)
+  double sd = 0.0;      ///< noise of this cell
 };
 
 struct ErrorPair {
   int cells = 0;
-  double before = 0.0, after = 0.0, noise_floor = 0.0;  ///< root mean squares
+  double before = 0.0, after = 0.0, smooth = 0.0, noise_floor = 0.0;  ///< root mean squares
 };
 
 /// The whole procedure redone with each fold of conditions left out.
@@ -48,8 +50,9 @@ PredictiveGain predictive_gain(const Campaign& campaign, const Identification& w
                                std::uint64_t seed);
 
 /// Folds are made of whole conditions, dealt by a seeded shuffle. Steps from the noise estimate to the choice of the
-/// effect are redone in each. threads: folds at once; the answer does not depend on it.
+/// effect are redone in each. threads: folds at once; the answer does not depend on it. progress: folds done, called
+/// again and again from the calling thread alone; what it throws stops all of them.
 CrossValidation cross_validate(const Campaign& campaign, const Identification& whole, const IdentifyOptions& options,
-                               int folds, int threads);
+                               int folds, int threads, const Progress& progress = {});
 
 }  // namespace soilbin::compare

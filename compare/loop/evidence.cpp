@@ -151,6 +151,20 @@ MatrixXd carried_over(const Observations& observations, const NoiseFloor& noise,
   return whitening(columns);
 }
 
+/// A gain of all forces that waves with a covariate: an amplifier warming from day to day, a frame that gives way.
+MatrixXd common_gain(const Observations& observations, const Whitening& whitening, const VectorXd& prediction,
+                     const VectorXd& values) {
+  const MatrixXd functions = waves(values, std::clamp(static_cast<int>(observations.rows.size()) / 10, 1, 5));
+  MatrixXd columns = MatrixXd::Zero(prediction.size(), functions.cols());
+  for (Index i = 0; i < prediction.size(); ++i) {
+    const Cell& cell = observations.cells[static_cast<std::size_t>(i)];
+    if (cell.channel != sinkage) columns.row(i) = prediction[i] * functions.row(cell.row);
+  }
+  const MatrixXd white = whitening(columns);
+  const double size = std::sqrt(white.squaredNorm() / static_cast<double>(white.size()));
+  return size > 0 ? MatrixXd(white / size) : white;
+}
+
 }  // namespace
 
 std::vector<MatrixXd> unnamed_families(const Observations& observations, const NoiseFloor& noise,
@@ -159,6 +173,9 @@ std::vector<MatrixXd> unnamed_families(const Observations& observations, const N
   for (const MatrixXd& functions : row_families(observations))
     families.push_back(in_every_channel(observations, noise, whitening, prediction, functions));
   families.push_back(carried_over(observations, noise, whitening, prediction));
+  for (const Covariate& c : covariates(observations))
+    if (c.name == "run" || c.name == "load")
+      families.push_back(common_gain(observations, whitening, prediction, c.values));
   return families;
 }
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "scenario/errors.hpp"
+#include "compare/loop/base_fit.hpp"
 
 namespace soilbin::compare {
 
@@ -14,81 +14,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-/// Noise of 5 % of each channel's range: where the first fit starts.
-NoiseFloor first_guess(const Observations& observations) {
-  NoiseFloor guess;
-  for (int channel = 0; channel < channel_count; ++channel) {
-    double low = 0, high = 0;
-    bool any = false;
-    for (const Cell& cell : observations.cells) {
-      if (cell.channel != channel) continue;
-      low = any ? std::min(low, cell.value) : cell.value;
-      high = any ? std::max(high, cell.value) : cell.value;
-      any = true;
-    }
-    const double range = std::max({high - low, 0.1 * std::abs(high), 0.1 * std::abs(low), 1e-9});
-    guess.channels[static_cast<std::size_t>(channel)] = {.measured = any, .floor = 0.05 * range};
-  }
-  return guess;
-}
-
-NoiseData noise_data(const WheelPredictor& predictor, const Observations& observations, const Fit& fit) {
-  NoiseData data;
-  data.prediction = fit.prediction;
-  const Index soil = predictor.soil_parameters();
-  data.soil_columns.resize(fit.prediction.size(), soil);
-  VectorXd shift(soil);
-  for (Index p = 0; p < soil; ++p) {
-    const FreeParameter& parameter = predictor.parameters()[static_cast<std::size_t>(p)];
-    data.soil_columns.col(p) = fit.jacobian.col(p) * parameter.prior_sd;
-    shift[p] = (fit.theta[p] - parameter.prior) / parameter.prior_sd;
-  }
-  data.residual = observations.values() - fit.prediction + data.soil_columns * shift;
-  return data;
-}
-
-Fit must_fit(const WheelPredictor& predictor, const Observations& observations, const Whitening& whitening,
-             const VectorXd& start) {
-  auto found = fit(predictor, observations.values(), whitening, start);
-  if (!found) throw NoSolution("no soil near the declared one carries the wheel in every run of this campaign");
-  return *found;
-}
-
-/// Base fit and noise, in turn until they agree; outliers set aside on the way.
-void settle_base(const Campaign& campaign, const Observations& given, const IdentifyOptions& options,
-                 Identification& id) {
-  constexpr double outlier_limit = 5.0, most_outliers = 0.1;
-  id.observations = given;
-  id.outlier.assign(given.cells.size(), false);
-  NoiseFloor noise = first_guess(given);
-  VectorXd start = WheelPredictor(campaign, given).start();
-  for (int round = 0; round < 4; ++round) {
-    const WheelPredictor predictor(campaign, id.observations);
-    const VectorXd about = round == 0 ? id.observations.values() : id.base.prediction;
-    id.whitening = std::make_shared<Whitening>(id.observations, noise, about);
-    id.base = must_fit(predictor, id.observations, *id.whitening, start);
-    start = id.base.theta;
-    if (round == 3) break;
-    const NoiseEstimate estimate = estimate_noise(id.observations, noise_data(predictor, id.observations, id.base));
-    noise = estimate.floor;
-    id.noise = noise;
-    if (!options.drop_outliers || round == 2) continue;
-    std::vector<bool> drop(id.observations.cells.size());
-    for (std::size_t i = 0; i < drop.size(); ++i) drop[i] = estimate.outlier_score[i] > outlier_limit;
-    const auto count = std::count(drop.begin(), drop.end(), true);
-    if (count == 0 || static_cast<double>(count) > most_outliers * static_cast<double>(drop.size())) continue;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < id.outlier.size(); ++i)
-      if (!id.outlier[i]) id.outlier[i] = drop[kept++];
-    id.observations = without_cells(given, id.outlier);
-    VectorXd remaining(static_cast<Index>(id.observations.cells.size()));
-    Index to = 0;
-    for (std::size_t i = 0; i < drop.size(); ++i)
-      if (!drop[i]) remaining[to++] = id.base.prediction[static_cast<Index>(i)];
-    id.base.prediction = remaining;
-  }
-}
 
 /// What the term adds to the cells at the fit.
 VectorXd contribution_of(const WheelPredictor& predictor, const Fit& fit, int term) {
@@ -240,20 +165,26 @@ double log_prior(const std::vector<Term>& terms) {
   return sum - rarer * static_cast<double>(terms.size() - 1);
 }
 
+using FormSet = std::set<const bekker_wong::EffectForm*>;
+
+FormSet forms_of(const std::vector<Term>& terms) {
+  FormSet forms;
+  for (const Term& term : terms) forms.insert(term.form);
+  return forms;
+}
+
 /// The evidence of each set of effects, summed over the forms that were refitted.
 void weigh(Identification& id) {
   std::map<std::set<std::string>, Weighted> by_set;
   const auto standing = [&](std::size_t i) { return id.rivals[i].log_evidence + log_prior(id.rivals[i].terms); };
   double top = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < id.rivals.size(); ++i) top = std::max(top, standing(i));
-  std::set<std::vector<const bekker_wong::EffectForm*>> seen;
+  std::set<FormSet> seen;
   double total = 0.0;
   for (std::size_t i = 0; i < id.rivals.size(); ++i) {
-    std::vector<const bekker_wong::EffectForm*> forms;
-    for (const Term& term : id.rivals[i].terms) forms.push_back(term.form);
-    std::sort(forms.begin(), forms.end());
-    const bool repeated = !seen.insert(forms).second;
-    Weighted& w = by_set.try_emplace(id.rivals[i].ids, Weighted{id.rivals[i].ids, 0.0, i}).first->second;
+    const bool repeated = !seen.insert(forms_of(id.rivals[i].terms)).second;
+    Weighted& w =
+        by_set.try_emplace(id.rivals[i].ids, Weighted{.ids = id.rivals[i].ids, .best_rival = i}).first->second;
     const double share = repeated ? 0.0 : std::exp(standing(i) - top);
     w.weight += share;
     total += share;
@@ -261,7 +192,10 @@ void weigh(Identification& id) {
   }
   id.weights.clear();
   for (const auto& [ids, w] : by_set) id.weights.push_back(w);
-  for (Weighted& w : id.weights) w.weight /= total;
+  for (Weighted& w : id.weights) {
+    w.log_evidence = w.weight > 0 ? top + std::log(w.weight) : -std::numeric_limits<double>::infinity();
+    w.weight /= total;
+  }
   std::stable_sort(id.weights.begin(), id.weights.end(),
                    [](const Weighted& x, const Weighted& y) { return x.weight > y.weight; });
 }
@@ -284,6 +218,7 @@ void extend(const Campaign& campaign, Identification& id, std::size_t index, con
                                  options.seed + 17 * from.terms.size());
   if (p > options.level) return;
   for (const Signature* s : contenders(signatures, options.refits / 3)) {
+    options.pulse();
     std::vector<Term> terms = from.terms;
     terms.push_back(make_term(*s->term.form, id.observations, true));
     std::vector<double> amplitudes;
@@ -293,6 +228,71 @@ void extend(const Campaign& campaign, Identification& id, std::size_t index, con
     const double expected = id.base.chi2 - from.fit.chi2 + s->score * s->score;
     if (auto rival = refit(campaign, id, terms, amplitudes, expected)) id.rivals.push_back(std::move(*rival));
   }
+}
+
+/// The rival of largest evidence among those wanted.
+template <class Wanted>
+std::optional<std::size_t> strongest_rival(const Identification& id, const Wanted& wanted) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < id.rivals.size(); ++i)
+    if (wanted(id.rivals[i]) && (!best || id.rivals[i].log_evidence > id.rivals[*best].log_evidence)) best = i;
+  return best;
+}
+
+/// Forward from the best single effect, then from each member of the best pair (another partner may suit it better),
+/// then from the best pair.
+void extend_all(const Campaign& campaign, Identification& id, const IdentifyOptions& options) {
+  std::set<std::size_t> extended;
+  const auto once = [&](std::optional<std::size_t> from) {
+    if (from && extended.insert(*from).second) extend(campaign, id, *from, options);
+  };
+  const auto of_size = [](std::size_t n) { return [n](const Rival& r) { return r.ids.size() == n; }; };
+  once(strongest_rival(id, of_size(1)));
+  if (const auto pair = strongest_rival(id, of_size(2)); pair && options.every_form) {
+    const std::set<std::string> members = id.rivals[*pair].ids;
+    for (const std::string& member : members)
+      once(strongest_rival(id, [&](const Rival& r) { return r.ids == std::set<std::string>{member}; }));
+  }
+  for (int effects = 2; effects < options.most_effects; ++effects)
+    once(strongest_rival(id, of_size(static_cast<std::size_t>(effects))));
+}
+
+/// Refits a pair with each of the other forms of its effects in turn.
+void other_forms(const Campaign& campaign, Identification& id, const Rival& from, std::set<FormSet>& fitted,
+                 const IdentifyOptions& options) {
+  const WheelPredictor predictor(campaign, id.observations, from.terms);
+  std::set<const bekker_wong::EffectForm*> done;
+  for (const Signature& s : id.signatures)
+    for (std::size_t m = 0; m < from.terms.size(); ++m) {
+      if (s.term.form->id != from.terms[m].form->id || !(s.projected_norm > 0) || !done.insert(s.term.form).second)
+        continue;
+      std::vector<Term> terms = from.terms;
+      terms[m] = make_term(*s.term.form, id.observations, true);
+      if (!fitted.insert(forms_of(terms)).second) continue;
+      options.pulse();
+      std::vector<double> amplitudes;
+      for (int t = 0; t < static_cast<int>(terms.size()); ++t)
+        amplitudes.push_back(from.fit.theta[predictor.amplitude_index(t)]);
+      amplitudes[m] = reach_of(s);
+      if (auto rival = refit(campaign, id, terms, amplitudes, id.base.chi2 - from.fit.chi2))
+        id.rivals.push_back(std::move(*rival));
+    }
+}
+
+/// The same for the few pairs that stand close to the best set, so that they are weighed over as many forms as a single
+/// effect is.
+void complete_pairs(const Campaign& campaign, Identification& id, const IdentifyOptions& options) {
+  constexpr double close = 15.0;  // ln evidence: what other forms may add
+  constexpr int most = 3;
+  std::set<FormSet> fitted;
+  for (const Rival& rival : id.rivals) fitted.insert(forms_of(rival.terms));
+  weigh(id);
+  std::vector<Rival> pairs;
+  for (const Weighted& w : id.weights)
+    if (w.ids.size() == 2 && id.weights.front().log_evidence - w.log_evidence < close &&
+        static_cast<int>(pairs.size()) < most)
+      pairs.push_back(id.rivals[w.best_rival]);
+  for (const Rival& pair : pairs) other_forms(campaign, id, pair, fitted, options);
 }
 
 }  // namespace
@@ -308,31 +308,61 @@ Identification identify(const Campaign& campaign, const Observations& observatio
   id.signatures = trace({campaign, id.observations, *id.whitening, base, id.base, problem});
   id.p_value = family_wise_p(id.signatures, strongest(id.signatures), id.noise.typical_freedom(), options.simulations,
                              options.seed);
-  for (const Signature* s : contenders(id.signatures, options.refits))
+  for (const Signature* s : contenders(id.signatures, options.refits)) {
+    options.pulse();
     if (auto rival =
             refit(campaign, id, {make_term(*s->term.form, id.observations, true)}, {reach_of(*s)}, s->score * s->score))
       id.rivals.push_back(std::move(*rival));
+  }
   if (id.p_value > options.level || id.rivals.empty()) {
     if (!id.rivals.empty()) weigh(id);
     return id;
   }
-  for (const SignaturePair& pair : strongest_pairs(id.signatures, options.refits / 2))
+  for (const SignaturePair& pair : strongest_pairs(id.signatures, options.refits / 2)) {
+    options.pulse();
     if (auto rival = refit(campaign, id,
                            {make_term(*pair.a->term.form, id.observations, true),
                             make_term(*pair.b->term.form, id.observations, true)},
                            {reach_of(*pair.a), reach_of(*pair.b)}, pair.gain))
       id.rivals.push_back(std::move(*rival));
-  for (int effects = 1; effects < options.most_effects; ++effects) {
-    std::size_t best = id.rivals.size();
-    for (std::size_t i = 0; i < id.rivals.size(); ++i)
-      if (static_cast<int>(id.rivals[i].ids.size()) == effects &&
-          (best == id.rivals.size() || id.rivals[i].log_evidence > id.rivals[best].log_evidence))
-        best = i;
-    if (best < id.rivals.size()) extend(campaign, id, best, options);
   }
+  extend_all(campaign, id, options);
+  if (options.every_form) complete_pairs(campaign, id, options);
   weigh(id);
   prefer(campaign, id, id.weights.front().best_rival);
   return id;
+}
+
+double p_beside_others(const Campaign& campaign, const Identification& id, const Rival& rival, std::size_t term,
+                       const IdentifyOptions& options) {
+  std::vector<Term> others = rival.terms;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(term));
+  const WheelPredictor predictor(campaign, id.observations, others), whole(campaign, id.observations, rival.terms);
+  const Index first = whole.amplitude_index(static_cast<int>(term));
+  const Index gone = static_cast<Index>(rival.terms[term].free.size()), last = rival.fit.theta.size() - first - gone;
+  VectorXd start(rival.fit.theta.size() - gone);
+  start << rival.fit.theta.head(first), rival.fit.theta.tail(last);
+  const auto without = fit(predictor, id.observations.values(), *id.whitening, start);
+  if (!without) return 1.0;
+  const LinearProblem problem = problem_of(id, predictor, *without);
+  const std::vector<Signature> signatures =
+      trace({campaign, id.observations, *id.whitening, predictor, *without, problem});
+  std::vector<Signature> own;
+  for (const Signature& s : signatures)
+    if (s.term.form->id == rival.terms[term].form->id) own.push_back(s);
+  return family_wise_p(signatures, strongest(own), id.noise.typical_freedom(), options.simulations, options.seed);
+}
+
+std::map<std::string, double> cosines(const Identification& id, const std::string& effect) {
+  std::map<std::string, double> most;
+  for (const Signature& a : id.signatures)
+    for (const Signature& b : id.signatures) {
+      if (a.term.form->id != effect || b.term.form->id == effect || !(a.projected_norm > 0) || !(b.projected_norm > 0))
+        continue;
+      double& c = most[b.term.form->id];
+      c = std::max(c, std::abs(a.direction.dot(b.direction)));
+    }
+  return most;
 }
 
 std::optional<std::size_t> best_subset(const Identification& id, std::size_t rival) {

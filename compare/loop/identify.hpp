@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -24,6 +26,7 @@ struct Rival {
 struct Weighted {
   std::set<std::string> ids;
   double weight = 0.0;
+  double log_evidence = 0.0;   ///< over the set's forms, its price paid; beside Identification::base_log_evidence
   std::size_t best_rival = 0;  ///< index of the set's best form(s) in Identification::rivals
 };
 
@@ -34,6 +37,8 @@ struct IdentifyOptions {
   int refits = 16;  ///< forms refitted in full at each stage, at the most
   std::uint64_t seed = 1;
   bool drop_outliers = true;
+  bool every_form = true;               ///< pairs weighed over all forms of their effects, as single effects are
+  std::function<void()> pulse = [] {};  ///< called before every fit of a rival; may throw to stop the work
 };
 
 /// What one pass over a set of observations finds.
@@ -58,6 +63,15 @@ std::optional<std::size_t> best_subset(const Identification& id, std::size_t riv
 
 /// Makes a rival the best: what a later test decides against the evidence.
 void prefer(const Campaign& campaign, Identification& id, std::size_t rival);
+
+/// Family-wise p-value of one term of a rival beside its other terms: the probability that noise alone makes any form
+/// of the catalogue stand out as much as this effect's strongest does once the others are fitted.
+double p_beside_others(const Campaign& campaign, const Identification& id, const Rival& rival, std::size_t term,
+                       const IdentifyOptions& options);
+
+/// How alike the traces of an effect and of each other effect are in these data, off what the soil's values absorb: the
+/// largest |cosine| over their forms, by id. 1: nothing tells them apart.
+std::map<std::string, double> cosines(const Identification& id, const std::string& effect);
 
 /// Throws NoSolution where no soil near the declared one carries the wheel in every run.
 Identification identify(const Campaign& campaign, const Observations& observations, const IdentifyOptions& options);

@@ -32,7 +32,10 @@ constexpr double least_noise_freedom = 5.0;  // a channel; below it a residual c
 /// Thresholds of the verdict, set once on the tuning sets of bench/loop (docs/loop.md), never on those reported.
 constexpr double ambiguity_base = 4.0;      // ln evidence by which a set may stand behind the best one
 constexpr double ambiguity_growth = 0.03;   // and more for each ln evidence that the best one gains
+constexpr double ambiguity_cells = 200.0;   // measured values below which both grow, as their root,
+constexpr double ambiguity_most = 2.0;      // at most twofold
 constexpr double superset_allowed = -1.0;   // the same for sets that hold the best one and more
+constexpr double odds_enough = 3.0;         // ln 20 to 1 over the base model, price paid
 constexpr double second_test_level = 0.01;  // of lack of fit after the best named effects
 constexpr double unexplained_share = 0.4;   // of the base model's excess chi2: above it the best name is no name
 constexpr double unnamed_alone = 3.0;       // ln 20 over the base model: P(by chance) <= 5 % (Kass and Raftery 1995)
@@ -51,19 +54,35 @@ std::vector<std::string> not_testable(const Campaign& campaign, const Identifica
   return hidden;
 }
 
+std::vector<Weighted>::const_iterator set_of(const Identification& id, const std::set<std::string>& ids) {
+  return std::find_if(id.weights.begin(), id.weights.end(), [&](const Weighted& w) { return w.ids == ids; });
+}
+
+/// Conditions left out are predicted better by a standard error; or better at all, where the odds are twenty to one:
+/// with a dozen conditions a standard error is more than a real effect reaches.
+bool confirmed(const LoopAnswer& answer) {
+  const Identification& id = answer.details;
+  if (!id.best) return false;
+  const PredictiveGain& gain = answer.choice_gain;
+  const double odds = set_of(id, id.rivals[*id.best].ids)->log_evidence - id.base_log_evidence;
+  return gain.mean > gain.std_error || (gain.mean > 0 && odds > odds_enough);
+}
+
 /// The sets that the data can't tell from the best, best first. How far a set may stand behind grows with what the best
-/// one explains: the more there is to explain, the more a form that nature does not share costs.
+/// one explains: the more there is to explain, the more a form that nature does not share costs. It is wider on small
+/// designs, where a few values decide.
 std::vector<Weighted> ambiguity(const Identification& id) {
   const Rival& best = id.rivals[*id.best];
-  const auto own =
-      std::find_if(id.weights.begin(), id.weights.end(), [&](const Weighted& w) { return w.ids == best.ids; });
-  const double allowed = ambiguity_base + ambiguity_growth * std::max(0.0, best.log_evidence - id.base_log_evidence);
+  const auto own = set_of(id, best.ids);
+  const double cells = static_cast<double>(id.observations.cells.size());
+  const double allowed = std::clamp(std::sqrt(ambiguity_cells / cells), 1.0, ambiguity_most) *
+                         (ambiguity_base + ambiguity_growth * std::max(0.0, own->log_evidence - id.base_log_evidence));
   std::vector<Weighted> set = {*own};
   for (const Weighted& w : id.weights) {
     if (w.ids == best.ids || !(w.weight > 0)) continue;
     const bool more =
         w.ids.size() > best.ids.size() && std::includes(w.ids.begin(), w.ids.end(), best.ids.begin(), best.ids.end());
-    const double behind = std::log(own->weight / w.weight);
+    const double behind = own->log_evidence - w.log_evidence;
     if (behind <= (more ? superset_allowed : allowed)) set.push_back(w);
   }
   double total = 0.0;
@@ -80,14 +99,13 @@ double unexplained(const Identification& id) {
   return std::max(0.0, id.rivals[*id.best].fit.chi2 - cells) / excess;
 }
 
-AcceptedEffect accepted(const WheelPredictor& predictor, const Rival& rival, int term, double p_value) {
+AcceptedEffect accepted(const WheelPredictor& predictor, const Rival& rival, int term) {
   constexpr double two_sided = 1.96;
   const Eigen::VectorXd errors = standard_errors(rival.fit, predictor);
   const Term& t = rival.terms[static_cast<std::size_t>(term)];
   AcceptedEffect effect;
   const auto all = predictor.choices(rival.fit.theta);
   effect.choice = all[all.size() - rival.terms.size() + static_cast<std::size_t>(term)];
-  effect.p_value = p_value;
   for (std::size_t k = 0; k < t.free.size(); ++k) {
     const Eigen::Index i = predictor.amplitude_index(term) + static_cast<Eigen::Index>(k);
     const FreeParameter& bounds = predictor.parameters()[static_cast<std::size_t>(i)];
@@ -116,10 +134,31 @@ SemiEmpiricalSoil fitted_soil(const Campaign& campaign, const WheelPredictor& pr
   return soil;
 }
 
+std::vector<SoilShift> soil_shifts(const Identification& id, const WheelPredictor& predictor) {
+  const Fit& with = id.rivals[*id.best].fit;
+  const Eigen::VectorXd error = standard_errors(with, predictor);
+  const Eigen::VectorXd base_error = standard_errors(id.base, predictor);  // the same soil parameters come first
+  std::vector<SoilShift> shifts;
+  for (int i = 0; i < predictor.soil_parameters(); ++i)
+    shifts.push_back({predictor.parameters()[static_cast<std::size_t>(i)].name,
+                      {with.theta[i], error[i]},
+                      {id.base.theta[i], base_error[i]}});
+  return shifts;
+}
+
+/// p-value and separability of each accepted effect.
+void describe_effects(const Campaign& campaign, LoopAnswer& answer, const IdentifyOptions& options) {
+  const Identification& id = answer.details;
+  for (std::size_t t = 0; t < answer.effects.size(); ++t) {
+    answer.effects[t].p_value = p_beside_others(campaign, id, id.rivals[*id.best], t, options);
+    answer.effects[t].cosines = cosines(id, answer.effects[t].choice.id);
+  }
+}
+
 void decide(const Campaign& campaign, LoopAnswer& answer) {
   const Identification& id = answer.details;
   const CrossValidation& cv = answer.validation;
-  const bool improves = answer.choice_gain.mean > answer.choice_gain.std_error;
+  const bool improves = confirmed(answer);
   if (!id.best) {
     const double unnamed = id.unnamed_gain;
     if (unnamed > unnamed_alone) {
@@ -154,7 +193,7 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
   if (!improves) {
     answer.verdict = Verdict::nothing_missing;
     answer.reason = fmt::format(
-        "the best effect fits (p = {:.2g}) but does not predict held-out conditions better by a standard error "
+        "the best effect fits (p = {:.2g}) but does not predict held-out conditions better "
         "(gain in ln density a condition {:.2g} +- {:.2g})",
         id.p_value, answer.choice_gain.mean, answer.choice_gain.std_error);
     return;
@@ -162,9 +201,9 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
   answer.verdict = Verdict::effect_found;
   const Rival& best = id.rivals[*id.best];
   const WheelPredictor predictor(campaign, id.observations, best.terms);
-  for (int t = 0; t < static_cast<int>(best.terms.size()); ++t)
-    answer.effects.push_back(accepted(predictor, best, t, id.p_value));
+  for (int t = 0; t < static_cast<int>(best.terms.size()); ++t) answer.effects.push_back(accepted(predictor, best, t));
   answer.soil = fitted_soil(campaign, predictor, best.fit);
+  answer.soil_shifts = soil_shifts(id, predictor);
   answer.dependences_after = dependences(
       id.observations, best.fit.residual.head(static_cast<Eigen::Index>(id.observations.cells.size())), 999, 11);
   answer.reason = fmt::format("p = {:.2g} among the whole catalogue; held-out error falls by {:.2g} +- {:.2g} sigma^2",
@@ -195,16 +234,12 @@ bool too_small(const Campaign& campaign, const Observations& observations, std::
   return true;
 }
 
-}  // namespace
+/// Steps of the progress: what the identification and the choice take of all.
+constexpr std::size_t all_steps = 100, identified = 30, chosen = 40;
 
-LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
-  LoopAnswer answer;
-  answer.campaign = campaign.name;
-  answer.soil = campaign.soil;
-  const Observations observations = observe(campaign);
-  if (too_small(campaign, observations, answer.reason)) return answer;
-  answer.details = identify(campaign, observations, options.identify);
-  Identification& id = answer.details;
+/// What the data allow before any effect is judged; false where they are too few, with the reason.
+bool describe_base(const Campaign& campaign, LoopAnswer& answer) {
+  const Identification& id = answer.details;
   answer.outliers = static_cast<int>(std::count(id.outlier.begin(), id.outlier.end(), true));
   answer.not_testable = not_testable(campaign, id);
   const Eigen::Index cells = static_cast<Eigen::Index>(id.observations.cells.size());
@@ -214,28 +249,64 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   if (id.noise.typical_freedom() < least_noise_freedom) {
     answer.reason = fmt::format("the noise of a channel rests on {:.1f} degrees of freedom only, too few to judge by",
                                 id.noise.typical_freedom());
-    return answer;
+    return false;
   }
   if (std::none_of(id.signatures.begin(), id.signatures.end(), [](const Signature& s) { return s.testable; })) {
     answer.reason = "no effect of the catalogue would show in these data, whatever its size";
-    return answer;
+    return false;
   }
-  IdentifyOptions inner = options.identify;
-  inner.simulations = std::max(500, inner.simulations / 4);
-  inner.drop_outliers = false;  // set aside once, by the whole
-  inner.refits = std::max(4, inner.refits / 2);
-  if (id.best) confirm(campaign, answer, options.identify.seed);
-  if (options.validate) answer.validation = cross_validate(campaign, id, inner, options.folds, options.threads);
+  return true;
+}
+
+/// The competing sets and the run that would best set them apart.
+void compare_rivals(const Campaign& campaign, LoopAnswer& answer, const Limits& limits) {
+  const Identification& id = answer.details;
+  if (!id.best || (answer.verdict != Verdict::effect_found && answer.verdict != Verdict::unknown_effect)) return;
+  answer.ambiguity_set = ambiguity(id);
+  if (answer.verdict != Verdict::effect_found) return;
+  std::vector<std::size_t> rivals;
+  for (std::size_t i = 0; i < id.weights.size(); ++i)
+    for (const Weighted& w : answer.ambiguity_set)
+      if (w.ids == id.weights[i].ids) rivals.push_back(i);
+  answer.next = next_test(campaign, id, rivals, limits.empty() ? limits_of(id.observations) : limits);
+}
+
+/// The choice within a fold: faster, its outliers set aside by the whole.
+IdentifyOptions of_a_fold(IdentifyOptions options) {
+  options.simulations = std::max(500, options.simulations / 4);
+  options.drop_outliers = false;
+  options.refits = std::max(4, options.refits / 2);
+  options.every_form = false;
+  return options;
+}
+
+}  // namespace
+
+LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
+  const auto say = [&](std::size_t step) {
+    if (options.progress) options.progress(step, all_steps);
+  };
+  LoopAnswer answer;
+  answer.campaign = campaign.name;
+  answer.soil = campaign.soil;
+  const Observations observations = observe(campaign);
+  if (too_small(campaign, observations, answer.reason)) return answer;
+  IdentifyOptions whole = options.identify;
+  std::size_t fits = 0;
+  whole.pulse = [&] { say(std::min(++fits, identified)); };
+  answer.details = identify(campaign, observations, whole);
+  if (!describe_base(campaign, answer)) return answer;
+  if (answer.details.best) confirm(campaign, answer, options.identify.seed);
+  say(chosen);
+  const IdentifyOptions inner = of_a_fold(options.identify);
+  if (options.validate)
+    answer.validation = cross_validate(
+        campaign, answer.details, inner, options.folds, options.threads,
+        [&](std::size_t done, std::size_t folds) { say(chosen + (all_steps - 1 - chosen) * done / folds); });
   decide(campaign, answer);
-  if (answer.verdict == Verdict::effect_found || (answer.verdict == Verdict::unknown_effect && id.best))
-    answer.ambiguity_set = ambiguity(id);
-  if (answer.verdict == Verdict::effect_found) {
-    std::vector<std::size_t> rivals;
-    for (std::size_t i = 0; i < id.weights.size(); ++i)
-      for (const Weighted& w : answer.ambiguity_set)
-        if (w.ids == id.weights[i].ids) rivals.push_back(i);
-    answer.next = next_test(campaign, id, rivals, options.limits.empty() ? limits_of(id.observations) : options.limits);
-  }
+  describe_effects(campaign, answer, options.identify);
+  compare_rivals(campaign, answer, options.limits);
+  say(all_steps);
   return answer;
 }
 

@@ -22,6 +22,7 @@ struct LoopOptions {
   int threads = 2;       ///< changes the time, never the answer
   Limits limits;         ///< of the next test; empty: the campaign's own ranges
   bool validate = true;  ///< honest errors by the whole procedure redone in each fold; without it they are absent
+  Progress progress;     ///< share of the work done, from the calling thread; may throw to stop
 };
 
 /// An effect that the loop accepts, in the form that fits best.
@@ -29,7 +30,14 @@ struct AcceptedEffect {
   EffectChoice choice;                          ///< with fitted parameters [SI]
   std::vector<std::string> fitted;              ///< names of the parameters that were fitted
   std::vector<std::pair<double, double>> ci95;  ///< of each fitted parameter
-  double p_value = 1.0;                         ///< family-wise
+  double p_value = 1.0;                         ///< family-wise, beside the other accepted effects
+  std::map<std::string, double> cosines;        ///< of its trace with each other effect's: what separates them
+};
+
+/// A soil value refitted with the accepted effects and without: the difference is the bias of leaving them out.
+struct SoilShift {
+  std::string name;
+  Estimate with, without;  ///< [SI]
 };
 
 struct LoopAnswer {
@@ -45,8 +53,9 @@ struct LoopAnswer {
   LackOfFit before, after;
   std::vector<Dependence> dependences_before, dependences_after;
   Identification details;
-  SemiEmpiricalSoil soil;  ///< refitted with the accepted effects, with standard errors
-  int outliers = 0;        ///< cells set aside
+  std::vector<SoilShift> soil_shifts;  ///< of the free values, where effects are accepted
+  SemiEmpiricalSoil soil;              ///< refitted with the accepted effects, with standard errors
+  int outliers = 0;                    ///< cells set aside
 };
 
 /// Runs the loop. Throws InputError for a campaign that can't be used; a campaign too small to say anything is a

@@ -155,6 +155,33 @@ HtmlTable trace_table(const LoopAnswer& answer) {
   return table;
 }
 
+/// The effects whose traces look most like an accepted one's.
+HtmlTable likeness_table(const LoopAnswer& answer) {
+  HtmlTable table{"What looks most like the accepted effects: cosine of the traces off what the soil's values absorb",
+                  {"effect", "p-value", "most alike", "cosine"},
+                  {},
+                  {true, false, true, false}};
+  constexpr std::size_t most = 3;
+  for (const AcceptedEffect& effect : answer.effects) {
+    std::vector<std::pair<double, std::string>> order;
+    for (const auto& [id, cosine] : effect.cosines) order.emplace_back(-cosine, id);
+    std::sort(order.begin(), order.end());
+    for (std::size_t i = 0; i < std::min(most, order.size()); ++i)
+      table.rows.push_back({effect.choice.id, number(effect.p_value), order[i].second, number(-order[i].first)});
+  }
+  return table;
+}
+
+HtmlTable soil_table(const LoopAnswer& answer) {
+  HtmlTable table{"The soil's values [SI], and the bias that leaving the effects out puts into them",
+                  {"value", "with", "without", "bias"},
+                  {},
+                  {}};
+  for (const SoilShift& s : answer.soil_shifts)
+    table.rows.push_back({s.name, number(s.with), number(s.without), number(s.without.value - s.with.value)});
+  return table;
+}
+
 }  // namespace
 
 std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const std::string& command) {
@@ -179,6 +206,10 @@ std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const 
     page.section("Rivals");
     page.table(rivals_table(answer));
     page.table(trace_table(answer));
+    if (!answer.effects.empty()) {
+      page.table(likeness_table(answer));
+      page.table(soil_table(answer));
+    }
     page.section("Residuals against every variable");
     for (const Covariate& x : variables)
       page.figure(residual_sheet(id, x, before, after ? &*after : nullptr), "In standard deviations of the noise.");

@@ -30,7 +30,6 @@ void set_condition(OperatingCondition& at, const std::string& name, double value
 /// A rival's predictor with its fit, and the covariance of its parameters.
 struct Candidate {
   std::set<std::string> ids;
-  double weight = 1.0;
   WheelPredictor predictor;
   VectorXd theta;
   std::vector<int> free;
@@ -38,9 +37,8 @@ struct Candidate {
 };
 
 Candidate candidate(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms, const Fit& fit,
-                    std::set<std::string> ids, double weight) {
-  Candidate c{std::move(ids),       weight, WheelPredictor(campaign, id.observations, terms), fit.theta,
-              fit.column_parameter, {}};
+                    std::set<std::string> ids) {
+  Candidate c{std::move(ids), WheelPredictor(campaign, id.observations, terms), fit.theta, fit.column_parameter, {}};
   MatrixXd gram = fit.columns.transpose() * fit.columns;
   gram.diagonal().array() += 1e-9;
   c.covariance = gram.ldlt().solve(MatrixXd::Identity(gram.rows(), gram.cols()));
@@ -54,7 +52,21 @@ Candidate candidate(const Campaign& campaign, const Identification& id, const st
 
 Vector4d as_vector(const bekker_wong::Reading& r) { return {r.drawbar_pull, r.torque, r.sinkage, r.lateral_force}; }
 
-/// Prediction and its covariance from the parameters' uncertainty, by one-sided differences of 0.1 sd.
+/// Variance that each term's form may be wrong by: its contribution times the form's tolerance, channel by channel.
+Matrix4d form_variance(const Candidate& c, const OperatingCondition& at, const Vector4d& here) {
+  Matrix4d variance = Matrix4d::Zero();
+  for (int t = 0; t < static_cast<int>(c.predictor.terms().size()); ++t) {
+    VectorXd theta = c.theta;
+    theta[c.predictor.amplitude_index(t)] = 0.0;
+    const double tolerance = c.predictor.terms()[static_cast<std::size_t>(t)].form->form_tolerance;
+    const Vector4d contribution = here - as_vector(c.predictor.reading(theta, at));
+    variance.diagonal() += tolerance * tolerance * contribution.cwiseAbs2();
+  }
+  return variance;
+}
+
+/// Prediction and its covariance from the parameters' uncertainty, by one-sided differences of 0.1 sd, and from the
+/// tolerance of its forms.
 std::pair<Vector4d, Matrix4d> predict(const Candidate& c, const OperatingCondition& at) {
   const Vector4d here = as_vector(c.predictor.reading(c.theta, at));
   MatrixXd jacobian(4, static_cast<Index>(c.free.size()));
@@ -66,7 +78,7 @@ std::pair<Vector4d, Matrix4d> predict(const Candidate& c, const OperatingConditi
     theta[c.free[i]] += step;
     jacobian.col(static_cast<Index>(i)) = (as_vector(c.predictor.reading(theta, at)) - here) / step;
   }
-  return {here, jacobian * c.covariance * jacobian.transpose()};
+  return {here, jacobian * c.covariance * jacobian.transpose() + form_variance(c, at, here)};
 }
 
 /// Squared distance of two predictions over noise and their uncertainties, over the measured channels.
@@ -131,9 +143,10 @@ std::optional<NextTest> next_test(const Campaign& campaign, const Identification
   std::vector<Candidate> competing;
   for (const std::size_t w : rivals) {
     const Rival& rival = id.rivals[id.weights[w].best_rival];
-    competing.push_back(candidate(campaign, id, rival.terms, rival.fit, rival.ids, id.weights[w].weight));
+    competing.push_back(candidate(campaign, id, rival.terms, rival.fit, rival.ids));
   }
-  if (competing.size() < 2) competing.push_back(candidate(campaign, id, {}, id.base, {}, 1.0));
+  if (competing.size() < 2) competing.push_back(candidate(campaign, id, {}, id.base, {}));
+  constexpr double decided = 2 * 3.0;  // 2 ln 20: what lies further apart than that is decided by one run
   std::optional<NextTest> best;
   double most = 0.0;
   for (const OperatingCondition& at : grid(id.observations, limits)) try {
@@ -144,12 +157,11 @@ std::optional<NextTest> next_test(const Campaign& campaign, const Identification
       for (std::size_t i = 0; i < competing.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
           const double d = squared_distance(predictions[i], predictions[j], id.noise);
-          worth += competing[i].weight * competing[j].weight * std::min(d, 50.0);
+          worth += std::min(d, decided);
           if (d > widest) widest = d, apart = {j, i};
         }
       if (worth <= most || !(widest > 0)) continue;
       most = worth;
-      constexpr double decided = 2 * 3.0;  // 2 ln 20
       best = NextTest{.at = at,
                       .quantities = {},
                       .separates = {competing[apart.first].ids, competing[apart.second].ids},

@@ -25,8 +25,9 @@ struct NextTest {
   double distance = 0.0;  ///< squared distance of the rivals' predictions a run, in sd
 };
 
-/// The condition within limits with the largest weighted squared distance between the rivals' predictions over noise
-/// plus the predictions' own uncertainty (Buzzi-Ferraris and Forzatti 1983, Chem. Eng. Sci. 38:225), on a grid.
+/// The condition within limits with the largest sum over pairs of rivals of the squared distance between their
+/// predictions, over noise plus the predictions' own uncertainty and the tolerance of their forms (Buzzi-Ferraris and
+/// Forzatti 1983, Chem. Eng. Sci. 38:225), on a grid. A pair counts at most what decides between them.
 /// rivals: indices of id.weights that compete. With a single one it competes against the base model. Nothing where no
 /// condition within limits sets them apart in 50 runs.
 std::optional<NextTest> next_test(const Campaign& campaign, const Identification& id,

@@ -145,18 +145,31 @@ std::vector<EffectChoice> WheelPredictor::choices(const Eigen::VectorXd& theta) 
   return list;
 }
 
-bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction) const try {
+bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction) const {
+  BalanceMemory memory;
+  return predict(theta, prediction, memory);
+}
+
+bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction, BalanceMemory& memory) const
+    try {
   const RollingWheel wheel(campaign_->wheel, soil(theta), effects(theta), campaign_->bin);
-  prediction.resize(static_cast<Eigen::Index>(observations_->cells.size()));
-  std::size_t cell = 0;
   const std::vector<Cell>& cells = observations_->cells;
-  for (int row = 0; row < static_cast<int>(observations_->rows.size()); ++row) {
-    if (cell == cells.size() || cells[cell].row != row) continue;
-    const Reading reading = wheel.roll(observations_->rows[static_cast<std::size_t>(row)]).reading;
-    if (!finite(reading)) return false;
-    for (; cell < cells.size() && cells[cell].row == row; ++cell)
-      prediction[static_cast<Eigen::Index>(cell)] = channel_of(reading, cells[cell].channel);
+  const int rows = static_cast<int>(observations_->rows.size());
+  prediction.resize(static_cast<Eigen::Index>(cells.size()));
+  std::vector<double> angles(static_cast<std::size_t>(rows));
+  for (int k = 0, first = memory.weakest; k < rows; ++k) {
+    const int row = (first + k) % rows;
+    auto cell = std::lower_bound(cells.begin(), cells.end(), row, [](const Cell& c, int r) { return c.row < r; });
+    if (cell == cells.end() || cell->row != row) continue;
+    memory.weakest = row;
+    const RolledWheel rolled = wheel.roll(observations_->rows[static_cast<std::size_t>(row)]);
+    if (!finite(rolled.reading)) return false;
+    angles[static_cast<std::size_t>(row)] = rolled.balance_angle;
+    for (; cell != cells.end() && cell->row == row; ++cell)
+      prediction[cell - cells.begin()] = channel_of(rolled.reading, cell->channel);
+    memory.weakest = first;
   }
+  memory.angles = std::move(angles);
   return true;
 } catch (const NoSolution&) {
   return false;
@@ -166,8 +179,8 @@ bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& pred
   return false;
 }
 
-bool WheelPredictor::linearise(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction,
-                               Eigen::MatrixXd& jacobian) const try {
+bool WheelPredictor::linearise(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction, Eigen::MatrixXd& jacobian,
+                               const std::vector<double>& angles) const try {
   const auto wheel_at = [&](const Eigen::VectorXd& at) {
     return RollingWheel(campaign_->wheel, soil(at), effects(at), campaign_->bin);
   };
@@ -192,7 +205,8 @@ bool WheelPredictor::linearise(const Eigen::VectorXd& theta, Eigen::VectorXd& pr
     while (cell < cells.size() && cells[cell].row == row) ++cell;
     if (cell == first) continue;
     const OperatingCondition& at = observations_->rows[static_cast<std::size_t>(row)];
-    const double theta_1 = wheel.roll(at).balance_angle, turn = 1e-6 * theta_1;
+    const double theta_1 = angles.empty() ? wheel.roll(at).balance_angle : angles[static_cast<std::size_t>(row)];
+    const double turn = 1e-6 * theta_1;
     const RolledWheel here = wheel.at_entry_angle(at, theta_1);
     const RolledWheel turned = wheel.at_entry_angle(at, theta_1 - turn);
     if (!finite(here.reading)) return false;

@@ -35,6 +35,12 @@ struct Term {
 /// A form with its reference values set to the observations' means (moisture, position, run).
 Term make_term(const bekker_wong::EffectForm& form, const Observations& observations, bool free_shape);
 
+/// What one prediction tells the next.
+struct BalanceMemory {
+  int weakest = 0;             ///< the row that had no balance at last: tried first, for it fails again
+  std::vector<double> angles;  ///< theta_1 of each row, of the last prediction in which all had a balance [rad]
+};
+
 /// What the declared campaign and some terms predict. theta: the soil's free values in the contract's order (those
 /// declared with sd > 0), then each term's free parameters. All const members may be called from any thread.
 class WheelPredictor {
@@ -50,10 +56,13 @@ class WheelPredictor {
 
   /// Predictions of all cells; false where any row has no balance at theta.
   bool predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction) const;
+  bool predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction, BalanceMemory& memory) const;
 
   /// Predictions and their Jacobian over theta by implicit differentiation of the balance: at fixed theta_1 the forces
-  /// and the carried load are differenced, then dtheta_1 = -dV/(dV/dtheta_1). False where a row has no balance.
-  bool linearise(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction, Eigen::MatrixXd& jacobian) const;
+  /// and the carried load are differenced, then dtheta_1 = -dV/(dV/dtheta_1). False where a row has no balance. angles:
+  /// theta_1 of each row at this theta where a prediction has found them; empty otherwise.
+  bool linearise(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction, Eigen::MatrixXd& jacobian,
+                 const std::vector<double>& angles = {}) const;
 
   /// One condition's four channels at theta. Throws NoSolution.
   bekker_wong::Reading reading(const Eigen::VectorXd& theta, const OperatingCondition& at) const;

@@ -12,11 +12,11 @@ namespace soilbin::dem {
 namespace {
 
 /// Width of a grain's place, in diameters of the largest.
-constexpr double place = 1.05;
+constexpr double place_width = 1.05;
 
 std::array<int, 3> places(const Region& region, const RadiusRange& radii) {
   const Vec3 side = region.upper - region.lower;
-  const double width = place * 2 * radii.largest;
+  const double width = place_width * 2 * radii.largest;
   const auto along = [&](double length) { return length < width ? 0 : static_cast<int>(length / width); };
   return {along(side.x), along(side.y), along(side.z)};
 }
@@ -38,7 +38,7 @@ void insert_loosely(Simulation& simulation, const Region& region, const RadiusRa
                                  count, nx * ny * nz));
   Random random(seed);
   const Vec3 side = region.upper - region.lower;
-  const Vec3 width{side.x / nx, side.y / ny, place * 2 * radii.largest};
+  const Vec3 width{side.x / nx, side.y / ny, place_width * 2 * radii.largest};
   for (int k = 0; k < count; ++k) {
     const int ix = k % nx, iy = k / nx % ny, iz = k / (nx * ny);
     const double radius = random.uniform(radii.smallest, radii.largest);

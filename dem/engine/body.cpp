@@ -1,6 +1,11 @@
 #include "dem/engine/body.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cmath>
+
+#include "scenario/errors.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -8,22 +13,25 @@ namespace {
 Vec3 times(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 Vec3 over(const Vec3& a, const Vec3& b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
 
-/// Euler's equations in the body's frame.
-Vec3 angular_acceleration(const Vec3& inertia, const Vec3& spin, const Vec3& torque) {
-  return over(torque - cross(spin, times(inertia, spin)), inertia);
+bool positive(double a) { return a > 0 && std::isfinite(a); }
+bool is_unit(const Vec3& a) { return std::abs(squared(a) - 1) < 1e-6; }
+
+/// I w in the frame of the bin, and back.
+Vec3 momentum_of(const Body& body, const Vec3& spin) {
+  return body.rotation(times(body.inertia, body.rotation.inverse()(spin)));
+}
+Vec3 spin_of(const Body& body, const Vec3& momentum) {
+  return body.rotation(over(body.rotation.inverse()(momentum), body.inertia));
 }
 
+double inertia_about_axis(const Body& body) { return dot(body.axis, momentum_of(body, body.axis)); }
+
+/// The angular momentum at the half step after is that of the half step before and the torque's. There the body has
+/// turned by half a step's turn more than now, so the spin is found by iteration; it keeps the momentum exactly.
 void turn_freely(Body& body, const Vec3& torque, double dt) {
-  const Rotation back = body.rotation.inverse();
-  const Vec3 spin = back(body.spin), moment = back(torque);
-  const Vec3 middle = spin + (dt / 2) * angular_acceleration(body.inertia, spin, moment);
-  body.spin = body.rotation(spin + dt * angular_acceleration(body.inertia, middle, moment));
-}
-
-void turn_about_axis(Body& body, const Vec3& torque, double dt) {
-  const Vec3 axis = body.rotation.inverse()(body.axis);
-  const double inertia = dot(axis, times(body.inertia, axis));
-  body.spin = (dot(body.spin, body.axis) + dt * dot(torque, body.axis) / inertia) * body.axis;
+  const Vec3 before = rotation_by(-dt / 2 * body.spin)(momentum_of(body, body.spin));
+  const Vec3 momentum = before + dt * torque;
+  for (int k = 0; k < 8; ++k) body.spin = spin_of(body, rotation_by(-dt / 2 * body.spin)(momentum));
 }
 
 void follow(const Servo& servo, Body& body) {
@@ -34,20 +42,57 @@ void follow(const Servo& servo, Body& body) {
 
 }  // namespace
 
+void check(const Body& body, int materials) {
+  const auto require = [&](bool holds, const char* what) {
+    if (!holds) throw InputError(fmt::format("body {}: {}", body.name, what));
+  };
+  const Vec3& inertia = body.inertia;
+  require(positive(body.mass) && positive(inertia.x) && positive(inertia.y) && positive(inertia.z),
+          "mass and inertia must be above 0");
+  for (const Surface& surface : body.surfaces) {
+    require(surface.material >= 0 && surface.material < materials,
+            fmt::format("there is no material {}", surface.material).c_str());
+    const auto* plane = std::get_if<Plane>(&surface.shape);
+    require(plane || std::get<MeshSurface>(surface.shape).mesh, "a surface has no mesh");
+    require(!plane || is_unit(plane->normal), "a plane's normal must have length 1");
+  }
+  const Rotation& q = body.rotation;
+  require(std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1) < 1e-6, "the rotation must have length 1");
+  require(body.turning != Turning::about_axis || is_unit(body.axis), "the axis must have length 1");
+  if (!body.servo) return;
+  require(is_unit(body.servo->direction), "the servo's direction must have length 1");
+  require(where(body.free_translation, body.servo->direction) == Vec3{}, "the servo moves it where it is free");
+}
+
+double free_energy(const Body& body, const Vec3& velocity, const Vec3& spin) {
+  const double straight = 0.5 * body.mass * squared(where(body.free_translation, velocity));
+  if (body.turning == Turning::prescribed) return straight;
+  return straight + 0.5 * dot(spin, momentum_of(body, spin));
+}
+
+Acceleration acceleration(const Body& body, const Vec3& force, const Vec3& torque, const Vec3& gravity) {
+  const Vec3 pull = (force + body.applied_force) / body.mass + (body.weighs ? gravity : Vec3{});
+  Acceleration out{where(body.free_translation, pull), {}};
+  const Vec3 turn = torque + body.applied_torque;
+  if (body.turning == Turning::free) out.spin = spin_of(body, turn - cross(body.spin, momentum_of(body, body.spin)));
+  if (body.turning == Turning::about_axis) out.spin = dot(turn, body.axis) / inertia_about_axis(body) * body.axis;
+  return out;
+}
+
 void advance(Body& body, const Vec3& gravity, double dt) {
   const Vec3 before = body.velocity, spin_before = body.spin;
-  const Vec3 pull = body.force + body.applied_force + (body.weighs ? body.mass * gravity : Vec3{});
-  const Vec3 change = (dt / body.mass) * pull;
-  if (body.free_translation[0]) body.velocity.x += change.x;
-  if (body.free_translation[1]) body.velocity.y += change.y;
-  if (body.free_translation[2]) body.velocity.z += change.z;
+  const Acceleration change = acceleration(body, body.force, body.torque, gravity);
+  body.velocity += dt * change.velocity;
   if (body.servo) follow(*body.servo, body);
-  const Vec3 torque = body.torque + body.applied_torque;
-  if (body.turning == Turning::free) turn_freely(body, torque, dt);
-  if (body.turning == Turning::about_axis) turn_about_axis(body, torque, dt);
+  if (body.turning == Turning::free) turn_freely(body, body.torque + body.applied_torque, dt);
+  if (body.turning == Turning::about_axis) body.spin = dot(body.spin + dt * change.spin, body.axis) * body.axis;
 
-  body.work -=
-      dt * (dot(body.force, 0.5 * (before + body.velocity)) + dot(body.torque, 0.5 * (spin_before + body.spin)));
+  const Vec3 velocity = 0.5 * (before + body.velocity), spin = 0.5 * (spin_before + body.spin);
+  body.work -= dt * (dot(body.force, velocity) + dot(body.torque, spin));
+  const Vec3 free = where(body.free_translation, velocity), driven = velocity - free;
+  const bool turns = body.turning != Turning::prescribed;
+  body.driven_work += dt * (dot(body.applied_force, free) - dot(body.force, driven) +
+                            dot(turns ? body.applied_torque : -body.torque, spin));
   body.position += dt * body.velocity;
   if (body.spin != Vec3{}) {
     const Rotation q = rotation_by(dt * body.spin) * body.rotation;
@@ -61,6 +106,8 @@ double extent(const Body& body) {
   for (const Surface& surface : body.surfaces)
     if (const auto* mesh = std::get_if<MeshSurface>(&surface.shape))
       for (const Vec3& vertex : mesh->mesh->vertices()) farthest = std::max(farthest, length(vertex));
+    else
+      return -1;
   return farthest;
 }
 

@@ -60,10 +60,11 @@ struct Body {
 
   Vec3 position;  ///< of the origin of its frame, taken as its centre of mass [m]
   Rotation rotation;
-  Vec3 velocity, spin;  ///< at the half step [m/s], [rad/s]
-  Vec3 force, torque;   ///< of the grains at the last step, torque about position
-  double work = 0;      ///< done by this body on the grains since the start [J]
-  double travel = 0;    ///< bound on the way of its points since the last search [m]
+  Vec3 velocity, spin;     ///< at the half step [m/s], [rad/s]
+  Vec3 force, torque;      ///< of the grains at the last step, torque about position
+  double work = 0;         ///< done by this body on the grains since the start [J]
+  double driven_work = 0;  ///< done on this body by what drives it and by what is applied, since the start [J]
+  double travel = 0;       ///< bound on the way of its points since the last search [m]
 
   Vec3 to_body(const Vec3& point) const { return rotation.inverse()(point - position); }
   Vec3 to_bin(const Vec3& point) const { return position + rotation(point); }
@@ -71,10 +72,29 @@ struct Body {
   Vec3 velocity_at(const Vec3& point) const { return velocity + cross(spin, point - position); }
 };
 
+/// `a` along the axes marked, zero along the others.
+constexpr Vec3 where(const std::array<bool, 3>& yes, const Vec3& a) {
+  return {yes[0] ? a.x : 0, yes[1] ? a.y : 0, yes[2] ? a.z : 0};
+}
+
+/// Throws InputError for what makes no sense: no mesh, directions that are not units, an unknown material of so many, a
+/// mass or inertia that isn't positive, a servo along a direction that is free.
+void check(const Body& body, int materials);
+
+/// Kinetic energy of its free motion, of these velocities [J].
+double free_energy(const Body& body, const Vec3& velocity, const Vec3& spin);
+
+/// How its velocity and spin would change in a second under these loads and gravity, where they are free.
+struct Acceleration {
+  Vec3 velocity, spin;
+};
+Acceleration acceleration(const Body& body, const Vec3& force, const Vec3& torque, const Vec3& gravity);
+
 /// One step of motion under body.force, body.torque, what is applied, and gravity.
 void advance(Body& body, const Vec3& gravity, double dt);
 
-/// Farthest distance of any of its mesh points from its position [m]; 0 without meshes.
+/// Farthest distance of any of its mesh points from its position [m]; 0 without meshes, -1 with a plane, which has no
+/// end.
 double extent(const Body& body);
 
 }  // namespace soilbin::dem

@@ -9,7 +9,8 @@ struct Ledger {
   double sliding = 0;        ///< lost in sliders
   double into_slide = 0;     ///< taken by tangential springs, dashpots and sliders together
   double into_roll = 0;      ///< taken by rolling resistance, its springs included
-  double added = 0;          ///< brought by grains that were added, less that of grains removed
+  double adhesion = 0;       ///< left in contacts of jkr when they broke
+  double added = 0;          ///< brought by what was added, removed or changed between steps, and at the start
 
   /// Takes powers [W] in the order of Losses, for a step.
   void add(const double (&powers)[5], double dt) {
@@ -23,18 +24,20 @@ struct Ledger {
 
 /// Where the energy is [J].
 struct EnergyBalance {
-  double kinetic = 0;         ///< of grains, and of bodies that move freely
-  double potential = 0;       ///< of grains, and of bodies that weigh, from z = 0 of gravity's direction
-  double elastic = 0;         ///< of normal springs, cohesion included
+  double kinetic = 0;  ///< of grains, and of bodies where they move freely
+  double potential =
+      0;               ///< of grains, and of bodies that weigh and are free to fall, from z = 0 of gravity's direction
+  double elastic = 0;  ///< of normal springs, cohesion included
   double tangential = 0;      ///< of tangential springs
   double rolling = 0;         ///< of rolling springs
-  double work_of_bodies = 0;  ///< done on the grains by bodies since the start
+  double work_of_drives = 0;  ///< done since the start by what drives bodies, and by what is applied to them
   Ledger ledger;
 
-  /// Constant but for the error of the time step: what is there, plus what left, less what came.
+  /// Zero but for the error of the time step, of first order in dt: what is there, plus what left, less what came. So
+  /// it stands where Numerics::ledger was set from the start; else it is constant.
   double total() const {
-    return kinetic + potential + elastic + ledger.damping + ledger.into_slide + ledger.into_roll - work_of_bodies -
-           ledger.added;
+    return kinetic + potential + elastic + ledger.damping + ledger.into_slide + ledger.into_roll + ledger.adhesion -
+           work_of_drives - ledger.added;
   }
 };
 

@@ -57,13 +57,14 @@ void Simulation::for_each_contact(const Visit& visit) const {
     const Motion &a = s.grains.motion[i], &b = s.grains.motion[j];
     const Vec3 between = periods.shortest(a.position - b.position);
     const double sum = a.radius + b.radius;
-    if (i == s.grains.idle_first() || (squared(between) >= sum * sum && !s.pairs.touches(pair))) continue;
+    // Rows from there on were idle when the list was made.
+    if (i >= s.searched_at.size() || (squared(between) >= sum * sum && !s.pairs.touches(pair))) continue;
     Evaluated c{.first = i,
                 .second = j,
                 .triangle = -1,
                 .point = {},
                 .arm_second = 0,
-                .constants = constants_between(s.grains.material[i], s.grains.material[j]),
+                .constants = constants_of(kind_of(s.grains.material[i], s.grains.material[j])),
                 .touch = touch_of(s.grains, i, j, between),
                 .memory = memory_of(s.pairs, pair),
                 .does = {}};
@@ -85,9 +86,10 @@ void Simulation::for_each_contact(const Visit& visit) const {
       const Body& body = s.bodies[near.body];
       const Motion& grain = s.grains.motion[near.grain];
       const LawConstants<double>& constants =
-          constants_between(s.grains.material[near.grain], body.surfaces[near.surface].material);
+          constants_of(kind_of(s.grains.material[near.grain], body.surfaces[near.surface].material));
       made.clear();
-      const int count = find_contacts(body, near, grain, {setup_.laws, constants, adhesion_reach_},
+      const int count = find_contacts(place(body, body.surfaces[near.surface]), near, grain,
+                                      {setup_.laws, constants, adhesion_reach_},
                                       {slab.made.data() + begin, old - begin}, made, touches);
       for (int k = 0; k < count; ++k) {
         Evaluated c{.first = near.grain,
@@ -144,18 +146,43 @@ std::size_t Simulation::row_of(GrainId id) const {
   return found - state_.grains.id.begin();
 }
 
-GrainNow Simulation::grain(GrainId id) const {
-  const std::size_t row = row_of(id);
+bool Simulation::is_new(std::size_t row) const {
+  return std::binary_search(state_.new_grains.begin(), state_.new_grains.end(), state_.grains.id[row]);
+}
+
+GrainNow Simulation::motion_at(std::size_t row, const Load& load) const {
   const Motion& grain = state_.grains.motion[row];
   const Spin& spin = state_.grains.spin[row];
   GrainNow now{grain.position, grain.velocity, spin.rate, grain.radius};
-  const bool still_new = std::find(state_.new_grains.begin(), state_.new_grains.end(), id) != state_.new_grains.end();
-  if (still_new) return now;
+  if (is_new(row)) return now;
   const double half = setup_.numerics.dt / 2;
-  const Load load = loads()[row];
   now.velocity += half * (grain.inverse_mass * load.force + (grain.inverse_mass > 0 ? 1.0 : 0.0) * state_.gravity);
   now.spin += (half * spin.inverse_inertia) * load.torque;
   return now;
+}
+
+GrainNow Simulation::grain(GrainId id) const {
+  const std::size_t row = row_of(id);
+  return motion_at(row, is_new(row) ? Load{} : loads()[row]);
+}
+
+std::vector<GrainNow> Simulation::grains() const {
+  const std::vector<Load> all = loads();
+  std::vector<GrainNow> out;
+  for (std::size_t row = 0; row < all.size(); ++row) out.push_back(motion_at(row, all[row]));
+  return out;
+}
+
+/// Velocities that were shown half a step ago become those of `by` later [s].
+void Simulation::shift_half_steps(double by) {
+  State& s = state_;
+  const std::vector<Load> all = loads();
+  for (std::size_t k = 0; k < s.grains.count(); ++k) {
+    if (is_new(k)) continue;
+    Motion& grain = s.grains.motion[k];
+    grain.velocity += by * (grain.inverse_mass * all[k].force + (grain.inverse_mass > 0 ? 1.0 : 0.0) * s.gravity);
+    s.grains.spin[k].rate += (by * s.grains.spin[k].inverse_inertia) * all[k].torque;
+  }
 }
 
 void Simulation::half_step_back() {
@@ -163,9 +190,8 @@ void Simulation::half_step_back() {
   if (s.new_grains.empty()) return;
   const std::vector<Load> all = loads();
   const double half = setup_.numerics.dt / 2;
-  std::sort(s.new_grains.begin(), s.new_grains.end());
   for (std::size_t k = 0; k < s.grains.count(); ++k) {
-    if (!std::binary_search(s.new_grains.begin(), s.new_grains.end(), s.grains.id[k])) continue;
+    if (!is_new(k)) continue;
     Motion& grain = s.grains.motion[k];
     grain.velocity -= half * (grain.inverse_mass * all[k].force + (grain.inverse_mass > 0 ? 1.0 : 0.0) * s.gravity);
     s.grains.spin[k].rate -= (half * s.grains.spin[k].inverse_inertia) * all[k].torque;
@@ -177,25 +203,69 @@ EnergyBalance Simulation::energy() const {
   const State& s = state_;
   EnergyBalance out;
   const std::vector<Load> all = loads();
-  const double half = setup_.numerics.dt / 2;
   for (std::size_t k = 0; k < s.grains.count(); ++k) {
     const Motion& grain = s.grains.motion[k];
-    const Spin& spin = s.grains.spin[k];
-    if (grain.inverse_mass == 0) continue;
-    const Vec3 v = grain.velocity + half * (grain.inverse_mass * all[k].force + s.gravity);
-    const Vec3 w = spin.rate + (half * spin.inverse_inertia) * all[k].torque;
-    out.kinetic += 0.5 * (squared(v) / grain.inverse_mass + squared(w) / spin.inverse_inertia);
+    if (grain.inverse_mass == 0 || is_new(k)) continue;
+    const GrainNow now = motion_at(k, all[k]);
+    out.kinetic +=
+        0.5 * (squared(now.velocity) / grain.inverse_mass + squared(now.spin) / s.grains.spin[k].inverse_inertia);
     out.potential -= dot(s.gravity, grain.position) / grain.inverse_mass;
   }
+  std::vector<BodyLoad> on_bodies(s.bodies.size());
   for_each_contact([&](const Evaluated& c) {
+    if (c.second < 0) {
+      const Vec3 force = vec3(c.does.force);
+      BodyLoad& on_body = on_bodies[-1 - c.second];
+      on_body.force -= force;
+      on_body.torque -= vec3(c.does.couple) + cross(c.point - s.bodies[-1 - c.second].position, force);
+    }
     const Stored<double> stored = stored_energy(setup_.laws, c.constants, c.touch, c.memory);
     out.elastic += stored.normal;
     out.tangential += stored.tangential;
     out.rolling += stored.rolling;
   });
-  for (const Body& body : s.bodies) out.work_of_bodies += body.work;
+  for (std::size_t b = 0; b < s.bodies.size(); ++b) {
+    const Body& body = s.bodies[b];
+    const Acceleration change = acceleration(body, on_bodies[b].force, on_bodies[b].torque, s.gravity);
+    const double half = setup_.numerics.dt / 2;
+    out.kinetic += free_energy(body, body.velocity + half * change.velocity, body.spin + half * change.spin);
+    if (body.weighs) out.potential -= body.mass * dot(s.gravity, where(body.free_translation, body.position));
+    out.work_of_drives += body.driven_work;
+  }
   out.ledger = s.ledger;
   return out;
+}
+
+/// What contacts of jkr that broke in the last step had stored [J]: each is stretched to its utmost when it breaks.
+double Simulation::broken_bonds() const {
+  if (setup_.laws.cohesion != CohesionLaw::jkr) return 0;
+  const State& s = state_;
+  double sum = 0;
+  const auto broken = [&](const LawConstants<double>& constants, double radius) {
+    Touch<double> touch{};
+    touch.overlap = -adhesion_reach(constants, radius);
+    touch.radius = radius;
+    sum += stored_energy(setup_.laws, constants, touch, {}).normal;
+  };
+  for (std::size_t pair = 0; pair < s.pairs.first.size(); ++pair) {
+    if (!(bonds_before_[pair / batch_size] >> (pair % batch_size) & 1) || s.pairs.touches(pair)) continue;
+    const std::uint32_t i = s.pairs.first[pair], j = s.pairs.second[pair];
+    const double a = s.grains.motion[i].radius, b = s.grains.motion[j].radius;
+    broken(constants_of(kind_of(s.grains.material[i], s.grains.material[j])), a * b / (a + b));
+  }
+  for (std::size_t slab = 0; slab < s.surfaces.size(); ++slab) {
+    const std::vector<SurfaceContact>&old = made_[slab], &now = s.surfaces[slab].made;
+    std::size_t in_old = 0, in_now = 0;
+    for (const NearSurface& near : s.surfaces[slab].near) {
+      int gone = 0;
+      for (; in_old < old.size() && old[in_old].who == near; ++in_old) ++gone;
+      for (; in_now < now.size() && now[in_now].who == near; ++in_now) --gone;
+      const int material = s.bodies[near.body].surfaces[near.surface].material;
+      for (; gone > 0; --gone)
+        broken(constants_of(kind_of(s.grains.material[near.grain], material)), s.grains.motion[near.grain].radius);
+    }
+  }
+  return sum;
 }
 
 }  // namespace soilbin::dem

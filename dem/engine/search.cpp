@@ -50,9 +50,11 @@ void Simulation::search(std::span<const std::uint8_t> gone) {
   const Periods periods(setup_.domain);
   for (std::size_t k = 0; k < s.grains.count(); ++k) {
     Vec3& at = s.grains.motion[k].position;
+    const Vec3 from = at;
     at.x = wrapped(at.x, setup_.domain.lower.x, periods.length.x);
     at.y = wrapped(at.y, setup_.domain.lower.y, periods.length.y);
     at.z = wrapped(at.z, setup_.domain.lower.z, periods.length.z);
+    if (setup_.numerics.ledger) s.ledger.added += dot(s.gravity, from - at) / s.grains.motion[k].inverse_mass;
     if ((gone.empty() || !gone[k]) && !within(at, setup_.domain)) stop_for_loss(k);
   }
   const KeptContacts kept(s.pairs, s.grains);
@@ -99,6 +101,13 @@ void Simulation::make_room(int slabs) {
   fastest_.assign(slabs, 0.0);
   made_.resize(slabs);
   extents_.clear();
+  Vec3 low{1e300, 1e300, 1e300}, high = -low;
+  for (const Vec3& at : state_.searched_at) {
+    low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
+    high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
+  }
+  middle_ = state_.searched_at.empty() ? Vec3{} : 0.5 * (low + high);
+  around_middle_ = state_.searched_at.empty() ? 0 : length(high - low) / 2;
   for (const Body& body : state_.bodies) extents_.push_back(extent(body));
 }
 

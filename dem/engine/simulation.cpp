@@ -17,13 +17,6 @@ namespace {
 
 constexpr int row_of_constants = 16;
 
-Vec3 vec3(const Triple<double>& a) { return {a.x, a.y, a.z}; }
-
-void note_losses(const Losses<double>& losses, PairFindings& found) {
-  const double all[] = {losses.damping, losses.shear_damping, losses.sliding, losses.into_slide, losses.into_roll};
-  for (int k = 0; k < 5; ++k) found.losses[k] += all[k];
-}
-
 bool positive(double a) { return a > 0 && std::isfinite(a); }
 
 void check(const Domain& domain) {
@@ -42,23 +35,37 @@ Simulation::Simulation(Setup setup) : setup_(std::move(setup)) {
 
 Simulation::Simulation(Setup setup, State state) : Simulation(std::move(setup)) {
   state_ = std::move(state);
-  dirty_ = state_.slab_rows.empty();
-  if (!dirty_) prepare();
+  if (state_.slab_rows.empty()) return;
+  prepare();
+  make_room(static_cast<int>(state_.slab_rows.size()) - 1);
 }
 
 void Simulation::set_numerics(const Numerics& numerics) {
   if (!positive(numerics.dt)) throw InputError("the time step must be above 0");
   if (numerics.skin < 0 || !positive(numerics.deepest_overlap))
     throw InputError("skin and deepest overlap can't be negative");
+  if (state_.step > 0 && numerics.dt != setup_.numerics.dt) shift_half_steps((setup_.numerics.dt - numerics.dt) / 2);
   setup_.numerics = numerics;
   threads_ = numerics.threads > 0 ? numerics.threads : omp_get_num_procs();
-  kernel_ = pair_kernel(numerics.instruction_set.empty() ? instruction_sets().front() : numerics.instruction_set);
-  dirty_ = true;
+  const std::string_view set =
+      numerics.instruction_set.empty() ? instruction_sets().front() : std::string_view(numerics.instruction_set);
+  kernel_ = pair_kernel(set);
+  touch_kernel_ = touch_kernel(set);
+  note_change();
 }
 
 void Simulation::set_interaction(int a, int b, const Interaction& interaction) {
+  const double before = setup_.numerics.ledger ? energy().total() : 0;
   setup_.materials.set(a, b, interaction);
-  dirty_ = true;
+  if (!state_.slab_rows.empty()) fill_constants();
+  if (setup_.numerics.ledger) state_.ledger.added += energy().total() - before;
+  note_change();
+}
+
+void Simulation::set_gravity(const Vec3& gravity) {
+  const double before = setup_.numerics.ledger ? energy().total() : 0;
+  state_.gravity = gravity;
+  if (setup_.numerics.ledger) state_.ledger.added += energy().total() - before;
 }
 
 GrainId Simulation::add_grain(const Vec3& position, double radius, int material, const Vec3& velocity,
@@ -75,32 +82,28 @@ GrainId Simulation::add_grain(const Vec3& position, double radius, int material,
   const GrainId id = state_.next_id++;
   state_.grains.add(id, position, velocity, spin, radius, mass, static_cast<std::uint8_t>(material));
   state_.new_grains.push_back(id);
-  dirty_ = true;
+  note_change();
   return id;
 }
 
 int Simulation::add_body(Body body) {
-  if (!positive(body.mass) || !positive(body.inertia.x) || !positive(body.inertia.y) || !positive(body.inertia.z))
-    throw InputError(fmt::format("body {}: mass and inertia must be above 0", body.name));
-  for (const Surface& surface : body.surfaces)
-    if (surface.material < 0 || surface.material >= static_cast<int>(setup_.materials.all.size()))
-      throw InputError(fmt::format("body {}: there is no material {}", body.name, surface.material));
+  check(body, static_cast<int>(setup_.materials.all.size()));
+  const double before = setup_.numerics.ledger ? energy().total() : 0;
   state_.bodies.push_back(std::move(body));
-  dirty_ = true;
+  if (setup_.numerics.ledger) state_.ledger.added += energy().total() - before;
+  note_change();
   return static_cast<int>(state_.bodies.size()) - 1;
 }
 
 std::size_t Simulation::remove_grains(const std::function<bool(const GrainNow&)>& gone) {
-  std::vector<std::uint8_t> marked(state_.grains.count());
-  for (std::size_t k = 0; k < marked.size(); ++k) {
-    const Motion& grain = state_.grains.motion[k];
-    marked[k] = gone({grain.position, grain.velocity, state_.grains.spin[k].rate, grain.radius});
-  }
+  settle_changes();
+  std::vector<std::uint8_t> marked;
+  for (const GrainNow& grain : grains()) marked.push_back(gone(grain));
   const auto count = static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1));
-  if (count > 0) {
-    if (dirty_) prepare();
-    search(marked);
-  }
+  if (count == 0) return 0;
+  const double before = setup_.numerics.ledger ? energy().total() : 0;
+  search(marked);
+  if (setup_.numerics.ledger) state_.ledger.added += energy().total() - before;
   return count;
 }
 
@@ -115,7 +118,7 @@ void Simulation::check_step() const {
                     n.dt, n.dt / rayleigh, rayleigh, n.safe_share, n.safe_share * rayleigh));
 }
 
-void Simulation::prepare() {
+double Simulation::fill_constants() {
   const int kinds = static_cast<int>(setup_.materials.all.size());
   double largest = 0;
   for (std::size_t k = 0; k < state_.grains.count(); ++k) largest = std::max(largest, state_.grains.motion[k].radius);
@@ -126,12 +129,17 @@ void Simulation::prepare() {
       static_assert(sizeof(c) == law_constant_count * sizeof(double) && law_constant_count <= row_of_constants);
       std::memcpy(&constants_[static_cast<std::size_t>(a * kinds + b) * row_of_constants], &c, sizeof(c));
     }
+  return largest;
+}
+
+void Simulation::prepare() {
+  const double largest = fill_constants();
+  const int kinds = static_cast<int>(setup_.materials.all.size());
   reach_ = setup_.numerics.skin > 0 ? setup_.numerics.skin : 0.1 * largest;
   adhesion_reach_ = 0;
   if (setup_.laws.cohesion == CohesionLaw::jkr)
     for (int kind = 0; kind < kinds * kinds; ++kind)
-      adhesion_reach_ =
-          std::max(adhesion_reach_, adhesion_reach(constants_between(kind / kinds, kind % kinds), largest));
+      adhesion_reach_ = std::max(adhesion_reach_, adhesion_reach(constants_of(kind), largest));
   give_grids(largest + reach_ + adhesion_reach_);
   check_step();
   dirty_ = false;
@@ -139,18 +147,30 @@ void Simulation::prepare() {
 
 /// Each mesh has an index that finds all triangles a grain can touch before the next search.
 void Simulation::give_grids(double reach) {
+  if (reach <= 0) return;  // there are no grains
   for (Body& body : state_.bodies)
     for (Surface& surface : body.surfaces)
       if (auto* mesh = std::get_if<MeshSurface>(&surface.shape); mesh && (!mesh->grid || mesh->grid->reach() < reach))
         mesh->grid = std::make_shared<TriangleGrid>(*mesh->mesh, reach);
 }
 
+void Simulation::note_change() {
+  dirty_ = true;
+  state_.travel = std::numeric_limits<double>::infinity();
+}
+
+/// Brings in what was added or changed since the last step.
+void Simulation::settle_changes() {
+  if (state_.travel < std::numeric_limits<double>::infinity()) return;
+  const double before = setup_.numerics.ledger ? energy().total() : 0;
+  if (dirty_) prepare();
+  search();
+  half_step_back();
+  if (setup_.numerics.ledger) state_.ledger.added += energy().total() - before;
+}
+
 void Simulation::run(std::int64_t steps) {
-  if (dirty_) {
-    prepare();
-    search();
-    half_step_back();
-  }
+  settle_changes();
   for (std::int64_t k = 0; k < steps; ++k) step();
 }
 
@@ -177,6 +197,8 @@ void Simulation::step() {
   sweep_.period[0] = periods.length.x;
   sweep_.period[1] = periods.length.y;
   sweep_.period[2] = periods.length.z;
+  if (setup_.numerics.ledger && setup_.laws.cohesion == CohesionLaw::jkr) bonds_before_ = s.pairs.touching;
+  placed_.place(s.bodies);
 #pragma omp parallel num_threads(threads_)
   {
 #pragma omp for schedule(dynamic)
@@ -204,39 +226,55 @@ void Simulation::surface_stage(int slab) {
   made.clear();
   BodyLoad* loads = &body_loads_[slab * s.bodies.size()];
   std::fill(loads, loads + s.bodies.size(), BodyLoad{});
+  std::array<SurfaceTouch, 8> touches;
+  TouchWork work{.slab = slab, .batch = {}, .points = {}, .count = 0};
   std::size_t old = 0;
   for (const NearSurface& near : here.near) {
-    const std::size_t old_begin = old;
+    const std::size_t begin = old, first = made.size();
     while (old < here.made.size() && here.made[old].who == near) ++old;
-    touch_surface(slab, near, {here.made.data() + old_begin, old - old_begin}, made, loads[near.body]);
+    const Motion& grain = s.grains.motion[near.grain];
+    const int kind = kind_of(s.grains.material[near.grain], s.bodies[near.body].surfaces[near.surface].material);
+    const int found = find_contacts(placed_.at(near), near, grain, {setup_.laws, constants_of(kind), adhesion_reach_},
+                                    {here.made.data() + begin, old - begin}, made, touches);
+    for (int k = 0; k < found; ++k) {
+      if (touches[k].overlap > setup_.numerics.deepest_overlap * grain.radius) found_[slab].too_deep = true;
+      put(work.batch, work.count, s.bodies[near.body], touches[k], grain, s.grains.spin[near.grain],
+          made[first + k].memory);
+      work.batch.kind[work.count] = static_cast<std::uint8_t>(kind);
+      work.points[work.count++] = touches[k].point;
+      if (work.count == batch_size) touch_surfaces(work, {made.data(), first + k + 1});
+    }
   }
+  if (work.count > 0) touch_surfaces(work, made);
   here.made.swap(made);
 }
 
-void Simulation::touch_surface(int slab, const NearSurface& near, std::span<const SurfaceContact> before,
-                               std::vector<SurfaceContact>& made, BodyLoad& on_body) {
+/// The law for a batch: the last work.count contacts of `made`.
+void Simulation::touch_surfaces(TouchWork& work, std::span<SurfaceContact> made) {
   State& s = state_;
-  const Body& body = s.bodies[near.body];
-  const Surface& surface = body.surfaces[near.surface];
-  const Motion& grain = s.grains.motion[near.grain];
-  const LawConstants<double>& constants = constants_between(s.grains.material[near.grain], surface.material);
-  std::array<SurfaceTouch, 8> touches;
-  const std::size_t begin = made.size();
-  const int count = find_contacts(body, near, grain, {setup_.laws, constants, adhesion_reach_}, before, made, touches);
-  for (int k = 0; k < count; ++k) {
-    const Touch<double> touch = touch_of(body, touches[k], grain, s.grains.spin[near.grain]);
-    if (touch.overlap > setup_.numerics.deepest_overlap * grain.radius) found_[slab].too_deep = true;
-    Losses<double> losses;
-    const Response<double> does = contact_response(setup_.laws, constants, touch, made[begin + k].memory,
-                                                   setup_.numerics.dt, setup_.numerics.ledger ? &losses : nullptr);
-    if (setup_.numerics.ledger) note_losses(losses, found_[slab]);
-    const Vec3 force = vec3(does.force), couple = vec3(does.couple);
-    Load& load = s.grains.load[near.grain];
+  TouchBatch& batch = work.batch;
+  const TouchSweep sweep{constants_.data(), setup_.laws, setup_.numerics.dt, setup_.numerics.ledger};
+  std::fill(batch.losses, batch.losses + 5, 0.0);
+  std::fill(batch.kind + work.count, batch.kind + batch_size, batch.kind[0]);
+  touch_kernel_(sweep, batch, work.count);
+  const auto column = [](const double(*columns)[8], int k) {
+    return Vec3{columns[0][k], columns[1][k], columns[2][k]};
+  };
+  SurfaceContact* contact = made.data() + made.size() - work.count;
+  for (int k = 0; k < work.count; ++k, ++contact) {
+    const Vec3 force = column(batch.force, k), couple = column(batch.couple, k);
+    const Vec3 slide = column(batch.memory, k), roll = column(batch.memory + 3, k);
+    contact->memory = {{slide.x, slide.y, slide.z}, {roll.x, roll.y, roll.z}};
+    const NearSurface& who = contact->who;
+    Load& load = s.grains.load[who.grain];
     load.force += force;
-    load.torque += couple - (grain.radius - touch.overlap / 2) * cross(touches[k].normal, force);
+    load.torque += couple - (batch.radius[k] - batch.overlap[k] / 2) * cross(contact->normal, force);
+    BodyLoad& on_body = body_loads_[work.slab * s.bodies.size() + who.body];
     on_body.force -= force;
-    on_body.torque -= couple + cross(touches[k].point - body.position, force);
+    on_body.torque -= couple + cross(work.points[k] - s.bodies[who.body].position, force);
   }
+  for (int k = 0; k < 5; ++k) found_[work.slab].losses[k] += batch.losses[k];
+  work.count = 0;
 }
 
 void Simulation::motion_stage(int slab) {
@@ -276,23 +314,26 @@ void Simulation::finish_step() {
     }
     if (setup_.numerics.ledger) s.ledger.add(found_[slab].losses, dt);
   }
+  if (setup_.numerics.ledger) s.ledger.adhesion += broken_bonds();
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     Body& body = s.bodies[b];
     advance(body, s.gravity, dt);
-    const double speed = length(body.velocity) + length(body.spin) * extents_[b];
+    const double arm = extents_[b] < 0 ? length(body.position - middle_) + around_middle_ + reach_ : extents_[b];
+    const double speed = length(body.velocity) + length(body.spin) * arm;
     body.travel += dt * speed;
-    fastest = std::max(fastest, speed);
+    fastest = speed < 1e15 ? std::max(fastest, speed) : std::numeric_limits<double>::infinity();
   }
   ++s.step;
-  s.time = static_cast<double>(s.step) * dt;
+  s.time += dt;
   s.travel += dt * fastest;
   if (too_deep) stop_for_overlap();
   if (!std::isfinite(fastest)) stop_for_motion();
 }
 
-const LawConstants<double>& Simulation::constants_between(int a, int b) const {
-  const std::size_t kind = a * setup_.materials.all.size() + b;
-  return *reinterpret_cast<const LawConstants<double>*>(&constants_[kind * row_of_constants]);
+int Simulation::kind_of(int a, int b) const { return a * static_cast<int>(setup_.materials.all.size()) + b; }
+
+const LawConstants<double>& Simulation::constants_of(int kind) const {
+  return *reinterpret_cast<const LawConstants<double>*>(&constants_[static_cast<std::size_t>(kind) * row_of_constants]);
 }
 
 void Simulation::stop_for_loss(std::size_t row) const {

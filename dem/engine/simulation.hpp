@@ -52,13 +52,14 @@ struct State {
   std::vector<std::uint32_t> slab_rows;   ///< first row of each slab, and the end
   std::vector<SurfaceContacts> surfaces;  ///< a slab each
   std::vector<Vec3> searched_at;          ///< positions at the last search for pairs
-  double travel = 0;                      ///< bound on what any grain or body has moved since [m]
+  double travel = 0;                      ///< bound on what any grain or body has moved since [m]; infinite: it is due
   std::uint32_t next_id = 0;
   std::vector<GrainId> new_grains;  ///< whose velocity is still at a whole step
   Ledger ledger;
 };
 
-/// A run that can't go on: an overlap too deep, a grain lost or not finite. what() names the grain and the time.
+/// A run that can't go on: an overlap too deep, a grain lost or not finite. what() names the grain and the time. A
+/// grain lost is noticed at a search, so it may be half the skin outside.
 class RunStopped : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -92,12 +93,12 @@ class Simulation {
   const State& state() const { return state_; }
   double time() const { return state_.time; }
 
-  void set_gravity(const Vec3& gravity) { state_.gravity = gravity; }
+  void set_gravity(const Vec3& gravity);
   /// Velocities are those at the present time. Throws InputError for a radius that isn't positive, an unknown material,
   /// or a place outside the domain.
   GrainId add_grain(const Vec3& position, double radius, int material, const Vec3& velocity = {},
                     const Vec3& spin = {});
-  /// Removes grains for which `gone` holds; gives how many.
+  /// Removes grains for which `gone` holds; gives how many. Contacts of others keep their memory.
   std::size_t remove_grains(const std::function<bool(const GrainNow&)>& gone);
   /// Gives the body's index. Throws InputError for an unknown material or a mass or inertia that isn't positive.
   int add_body(Body body);
@@ -108,32 +109,51 @@ class Simulation {
   /// Changes the interaction of a pair of materials between steps: settle without friction, then switch it on.
   void set_interaction(int a, int b, const Interaction& interaction);
 
-  /// Throws RunStopped, with the state as it was before the step that failed began to move anything.
+  /// Throws RunStopped; the state is then that after the step in which it failed, so it can be looked at.
   void run(std::int64_t steps);
 
   /// A grain at the present time, whole-step velocities included. By its id; throws std::out_of_range.
   GrainNow grain(GrainId id) const;
+  /// All of them, row by row as in state().grains.
+  std::vector<GrainNow> grains() const;
   /// All contacts at the present time, in a fixed order; forces as the next step will apply them.
   std::vector<Contact> contacts() const;
-  /// What is where: kinetic, potential, elastic, and what the ledger has counted.
+  /// What is where: kinetic, potential, elastic, and what the ledger has counted. Grains added since the last run are
+  /// not yet in it.
   EnergyBalance energy() const;
 
  private:
+  /// Contacts with surfaces on their way through the law, of one slab.
+  struct TouchWork {
+    int slab;
+    TouchBatch batch;
+    std::array<Vec3, batch_size> points;
+    int count;
+  };
+
   void check_step() const;
+  /// Gives the largest radius.
+  double fill_constants();
   void prepare();
   void give_grids(double reach);
   void search(std::span<const std::uint8_t> gone = {});
   void make_room(int slabs);
   bool search_is_due();
+  void note_change();
+  void settle_changes();
+  bool is_new(std::size_t row) const;
+  GrainNow motion_at(std::size_t row, const Load& load) const;
   void half_step_back();
+  void shift_half_steps(double by);
+  double broken_bonds() const;
   void step();
   void pair_stage(int slab);
   void surface_stage(int slab);
-  void touch_surface(int slab, const NearSurface& near, std::span<const SurfaceContact> before,
-                     std::vector<SurfaceContact>& made, BodyLoad& on_body);
+  void touch_surfaces(TouchWork& work, std::span<SurfaceContact> made);
   void motion_stage(int slab);
   void finish_step();
-  const LawConstants<double>& constants_between(int a, int b) const;
+  int kind_of(int material, int other) const;
+  const LawConstants<double>& constants_of(int kind) const;
   /// Forces as the next step will find them, contact by contact.
   template <class Visit>
   void for_each_contact(const Visit& visit) const;
@@ -148,17 +168,23 @@ class Simulation {
   // Derived from the setup and the state.
   AlignedVector<double> constants_;
   PairKernel kernel_ = nullptr;
+  TouchKernel touch_kernel_ = nullptr;
+  Placed placed_;
   PairSweep sweep_{};
   int threads_ = 1;
-  bool dirty_ = true;          ///< grains or materials changed: prepare() is due
-  double reach_ = 0;           ///< margin of the search for motion [m]
-  double adhesion_reach_ = 0;  ///< jkr: how far apart a contact still holds [m]
+  bool dirty_ = true;                       ///< grains, bodies or materials changed: prepare() is due, and a search
+  double reach_ = 0;                        ///< margin of the search for motion [m]
+  double adhesion_reach_ = 0;               ///< jkr: how far apart a contact still holds [m]
+  std::vector<std::uint8_t> bonds_before_;  ///< pairs.touching before the step, where the ledger counts adhesion
   // Of a step, a slab each.
   std::vector<PairFindings> found_;
   std::vector<BodyLoad> body_loads_;
   std::vector<double> fastest_;
   std::vector<std::vector<SurfaceContact>> made_;
   std::vector<double> extents_;  ///< of bodies
+  /// A ball round all grains at the last search, for the planes of bodies that turn.
+  Vec3 middle_;
+  double around_middle_ = 0;
 };
 
 }  // namespace soilbin::dem

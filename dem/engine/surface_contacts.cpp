@@ -45,14 +45,11 @@ int nearest(std::span<const SurfaceContact> among, const Vec3& normal) {
 }
 
 /// All points of a surface nearer to a grain's centre than its radius plus `reach`.
-int find_touches(const Body& body, const Surface& surface, const Motion& grain, double reach,
-                 std::span<SurfaceTouch, 8> out) {
-  const auto* plane = std::get_if<Plane>(&surface.shape);
-  if (!plane) return touches_of_mesh(body, std::get<MeshSurface>(surface.shape), grain, reach, out);
-  const Vec3 normal = body.rotation(plane->normal);
-  const double overlap = grain.radius - dot(grain.position - body.to_bin(plane->point), normal);
+int find_touches(const PlacedSurface& surface, const Motion& grain, double reach, std::span<SurfaceTouch, 8> out) {
+  if (surface.mesh) return touches_of_mesh(*surface.body, *surface.mesh, grain, reach, out);
+  const double overlap = grain.radius - (dot(grain.position, surface.normal) - surface.offset);
   if (overlap <= -reach) return 0;
-  out[0] = {-1, grain.position - (grain.radius - overlap / 2) * normal, normal, overlap};
+  out[0] = {-1, grain.position - (grain.radius - overlap / 2) * surface.normal, surface.normal, overlap};
   return 1;
 }
 
@@ -75,10 +72,10 @@ std::vector<NearSurface> find_near(std::span<const Body> bodies, const Grains& g
   return near;
 }
 
-int find_contacts(const Body& body, const NearSurface& who, const Motion& grain, const SurfaceLaw& law,
+int find_contacts(const PlacedSurface& surface, const NearSurface& who, const Motion& grain, const SurfaceLaw& law,
                   std::span<const SurfaceContact> before, std::vector<SurfaceContact>& made,
                   std::span<SurfaceTouch, 8> touches) {
-  const int found = find_touches(body, body.surfaces[who.surface], grain, law.adhesion_reach, touches);
+  const int found = find_touches(surface, grain, law.adhesion_reach, touches);
   const std::size_t begin = made.size();
   for (int k = 0; k < found; ++k) made.push_back({who, touches[k].triangle, touches[k].normal, {}});
   int kept = 0;
@@ -105,6 +102,43 @@ Touch<double> touch_of(const Body& body, const SurfaceTouch& at, const Motion& g
           .velocity = triple(velocity),
           .rotation = triple(spin.rate - body.spin),
           .inertia = 1 / spin.inverse_inertia};
+}
+
+PlacedSurface place(const Body& body, const Surface& surface) {
+  if (const auto* mesh = std::get_if<MeshSurface>(&surface.shape)) return {.body = &body, .mesh = mesh, .normal = {}};
+  const Plane& plane = std::get<Plane>(surface.shape);
+  const Vec3 normal = body.rotation(plane.normal);
+  return {.body = &body, .normal = normal, .offset = dot(body.to_bin(plane.point), normal)};
+}
+
+void Placed::place(std::span<const Body> bodies) {
+  surfaces_.clear();
+  begin_.clear();
+  for (const Body& body : bodies) {
+    begin_.push_back(surfaces_.size());
+    for (const Surface& surface : body.surfaces) surfaces_.push_back(dem::place(body, surface));
+  }
+}
+
+void put(TouchBatch& batch, int k, const Body& body, const SurfaceTouch& at, const Motion& grain, const Spin& spin,
+         const Memory<double>& memory) {
+  const auto column = [k](double(*columns)[8], double x, double y, double z) {
+    columns[0][k] = x;
+    columns[1][k] = y;
+    columns[2][k] = z;
+  };
+  const double arm = grain.radius - at.overlap / 2;
+  const Vec3 velocity = grain.velocity - arm * cross(spin.rate, at.normal) - body.velocity_at(at.point);
+  const Vec3 rotation = spin.rate - body.spin;
+  column(batch.normal, at.normal.x, at.normal.y, at.normal.z);
+  column(batch.velocity, velocity.x, velocity.y, velocity.z);
+  column(batch.rotation, rotation.x, rotation.y, rotation.z);
+  column(batch.memory, memory.slide.x, memory.slide.y, memory.slide.z);
+  column(batch.memory + 3, memory.roll.x, memory.roll.y, memory.roll.z);
+  batch.overlap[k] = at.overlap;
+  batch.radius[k] = grain.radius;
+  batch.inverse_mass[k] = grain.inverse_mass;
+  batch.inverse_inertia[k] = spin.inverse_inertia;
 }
 
 }  // namespace soilbin::dem

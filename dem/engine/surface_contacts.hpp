@@ -7,6 +7,7 @@
 
 #include "dem/engine/body.hpp"
 #include "dem/engine/grains.hpp"
+#include "dem/engine/kernels/touch_kernel.hpp"
 #include "dem/engine/laws/contact_law.hpp"
 #include "dem/engine/periodic.hpp"
 
@@ -33,6 +34,16 @@ struct SurfaceContacts {
   std::vector<NearSurface> near;
   std::vector<SurfaceContact> made;
 };
+
+/// A surface where its body is now.
+struct PlacedSurface {
+  const Body* body = nullptr;
+  const MeshSurface* mesh = nullptr;  ///< nullptr: a plane
+  Vec3 normal;                        ///< of the plane, in the frame of the bin
+  double offset = 0;                  ///< normal . x on the plane [m]
+};
+
+PlacedSurface place(const Body& body, const Surface& surface);
 
 /// What the grains of a slab do to a body.
 struct BodyLoad {
@@ -62,11 +73,26 @@ struct SurfaceLaw {
 /// contact for each to `made` and tells the points in the same order. Each takes the memory of the one among `before`
 /// whose normal is nearest, within 45 degrees and nearest the other way round too; the others start anew. A contact
 /// that adheres is kept beyond the radius.
-int find_contacts(const Body& body, const NearSurface& who, const Motion& grain, const SurfaceLaw& law,
+int find_contacts(const PlacedSurface& surface, const NearSurface& who, const Motion& grain, const SurfaceLaw& law,
                   std::span<const SurfaceContact> before, std::vector<SurfaceContact>& made,
                   std::span<SurfaceTouch, 8> touches);
 
 /// What contact_response needs to know of it.
 Touch<double> touch_of(const Body& body, const SurfaceTouch& at, const Motion& grain, const Spin& spin);
+
+/// Where each surface of each body is now, body by body.
+class Placed {
+ public:
+  void place(std::span<const Body> bodies);
+  const PlacedSurface& at(const NearSurface& who) const { return surfaces_[begin_[who.body] + who.surface]; }
+
+ private:
+  std::vector<PlacedSurface> surfaces_;
+  std::vector<std::size_t> begin_;
+};
+
+/// Writes a touch into column k of a batch; its memory and kind too.
+void put(TouchBatch& batch, int k, const Body& body, const SurfaceTouch& at, const Motion& grain, const Spin& spin,
+         const Memory<double>& memory);
 
 }  // namespace soilbin::dem

@@ -10,6 +10,8 @@ std::vector<VerificationRow> verification_rows(const StartEngine& start) {
     auto added = (*more)(start);
     rows.insert(rows.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
   }
+  auto meshes = mesh_rows();
+  rows.insert(rows.end(), std::make_move_iterator(meshes.begin()), std::make_move_iterator(meshes.end()));
   return rows;
 }
 

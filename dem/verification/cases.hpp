@@ -67,6 +67,8 @@ std::vector<VerificationRow> motion_rows(const StartEngine& start);
 std::vector<VerificationRow> adhesion_rows(const StartEngine& start);
 /// End states that MercuryDPM keeps for its own tests.
 std::vector<VerificationRow> mercury_rows(const StartEngine& start);
+/// Plates, ridges, corners, a turntable and a drum of triangles, on the engine itself.
+std::vector<VerificationRow> mesh_rows();
 /// All of them.
 std::vector<VerificationRow> verification_rows(const StartEngine& start);
 

@@ -73,6 +73,43 @@ TEST(Loop, NamesTwoEffects) {
   EXPECT_TRUE(multipass);
 }
 
+// Each accepted effect has a p-value of its own beside the other, and the soil's bias is told for each free value.
+TEST(Loop, TellsWhatEachEffectRestsOn) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {{"multipass", "stiffer", {{"a", 0.8}}}, {"sensor_offset", "drawbar_pull", {{"a", 40.0}}}},
+          fine_noise, 24);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
+  for (const AcceptedEffect& effect : answer.effects) {
+    EXPECT_LT(effect.p_value, 0.05) << effect.choice.id;
+    for (const auto& [id, cosine] : effect.cosines) EXPECT_TRUE(cosine >= 0.0 && cosine <= 1.0 + 1e-9) << id;
+  }
+  EXPECT_EQ(answer.soil_shifts.size(), 8u);
+  for (const SoilShift& s : answer.soil_shifts) EXPECT_NE(s.with.value, s.without.value) << s.name;
+}
+
+// Progress runs from the start to the end, and what it throws stops the work.
+TEST(Loop, CanBeStopped) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {{"bulldozing", "", {}}}, fine_noise, 29);
+  LoopOptions options = quick();
+  std::size_t last = 0;
+  options.progress = [&](std::size_t done, std::size_t total) {
+    EXPECT_GE(done, last);
+    EXPECT_LE(done, total);
+    last = done;
+  };
+  run_loop(campaign, options);
+  EXPECT_EQ(last, 100u);
+  struct Stop {};
+  for (const std::size_t at : {5u, 45u}) {
+    options.progress = [at](std::size_t done, std::size_t) {
+      if (done >= at) throw Stop();
+    };
+    EXPECT_THROW(run_loop(campaign, options), Stop);
+  }
+}
+
 // A torque that swings five times over the slips belongs to no effect of the catalogue.
 TEST(Loop, SaysUnknownWhereTheCatalogueHasNoName) {
   Campaign campaign = sand_campaign();

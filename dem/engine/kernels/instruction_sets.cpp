@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dem/engine/kernels/pair_kernel.hpp"
+#include "dem/engine/kernels/touch_kernel.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
@@ -12,25 +13,40 @@ namespace soilbin::dem {
 // As pair_kernel.cpp names them, by what Highway calls each instruction set.
 namespace N_AVX3 {
 void run_pairs(const PairSweep&, std::size_t, std::size_t, PairFindings&);
-}
+void run_touches(const TouchSweep&, TouchBatch&, int);
+}  // namespace N_AVX3
 namespace N_AVX2 {
 void run_pairs(const PairSweep&, std::size_t, std::size_t, PairFindings&);
-}
+void run_touches(const TouchSweep&, TouchBatch&, int);
+}  // namespace N_AVX2
 namespace N_SSE4 {
 void run_pairs(const PairSweep&, std::size_t, std::size_t, PairFindings&);
-}
+void run_touches(const TouchSweep&, TouchBatch&, int);
+}  // namespace N_SSE4
 
 namespace {
 
 struct Choice {
   std::string_view name;
   std::int64_t target;
-  PairKernel kernel;
+  PairKernel pairs;
+  TouchKernel touches;
 };
 
-constexpr std::array<Choice, 3> choices = {{{"avx512", HWY_AVX3, N_AVX3::run_pairs},
-                                            {"avx2", HWY_AVX2, N_AVX2::run_pairs},
-                                            {"sse4", HWY_SSE4, N_SSE4::run_pairs}}};
+constexpr std::array<Choice, 3> choices = {{{"avx512", HWY_AVX3, N_AVX3::run_pairs, N_AVX3::run_touches},
+                                            {"avx2", HWY_AVX2, N_AVX2::run_pairs, N_AVX2::run_touches},
+                                            {"sse4", HWY_SSE4, N_SSE4::run_pairs, N_SSE4::run_touches}}};
+
+const Choice& choice_of(std::string_view instruction_set) {
+  std::string known;
+  for (const std::string_view name : instruction_sets()) {
+    for (const Choice& choice : choices)
+      if (choice.name == name && name == instruction_set) return choice;
+    known += known.empty() ? "" : ", ";
+    known += name;
+  }
+  throw InputError("no instruction set '" + std::string(instruction_set) + "' here\n  hint: this machine has " + known);
+}
 
 }  // namespace
 
@@ -44,15 +60,8 @@ std::span<const std::string_view> instruction_sets() {
   return here;
 }
 
-PairKernel pair_kernel(std::string_view instruction_set) {
-  std::string known;
-  for (const std::string_view name : instruction_sets()) {
-    for (const Choice& choice : choices)
-      if (choice.name == name && name == instruction_set) return choice.kernel;
-    known += known.empty() ? "" : ", ";
-    known += name;
-  }
-  throw InputError("no instruction set '" + std::string(instruction_set) + "' here\n  hint: this machine has " + known);
-}
+PairKernel pair_kernel(std::string_view instruction_set) { return choice_of(instruction_set).pairs; }
+
+TouchKernel touch_kernel(std::string_view instruction_set) { return choice_of(instruction_set).touches; }
 
 }  // namespace soilbin::dem

@@ -69,14 +69,6 @@ struct FourPacks {
 
 using Four = hn::CappedTag<double, 4>;
 
-/// Adds `count` doubles, 2 or 4, to those at `sum`; all aligned.
-template <int count>
-HWY_INLINE void add_to(double* sum, const double* what) {
-  const hn::CappedTag<double, count> d;
-  for (int k = 0; k < count; k += static_cast<int>(hn::MaxLanes(d)))
-    hn::Store(hn::Add(hn::Load(d, sum + k), hn::Load(d, what + k)), d, sum + k);
-}
-
 /// Columns of `lanes` rows of four doubles: row k is at row(k), aligned to 32 bytes.
 template <class RowAt, int n = lanes>  // n: so that only the branch for this width is compiled
 HWY_INLINE FourPacks columns(const RowAt& row) {
@@ -104,31 +96,58 @@ HWY_INLINE FourPacks columns(const RowAt& row) {
   }
 }
 
-/// The way back: the rows of four columns, one after the other from `out`, which is aligned and takes 4 lanes doubles.
-template <int n = lanes>
-HWY_INLINE void store_rows(const FourPacks& of, double* out) {
+struct SixPacks {
+  Pack a, b, c, d, e, f;
+};
+
+template <class Tag>
+HWY_INLINE void add_to(Tag d, double* sum, hn::Vec<Tag> what) {
+  hn::Store(hn::Add(hn::Load(d, sum), what), d, sum);
+}
+
+/// The way back: adds row after row of six columns to the first six of the eight doubles at row(k), which are aligned
+/// to 64 bytes. The other two stay what they are.
+template <class RowAt, int n = lanes>
+HWY_INLINE void add_rows(const SixPacks& of, const RowAt& row) {
   const Lanes d;
   const auto ab_even = hn::InterleaveLower(d, of.a.v, of.b.v), ab_odd = hn::InterleaveUpper(d, of.a.v, of.b.v);
   const auto cd_even = hn::InterleaveLower(d, of.c.v, of.d.v), cd_odd = hn::InterleaveUpper(d, of.c.v, of.d.v);
+  const auto ef_even = hn::InterleaveLower(d, of.e.v, of.f.v), ef_odd = hn::InterleaveUpper(d, of.e.v, of.f.v);
   if constexpr (n == 8) {
-    const auto put = [&](auto both, int k) HWY_ATTR {
-      hn::Store(hn::LowerHalf(Four(), both), Four(), out + 4 * k);
-      hn::Store(hn::UpperHalf(Four(), both), Four(), out + 4 * (k + 4));
-    };
-    put(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(cd_even), ab_even), 0);
-    put(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(cd_odd), ab_odd), 1);
-    put(hn::OddEvenBlocks(cd_even, hn::SwapAdjacentBlocks(ab_even)), 2);
-    put(hn::OddEvenBlocks(cd_odd, hn::SwapAdjacentBlocks(ab_odd)), 3);
+    const auto zero = hn::Zero(d);
+    const auto abcd0 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(cd_even), ab_even);  // rows 0 and 4
+    const auto abcd1 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(cd_odd), ab_odd);    // 1 and 5
+    const auto abcd2 = hn::OddEvenBlocks(cd_even, hn::SwapAdjacentBlocks(ab_even));  // 2 and 6
+    const auto abcd3 = hn::OddEvenBlocks(cd_odd, hn::SwapAdjacentBlocks(ab_odd));    // 3 and 7
+    const auto ef0 = hn::OddEvenBlocks(zero, ef_even), ef1 = hn::OddEvenBlocks(zero, ef_odd);
+    const auto ef2 = hn::OddEvenBlocks(zero, hn::SwapAdjacentBlocks(ef_even));
+    const auto ef3 = hn::OddEvenBlocks(zero, hn::SwapAdjacentBlocks(ef_odd));
+    add_to(d, row(0), hn::ConcatLowerLower(d, ef0, abcd0));
+    add_to(d, row(1), hn::ConcatLowerLower(d, ef1, abcd1));
+    add_to(d, row(2), hn::ConcatLowerLower(d, ef2, abcd2));
+    add_to(d, row(3), hn::ConcatLowerLower(d, ef3, abcd3));
+    add_to(d, row(4), hn::ConcatUpperUpper(d, ef0, abcd0));
+    add_to(d, row(5), hn::ConcatUpperUpper(d, ef1, abcd1));
+    add_to(d, row(6), hn::ConcatUpperUpper(d, ef2, abcd2));
+    add_to(d, row(7), hn::ConcatUpperUpper(d, ef3, abcd3));
   } else if constexpr (n == 4) {
-    hn::Store(hn::ConcatLowerLower(d, cd_even, ab_even), d, out);
-    hn::Store(hn::ConcatLowerLower(d, cd_odd, ab_odd), d, out + 4);
-    hn::Store(hn::ConcatUpperUpper(d, cd_even, ab_even), d, out + 8);
-    hn::Store(hn::ConcatUpperUpper(d, cd_odd, ab_odd), d, out + 12);
+    const hn::Half<Lanes> half;
+    const auto add = [&](int k, Vector abcd, hn::Vec<hn::Half<Lanes>> ef) HWY_ATTR {
+      add_to(d, row(k), abcd);
+      add_to(half, row(k) + 4, ef);
+    };
+    add(0, hn::ConcatLowerLower(d, cd_even, ab_even), hn::LowerHalf(half, ef_even));
+    add(1, hn::ConcatLowerLower(d, cd_odd, ab_odd), hn::LowerHalf(half, ef_odd));
+    add(2, hn::ConcatUpperUpper(d, cd_even, ab_even), hn::UpperHalf(half, ef_even));
+    add(3, hn::ConcatUpperUpper(d, cd_odd, ab_odd), hn::UpperHalf(half, ef_odd));
   } else {
-    hn::Store(ab_even, d, out);
-    hn::Store(cd_even, d, out + 2);
-    hn::Store(ab_odd, d, out + 4);
-    hn::Store(cd_odd, d, out + 6);
+    const auto add = [&](int k, Vector ab, Vector cd, Vector ef) HWY_ATTR {
+      add_to(d, row(k), ab);
+      add_to(d, row(k) + 2, cd);
+      add_to(d, row(k) + 4, ef);
+    };
+    add(0, ab_even, cd_even, ef_even);
+    add(1, ab_odd, cd_odd, ef_odd);
   }
 }
 

@@ -2,7 +2,7 @@
 #include "dem/engine/kernels/pair_kernel.hpp"
 
 #include "dem/engine/grain_rows.hpp"
-#include "dem/engine/kernels/pack.hpp"
+#include "dem/engine/kernels/pack_constants.hpp"
 #include "dem/engine/laws/contact_law.hpp"
 
 namespace soilbin::dem::HWY_NAMESPACE {
@@ -35,43 +35,13 @@ HWY_INLINE Pack nearest_image(Pack d, double period) {
   return period > 0 ? d - Pack(period) * round(d * Pack(1 / period)) : d;
 }
 
-HWY_INLINE LawConstants<Pack> broadcast(const double* c) {
-  return {Pack(c[0]), Pack(c[1]), Pack(c[2]), Pack(c[3]),  Pack(c[4]),  Pack(c[5]), Pack(c[6]),
-          Pack(c[7]), Pack(c[8]), Pack(c[9]), Pack(c[10]), Pack(c[11]), Pack(c[12])};
-}
-
-/// Constants of a pack whose contacts are of several kinds.
-HWY_INLINE LawConstants<Pack> gather(const double* table, const std::uint8_t* kind) {
-  const FourPacks a = columns([&](int k) { return table + 16 * kind[k]; });
-  const FourPacks b = columns([&](int k) { return table + 16 * kind[k] + 4; });
-  const FourPacks c = columns([&](int k) { return table + 16 * kind[k] + 8; });
-  const FourPacks d = columns([&](int k) { return table + 16 * kind[k] + 12; });
-  return {a.a, a.b, a.c, a.d, b.a, b.b, b.c, b.d, c.a, c.b, c.c, c.d, d.a};
-}
-
-HWY_INLINE LawConstants<Pack> constants_of(const PairSweep& sweep, std::size_t pair) {
-  const std::uint8_t* kind = sweep.kind + pair;
-  for (int k = 1; k < lanes; ++k)
-    if (kind[k] != kind[0]) return gather(sweep.constants, kind);
-  return broadcast(sweep.constants + 16 * kind[0]);
-}
-
 /// Adds what the contacts did to the loads of their grains, contact by contact.
-HWY_INLINE void scatter(const PairSweep& sweep, std::size_t pair, const Triad& force, const Triad& torque_first,
-                        const Triad& torque_second) {
-  alignas(64) double on_first[4 * lanes], on_second[4 * lanes], turn[4 * lanes];
-  store_rows({force.x, force.y, force.z, torque_first.x}, on_first);
-  store_rows({-force.x, -force.y, -force.z, torque_second.x}, on_second);
-  store_rows({torque_first.y, torque_first.z, torque_second.y, torque_second.z}, turn);
-  const auto add = [&](std::uint32_t grain, const double* f, const double* t) HWY_ATTR {
-    double* row = &sweep.load[grain].force.x;
-    add_to<4>(row, f);
-    add_to<2>(row + 4, t);
-  };
-  for (int k = 0; k < lanes; ++k) {
-    add(sweep.first[pair + k], on_first + 4 * k, turn + 4 * k);
-    add(sweep.second[pair + k], on_second + 4 * k, turn + 4 * k + 2);
-  }
+HWY_INLINE void scatter(const PairSweep& sweep, std::size_t pair, const Triad& force, const Triad& on_first,
+                        const Triad& on_second) {
+  add_rows({force.x, force.y, force.z, on_first.x, on_first.y, on_first.z},
+           [&](int k) { return &sweep.load[sweep.first[pair + k]].force.x; });
+  add_rows({-force.x, -force.y, -force.z, on_second.x, on_second.y, on_second.z},
+           [&](int k) { return &sweep.load[sweep.second[pair + k]].force.x; });
 }
 
 /// The touch of a pack of contacts, but for its normal and overlap, which `out` has already.
@@ -155,7 +125,7 @@ HWY_INLINE void work_on(const PairSweep& sweep, const LawConstants<Pack>* one, c
   std::uint8_t& made = sweep.touching[at.batch];
   const unsigned before = made & at.mask;
   if (before == 0 && none(touching)) return;
-  const LawConstants<Pack> constants = one ? *one : constants_of(sweep, at.pair);
+  const LawConstants<Pack> constants = one ? *one : constants_of(sweep.constants, sweep.kind + at.pair);
   const Pack distance = sqrt(distance2);
   touch.overlap = sum - distance;
   if (sweep.laws.cohesion == CohesionLaw::jkr)

@@ -1,0 +1,67 @@
+// soilbin verify: the discrete element engine against published numbers and closed forms.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "cli/text_output.hpp"
+#include "compare/report/result_json.hpp"
+#include "dem/verification/fast_engine.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using dem::VerificationRow;
+
+void print_json(const std::vector<VerificationRow>& rows) {
+  Json all = Json::array();
+  for (const VerificationRow& row : rows)
+    all.push_back({{"case", row.name},
+                   {"published", row.published},
+                   {"ours", row.ours},
+                   {"error", row.error()},
+                   {"tolerance", row.tolerance},
+                   {"unit", row.unit},
+                   {"source", row.source},
+                   {"pass", row.pass()}});
+  fmt::print("{}", compare::json_text({{"format", "soilbin-verify/1"}, {"rows", all}}));
+}
+
+void print_table(const std::vector<VerificationRow>& rows) {
+  TextTable table({"case", "published", "ours", "error", "tolerance", "unit", ""});
+  for (const VerificationRow& row : rows)
+    table.add({row.name, fmt::format("{:.6g}", row.published), fmt::format("{:.6g}", row.ours),
+               fmt::format("{:.2g}", row.error()), fmt::format("{:.2g}", row.tolerance), row.unit,
+               row.pass() ? "ok" : "FAILED"});
+  fmt::print("{}", table.text());
+}
+
+int verify(bool json, const std::string& containing) {
+  std::vector<VerificationRow> rows = dem::verification_rows(dem::start_fast_engine);
+  std::erase_if(rows, [&](const VerificationRow& row) { return row.name.find(containing) == std::string::npos; });
+  const auto passed = std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.pass(); });
+  if (json) {
+    print_json(rows);
+  } else {
+    print_table(rows);
+    fmt::print("{} of {} cases within their tolerance\n", passed, rows.size());
+  }
+  return passed == static_cast<std::ptrdiff_t>(rows.size()) && !rows.empty() ? done : failed;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("verify", "the discrete element engine against published numbers");
+  const auto containing = std::make_shared<std::string>();
+  const auto json = std::make_shared<bool>(false);
+  command->add_option("--case", *containing, "only cases whose name contains this")->type_name("TEXT");
+  command->add_flag("--json", *json, "soilbin-verify/1, for programs");
+  command->callback([=, &session] { session.action = [=] { return verify(*json, *containing); }; });
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,91 @@
+#include "compare/loop/base_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Noise of 5 % of each channel's range: where the first fit starts.
+NoiseFloor first_guess(const Observations& observations) {
+  NoiseFloor guess;
+  for (int channel = 0; channel < channel_count; ++channel) {
+    double low = 0, high = 0;
+    bool any = false;
+    for (const Cell& cell : observations.cells) {
+      if (cell.channel != channel) continue;
+      low = any ? std::min(low, cell.value) : cell.value;
+      high = any ? std::max(high, cell.value) : cell.value;
+      any = true;
+    }
+    const double range = std::max({high - low, 0.1 * std::abs(high), 0.1 * std::abs(low), 1e-9});
+    guess.channels[static_cast<std::size_t>(channel)] = {.measured = any, .floor = 0.05 * range};
+  }
+  return guess;
+}
+
+NoiseData noise_data(const WheelPredictor& predictor, const Observations& observations, const Fit& fit) {
+  NoiseData data;
+  data.prediction = fit.prediction;
+  const Index soil = predictor.soil_parameters();
+  data.soil_columns.resize(fit.prediction.size(), soil);
+  VectorXd shift(soil);
+  for (Index p = 0; p < soil; ++p) {
+    const FreeParameter& parameter = predictor.parameters()[static_cast<std::size_t>(p)];
+    data.soil_columns.col(p) = fit.jacobian.col(p) * parameter.prior_sd;
+    shift[p] = (fit.theta[p] - parameter.prior) / parameter.prior_sd;
+  }
+  data.residual = observations.values() - fit.prediction + data.soil_columns * shift;
+  return data;
+}
+
+Fit must_fit(const WheelPredictor& predictor, const Observations& observations, const Whitening& whitening,
+             const VectorXd& start) {
+  auto found = fit(predictor, observations.values(), whitening, start);
+  if (!found) throw NoSolution("no soil near the declared one carries the wheel in every run of this campaign");
+  return *found;
+}
+
+}  // namespace
+
+void settle_base(const Campaign& campaign, const Observations& given, const IdentifyOptions& options,
+                 Identification& id) {
+  constexpr double outlier_limit = 5.0, most_outliers = 0.1;
+  id.observations = given;
+  id.outlier.assign(given.cells.size(), false);
+  NoiseFloor noise = first_guess(given);
+  VectorXd start = WheelPredictor(campaign, given).start();
+  for (int round = 0; round < 4; ++round) {
+    const WheelPredictor predictor(campaign, id.observations);
+    const VectorXd about = round == 0 ? id.observations.values() : id.base.prediction;
+    id.whitening = std::make_shared<Whitening>(id.observations, noise, about);
+    id.base = must_fit(predictor, id.observations, *id.whitening, start);
+    start = id.base.theta;
+    if (round == 3) break;
+    const NoiseEstimate estimate = estimate_noise(id.observations, noise_data(predictor, id.observations, id.base));
+    noise = estimate.floor;
+    id.noise = noise;
+    if (!options.drop_outliers || round == 2) continue;
+    std::vector<bool> drop(id.observations.cells.size());
+    for (std::size_t i = 0; i < drop.size(); ++i) drop[i] = estimate.outlier_score[i] > outlier_limit;
+    const auto count = std::count(drop.begin(), drop.end(), true);
+    if (count == 0 || static_cast<double>(count) > most_outliers * static_cast<double>(drop.size())) continue;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < id.outlier.size(); ++i)
+      if (!id.outlier[i]) id.outlier[i] = drop[kept++];
+    id.observations = without_cells(given, id.outlier);
+    VectorXd remaining(static_cast<Index>(id.observations.cells.size()));
+    Index to = 0;
+    for (std::size_t i = 0; i < drop.size(); ++i)
+      if (!drop[i]) remaining[to++] = id.base.prediction[static_cast<Index>(i)];
+    id.base.prediction = remaining;
+  }
+}
+
+}  // namespace soilbin::compare

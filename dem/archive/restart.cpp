@@ -1,0 +1,229 @@
+#include "dem/archive/restart.hpp"
+
+#include <fmt/core.h>
+
+#include <numeric>
+#include <stdexcept>
+
+#include "dem/archive/h5md.hpp"
+#include "dem/archive/restart_checks.hpp"
+#include "dem/archive/restart_layout.hpp"
+#include "dem/archive/sealed_file.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+namespace fs = std::filesystem;
+
+const FileKind restart_kind{"restart", 1};
+
+using SharedMesh = std::shared_ptr<const TriangleMesh>;
+
+// Meshes: each once, whoever shares it.
+
+std::vector<SharedMesh> meshes_of(const std::vector<Body>& bodies) {
+  std::vector<SharedMesh> all;
+  for (const Body& body : bodies)
+    for (const Surface& surface : body.surfaces)
+      if (const auto* shape = std::get_if<MeshSurface>(&surface.shape))
+        if (std::find(all.begin(), all.end(), shape->mesh) == all.end()) all.push_back(shape->mesh);
+  return all;
+}
+
+void save_meshes(const Saver& a, const std::vector<SharedMesh>& meshes) {
+  a.length("count", meshes);
+  for (std::size_t k = 0; k < meshes.size(); ++k) {
+    const Saver one = a.inner(std::to_string(k));
+    one.text("name", meshes[k]->name());
+    one.value("closed", meshes[k]->closed());
+    one.length("vertices_count", meshes[k]->vertices());
+    one.length("triangles_count", meshes[k]->triangles());
+    one.column("vertices", meshes[k]->vertices(), itself, "m");
+    one.column("triangles", meshes[k]->triangles(), itself);
+  }
+}
+
+std::vector<SharedMesh> load_meshes(const Loader& a) {
+  std::vector<SharedMesh> meshes;
+  a.length("count", meshes);
+  for (std::size_t k = 0; k < meshes.size(); ++k) {
+    const Loader one = a.inner(std::to_string(k));
+    MeshOptions options;
+    options.weld = 0;  // it is welded; so its vertices stay what they are
+    one.text("name", options.name);
+    one.value("closed", options.closed);
+    std::vector<Vec3> vertices;
+    std::vector<TriangleMesh::Corners> triangles;
+    one.length("vertices_count", vertices);
+    one.length("triangles_count", triangles);
+    one.column("vertices", vertices, itself);
+    one.column("triangles", triangles, itself);
+    meshes[k] = std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles), options);
+  }
+  return meshes;
+}
+
+// Bodies.
+
+FlatSurface flat(const Surface& surface, const std::vector<SharedMesh>& meshes) {
+  FlatSurface out;
+  out.material = surface.material;
+  if (const auto* plane = std::get_if<Plane>(&surface.shape)) {
+    out.plane = *plane;
+  } else {
+    const SharedMesh& mesh = std::get<MeshSurface>(surface.shape).mesh;
+    out.mesh = static_cast<std::int32_t>(std::find(meshes.begin(), meshes.end(), mesh) - meshes.begin());
+  }
+  return out;
+}
+
+Surface round(const FlatSurface& surface, const std::vector<SharedMesh>& meshes, const std::string& place) {
+  if (surface.mesh < 0) return {surface.plane, surface.material};
+  if (static_cast<std::size_t>(surface.mesh) >= meshes.size())
+    throw InputError({place, 0, 0}, fmt::format("there is no mesh {}", surface.mesh), "",
+                     "the file is of another program");
+  return {MeshSurface{meshes[static_cast<std::size_t>(surface.mesh)], nullptr}, surface.material};
+}
+
+void save_bodies(const Saver& a, const std::vector<Body>& bodies, const std::vector<SharedMesh>& meshes) {
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const Saver one = a.inner(std::to_string(k));
+    describe_body(one, bodies[k]);
+    std::vector<FlatSurface> surfaces;
+    for (const Surface& surface : bodies[k].surfaces) surfaces.push_back(flat(surface, meshes));
+    describe_flat(one.inner("surfaces"), surfaces);
+  }
+}
+
+void load_bodies(const Loader& a, std::vector<Body>& bodies, const std::vector<SharedMesh>& meshes) {
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const Loader one = a.inner(std::to_string(k));
+    describe_body(one, bodies[k]);
+    std::vector<FlatSurface> surfaces;
+    describe_flat(one.inner("surfaces"), surfaces);
+    for (const FlatSurface& surface : surfaces)
+      bodies[k].surfaces.push_back(round(surface, meshes, one.group().place()));
+  }
+}
+
+// Contacts with surfaces.
+
+FlatSurfaces flat(const std::vector<SurfaceContacts>& slabs) {
+  FlatSurfaces out{{0}, {0}, {}, {}};
+  for (const SurfaceContacts& slab : slabs) {
+    out.near.insert(out.near.end(), slab.near.begin(), slab.near.end());
+    out.made.insert(out.made.end(), slab.made.begin(), slab.made.end());
+    out.near_begin.push_back(static_cast<std::uint32_t>(out.near.size()));
+    out.made_begin.push_back(static_cast<std::uint32_t>(out.made.size()));
+  }
+  return out;
+}
+
+std::vector<SurfaceContacts> by_slab(const FlatSurfaces& flat, const std::string& place) {
+  const auto divides = [&](const std::vector<std::uint32_t>& begins, std::size_t end) {
+    return begins.size() == flat.near_begin.size() && !begins.empty() && begins.front() == 0 && begins.back() == end &&
+           std::is_sorted(begins.begin(), begins.end());
+  };
+  if (!divides(flat.near_begin, flat.near.size()) || !divides(flat.made_begin, flat.made.size()))
+    throw InputError({place, 0, 0}, "its slabs contradict the rest", "", "the file is of another program");
+  std::vector<SurfaceContacts> slabs(flat.near_begin.size() - 1);
+  for (std::size_t k = 0; k < slabs.size(); ++k) {
+    slabs[k].near.assign(flat.near.begin() + flat.near_begin[k], flat.near.begin() + flat.near_begin[k + 1]);
+    slabs[k].made.assign(flat.made.begin() + flat.made_begin[k], flat.made.begin() + flat.made_begin[k + 1]);
+  }
+  return slabs;
+}
+
+// All of it.
+
+void save(const hdf5::Group& root, const Setup& setup, const State& state, const Notes& notes) {
+  write_h5md(root);
+  const Saver particles = Saver(root.create("particles")).inner("grains");
+  write_box(particles.group(), setup.domain);
+  describe_particles(particles, state.grains, state.step, state.time, setup.numerics.dt);
+
+  const Saver ours(root.create("soilbin"));
+  const Saver of_state = ours.inner("state");
+  describe_setup(ours.inner("setup"), setup);
+  of_state.length("grains", state.grains.id);
+  describe_state(of_state, state);
+  describe_grains(ours.inner("grains"), state.grains);
+  const FlatSurfaces surfaces = flat(state.surfaces);
+  describe_surfaces(ours.inner("surfaces"), surfaces);
+  const std::vector<SharedMesh> meshes = meshes_of(state.bodies);
+  save_meshes(ours.inner("meshes"), meshes);
+  save_bodies(ours.inner("bodies"), state.bodies, meshes);
+  const Saver of_notes = ours.inner("notes");
+  for (const auto& [name, text] : notes) of_notes.text(name, text);
+}
+
+Grains load_grains(const hdf5::Group& root) {
+  const Loader ours(root.open("soilbin"));
+  Grains grains;
+  ours.inner("state").length("grains", grains.id);
+  const std::size_t count = grains.id.size();
+  grains.motion.resize(count);
+  grains.spin.resize(count);
+  grains.load.resize(count);
+  grains.material.resize(count);
+  describe_particles(Loader(root.open("particles").open("grains")), grains, 0, 0, 0);
+  describe_grains(ours.inner("grains"), grains);
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  grains.reorder(order);  // brings the idle rows back
+  return grains;
+}
+
+Restart load(const hdf5::Group& root, const std::string& file) {
+  Restart run;
+  const Loader ours(root.open("soilbin"));
+  describe_setup(ours.inner("setup"), run.setup);
+  describe_state(ours.inner("state"), run.state);
+  run.state.grains = load_grains(root);
+  FlatSurfaces surfaces;
+  describe_surfaces(ours.inner("surfaces"), surfaces);
+  run.state.surfaces = by_slab(surfaces, file);
+  load_bodies(ours.inner("bodies"), run.state.bodies, load_meshes(ours.inner("meshes")));
+  const hdf5::Group notes = root.open("soilbin").open("notes");
+  for (const std::string& name : notes.text_names()) run.notes[name] = notes.get_text(name);
+  check_restart(run.setup, run.state, file);
+  return run;
+}
+
+}  // namespace
+
+void write_restart(const fs::path& path, const Setup& setup, const State& state, const Notes& notes) {
+  hdf5::OutputFile file(path.string());
+  save(file.root(), setup, state, notes);
+  write_sealed(path, restart_kind, file.finish(), Keep::previous);
+}
+
+Restart read_restart(const fs::path& path) {
+  const SealedFile sealed(path, restart_kind);
+  try {
+    return load(hdf5::InputFile(sealed.content(), path.string()).root(), path.string());
+  } catch (const std::bad_alloc&) {
+    throw InputError({path.string(), 0, 0}, "needs more memory than there is");
+  } catch (const std::length_error&) {
+    throw InputError({path.string(), 0, 0}, "has lengths that can't be", "", "the file is of another program");
+  }
+}
+
+bool has_restart(const fs::path& path) { return fs::exists(path) || fs::exists(previous_of(path)); }
+
+LastGood read_last_good(const fs::path& path) {
+  std::string why;
+  try {
+    return {read_restart(path), path, ""};
+  } catch (const InputError& error) {
+    why = error.what();
+  }
+  const fs::path previous = previous_of(path);
+  try {
+    return {read_restart(previous), previous, fmt::format("{}\n  going on from {} instead", why, previous.string())};
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}\nand the one before it:\n{}", why, error.what()));
+  }
+}
+
+}  // namespace soilbin::dem

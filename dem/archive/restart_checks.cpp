@@ -1,0 +1,83 @@
+#include "dem/archive/restart_checks.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "scenario/errors.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+/// From 0 to `end`, never falling.
+bool divides(const std::vector<std::uint32_t>& begins, std::size_t end) {
+  return !begins.empty() && begins.front() == 0 && begins.back() == end && std::is_sorted(begins.begin(), begins.end());
+}
+
+template <class Rows>
+bool below(const Rows& rows, std::size_t limit) {
+  return std::all_of(rows.begin(), rows.end(), [&](auto row) { return row < limit; });
+}
+
+bool bodies_fit(const State& state, std::size_t materials) {
+  for (const Body& body : state.bodies)
+    for (const Surface& surface : body.surfaces)
+      if (surface.material < 0 || static_cast<std::size_t>(surface.material) >= materials) return false;
+  return true;
+}
+
+bool pairs_fit(const State& state, std::size_t materials) {
+  const PairList& p = state.pairs;
+  const std::size_t rows = state.grains.motion.size(), pairs = p.batches() * batch_size;
+  return p.first.size() == pairs && p.second.size() == pairs && p.kind.size() == pairs &&
+         p.memory.size() == pairs * memory_size && p.slab_begin.size() == state.slab_rows.size() &&
+         (p.slab_begin.empty() || divides(p.slab_begin, p.batches())) && below(p.first, rows) &&
+         below(p.second, rows) && below(p.kind, materials * materials);
+}
+
+bool leads_somewhere(const NearSurface& who, const State& state) {
+  return who.grain < state.grains.count() && who.body < state.bodies.size() &&
+         who.surface < state.bodies[who.body].surfaces.size();
+}
+
+bool contact_fits(const SurfaceContact& contact, const State& state) {
+  if (!leads_somewhere(contact.who, state)) return false;
+  const Surface& surface = state.bodies[contact.who.body].surfaces[contact.who.surface];
+  const auto* mesh = std::get_if<MeshSurface>(&surface.shape);
+  return contact.triangle >= -1 && contact.triangle < (mesh ? mesh->mesh->size() : 0);
+}
+
+bool surfaces_fit(const State& state) {
+  if (state.surfaces.size() + 1 != std::max<std::size_t>(state.slab_rows.size(), 1)) return false;
+  for (const SurfaceContacts& slab : state.surfaces) {
+    for (const NearSurface& near : slab.near)
+      if (!leads_somewhere(near, state)) return false;
+    for (const SurfaceContact& contact : slab.made)
+      if (!contact_fits(contact, state)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void check_restart(const Setup& setup, const State& state, const std::string& file) {
+  const auto require = [&](bool holds, const char* part) {
+    if (!holds)
+      throw InputError({file, 0, 0}, fmt::format("its {} contradict the rest", part), "",
+                       "the file is of another program");
+  };
+  const std::size_t materials = setup.materials.all.size(), grains = state.grains.count();
+  require(materials >= 1 && materials <= most_materials && setup.materials.interactions.size() == materials * materials,
+          "materials");
+  require(below(state.grains.material, materials) && below(state.grains.id, state.next_id), "grains");
+  require(bodies_fit(state, materials), "bodies");
+  // Grains that were added since the last search are in no slab yet.
+  const std::size_t searched = state.searched_at.size();
+  require(searched <= grains && (state.slab_rows.empty() ? searched == 0 : divides(state.slab_rows, searched)),
+          "slabs");
+  require(pairs_fit(state, materials), "pairs");
+  require(surfaces_fit(state), "contacts with surfaces");
+  require(below(state.new_grains, state.next_id), "new grains");
+}
+
+}  // namespace soilbin::dem

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "dem/engine/simulation.hpp"
+
+namespace soilbin::dem {
+
+/// Whether all that is an index leads somewhere: a restart that another program made must not crash ours. Throws
+/// InputError that names the file and the part.
+void check_restart(const Setup& setup, const State& state, const std::string& file);
+
+}  // namespace soilbin::dem

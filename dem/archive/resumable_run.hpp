@@ -1,0 +1,48 @@
+// Running on and on: restarts now and then, a clean stop on demand, and going on where it was.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "dem/archive/restart.hpp"
+#include "dem/engine/simulation.hpp"
+
+namespace soilbin::dem {
+
+struct Checkpoints {
+  std::filesystem::path restart;
+  double seconds = 600;    ///< of wall time between restarts [s]; 0: not by time
+  std::int64_t steps = 0;  ///< between restarts; 0: not by steps
+};
+
+/// What the program round a simulation does.
+struct Driver {
+  /// Called at each step from the first to the last, and first thing when a run goes on. Before it a restart may be
+  /// written, so what it does to the simulation must follow from the simulation and the notes alone.
+  std::function<void(Simulation&)> at_step;
+  /// What it wants to find again in a restart.
+  std::function<Notes()> notes;
+};
+
+enum class RunEnd { reached, interrupted };
+
+/// Where a run begins.
+struct Start {
+  Simulation simulation;
+  Notes notes;
+  std::string told;  ///< from which file and step it goes on, and what was wrong with a later one; empty: fresh
+};
+
+/// Goes on from the last good restart; where there is none at all, from `fresh`. Throws InputError where there are
+/// restarts but none is good: a run never starts anew by mistake.
+Start resume_or_start(const std::filesystem::path& restart, const std::function<Simulation()>& fresh);
+
+/// Runs to step `until`, and writes a restart every so often and at the end. Where `stop` is set (at Ctrl-C, say) it
+/// finishes the step, writes a restart and gives RunEnd::interrupted. Where the run can't go on, the state is written
+/// to the restart's name + ".stopped" and RunStopped names it; the last good restart stays.
+RunEnd run_resumably(Simulation& simulation, std::int64_t until, const Checkpoints& checkpoints,
+                     const std::atomic<bool>& stop, const Driver& driver = {});
+
+}  // namespace soilbin::dem

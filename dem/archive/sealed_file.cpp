@@ -1,0 +1,173 @@
+#include "dem/archive/sealed_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "scenario/errors.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t header_bytes = 512;  // where HDF5 looks for its own beginning
+constexpr std::string_view programme = "soilbin ";
+
+std::string header_of(const FileKind& kind, std::string_view content) {
+  std::string text =
+      fmt::format("{}{} {}\nbytes {}\nfnv1a {:016x}\nHDF5 follows at byte {}, layout in docs/dem-archive.md\n",
+                  programme, kind.name, kind.version, content.size(), fnv1a(content), header_bytes);
+  text.resize(header_bytes, '\n');
+  return text;
+}
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& message, const std::string& hint) {
+  throw InputError({path.string(), 0, 0}, message, "", hint);
+}
+
+[[noreturn]] void fail(const fs::path& path, const char* step, int reason) {
+  throw std::runtime_error(
+      fmt::format("{}: can't {}: {}", path.string(), step, std::generic_category().message(reason)));
+}
+
+/// Open for writing; closed and removed unless it is kept.
+class FreshFile {
+ public:
+  explicit FreshFile(const fs::path& path)
+      : path_(path), descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+    if (descriptor_ < 0) fail(path_, "create", errno);
+  }
+  FreshFile(const FreshFile&) = delete;
+  FreshFile& operator=(const FreshFile&) = delete;
+  ~FreshFile() {
+    if (descriptor_ < 0) return;
+    ::close(descriptor_);
+    ::unlink(path_.c_str());
+  }
+
+  void write(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail(path_, "write", errno);
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+  void keep() {
+    if (::fsync(descriptor_) != 0) fail(path_, "flush", errno);
+    const int descriptor = descriptor_;
+    descriptor_ = -1;
+    if (::close(descriptor) != 0) fail(path_, "close", errno);
+  }
+
+ private:
+  fs::path path_;
+  int descriptor_;
+};
+
+bool is_good(const fs::path& path, const FileKind& kind) {
+  try {
+    const SealedFile file(path, kind);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// Gives the file a second name, in one step; it keeps its first.
+void keep_previous(const fs::path& path) {
+  const fs::path previous = previous_of(path), between = path.string() + ".keeping";
+  ::unlink(between.c_str());
+  // Without hard links for a moment only the previous one is there.
+  if (::link(path.c_str(), between.c_str()) != 0) {
+    if (std::rename(path.c_str(), previous.c_str()) != 0) fail(previous, "rename into place", errno);
+    return;
+  }
+  if (std::rename(between.c_str(), previous.c_str()) != 0) fail(previous, "rename into place", errno);
+  ::unlink(between.c_str());  // it stays where both names were one file before
+}
+
+/// Makes renames last; a folder that can't be synced is no reason to fail.
+void flush_folder(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+/// The first two words after 'soilbin'; false where they aren't there.
+bool kind_of(std::string_view bytes, FileKind& kind) {
+  if (!bytes.starts_with(programme)) return false;
+  char name[33] = "";
+  if (std::sscanf(std::string(bytes.substr(programme.size(), 64)).c_str(), "%32[a-z] %6d\n", name, &kind.version) != 2)
+    return false;
+  kind.name = name;
+  return true;
+}
+
+std::string read_whole(const fs::path& path) {
+  if (fs::is_directory(path)) refuse(path, "is a folder", "give the file in it");
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) refuse(path, fmt::format("can't be read: {}", std::generic_category().message(errno)), "");
+  std::string bytes(static_cast<std::size_t>(file.tellg()), '\0');
+  file.seekg(0);
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (static_cast<std::size_t>(file.gcount()) != bytes.size()) refuse(path, "can't be read to its end", "");
+  return bytes;
+}
+
+}  // namespace
+
+std::uint64_t fnv1a(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+  return hash;
+}
+
+fs::path previous_of(const fs::path& path) { return path.string() + ".previous"; }
+
+void write_sealed(const fs::path& path, const FileKind& kind, std::string_view content, Keep keep) {
+  const fs::path fresh = path.string() + ".writing";
+  FreshFile file(fresh);
+  file.write(header_of(kind, content));
+  file.write(content);
+  file.keep();
+  if (keep == Keep::previous && is_good(path, kind)) keep_previous(path);
+  if (std::rename(fresh.c_str(), path.c_str()) != 0) fail(path, "rename into place", errno);
+  flush_folder(path);
+}
+
+SealedFile::SealedFile(const fs::path& path, const FileKind& kind) : bytes_(read_whole(path)) {
+  const std::string_view header = std::string_view(bytes_).substr(0, header_bytes);
+  FileKind found;
+  if (!kind_of(header, found))
+    refuse(path, fmt::format("is no soilbin {}, or damaged at its beginning", kind.name),
+           fmt::format("give a {} that soilbin wrote", kind.name));
+  if (found.name != kind.name)
+    refuse(path, fmt::format("is a soilbin {}, not a {}", found.name, kind.name),
+           fmt::format("give a {} that soilbin wrote", kind.name));
+  if (found.version != kind.version)
+    refuse(path, fmt::format("is of version {}, this soilbin reads version {}", found.version, kind.version),
+           "read it with the soilbin that wrote it");
+  const char* copy = "take the one before it, or a copy of it";
+  std::size_t whole = 0;
+  const std::size_t at = header.find("\nbytes ");
+  if (header.size() < header_bytes || at == std::string_view::npos ||
+      std::sscanf(std::string(header.substr(at)).c_str(), "\nbytes %19zu\n", &whole) != 1)
+    refuse(path, "is cut short or damaged at its beginning", copy);
+  if (content().size() < whole)
+    refuse(path, fmt::format("is cut short: {} bytes of {}", bytes_.size(), whole + header_bytes), copy);
+  if (header != header_of(kind, content())) refuse(path, "is damaged: its checksum doesn't fit its content", copy);
+}
+
+std::string_view SealedFile::content() const { return std::string_view(bytes_).substr(header_bytes); }
+
+}  // namespace soilbin::dem

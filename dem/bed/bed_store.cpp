@@ -1,0 +1,82 @@
+#include "dem/bed/bed_store.hpp"
+
+#include <fmt/core.h>
+
+#include <cstdint>
+#include <optional>
+
+#include "dem/archive/restart.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+/// To be raised when the same recipe gives another bed than before.
+constexpr int version = 1;
+
+constexpr const char* recipe_note = "bed_recipe";
+constexpr const char* time_note = "settling_time";
+
+std::optional<SettledBed> read_bed(const std::filesystem::path& file, const BedRecipe& recipe, const WorkOptions& how) {
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  try {
+    Restart restart = read_restart(file);
+    const auto text = restart.notes.find(recipe_note), time = restart.notes.find(time_note);
+    if (text == restart.notes.end() || text->second != recipe_text(recipe) || time == restart.notes.end())
+      return std::nullopt;
+    SettledBed bed{.recipe = recipe, .setup = restart.setup, .state = std::move(restart.state), .report = {}};
+    bed.setup.numerics.threads = how.threads;
+    bed.report = report_on(Simulation(bed.setup, bed.state), recipe.size);
+    bed.report.settling_time = std::stod(time->second);
+    return bed;
+  } catch (const InputError&) {
+    return std::nullopt;  // damaged, or of another version: settled anew
+  }
+}
+
+}  // namespace
+
+std::string recipe_text(const BedRecipe& recipe) {
+  std::string text = fmt::format("version {}\n", version);
+  const auto add = [&](const char* name, double value) { text += fmt::format("{} {}\n", name, value); };
+  const GranularSoil& soil = recipe.soil;
+  add("radius_min", soil.radius_min), add("radius_max", soil.radius_max);
+  add("density", soil.grain_density), add("young", soil.youngs_modulus), add("poisson", soil.poisson_ratio);
+  add("restitution", soil.grain_grain.restitution);
+  add("sliding", soil.grain_grain.sliding_friction), add("rolling", soil.grain_grain.rolling_friction);
+  add("length", recipe.size.length), add("width", recipe.size.width), add("depth", recipe.size.depth);
+  text += fmt::format("packing {}\n", recipe.packing);
+  add("settling_friction", recipe.settling_friction), add("gravity", recipe.gravity), add("dt", recipe.dt);
+  text += fmt::format("laws {} {} {}\n", static_cast<int>(recipe.laws.normal), static_cast<int>(recipe.laws.rolling),
+                      static_cast<int>(recipe.laws.cohesion));
+  add("tangential_damping", recipe.laws.tangential_damping);
+  add("kinetic", recipe.rest.kinetic), add("unbalanced", recipe.rest.unbalanced), add("every", recipe.rest.every);
+  return text;
+}
+
+std::string content_key(const BedRecipe& recipe) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : recipe_text(recipe)) hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x100000001b3;
+  return fmt::format("{:016x}", hash);
+}
+
+std::shared_ptr<const SettledBed> BedStore::bed(const BedRecipe& recipe, const WorkOptions& how) {
+  const std::lock_guard lock(guard_);
+  const std::string text = recipe_text(recipe);
+  for (const auto& [known, bed] : kept_)
+    if (known == text) return bed;
+  std::optional<SettledBed> found;
+  if (!folder_.empty()) found = read_bed(file(recipe), recipe, how);
+  if (!found) {
+    found = settle_bed(recipe, how);
+    if (!folder_.empty()) {
+      std::filesystem::create_directories(folder_);
+      write_restart(file(recipe), found->setup, found->state,
+                    {{recipe_note, text}, {time_note, fmt::format("{}", found->report.settling_time)}});
+    }
+  }
+  kept_.emplace_back(text, std::make_shared<const SettledBed>(std::move(*found)));
+  return kept_.back().second;
+}
+
+}  // namespace soilbin::dem

@@ -1,0 +1,38 @@
+// Beds settled once and found again by the content of what made them.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "dem/bed/settled_bed.hpp"
+
+namespace soilbin::dem {
+
+/// Sixteen hexadecimal digits that follow from everything in a recipe that the bed depends on, and from the version of
+/// the code that makes beds; FNV-1a, 64 bit, over a text of all values in full precision.
+std::string content_key(const BedRecipe& recipe);
+
+/// The text behind the key: one line a value.
+std::string recipe_text(const BedRecipe& recipe);
+
+class BedStore {
+ public:
+  /// Beds are kept in memory and, where a folder is given, in files bed-KEY.h5 there.
+  explicit BedStore(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
+
+  /// The bed of this recipe: from memory, from its file, or settled now. A file whose recipe differs from the one asked
+  /// for, or that is damaged, is settled anew and replaced.
+  std::shared_ptr<const SettledBed> bed(const BedRecipe& recipe, const WorkOptions& how = {});
+
+  std::filesystem::path file(const BedRecipe& recipe) const { return folder_ / ("bed-" + content_key(recipe) + ".h5"); }
+
+ private:
+  std::filesystem::path folder_;
+  std::mutex guard_;
+  std::vector<std::pair<std::string, std::shared_ptr<const SettledBed>>> kept_;  ///< by recipe_text
+};
+
+}  // namespace soilbin::dem

@@ -1,0 +1,176 @@
+#include "dem/bed/settled_bed.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "dem/bed/insertion.hpp"
+#include "dem/engine/time_step.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+constexpr double densest = 0.64;          // share of grains in random packing, without friction
+constexpr double spare = 1.03;            // of grains, so that levelling finds enough
+constexpr double before_levelling = 100;  // so much less rest is asked for, as levelling disturbs it anyway
+constexpr double headroom = 20;           // of the domain, for grains that are thrown [m]
+
+void check(const BedRecipe& recipe) {
+  const auto& [length, width, depth] = recipe.size;
+  const double largest = recipe.soil.radius_max;
+  if (!(recipe.soil.radius_min > 0 && largest >= recipe.soil.radius_min && std::isfinite(largest)))
+    throw InputError("a bed needs grains: radius_min above 0, radius_max not below it");
+  if (!(length >= 4 * largest && width >= 4 * largest && depth >= 4 * largest) ||
+      !std::isfinite(length + width + depth))
+    throw InputError(
+        fmt::format("a bed of {:.4g} x {:.4g} x {:.4g} m is less "
+                    "than two grains of {:.4g} m across",
+                    length, width, depth, 2 * largest));
+  if (!(recipe.settling_friction >= 0 && recipe.settling_friction <= 1))
+    throw InputError("settling_friction must lie in 0 .. 1");
+  if (!(recipe.gravity > 0)) throw InputError("a bed settles under gravity: it must be above 0");
+}
+
+int grain_count(const BedRecipe& recipe) {
+  const double a = recipe.soil.radius_min, b = recipe.soil.radius_max;
+  const double mean_cube = (a + b) * (a * a + b * b) / 4;  // of a uniform radius
+  const auto& [length, width, depth] = recipe.size;
+  const double count = spare * densest * length * width * (depth + b) / (4.0 / 3 * std::numbers::pi * mean_cube);
+  if (count > 2e7) throw InputError(fmt::format("a bed of {:.3g} grains is beyond this program", count));
+  return static_cast<int>(std::ceil(count));
+}
+
+Setup setup_of(const BedRecipe& recipe, int threads) {
+  Setup setup;
+  const GranularSoil& soil = recipe.soil;
+  setup.materials.add({"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio},
+                      interaction_of(soil.grain_grain));
+  setup.laws = recipe.laws;
+  const double r = soil.radius_max;
+  setup.domain.lower = {-r, -r, -r};
+  setup.domain.upper = {recipe.size.length + r, recipe.size.width + r, headroom};
+  setup.numerics.dt = recipe.dt > 0 ? recipe.dt : longest_step(soil);
+  setup.numerics.threads = threads;
+  return setup;
+}
+
+Body bin_of(const BedSize& size) {
+  Body bin;
+  bin.name = "bin";
+  const auto plane = [&](const Vec3& point, const Vec3& normal) {
+    bin.surfaces.push_back({Plane{point, normal}, grain_material});
+  };
+  plane({0, 0, 0}, {0, 0, 1});
+  plane({0, 0, 0}, {1, 0, 0});
+  plane({size.length, 0, 0}, {-1, 0, 0});
+  plane({0, 0, 0}, {0, 1, 0});
+  plane({0, size.width, 0}, {0, -1, 0});
+  return bin;
+}
+
+/// Runs until the rest test holds.
+void come_to_rest(Simulation& simulation, const RestTest& test, const WorkOptions& how, double done, double share) {
+  const double begin = simulation.time();
+  constexpr int looking = 16;  // steps that unrest() takes
+  const std::int64_t steps =
+      std::max<std::int64_t>(0, std::llround(test.every / simulation.setup().numerics.dt) - looking);
+  Unrest now;
+  while (simulation.time() - begin < test.at_most) {
+    if (how.stop.stop_requested()) throw Stopped();
+    simulation.run(steps);
+    now = unrest(simulation, looking);
+    if (now.kinetic < test.kinetic && now.unbalanced < test.unbalanced) return;
+    if (how.progress) {
+      // Kinetic energy falls by orders of magnitude; how many are left is the
+      // share left.
+      const double orders = std::clamp(std::log10(now.kinetic / test.kinetic) / 7, 0.0, 1.0);
+      how.progress({"settling", done + share * (1 - orders), std::numeric_limits<double>::quiet_NaN()});
+    }
+  }
+  throw RunStopped(
+      fmt::format("the bed did not come to rest in {:.3g} s: kinetic {:.3g} (asked "
+                  "{:.3g}), unbalanced {:.3g} "
+                  "(asked {:.3g})\n  hint: a shorter time step, or a looser test",
+                  test.at_most, now.kinetic, test.kinetic, now.unbalanced, test.unbalanced));
+}
+
+/// Takes away grains above a height chosen such that the surface seen from
+/// above comes to `depth` on average.
+void level(Simulation& simulation, const BedSize& size, double radius) {
+  const Footprint over{radius, size.length - radius, radius, size.width - radius};
+  const Grains& grains = simulation.state().grains;
+  const auto mean_below = [&](double cut) {
+    Grains kept;
+    for (std::size_t k = 0; k < grains.count(); ++k) {
+      const Motion& grain = grains.motion[k];
+      if (grain.position.z + grain.radius <= cut) kept.add(0, grain.position, {}, {}, grain.radius, 1, 0);
+    }
+    return surface_height(kept, over, radius / 4).mean();
+  };
+  double low = size.depth - 2 * radius, high = size.depth + 4 * radius;
+  if (mean_below(high) < size.depth)
+    throw RunStopped(fmt::format("the settled grains fill the bin only to {:.4g} m", mean_below(high)));
+  for (int turn = 0; turn < 12; ++turn) {
+    const double middle = (low + high) / 2;
+    (mean_below(middle) < size.depth ? low : high) = middle;
+  }
+  simulation.remove_grains([&](const GrainNow& grain) { return grain.position.z + grain.radius > high; });
+}
+
+Interaction with_friction(Interaction interaction, double share) {
+  interaction.sliding_friction *= share;
+  interaction.rolling_friction *= share;
+  return interaction;
+}
+
+}  // namespace
+
+Interaction interaction_of(const ContactPair& pair) {
+  Interaction out;
+  out.restitution = pair.restitution;
+  out.sliding_friction = pair.sliding_friction;
+  out.rolling_friction = pair.rolling_friction;
+  return out;
+}
+
+double longest_step(const GranularSoil& soil) {
+  Materials materials;
+  materials.add({"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio});
+  Grains grains;
+  grains.add(0, {}, {}, {}, soil.radius_min, 1, 0);
+  return 0.999 * Numerics{}.safe_share * rayleigh_time(materials, grains);
+}
+
+SettledBed settle_bed(const BedRecipe& recipe, const WorkOptions& how) {
+  check(recipe);
+  const GranularSoil& soil = recipe.soil;
+  Simulation simulation(setup_of(recipe, how.threads));
+  simulation.set_gravity({0, 0, -recipe.gravity});
+  simulation.add_body(bin_of(recipe.size));
+  const int count = grain_count(recipe);
+  const RadiusRange radii{soil.radius_min, soil.radius_max};
+  Region region{{0, 0, 0}, {recipe.size.length, recipe.size.width, 0}};
+  while (room_for(region, radii) < count) region.upper.z += soil.radius_max;
+  if (region.upper.z > headroom) throw InputError("the bed is too high to be poured");
+  insert_loosely(simulation, region, radii, grain_material, count, recipe.packing);
+
+  const Interaction full = interaction_of(soil.grain_grain);
+  simulation.set_interaction(grain_material, grain_material, with_friction(full, recipe.settling_friction));
+  RestTest poured = recipe.rest;
+  poured.kinetic *= before_levelling, poured.unbalanced *= before_levelling;
+  come_to_rest(simulation, poured, how, 0.0, 0.8);
+  simulation.set_interaction(grain_material, grain_material, full);
+  level(simulation, recipe.size, (soil.radius_min + soil.radius_max) / 2);
+  come_to_rest(simulation, recipe.rest, how, 0.8, 0.2);
+
+  SettledBed bed{.recipe = recipe, .setup = simulation.setup(), .state = simulation.state(), .report = {}};
+  bed.report = report_on(Simulation(bed.setup, bed.state), recipe.size);
+  bed.report.settling_time = simulation.time();
+  return bed;
+}
+
+}  // namespace soilbin::dem

@@ -1,0 +1,60 @@
+// A bed of grains in a box, come to rest under gravity: what every run starts
+// from.
+#pragma once
+
+#include <cstdint>
+
+#include "dem/bed/bed_report.hpp"
+#include "dem/bed/work_options.hpp"
+#include "dem/engine/simulation.hpp"
+#include "scenario/soil.hpp"
+
+namespace soilbin::dem {
+
+/// When a bed counts as being at rest: both at once. Before it is levelled, a hundred times as much is let pass.
+struct RestTest {
+  double kinetic = 1e-6;     ///< Unrest::kinetic below this
+  double unbalanced = 0.03;  ///< Unrest::unbalanced below this
+  double every = 0.02;       ///< looked at so often [s]
+  double at_most = 10;       ///< [s], then the bed is given up
+};
+
+/// All that a bed follows from. The tire's contact with the soil is not read.
+struct BedRecipe {
+  GranularSoil soil;
+  BedSize size;
+  std::uint64_t packing = 1;     ///< seed of the random places and radii
+  double settling_friction = 1;  ///< share of sliding and rolling friction while grains fall; less makes a denser bed
+  double gravity = 9.81;         ///< [m/s^2]
+  double dt = 0;                 ///< [s]; 0: longest_step
+  ContactLaws laws{{.rolling = RollingLaw::directional}, -1.0};
+  RestTest rest;
+};
+
+/// Where the bed's body stands in State::bodies: floor and four walls, planes of the grains' own material.
+inline constexpr int bin_body = 0;
+/// Materials of a bed: that of the grains; a run adds others behind it.
+inline constexpr int grain_material = 0;
+
+struct SettledBed {
+  BedRecipe recipe;
+  Setup setup;  ///< of one material, the grains'
+  State state;
+  BedReport report;
+};
+
+/// What grains do to each other, and to tire, of a soil.
+Interaction interaction_of(const ContactPair& pair);
+
+/// The longest step for grains of this soil that the engine's check lets pass
+/// [s].
+double longest_step(const GranularSoil& soil);
+
+/// Puts grains in loosely, lets them fall, takes away what stands above the
+/// depth so that the surface seen from above is on average there, and lets the
+/// rest settle again. The same recipe gives the same bed, for any number of
+/// threads. Throws InputError for sizes that make no sense, RunStopped where no
+/// rest is found, Stopped.
+SettledBed settle_bed(const BedRecipe& recipe, const WorkOptions& how = {});
+
+}  // namespace soilbin::dem

@@ -1,0 +1,41 @@
+// The virtual soil bin as a model: a case's tire on a settled bed of its grains.
+#pragma once
+
+#include <functional>
+
+#include "dem/bed/bed_store.hpp"
+#include "dem/rig/wheel_run.hpp"
+#include "scenario/scenario.hpp"
+
+namespace soilbin::dem {
+
+struct DemSettings {
+  BedSize size;                  ///< of the bed; a scenario's bin replaces depth and width
+  std::uint64_t packing = 1;     ///< seed of the bed
+  double settling_friction = 1;  ///< as in BedRecipe
+  std::filesystem::path beds;    ///< folder that keeps beds; empty: none is kept on disk
+  Rig rig;
+  WorkOptions how;
+  bool only_steady = false;                     ///< NoSolution where a run didn't become steady, instead of its means
+  std::function<void(const WheelRun&)> on_run;  ///< gets everything a run told, before evaluate returns
+};
+
+class DemModel : public Model {
+ public:
+  explicit DemModel(DemSettings settings = {}) : settings_(std::move(settings)), beds_(settings_.beds) {}
+
+  std::string name() const override { return "dem"; }
+  /// Sinkage, forces and torque are means over the steady part of one run, with the errors of its fluctuations; the
+  /// scatter between packings comes on top. Throws InputError without granular values, for effects, for a second pass,
+  /// and what run_wheel throws. One call at a time: a run uses all the threads it is given.
+  TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override;
+
+  /// The bed that a scenario's soil gets.
+  BedRecipe recipe(const Scenario& scenario) const;
+
+ private:
+  DemSettings settings_;
+  mutable BedStore beds_;
+};
+
+}  // namespace soilbin::dem

@@ -1,0 +1,32 @@
+// Means of what fluctuates, with honest errors: samples that follow each other
+// are not independent.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "scenario/estimate.hpp"
+
+namespace soilbin::dem {
+
+/// The autocorrelation time of a series in samples: 1 + 2 sum of rho(k), k up
+/// to the first window that is at least six times the sum so far (Sokal 1997).
+/// 1 where samples are independent, and for less than four samples.
+double autocorrelation_time(std::span<const double> series);
+
+/// Mean and its standard error by block averaging: blocks of two
+/// autocorrelation times, at least eight blocks; error = sqrt(variance of block
+/// means/blocks). Less than eight samples: the plain error of the mean; one: 0.
+Estimate mean_with_error(std::span<const double> series);
+
+/// The sample at which the start-up is best cut off: of all cuts in the first
+/// half, the one that minimises the estimated variance of the mean of what is
+/// left, sum (x - mean)^2/n^2, over means of five samples (MSER-5, White 1997).
+std::size_t end_of_start_up(std::span<const double> series);
+
+/// Difference of the means of the two halves over its standard error, from the
+/// halves' own errors; around 1 where the series is steady. 0 for less than
+/// sixteen samples.
+double drift_over_error(std::span<const double> series);
+
+}  // namespace soilbin::dem

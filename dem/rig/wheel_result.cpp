@@ -1,0 +1,126 @@
+#include "dem/rig/wheel_result.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "dem/rig/mean_value.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+template <class Read>
+std::vector<double> series_of(std::span<const WheelSample> samples, const Read& read) {
+  std::vector<double> out;
+  for (const WheelSample& sample : samples) out.push_back(read(sample));
+  return out;
+}
+
+/// What the answer is made of, sample by sample.
+struct Channels {
+  std::vector<double> pull, lateral, torque, sinkage;
+};
+
+Channels channels_of(std::span<const WheelSample> samples, const WheelMotion& motion, ForceFrame frame) {
+  return {.pull = series_of(samples, [&](auto& s) { return net_force(s.force, motion, frame).drawbar_pull; }),
+          .lateral = series_of(samples, [&](auto& s) { return net_force(s.force, motion, frame).lateral; }),
+          .torque = series_of(samples, [&](auto& s) { return -dot(s.moment, motion.axle); }),
+          .sinkage = series_of(samples, [](auto& s) { return s.sinkage; })};
+}
+
+template <class Read>
+double mean_of(std::span<const WheelSample> samples, const Read& read) {
+  double sum = 0;
+  for (const WheelSample& sample : samples) sum += read(sample);
+  return sum / static_cast<double>(samples.size());
+}
+
+PowerBalance power_of(std::span<const WheelSample> samples, const WheelMotion& motion, bool ledger) {
+  PowerBalance power;
+  power.drive = mean_of(samples, [&](auto& s) { return -dot(s.moment, motion.axle) * s.rotation; });
+  power.pull = mean_of(samples, [&](auto& s) { return (s.force.x + motion.load.x) * s.speed; });
+  power.climb = mean_of(samples, [&](auto& s) { return -motion.load.x * s.speed; });
+  power.into_soil = mean_of(samples, [](auto& s) { return s.into_soil; });
+  power.heave = mean_of(samples, [&](auto& s) { return s.force.z * s.heave; });
+  power.rest = power.drive - power.pull - power.climb - power.heave - power.into_soil;
+  const double time = samples.back().time - samples.front().time;
+  if (!ledger || time <= 0) return power;
+  const Ledger &a = samples.front().ledger, &b = samples.back().ledger;
+  power.losses.damping = (b.damping - a.damping) / time;
+  power.losses.shear_damping = (b.shear_damping - a.shear_damping) / time;
+  power.losses.sliding = (b.sliding - a.sliding) / time;
+  power.losses.into_slide = (b.into_slide - a.into_slide) / time;
+  power.losses.into_roll = (b.into_roll - a.into_roll) / time;
+  return power;
+}
+
+/// Parts of the drawbar pull; the stresses are sampled, the pull is summed over
+/// all steps, and what that leaves over is told too.
+std::vector<Contribution> budget_of(const TreadForces& sum, double count, const WheelMotion& motion, ForceFrame frame,
+                                    double pull) {
+  const auto along = [&](const Vec3& force) {
+    return frame == ForceFrame::travel ? force.x : dot(force, motion.heading);
+  };
+  std::vector<Contribution> budget = {
+      {"shear_thrust", along(sum.thrust / count * motion.heading)},
+      {"compaction_resistance", along(sum.resistance / count * motion.heading)},
+  };
+  if (frame == ForceFrame::travel && motion.heading.y != 0)
+    budget.push_back({"side_force", along(sum.side / count * motion.axle)});
+  if (const double slope = along({motion.load.x, motion.load.y, 0}); slope != 0) budget.push_back({"slope", slope});
+  double rest = pull;
+  for (const Contribution& part : budget) rest -= part.force;
+  budget.push_back({"between_samples", rest});
+  return budget;
+}
+
+void tell_stresses(TractionResult& result, std::span<const WheelSample> samples, const WheelMotion& motion,
+                   const Tire& tire) {
+  TreadForces sum;
+  for (const WheelSample& sample : samples) sum += sample.tread;
+  const double count = static_cast<double>(samples.size());
+  result.patch = tread_stress(sum, count, tire);
+  result.budget = budget_of(sum, count, motion, result.at.force_frame, result.drawbar_pull.value);
+  if (result.patch.empty()) return;
+  const auto most = std::max_element(result.patch.begin(), result.patch.end(),
+                                     [](const auto& a, const auto& b) { return a.normal < b.normal; });
+  result.exit_angle = result.patch.front().theta;
+  result.max_stress_angle = most->theta;
+  result.entry_angle = result.patch.back().theta;
+}
+
+}  // namespace
+
+void summarise(WheelRun& run, const Tire& tire, const OperatingCondition& at, const Rig& rig) {
+  const WheelMotion motion = wheel_motion(at, tire.radius);
+  const Channels all = channels_of(run.samples, motion, at.force_frame);
+  for (const auto* series : {&all.pull, &all.torque, &all.sinkage})
+    run.steady_from = std::max(run.steady_from, end_of_start_up(*series));
+  const std::span<const WheelSample> steady = std::span(run.samples).subspan(run.steady_from);
+  const Channels kept = channels_of(steady, motion, at.force_frame);
+  for (const auto* series : {&kept.pull, &kept.torque, &kept.sinkage})
+    run.drift = std::max(run.drift, drift_over_error(*series));
+  run.steady = steady.size() >= 16 && run.drift <= rig.steady_drift;
+
+  TractionResult& result = run.result;
+  result.at = at;
+  result.drawbar_pull = mean_with_error(kept.pull);
+  result.torque = mean_with_error(kept.torque);
+  result.sinkage = mean_with_error(kept.sinkage);
+  result.lateral_force = mean_with_error(kept.lateral);
+  const double speed = mean_of(steady, [](auto& s) { return s.speed; });
+  const double rotation = mean_of(steady, [](auto& s) { return s.rotation; });
+  const double in_plane = at.slip_by == SlipBy::wheel_plane_speed ? speed * motion.heading.x : speed;
+  if (rig.drive_torque) result.at.slip = slip_of(in_plane, rotation, tire.radius);
+  const double drive = result.torque.value * rotation;
+  result.tractive_efficiency =
+      drive != 0 ? result.drawbar_pull.value * speed / drive : std::numeric_limits<double>::quiet_NaN();
+  run.moment = {mean_of(steady, [](auto& s) { return s.moment.x; }),
+                mean_of(steady, [](auto& s) { return s.moment.y; }),
+                mean_of(steady, [](auto& s) { return s.moment.z; })};
+  run.power = power_of(steady, motion, rig.ledger);
+  tell_stresses(result, steady, motion, tire);
+}
+
+}  // namespace soilbin::dem

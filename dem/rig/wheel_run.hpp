@@ -1,0 +1,88 @@
+// A wheel driven over a settled bed: lowered gently, set going, and measured
+// until the bed ends.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "dem/bed/settled_bed.hpp"
+#include "dem/rig/tread_stress.hpp"
+#include "dem/rig/wheel_motion.hpp"
+#include "dem/surface/shapes.hpp"
+#include "scenario/operating_condition.hpp"
+#include "scenario/tire.hpp"
+#include "scenario/traction_result.hpp"
+
+namespace soilbin::dem {
+
+/// How the wheel is held, driven and read.
+struct Rig {
+  double mass = 0;         ///< that heaves with the wheel [kg]; 0: the load's, a dead weight
+  double tilting = 0.3;    ///< time in which gravity turns, where the bed is inclined [s]
+  double lowering = 0.5;   ///< time in which the load comes on, evenly [s]
+  double resting = 0.2;    ///< time under the whole load before the start [s]
+  double starting = 0.2;   ///< time in which speed and rotation come on, evenly [s]
+  double behind = 0.35;    ///< of the axle to the rear end of the bin, at the start [m]
+  double ahead = 0.5;      ///< of the axle to the front end, when the run ends [m]
+  double travel = 0;       ///< of the axle [m]; 0: as far as the bin lets it
+  double sampling = 0.01;  ///< a sample's time [s]; forces are means over all its steps
+  int sectors = 180;       ///< of the rim, for stresses
+  double inertia = 0;      ///< about the axle, where the rotation is free [kg m^2]; 0: mass r^2/2
+  TireMeshing meshing;
+  double young = 1e9;       ///< of the tire, which is rigid beside the sand [Pa]
+  double poisson = 0.3;     ///< of the tire
+  double dt = 0;            ///< [s]; 0: the bed's
+  double skin = 0.25;       ///< margin of the search for pairs, in largest radii
+  bool ledger = false;      ///< tells where the power goes; costs about a tenth
+  double steady_drift = 3;  ///< largest drift_over_error of a steady run
+  /// A torque held instead of the rotation [N m]; the rotation is then free and starts at that of the condition's slip.
+  /// 0 rolls freely.
+  std::optional<double> drive_torque;
+};
+
+/// Means over the steps of one sampling time. Force and moment are the soil's on the wheel, in the frame of the bin.
+struct WheelSample {
+  double time = 0;       ///< at its end [s]
+  double travel = 0;     ///< of the axle since the wheel was put down, at its end [m]
+  Vec3 force, moment;    ///< moment about the wheel's centre [N], [N m]
+  double sinkage = 0;    ///< [m]
+  double speed = 0;      ///< along x [m/s]
+  double heave = 0;      ///< velocity along z [m/s]
+  double rotation = 0;   ///< about the axle [rad/s]
+  double into_soil = 0;  ///< power that the wheel gives the grains [W]
+  TreadForces tread;     ///< at its end
+  Ledger ledger;         ///< at its end, since the bed was poured; filled with Rig::ledger
+};
+
+/// Powers, means over the steady part [W].
+struct PowerBalance {
+  double drive = 0;      ///< M w
+  double pull = 0;       ///< F_DP v, in the frame of travel
+  double climb = 0;      ///< lifts the load up the slope
+  double heave = 0;      ///< lifts the load out of the soil; negative while the wheel sinks
+  double into_soil = 0;  ///< given to the grains, counted step by step
+  double rest = 0;       ///< drive less all these: what rounding and the products of fluctuations leave
+  Ledger losses;         ///< with Rig::ledger: where grains lost it
+};
+
+/// What a run tells.
+struct WheelRun {
+  TractionResult result;
+  PowerBalance power;
+  std::vector<WheelSample> samples;  ///< from the start of the motion on
+  std::size_t steady_from = 0;       ///< first sample that counts
+  bool steady = false;               ///< whether the stated test holds
+  double drift = 0;                  ///< largest drift_over_error of pull, torque and sinkage
+  double surface = 0;                ///< height of the undisturbed surface [m]
+  Vec3 moment;                       ///< mean, about the wheel's centre [N m]
+};
+
+/// Runs it. The start-up is cut off at the latest end_of_start_up of pull,
+/// torque and sinkage; the rest is steady where drift_over_error of none is
+/// above Rig::steady_drift. Throws InputError for a bed too short or narrow,
+/// RunStopped where a grain or the wheel is lost, NoSolution where the wheel
+/// digs itself in to the axle, Stopped.
+WheelRun run_wheel(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact,
+                   const OperatingCondition& at, const Rig& rig = {}, const WorkOptions& how = {});
+
+}  // namespace soilbin::dem

@@ -1,0 +1,157 @@
+// Beds: measured as geometry says, at rest, level, the same each time, and found again.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "dem/bed/bed_store.hpp"
+#include "dem/bed/settled_bed.hpp"
+#include "scenario/errors.hpp"
+#include "tests/dem/small_bed.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+using std::numbers::pi;
+using test::small_recipe;
+using test::with_threads;
+
+Grains one_grain(const Vec3& at, double radius) {
+  Grains grains;
+  grains.add(0, at, {}, {}, radius, 1, 0);
+  return grains;
+}
+
+const SettledBed& small_bed() {
+  static const SettledBed bed = settle_bed(small_recipe(), with_threads(1));
+  return bed;
+}
+
+double weight_of(const SettledBed& bed) {
+  double mass = 0;
+  for (std::size_t k = 0; k < bed.state.grains.count(); ++k) mass += 1 / bed.state.grains.motion[k].inverse_mass;
+  return mass * bed.recipe.gravity;
+}
+
+TEST(SurfaceHeight, OfOneGrainIsItsUpperHalf) {
+  const double r = 0.02, z = 0.05;
+  const SurfaceHeight seen = surface_height(one_grain({0.1, 0.1, z}, r), {0.1 - r, 0.1 + r, 0.1 - r, 0.1 + r}, r / 100);
+  EXPECT_NEAR(seen.highest(), z + r, 1e-5);
+  // The circle's share of the square bears the middle height z and half a ball on it.
+  EXPECT_NEAR(seen.mean(), (pi * r * r * z + 2.0 / 3 * pi * r * r * r) / (4 * r * r), 3e-5);
+}
+
+TEST(SurfaceHeight, HidesWhatLiesUnderneath) {
+  Grains grains = one_grain({0, 0, 0.05}, 0.02);
+  grains.add(1, {0, 0, 0.01}, {}, {}, 0.01, 1, 0);
+  EXPECT_EQ(surface_height(grains, {-0.02, 0.02, -0.02, 0.02}, 1e-3).mean(),
+            surface_height(one_grain({0, 0, 0.05}, 0.02), {-0.02, 0.02, -0.02, 0.02}, 1e-3).mean());
+}
+
+TEST(SolidFraction, OfAGrainInsideAndHalfInside) {
+  const Region cube{{0, 0, 0}, {0.1, 0.1, 0.1}};
+  const double ball = 4.0 / 3 * pi * 0.03 * 0.03 * 0.03 / 1e-3;
+  EXPECT_NEAR(solid_fraction(one_grain({0.05, 0.05, 0.05}, 0.03), cube, 1e-3), ball, 1e-3 * ball);
+  EXPECT_NEAR(solid_fraction(one_grain({0.1, 0.05, 0.05}, 0.03), cube, 1e-3), ball / 2, 1e-3 * ball);
+  EXPECT_EQ(solid_fraction(one_grain({0.2, 0.05, 0.05}, 0.03), cube, 1e-3), 0);
+}
+
+TEST(SlowSettledBed, IsAtRestAndLevel) {
+  const BedReport& report = small_bed().report;
+  EXPECT_LT(report.unrest.kinetic, 1e-6);
+  EXPECT_LT(report.unrest.unbalanced, 0.03);
+  // Levelling takes whole grains away: the mean moves by less than a grain's share of it.
+  EXPECT_NEAR(report.height, 0.1, 0.002);
+  EXPECT_GT(report.coordination, 3.5);
+  EXPECT_LT(report.coordination, 6);
+  EXPECT_GT(report.void_ratio, 0.5);
+  EXPECT_LT(report.void_ratio, 1.0);
+}
+
+TEST(SlowSettledBed, FloorAndWallsBearItsWeight) {
+  const SettledBed& bed = small_bed();
+  double borne = 0;
+  for (const Contact& contact : Simulation(bed.setup, bed.state).contacts())
+    if (contact.second == -1 - bin_body) borne += contact.force.z;
+  EXPECT_NEAR(borne, weight_of(bed), 0.005 * weight_of(bed));
+}
+
+TEST(SlowSettledBed, IsTheSameForAnyNumberOfThreads) {
+  const BedRecipe recipe = small_recipe({0.1, 0.1, 0.06});
+  const SettledBed one = settle_bed(recipe, with_threads(1)), two = settle_bed(recipe, with_threads(2));
+  ASSERT_EQ(two.state.grains.count(), one.state.grains.count());
+  for (std::size_t k = 0; k < two.state.grains.count(); ++k)
+    ASSERT_EQ(two.state.grains.motion[k].position, one.state.grains.motion[k].position);
+}
+
+TEST(SlowSettledBed, IsDenserWhereGrainsSlideAsTheyFall) {
+  BedRecipe slippery = small_recipe();
+  slippery.settling_friction = 0;
+  EXPECT_LT(settle_bed(slippery, with_threads(1)).report.void_ratio, small_bed().report.void_ratio - 0.05);
+}
+
+TEST(SettledBed, RefusesWhatMakesNoSense) {
+  BedRecipe flat = small_recipe({0.2, 0.15, 0.01});
+  EXPECT_THROW(settle_bed(flat), InputError);
+  BedRecipe none = small_recipe();
+  none.soil.radius_min = 0;
+  EXPECT_THROW(settle_bed(none), InputError);
+}
+
+TEST(SettledBed, StopsWhenAsked) {
+  std::stop_source source;
+  WorkOptions how = with_threads(1);
+  how.stop = source.get_token();
+  how.progress = [&](const Progress& progress) {
+    EXPECT_EQ(progress.stage, "settling");
+    source.request_stop();
+  };
+  EXPECT_THROW(settle_bed(small_recipe(), how), Stopped);
+}
+
+TEST(ContentKey, FollowsFromTheGrainsAndNotFromTheTire) {
+  const BedRecipe recipe = small_recipe();
+  BedRecipe other = recipe;
+  other.soil.grain_tire.sliding_friction = 0.9;
+  EXPECT_EQ(content_key(recipe), content_key(other));
+  other.soil.grain_grain.sliding_friction = std::nextafter(recipe.soil.grain_grain.sliding_friction, 1);
+  EXPECT_NE(content_key(recipe), content_key(other));
+  other = recipe;
+  other.packing = 2;
+  EXPECT_NE(content_key(recipe), content_key(other));
+}
+
+class SlowBedStore : public ::testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::remove_all(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) / "soilbin-bed-store";
+};
+
+TEST_F(SlowBedStore, FindsABedAgainToTheBit) {
+  const auto made = BedStore(folder_).bed(small_recipe(), with_threads(1));
+  BedStore store(folder_);
+  ASSERT_TRUE(std::filesystem::exists(store.file(small_recipe())));
+  const auto found = store.bed(small_recipe(), with_threads(1));
+  Simulation one(made->setup, made->state), other(found->setup, found->state);
+  one.run(50), other.run(50);
+  for (std::size_t k = 0; k < one.state().grains.count(); ++k)
+    ASSERT_EQ(one.state().grains.motion[k].position, other.state().grains.motion[k].position);
+  EXPECT_EQ(found->report.settling_time, made->report.settling_time);
+  EXPECT_EQ(found->report.void_ratio, made->report.void_ratio);
+  EXPECT_EQ(store.bed(small_recipe()), found);
+}
+
+TEST_F(SlowBedStore, SettlesAnewWhereTheFileIsDamaged) {
+  BedStore store(folder_);
+  std::filesystem::create_directories(folder_);
+  std::ofstream(store.file(small_recipe())) << "not a bed";
+  EXPECT_EQ(store.bed(small_recipe(), with_threads(1))->state.grains.count(), small_bed().state.grains.count());
+  EXPECT_GT(std::filesystem::file_size(store.file(small_recipe())), 1000);
+}
+
+}  // namespace
+}  // namespace soilbin::dem

@@ -1,0 +1,74 @@
+// Means and their errors: against series whose statistics are known.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "dem/rig/mean_value.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+/// x_k = a x_(k-1) + noise of deviation 1: variance 1/(1 - a^2), autocorrelation time (1 + a)/(1 - a).
+std::vector<double> autoregressive(double a, std::size_t count, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> noise;
+  std::vector<double> series(count);
+  double x = noise(random) / std::sqrt(1 - a * a);
+  for (double& value : series) value = x, x = a * x + noise(random);
+  return series;
+}
+
+TEST(AutocorrelationTime, OfAnAutoregressiveSeries) {
+  for (const double a : {0.0, 0.5, 0.9}) {
+    const double expected = (1 + a) / (1 - a);
+    EXPECT_NEAR(autocorrelation_time(autoregressive(a, 100000, 1)), expected, 0.1 * expected) << a;
+  }
+}
+
+TEST(MeanWithError, CoversTheTrueMeanAsOftenAsItShould) {
+  int within = 0;
+  double error = 0;
+  constexpr int runs = 200;
+  constexpr std::size_t count = 2000;
+  for (unsigned seed = 0; seed < runs; ++seed) {
+    const Estimate mean = mean_with_error(autoregressive(0.9, count, seed));
+    within += std::abs(mean.value) < mean.std_error ? 1 : 0;
+    error += mean.std_error / runs;
+  }
+  // 1/(1 - a) deviations of noise over sqrt(n); blocks of four autocorrelation times see a little less.
+  EXPECT_NEAR(error, 10 / std::sqrt(count), 0.15 * 10 / std::sqrt(count));
+  EXPECT_NEAR(within, 0.68 * runs, 25);
+}
+
+TEST(MeanWithError, OfFewSamples) {
+  EXPECT_EQ(mean_with_error({}).value, 0);
+  EXPECT_EQ(mean_with_error(std::vector<double>{3}).value, 3);
+  EXPECT_EQ(mean_with_error(std::vector<double>{3}).std_error, 0);
+  // Two samples: the deviation |a - b|/sqrt(2) over sqrt(2).
+  EXPECT_DOUBLE_EQ(mean_with_error(std::vector<double>{1, 3}).std_error, 1);
+  EXPECT_EQ(mean_with_error(std::vector<double>(100, 7.0)).std_error, 0);
+}
+
+TEST(EndOfStartUp, FindsWhereADecayHasDrownedInNoise) {
+  std::vector<double> series = autoregressive(0.0, 400, 3);
+  for (std::size_t k = 0; k < series.size(); ++k) series[k] += 50 * std::exp(-static_cast<double>(k) / 20);
+  const std::size_t end = end_of_start_up(series);
+  // 50 exp(-k/20) is 1, the noise, at k = 78; 0.1 at k = 124.
+  EXPECT_GE(end, 55u);
+  EXPECT_LE(end, 150u);
+}
+
+TEST(EndOfStartUp, KeepsASeriesThatIsSteady) { EXPECT_LE(end_of_start_up(autoregressive(0.0, 400, 5)), 100u); }
+
+TEST(DriftOverError, TellsATrendFromNoise) {
+  std::vector<double> series = autoregressive(0.5, 1000, 7);
+  EXPECT_LT(drift_over_error(series), 3);
+  for (std::size_t k = 0; k < series.size(); ++k) series[k] += 0.004 * static_cast<double>(k);
+  EXPECT_GT(drift_over_error(series), 5);
+}
+
+}  // namespace
+}  // namespace soilbin::dem
