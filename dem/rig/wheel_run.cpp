@@ -67,6 +67,7 @@ Setup Ride::setup_for(const ContactPair& tire_contact) const {
   if (rig_.dt > 0) setup.numerics.dt = rig_.dt;
   setup.numerics.skin = rig_.skin * bed_.recipe.soil.radius_max;
   setup.numerics.threads = how_.threads;
+  setup.numerics.deepest_overlap = rig_.deepest_overlap;
   setup.numerics.ledger = rig_.ledger;
   return setup;
 }

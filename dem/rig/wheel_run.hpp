@@ -29,12 +29,13 @@ struct Rig {
   int sectors = 180;       ///< of the rim, for stresses
   double inertia = 0;      ///< about the axle, where the rotation is free [kg m^2]; 0: mass r^2/2
   TireMeshing meshing;
-  double young = 1e9;       ///< of the tire, which is rigid beside the sand [Pa]
-  double poisson = 0.3;     ///< of the tire
-  double dt = 0;            ///< [s]; 0: the bed's
-  double skin = 0.25;       ///< margin of the search for pairs, in largest radii
-  bool ledger = false;      ///< tells where the power goes; costs about a tenth
-  double steady_drift = 3;  ///< largest drift_over_error of a steady run
+  double young = 1e9;            ///< of the tire, which is rigid beside the sand [Pa]
+  double poisson = 0.3;          ///< of the tire
+  double dt = 0;                 ///< [s]; 0: the bed's
+  double skin = 0.25;            ///< margin of the search for pairs, in largest radii
+  double deepest_overlap = 0.5;  ///< of the smaller radius; chains of grains under a wheel are pressed hard
+  bool ledger = false;           ///< tells where the power goes; costs about a tenth
+  double steady_drift = 3;       ///< largest drift_over_error of a steady run
   /// A torque held instead of the rotation [N m]; the rotation is then free and starts at that of the condition's slip.
   /// 0 rolls freely.
   std::optional<double> drive_torque;

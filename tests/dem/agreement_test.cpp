@@ -150,7 +150,7 @@ TEST_P(Agreement, PeriodicWithOneMaterial) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, Agreement, testing::ValuesIn(law_cases),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(AgreementOverTime, ManySearchesChangeNothing) {
   Cloud cloud{.materials = sand_and_rubber(0), .laws = law_cases[4].laws, .seed = 3};

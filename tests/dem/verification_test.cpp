@@ -6,7 +6,7 @@
 namespace soilbin::dem {
 namespace {
 
-TEST(Verification, EveryPublishedCaseIsMet) {
+TEST(SlowVerification, EveryPublishedCaseIsMet) {
   const auto rows = verification_rows(start_fast_engine);
   EXPECT_GT(rows.size(), 100u);
   for (const VerificationRow& row : rows)
