@@ -23,6 +23,8 @@ void catch_interrupts() {
   std::signal(SIGTERM, remember);
 }
 
+bool interrupt_asked() { return stop_asked != 0; }
+
 compare::Progress shown_progress() {
   using Clock = std::chrono::steady_clock;
   const bool terminal = isatty(STDERR_FILENO) == 1;

@@ -14,6 +14,8 @@ struct Interrupted : std::runtime_error {
 
 /// From now on Ctrl-C is remembered; a second one ends the program at once.
 void catch_interrupts();
+/// Whether it was pressed.
+bool interrupt_asked();
 
 /// Stops at Ctrl-C. Shows the share done and the time left, once the work has taken longer than half a second.
 compare::Progress shown_progress();

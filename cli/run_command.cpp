@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
+#include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/curves.hpp"
 #include "compare/report/result_json.hpp"
@@ -21,6 +22,7 @@ struct RunOptions {
   std::string study, model, plot, csv, output;
   bool json = false;
   ConditionFlags conditions;
+  SoilBinFlags soil_bin;
 };
 
 void keep_model(Case& question, const std::string& name) {
@@ -63,7 +65,8 @@ int run(const RunOptions& options, const Session& session) {
   Case question = find_case(session.place, options.study);
   keep_model(question, options.model);
   question.study.conditions = options.conditions.pick(question.study.conditions);
-  const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
+  const std::vector<compare::ModelAnswers> study =
+      compare::run_study(question, shown_progress(), models_with(options.soil_bin));
   save(options, question, study, session.place);
   if (options.json) {
     fmt::print("{}", compare::json_text(document_of(question, study)));
@@ -82,12 +85,13 @@ void add_run(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("run", "a study: every model at every condition");
   const auto options = std::make_shared<RunOptions>();
   command->add_option("study", options->study, "of the library, or a case file")->type_name("STUDY")->required();
-  command->add_option("--model", options->model, "only this model: bekker_wong")->type_name("NAME");
+  command->add_option("--model", options->model, "only this model: bekker_wong or dem")->type_name("NAME");
   command->add_option("--plot", options->plot, "draw the curves against slip")->type_name("FILE.svg");
   command->add_option("--csv", options->csv, "save the table")->type_name("FILE.csv");
   command->add_option("--output", options->output, "save the resolved case and the results")->type_name("DIR");
   command->add_flag("--json", options->json, "the results as JSON, in SI");
   options->conditions.add_to(*command);
+  options->soil_bin.add_to(*command);
   command->footer(
       "A condition flag keeps the study's conditions that agree with it; where none does, it overrides them.\n"
       "Example: soilbin run paper-straight --load 4kN --plot pull.svg");

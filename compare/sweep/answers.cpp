@@ -15,7 +15,7 @@ std::unique_ptr<const Model> make_model(ModelKind kind) {
     case ModelKind::dem:
       break;
   }
-  throw InputError("the model 'dem' (discrete elements) is not in this version of soilbin; 'bekker_wong' is");
+  throw InputError("the model 'dem' is run by 'soilbin run --model dem' alone; leave it out here");
 }
 
 Answer ask(const Model& model, const Scenario& scenario, const OperatingCondition& at) {
@@ -43,10 +43,10 @@ std::vector<Answer> sweep(const Model& model, const Scenario& scenario,
   return answers;
 }
 
-std::vector<ModelAnswers> run_study(const Case& question, const Progress& progress) {
+std::vector<ModelAnswers> run_study(const Case& question, const Progress& progress, const MakeModel& make) {
   const std::size_t conditions = question.study.conditions.size();
   std::vector<std::unique_ptr<const Model>> models;
-  for (const ModelChoice& choice : question.study.models) models.push_back(make_model(choice.model));
+  for (const ModelChoice& choice : question.study.models) models.push_back(make(choice.model));
   std::vector<ModelAnswers> study;
   for (std::size_t i = 0; i < models.size(); ++i) {
     Scenario scenario = question.scenario;
