@@ -224,7 +224,7 @@ void Simulation::surface_stage(int slab) {
   SurfaceContacts& here = s.surfaces[slab];
   std::vector<SurfaceContact>& made = made_[slab];
   made.clear();
-  BodyLoad* loads = &body_loads_[slab * s.bodies.size()];
+  BodyLoad* loads = body_loads_.data() + slab * s.bodies.size();
   std::fill(loads, loads + s.bodies.size(), BodyLoad{});
   std::array<SurfaceTouch, 8> touches;
   TouchWork work{.slab = slab, .batch = {}, .points = {}, .count = 0};
