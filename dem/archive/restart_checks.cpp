@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "scenario/errors.hpp"
 
@@ -58,6 +59,13 @@ bool surfaces_fit(const State& state) {
   return true;
 }
 
+/// What is left from before a change is not read again.
+bool sleep_fits(const State& state) {
+  if (state.travel == std::numeric_limits<double>::infinity()) return true;
+  return state.calm.size() == state.surfaces.size() &&
+         state.body_loads.size() == state.surfaces.size() * state.bodies.size();
+}
+
 }  // namespace
 
 void check_restart(const Setup& setup, const State& state, const std::string& file) {
@@ -77,6 +85,7 @@ void check_restart(const Setup& setup, const State& state, const std::string& fi
           "slabs");
   require(pairs_fit(state, materials), "pairs");
   require(surfaces_fit(state), "contacts with surfaces");
+  require(sleep_fits(state), "slabs asleep");
   require(below(state.new_grains, state.next_id), "new grains");
 }
 

@@ -18,7 +18,7 @@ inline constexpr std::array turning_names{"prescribed", "about_axis", "free"};
 
 template <class Archive, class T>
 void describe_numerics(const Archive& a, T& numerics) {
-  auto& [dt, skin, deepest_overlap, safe_share, force_step, threads, instruction_set, ledger] = numerics;
+  auto& [dt, skin, deepest_overlap, safe_share, force_step, threads, instruction_set, ledger, sleep] = numerics;
   a.value("dt", dt);
   a.value("skin", skin);
   a.value("deepest_overlap", deepest_overlap);
@@ -27,6 +27,9 @@ void describe_numerics(const Archive& a, T& numerics) {
   a.value("threads", threads);
   a.text("instruction_set", instruction_set);
   a.value("ledger", ledger);
+  auto& [speed, time] = sleep;
+  a.value("sleep_speed", speed);
+  a.value("sleep_time", time);
 }
 
 template <class Archive, class T>
@@ -245,8 +248,8 @@ void describe_ledger(const Archive& a, T& ledger) {
 /// All but particles, bodies and surfaces.
 template <class Archive, class T>
 void describe_state(const Archive& a, T& state) {
-  auto& [step, time, gravity, grains, bodies, pairs, slab_rows, surfaces, searched_at, travel, next_id, new_grains,
-         ledger] = state;
+  auto& [step, time, gravity, grains, bodies, pairs, slab_rows, surfaces, calm, body_loads, searched_at, travel,
+         next_id, new_grains, ledger] = state;
   a.value("step", step);
   a.value("time", time);
   a.value("gravity", gravity);
@@ -259,6 +262,15 @@ void describe_state(const Archive& a, T& state) {
   a.column("searched_at", searched_at, itself, "m");
   a.column("slab_rows", slab_rows, itself);
   a.column("new_grains", new_grains, itself);
+  a.length("slabs_calm", calm);
+  a.length("body_loads", body_loads);
+  a.column("calm", calm, itself);
+  static_assert(sizeof(BodyLoad) == 48);
+  const auto of_loads = a.inner("body_loads_by_slab");
+  of_loads.column(
+      "force", body_loads, [](auto& row) -> auto& { return row.force; }, "N");
+  of_loads.column(
+      "torque", body_loads, [](auto& row) -> auto& { return row.torque; }, "N m");
   describe_pairs(a.inner("pairs"), pairs);
   describe_ledger(a.inner("ledger"), ledger);
 }

@@ -13,6 +13,12 @@ struct Domain {
   std::array<bool, 3> periodic{false, false, false};
 
   bool operator==(const Domain&) const = default;
+
+  /// Whether a point is inside; not where it is not finite.
+  bool contains(const Vec3& at) const {
+    return at.x >= lower.x && at.y >= lower.y && at.z >= lower.z && at.x <= upper.x && at.y <= upper.y &&
+           at.z <= upper.z;
+  }
 };
 
 }  // namespace soilbin::dem

@@ -4,13 +4,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "dem/engine/periodic.hpp"
 #include "dem/engine/simulation.hpp"
 
 namespace soilbin::dem {
 namespace {
-
-Vec3 vec3(const Triple<double>& a) { return {a.x, a.y, a.z}; }
-Triple<double> triple(const Vec3& a) { return {a.x, a.y, a.z}; }
 
 /// One contact in all its parts.
 struct Evaluated {
@@ -88,9 +86,9 @@ void Simulation::for_each_contact(const Visit& visit) const {
       const LawConstants<double>& constants =
           constants_of(kind_of(s.grains.material[near.grain], body.surfaces[near.surface].material));
       made.clear();
-      const int count = find_contacts(place(body, body.surfaces[near.surface]), near, grain,
-                                      {setup_.laws, constants, adhesion_reach_},
-                                      {slab.made.data() + begin, old - begin}, made, touches);
+      const int count =
+          find_contacts(place(body, body.surfaces[near.surface]), near, grain, {constants, adhesion_reach_},
+                        {slab.made.data() + begin, old - begin}, made, touches);
       for (int k = 0; k < count; ++k) {
         Evaluated c{.first = near.grain,
                     .second = -1 - near.body,
@@ -150,14 +148,19 @@ bool Simulation::is_new(std::size_t row) const {
   return std::binary_search(state_.new_grains.begin(), state_.new_grains.end(), state_.grains.id[row]);
 }
 
+Simulation::Kick Simulation::kick(std::size_t row, const Load& load, double time) const {
+  const Motion& grain = state_.grains.motion[row];
+  return {time * (grain.inverse_mass * load.force + (grain.inverse_mass > 0 ? 1.0 : 0.0) * state_.gravity),
+          (time * state_.grains.spin[row].inverse_inertia) * load.torque};
+}
+
 GrainNow Simulation::motion_at(std::size_t row, const Load& load) const {
   const Motion& grain = state_.grains.motion[row];
-  const Spin& spin = state_.grains.spin[row];
-  GrainNow now{grain.position, grain.velocity, spin.rate, grain.radius};
+  GrainNow now{grain.position, grain.velocity, state_.grains.spin[row].rate, grain.radius};
   if (is_new(row)) return now;
-  const double half = setup_.numerics.dt / 2;
-  now.velocity += half * (grain.inverse_mass * load.force + (grain.inverse_mass > 0 ? 1.0 : 0.0) * state_.gravity);
-  now.spin += (half * spin.inverse_inertia) * load.torque;
+  const Kick change = kick(row, load, setup_.numerics.dt / 2);
+  now.velocity += change.velocity;
+  now.spin += change.spin;
   return now;
 }
 
@@ -173,30 +176,23 @@ std::vector<GrainNow> Simulation::grains() const {
   return out;
 }
 
-/// Velocities that were shown half a step ago become those of `by` later [s].
-void Simulation::shift_half_steps(double by) {
+/// Velocities of the grains that are new, or of the others, become those of `time` later [s].
+void Simulation::shift(bool new_ones, double time) {
   State& s = state_;
   const std::vector<Load> all = loads();
   for (std::size_t k = 0; k < s.grains.count(); ++k) {
-    if (is_new(k)) continue;
-    Motion& grain = s.grains.motion[k];
-    grain.velocity += by * (grain.inverse_mass * all[k].force + (grain.inverse_mass > 0 ? 1.0 : 0.0) * s.gravity);
-    s.grains.spin[k].rate += (by * s.grains.spin[k].inverse_inertia) * all[k].torque;
+    if (is_new(k) != new_ones) continue;
+    const Kick change = kick(k, all[k], time);
+    s.grains.motion[k].velocity += change.velocity;
+    s.grains.spin[k].rate += change.spin;
   }
 }
 
+/// Velocities of new grains are those of a whole step; all others live at half steps.
 void Simulation::half_step_back() {
-  State& s = state_;
-  if (s.new_grains.empty()) return;
-  const std::vector<Load> all = loads();
-  const double half = setup_.numerics.dt / 2;
-  for (std::size_t k = 0; k < s.grains.count(); ++k) {
-    if (!is_new(k)) continue;
-    Motion& grain = s.grains.motion[k];
-    grain.velocity -= half * (grain.inverse_mass * all[k].force + (grain.inverse_mass > 0 ? 1.0 : 0.0) * s.gravity);
-    s.grains.spin[k].rate -= (half * s.grains.spin[k].inverse_inertia) * all[k].torque;
-  }
-  s.new_grains.clear();
+  if (state_.new_grains.empty()) return;
+  shift(true, -setup_.numerics.dt / 2);
+  state_.new_grains.clear();
 }
 
 EnergyBalance Simulation::energy() const {
@@ -254,6 +250,7 @@ double Simulation::broken_bonds() const {
     broken(constants_of(kind_of(s.grains.material[i], s.grains.material[j])), a * b / (a + b));
   }
   for (std::size_t slab = 0; slab < s.surfaces.size(); ++slab) {
+    if (asleep_[slab]) continue;
     const std::vector<SurfaceContact>&old = made_[slab], &now = s.surfaces[slab].made;
     std::size_t in_old = 0, in_now = 0;
     for (const NearSurface& near : s.surfaces[slab].near) {

@@ -1,5 +1,7 @@
 #include "dem/engine/grains.hpp"
 
+#include <algorithm>
+
 namespace soilbin::dem {
 namespace {
 
@@ -15,6 +17,12 @@ void take(std::vector<Row>& rows, std::span<const std::uint32_t> order) {
 }
 
 }  // namespace
+
+double Grains::largest_radius() const {
+  double largest = 0;
+  for (std::size_t k = 0; k < count(); ++k) largest = std::max(largest, motion[k].radius);
+  return largest;
+}
 
 void Grains::close() {
   motion.resize(count());

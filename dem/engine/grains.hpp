@@ -22,6 +22,8 @@ struct Grains {
   std::vector<std::uint8_t> material;
 
   std::size_t count() const { return id.size(); }
+  /// [m]; 0 where there are none.
+  double largest_radius() const;
   /// Adds a grain at the end; its row may move at the next sorting.
   void add(GrainId new_id, const Vec3& position, const Vec3& velocity, const Vec3& rate, double radius, double mass,
            std::uint8_t of_material);

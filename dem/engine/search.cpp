@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dem/engine/cells.hpp"
+#include "dem/engine/periodic.hpp"
 #include "dem/engine/simulation.hpp"
 
 namespace soilbin::dem {
@@ -12,11 +13,6 @@ namespace {
 
 double wrapped(double at, double lower, double length) {
   return length > 0 ? at - length * std::floor((at - lower) / length) : at;
-}
-
-bool within(const Vec3& at, const Domain& domain) {
-  return at.x >= domain.lower.x && at.y >= domain.lower.y && at.z >= domain.lower.z && at.x <= domain.upper.x &&
-         at.y <= domain.upper.y && at.z <= domain.upper.z;
 }
 
 /// Contacts of all slabs by grain id, in order, to hand them out again once grains are sorted.
@@ -55,17 +51,16 @@ void Simulation::search(std::span<const std::uint8_t> gone) {
     at.y = wrapped(at.y, setup_.domain.lower.y, periods.length.y);
     at.z = wrapped(at.z, setup_.domain.lower.z, periods.length.z);
     if (setup_.numerics.ledger) s.ledger.added += dot(s.gravity, from - at) / s.grains.motion[k].inverse_mass;
-    if ((gone.empty() || !gone[k]) && !within(at, setup_.domain)) stop_for_loss(k);
+    if ((gone.empty() || !gone[k]) && !setup_.domain.contains(at)) stop_for_loss(k);
   }
   const KeptContacts kept(s.pairs, s.grains);
   const auto on_surfaces = by_id(s.surfaces, s.grains);
 
   if (!gone.empty()) s.grains.remove(gone);
-  double largest = 0;
-  for (std::size_t k = 0; k < s.grains.count(); ++k) largest = std::max(largest, s.grains.motion[k].radius);
   Cells cells(setup_.domain, {s.grains.motion.data(), s.grains.count()},
-              std::max(2 * largest + reach_ + adhesion_reach_, 1e-12));
-  s.grains.reorder(cells.order(s.grains));
+              std::max(2 * s.grains.largest_radius() + reach_ + adhesion_reach_, 1e-12));
+  const std::vector<std::uint32_t> order = cells.order(s.grains), calm = calm_by_row(order);
+  s.grains.reorder(order);
   cells.index(s.grains);
   s.pairs = find_pairs(cells, s.grains, setup_.domain, reach_ + adhesion_reach_,
                        static_cast<int>(setup_.materials.all.size()), kept, threads_);
@@ -88,6 +83,12 @@ void Simulation::search(std::span<const std::uint8_t> gone) {
       }
     }
   }
+  s.calm.assign(slabs, calm_enough());
+  for (int slab = 0; slab < slabs; ++slab)
+    for (std::uint32_t row = s.slab_rows[slab]; row < s.slab_rows[slab + 1]; ++row)
+      s.calm[slab] = std::min(s.calm[slab], calm[row]);
+  s.body_loads.assign(slabs * s.bodies.size(), {});
+  searched_now_ = true;
   s.searched_at.resize(s.grains.count());
   for (std::size_t k = 0; k < s.grains.count(); ++k) s.searched_at[k] = s.grains.motion[k].position;
   for (Body& body : s.bodies) body.travel = 0;
@@ -97,9 +98,12 @@ void Simulation::search(std::span<const std::uint8_t> gone) {
 
 void Simulation::make_room(int slabs) {
   found_.assign(slabs, {});
-  body_loads_.assign(slabs * state_.bodies.size(), {});
   fastest_.assign(slabs, 0.0);
   made_.resize(slabs);
+  asleep_.assign(slabs, 0);
+  near_.assign(slabs * state_.bodies.size(), 0);
+  for (int slab = 0; slab < slabs; ++slab)
+    for (const NearSurface& near : state_.surfaces[slab].near) near_[slab * state_.bodies.size() + near.body] = 1;
   extents_.clear();
   Vec3 low{1e300, 1e300, 1e300}, high = -low;
   for (const Vec3& at : state_.searched_at) {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "dem/engine/periodic.hpp"
 #include "dem/engine/time_step.hpp"
 #include "scenario/errors.hpp"
 
@@ -40,11 +41,17 @@ Simulation::Simulation(Setup setup, State state) : Simulation(std::move(setup)) 
   make_room(static_cast<int>(state_.slab_rows.size()) - 1);
 }
 
+void Simulation::accounted(const std::function<void()>& change) {
+  const double before = setup_.numerics.ledger ? energy().total() : 0;
+  change();
+  if (setup_.numerics.ledger) state_.ledger.added += energy().total() - before;
+}
+
 void Simulation::set_numerics(const Numerics& numerics) {
   if (!positive(numerics.dt)) throw InputError("the time step must be above 0");
   if (numerics.skin < 0 || !positive(numerics.deepest_overlap))
     throw InputError("skin and deepest overlap can't be negative");
-  if (state_.step > 0 && numerics.dt != setup_.numerics.dt) shift_half_steps((setup_.numerics.dt - numerics.dt) / 2);
+  if (state_.step > 0 && numerics.dt != setup_.numerics.dt) shift(false, (setup_.numerics.dt - numerics.dt) / 2);
   setup_.numerics = numerics;
   threads_ = numerics.threads > 0 ? numerics.threads : omp_get_num_procs();
   const std::string_view set =
@@ -55,17 +62,16 @@ void Simulation::set_numerics(const Numerics& numerics) {
 }
 
 void Simulation::set_interaction(int a, int b, const Interaction& interaction) {
-  const double before = setup_.numerics.ledger ? energy().total() : 0;
-  setup_.materials.set(a, b, interaction);
-  if (!state_.slab_rows.empty()) fill_constants();
-  if (setup_.numerics.ledger) state_.ledger.added += energy().total() - before;
+  accounted([&] {
+    setup_.materials.set(a, b, interaction);
+    if (!state_.slab_rows.empty()) fill_constants();
+  });
   note_change();
 }
 
 void Simulation::set_gravity(const Vec3& gravity) {
-  const double before = setup_.numerics.ledger ? energy().total() : 0;
-  state_.gravity = gravity;
-  if (setup_.numerics.ledger) state_.ledger.added += energy().total() - before;
+  accounted([&] { state_.gravity = gravity; });
+  wake_all();
 }
 
 GrainId Simulation::add_grain(const Vec3& position, double radius, int material, const Vec3& velocity,
@@ -73,9 +79,7 @@ GrainId Simulation::add_grain(const Vec3& position, double radius, int material,
   if (!positive(radius)) throw InputError("a grain's radius must be above 0");
   if (material < 0 || material >= static_cast<int>(setup_.materials.all.size()))
     throw InputError(fmt::format("there is no material {}", material));
-  const Vec3 &low = setup_.domain.lower, &high = setup_.domain.upper;
-  if (!(position.x >= low.x && position.y >= low.y && position.z >= low.z && position.x <= high.x &&
-        position.y <= high.y && position.z <= high.z))
+  if (!setup_.domain.contains(position))
     throw InputError(
         fmt::format("a grain at ({:.4g}, {:.4g}, {:.4g}) m is outside the domain", position.x, position.y, position.z));
   const double mass = setup_.materials.all[material].density * 4 / 3 * std::numbers::pi * radius * radius * radius;
@@ -88,9 +92,7 @@ GrainId Simulation::add_grain(const Vec3& position, double radius, int material,
 
 int Simulation::add_body(Body body) {
   check(body, static_cast<int>(setup_.materials.all.size()));
-  const double before = setup_.numerics.ledger ? energy().total() : 0;
-  state_.bodies.push_back(std::move(body));
-  if (setup_.numerics.ledger) state_.ledger.added += energy().total() - before;
+  accounted([&] { state_.bodies.push_back(std::move(body)); });
   note_change();
   return static_cast<int>(state_.bodies.size()) - 1;
 }
@@ -101,9 +103,8 @@ std::size_t Simulation::remove_grains(const std::function<bool(const GrainNow&)>
   for (const GrainNow& grain : grains()) marked.push_back(gone(grain));
   const auto count = static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1));
   if (count == 0) return 0;
-  const double before = setup_.numerics.ledger ? energy().total() : 0;
-  search(marked);
-  if (setup_.numerics.ledger) state_.ledger.added += energy().total() - before;
+  wake_all();
+  accounted([&] { search(marked); });
   return count;
 }
 
@@ -118,10 +119,9 @@ void Simulation::check_step() const {
                     n.dt, n.dt / rayleigh, rayleigh, n.safe_share, n.safe_share * rayleigh));
 }
 
-double Simulation::fill_constants() {
+void Simulation::fill_constants() {
   const int kinds = static_cast<int>(setup_.materials.all.size());
-  double largest = 0;
-  for (std::size_t k = 0; k < state_.grains.count(); ++k) largest = std::max(largest, state_.grains.motion[k].radius);
+  const double largest = state_.grains.largest_radius();
   constants_.assign(static_cast<std::size_t>(kinds) * kinds * row_of_constants, 0.0);
   for (int a = 0; a < kinds; ++a)
     for (int b = 0; b < kinds; ++b) {
@@ -129,11 +129,11 @@ double Simulation::fill_constants() {
       static_assert(sizeof(c) == law_constant_count * sizeof(double) && law_constant_count <= row_of_constants);
       std::memcpy(&constants_[static_cast<std::size_t>(a * kinds + b) * row_of_constants], &c, sizeof(c));
     }
-  return largest;
 }
 
 void Simulation::prepare() {
-  const double largest = fill_constants();
+  fill_constants();
+  const double largest = state_.grains.largest_radius();
   const int kinds = static_cast<int>(setup_.materials.all.size());
   reach_ = setup_.numerics.skin > 0 ? setup_.numerics.skin : 0.1 * largest;
   adhesion_reach_ = 0;
@@ -142,7 +142,6 @@ void Simulation::prepare() {
       adhesion_reach_ = std::max(adhesion_reach_, adhesion_reach(constants_of(kind), largest));
   give_grids(largest + reach_ + adhesion_reach_);
   check_step();
-  dirty_ = false;
 }
 
 /// Each mesh has an index that finds all triangles a grain can touch before the next search.
@@ -155,18 +154,18 @@ void Simulation::give_grids(double reach) {
 }
 
 void Simulation::note_change() {
-  dirty_ = true;
   state_.travel = std::numeric_limits<double>::infinity();
+  wake_all();
 }
 
 /// Brings in what was added or changed since the last step.
 void Simulation::settle_changes() {
   if (state_.travel < std::numeric_limits<double>::infinity()) return;
-  const double before = setup_.numerics.ledger ? energy().total() : 0;
-  if (dirty_) prepare();
-  search();
-  half_step_back();
-  if (setup_.numerics.ledger) state_.ledger.added += energy().total() - before;
+  accounted([&] {
+    prepare();
+    search();
+    half_step_back();
+  });
 }
 
 void Simulation::run(std::int64_t steps) {
@@ -176,6 +175,7 @@ void Simulation::run(std::int64_t steps) {
 
 void Simulation::step() {
   if (search_is_due()) search();
+  choose_sleepers();
   const int slabs = static_cast<int>(state_.slab_rows.size()) - 1;
   State& s = state_;
   sweep_ = {s.grains.motion.data(),
@@ -207,8 +207,11 @@ void Simulation::step() {
     for (int slab = 1; slab < slabs; slab += 2) pair_stage(slab);
 #pragma omp for schedule(dynamic)
     for (int slab = 0; slab < slabs; ++slab) {
-      surface_stage(slab);
-      motion_stage(slab);
+      if (!asleep_[slab] || searched_now_) surface_stage(slab);
+      if (asleep_[slab])
+        drop_loads(slab);
+      else
+        motion_stage(slab);
     }
   }
   finish_step();
@@ -216,6 +219,7 @@ void Simulation::step() {
 
 void Simulation::pair_stage(int slab) {
   found_[slab] = {};
+  if (asleep_[slab] && asleep_[(slab + 1) % asleep_.size()]) return;
   kernel_(sweep_, state_.pairs.slab_begin[slab], state_.pairs.slab_begin[slab + 1], found_[slab]);
 }
 
@@ -224,7 +228,7 @@ void Simulation::surface_stage(int slab) {
   SurfaceContacts& here = s.surfaces[slab];
   std::vector<SurfaceContact>& made = made_[slab];
   made.clear();
-  BodyLoad* loads = body_loads_.data() + slab * s.bodies.size();
+  BodyLoad* loads = s.body_loads.data() + slab * s.bodies.size();
   std::fill(loads, loads + s.bodies.size(), BodyLoad{});
   std::array<SurfaceTouch, 8> touches;
   TouchWork work{.slab = slab, .batch = {}, .points = {}, .count = 0};
@@ -234,7 +238,7 @@ void Simulation::surface_stage(int slab) {
     while (old < here.made.size() && here.made[old].who == near) ++old;
     const Motion& grain = s.grains.motion[near.grain];
     const int kind = kind_of(s.grains.material[near.grain], s.bodies[near.body].surfaces[near.surface].material);
-    const int found = find_contacts(placed_.at(near), near, grain, {setup_.laws, constants_of(kind), adhesion_reach_},
+    const int found = find_contacts(placed_.at(near), near, grain, {constants_of(kind), adhesion_reach_},
                                     {here.made.data() + begin, old - begin}, made, touches);
     for (int k = 0; k < found; ++k) {
       if (touches[k].overlap > setup_.numerics.deepest_overlap * grain.radius) found_[slab].too_deep = true;
@@ -269,7 +273,7 @@ void Simulation::touch_surfaces(TouchWork& work, std::span<SurfaceContact> made)
     Load& load = s.grains.load[who.grain];
     load.force += force;
     load.torque += couple - (batch.radius[k] - batch.overlap[k] / 2) * cross(contact->normal, force);
-    BodyLoad& on_body = body_loads_[work.slab * s.bodies.size() + who.body];
+    BodyLoad& on_body = s.body_loads[work.slab * s.bodies.size() + who.body];
     on_body.force -= force;
     on_body.torque -= couple + cross(work.points[k] - s.bodies[who.body].position, force);
   }
@@ -309,12 +313,14 @@ void Simulation::finish_step() {
     fastest = std::max(fastest, fastest_[slab]);
     too_deep |= found_[slab].too_deep;
     for (std::size_t b = 0; b < s.bodies.size(); ++b) {
-      s.bodies[b].force += body_loads_[slab * s.bodies.size() + b].force;
-      s.bodies[b].torque += body_loads_[slab * s.bodies.size() + b].torque;
+      s.bodies[b].force += s.body_loads[slab * s.bodies.size() + b].force;
+      s.bodies[b].torque += s.body_loads[slab * s.bodies.size() + b].torque;
     }
     if (setup_.numerics.ledger) s.ledger.add(found_[slab].losses, dt);
   }
   if (setup_.numerics.ledger) s.ledger.adhesion += broken_bonds();
+  count_calm();
+  searched_now_ = false;
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     Body& body = s.bodies[b];
     advance(body, s.gravity, dt);
@@ -353,9 +359,11 @@ void Simulation::stop_for_motion() const {
 }
 
 void Simulation::stop_for_overlap() const {
+  std::vector<double> radii(state_.next_id);  // by id
+  for (std::size_t k = 0; k < state_.grains.count(); ++k) radii[state_.grains.id[k]] = state_.grains.motion[k].radius;
   for (const Contact& contact : contacts()) {
-    double radius = grain(contact.first).radius;
-    if (contact.second >= 0) radius = std::min(radius, grain(static_cast<GrainId>(contact.second)).radius);
+    double radius = radii[contact.first];
+    if (contact.second >= 0) radius = std::min(radius, radii[contact.second]);
     if (contact.overlap < 0.99 * setup_.numerics.deepest_overlap * radius) continue;
     throw RunStopped(
         fmt::format("grain {} overlaps {} {} by {:.3g} of the smaller radius, more than {:.3g}, time {:.6g} s"

@@ -21,6 +21,16 @@
 
 namespace soilbin::dem {
 
+/// When grains are left out of the work because they rest. A slab of cells whose grains, and those of both slabs beside
+/// it, have all been slower than `speed` for `time` stands still: its grains keep their places, and what its contacts
+/// remember stays, until a grain beside it is faster again or gravity, grains, bodies or materials change. Slabs near a
+/// body that moves or may move never sleep. So no grain is held that was faster than `speed`, but creep slower than
+/// that is lost (docs/dem-performance.md has what this does to a wheel).
+struct Sleep {
+  double speed = 0;    ///< [m/s]; 0: no grain ever sleeps
+  double time = 0.05;  ///< [s]
+};
+
 /// How it is computed. Results depend on skin and instruction set by rounding alone.
 struct Numerics {
   double dt = 1e-5;              ///< [s]
@@ -31,6 +41,7 @@ struct Numerics {
   int threads = 0;               ///< 0: one a core
   std::string instruction_set;   ///< of instruction_sets(); empty: the widest
   bool ledger = false;           ///< counts where the energy goes; costs about a tenth
+  Sleep sleep;
 };
 
 /// What doesn't change during a run.
@@ -51,8 +62,10 @@ struct State {
   PairList pairs;
   std::vector<std::uint32_t> slab_rows;   ///< first row of each slab, and the end
   std::vector<SurfaceContacts> surfaces;  ///< a slab each
-  std::vector<Vec3> searched_at;          ///< positions at the last search for pairs
-  double travel = 0;                      ///< bound on what any grain or body has moved since [m]; infinite: it is due
+  std::vector<std::uint32_t> calm;   ///< of each slab: steps in a row in which no grain was fast, as far as counted
+  std::vector<BodyLoad> body_loads;  ///< of each slab on each body, slab by slab; those asleep go on pressing
+  std::vector<Vec3> searched_at;     ///< positions at the last search for pairs
+  double travel = 0;                 ///< bound on what any grain or body has moved since [m]; infinite: it is due
   std::uint32_t next_id = 0;
   std::vector<GrainId> new_grains;  ///< whose velocity is still at a whole step
   Ledger ledger;
@@ -121,6 +134,8 @@ class Simulation {
   /// What is where: kinetic, potential, elastic, and what the ledger has counted. Grains added since the last run are
   /// not yet in it.
   EnergyBalance energy() const;
+  /// Share of the grains that sleep.
+  double share_asleep() const;
 
  private:
   /// Contacts with surfaces on their way through the law, of one slab.
@@ -132,21 +147,36 @@ class Simulation {
   };
 
   void check_step() const;
-  /// Gives the largest radius.
-  double fill_constants();
+  void fill_constants();
   void prepare();
   void give_grids(double reach);
   void search(std::span<const std::uint8_t> gone = {});
   void make_room(int slabs);
   bool search_is_due();
   void note_change();
+  /// Makes a change, and counts the energy that it brings in.
+  void accounted(const std::function<void()>& change);
   void settle_changes();
   bool is_new(std::size_t row) const;
   GrainNow motion_at(std::size_t row, const Load& load) const;
+  /// What a load and gravity change in a grain's motion within `time` [s].
+  struct Kick {
+    Vec3 velocity, spin;
+  };
+  Kick kick(std::size_t row, const Load& load, double time) const;
   void half_step_back();
-  void shift_half_steps(double by);
+  void shift(bool new_ones, double time);
   double broken_bonds() const;
   void step();
+  void wake_all();
+  std::uint32_t calm_enough() const;
+  std::vector<std::uint32_t> calm_by_row(std::span<const std::uint32_t> order) const;
+  bool may_sleep(int slab) const;
+  bool is_driven(int slab) const;
+  void choose_sleepers();
+  void stop_grains(int slab);
+  void drop_loads(int slab);
+  void count_calm();
   void pair_stage(int slab);
   void surface_stage(int slab);
   void touch_surfaces(TouchWork& work, std::span<SurfaceContact> made);
@@ -172,13 +202,14 @@ class Simulation {
   Placed placed_;
   PairSweep sweep_{};
   int threads_ = 1;
-  bool dirty_ = true;                       ///< grains, bodies or materials changed: prepare() is due, and a search
   double reach_ = 0;                        ///< margin of the search for motion [m]
   double adhesion_reach_ = 0;               ///< jkr: how far apart a contact still holds [m]
   std::vector<std::uint8_t> bonds_before_;  ///< pairs.touching before the step, where the ledger counts adhesion
+  bool searched_now_ = false;               ///< in this step
+  std::vector<std::uint8_t> near_;          ///< whether slab k has grains near body b, at k*bodies + b
   // Of a step, a slab each.
+  std::vector<std::uint8_t> asleep_;
   std::vector<PairFindings> found_;
-  std::vector<BodyLoad> body_loads_;
   std::vector<double> fastest_;
   std::vector<std::vector<SurfaceContact>> made_;
   std::vector<double> extents_;  ///< of bodies

@@ -9,8 +9,6 @@ namespace {
 
 constexpr double cos_45 = 0.70710678118654752;
 
-Triple<double> triple(const Vec3& a) { return {a.x, a.y, a.z}; }
-
 bool is_near(const Body& body, const Surface& surface, const Motion& grain, double margin) {
   const Vec3 centre = body.to_body(grain.position);
   if (const auto* plane = std::get_if<Plane>(&surface.shape))
@@ -122,21 +120,19 @@ void Placed::place(std::span<const Body> bodies) {
 
 void put(TouchBatch& batch, int k, const Body& body, const SurfaceTouch& at, const Motion& grain, const Spin& spin,
          const Memory<double>& memory) {
-  const auto column = [k](double(*columns)[8], double x, double y, double z) {
-    columns[0][k] = x;
-    columns[1][k] = y;
-    columns[2][k] = z;
+  const auto column = [k](double(*columns)[8], const Triple<double>& a) {
+    columns[0][k] = a.x;
+    columns[1][k] = a.y;
+    columns[2][k] = a.z;
   };
-  const double arm = grain.radius - at.overlap / 2;
-  const Vec3 velocity = grain.velocity - arm * cross(spin.rate, at.normal) - body.velocity_at(at.point);
-  const Vec3 rotation = spin.rate - body.spin;
-  column(batch.normal, at.normal.x, at.normal.y, at.normal.z);
-  column(batch.velocity, velocity.x, velocity.y, velocity.z);
-  column(batch.rotation, rotation.x, rotation.y, rotation.z);
-  column(batch.memory, memory.slide.x, memory.slide.y, memory.slide.z);
-  column(batch.memory + 3, memory.roll.x, memory.roll.y, memory.roll.z);
-  batch.overlap[k] = at.overlap;
-  batch.radius[k] = grain.radius;
+  const Touch<double> touch = touch_of(body, at, grain, spin);
+  column(batch.normal, touch.normal);
+  column(batch.velocity, touch.velocity);
+  column(batch.rotation, touch.rotation);
+  column(batch.memory, memory.slide);
+  column(batch.memory + 3, memory.roll);
+  batch.overlap[k] = touch.overlap;
+  batch.radius[k] = touch.radius;
   batch.inverse_mass[k] = grain.inverse_mass;
   batch.inverse_inertia[k] = spin.inverse_inertia;
 }

@@ -9,9 +9,12 @@
 #include "dem/engine/grains.hpp"
 #include "dem/engine/kernels/touch_kernel.hpp"
 #include "dem/engine/laws/contact_law.hpp"
-#include "dem/engine/periodic.hpp"
 
 namespace soilbin::dem {
+
+/// The same three numbers, as the laws take them and back.
+inline Triple<double> triple(const Vec3& a) { return {a.x, a.y, a.z}; }
+inline Vec3 vec3(const Triple<double>& a) { return {a.x, a.y, a.z}; }
 
 /// A grain that is near a surface.
 struct NearSurface {
@@ -64,7 +67,6 @@ std::vector<NearSurface> find_near(std::span<const Body> bodies, const Grains& g
 
 /// Laws of a grain on a surface, and how far beyond its radius a grain that adheres may be held [m].
 struct SurfaceLaw {
-  LawFlags flags;
   const LawConstants<double>& constants;
   double adhesion_reach;
 };

@@ -69,6 +69,7 @@ Setup Ride::setup_for(const ContactPair& tire_contact) const {
   setup.numerics.threads = how_.threads;
   setup.numerics.deepest_overlap = rig_.deepest_overlap;
   setup.numerics.ledger = rig_.ledger;
+  setup.numerics.sleep = rig_.sleep;
   return setup;
 }
 

@@ -34,6 +34,7 @@ struct Rig {
   double dt = 0;                 ///< [s]; 0: the bed's
   double skin = 0.25;            ///< margin of the search for pairs, in largest radii
   double deepest_overlap = 0.5;  ///< of the smaller radius; chains of grains under a wheel are pressed hard
+  Sleep sleep;                   ///< of the grains far from the wheel
   bool ledger = false;           ///< tells where the power goes; costs about a tenth
   double steady_drift = 3;       ///< largest drift_over_error of a steady run
   /// A torque held instead of the rotation [N m]; the rotation is then free and starts at that of the condition's slip.

@@ -130,6 +130,8 @@ inline std::uint64_t bits(const State& state) {
     }
   for (const Body& body : state.bodies)
     for (const Vec3& v : {body.position, body.velocity, body.spin, body.force, body.torque}) mix(hash, &v, sizeof(v));
+  take(state.calm);
+  take(state.body_loads);
   mix(hash, &state.travel, sizeof(state.travel));
   mix(hash, &state.ledger, sizeof(state.ledger));
   return hash;
