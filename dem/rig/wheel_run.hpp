@@ -8,6 +8,7 @@
 #include "dem/bed/settled_bed.hpp"
 #include "dem/rig/tread_stress.hpp"
 #include "dem/rig/wheel_motion.hpp"
+#include "dem/rig/wheel_outcome.hpp"
 #include "dem/surface/shapes.hpp"
 #include "scenario/operating_condition.hpp"
 #include "scenario/tire.hpp"
@@ -53,17 +54,6 @@ struct WheelSample {
   double into_soil = 0;  ///< power that the wheel gives the grains [W]
   TreadForces tread;     ///< at its end
   Ledger ledger;         ///< at its end, since the bed was poured; filled with Rig::ledger
-};
-
-/// Powers, means over the steady part [W].
-struct PowerBalance {
-  double drive = 0;      ///< M w
-  double pull = 0;       ///< F_DP v, in the frame of travel
-  double climb = 0;      ///< lifts the load up the slope
-  double heave = 0;      ///< lifts the load out of the soil; negative while the wheel sinks
-  double into_soil = 0;  ///< given to the grains, counted step by step
-  double rest = 0;       ///< drive less all these: what rounding and the products of fluctuations leave
-  Ledger losses;         ///< with Rig::ledger: where grains lost it
 };
 
 /// What a run tells.
