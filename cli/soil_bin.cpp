@@ -58,6 +58,7 @@ class SoilBinRuns {
     try {
       run.answer.result = model(packing).evaluate(scenario, at);
       run.steady = told_->steady, run.drift = told_->drift, run.power = told_->power;
+      run.rut = told_->rut, run.flow = told_->flow;
     } catch (const dem::RunStopped& stopped) {
       run.answer.error = stopped.what();
     } catch (const NoSolution& error) {

@@ -119,7 +119,7 @@ std::string record_text(const Record& record) {
 }
 
 Json record_schema() {
-  const RecordedRun run{.answer = {{}, TractionResult{}, ""}, .source = {}, .power = {}};
+  const RecordedRun run{.answer = {{}, TractionResult{}, ""}, .source = {}, .power = {}, .rut = {}, .flow = {}};
   FieldsSchema always, solved;
   run_fields(always, run);
   result_fields(solved, *run.answer.result);

@@ -28,6 +28,8 @@ struct RecordedRun {
   bool steady = false;        ///< as in WheelRun; this and the rest mean nothing without a result
   double drift = 0;
   dem::PowerBalance power;
+  dem::Rut rut;
+  dem::SoilFlow flow;
 };
 
 /// What a file holds.

@@ -27,6 +27,32 @@ void power_fields(Visitor& v, Power& power) {
           [&](auto& inner) { loss_fields(inner, power.losses); });
 }
 
+template <class Visitor, class Profile>
+void rut_fields(Visitor& v, Profile& rut) {
+  v.number("from", rut.from, "m", "begin of the stretch behind the wheel, x in the bin");
+  v.number("to", rut.to, "m", "its end");
+  v.number("axle", rut.axle, "m", "where the axle stood at the end, x in the bin");
+  v.numbers("y", rut.y, "m", "from the middle of the track to the left");
+  v.numbers("across", rut.across, "m", "change of height at each y, mean over the stretch");
+  v.numbers("x", rut.x, "m", "along the bin");
+  v.numbers("along", rut.along, "m", "change of height at each x, mean over the tire's width");
+  v.number("volume", rut.volume, "m^3", "of the change over the whole bin: heaped - dug");
+  v.number("heaped", rut.heaped, "m^3", "above the old surface");
+  v.number("dug", rut.dug, "m^3", "below the old surface");
+}
+
+template <class Visitor, class Flow>
+void flow_fields(Visitor& v, Flow& flow) {
+  v.number("cell", flow.cell, "m", "side of a cell");
+  v.whole("nx", flow.nx, "cells along x, which varies fastest");
+  v.whole("nz", flow.nz, "cells along z");
+  v.number("x", flow.x, "m", "lower corner of the first cell, from the axle");
+  v.number("z", flow.z, "m", "lower corner of the first cell, from the axle");
+  v.numbers("vx", flow.vx, "m/s", "mean velocity against the bin, forward; null where no grain came");
+  v.numbers("vz", flow.vz, "m/s", "upward");
+  v.numbers("solid", flow.solid, "-", "mean volume of grains with their centres in a cell, over the cell's");
+}
+
 /// What every run has, with a result or without.
 template <class Visitor, class Run>
 void run_fields(Visitor& v, Run& run) {
@@ -43,6 +69,9 @@ void told_fields(Visitor& v, Run& run) {
   v.number("drift", run.drift, "-",
            "largest difference of halves over its standard error, of pull, torque and sinkage");
   v.group("power", "powers, means over the steady part", [&](auto& inner) { power_fields(inner, run.power); });
+  v.group("rut", "change of the surface seen from above", [&](auto& inner) { rut_fields(inner, run.rut); });
+  v.group("flow", "mean velocity of the soil round the wheel, in its middle plane",
+          [&](auto& inner) { flow_fields(inner, run.flow); });
 }
 
 }  // namespace soilbin::compare

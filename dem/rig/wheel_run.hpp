@@ -66,6 +66,8 @@ struct WheelRun {
   double drift = 0;                  ///< largest drift_over_error of pull, torque and sinkage
   double surface = 0;                ///< height of the undisturbed surface [m]
   Vec3 moment;                       ///< mean, about the wheel's centre [N m]
+  Rut rut;
+  SoilFlow flow;
 };
 
 /// Runs it. The start-up is cut off at the latest end_of_start_up of pull,

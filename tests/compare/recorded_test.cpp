@@ -35,8 +35,12 @@ RecordedRun made_run(double load, double slip, std::uint64_t packing, double pul
                   .seconds = 12.5,
                   .steady = true,
                   .drift = 1.25,
-                  .power = {}};
+                  .power = {},
+                  .rut = {},
+                  .flow = {}};
   run.power.drive = 5, run.power.pull = 1.5, run.power.rest = 1e-17, run.power.losses.sliding = 2.5;
+  run.rut.y = {-0.1, 0.1}, run.rut.across = {1e-3, -1.0 / 7}, run.rut.axle = 2.25;
+  run.flow.cell = 0.04, run.flow.nx = 2, run.flow.nz = 1, run.flow.vx = {std::nan(""), 1.0 / 9};
   return run;
 }
 
@@ -46,7 +50,9 @@ RecordedRun failed_run(double load, std::uint64_t packing = 1) {
           .packing = packing,
           .source = "abc",
           .seconds = 1,
-          .power = {}};
+          .power = {},
+          .rut = {},
+          .flow = {}};
 }
 
 Record made_record() {
@@ -72,6 +78,10 @@ TEST(Record, ComesBackToTheBit) {
   EXPECT_EQ(back.runs[0].power.losses.sliding, 2.5);
   EXPECT_EQ(back.runs[0].power.rest, 1e-17);
   EXPECT_TRUE(back.runs[0].steady);
+  EXPECT_EQ(back.runs[0].rut.across, (std::vector{1e-3, -1.0 / 7}));
+  EXPECT_EQ(back.runs[0].flow.nx, 2);
+  EXPECT_TRUE(std::isnan(back.runs[0].flow.vx.at(0)));
+  EXPECT_EQ(back.runs[0].flow.vx.at(1), 1.0 / 9);
   EXPECT_EQ(back.runs[1].packing, 2U);
   EXPECT_FALSE(back.runs[2].answer.result);
   EXPECT_EQ(back.runs[2].answer.error, "the wheel dug itself in");
