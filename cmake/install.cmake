@@ -1,9 +1,9 @@
 # What `cmake --install` lays down: the command, the libraries with their headers, the cases, the docs, and a CMake
-# package, so that find_package(soilbin) gives soilbin::scenario, soilbin::bekker_wong and soilbin::compare.
+# package, so that find_package(soilbin) gives soilbin::scenario, soilbin::bekker_wong, soilbin::dem and soilbin::compare.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(floors scenario bekker_wong compare)
+set(floors scenario bekker_wong dem compare)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/soilbin)
 
 if(TARGET soilbin)
@@ -22,9 +22,6 @@ foreach(floor IN LISTS floors)
   install(DIRECTORY ${floor} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/soilbin COMPONENT development
     FILES_MATCHING PATTERN "*.hpp")
 endforeach()
-# Plain values of the soil bin, which compare's records keep; the grain engine itself is not offered yet.
-install(FILES dem/engine/energy.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/soilbin/dem/engine COMPONENT development)
-install(FILES dem/rig/wheel_outcome.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/soilbin/dem/rig COMPONENT development)
 install(EXPORT soilbin NAMESPACE soilbin:: DESTINATION ${package_folder} FILE soilbin-targets.cmake COMPONENT development)
 
 configure_package_config_file(cmake/soilbin-config.cmake.in ${PROJECT_BINARY_DIR}/soilbin-config.cmake

@@ -18,13 +18,13 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsoilbin-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libeigen3-dev, libfmt-dev, libgsl-dev, libyaml-cpp-dev, nlohmann-json3-dev")
+  "libassimp-dev, libeigen3-dev, libfmt-dev, libgsl-dev, libhdf5-dev, libhwy-dev, libyaml-cpp-dev, nlohmann-json3-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS soilbin)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
   "The command soilbin with its tires, soils, studies and measured campaigns: drawbar pull, torque, sinkage and
-lateral force of a wheel on soil by the Bekker / Wong-Reece model with published effects, and the comparison with
-measurements.")
+lateral force of a wheel on soil by the Bekker / Wong-Reece model with published effects, by discrete elements in a
+virtual soil bin, and the comparison with measurements.")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
   "Static libraries, headers and a CMake package: find_package(soilbin) gives soilbin::scenario,
-soilbin::bekker_wong and soilbin::compare.")
+soilbin::bekker_wong, soilbin::dem and soilbin::compare.")
 include(CPack)

@@ -23,6 +23,7 @@ if(NOT found MATCHES "=${prefix}/")
 endif()
 run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
 run(${SCRATCH}/build/analytic)
+run(${SCRATCH}/build/grains)
 run(${SCRATCH}/build/measured ${prefix}/share/soilbin/cases/measured/cmu-smooth)
 
 if(WITH_COMMAND)
