@@ -39,10 +39,10 @@ struct Candidate {
 /// How far a calibration is. Called before each run; may throw to stop, and what is finished is in the store.
 struct CalibrationProgress {
   Stage stage = Stage::design;
-  int done = 0;               ///< runs so far, those from the store included
-  int at_most = 0;            ///< runs in all
-  double seconds_a_run = 0.0; ///< mean of those made; 0 before the first
-  double chance = 0.0;        ///< best one so far, in the refinement
+  int done = 0;                ///< runs so far, those from the store included
+  int at_most = 0;             ///< runs in all
+  double seconds_a_run = 0.0;  ///< mean of those made; 0 before the first
+  double chance = 0.0;         ///< best one so far, in the refinement
 };
 
 struct CalibrationOptions {
@@ -54,10 +54,10 @@ struct CalibrationOptions {
   int most_runs = 30;         ///< in all
   std::uint64_t seed = 1;     ///< of the packings' first, the cloud and the surrogates
   int cloud = 4096;           ///< points of the box that are looked at
-  std::function<void(const CalibrationProgress&)> progress;
+  std::function<void(const CalibrationProgress&)> progress{};
   /// The errors that another experiment, such as the soil bin, finds for the candidates, one each, any unit; the
   /// smallest is chosen. Absent: the likeliest candidate.
-  std::function<std::vector<double>(const std::vector<Candidate>&)> decide;
+  std::function<std::vector<double>(const std::vector<Candidate>&)> decide{};
 };
 
 /// What the design says about one target.
@@ -76,8 +76,8 @@ struct Calibration {
   Candidate best;                        ///< chosen: by `decide`, else the likeliest point that was run
   bool reached = false;                  ///< whether best.chance is at least the probability asked for
   std::vector<Estimate> parameters;      ///< of the factors, given the targets and a flat prior in the box [SI]
-  std::vector<double> told;              ///< 1 - sd of `parameters` over that of the flat prior: 0, the test says nothing
-  double smallest_chi_square = 0.0;      ///< over the cloud; large where no point of the box meets the targets
+  std::vector<double> told;          ///< 1 - sd of `parameters` over that of the flat prior: 0, the test says nothing
+  double smallest_chi_square = 0.0;  ///< over the cloud; large where no point of the box meets the targets
 };
 
 /// Runs the stages. Work found in the store isn't done again: the same test, options and store give the same answer

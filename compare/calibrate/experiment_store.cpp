@@ -83,12 +83,10 @@ std::optional<Experiment> ExperimentStore::find(const VirtualTest& test, const E
 
 void ExperimentStore::keep(const VirtualTest& test, const Experiment& experiment) {
   const std::string key = key_of(test);
-  const auto known =
-      std::find_if(tests_.begin(), tests_.end(), [&](const OfOneTest& one) { return one.key == key; });
+  const auto known = std::find_if(tests_.begin(), tests_.end(), [&](const OfOneTest& one) { return one.key == key; });
   OfOneTest& into = known != tests_.end() ? *known : tests_.emplace_back(OfOneTest{key, {}});
-  std::erase_if(into.experiments, [&](const Experiment& old) {
-    return same_question(old, experiment.values, experiment.seed);
-  });
+  std::erase_if(into.experiments,
+                [&](const Experiment& old) { return same_question(old, experiment.values, experiment.seed); });
   into.experiments.push_back(experiment);
   if (!file_.empty()) write_file_atomically(file_, text());
 }

@@ -12,7 +12,7 @@ namespace soilbin::compare {
 
 /// One experiment: what was asked and what came of it.
 struct Experiment {
-  Eigen::VectorXd values;         ///< of the factors [SI]
+  Eigen::VectorXd values;  ///< of the factors [SI]
   std::uint64_t seed = 1;
   std::vector<Estimate> results;  ///< of the targets; empty where it failed
   std::string error;              ///< why it failed; empty where there are results

@@ -14,9 +14,9 @@ namespace soilbin::compare {
 
 /// A number that was measured on the real soil and that a virtual test should give.
 struct Target {
-  std::string name;       ///< "friction_angle"
-  Estimate measured;      ///< [SI], not 0; the error is the measurement's
-  std::string unit = "-"; ///< in which people read it
+  std::string name;        ///< "friction_angle"
+  Estimate measured;       ///< [SI], not 0; the error is the measurement's
+  std::string unit = "-";  ///< in which people read it
 };
 
 /// What to vary, what to reach, and how to find out.

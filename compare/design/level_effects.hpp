@@ -31,7 +31,8 @@ enum class ErrorFrom {
   free_columns,    ///< what no factor of the design explains: noise and interactions together
   pooled_factors,  ///< no column is free: factors of the smallest sums of squares are taken for error, so that p-values
                    ///< of the others are too small
-  known_noise,  ///< the runs' own standard errors; what no factor explains is then a row of its own, the interactions
+  known_noise,     ///< the runs' own standard errors; what no factor explains is then a row of its own. A factor's
+                   ///< column also holds interactions of the others, so a small p may be theirs
 };
 
 struct VarianceRow {

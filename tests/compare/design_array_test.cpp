@@ -162,6 +162,18 @@ TEST(AnalysisOfVariance, WithKnownNoiseFIsAChiSquare) {
   EXPECT_NEAR(a.left.p_value, std::exp(-(2.0 / 3) / 2.0 / 2), 1e-12);
 }
 
+TEST(AnalysisOfVariance, AnInteractionOfTwoFactorsShowsInTheColumnsOfTheOthers) {
+  // y = a b with levels -1, 0, 1: columns a and b see nothing, the other two share all of it.
+  const LevelTable design = orthogonal_array(3);
+  std::vector<double> y;
+  for (const std::vector<int>& row : design.rows) y.push_back((row[0] - 1) * (row[1] - 1));
+  const AnalysisOfVariance a = analysis_of_variance(design, {"a", "b", "c", "d"}, y, 1.0);
+  EXPECT_NEAR(a.factors[0].sum_of_squares, 0, 1e-12);
+  EXPECT_NEAR(a.factors[1].sum_of_squares, 0, 1e-12);
+  EXPECT_NEAR(a.factors[2].sum_of_squares + a.factors[3].sum_of_squares, a.total, 1e-12);
+  EXPECT_GT(a.factors[2].sum_of_squares, 0.4 * a.total);
+}
+
 TEST(AnalysisOfVariance, PValuesOfNoiseAreUniform) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
