@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string_view>
 
 #include "dem/bed/bed_store.hpp"
@@ -23,6 +24,9 @@ double mean_diameter(const GranularSoil& soil);
 
 /// The recipe of a bed that fills a box of this size, to be poured, levelled and settled by settle_bed.
 BedRecipe specimen_recipe(const GranularSoil& soil, const BedSize& size, const SpecimenSettings& settings);
+
+/// That bed: from `beds` where there is one, else settled now.
+std::shared_ptr<const SettledBed> specimen_bed(const BedRecipe& recipe, const WorkOptions& how, BedStore* beds);
 
 /// A setup with the bed's material and laws, a domain that leaves walls room to move, and no bodies. Other materials
 /// are added to it before the grains.
@@ -46,6 +50,12 @@ double inertial_number(double rate, double pressure, const GranularSoil& soil);
 /// The rate [1/s] that has this inertial number.
 double shear_rate(double inertial_number, double pressure, const GranularSoil& soil);
 
+/// Void ratio of the grains away from the bounds of a box of this size, filled to `height` [m].
+double void_ratio_within(const Simulation& simulation, const BedSize& size, double height);
+
+/// A mesh moved by a vector, as the surface of a body.
+MeshSurface surface_at(const TriangleMesh& mesh, const Vec3& by);
+
 /// Steps a simulation, tells progress and stops when asked to. Shares of the work are counted in steps.
 class SteppedWork {
  public:
@@ -55,8 +65,9 @@ class SteppedWork {
   void begin(std::string_view stage) { stage_ = stage; }
   /// One step. Throws Stopped.
   void step(Simulation& simulation);
-  /// Threads, and a progress of its own for a bed that has to be settled first.
-  WorkOptions settling() const;
+  /// Runs until the wall `body`, kept by its servo, has carried its target to 1 % on average over 0.02 s three times in
+  /// a row while it moved less than 1e-4 of `length` each time. Throws RunStopped after `at_most` [s].
+  void settle_wall(Simulation& simulation, int body, double length, double at_most = 10);
 
  private:
   void tell() const;
