@@ -3,9 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "compare/calibrate/likely_points.hpp"
 #include "compare/design/space_filling.hpp"
@@ -60,28 +58,8 @@ class Work {
     std::uint64_t seed = options_.seed;
     for (const CalibrationRun& before : answer_.runs) seed += before.experiment.values == values;
     tell(stage, chance);
-    std::optional<Experiment> known = store_.find(test_, values, seed);
-    const bool from_store = known.has_value();
-    if (!known) {
-      known = make(values, seed);
-      store_.keep(test_, *known);
-    }
-    answer_.runs.push_back({stage, std::move(*known), from_store});
-  }
-
-  Experiment make(const VectorXd& values, std::uint64_t seed) const {
-    const auto start = std::chrono::steady_clock::now();
-    Experiment experiment{values, seed, {}, "", 0.0};
-    try {
-      experiment.results = test_.run(values, seed);
-      for (const Estimate& result : experiment.results)
-        if (!std::isfinite(result.value) || !(result.std_error >= 0)) experiment.error = "a result is not a number";
-    } catch (const NoSolution& failure) {
-      experiment.error = failure.what();
-    }
-    if (!experiment.error.empty()) experiment.results.clear();
-    experiment.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return experiment;
+    auto [experiment, from_store] = experiment_at(test_, values, seed, store_);
+    answer_.runs.push_back({stage, std::move(experiment), from_store});
   }
 
   void run_design(const LevelTable& design) {

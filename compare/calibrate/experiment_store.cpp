@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -105,6 +108,24 @@ std::string ExperimentStore::text() const {
     tests.push_back({{"test", test.key}, {"experiments", experiments}});
   }
   return json_text({{"format", format}, {"tests", tests}});
+}
+
+std::pair<Experiment, bool> experiment_at(const VirtualTest& test, const Eigen::VectorXd& values, std::uint64_t seed,
+                                          ExperimentStore& store) {
+  if (std::optional<Experiment> known = store.find(test, values, seed)) return {std::move(*known), true};
+  const auto start = std::chrono::steady_clock::now();
+  Experiment experiment{values, seed, {}, "", 0.0};
+  try {
+    experiment.results = test.run(values, seed);
+    for (const Estimate& result : experiment.results)
+      if (!std::isfinite(result.value) || !(result.std_error >= 0)) experiment.error = "a result is not a number";
+  } catch (const NoSolution& failure) {
+    experiment.error = failure.what();
+  }
+  if (!experiment.error.empty()) experiment.results.clear();
+  experiment.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  store.keep(test, experiment);
+  return {std::move(experiment), false};
 }
 
 }  // namespace soilbin::compare

@@ -43,4 +43,9 @@ class ExperimentStore {
   std::vector<OfOneTest> tests_;
 };
 
+/// The experiment of this question: from the store (second: true), or made now, timed and kept. NoSolution and results
+/// that aren't finite become its error; what else the test throws goes through.
+std::pair<Experiment, bool> experiment_at(const VirtualTest& test, const Eigen::VectorXd& values, std::uint64_t seed,
+                                          ExperimentStore& store);
+
 }  // namespace soilbin::compare
