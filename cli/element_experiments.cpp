@@ -1,7 +1,6 @@
 #include "cli/element_experiments.hpp"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -20,25 +19,39 @@ GranularSoil with_values(const ElementExperiment& experiment, ContactKind kind, 
   return soil;
 }
 
-/// All of a soil that a test may read, with what is varied set to 0.
-std::string soil_text(const ElementExperiment& experiment, ContactKind kind) {
-  GranularSoil soil =
-      with_values(experiment, kind, VectorXd::Zero(static_cast<Eigen::Index>(experiment.factors.size())));
-  std::string text = fmt::format("radii {} {}, density {}, E {}, nu {}", soil.radius_min, soil.radius_max,
-                                 soil.grain_density, soil.youngs_modulus, soil.poisson_ratio);
-  const auto add = [&](const char* name, const ContactPair& pair) {
-    text += fmt::format("\n{} {} {} {} {}", name, pair.restitution, pair.sliding_friction, pair.rolling_friction,
-                        pair.cohesion);
-  };
-  add("grain_grain", soil.grain_grain);
-  if (kind == ContactKind::grain_tire) add("grain_tire", soil.grain_tire);
-  return text;
-}
+/// A text of everything that an experiment follows from, a line a value, in full precision.
+class Identity {
+ public:
+  explicit Identity(const std::string& kind) : text_(kind) {}
+  Identity& add(const char* name, double value) {
+    text_ += fmt::format("\n{} {}", name, value);
+    return *this;
+  }
+  Identity& add(const char* name, const ContactPair& pair) {
+    return add(name, pair.restitution)
+        .add("", pair.sliding_friction)
+        .add("", pair.rolling_friction)
+        .add("", pair.cohesion);
+  }
+  Identity& add(const dem::ContactLaws& laws) {
+    return add("laws", static_cast<int>(laws.normal))
+        .add("", static_cast<int>(laws.rolling))
+        .add("", static_cast<int>(laws.cohesion))
+        .add("", laws.tangential_damping);
+  }
+  /// What is varied is set to 0.
+  Identity& add(const ElementExperiment& experiment, ContactKind kind) {
+    const VectorXd none = VectorXd::Zero(static_cast<Eigen::Index>(experiment.factors.size()));
+    const GranularSoil soil = with_values(experiment, kind, none);
+    add("radius_min", soil.radius_min).add("radius_max", soil.radius_max).add("density", soil.grain_density);
+    add("young", soil.youngs_modulus).add("poisson", soil.poisson_ratio).add("grain_grain", soil.grain_grain);
+    return kind == ContactKind::grain_tire ? add("grain_tire", soil.grain_tire) : *this;
+  }
+  const std::string& text() const { return text_; }
 
-std::string laws_text(const dem::ContactLaws& laws) {
-  return fmt::format("laws {} {} {} {}", static_cast<int>(laws.normal), static_cast<int>(laws.rolling),
-                     static_cast<int>(laws.cohesion), laws.tangential_damping);
-}
+ private:
+  std::string text_;
+};
 
 compare::VirtualTest test_of(const ElementExperiment& experiment, std::string identity) {
   compare::VirtualTest test;
@@ -70,15 +83,14 @@ Estimate mean_of(const std::vector<double>& values) {
 
 compare::VirtualTest shear_box_test(const ElementExperiment& experiment, const dem::DirectShearSettings& settings,
                                     Strength strength) {
-  const dem::SpecimenSettings& s = settings.specimen;
-  compare::VirtualTest test = test_of(
-      experiment,
-      fmt::format("direct shear, {} strength\n{}\n{}\nsettling friction {}, dt {}, packings {}\nbox {} {} {}, stresses "
-                  "{}, travel {}, inertial {}, residual share {}, peak window {}",
-                  strength == Strength::peak ? "peak" : "residual", soil_text(experiment, ContactKind::grain_grain),
-                  laws_text(s.laws), s.settling_friction, s.dt, settings.packings, settings.length, settings.width,
-                  settings.height, fmt::join(settings.stresses, " "), settings.travel, settings.inertial,
-                  settings.residual_share, settings.peak_window));
+  Identity identity(strength == Strength::peak ? "direct shear, peak" : "direct shear, residual");
+  identity.add(experiment, ContactKind::grain_grain).add(settings.specimen.laws);
+  identity.add("settling_friction", settings.specimen.settling_friction).add("dt", settings.specimen.dt);
+  identity.add("packings", settings.packings).add("length", settings.length).add("width", settings.width);
+  identity.add("height", settings.height).add("travel", settings.travel).add("inertial", settings.inertial);
+  identity.add("residual_share", settings.residual_share).add("peak_window", settings.peak_window);
+  for (const double stress : settings.stresses) identity.add("stress", stress);
+  compare::VirtualTest test = test_of(experiment, identity.text());
   test.run = [=](const VectorXd& values, std::uint64_t seed) {
     return answered([&] {
       dem::DirectShearSettings own = settings;
@@ -98,13 +110,12 @@ compare::VirtualTest shear_box_test(const ElementExperiment& experiment, const d
 compare::VirtualTest tilting_board_test(const ElementExperiment& experiment, const dem::TiltingBoardSettings& settings,
                                         int packings) {
   if (packings < 2) throw InputError("--packings: an angle with an error needs at least two boards");
-  compare::VirtualTest test = test_of(
-      experiment,
-      fmt::format("tilting board\n{}\n{}\nacross {}, layers {}, packings {}, rate {}, onset {}, gone {}, steepest {}, "
-                  "dt {}, gravity {}",
-                  soil_text(experiment, ContactKind::grain_tire), laws_text(settings.laws), settings.across,
-                  settings.layers, packings, settings.rate, settings.onset, settings.gone, settings.steepest,
-                  settings.dt, settings.gravity));
+  Identity identity("tilting board");
+  identity.add(experiment, ContactKind::grain_tire).add(settings.laws).add("packings", packings);
+  identity.add("across", settings.across).add("layers", settings.layers).add("rate", settings.rate);
+  identity.add("onset", settings.onset).add("gone", settings.gone).add("steepest", settings.steepest);
+  identity.add("dt", settings.dt).add("gravity", settings.gravity);
+  compare::VirtualTest test = test_of(experiment, identity.text());
   test.run = [=](const VectorXd& values, std::uint64_t seed) {
     return answered([&] {
       std::vector<double> angles;

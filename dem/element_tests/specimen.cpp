@@ -43,6 +43,7 @@ int add_wall_material(Setup& setup, const GranularSoil& soil, double share_of_fr
   Interaction interaction = interaction_of(soil.grain_grain);
   interaction.sliding_friction *= share_of_friction;
   interaction.rolling_friction *= share_of_friction;
+  interaction.cohesion *= share_of_friction;
   return setup.materials.add({"wall", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio}, interaction);
 }
 

@@ -33,7 +33,7 @@ std::shared_ptr<const SettledBed> specimen_bed(const BedRecipe& recipe, const Wo
 Setup specimen_setup(const SettledBed& bed, const WorkOptions& how);
 
 /// Adds a material of walls, as stiff as the grains, that rubs on them with this share of the grains' own sliding and
-/// rolling friction; gives its index.
+/// rolling friction and that of their cohesion; gives its index.
 int add_wall_material(Setup& setup, const GranularSoil& soil, double share_of_friction);
 
 /// Puts the bed's grains, at rest, where they lie in the bed; the histories of their contacts start anew. Gives the

@@ -52,7 +52,7 @@ Setup Board::setup_for(const GranularSoil& soil, const WorkOptions& how) const {
                       interaction_of(soil.grain_grain));
   const int board = setup.materials.add({"board", 1100, 1e9, 0.3});  // as the tire of a run
   setup.materials.set(grain_material, board, interaction_of(soil.grain_tire));
-  setup.laws = settings_.laws;
+  setup.laws = with_cohesion_of(soil.grain_tire, with_cohesion_of(soil.grain_grain, settings_.laws));
   const double room = (settings_.across + settings_.layers + 100) * d_ * 2;
   setup.domain = {{-room, -room, -d_}, {room, room, room}};
   setup.numerics.dt = settings_.dt > 0 ? settings_.dt : longest_step(soil);
