@@ -112,21 +112,49 @@ void back_up(const FailureQuestion& question, const FailureMap& map, const std::
   }
 }
 
-}  // namespace
+/// A box and the node in it that is likeliest to overturn it.
+struct Box {
+  std::vector<double> upper;
+  VectorXd most_doubtful;
+};
 
-std::optional<Clause> agreement(const FailureQuestion& question, const FailureMap& map, const std::vector<Role>& roles,
-                                int nodes) {
-  const Grid grid(question, roles, nodes);
+std::optional<Box> largest_box(const FailureQuestion& question, const FailureMap& map, const std::vector<Role>& roles,
+                               const Grid& grid) {
   std::vector<std::vector<int>> doubtful;
+  std::vector<double> bounds;  // on |difference|, a node each
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const std::vector<int> node = grid.node(i);
-    const Estimate there = map.at(question, grid.values(node));
-    if (std::abs(there.value) + one_sided_95 * there.std_error > question.tolerance) doubtful.push_back(node);
+    const Estimate there = map.at(question, grid.values(grid.node(i)));
+    bounds.push_back(std::abs(there.value) + one_sided_95 * there.std_error);
+    if (bounds.back() > question.tolerance) doubtful.push_back(grid.node(i));
   }
   const std::optional<std::vector<int>> corner = largest_corner(grid, roles, doubtful);
   if (!corner) return std::nullopt;
+  Box box;
+  for (std::size_t j = 0; j < roles.size(); ++j) box.upper.push_back(grid.value(j, (*corner)[j]));
+  double most = -1.0;
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    if (inside(grid.node(i), *corner) && bounds[i] > most)
+      most = bounds[i], box.most_doubtful = grid.values(grid.node(i));
+  return box;
+}
+
+bool was_run(const FailureMap& map, const VectorXd& values) {
+  return std::any_of(map.rows.begin(), map.rows.end(), [&](const FailureRow& row) { return row.values == values; });
+}
+
+}  // namespace
+
+std::optional<Clause> agreement(const FailureQuestion& question, FailureMap& map, const std::vector<Role>& roles,
+                                int nodes, int rounds) {
+  const Grid grid(question, roles, nodes);
+  std::optional<Box> box = largest_box(question, map, roles, grid);
+  for (int round = 0; round < rounds && box && !was_run(map, box->most_doubtful); ++round) {
+    add_row(question, box->most_doubtful, map);
+    box = largest_box(question, map, roles, grid);
+  }
+  if (!box) return std::nullopt;
   Clause clause;
-  for (std::size_t j = 0; j < roles.size(); ++j) clause.upper.push_back(grid.value(j, (*corner)[j]));
+  clause.upper = box->upper;
   back_up(question, map, roles, clause);
   if (clause.rows == 0) return std::nullopt;
   clause.text = text_of(question, roles, clause);

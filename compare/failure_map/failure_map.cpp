@@ -40,6 +40,12 @@ void run(const FailureQuestion& question, const FailureMapOptions& options, cons
   map.rows.push_back({values, question.difference(values)});
 }
 
+void learn(const FailureQuestion& question, std::uint64_t seed, FailureMap& map) {
+  map.surrogate.clear();
+  map.surrogate.emplace_back(samples_of(question, map.rows), SurrogateOptions{.seed = seed});
+  map.held_out = map.surrogate[0].mode().leave_one_out();
+}
+
 /// Whether a place was already asked: a condition without an answer is not asked again and again.
 bool asked(const FailureQuestion& question, const FailureMap& map, const VectorXd& unit) {
   return std::any_of(map.rows.begin(), map.rows.end(), [&](const FailureRow& row) {
@@ -55,6 +61,11 @@ bool FailureRow::beyond(double tolerance) const {
 
 Estimate FailureMap::at(const FailureQuestion& question, const VectorXd& values) const {
   return surrogate.at(0).predict(to_unit(question.factors, values));
+}
+
+void add_row(const FailureQuestion& question, const VectorXd& values, FailureMap& map, std::uint64_t seed) {
+  map.rows.push_back({values, question.difference(values)});
+  learn(question, seed, map);
 }
 
 FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions& options) {
@@ -75,8 +86,7 @@ FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions
     const Index next = next_point(process, fresh, [&](const Estimate& e) { return straddle(e, question.tolerance); });
     run(question, options, fresh.row(next), map);
   }
-  map.surrogate.emplace_back(samples_of(question, map.rows), SurrogateOptions{.seed = options.seed});
-  map.held_out = map.surrogate[0].mode().leave_one_out();
+  learn(question, options.seed, map);
   return map;
 }
 

@@ -50,6 +50,9 @@ struct FailureMap {
   Estimate at(const FailureQuestion& question, const Eigen::VectorXd& values) const;
 };
 
+/// Runs one more condition and learns from it.
+void add_row(const FailureQuestion& question, const Eigen::VectorXd& values, FailureMap& map, std::uint64_t seed = 1);
+
 /// Throws NoSolution where too few conditions have an answer of both models.
 FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions& options = {});
 
@@ -71,9 +74,10 @@ enum class Role {
 
 /// The box, from the lower corner, of the largest share of the limited factors' ranges within which |difference| stays
 /// below the tolerance with one-sided confidence 95 % at every node of a grid of `nodes` a factor. roles: one a factor.
-/// Nothing where the models disagree in the lower corner, or where no row was run in the box: a clause without a row
-/// isn't said.
-std::optional<Clause> agreement(const FailureQuestion& question, const FailureMap& map, const std::vector<Role>& roles,
-                                int nodes = 13);
+/// The box's most doubtful node is run (and added to the map) and the box found again, until that node is a row that
+/// agrees, at most `rounds` times: so a clause rests on the row that was likeliest to overturn it. Nothing where the
+/// models may disagree in the lower corner, or where no row lies in the box in the end.
+std::optional<Clause> agreement(const FailureQuestion& question, FailureMap& map, const std::vector<Role>& roles,
+                                int nodes = 13, int rounds = 8);
 
 }  // namespace soilbin::compare

@@ -19,7 +19,7 @@ TEST(CalibrateCommand, RefusesWhatMakesNoSenseWithAHint) {
       {"calibrate paper-sand --contact tire", "--target board_angle=31.47deg"},
       {"calibrate paper-sand --contact tire --target angle=31deg", "board_angle"},
       {"calibrate paper-sand --target friction_angle=31", "deg"},
-      {"calibrate paper-sand --vary sliding=0.2..0.8", "did you mean 'sliding_friction'"},
+      {"calibrate paper-sand --vary sliding_frction=0.2..0.8", "did you mean 'sliding_friction'"},
       {"calibrate paper-sand --vary sliding_friction=0.2", "NAME=LOW..HIGH"},
       {"calibrate paper-sand --vary sliding_friction=0.8..0.2", "the lower bound must be below the upper one"},
       {"calibrate paper-sand --design L8", "there are L9, L16, L25"},
