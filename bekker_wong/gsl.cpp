@@ -1,9 +1,12 @@
 #include "bekker_wong/gsl.hpp"
 
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
+#include <gsl/gsl_multimin.h>
 #include <gsl/gsl_roots.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -95,6 +98,37 @@ double integrate(FunctionRef f, double a, double b, double rel_tol, const std::s
   const int status = gsl_integration_qags(&g, a, b, 0.0, rel_tol, intervals, workspace.get(), &value, &error);
   if (status != GSL_SUCCESS) throw std::runtime_error(what + ": " + gsl_strerror(status));
   return value;
+}
+
+double f_tail(double f, double freedom, double error_freedom) { return gsl_cdf_fdist_Q(f, freedom, error_freedom); }
+double chi_square_tail(double chi_square, double freedom) { return gsl_cdf_chisq_Q(chi_square, freedom); }
+double normal_tail(double z) { return gsl_cdf_ugaussian_Q(z); }
+
+double minimise(const Slope& f, std::span<double> x, double gradient_tol, int steps) {
+  using Minimiser = std::unique_ptr<gsl_multimin_fdfminimizer, Freed<gsl_multimin_fdfminimizer_free>>;
+  struct Called {
+    const Slope& f;
+    std::vector<double> unused;
+    static double both(const gsl_vector* at, void* o, gsl_vector* gradient) {
+      Called& called = *static_cast<Called*>(o);
+      double* into = gradient != nullptr ? gradient->data : called.unused.data();
+      return called.f({at->data, at->size}, {into, at->size});
+    }
+  } called{f, std::vector<double>(x.size())};
+  gsl_multimin_function_fdf function{
+      [](const gsl_vector* at, void* o) { return Called::both(at, o, nullptr); },
+      [](const gsl_vector* at, void* o, gsl_vector* g) { Called::both(at, o, g); },
+      [](const gsl_vector* at, void* o, double* value, gsl_vector* g) { *value = Called::both(at, o, g); }, x.size(),
+      &called};
+  const Minimiser minimiser(gsl_multimin_fdfminimizer_alloc(gsl_multimin_fdfminimizer_vector_bfgs2, x.size()));
+  const gsl_vector_view start = gsl_vector_view_array(x.data(), x.size());
+  gsl_multimin_fdfminimizer_set(minimiser.get(), &function, &start.vector, 0.1, 0.1);
+  for (int step = 0; step < steps; ++step) {
+    if (gsl_multimin_fdfminimizer_iterate(minimiser.get()) != GSL_SUCCESS) break;
+    if (gsl_multimin_test_gradient(minimiser->gradient, gradient_tol) == GSL_SUCCESS) break;
+  }
+  std::copy_n(minimiser->x->data, x.size(), x.begin());
+  return minimiser->f;
 }
 
 }  // namespace soilbin::gsl

@@ -36,4 +36,16 @@ double bracketed_root(FunctionRef f, double lower, double upper, double rel_tol,
 /// Integral over [a, b] by QAGS to rel_tol. Throws std::runtime_error with `what` where it does not converge.
 double integrate(FunctionRef f, double a, double b, double rel_tol, const std::string& what);
 
+/// Chance of a larger value: of F with these degrees of freedom, of chi square, of a standard normal variable.
+double f_tail(double f, double freedom, double error_freedom);
+double chi_square_tail(double chi_square, double freedom);
+double normal_tail(double z);
+
+/// A function of many variables with its gradient: fills `gradient`, gives the value; may give infinity.
+using Slope = std::function<double(std::span<const double> x, std::span<double> gradient)>;
+
+/// Goes downhill from x by BFGS (gsl_multimin_fdfminimizer_vector_bfgs2) until the gradient's norm is below
+/// gradient_tol, no step gets lower, or after `steps`. x ends at the lowest point found; gives the value there.
+double minimise(const Slope& f, std::span<double> x, double gradient_tol, int steps);
+
 }  // namespace soilbin::gsl

@@ -21,6 +21,7 @@ void add_estimate(CLI::App& app, Session& session);
 void add_explain(CLI::App& app, Session& session);
 void add_run(CLI::App& app, Session& session);
 void add_predict(CLI::App& app, Session& session);
+void add_calibrate(CLI::App& app, Session& session);
 void add_loop(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
 void add_check(CLI::App& app, Session& session);

@@ -21,6 +21,7 @@ void add_commands(CLI::App& app, Session& session) {
   add_explain(app, session);
   add_run(app, session);
   add_predict(app, session);
+  add_calibrate(app, session);
   add_loop(app, session);
   add_report(app, session);
   add_check(app, session);

@@ -11,6 +11,7 @@
 
 #include "cli/progress.hpp"
 #include "cli/versions.hpp"
+#include "cli/workplace.hpp"
 #include "compare/sweep/alike.hpp"
 #include "compare/sweep/channels.hpp"
 #include "compare/sweep/varying.hpp"
@@ -26,10 +27,8 @@ namespace fs = std::filesystem;
 /// $SOILBIN_BEDS, else soilbin/beds in the user's cache; empty where there is no home.
 fs::path folder_of_beds() {
   if (const char* folder = std::getenv("SOILBIN_BEDS")) return folder;
-  if (const char* cache = std::getenv("XDG_CACHE_HOME")) return fs::path(cache) / "soilbin/beds";
-  if (const char* home = std::getenv("HOME"); home && fs::is_directory(home))
-    return fs::path(home) / ".cache/soilbin/beds";
-  return {};
+  const fs::path cache = user_cache();
+  return cache.empty() ? fs::path() : cache / "beds";
 }
 
 /// Stops at Ctrl-C; shows stage, share and time left where standard error is a terminal.

@@ -70,4 +70,10 @@ compare::Campaign find_campaign(const Workplace& place, const std::string& name)
   return compare::read_campaign(find_file(place, Shelf::measured, name), place.effects);
 }
 
+fs::path user_cache() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME")) return fs::path(cache) / "soilbin";
+  if (const char* home = std::getenv("HOME"); home && fs::is_directory(home)) return fs::path(home) / ".cache/soilbin";
+  return {};
+}
+
 }  // namespace soilbin::cli

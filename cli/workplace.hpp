@@ -32,4 +32,7 @@ Case find_case(const Workplace& place, const std::string& name);
 /// Reads a campaign: a name of the library, its folder, or its campaign.yaml.
 compare::Campaign find_campaign(const Workplace& place, const std::string& name);
 
+/// $XDG_CACHE_HOME/soilbin, else .cache/soilbin in the user's home; empty where there is no home.
+std::filesystem::path user_cache();
+
 }  // namespace soilbin::cli

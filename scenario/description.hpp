@@ -101,6 +101,8 @@ void describe(Visitor& v, std::type_identity<ContactPair>) {
            "coefficient of sliding friction");
   v.number("rolling_friction", &ContactPair::rolling_friction, Measure{"-", zero_or_more}, Need::required,
            "coefficient of rolling friction");
+  v.number("cohesion", &ContactPair::cohesion, Measure{"kJ/m^3", zero_or_more}, Need::optional,
+           "energy density of linear cohesion: attraction over the contact's area; 0: none");
 }
 
 template <class Visitor>

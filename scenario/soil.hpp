@@ -28,6 +28,7 @@ struct ContactPair {
   double restitution = 0.5;       ///< [-], 0 .. 1
   double sliding_friction = 0.5;  ///< [-], >= 0
   double rolling_friction = 0.1;  ///< [-], >= 0
+  double cohesion = 0.0;          ///< energy density of linear cohesion [J/m^3], >= 0; 0: none (docs/dem-laws.md)
 };
 
 /// The same soil as grains, for the discrete element model.

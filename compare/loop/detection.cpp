@@ -1,11 +1,11 @@
 #include "compare/loop/detection.hpp"
 
-#include <gsl/gsl_cdf.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
+
+#include "bekker_wong/gsl.hpp"
 
 namespace soilbin::compare {
 
@@ -22,7 +22,7 @@ LackOfFit lack_of_fit(const Fit& fit, const NoiseFloor& noise, Index cells) {
   test.freedom = std::max(1.0, static_cast<double>(cells) - absorbed);
   test.noise_freedom = std::max(1.0, noise.freedom());
   test.f = fit.chi2_cells / test.freedom;
-  test.p_value = gsl_cdf_fdist_Q(test.f, test.freedom, test.noise_freedom);
+  test.p_value = gsl::f_tail(test.f, test.freedom, test.noise_freedom);
   return test;
 }
 

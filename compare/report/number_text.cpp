@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenario/unit.hpp"
+
 namespace soilbin::compare {
 
 std::string number(double value) {
@@ -21,6 +23,15 @@ std::string number(const Estimate& estimate, double per_unit) {
   if (!(error > 1e-9 * std::abs(value)) || !std::isfinite(error)) return number(value);
   const int places = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 9);
   return fmt::format("{:.{}f} ± {:.{}f}", value, places, error, places);
+}
+
+double per_unit(const std::string& unit) {
+  const Unit parsed = parse_unit(unit);
+  return parsed.denominator / (parsed.numerator * std::pow(10.0, parsed.decimal));
+}
+
+std::string heading(const std::string& name, const std::string& unit) {
+  return unit == "-" ? name : name + " [" + unit + "]";
 }
 
 }  // namespace soilbin::compare

@@ -13,4 +13,10 @@ std::string number(double value);
 /// "4.18 ± 0.31": the error to two digits, the value to the error's place; the value alone for an error of 0.
 std::string number(const Estimate& estimate, double per_unit = 1.0);
 
+/// What a value in SI is multiplied by to be in a unit: 57.3 for "deg", 1 for "-". Throws as parse_unit.
+double per_unit(const std::string& unit);
+
+/// "friction_angle [deg]"; the name alone for a plain number ("-").
+std::string heading(const std::string& name, const std::string& unit);
+
 }  // namespace soilbin::compare

@@ -49,7 +49,7 @@ Setup setup_of(const BedRecipe& recipe, int threads) {
   const GranularSoil& soil = recipe.soil;
   setup.materials.add({"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio},
                       interaction_of(soil.grain_grain));
-  setup.laws = recipe.laws;
+  setup.laws = with_cohesion_of(soil.grain_grain, recipe.laws);
   const double r = soil.radius_max;
   setup.domain.lower = {-r, -r, -r};
   setup.domain.upper = {recipe.size.length + r, recipe.size.width + r, headroom};
@@ -134,7 +134,13 @@ Interaction interaction_of(const ContactPair& pair) {
   out.restitution = pair.restitution;
   out.sliding_friction = pair.sliding_friction;
   out.rolling_friction = pair.rolling_friction;
+  out.cohesion = pair.cohesion;
   return out;
+}
+
+ContactLaws with_cohesion_of(const ContactPair& pair, ContactLaws laws) {
+  if (pair.cohesion > 0 && laws.cohesion == CohesionLaw::none) laws.cohesion = CohesionLaw::linear;
+  return laws;
 }
 
 double longest_step(const GranularSoil& soil) {

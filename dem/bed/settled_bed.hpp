@@ -45,6 +45,8 @@ struct SettledBed {
 
 /// What grains do to each other, and to tire, of a soil.
 Interaction interaction_of(const ContactPair& pair);
+/// The laws with linear cohesion switched on, where this pair has cohesion and no law of cohesion was chosen.
+ContactLaws with_cohesion_of(const ContactPair& pair, ContactLaws laws);
 
 /// The longest step for grains of this soil that the engine's check lets pass
 /// [s].

@@ -70,6 +70,7 @@ Setup Ride::setup_for(const ContactPair& tire_contact) const {
   Setup setup = bed_.setup;
   const int tire = setup.materials.add({"tire", 1100, rig_.young, rig_.poisson});
   setup.materials.set(grain_material, tire, interaction_of(tire_contact));
+  setup.laws = with_cohesion_of(tire_contact, setup.laws);
   if (rig_.dt > 0) setup.numerics.dt = rig_.dt;
   setup.numerics.skin = rig_.skin * bed_.recipe.soil.radius_max;
   setup.numerics.threads = how_.threads;

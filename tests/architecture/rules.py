@@ -18,8 +18,7 @@ FLOORS = {
 # Where a library's headers may be included: folders (ending in '/') and single files. A single file beside a folder's
 # rule carries its reason.
 LIBRARIES = {
-    "gsl/": ["bekker_wong/gsl.cpp",         # the wrapper: quadrature and roots
-             "compare/loop/detection.cpp"],  # one stateless call, the F distribution's tail: nothing to own or to free
+    "gsl/": ["bekker_wong/gsl.cpp"],  # the wrapper: quadrature, roots, minima, distributions
     "yaml-cpp/": ["scenario/"],
     "Eigen/": ["scenario/", "bekker_wong/", "compare/", "tests/", "bench/"],
     "nlohmann/": ["scenario/", "compare/", "cli/", "tests/", "bench/"],

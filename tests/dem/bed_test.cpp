@@ -124,6 +124,17 @@ TEST(ContentKey, FollowsFromTheGrainsAndNotFromTheTire) {
   EXPECT_NE(content_key(recipe), content_key(other));
 }
 
+TEST(BedKey, CohesionOfGrainsIsPartOfItAndSwitchesItsLawOn) {
+  BedRecipe dry = small_recipe(), moist = dry;
+  moist.soil.grain_grain.cohesion = 2e5;
+  EXPECT_NE(content_key(dry), content_key(moist));
+  EXPECT_EQ(with_cohesion_of(dry.soil.grain_grain, dry.laws).cohesion, CohesionLaw::none);
+  EXPECT_EQ(with_cohesion_of(moist.soil.grain_grain, moist.laws).cohesion, CohesionLaw::linear);
+  moist.laws.cohesion = CohesionLaw::jkr;
+  EXPECT_EQ(with_cohesion_of(moist.soil.grain_grain, moist.laws).cohesion, CohesionLaw::jkr);
+  EXPECT_EQ(interaction_of(moist.soil.grain_grain).cohesion, 2e5);
+}
+
 class SlowBedStore : public ::testing::Test {
  protected:
   void SetUp() override { std::filesystem::remove_all(folder_); }

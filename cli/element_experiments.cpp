@@ -1,0 +1,149 @@
+#include "cli/element_experiments.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "scenario/errors.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+using compare::ContactKind;
+using Eigen::VectorXd;
+
+GranularSoil with_values(const ElementExperiment& experiment, ContactKind kind, const VectorXd& values) {
+  GranularSoil soil = experiment.soil;
+  for (std::size_t j = 0; j < experiment.factors.size(); ++j)
+    compare::value_of(compare::pair_of(soil, kind), experiment.factors[j].name) = values[static_cast<Eigen::Index>(j)];
+  return soil;
+}
+
+/// A text of everything that an experiment follows from, a line a value, in full precision.
+class Identity {
+ public:
+  explicit Identity(const std::string& kind) : text_(kind) {}
+  Identity& add(const char* name, double value) {
+    text_ += fmt::format("\n{} {}", name, value);
+    return *this;
+  }
+  Identity& add(const char* name, const ContactPair& pair) {
+    return add(name, pair.restitution)
+        .add("", pair.sliding_friction)
+        .add("", pair.rolling_friction)
+        .add("", pair.cohesion);
+  }
+  Identity& add(const dem::ContactLaws& laws) {
+    return add("laws", static_cast<int>(laws.normal))
+        .add("", static_cast<int>(laws.rolling))
+        .add("", static_cast<int>(laws.cohesion))
+        .add("", laws.tangential_damping);
+  }
+  /// What is varied is set to 0.
+  Identity& add(const ElementExperiment& experiment, ContactKind kind) {
+    const VectorXd none = VectorXd::Zero(static_cast<Eigen::Index>(experiment.factors.size()));
+    const GranularSoil soil = with_values(experiment, kind, none);
+    add("radius_min", soil.radius_min).add("radius_max", soil.radius_max).add("density", soil.grain_density);
+    add("young", soil.youngs_modulus).add("poisson", soil.poisson_ratio).add("grain_grain", soil.grain_grain);
+    return kind == ContactKind::grain_tire ? add("grain_tire", soil.grain_tire) : *this;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+compare::VirtualTest test_of(const ElementExperiment& experiment, std::string identity) {
+  compare::VirtualTest test;
+  test.identity = std::move(identity);
+  test.factors = experiment.factors;
+  test.targets = experiment.targets;
+  return test;
+}
+
+/// What the engine had to stop is an experiment without an answer.
+template <class Run>
+std::vector<Estimate> answered(const Run& run) {
+  try {
+    return run();
+  } catch (const dem::RunStopped& stopped) {
+    throw NoSolution(stopped.what());
+  }
+}
+
+Estimate mean_of(const std::vector<double>& values) {
+  double mean = 0.0, square = 0.0;
+  const double n = static_cast<double>(values.size());
+  for (const double value : values) mean += value / n;
+  for (const double value : values) square += (value - mean) * (value - mean) / (n - 1);
+  return {mean, std::sqrt(square / n)};
+}
+
+}  // namespace
+
+compare::VirtualTest shear_box_test(const ElementExperiment& experiment, const dem::DirectShearSettings& settings,
+                                    Strength strength) {
+  Identity identity(strength == Strength::peak ? "direct shear, peak" : "direct shear, residual");
+  identity.add(experiment, ContactKind::grain_grain).add(settings.specimen.laws);
+  identity.add("settling_friction", settings.specimen.settling_friction).add("dt", settings.specimen.dt);
+  identity.add("packings", settings.packings).add("length", settings.length).add("width", settings.width);
+  identity.add("height", settings.height).add("travel", settings.travel).add("inertial", settings.inertial);
+  identity.add("residual_share", settings.residual_share).add("peak_window", settings.peak_window);
+  for (const double stress : settings.stresses) identity.add("stress", stress);
+  compare::VirtualTest test = test_of(experiment, identity.text());
+  test.run = [=](const VectorXd& values, std::uint64_t seed) {
+    return answered([&] {
+      dem::DirectShearSettings own = settings;
+      own.specimen.packing = 1 + (seed - 1) * static_cast<std::uint64_t>(settings.packings);
+      const dem::DirectShearResult result =
+          dem::direct_shear(with_values(experiment, ContactKind::grain_grain, values), own, experiment.how);
+      const dem::StrengthLine& line = strength == Strength::peak ? result.peak : result.residual;
+      std::vector<Estimate> answer;
+      for (const compare::Target& target : experiment.targets)
+        answer.push_back(target.name == "cohesion" ? line.cohesion : line.friction_angle);
+      return answer;
+    });
+  };
+  return test;
+}
+
+compare::VirtualTest tilting_board_test(const ElementExperiment& experiment, const dem::TiltingBoardSettings& settings,
+                                        int packings) {
+  if (packings < 2) throw InputError("--packings: an angle with an error needs at least two boards");
+  Identity identity("tilting board");
+  identity.add(experiment, ContactKind::grain_tire).add(settings.laws).add("packings", packings);
+  identity.add("across", settings.across).add("layers", settings.layers).add("rate", settings.rate);
+  identity.add("onset", settings.onset).add("gone", settings.gone).add("steepest", settings.steepest);
+  identity.add("dt", settings.dt).add("gravity", settings.gravity);
+  compare::VirtualTest test = test_of(experiment, identity.text());
+  test.run = [=](const VectorXd& values, std::uint64_t seed) {
+    return answered([&] {
+      std::vector<double> angles;
+      for (int k = 0; k < packings; ++k) {
+        dem::TiltingBoardSettings own = settings;
+        own.packing = 1 + (seed - 1) * static_cast<std::uint64_t>(packings) + static_cast<std::uint64_t>(k);
+        const dem::TiltingBoardResult result =
+            dem::tilting_board(with_values(experiment, ContactKind::grain_tire, values), own, experiment.how);
+        if (!result.slid) throw NoSolution("the sand holds up to the steepest tilt");
+        angles.push_back(result.onset);
+      }
+      return std::vector<Estimate>{mean_of(angles)};
+    });
+  };
+  return test;
+}
+
+std::vector<std::string> target_names(ContactKind kind) {
+  if (kind == ContactKind::grain_tire) return {"board_angle"};
+  return {"friction_angle", "cohesion"};
+}
+
+std::string unit_of_target(const std::string& name) { return name == "cohesion" ? "kPa" : "deg"; }
+
+std::vector<compare::Factor> usual_factors(ContactKind kind) {
+  if (kind == ContactKind::grain_tire)
+    return {{"restitution", 0.3, 0.7, "-"}, {"sliding_friction", 0.3, 0.9, "-"}, {"rolling_friction", 0.1, 0.7, "-"}};
+  return {{"sliding_friction", 0.1, 0.9, "-"}, {"rolling_friction", 0.0, 0.5, "-"}, {"cohesion", 0.0, 1e6, "kJ/m^3"}};
+}
+
+}  // namespace soilbin::cli

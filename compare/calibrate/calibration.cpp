@@ -1,0 +1,173 @@
+#include "compare/calibrate/calibration.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/calibrate/likely_points.hpp"
+#include "compare/design/space_filling.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+void check(const CalibrationOptions& options, int design_runs) {
+  if (!(options.near > 0 && options.within > 0)) throw InputError("tolerances of a calibration are above 0");
+  if (!(options.probability > 0 && options.probability < 1))
+    throw InputError("the probability that ends a calibration lies between 0 and 1");
+  if (options.most_runs < design_runs)
+    throw InputError(
+        fmt::format("{} runs are less than the {} of the design {}", options.most_runs, design_runs, options.design));
+  if (options.candidates < 1 || options.cloud < 2)
+    throw InputError("a calibration needs at least one candidate and a cloud of at least two points");
+}
+
+/// The work of one calibration: runs as they are made, and what they teach.
+class Work {
+ public:
+  Work(const VirtualTest& test, const CalibrationOptions& options, ExperimentStore& store)
+      : test_(test), options_(options), store_(store) {}
+
+  Calibration calibrate() {
+    const LevelTable design = first_columns(named_array(options_.design), static_cast<int>(test_.factors.size()));
+    check(options_, design.runs());
+    run_design(design);
+    analyse(design);
+    run_candidates();
+    refine();
+    return conclude();
+  }
+
+ private:
+  bool may_run() const { return static_cast<int>(answer_.runs.size()) < options_.most_runs; }
+
+  void tell(Stage stage, double chance) const {
+    if (!options_.progress) return;
+    CalibrationProgress progress{stage, static_cast<int>(answer_.runs.size()), options_.most_runs, 0.0, chance};
+    for (const CalibrationRun& run : answer_.runs) progress.seconds_a_run += run.experiment.seconds;
+    if (progress.done > 0) progress.seconds_a_run /= progress.done;
+    options_.progress(progress);
+  }
+
+  /// From the store, or made now and kept. A repetition at the same point takes the next seed.
+  void run(Stage stage, const VectorXd& values, double chance = 0.0) {
+    std::uint64_t seed = options_.seed;
+    for (const CalibrationRun& before : answer_.runs) seed += before.experiment.values == values;
+    tell(stage, chance);
+    auto [experiment, from_store] = experiment_at(test_, values, seed, store_);
+    answer_.runs.push_back({stage, std::move(experiment), from_store});
+  }
+
+  void run_design(const LevelTable& design) {
+    const Eigen::MatrixXd points = unit_points(design);
+    for (Index i = 0; i < points.rows(); ++i) run(Stage::design, from_unit(test_.factors, points.row(i)));
+  }
+
+  /// Range analysis and analysis of variance, where every run of the design has a result. The runs' own errors are the
+  /// measure only where no column is free: a column also holds interactions of other factors, which they don't know of.
+  void analyse(const LevelTable& design) {
+    for (const CalibrationRun& made : answer_.runs)
+      if (made.experiment.results.empty()) return;
+    std::vector<std::string> names;
+    for (const Factor& factor : test_.factors) names.push_back(factor.name);
+    for (std::size_t t = 0; t < test_.targets.size(); ++t) {
+      std::vector<double> responses;
+      double variance = 0.0;
+      bool told = design.columns() > design.levels;
+      for (const CalibrationRun& made : answer_.runs) {
+        const Estimate& result = made.experiment.results[t];
+        responses.push_back(result.value);
+        variance += result.std_error * result.std_error / design.runs();
+        told = told && result.std_error > 0;
+      }
+      answer_.analyses.push_back(
+          {range_analysis(design, responses),
+           analysis_of_variance(design, names, responses, told ? std::optional(variance) : std::nullopt)});
+    }
+  }
+
+  LikelyPoints learn() const {
+    return LikelyPoints(test_, answer_.runs, {options_.within, options_.cloud, options_.seed});
+  }
+
+  void run_candidates() {
+    const LikelyPoints points = learn();
+    for (const Candidate& candidate : points.spread_out(options_.near, options_.candidates))
+      if (may_run()) run(Stage::candidates, candidate.values, candidate.chance);
+  }
+
+  /// Runs the likeliest point until one that was run is likely enough.
+  void refine() {
+    while (may_run()) {
+      const LikelyPoints points = learn();
+      const Candidate likeliest = points.likeliest(), tried = points.likeliest_tried();
+      if (tried.chance >= options_.probability) return;
+      run(Stage::refinement, likeliest.values, tried.chance);
+    }
+  }
+
+  Calibration conclude() {
+    const LikelyPoints points = learn();
+    answer_.candidates = points.tried_near(options_.near, options_.candidates);
+    answer_.best = points.likeliest_tried();
+    choose();
+    answer_.reached = answer_.best.chance >= options_.probability;
+    answer_.held_out = points.held_out();
+    answer_.extra_sd = points.extra_sd();
+    answer_.smallest_chi_square = points.smallest_chi_square();
+    points.weigh(answer_.parameters, answer_.told);
+    return std::move(answer_);
+  }
+
+  void choose() {
+    if (!options_.decide || answer_.candidates.empty()) return;
+    const std::vector<double> errors = options_.decide(answer_.candidates);
+    if (errors.size() != answer_.candidates.size())
+      throw std::invalid_argument("whoever decides between candidates gives an error for each");
+    const auto least = std::min_element(errors.begin(), errors.end());
+    answer_.best = answer_.candidates[static_cast<std::size_t>(least - errors.begin())];
+  }
+
+  const VirtualTest& test_;
+  const CalibrationOptions& options_;
+  ExperimentStore& store_;
+  Calibration answer_;
+};
+
+}  // namespace
+
+void check(const VirtualTest& test) {
+  if (test.factors.empty() || test.targets.empty())
+    throw InputError("a calibration needs at least one factor to vary and one target to reach");
+  for (const Factor& factor : test.factors)
+    if (!(factor.lower < factor.upper && std::isfinite(factor.lower) && std::isfinite(factor.upper)))
+      throw InputError(fmt::format("factor '{}' goes from {} to {}: the lower bound must be below the upper one",
+                                   factor.name, factor.lower, factor.upper));
+  for (const Target& target : test.targets)
+    if (!std::isfinite(target.measured.value) || target.measured.value == 0 || !(target.measured.std_error >= 0))
+      throw InputError(fmt::format("target '{}' is {} with error {}: tolerances are shares of it, so it can't be 0",
+                                   target.name, target.measured.value, target.measured.std_error));
+}
+
+Calibration calibrate(const VirtualTest& test, const CalibrationOptions& options, ExperimentStore& store) {
+  check(test);
+  return Work(test, options, store).calibrate();
+}
+
+std::string word_of(Stage stage) {
+  switch (stage) {
+    case Stage::design:
+      return "design";
+    case Stage::candidates:
+      return "candidates";
+    case Stage::refinement:
+      return "refinement";
+  }
+  return "";
+}
+
+}  // namespace soilbin::compare

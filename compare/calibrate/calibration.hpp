@@ -1,0 +1,91 @@
+// Calibration of contact parameters by virtual tests, after Zhou et al., section 3.2: an orthogonal design, range
+// analysis, candidates near the target; then, beyond the paper, a surrogate that knows how sure it is, and further runs
+// until the target is met with a stated probability. docs/calibration.md has the maths.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/calibrate/experiment_store.hpp"
+#include "compare/design/gaussian_process.hpp"
+#include "compare/design/level_effects.hpp"
+
+namespace soilbin::compare {
+
+enum class Stage {
+  design,      ///< the orthogonal array
+  candidates,  ///< points that the surrogate puts near the target, spread out
+  refinement,  ///< the likeliest points, until one is good enough
+};
+
+/// An experiment, and why it was made.
+struct CalibrationRun {
+  Stage stage = Stage::design;
+  Experiment experiment;
+  bool from_store = false;
+};
+
+/// A point of the box and what is known of it.
+struct Candidate {
+  Eigen::VectorXd values;           ///< of the factors [SI]
+  std::vector<Estimate> predicted;  ///< of each target, by the surrogates of all runs [SI]
+  double chi_square = 0.0;          ///< sum over targets of (predicted - measured)^2/(both errors squared)
+  double chance = 0.0;              ///< that every target is met within CalibrationOptions::within
+  int runs = 0;                     ///< made at this very point
+};
+
+/// How far a calibration is. Called before each run; may throw to stop, and what is finished is in the store.
+struct CalibrationProgress {
+  Stage stage = Stage::design;
+  int done = 0;                ///< runs so far, those from the store included
+  int at_most = 0;             ///< runs in all
+  double seconds_a_run = 0.0;  ///< mean of those made; 0 before the first
+  double chance = 0.0;         ///< best one so far, in the refinement
+};
+
+struct CalibrationOptions {
+  std::string design = "L9";
+  double near = 0.05;         ///< candidates lie within this share of each target (the paper's 5 %)
+  double within = 0.03;       ///< the end: each target met within this share of it ...
+  double probability = 0.90;  ///< ... with this probability
+  int candidates = 4;         ///< at most
+  int most_runs = 30;         ///< in all
+  std::uint64_t seed = 1;     ///< of the packings' first, the cloud and the surrogates
+  int cloud = 4096;           ///< points of the box that are looked at
+  std::function<void(const CalibrationProgress&)> progress{};
+  /// The errors that another experiment, such as the soil bin, finds for the candidates, one each, any unit; the
+  /// smallest is chosen. Absent: the likeliest candidate.
+  std::function<std::vector<double>(const std::vector<Candidate>&)> decide{};
+};
+
+/// What the design says about one target.
+struct TargetAnalysis {
+  RangeAnalysis ranges;
+  AnalysisOfVariance variance;
+};
+
+/// What a calibration found.
+struct Calibration {
+  std::vector<CalibrationRun> runs;
+  std::vector<TargetAnalysis> analyses;  ///< a target each; empty where a run of the design failed
+  std::vector<LeaveOneOut> held_out;     ///< a target each: the final surrogate's own test
+  std::vector<double> extra_sd;          ///< a target each: scatter that the runs' own errors don't tell [SI]
+  std::vector<Candidate> candidates;     ///< run, and still predicted near every target; the likeliest first
+  Candidate best;                        ///< chosen: by `decide`, else the likeliest point that was run
+  bool reached = false;                  ///< whether best.chance is at least the probability asked for
+  std::vector<Estimate> parameters;      ///< of the factors, given the targets and a flat prior in the box [SI]
+  std::vector<double> told;          ///< 1 - sd of `parameters` over that of the flat prior: 0, the test says nothing
+  double smallest_chi_square = 0.0;  ///< over the cloud; large where no point of the box meets the targets
+};
+
+/// Runs the stages. Work found in the store isn't done again: the same test, options and store give the same answer
+/// whether it was stopped in between or not. Throws InputError for a test or options that make no sense, NoSolution
+/// where too many experiments fail to learn from the rest, and what `progress` throws.
+Calibration calibrate(const VirtualTest& test, const CalibrationOptions& options, ExperimentStore& store);
+
+/// "design", "candidates", "refinement".
+std::string word_of(Stage stage);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,106 @@
+// A calibration as JSON.
+#include <cmath>
+
+#include "compare/calibrate/calibration_words.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json json_of(const Estimate& estimate) {
+  return {{"value", number_or_null(estimate.value)}, {"std_error", number_or_null(estimate.std_error)}};
+}
+
+Json values_json(const VirtualTest& test, const Eigen::VectorXd& values) {
+  Json json = Json::object();
+  for (std::size_t j = 0; j < test.factors.size(); ++j)
+    json[test.factors[j].name] = values[static_cast<Eigen::Index>(j)];
+  return json;
+}
+
+Json results_json(const VirtualTest& test, const std::vector<Estimate>& results) {
+  Json json = Json::object();
+  for (std::size_t t = 0; t < results.size(); ++t) json[test.targets[t].name] = json_of(results[t]);
+  return json;
+}
+
+Json json_of(const VirtualTest& test, const Candidate& candidate) {
+  return {{"values", values_json(test, candidate.values)},
+          {"predicted", results_json(test, candidate.predicted)},
+          {"chi_square", number_or_null(candidate.chi_square)},
+          {"chance", candidate.chance},
+          {"runs", candidate.runs}};
+}
+
+Json json_of(const VarianceRow& row) {
+  return {{"source", row.source}, {"sum_of_squares", row.sum_of_squares}, {"freedom", row.freedom},
+          {"pooled", row.pooled}, {"f", number_or_null(row.f)},           {"p_value", number_or_null(row.p_value)}};
+}
+
+Json analysis_json(const VirtualTest& test, const TargetAnalysis& analysis) {
+  Json ranges = Json::array(), rows = Json::array(), order = Json::array();
+  for (std::size_t j = 0; j < test.factors.size(); ++j) {
+    const FactorRange& factor = analysis.ranges.factors[j];
+    ranges.push_back({{"factor", test.factors[j].name}, {"K", factor.sums}, {"k", factor.means}, {"R", factor.range}});
+    rows.push_back(json_of(analysis.variance.factors[j]));
+  }
+  for (const int j : analysis.ranges.order) order.push_back(test.factors[static_cast<std::size_t>(j)].name);
+  if (analysis.variance.left.freedom > 0) rows.push_back(json_of(analysis.variance.left));
+  return {{"ranges", ranges},
+          {"order", order},
+          {"variance", rows},
+          {"total", analysis.variance.total},
+          {"error", sentence(analysis.variance)}};
+}
+
+Json runs_json(const VirtualTest& test, const Calibration& calibration) {
+  Json runs = Json::array();
+  for (const CalibrationRun& run : calibration.runs) {
+    Json json{{"stage", word_of(run.stage)},       {"values", values_json(test, run.experiment.values)},
+              {"seed", run.experiment.seed},       {"results", results_json(test, run.experiment.results)},
+              {"seconds", run.experiment.seconds}, {"from_store", run.from_store}};
+    if (!run.experiment.error.empty()) json["error"] = run.experiment.error;
+    runs.push_back(std::move(json));
+  }
+  return runs;
+}
+
+}  // namespace
+
+Json to_json(const VirtualTest& test, const CalibrationOptions& options, const Calibration& calibration) {
+  Json factors = Json::array(), targets = Json::array(), candidates = Json::array();
+  for (std::size_t j = 0; j < test.factors.size(); ++j)
+    factors.push_back({{"name", test.factors[j].name},
+                       {"lower", test.factors[j].lower},
+                       {"upper", test.factors[j].upper},
+                       {"given_targets", json_of(calibration.parameters[j])},
+                       {"told", calibration.told[j]}});
+  for (std::size_t t = 0; t < test.targets.size(); ++t) {
+    Json target{{"name", test.targets[t].name},
+                {"measured", json_of(test.targets[t].measured)},
+                {"held_out_rms", calibration.held_out[t].rms()},
+                {"extra_sd", calibration.extra_sd[t]}};
+    if (!calibration.analyses.empty()) target["design"] = analysis_json(test, calibration.analyses[t]);
+    targets.push_back(std::move(target));
+  }
+  for (const Candidate& candidate : calibration.candidates) candidates.push_back(json_of(test, candidate));
+  return {{"format", "soilbin-calibration/1"},
+          {"test", test.identity},
+          {"design", options.design},
+          {"near", options.near},
+          {"within", options.within},
+          {"probability", options.probability},
+          {"seed", options.seed},
+          {"reached", calibration.reached},
+          {"best", json_of(test, calibration.best)},
+          {"factors", factors},
+          {"targets", targets},
+          {"candidates", candidates},
+          {"runs", runs_json(test, calibration)},
+          {"sentences", calibration_sentences(test, options, calibration)}};
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,42 @@
+// What a calibration found: as sentences, tables, JSON, and as a soil that other commands take.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "compare/calibrate/calibration.hpp"
+#include "compare/report/page.hpp"
+#include "scenario/soil.hpp"
+
+namespace soilbin::compare {
+
+/// The verdict, then what the design, the candidates and the targets say. One string a sentence.
+std::vector<std::string> calibration_sentences(const VirtualTest& test, const CalibrationOptions& options,
+                                               const Calibration& calibration);
+
+/// Range analysis and analysis of variance of one target: a row a factor with k_i, R, sum of squares, F and p.
+HtmlTable level_table(const VirtualTest& test, const Calibration& calibration, std::size_t target);
+/// Every run: stage, values, results.
+HtmlTable runs_table(const VirtualTest& test, const Calibration& calibration);
+/// Candidates: values, what is predicted of them, chi square, chance.
+HtmlTable candidates_table(const VirtualTest& test, const Calibration& calibration);
+
+/// soilbin-calibration/1, all in SI.
+nlohmann::ordered_json to_json(const VirtualTest& test, const CalibrationOptions& options,
+                               const Calibration& calibration);
+
+/// A contact pair of a soil by its key in files: "grain_grain" or "grain_tire".
+enum class ContactKind { grain_grain, grain_tire };
+std::string key_of(ContactKind kind);
+ContactPair& pair_of(GranularSoil& soil, ContactKind kind);
+
+/// A contact's number by its name: "sliding_friction". Throws std::invalid_argument for an unknown one.
+double& value_of(ContactPair& pair, const std::string& name);
+
+/// The soil with the calibrated values in this contact; each names, as its source, the test, what it reached, and how
+/// well the targets determine the value. Factors are named as the contact's numbers.
+Soil calibrated_soil(Soil soil, ContactKind kind, const VirtualTest& test, const CalibrationOptions& options,
+                     const Calibration& calibration);
+
+}  // namespace soilbin::compare

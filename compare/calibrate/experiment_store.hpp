@@ -1,0 +1,51 @@
+// Finished experiments, kept in a file, so that work that was stopped goes on where it was.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/calibrate/virtual_test.hpp"
+
+namespace soilbin::compare {
+
+/// One experiment: what was asked and what came of it.
+struct Experiment {
+  Eigen::VectorXd values;  ///< of the factors [SI]
+  std::uint64_t seed = 1;
+  std::vector<Estimate> results;  ///< of the targets; empty where it failed
+  std::string error;              ///< why it failed; empty where there are results
+  double seconds = 0.0;           ///< of the clock on the wall
+};
+
+/// Experiments by everything that made them: the test's identity, its factors' and targets' names, the values to the
+/// last bit, the seed. One JSON file (soilbin-experiments/1), written anew as a whole after each experiment.
+class ExperimentStore {
+ public:
+  /// Reads the file where there is one. Without a path nothing is kept on disk. Throws InputError that names the file
+  /// for one that is no store or is damaged.
+  explicit ExperimentStore(std::filesystem::path file = {});
+
+  std::optional<Experiment> find(const VirtualTest& test, const Eigen::VectorXd& values, std::uint64_t seed) const;
+  /// Keeps it and writes the file. Throws std::runtime_error where that fails.
+  void keep(const VirtualTest& test, const Experiment& experiment);
+  std::size_t size() const;
+
+ private:
+  struct OfOneTest {
+    std::string key;
+    std::vector<Experiment> experiments;
+  };
+  std::string text() const;
+
+  std::filesystem::path file_;
+  std::vector<OfOneTest> tests_;
+};
+
+/// The experiment of this question: from the store (second: true), or made now, timed and kept. NoSolution and results
+/// that aren't finite become its error; what else the test throws goes through.
+std::pair<Experiment, bool> experiment_at(const VirtualTest& test, const Eigen::VectorXd& values, std::uint64_t seed,
+                                          ExperimentStore& store);
+
+}  // namespace soilbin::compare

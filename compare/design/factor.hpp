@@ -1,0 +1,30 @@
+// What is varied: named numbers between bounds, and the unit cube that designs and surrogates work in.
+#pragma once
+
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "compare/design/orthogonal_array.hpp"
+
+namespace soilbin::compare {
+
+/// A number that is varied between two bounds, lower < upper, both in SI.
+struct Factor {
+  std::string name;  ///< as in a file: "sliding_friction"
+  double lower = 0.0;
+  double upper = 1.0;
+  std::string unit = "-";  ///< in which people read it
+};
+
+/// Levels spread evenly from the lower to the upper bound, both included. level: 0 .. levels - 1.
+double level_value(const Factor& factor, int level, int levels);
+
+/// A point of the box as one of the unit cube, and back.
+Eigen::VectorXd to_unit(const std::vector<Factor>& factors, const Eigen::VectorXd& values);
+Eigen::VectorXd from_unit(const std::vector<Factor>& factors, const Eigen::VectorXd& unit);
+
+/// The design's runs as points of the unit cube, a row each.
+Eigen::MatrixXd unit_points(const LevelTable& design);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,93 @@
+#include "compare/failure_map/failure_map.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/design/next_point.hpp"
+#include "compare/design/space_filling.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Samples samples_of(const FailureQuestion& question, const std::vector<FailureRow>& rows) {
+  std::vector<const FailureRow*> answered;
+  for (const FailureRow& row : rows)
+    if (row.difference) answered.push_back(&row);
+  const Index n = static_cast<Index>(answered.size()), d = static_cast<Index>(question.factors.size());
+  if (n < d + 2)
+    throw NoSolution(
+        fmt::format("{}: only {} of {} conditions have an answer of both models", question.name, n, rows.size()));
+  Samples samples{MatrixXd(n, d), VectorXd(n), VectorXd(n)};
+  for (Index i = 0; i < n; ++i) {
+    const FailureRow& row = *answered[static_cast<std::size_t>(i)];
+    samples.x.row(i) = to_unit(question.factors, row.values);
+    samples.y[i] = row.difference->value;
+    samples.variance[i] = row.difference->std_error * row.difference->std_error;
+  }
+  return samples;
+}
+
+void run(const FailureQuestion& question, const FailureMapOptions& options, const VectorXd& unit, FailureMap& map) {
+  if (options.progress) options.progress(static_cast<int>(map.rows.size()), options.first + options.at_boundary);
+  const VectorXd values = from_unit(question.factors, unit);
+  map.rows.push_back({values, question.difference(values)});
+}
+
+void learn(const FailureQuestion& question, std::uint64_t seed, FailureMap& map) {
+  map.surrogate.clear();
+  map.surrogate.emplace_back(samples_of(question, map.rows), SurrogateOptions{.seed = seed});
+  map.held_out = map.surrogate[0].mode().leave_one_out();
+}
+
+/// Whether a place was already asked: a condition without an answer is not asked again and again.
+bool asked(const FailureQuestion& question, const FailureMap& map, const VectorXd& unit) {
+  return std::any_of(map.rows.begin(), map.rows.end(), [&](const FailureRow& row) {
+    return (to_unit(question.factors, row.values) - unit).norm() < 0.02;
+  });
+}
+
+}  // namespace
+
+bool FailureRow::beyond(double tolerance) const {
+  return difference && std::abs(difference->value) > std::max(tolerance, 2 * difference->std_error);
+}
+
+Estimate FailureMap::at(const FailureQuestion& question, const VectorXd& values) const {
+  return surrogate.at(0).predict(to_unit(question.factors, values));
+}
+
+void add_row(const FailureQuestion& question, const VectorXd& values, FailureMap& map, std::uint64_t seed) {
+  map.rows.push_back({values, question.difference(values)});
+  learn(question, seed, map);
+}
+
+FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions& options) {
+  const int d = static_cast<int>(question.factors.size());
+  FailureMap map;
+  const MatrixXd start = maximin_latin_hypercube(options.first, d, options.seed);
+  for (Index i = 0; i < start.rows(); ++i) run(question, options, start.row(i), map);
+  const MatrixXd cloud = latin_hypercube(options.cloud, d, options.seed + 1);
+  for (int k = 0; k < options.at_boundary; ++k) {
+    const GaussianProcess process = fit_surrogate(samples_of(question, map.rows), {.starts = 3, .seed = options.seed});
+    MatrixXd fresh(0, d);
+    for (Index i = 0; i < cloud.rows(); ++i)
+      if (!asked(question, map, cloud.row(i))) {
+        fresh.conservativeResize(fresh.rows() + 1, d);
+        fresh.row(fresh.rows() - 1) = cloud.row(i);
+      }
+    if (fresh.rows() == 0) break;
+    const Index next = next_point(process, fresh, [&](const Estimate& e) { return straddle(e, question.tolerance); });
+    run(question, options, fresh.row(next), map);
+  }
+  learn(question, options.seed, map);
+  return map;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,83 @@
+// Where one model can stand for another: a map of their difference over conditions, learnt from few runs of both, its
+// boundary, and sentences that each rest on a row of the map.
+//
+//   FailureMap map = map_failures(question, options);
+//   if (const auto clause = agreement(question, map, {Role::limited, Role::held})) print(clause->text);
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/design/factor.hpp"
+#include "compare/design/gaussian_process.hpp"
+
+namespace soilbin::compare {
+
+/// A share of the load by which two models differ at a condition, analytic less grains, and its standard error.
+using Difference = std::function<std::optional<Estimate>(const Eigen::VectorXd& values)>;
+
+/// What is compared: one kind of incline, say, over load, lug height, angle and slip. Several kinds are several
+/// questions.
+struct FailureQuestion {
+  std::string name;             ///< "longitudinal incline"
+  std::vector<Factor> factors;  ///< values in SI
+  Difference difference;        ///< nothing where either model has no answer
+  double tolerance = 0.10;      ///< share of the load beyond which the models disagree
+};
+
+struct FailureMapOptions {
+  int first = 24;        ///< runs of the maximin Latin hypercube
+  int at_boundary = 16;  ///< further runs, each where the boundary may be (straddle)
+  std::uint64_t seed = 1;
+  int cloud = 2000;                                     ///< points among which these are chosen
+  std::function<void(int done, int total)> progress{};  ///< before each run; may throw
+};
+
+/// A condition that was run.
+struct FailureRow {
+  Eigen::VectorXd values;               ///< [SI]
+  std::optional<Estimate> difference;   ///< of both models; nothing where one has no answer
+  bool beyond(double tolerance) const;  ///< |difference| above the tolerance and above 2 standard errors
+};
+
+struct FailureMap {
+  std::vector<FailureRow> rows;
+  std::vector<Surrogate> surrogate;  ///< one
+  LeaveOneOut held_out;              ///< the surrogate's own test, in shares of the load
+  /// Difference at values of the factors, as the surrogate has it.
+  Estimate at(const FailureQuestion& question, const Eigen::VectorXd& values) const;
+};
+
+/// Runs one more condition and learns from it.
+void add_row(const FailureQuestion& question, const Eigen::VectorXd& values, FailureMap& map, std::uint64_t seed = 1);
+
+/// Throws NoSolution where too few conditions have an answer of both models.
+FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions& options = {});
+
+/// The largest box of conditions in which the models agree, and what it rests on.
+struct Clause {
+  std::string text;                        ///< in plain words
+  std::vector<double> upper;               ///< of each factor; the lower end is the question's, or the held value [SI]
+  int rows = 0;                            ///< that were run in the box
+  double largest = 0.0;                    ///< |difference| among them, share of the load
+  std::optional<Eigen::VectorXd> witness;  ///< the row with it
+};
+
+/// How a clause speaks of a factor.
+enum class Role {
+  limited,  ///< "up to ...": the box reaches from the lower bound to a limit that is sought
+  held,     ///< at its lower bound: "without lugs"
+  whole,    ///< over all of its range, not mentioned
+};
+
+/// The box, from the lower corner, of the largest share of the limited factors' ranges within which |difference| stays
+/// below the tolerance with one-sided confidence 95 % at every node of a grid of `nodes` a factor. roles: one a factor.
+/// The box's most doubtful node is run (and added to the map) and the box found again, until that node is a row that
+/// agrees, at most `rounds` times: so a clause rests on the row that was likeliest to overturn it. Nothing where the
+/// models may disagree in the lower corner, or where no row lies in the box in the end.
+std::optional<Clause> agreement(const FailureQuestion& question, FailureMap& map, const std::vector<Role>& roles,
+                                int nodes = 13, int rounds = 8);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,23 @@
+// Peak and residual of a curve that fluctuates.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "scenario/estimate.hpp"
+
+namespace soilbin::dem {
+
+struct Mobilised {
+  Estimate peak, residual;
+  double peak_at = 0;             ///< place of the peak, the middle of its window
+  std::size_t residual_from = 0;  ///< first sample of the residual part
+};
+
+/// The residual is the mean over the last `residual_share` of the way, its error from block averages
+/// (mean_with_error). The peak is the highest mean over `window` of the way; its error is that of its window's mean,
+/// at least the residual's. `way` rises evenly; both have the same length, at least 2.
+Mobilised peak_and_residual(std::span<const double> way, std::span<const double> curve, double window,
+                            double residual_share);
+
+}  // namespace soilbin::dem

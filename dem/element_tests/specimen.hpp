@@ -1,0 +1,81 @@
+// What the element tests share: a specimen of a soil's grains, walls that press at a stress, a rate that is slow
+// enough, and the stepping with progress and stop.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "dem/bed/bed_store.hpp"
+
+namespace soilbin::dem {
+
+/// How the grains of a specimen are put together; as in BedRecipe.
+struct SpecimenSettings {
+  std::uint64_t packing = 1;     ///< seed of the random places and radii
+  double settling_friction = 1;  ///< share of friction while grains fall, 0 .. 1; 1 gives a loose, 0 the densest
+  double dt = 0;                 ///< [s]; 0: longest_step
+  ContactLaws laws = BedRecipe{}.laws;
+};
+
+/// Mean diameter of a soil's grains [m].
+double mean_diameter(const GranularSoil& soil);
+
+/// The recipe of a bed that fills a box of this size, to be poured, levelled and settled by settle_bed.
+BedRecipe specimen_recipe(const GranularSoil& soil, const BedSize& size, const SpecimenSettings& settings);
+
+/// That bed: from `beds` where there is one, else settled now.
+std::shared_ptr<const SettledBed> specimen_bed(const BedRecipe& recipe, const WorkOptions& how, BedStore* beds);
+
+/// A setup with the bed's material and laws, a domain that leaves walls room to move, and no bodies. Other materials
+/// are added to it before the grains.
+Setup specimen_setup(const SettledBed& bed, const WorkOptions& how);
+
+/// Adds a material of walls, as stiff as the grains, that rubs on them with this share of the grains' own sliding and
+/// rolling friction and that of their cohesion; gives its index.
+int add_wall_material(Setup& setup, const GranularSoil& soil, double share_of_friction);
+
+/// Puts the bed's grains, at rest, where they lie in the bed; the histories of their contacts start anew. Gives the
+/// height of the highest one's top [m].
+double put_grains(Simulation& simulation, const SettledBed& bed);
+
+/// A servo that keeps `stress` [Pa] on a wall of `area` [m^2]; its gain follows from the stiffness of a layer of Hertz
+/// contacts at this stress, so that it neither rings nor lags. `direction` points from the grains to the wall.
+Servo press(const Vec3& direction, double stress, double area, const GranularSoil& soil, double dt);
+
+/// I = rate d sqrt(rho/p): inertial number of a shear rate [1/s] at pressure p [Pa]. Below 1e-3 dense grains count as
+/// quasi-static (after GDR MiDi 2004 and da Cruz et al. 2005).
+double inertial_number(double rate, double pressure, const GranularSoil& soil);
+/// The rate [1/s] that has this inertial number.
+double shear_rate(double inertial_number, double pressure, const GranularSoil& soil);
+
+/// Void ratio of the grains away from the bounds of a box of this size, filled to `height` [m].
+double void_ratio_within(const Simulation& simulation, const BedSize& size, double height);
+
+/// A mesh moved by a vector, as the surface of a body.
+MeshSurface surface_at(const TriangleMesh& mesh, const Vec3& by);
+
+/// Steps a simulation, tells progress and stops when asked to. Shares of the work are counted in steps.
+class SteppedWork {
+ public:
+  explicit SteppedWork(const WorkOptions& how) : how_(how) {}
+  /// Work that is still to come, so that the share done is known.
+  void expect(double steps) { expected_ += steps; }
+  void begin(std::string_view stage) { stage_ = stage; }
+  /// One step. Throws Stopped.
+  void step(Simulation& simulation);
+  /// Runs until the wall `body`, kept by its servo, has carried its target to 1 % on average over 0.02 s three times in
+  /// a row while it moved less than 1e-4 of `length` each time. Throws RunStopped after `at_most` [s].
+  void settle_wall(Simulation& simulation, int body, double length, double at_most = 10);
+
+ private:
+  void tell() const;
+
+  const WorkOptions& how_;
+  std::string_view stage_ = "pressing";
+  double expected_ = 0, done_ = 0;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace soilbin::dem

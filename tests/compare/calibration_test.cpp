@@ -1,0 +1,255 @@
+// Calibration, on stand-ins whose answers are formulas.
+#include "compare/calibrate/calibration.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <random>
+
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Eigen::VectorXd;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// A tilting board in one line: grains slide where friction gives way or roll where rolling friction does; restitution
+/// does nothing. Noise of 0.2 deg, told as such.
+double board_angle(const VectorXd& v) {
+  const double slide = std::atan(v[1]), roll = std::atan(0.25 + 0.7 * v[2]);
+  return (slide * roll) / std::hypot(slide, roll) * 1.35;
+}
+
+VirtualTest board(double noise = 0.2 * degree, int* calls = nullptr) {
+  VirtualTest test;
+  test.identity = "stand-in board";
+  test.factors = {
+      {"restitution", 0.3, 0.7, "-"}, {"sliding_friction", 0.3, 0.9, "-"}, {"rolling_friction", 0.1, 0.7, "-"}};
+  test.targets = {{"board_angle", {31.47 * degree, 0}, "deg"}};
+  test.run = [=](const VectorXd& v, std::uint64_t seed) -> std::vector<Estimate> {
+    if (calls != nullptr) ++*calls;
+    std::mt19937_64 random(seed + static_cast<std::uint64_t>(1e6 * v.sum()));
+    return {{board_angle(v) + noise * std::normal_distribution<double>()(random), noise}};
+  };
+  return test;
+}
+
+/// Two targets: friction angle from friction, cohesion from cohesion and friction.
+VirtualTest shear_box() {
+  VirtualTest test;
+  test.identity = "stand-in shear box";
+  test.factors = {
+      {"sliding_friction", 0.2, 1.0, "-"}, {"rolling_friction", 0.0, 0.4, "-"}, {"cohesion", 0.0, 4e5, "kJ/m^3"}};
+  test.targets = {{"friction_angle", {30.72 * degree, 0.5 * degree}, "deg"}, {"cohesion", {3630, 200}, "kPa"}};
+  test.run = [](const VectorXd& v, std::uint64_t) -> std::vector<Estimate> {
+    const double phi = std::atan(0.25 + 0.5 * std::tanh(1.5 * v[0]) * (0.6 + v[1]));
+    return {{phi, 0.1 * degree}, {0.02 * v[2] * std::tan(phi), 30}};
+  };
+  return test;
+}
+
+class Folder {
+ public:
+  Folder() : path_(fs::temp_directory_path() / fs::path("soilbin-calibration-" + std::to_string(::getpid()))) {
+    fs::create_directories(path_);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() { fs::remove_all(path_); }
+  fs::path operator/(const char* name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+TEST(Calibration, FindsABoardsAngleWithinThreePercent) {
+  ExperimentStore store;
+  const Calibration found = calibrate(board(), {}, store);
+  EXPECT_TRUE(found.reached);
+  EXPECT_GE(found.best.runs, 1);
+  EXPECT_NEAR(board_angle(found.best.values), 31.47 * degree, 0.03 * 31.47 * degree);  // the truth, not the surrogate
+  EXPECT_GE(found.best.chance, 0.9);
+  EXPECT_LT(found.runs.size(), 20U);
+}
+
+TEST(Calibration, RangeAnalysisSeesWhichFactorDoesNothing) {
+  ExperimentStore store;
+  const Calibration found = calibrate(board(), {}, store);
+  ASSERT_EQ(found.analyses.size(), 1U);
+  EXPECT_EQ(found.analyses[0].ranges.order.back(), 0);  // restitution
+  const AnalysisOfVariance& variance = found.analyses[0].variance;
+  EXPECT_EQ(variance.error_from, ErrorFrom::free_columns);
+  EXPECT_GT(variance.factors[0].p_value, 0.05);
+  EXPECT_GT(variance.factors[1].f, 5 * variance.factors[0].f);
+  EXPECT_LT(found.told[0], 0.15);  // one angle can't tell three numbers
+  EXPECT_GT(found.told[1], found.told[0]);
+}
+
+TEST(Calibration, CandidatesAreRunNearAndDifferent) {
+  ExperimentStore store;
+  const Calibration found = calibrate(board(), {}, store);
+  ASSERT_GE(found.candidates.size(), 3U);
+  for (const Candidate& candidate : found.candidates) {
+    EXPECT_GE(candidate.runs, 1);
+    EXPECT_NEAR(candidate.predicted[0].value, 31.47 * degree, 0.05 * 31.47 * degree);
+  }
+}
+
+TEST(Calibration, MeetsTwoTargetsAtOnce) {
+  ExperimentStore store;
+  const VirtualTest test = shear_box();
+  const Calibration found = calibrate(test, {.most_runs = 40}, store);
+  EXPECT_TRUE(found.reached);
+  const std::vector<Estimate> truth = test.run(found.best.values, 1);
+  EXPECT_NEAR(truth[0].value / degree, 30.72, 0.03 * 30.72);
+  EXPECT_NEAR(truth[1].value, 3630, 0.03 * 3630);
+  // Cohesion is what 3.63 kPa need at tan phi = 0.594: 3630/(0.02 * 0.594) = 305 kJ/m^3.
+  EXPECT_NEAR(found.parameters[2].value, 3630 / (0.02 * std::tan(30.72 * degree)), 3 * found.parameters[2].std_error);
+  EXPECT_GT(found.told[2], 0.7);
+}
+
+TEST(Calibration, ChancesAreWhatTheySay) {
+  // Of fifty calibrations with other noise that claim at least 90 %, at most a share of 10 % and its scatter are wrong.
+  int claimed = 0, wrong = 0;
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    ExperimentStore store;
+    const Calibration found = calibrate(board(0.4 * degree), {.seed = 1000 * seed, .cloud = 400}, store);
+    claimed += found.reached;
+    wrong += found.reached && std::abs(board_angle(found.best.values) / degree - 31.47) > 0.03 * 31.47;
+  }
+  EXPECT_GT(claimed, 40);
+  EXPECT_LE(wrong, 0.1 * claimed + 2 * std::sqrt(0.09 * claimed));
+}
+
+TEST(Calibration, ATargetOutOfReachIsNotReached) {
+  ExperimentStore store;
+  VirtualTest test = board();
+  test.targets[0].measured = {60 * degree, 0};
+  const Calibration found = calibrate(test, {.most_runs = 14}, store);
+  EXPECT_FALSE(found.reached);
+  EXPECT_TRUE(found.candidates.empty());
+  EXPECT_LT(found.best.chance, 0.01);
+  EXPECT_EQ(found.runs.size(), 14U);
+}
+
+TEST(Calibration, StoppedAndResumedIsTheSameAndDoesNoWorkTwice) {
+  const Folder folder;
+  ExperimentStore fresh;
+  int calls_whole = 0, calls_parts = 0;
+  const Calibration whole = calibrate(board(0.2 * degree, &calls_whole), {}, fresh);
+  struct Stopped {};
+  CalibrationOptions stopping;
+  for (const int after : {3, 7, 11}) {
+    stopping.progress = [after](const CalibrationProgress& progress) {
+      if (progress.done == after) throw Stopped();
+    };
+    ExperimentStore store(folder / "store.json");
+    EXPECT_THROW(calibrate(board(0.2 * degree, &calls_parts), stopping, store), Stopped);
+  }
+  ExperimentStore store(folder / "store.json");
+  EXPECT_EQ(store.size(), 11U);
+  const Calibration resumed = calibrate(board(0.2 * degree, &calls_parts), {}, store);
+  EXPECT_EQ(calls_parts, calls_whole);
+  EXPECT_EQ(resumed.best.values, whole.best.values);
+  EXPECT_EQ(resumed.best.chance, whole.best.chance);
+  EXPECT_TRUE(resumed.runs[10].from_store);
+}
+
+TEST(Calibration, AnotherTestDoesNotTakeFromTheStore) {
+  const Folder folder;
+  int calls = 0;
+  {
+    ExperimentStore store(folder / "store.json");
+    calibrate(board(0.2 * degree, &calls), {.most_runs = 9}, store);
+  }
+  ExperimentStore store(folder / "store.json");
+  VirtualTest other = board(0.2 * degree, &calls);
+  other.identity = "another rate of tilt";
+  calibrate(other, {.most_runs = 9}, store);
+  EXPECT_EQ(calls, 18);
+}
+
+TEST(Calibration, FailedExperimentsAreLeftOutAndKept) {
+  ExperimentStore store;
+  VirtualTest test = board();
+  const auto works = test.run;
+  test.run = [works](const VectorXd& v, std::uint64_t seed) {
+    if (v[1] > 0.8 && v[2] > 0.6) throw NoSolution("the sand never slides");
+    return works(v, seed);
+  };
+  const Calibration found = calibrate(test, {}, store);
+  EXPECT_TRUE(found.reached);
+  EXPECT_TRUE(found.analyses.empty());  // an unbalanced design has no range analysis
+  EXPECT_TRUE(std::any_of(found.runs.begin(), found.runs.end(),
+                          [](const CalibrationRun& run) { return run.experiment.error == "the sand never slides"; }));
+  test.run = [](const VectorXd&, std::uint64_t) -> std::vector<Estimate> { throw NoSolution("never"); };
+  test.identity = "never";
+  EXPECT_THROW(calibrate(test, {}, store), NoSolution);
+}
+
+TEST(Calibration, AnotherExperimentDecides) {
+  ExperimentStore store;
+  std::size_t asked = 0;
+  CalibrationOptions options;
+  options.decide = [&](const std::vector<Candidate>& candidates) {
+    asked = candidates.size();
+    std::vector<double> errors;
+    for (const Candidate& candidate : candidates) errors.push_back(std::abs(candidate.values[0] - 0.45));
+    return errors;
+  };
+  const Calibration found = calibrate(board(), options, store);
+  EXPECT_EQ(asked, found.candidates.size());
+  for (const Candidate& other : found.candidates)
+    EXPECT_LE(std::abs(found.best.values[0] - 0.45), std::abs(other.values[0] - 0.45));
+}
+
+TEST(Calibration, WhatMakesNoSenseIsRefused) {
+  ExperimentStore store;
+  VirtualTest test = board();
+  test.targets[0].measured.value = 0;
+  EXPECT_THROW(calibrate(test, {}, store), InputError);
+  test = board(), std::swap(test.factors[0].lower, test.factors[0].upper);
+  EXPECT_THROW(calibrate(test, {}, store), InputError);
+  EXPECT_THROW(calibrate(board(), {.design = "L10"}, store), InputError);
+  EXPECT_THROW(calibrate(board(), {.most_runs = 8}, store), InputError);
+  EXPECT_THROW(calibrate(board(), {.probability = 1.0}, store), InputError);
+}
+
+TEST(ExperimentStores, ADamagedFileIsNamed) {
+  const Folder folder;
+  std::ofstream(folder / "bad.json") << "{\"format\": \"soilbin-experi";
+  try {
+    ExperimentStore store(folder / "bad.json");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("bad.json"));
+  }
+  std::ofstream(folder / "other.json") << "{\"format\": \"soilbin-run/1\"}";
+  EXPECT_THROW(ExperimentStore(folder / "other.json"), InputError);
+}
+
+TEST(ExperimentStores, KeepEveryBit) {
+  const Folder folder;
+  const VirtualTest test = board();
+  const VectorXd values = (VectorXd(3) << 1.0 / 3, 0.1 + 0.2, 5e-324).finished();
+  {
+    ExperimentStore store(folder / "store.json");
+    store.keep(test, {values, 18446744073709551615U, {{std::numbers::pi, 1e-300}}, "", 1.5});
+  }
+  const ExperimentStore store(folder / "store.json");
+  const std::optional<Experiment> found = store.find(test, values, 18446744073709551615U);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->results[0].value, std::numbers::pi);
+  EXPECT_EQ(found->results[0].std_error, 1e-300);
+  EXPECT_FALSE(store.find(test, values, 1));
+}
+
+}  // namespace
+}  // namespace soilbin::compare

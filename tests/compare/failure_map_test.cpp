@@ -1,0 +1,100 @@
+// The map of where models part, on a pair whose difference is a formula.
+#include "compare/failure_map/failure_map.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "compare/design/space_filling.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Eigen::VectorXd;
+using testing::HasSubstr;
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Difference = 0.02 + 0.10 (load/8 kN)^2 + 0.12 (angle/20 deg) + 0.10 lugs/20 mm, less 0.02 slip: 10 % is crossed,
+/// with no lugs, at (load/8 kN)^2 + 1.2 angle/20 deg = 0.8 (slip 0).
+double formula(const VectorXd& v) {
+  return 0.02 + 0.10 * std::pow(v[0] / 8000, 2) + 0.10 * v[1] / 0.020 + 0.12 * v[2] / (20 * degree) - 0.02 * v[3];
+}
+
+FailureQuestion question() {
+  FailureQuestion q;
+  q.name = "longitudinal incline";
+  q.factors = {{"load", 1000, 8000, "kN"},
+               {"lug height", 0, 0.020, "mm"},
+               {"angle", 0, 20 * degree, "deg"},
+               {"slip", 0, 0.6, "%"}};
+  q.difference = [](const VectorXd& v) -> std::optional<Estimate> { return Estimate{formula(v), 0.002}; };
+  return q;
+}
+
+const std::vector<Role> without_lugs{Role::limited, Role::held, Role::limited, Role::whole};
+
+TEST(SlowFailureMap, FindsTheBoundaryOfAFormula) {
+  const FailureQuestion q = question();
+  const FailureMap map = map_failures(q);
+  EXPECT_EQ(map.rows.size(), 40U);
+  EXPECT_LT(map.held_out.rms(), 0.01);
+  int wrong = 0, asked = 0;
+  const Eigen::MatrixXd fresh = latin_hypercube(500, 4, 77);
+  for (Eigen::Index i = 0; i < fresh.rows(); ++i) {
+    const VectorXd v = from_unit(q.factors, fresh.row(i));
+    if (std::abs(std::abs(formula(v)) - 0.10) < 0.005) continue;  // on the boundary itself
+    ++asked;
+    wrong += (std::abs(map.at(q, v).value) > 0.10) != (std::abs(formula(v)) > 0.10);
+  }
+  EXPECT_LT(wrong, 0.02 * asked);
+}
+
+TEST(SlowFailureMap, ItsClauseHoldsEverywhereInTheBoxAndRestsOnRows) {
+  const FailureQuestion q = question();
+  FailureMap map = map_failures(q);
+  const std::optional<Clause> clause = agreement(q, map, without_lugs);
+  ASSERT_TRUE(clause);
+  EXPECT_THAT(clause->text, HasSubstr("longitudinal incline: within 10 % of the load up to load"));
+  EXPECT_THAT(clause->text, HasSubstr("at lug height 0 mm"));
+  // The corner, at the worst slip, agrees; and it isn't timid: the box reaches most of the way to the boundary.
+  const VectorXd corner = (VectorXd(4) << clause->upper[0], 0, clause->upper[2], 0).finished();
+  EXPECT_LE(formula(corner), 0.10);
+  EXPECT_GT(formula(corner), 0.08);
+  EXPECT_GE(clause->rows, 1);
+  ASSERT_TRUE(clause->witness);
+  EXPECT_LE(clause->largest, 0.11);
+  RecordProperty("clause", clause->text);
+}
+
+TEST(SlowFailureMap, SaysNothingWhereModelsNeverAgree) {
+  FailureQuestion q = question();
+  q.difference = [](const VectorXd& v) -> std::optional<Estimate> { return Estimate{0.3 + formula(v), 0.002}; };
+  FailureMap map = map_failures(q, {.at_boundary = 2});
+  EXPECT_FALSE(agreement(q, map, without_lugs));
+}
+
+TEST(FailureMap, ConditionsWithoutAnAnswerAreRowsAndTooManyAreRefused) {
+  FailureQuestion q = question();
+  q.difference = [](const VectorXd& v) -> std::optional<Estimate> {
+    if (v[3] > 0.5) return std::nullopt;
+    return Estimate{formula(v), 0.002};
+  };
+  const FailureMap map = map_failures(q, {.first = 12, .at_boundary = 2});
+  EXPECT_EQ(map.rows.size(), 14U);
+  EXPECT_TRUE(std::any_of(map.rows.begin(), map.rows.end(), [](const FailureRow& row) { return !row.difference; }));
+  q.difference = [](const VectorXd&) -> std::optional<Estimate> { return std::nullopt; };
+  EXPECT_THROW(map_failures(q, {.first = 8, .at_boundary = 0}), NoSolution);
+}
+
+TEST(FailureMap, BeyondMeansBeyondToleranceAndNoise) {
+  EXPECT_TRUE((FailureRow{{}, Estimate{-0.2, 0.01}}.beyond(0.1)));
+  EXPECT_FALSE((FailureRow{{}, Estimate{0.2, 0.15}}.beyond(0.1)));  // below two standard errors
+  EXPECT_FALSE((FailureRow{{}, Estimate{0.05, 0.001}}.beyond(0.1)));
+  EXPECT_FALSE((FailureRow{{}, std::nullopt}.beyond(0.1)));
+}
+
+}  // namespace
+}  // namespace soilbin::compare

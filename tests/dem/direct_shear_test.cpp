@@ -1,0 +1,96 @@
+// The shear box against what must hold of it: balances, closed limits, and how strength answers to friction.
+#include "dem/element_tests/direct_shear.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scenario/errors.hpp"
+#include "tests/dem/small_bed.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+using test::with_threads;
+
+/// Some 400 grains.
+DirectShearSettings small_box() {
+  DirectShearSettings settings;
+  settings.length = 9, settings.width = 6, settings.height = 7;
+  settings.stresses = {10e3};
+  settings.travel = 1;
+  settings.specimen.laws.rolling = RollingLaw::elastic_plastic;
+  return settings;
+}
+
+TEST(DirectShear, RefusesWhatCannotBeSheared) {
+  const GranularSoil soil = test::soft_soil();
+  DirectShearSettings settings = small_box();
+  settings.stresses = {};
+  EXPECT_THROW(direct_shear(soil, settings), InputError);
+  settings = small_box(), settings.length = 3;
+  EXPECT_THROW(direct_shear(soil, settings), InputError);
+  settings = small_box(), settings.travel = 20;
+  EXPECT_THROW(direct_shear(soil, settings), InputError);
+}
+
+class SlowDirectShear : public ::testing::Test {
+ protected:
+  static DirectShearRun run(double friction, const DirectShearSettings& settings = small_box()) {
+    GranularSoil soil = test::soft_soil();
+    soil.grain_grain.sliding_friction = friction;
+    return direct_shear(soil, settings, with_threads(1), &beds()).runs.front();
+  }
+  static BedStore& beds() {
+    static BedStore beds;
+    return beds;
+  }
+};
+
+TEST_F(SlowDirectShear, BalancesForcesAndWork) {
+  DirectShearSettings settings = small_box();
+  settings.ledger = true;
+  const DirectShearRun told = run(0.5, settings);
+  // What pushes the upper half is what holds the lower one.
+  EXPECT_LT(told.imbalance, 1e-3);
+  // Work counted step by step is that of the curve's stresses.
+  EXPECT_NEAR(told.work_of_stress / told.work, 1, 1e-3);
+  // What goes in is stored or lost in contacts.
+  EXPECT_LT(std::abs(told.energy_error), 0.01);
+  // The lid's servo holds the stress on the plane of shear, but for what the flange takes.
+  for (const ShearSample& sample : told.curve) EXPECT_NEAR(sample.normal_stress / 10e3, 1, 0.25);
+}
+
+TEST_F(SlowDirectShear, StrengthRisesWithFrictionOfGrainsAndSaturates) {
+  const double smooth = run(0).residual.value, low = run(0.15).residual.value, high = run(0.6).residual.value;
+  // Grains without friction have 5.76 deg, 0.10, in homogeneous shear (Peyneau and Roux 2008). A box of few grains has
+  // more: its halves force the plane of shear through them.
+  EXPECT_GT(smooth, 0.10);
+  EXPECT_LT(smooth, 0.25);
+  EXPECT_GT(low - smooth, 0.15);
+  EXPECT_LT(high - low, (low - smooth) / 2);
+}
+
+TEST_F(SlowDirectShear, TheSameSettingsGiveTheSameBits) {
+  DirectShearSettings settings = small_box();
+  settings.travel = 0.05;
+  GranularSoil soil = test::soft_soil();
+  const auto once = direct_shear(soil, settings, with_threads(1)).runs.front();
+  const auto again = direct_shear(soil, settings, with_threads(2)).runs.front();
+  ASSERT_EQ(once.curve.size(), again.curve.size());
+  for (std::size_t k = 0; k < once.curve.size(); ++k)
+    EXPECT_EQ(once.curve[k].shear_stress, again.curve[k].shear_stress);
+}
+
+TEST_F(SlowDirectShear, StopsWhenAsked) {
+  WorkOptions how = with_threads(1);
+  std::stop_source source;
+  how.stop = source.get_token();
+  how.progress = [&](const Progress& progress) {
+    if (progress.stage == "shearing") source.request_stop();
+  };
+  EXPECT_THROW(direct_shear(test::soft_soil(), small_box(), how, &beds()), Stopped);
+}
+
+}  // namespace
+}  // namespace soilbin::dem
