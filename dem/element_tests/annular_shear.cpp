@@ -80,7 +80,8 @@ AnnulusRun turn_ring(const SettledBed& bed, double stress, const AnnulusSettings
   work.begin("pressing");
   work.settle_wall(simulation, index, bed.recipe.size.depth);
 
-  AnnulusRun run{.stress = stress, .speed = s.speed * std::sqrt(bed.recipe.gravity * d)};
+  AnnulusRun run;
+  run.stress = stress, run.speed = s.speed * std::sqrt(bed.recipe.gravity * d);
   run.packing = bed.recipe.packing;
   simulation.body(index).spin = {0, 0, run.speed / mean_radius};
   const double rest = simulation.body(index).position.z;

@@ -37,7 +37,8 @@ PlateRun press_plate(const SettledBed& bed, double diameter, const PlateSettings
   disc.rotation = rotation_by({pi / 2, 0, 0});  // axle upright
   const double base = highest_within(bed, diameter / 2);
   disc.position = {middle, middle, base + thick / 2};
-  PlateRun run{.diameter = diameter, .speed = settings.speed * std::sqrt(bed.recipe.gravity * d)};
+  PlateRun run;
+  run.diameter = diameter, run.speed = settings.speed * std::sqrt(bed.recipe.gravity * d);
   run.packing = bed.recipe.packing, run.grains = bed.state.grains.count();
   run.void_ratio = bed.report.void_ratio, run.density = bed.report.bulk_density;
   disc.velocity = {0, 0, -run.speed};
