@@ -14,12 +14,10 @@
 #include "scenario/quantity.hpp"
 
 namespace soilbin::cli {
-namespace {
 
 namespace fs = std::filesystem;
 
-/// $SOILBIN_BEDS, else soilbin/beds in the user's cache; empty where there is no home.
-fs::path folder_of_beds() {
+std::filesystem::path folder_of_beds() {
   if (const char* folder = std::getenv("SOILBIN_BEDS")) return folder;
   if (const char* cache = std::getenv("XDG_CACHE_HOME")) return fs::path(cache) / "soilbin/beds";
   if (const char* home = std::getenv("HOME"); home && fs::is_directory(home))
@@ -27,8 +25,7 @@ fs::path folder_of_beds() {
   return {};
 }
 
-/// Stops at Ctrl-C; shows stage, share and time left where standard error is a terminal.
-void show(const dem::Progress& progress) {
+void show_dem_progress(const dem::Progress& progress) {
   if (interrupt_asked()) throw Interrupted();
   if (isatty(STDERR_FILENO) != 1) return;
   const bool last = progress.done >= 1;
@@ -38,6 +35,8 @@ void show(const dem::Progress& progress) {
   if (std::isfinite(progress.seconds_left)) fmt::print(stderr, ", {:.0f} s left", progress.seconds_left);
   std::fflush(stderr);
 }
+
+namespace {
 
 dem::DemSettings settings_of(const SoilBinFlags& flags) {
   dem::DemSettings settings;
@@ -57,7 +56,7 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   settings.packing = static_cast<std::uint64_t>(flags.packing);
   settings.beds = folder_of_beds();
   settings.how.threads = flags.threads;
-  settings.how.progress = show;
+  settings.how.progress = show_dem_progress;
   return settings;
 }
 
