@@ -113,28 +113,32 @@ PlateCurve mean_curve(std::span<const PlateTest> repeats, const PressureGrid& gr
   return curve;
 }
 
-PlateFit fit_plates(std::span<const PlateCurve> curves, PlateExponent exponent) {
+PlateFit fit_plates_at(std::span<const PlateCurve> curves, double exponent) {
   PlateFit fit;
-  std::vector<Moments> plates;
-  double zz = 0.0, zp = 0.0, mean = 0.0;
-  for (const PlateCurve& curve : curves) {
-    const Moments& m = plates.emplace_back(moments(curve));
-    zz += m.zz, zp += m.zp;
-    fit.plate_exponents.push_back(m.zp / m.zz);
-    mean += m.zp / m.zz / static_cast<double>(curves.size());
-  }
-  fit.exponent = exponent == PlateExponent::common ? zp / zz : mean;
+  fit.exponent = exponent;
   double sum_u = 0.0, sum_k = 0.0, sum_uu = 0.0, sum_uk = 0.0;  // u = 1/b
-  for (std::size_t i = 0; i < plates.size(); ++i) {
-    const double u = 1 / curves[i].radius, k = std::exp(plates[i].ln_p - fit.exponent * plates[i].ln_z);
+  for (const PlateCurve& curve : curves) {
+    const Moments m = moments(curve);
+    const double u = 1 / curve.radius, k = std::exp(m.ln_p - exponent * m.ln_z);
+    fit.plate_exponents.push_back(m.zp / m.zz);
     fit.plate_moduli.push_back(k);
     sum_u += u, sum_k += k, sum_uu += u * u, sum_uk += u * k;
   }
-  const double count = static_cast<double>(plates.size()), spread = count * sum_uu - sum_u * sum_u;
+  const double count = static_cast<double>(curves.size()), spread = count * sum_uu - sum_u * sum_u;
   if (!(spread > 1e-9 * sum_uu)) throw InputError("k_c and k_phi need plates of at least two radii");
   fit.k_c = (count * sum_uk - sum_u * sum_k) / spread;
   fit.k_phi = (sum_k - fit.k_c * sum_u) / count;
   return fit;
+}
+
+PlateFit fit_plates(std::span<const PlateCurve> curves, PlateExponent exponent) {
+  double zz = 0.0, zp = 0.0, mean = 0.0;
+  for (const PlateCurve& curve : curves) {
+    const Moments m = moments(curve);
+    zz += m.zz, zp += m.zp;
+    mean += m.zp / m.zz / static_cast<double>(curves.size());
+  }
+  return fit_plates_at(curves, exponent == PlateExponent::common ? zp / zz : mean);
 }
 
 }  // namespace soilbin::bekker_wong

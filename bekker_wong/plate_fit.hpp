@@ -52,4 +52,7 @@ struct PlateFit {
 /// points.
 PlateFit fit_plates(std::span<const PlateCurve> curves, PlateExponent exponent = PlateExponent::mean_of_plates);
 
+/// The same at a given exponent: each plate's modulus, then k_c and k_phi.
+PlateFit fit_plates_at(std::span<const PlateCurve> curves, double exponent);
+
 }  // namespace soilbin::bekker_wong

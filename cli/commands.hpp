@@ -20,6 +20,8 @@ struct Session {
 void add_estimate(CLI::App& app, Session& session);
 void add_explain(CLI::App& app, Session& session);
 void add_run(CLI::App& app, Session& session);
+void add_element_test(CLI::App& app, Session& session);
+void add_bevameter(CLI::App& app, Session& session);
 void add_predict(CLI::App& app, Session& session);
 void add_calibrate(CLI::App& app, Session& session);
 void add_loop(CLI::App& app, Session& session);

@@ -20,19 +20,16 @@
 #include "scenario/quantity.hpp"
 
 namespace soilbin::cli {
-namespace {
 
 namespace fs = std::filesystem;
 
-/// $SOILBIN_BEDS, else soilbin/beds in the user's cache; empty where there is no home.
-fs::path folder_of_beds() {
+std::filesystem::path folder_of_beds() {
   if (const char* folder = std::getenv("SOILBIN_BEDS")) return folder;
   const fs::path cache = user_cache();
   return cache.empty() ? fs::path() : cache / "beds";
 }
 
-/// Stops at Ctrl-C; shows stage, share and time left where standard error is a terminal.
-void show(const dem::Progress& progress) {
+void show_dem_progress(const dem::Progress& progress) {
   if (interrupt_asked()) throw Interrupted();
   if (isatty(STDERR_FILENO) != 1) return;
   const bool last = progress.done >= 1;
@@ -42,6 +39,8 @@ void show(const dem::Progress& progress) {
   if (std::isfinite(progress.seconds_left)) fmt::print(stderr, ", {:.0f} s left", progress.seconds_left);
   std::fflush(stderr);
 }
+
+namespace {
 
 /// Runs conditions, with a model for each packing, so that a bed is taken once.
 class SoilBinRuns {
@@ -147,7 +146,7 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   settings.packing = static_cast<std::uint64_t>(flags.packing);
   settings.beds = folder_of_beds();
   settings.how.threads = flags.threads;
-  settings.how.progress = show;
+  settings.how.progress = show_dem_progress;
   return settings;
 }
 

@@ -2,15 +2,24 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "cli/workplace.hpp"
 #include "compare/recorded/recorded_model.hpp"
+#include "compare/sweep/answers.hpp"
+#include "dem/bed/work_options.hpp"
 #include "dem/rig/dem_model.hpp"
 
 namespace soilbin::cli {
+
+/// Where settled beds are kept: $SOILBIN_BEDS, else soilbin/beds in the user's cache; empty where there is no home.
+std::filesystem::path folder_of_beds();
+
+/// Stops at Ctrl-C; shows stage, share and time left where standard error is a terminal.
+void show_dem_progress(const dem::Progress& progress);
 
 /// Flags of the model dem, as typed; empty: the default.
 struct SoilBinFlags {

@@ -57,6 +57,8 @@ constexpr std::array symbols = {
     Symbol{"Nm", 2, 1, -2, 0, 0, 1},
     Symbol{"kNm", 2, 1, -2, 0, 3, 1},
     Symbol{"J", 2, 1, -2, 0, 0, 1},
+    Symbol{"kJ", 2, 1, -2, 0, 3, 1},
+    Symbol{"MJ", 2, 1, -2, 0, 6, 1},
     Symbol{"W", 2, 1, -3, 0, 0, 1},
     Symbol{"kW", 2, 1, -3, 0, 3, 1},
     Symbol{"Pa", -1, 1, -2, 0, 0, 1},

@@ -8,15 +8,17 @@
 namespace soilbin::dem {
 
 struct AngleOfReposeSettings {
-  SpecimenSettings specimen;
+  std::uint64_t packing = 1;      ///< seed
   double radius = 6;              ///< of the cylinder, in mean diameters
-  double height = 18;             ///< of the grains in it, in mean diameters
-  double lift = 1;                ///< speed of the cylinder, in mean diameters times sqrt(g/d) / 10: see lift_speed
+  double height = 12;             ///< of the grains in it, about, in mean diameters
+  double lift = 0.1;              ///< speed of the cylinder over sqrt(g d)
   double gravity = 9.81;          ///< [m/s^2]
-  double floor_friction = 1;      ///< sliding and rolling friction of the floor, share of the grains' own
+  double floor_friction = 1;      ///< sliding and rolling friction of floor and cylinder, share of the grains' own
   double from = 0.15, to = 0.85;  ///< part of the heap's height over which the slope is fitted
   int sectors = 8;                ///< each gives an angle; their scatter is the error
-  RestTest rest{1e-6, 0.05, 0.05, 20};
+  double dt = 0;                  ///< [s]; 0: longest_step
+  ContactLaws laws = BedRecipe{}.laws;
+  RestTest rest{1e-5, 0.3, 0.05, 20};  ///< of the heap, after the cylinder is off it
 };
 
 struct HeapProfile {

@@ -17,7 +17,7 @@ namespace soilbin::dem {
 struct DirectShearSettings {
   SpecimenSettings specimen;
   int packings = 1;  ///< specimens, of seeds specimen.packing, +1, ...: each is sheared under each stress
-  double length = 14, width = 8, height = 9;       ///< of the box, in mean diameters; length along the shear
+  double length = 20, width = 6, height = 10;      ///< of the box, in mean diameters; length along the shear
   std::vector<double> stresses{10e3, 20e3, 40e3};  ///< normal stresses [Pa], at least two for c and phi
   double travel = 3;                               ///< of the upper half, in mean diameters
   double inertial = 1e-3;                          ///< inertial number of the shear over the height; sets the speed

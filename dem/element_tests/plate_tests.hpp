@@ -1,5 +1,5 @@
-// The bevameter's two tests on a bed of grains: round plates pressed in, and an annulus with grousers turned under
-// load.
+// The bevameter's two tests on a bed of grains: round plates pressed in, and a ring with grousers turned under load.
+// Sinkage counts from the mean height of what one sees from above, as that of a wheel does (docs/soil-bin.md).
 #pragma once
 
 #include <vector>
@@ -8,66 +8,75 @@
 
 namespace soilbin::dem {
 
-/// The bed both tests stand on: as wide as the widest tool times this, and so deep, in diameters of the tool.
+/// The square bed that a tool stands on, in diameters of the widest tool.
 struct TestBed {
   SpecimenSettings specimen;
-  double width = 3.5;
-  double depth = 1.5;
+  double width = 3;
+  double depth = 1.2;
   double gravity = 9.81;  ///< [m/s^2]
 };
 
+/// The narrowest a tool may be, in mean diameters of the grains: below, single grains carry it.
+inline constexpr double narrowest_tool = 5;
+
 struct PlateSettings {
   TestBed bed;
-  std::vector<double> diameters{5, 7, 9};  ///< of the plates, in mean diameters of the grains; at least 5
+  std::vector<double> diameters{5, 7, 9};  ///< of the plates, in mean diameters of the grains
   double sinkage = 2;                      ///< to which each is pressed, in mean diameters
-  double inertial =
-      1e-3;  ///< of speed over the plate's radius, under its own largest pressure so far or 5 kPa; sets speed
-  int samples = 80;
+  double speed = 0.05;                     ///< of the plates over sqrt(g d)
+  int samples = 60;
 };
 
+/// Means over one sample's steps.
 struct PlateSample {
-  double sinkage = 0, pressure = 0;  ///< [m], [Pa]
+  double sinkage = 0;   ///< [m]
+  double pressure = 0;  ///< [Pa]
 };
 
 struct PlateRun {
   double diameter = 0;  ///< [m]
+  double speed = 0;     ///< [m/s]
   std::vector<PlateSample> curve;
-  double speed = 0;                     ///< [m/s]
-  double bed_width = 0, bed_depth = 0;  ///< [m]
-  double void_ratio = 0;
+  std::size_t grains = 0;  ///< in the bed
+  double void_ratio = 0;   ///< of the bed
+  double density = 0;      ///< bulk density of the bed [kg/m^3]
   std::uint64_t packing = 0;
 };
 
-/// Presses each plate into a fresh copy of the same bed. Throws InputError for plates less than five grains wide,
+/// Presses each plate into a fresh copy of one bed. Throws InputError for plates narrower than narrowest_tool,
 /// RunStopped, Stopped.
 std::vector<PlateRun> plate_sinkage(const GranularSoil& soil, const PlateSettings& settings = {},
                                     const WorkOptions& how = {}, BedStore* beds = nullptr);
 
 struct AnnulusSettings {
-  TestBed bed;
-  double inner = 4, outer = 9;  ///< radii of the ring, in mean diameters; the ring is at least five grains wide
-  int grousers = 12;
-  double grouser_height = 1;                      ///< in mean diameters
+  TestBed bed{.specimen = {}, .width = 1.6, .depth = 0.55};
+  double inner = 4, outer = 9;  ///< radii of the ring, in mean diameters; at least narrowest_tool apart
+  int grousers = 12;            ///< radial bars under it
+  double grouser_height = 1;    ///< in mean diameters
+  double grouser_width = 0.5;   ///< in mean diameters
   std::vector<double> stresses{5e3, 10e3, 20e3};  ///< [Pa]
   double travel = 5;                              ///< at the ring's mean radius, in mean diameters
-  double inertial = 1e-3;
+  double speed = 0.05;                            ///< there, over sqrt(g d)
   int samples = 100;
 };
 
+/// Means over one sample's steps.
 struct AnnulusSample {
-  double displacement = 0;   ///< j, at the mean radius [m]
+  double displacement = 0;   ///< j, at the mean radius, at the sample's end [m]
   double shear_stress = 0;   ///< 3 M/(2 pi (r_o^3 - r_i^3)) [Pa]
   double normal_stress = 0;  ///< [Pa]
-  double sinkage = 0;        ///< since the turning began [m]
+  double sinkage = 0;        ///< since the turning began, at the sample's end [m]
 };
 
 struct AnnulusRun {
-  double stress = 0;
+  double stress = 0;  ///< asked for [Pa]
+  double speed = 0;   ///< at the mean radius [m/s]
   std::vector<AnnulusSample> curve;
-  double speed = 0;
   std::uint64_t packing = 0;
 };
 
+/// Sets the ring down under each stress on a fresh copy of one bed, and turns it. Throws InputError for a ring narrower
+/// than narrowest_tool, RunStopped, Stopped.
 std::vector<AnnulusRun> annular_shear(const GranularSoil& soil, const AnnulusSettings& settings = {},
                                       const WorkOptions& how = {}, BedStore* beds = nullptr);
 

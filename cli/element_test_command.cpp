@@ -1,0 +1,159 @@
+// soilbin element-test: what a soil's grains do in the laboratory's tests.
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/element_test_flags.hpp"
+#include "cli/element_test_reports.hpp"
+#include "cli/soil_bin.hpp"
+#include "compare/report/result_json.hpp"
+#include "scenario/atomic_file.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+struct Options {
+  std::string test, soil, plot;
+  std::vector<std::string> stresses;
+  int packings = 1;
+  double inertial = 0;
+  bool json = false, ledger = false;
+  ElementTestFlags flags;
+};
+
+struct Asked {
+  const Options& options;
+  const GranularSoil& grains;
+  dem::SpecimenSettings specimen;
+  dem::WorkOptions how;
+  dem::BedStore& beds;
+};
+
+/// The stresses given, else those of the test.
+std::vector<double> stresses_of(const Options& options, std::vector<double> otherwise) {
+  if (options.stresses.empty()) return otherwise;
+  std::vector<double> out;
+  for (const std::string& text : options.stresses) try {
+      out.push_back(read_quantity(text, {"kPa", above_zero}));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--stress: {}", error.what()));
+    }
+  return out;
+}
+
+TestReport direct_shear(const Asked& asked) {
+  dem::DirectShearSettings s;
+  s.specimen = asked.specimen, s.packings = asked.options.packings, s.ledger = asked.options.ledger;
+  s.stresses = stresses_of(asked.options, s.stresses);
+  for (double* side : {&s.length, &s.width, &s.height}) *side *= asked.options.flags.size;
+  if (asked.options.inertial > 0) s.inertial = asked.options.inertial;
+  return report_on(dem::direct_shear(asked.grains, s, asked.how, &asked.beds));
+}
+
+TestReport triaxial(const Asked& asked) {
+  dem::TriaxialSettings s;
+  s.specimen = asked.specimen, s.packings = asked.options.packings, s.ledger = asked.options.ledger;
+  s.stresses = stresses_of(asked.options, s.stresses);
+  for (double* side : {&s.side, &s.height}) *side *= asked.options.flags.size;
+  if (asked.options.inertial > 0) s.inertial = asked.options.inertial;
+  return report_on(dem::triaxial(asked.grains, s, asked.how, &asked.beds));
+}
+
+TestReport tilting_board(const Asked& asked) {
+  dem::TiltingBoardSettings s;
+  s.packing = asked.specimen.packing, s.laws = asked.specimen.laws;
+  s.across = static_cast<int>(std::lround(s.across * asked.options.flags.size));
+  return report_on(dem::tilting_board(asked.grains, s, asked.how));
+}
+
+TestReport repose(const Asked& asked) {
+  dem::AngleOfReposeSettings s;
+  s.packing = asked.specimen.packing, s.laws = asked.specimen.laws;
+  s.radius *= asked.options.flags.size, s.height *= asked.options.flags.size;
+  return report_on(dem::angle_of_repose(asked.grains, s, asked.how));
+}
+
+TestReport plate(const Asked& asked) {
+  dem::PlateSettings s;
+  s.bed.specimen = asked.specimen;
+  s.bed.width *= asked.options.flags.size, s.bed.depth *= asked.options.flags.size;
+  return report_on(dem::plate_sinkage(asked.grains, s, asked.how, &asked.beds));
+}
+
+TestReport shear(const Asked& asked) {
+  dem::AnnulusSettings s;
+  s.bed.specimen = asked.specimen;
+  s.stresses = stresses_of(asked.options, s.stresses);
+  s.bed.width *= asked.options.flags.size, s.bed.depth *= asked.options.flags.size;
+  return report_on(dem::annular_shear(asked.grains, s, asked.how, &asked.beds));
+}
+
+struct Test {
+  const char* name;
+  TestReport (*run)(const Asked&);
+};
+constexpr Test tests[] = {{"direct-shear", direct_shear},
+                          {"tilting-board", tilting_board},
+                          {"repose", repose},
+                          {"triaxial", triaxial},
+                          {"plate", plate},
+                          {"shear", shear}};
+
+const Test& test_of(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Test& test : tests) {
+    if (name == test.name) return test;
+    names.emplace_back(test.name);
+  }
+  throw InputError(fmt::format("unknown test '{}'{}\n  hint: tests are {}", clipped(name), did_you_mean(name, names),
+                               listed(names)));
+}
+
+int element_test(const Options& options, const Session& session) {
+  const Test& test = test_of(options.test);
+  if (options.packings < 1) throw InputError("--packings: 1 or more");
+  if (options.inertial < 0) throw InputError("--inertial: above 0");
+  const Soil soil = find_soil(options.soil, session.place.library);
+  dem::BedStore beds(folder_of_beds());
+  TestReport report = test.run({options, grains_of(soil), options.flags.specimen(), options.flags.work(), beds});
+  if (isatty(STDERR_FILENO) == 1) fmt::print(stderr, "\r\033[K");
+  if (!options.plot.empty()) write_file_atomically(options.plot, compare::svg(report.sheet));
+  if (options.json) {
+    nlohmann::ordered_json document{{"format", "soilbin-element-test/1"}, {"test", test.name}, {"soil", soil.name}};
+    document.update(report.json);
+    fmt::print("{}", compare::json_text(document));
+  } else {
+    fmt::print("{}: {}\n{}", test.name, soil.name, report.text);
+  }
+  return done;
+}
+
+}  // namespace
+
+void add_element_test(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("element-test", "a soil's grains in a test of the laboratory");
+  const auto options = std::make_shared<Options>();
+  command->add_option("test", options->test, "direct-shear, tilting-board, repose, triaxial, plate or shear")
+      ->type_name("TEST")
+      ->required();
+  command->add_option("soil", options->soil, "of the library, or a YAML file")->type_name("SOIL")->required();
+  command->add_option("--stress", options->stresses, "normal or confining stress; may be given again")
+      ->type_name("STRESS")
+      ->allow_extra_args(false);
+  command->add_option("--packings", options->packings, "direct-shear, triaxial: number of specimens, 1")
+      ->type_name("N");
+  command->add_option("--inertial", options->inertial, "direct-shear, triaxial: inertial number of the rate, 0.001")
+      ->type_name("I");
+  command->add_flag("--ledger", options->ledger, "direct-shear, triaxial: check the balance of energy (in --json)");
+  command->add_option("--plot", options->plot, "draw the curves")->type_name("FILE.svg");
+  command->add_flag("--json", options->json, "soilbin-element-test/1, in SI");
+  options->flags.add_to(*command);
+  command->footer("Example: soilbin element-test direct-shear paper-sand --stress 10kPa --stress 40kPa --plot box.svg");
+  command->callback([=, &session] { session.action = [=, &session] { return element_test(*options, session); }; });
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,27 @@
+// What element-test and bevameter share: the soil's grains and how a specimen of them is made.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "dem/element_tests/specimen.hpp"
+#include "scenario/soil.hpp"
+
+namespace soilbin::cli {
+
+/// Flags as typed; empty: the default.
+struct ElementTestFlags {
+  std::string settling_friction, rolling;
+  int packing = 1, threads = 0;
+  double size = 1;
+
+  void add_to(CLI::App& command);
+  /// Throws InputError that names the flag.
+  dem::SpecimenSettings specimen() const;
+  dem::WorkOptions work() const;
+};
+
+/// The soil's grains; throws InputError where the file has none.
+const GranularSoil& grains_of(const Soil& soil);
+
+}  // namespace soilbin::cli

@@ -1,0 +1,268 @@
+#include "cli/element_test_reports.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "cli/text_output.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using compare::Mark;
+using compare::Plot;
+using compare::Series;
+
+constexpr double degree = std::numbers::pi / 180;
+
+Json json_of(const Estimate& estimate) { return {{"value", estimate.value}, {"std_error", estimate.std_error}}; }
+
+Json json_of(const dem::StrengthLine& line) {
+  if (line.points == 0) return nullptr;
+  return {{"friction_angle", json_of(line.friction_angle)},
+          {"cohesion", json_of(line.cohesion)},
+          {"covariance", line.covariance},
+          {"chi2", line.chi2},
+          {"points", line.points},
+          {"friction_angle_without_cohesion", json_of(line.friction_angle_without_cohesion)}};
+}
+
+/// The angle behind a ratio's tangent or sine.
+Estimate angle_of_tangent(const Estimate& ratio) {
+  return {std::atan(ratio.value), ratio.std_error / (1 + ratio.value * ratio.value)};
+}
+Estimate angle_of_sine(const Estimate& sine) {
+  return {std::asin(sine.value), sine.std_error / std::sqrt(1 - sine.value * sine.value)};
+}
+
+std::string degrees(const Estimate& angle) { return number(angle, degree); }
+
+std::string line_text(const char* name, const dem::StrengthLine& line) {
+  if (line.points == 0) return "";
+  return fmt::format("{}: phi {} deg, c {} kPa; without cohesion phi {} deg\n", name, degrees(line.friction_angle),
+                     number(line.cohesion, 1e3), degrees(line.friction_angle_without_cohesion));
+}
+
+/// A column of a curve, in a unit.
+template <class Sample>
+std::vector<double> column(const std::vector<Sample>& curve, const std::function<double(const Sample&)>& of) {
+  std::vector<double> out;
+  for (const Sample& sample : curve) out.push_back(of(sample));
+  return out;
+}
+
+Series line_series(std::string label, std::vector<double> x, std::vector<double> y, std::size_t color) {
+  Series series;
+  series.label = std::move(label), series.x = std::move(x), series.y = std::move(y);
+  series.color = static_cast<int>(color);
+  return series;
+}
+
+Plot panel(const char* title, const char* x) {
+  Plot plot;
+  plot.title = title, plot.x.title = x;
+  return plot;
+}
+
+}  // namespace
+
+TestReport report_on(const dem::DirectShearResult& result) {
+  using Sample = dem::ShearSample;
+  TestReport out;
+  TextTable table({"stress [kPa]", "packing", "void ratio", "peak [deg]", "at [mm]", "residual [deg]", "imbalance"});
+  Json runs = Json::array();
+  Plot shear = panel("Shear stress over normal stress [-]", "displacement [mm]");
+  Plot lift = panel("Rise of the lid [mm]", "displacement [mm]");
+  for (const dem::DirectShearRun& run : result.runs) {
+    table.add({number(run.stress / 1e3), std::to_string(run.packing), number(run.void_ratio),
+               degrees(angle_of_tangent(run.peak)), number(run.peak_at * 1e3), degrees(angle_of_tangent(run.residual)),
+               fmt::format("{:.1e}", run.imbalance)});
+    const auto way = column<Sample>(run.curve, [](const Sample& s) { return s.displacement; });
+    Json one{{"stress", run.stress},
+             {"packing", run.packing},
+             {"void_ratio", run.void_ratio},
+             {"speed", run.speed},
+             {"peak_ratio", json_of(run.peak)},
+             {"peak_at", run.peak_at},
+             {"residual_ratio", json_of(run.residual)},
+             {"imbalance", run.imbalance},
+             {"work", run.work},
+             {"work_of_stress", run.work_of_stress},
+             {"energy_error", run.energy_error},
+             {"displacement", way},
+             {"shear_stress", column<Sample>(run.curve, [](const Sample& s) { return s.shear_stress; })},
+             {"normal_stress", column<Sample>(run.curve, [](const Sample& s) { return s.normal_stress; })},
+             {"dilation", column<Sample>(run.curve, [](const Sample& s) { return s.dilation; })}};
+    runs.push_back(std::move(one));
+    const auto mm = column<Sample>(run.curve, [](const Sample& s) { return s.displacement * 1e3; });
+    const std::string label = fmt::format("{} kPa, packing {}", number(run.stress / 1e3), run.packing);
+    shear.series.push_back(line_series(
+        label, mm, column<Sample>(run.curve, [](const Sample& s) { return s.shear_stress / s.normal_stress; }),
+        shear.series.size()));
+    lift.series.push_back(line_series(
+        label, mm, column<Sample>(run.curve, [](const Sample& s) { return s.dilation * 1e3; }), lift.series.size()));
+  }
+  out.text = table.text() + line_text("peak", result.peak) + line_text("residual", result.residual);
+  out.json = {{"mean_diameter", result.mean_diameter},
+              {"peak", json_of(result.peak)},
+              {"residual", json_of(result.residual)},
+              {"runs", std::move(runs)}};
+  out.sheet = {"Direct shear", {std::move(shear), std::move(lift)}};
+  return out;
+}
+
+TestReport report_on(const dem::TriaxialResult& result) {
+  using Sample = dem::TriaxialSample;
+  TestReport out;
+  TextTable table({"stress [kPa]", "packing", "void ratio", "peak [deg]", "at strain [%]", "dilation [deg]",
+                   "residual [deg]", "held to [%]"});
+  Json runs = Json::array();
+  Plot stress = panel("(s1 - s3)/(s1 + s3) [-]", "axial strain [%]");
+  Plot volume = panel("Volumetric strain, contraction positive [%]", "axial strain [%]");
+  for (const dem::TriaxialRun& run : result.runs) {
+    table.add({number(run.stress / 1e3), std::to_string(run.packing), number(run.void_ratio),
+               degrees(angle_of_sine(run.peak)), number(run.peak_at * 100), number(run.dilation_angle / degree),
+               degrees(angle_of_sine(run.residual)), number(run.confining_error * 100)});
+    runs.push_back({{"stress", run.stress},
+                    {"packing", run.packing},
+                    {"void_ratio", run.void_ratio},
+                    {"isotropic_error", run.isotropic_error},
+                    {"confining_error", run.confining_error},
+                    {"peak_sine", json_of(run.peak)},
+                    {"peak_at", run.peak_at},
+                    {"residual_sine", json_of(run.residual)},
+                    {"dilation_angle", run.dilation_angle},
+                    {"work", run.work},
+                    {"work_of_stress", run.work_of_stress},
+                    {"energy_error", run.energy_error},
+                    {"strain", column<Sample>(run.curve, [](const Sample& s) { return s.strain; })},
+                    {"volumetric", column<Sample>(run.curve, [](const Sample& s) { return s.volumetric; })},
+                    {"axial", column<Sample>(run.curve, [](const Sample& s) { return s.axial; })},
+                    {"lateral_x", column<Sample>(run.curve, [](const Sample& s) { return s.lateral_x; })},
+                    {"lateral_y", column<Sample>(run.curve, [](const Sample& s) { return s.lateral_y; })}});
+    const auto percent = column<Sample>(run.curve, [](const Sample& s) { return s.strain * 100; });
+    const std::string label = fmt::format("{} kPa, packing {}", number(run.stress / 1e3), run.packing);
+    const auto sine = column<Sample>(run.curve, [](const Sample& s) {
+      const double lateral = (s.lateral_x + s.lateral_y) / 2;
+      return (s.axial - lateral) / (s.axial + lateral);
+    });
+    stress.series.push_back(line_series(label, percent, sine, stress.series.size()));
+    volume.series.push_back(line_series(label, percent,
+                                        column<Sample>(run.curve, [](const Sample& s) { return s.volumetric * 100; }),
+                                        volume.series.size()));
+  }
+  out.text = table.text() + line_text("peak", result.peak) + line_text("residual", result.residual);
+  out.json = {{"mean_diameter", result.mean_diameter},
+              {"peak", json_of(result.peak)},
+              {"residual", json_of(result.residual)},
+              {"runs", std::move(runs)}};
+  out.sheet = {"Triaxial compression", {std::move(stress), std::move(volume)}};
+  return out;
+}
+
+TestReport report_on(const dem::TiltingBoardResult& result) {
+  using Sample = dem::TiltSample;
+  TestReport out;
+  out.text = result.slid ? fmt::format("{} grains begin to slide at {} deg; slid by a grain at {} deg\n", result.grains,
+                                       number(result.onset / degree), number(result.gone / degree))
+                         : fmt::format("{} grains held up to {} deg\n", result.grains, number(result.onset / degree));
+  const auto slide = column<Sample>(result.curve, [](const Sample& s) { return s.slide; });
+  out.json = {{"mean_diameter", result.mean_diameter},
+              {"grains", result.grains},
+              {"slid", result.slid},
+              {"onset", result.onset},
+              {"gone", result.gone},
+              {"angle", column<Sample>(result.curve, [](const Sample& s) { return s.angle; })},
+              {"slide", slide}};
+  Plot plot = panel("Mean slide [mm]", "tilt [deg]");
+  plot.series.push_back(line_series("", column<Sample>(result.curve, [](const Sample& s) { return s.angle / degree; }),
+                                    column<Sample>(result.curve, [](const Sample& s) { return s.slide * 1e3; }), 0));
+  out.sheet = {"Tilting board", {std::move(plot)}};
+  return out;
+}
+
+TestReport report_on(const dem::AngleOfReposeResult& result) {
+  using Ring = dem::HeapProfile;
+  TestReport out;
+  out.text = fmt::format("angle of repose {} deg: {} grains, heap {} mm high, {} mm in radius, at rest after {} s\n",
+                         degrees(result.angle), result.grains, number(result.height * 1e3), number(result.base * 1e3),
+                         number(result.settling_time));
+  out.json = {{"mean_diameter", result.mean_diameter},
+              {"angle", json_of(result.angle)},
+              {"by_sector", result.by_sector},
+              {"grains", result.grains},
+              {"height", result.height},
+              {"base", result.base},
+              {"lift_speed", result.lift_speed},
+              {"radius", column<Ring>(result.profile, [](const Ring& r) { return r.radius; })},
+              {"profile", column<Ring>(result.profile, [](const Ring& r) { return r.height; })}};
+  Plot plot = panel("Height [mm]", "distance from the axis [mm]");
+  plot.series.push_back(line_series("", column<Ring>(result.profile, [](const Ring& r) { return r.radius * 1e3; }),
+                                    column<Ring>(result.profile, [](const Ring& r) { return r.height * 1e3; }), 0));
+  out.sheet = {"Angle of repose", {std::move(plot)}};
+  return out;
+}
+
+TestReport report_on(const std::vector<dem::PlateRun>& runs) {
+  using Sample = dem::PlateSample;
+  TestReport out;
+  TextTable table({"plate [mm]", "grains", "void ratio", "sinkage [mm]", "pressure there [kPa]"});
+  Json all = Json::array();
+  Plot plot = panel("Pressure [kPa]", "sinkage [mm]");
+  for (const dem::PlateRun& run : runs) {
+    const Sample& last = run.curve.back();
+    table.add({number(run.diameter * 1e3), std::to_string(run.grains), number(run.void_ratio),
+               number(last.sinkage * 1e3), number(last.pressure / 1e3)});
+    all.push_back({{"diameter", run.diameter},
+                   {"packing", run.packing},
+                   {"void_ratio", run.void_ratio},
+                   {"bulk_density", run.density},
+                   {"speed", run.speed},
+                   {"sinkage", column<Sample>(run.curve, [](const Sample& s) { return s.sinkage; })},
+                   {"pressure", column<Sample>(run.curve, [](const Sample& s) { return s.pressure; })}});
+    plot.series.push_back(line_series(fmt::format("{} mm", number(run.diameter * 1e3)),
+                                      column<Sample>(run.curve, [](const Sample& s) { return s.sinkage * 1e3; }),
+                                      column<Sample>(run.curve, [](const Sample& s) { return s.pressure / 1e3; }),
+                                      plot.series.size()));
+  }
+  out.text = table.text();
+  out.json = {{"runs", std::move(all)}};
+  out.sheet = {"Plate sinkage", {std::move(plot)}};
+  return out;
+}
+
+TestReport report_on(const std::vector<dem::AnnulusRun>& runs) {
+  using Sample = dem::AnnulusSample;
+  TestReport out;
+  TextTable table({"stress [kPa]", "packing", "shear stress at the end [kPa]", "sinkage [mm]"});
+  Json all = Json::array();
+  Plot plot = panel("Shear stress [kPa]", "displacement [mm]");
+  for (const dem::AnnulusRun& run : runs) {
+    const std::size_t tail = std::max<std::size_t>(1, run.curve.size() / 5);
+    double mean = 0;
+    for (std::size_t k = run.curve.size() - tail; k < run.curve.size(); ++k)
+      mean += run.curve[k].shear_stress / static_cast<double>(tail);
+    table.add({number(run.stress / 1e3), std::to_string(run.packing), number(mean / 1e3),
+               number(run.curve.back().sinkage * 1e3)});
+    all.push_back({{"stress", run.stress},
+                   {"packing", run.packing},
+                   {"speed", run.speed},
+                   {"displacement", column<Sample>(run.curve, [](const Sample& s) { return s.displacement; })},
+                   {"shear_stress", column<Sample>(run.curve, [](const Sample& s) { return s.shear_stress; })},
+                   {"normal_stress", column<Sample>(run.curve, [](const Sample& s) { return s.normal_stress; })},
+                   {"sinkage", column<Sample>(run.curve, [](const Sample& s) { return s.sinkage; })}});
+    plot.series.push_back(line_series(fmt::format("{} kPa", number(run.stress / 1e3)),
+                                      column<Sample>(run.curve, [](const Sample& s) { return s.displacement * 1e3; }),
+                                      column<Sample>(run.curve, [](const Sample& s) { return s.shear_stress / 1e3; }),
+                                      plot.series.size()));
+  }
+  out.text = table.text();
+  out.json = {{"runs", std::move(all)}};
+  out.sheet = {"Ring with grousers", {std::move(plot)}};
+  return out;
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,30 @@
+// Element tests as a person and a program see them.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "compare/report/plot.hpp"
+#include "dem/element_tests/angle_of_repose.hpp"
+#include "dem/element_tests/direct_shear.hpp"
+#include "dem/element_tests/plate_tests.hpp"
+#include "dem/element_tests/tilting_board.hpp"
+#include "dem/element_tests/triaxial.hpp"
+
+namespace soilbin::cli {
+
+/// One test's outcome: a table for the terminal, SI and radians for programs, curves to draw.
+struct TestReport {
+  std::string text;
+  nlohmann::ordered_json json;
+  compare::Sheet sheet;
+};
+
+TestReport report_on(const dem::DirectShearResult& result);
+TestReport report_on(const dem::TriaxialResult& result);
+TestReport report_on(const dem::TiltingBoardResult& result);
+TestReport report_on(const dem::AngleOfReposeResult& result);
+TestReport report_on(const std::vector<dem::PlateRun>& runs);
+TestReport report_on(const std::vector<dem::AnnulusRun>& runs);
+
+}  // namespace soilbin::cli

@@ -1,0 +1,136 @@
+#include "compare/bevameter/bevameter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+Estimate mean_of(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  double sum = 0, squares = 0;
+  for (const double value : values) sum += value;
+  for (const double value : values) squares += (value - sum / n) * (value - sum / n);
+  return {sum / n, n > 1 ? std::sqrt(squares / (n - 1) / n) : 0.0};
+}
+
+/// tau_max and the sum of squares left, at this K.
+JanosiFit at_modulus(const ShearCurve& curve, double modulus) {
+  double uu = 0, ut = 0, tt = 0;
+  for (std::size_t k = 0; k < curve.displacement.size(); ++k) {
+    const double u = -std::expm1(-curve.displacement[k] / modulus), t = curve.shear_stress[k];
+    uu += u * u, ut += u * t, tt += t * t;
+  }
+  const double left = std::max(0.0, tt - ut * ut / uu) / static_cast<double>(curve.displacement.size());
+  return {.shear_max = ut / uu, .modulus = modulus, .rms = std::sqrt(left)};
+}
+
+struct Strength {
+  Estimate cohesion, friction_angle;
+};
+
+/// Weights 1/sigma^2: errors of strength grow with it. Their size is taken from the scatter.
+Strength strength_of(std::span<const ShearCurve> curves, const std::vector<JanosiFit>& fits) {
+  double s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    const double x = curves[k].normal_stress, y = fits[k].shear_max, w = 1 / (x * x);
+    s += w, sx += w * x, sy += w * y, sxx += w * x * x, sxy += w * x * y;
+  }
+  const double determinant = s * sxx - sx * sx;
+  if (!(determinant > 1e-9 * s * sxx)) throw InputError("c and phi need shear tests at two normal stresses");
+  const double slope = (s * sxy - sx * sy) / determinant, cut = (sy - slope * sx) / s;
+  double left = 0;
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    const double miss = (fits[k].shear_max - cut - slope * curves[k].normal_stress) / curves[k].normal_stress;
+    left += miss * miss;
+  }
+  const double variance = curves.size() > 2 ? left / static_cast<double>(curves.size() - 2) : 0;
+  return {.cohesion = {cut, std::sqrt(variance * sxx / determinant)},
+          .friction_angle = {std::atan(slope), std::sqrt(variance * s / determinant) / (1 + slope * slope)}};
+}
+
+/// Root mean square of p - (k_c/b + k_phi) z^n over the mean p.
+double pressure_error(std::span<const PlateSet> plates, const BevameterFit& fit) {
+  double squares = 0, sum = 0, count = 0;
+  for (const PlateSet& set : plates)
+    for (const bekker_wong::PlateCurve& curve : set)
+      for (std::size_t k = 0; k < curve.pressure.size(); ++k) {
+        const double modulus = fit.k_c.value / curve.radius + fit.k_phi.value;
+        const double miss = curve.pressure[k] - modulus * std::pow(curve.sinkage[k], fit.exponent.value);
+        squares += miss * miss, sum += curve.pressure[k], count += 1;
+      }
+  return std::sqrt(squares / count) / (sum / count);
+}
+
+}  // namespace
+
+JanosiFit fit_janosi(const ShearCurve& curve) {
+  const std::vector<double>& j = curve.displacement;
+  if (j.size() < 4 || curve.shear_stress.size() != j.size())
+    throw InputError("a shear test needs four points or more, displacement and stress each");
+  if (*std::min_element(j.begin(), j.end()) <= 0) throw InputError("displacements of a shear test must be above 0");
+  // A coarse search over the logarithm of K, then golden section.
+  double low = std::log(0.01 * j.front()), high = std::log(10 * *std::max_element(j.begin(), j.end()));
+  constexpr int coarse = 200;
+  const double width = (high - low) / coarse;
+  double best = low;
+  for (int k = 1; k <= coarse; ++k)
+    if (at_modulus(curve, std::exp(low + k * width)).rms < at_modulus(curve, std::exp(best)).rms)
+      best = low + k * width;
+  low = best - width, high = best + width;
+  constexpr double golden = 0.6180339887498949;
+  for (int k = 0; k < 60; ++k) {
+    const double a = high - golden * (high - low), b = low + golden * (high - low);
+    (at_modulus(curve, std::exp(a)).rms < at_modulus(curve, std::exp(b)).rms ? high : low) =
+        at_modulus(curve, std::exp(a)).rms < at_modulus(curve, std::exp(b)).rms ? b : a;
+  }
+  return at_modulus(curve, std::exp((low + high) / 2));
+}
+
+BevameterFit fit_bevameter(std::span<const PlateSet> plates, std::span<const ShearCurve> shear) {
+  if (plates.empty() || shear.empty()) throw InputError("a bevameter needs plates and shear tests");
+  BevameterFit fit;
+  std::vector<double> n, k_c, k_phi, modulus;
+  for (const PlateSet& set : plates)
+    n.push_back(bekker_wong::fit_plates(set, bekker_wong::PlateExponent::common).exponent);
+  fit.exponent = mean_of(n);
+  // k_c and k_phi mean something at one exponent only: all sets at the mean one.
+  for (const PlateSet& set : plates) {
+    const bekker_wong::PlateFit at = bekker_wong::fit_plates_at(set, fit.exponent.value);
+    k_c.push_back(at.k_c), k_phi.push_back(at.k_phi);
+  }
+  fit.k_c = mean_of(k_c), fit.k_phi = mean_of(k_phi);
+  for (const ShearCurve& curve : shear) {
+    fit.shear.push_back(fit_janosi(curve));
+    modulus.push_back(fit.shear.back().modulus);
+  }
+  fit.shear_modulus = mean_of(modulus);
+  const Strength strength = strength_of(shear, fit.shear);
+  fit.cohesion_as_fitted = strength.cohesion.value;
+  fit.cohesion = {std::max(0.0, strength.cohesion.value), strength.cohesion.std_error};
+  fit.friction_angle = strength.friction_angle;
+  fit.pressure_error = pressure_error(plates, fit);
+  return fit;
+}
+
+Soil with_bevameter(Soil soil, const BevameterFit& fit, double density, const std::string& source) {
+  const bool known = soil.semi_empirical.has_value();
+  SemiEmpiricalSoil out = known ? *soil.semi_empirical : SemiEmpiricalSoil{};
+  if (!known) {
+    out.stress_angle_c1 = {0.18, 0.1}, out.stress_angle_c2 = {0.32, 0.15};
+    for (const char* key : {"stress_angle_c1", "stress_angle_c2"})
+      out.sources[key] = "chosen: as Azimi et al. 2013 take for sand; a bevameter does not tell it";
+  }
+  out.exponent = fit.exponent, out.k_c = fit.k_c, out.k_phi = fit.k_phi;
+  out.cohesion = fit.cohesion, out.friction_angle = fit.friction_angle, out.shear_modulus = fit.shear_modulus;
+  out.density = density;
+  for (const char* key : {"exponent", "k_c", "k_phi", "cohesion", "friction_angle", "shear_modulus", "density"})
+    out.sources[key] = source;
+  if (fit.cohesion_as_fitted < 0) out.sources["cohesion"] += "; fitted below 0, taken as 0";
+  soil.semi_empirical = out;
+  return soil;
+}
+
+}  // namespace soilbin::compare

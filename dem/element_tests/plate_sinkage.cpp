@@ -1,0 +1,80 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dem/element_tests/tool_bed.hpp"
+#include "dem/surface/shapes.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+using std::numbers::pi;
+
+void check(const PlateSettings& s) {
+  const auto require = [](bool holds, const std::string& what) {
+    if (!holds) throw InputError("plate sinkage: " + what);
+  };
+  require(!s.diameters.empty(), "at least one plate");
+  for (const double diameter : s.diameters)
+    require(diameter >= narrowest_tool,
+            fmt::format("a plate of {:.3g} grains is too narrow: at least {:.3g}", diameter, narrowest_tool));
+  require(s.sinkage > 0 && s.speed > 0 && s.speed <= 1, "sinkage above 0, speed in 0 .. 1");
+  require(s.samples >= 10, "at least 10 samples");
+}
+
+/// Presses a disc into the bed's middle.
+PlateRun press_plate(const SettledBed& bed, double diameter, const PlateSettings& settings, const WorkOptions& how,
+                     SteppedWork& work) {
+  const double d = mean_diameter(bed.recipe.soil), middle = bed.recipe.size.length / 2, surface = surface_of(bed);
+  Simulation simulation = simulation_on(bed, how);
+  Body disc;
+  disc.name = "plate";
+  const double thick = (settings.sinkage + 4) * d;  // no grain gets on top of it
+  disc.surfaces.push_back({surface_at(smooth_wheel(diameter / 2, thick, 48), {}), 1});
+  disc.rotation = rotation_by({pi / 2, 0, 0});  // axle upright
+  const double base = highest_within(bed, diameter / 2);
+  disc.position = {middle, middle, base + thick / 2};
+  PlateRun run;
+  run.diameter = diameter, run.speed = settings.speed * std::sqrt(bed.recipe.gravity * d);
+  run.packing = bed.recipe.packing, run.grains = bed.state.grains.count();
+  run.void_ratio = bed.report.void_ratio, run.density = bed.report.bulk_density;
+  disc.velocity = {0, 0, -run.speed};
+  const int index = simulation.add_body(disc);
+
+  const double way = base - surface + settings.sinkage * d, area = pi * diameter * diameter / 4;
+  const double dt = simulation.setup().numerics.dt;
+  const auto steps = std::max<std::int64_t>(1, std::llround(way / (run.speed * dt * settings.samples)));
+  work.begin("pressing");
+  for (int k = 0; k < settings.samples; ++k) {
+    PlateSample sample;
+    for (std::int64_t i = 0; i < steps; ++i) {
+      work.step(simulation);
+      sample.pressure += simulation.body(index).force.z / (area * static_cast<double>(steps));
+      sample.sinkage += (surface - (simulation.body(index).position.z - thick / 2)) / static_cast<double>(steps);
+    }
+    run.curve.push_back(sample);
+  }
+  return run;
+}
+
+}  // namespace
+
+std::vector<PlateRun> plate_sinkage(const GranularSoil& soil, const PlateSettings& settings, const WorkOptions& how,
+                                    BedStore* beds) {
+  check(settings);
+  const double d = mean_diameter(soil);
+  const double widest = *std::max_element(settings.diameters.begin(), settings.diameters.end()) * d;
+  const auto bed = bed_for_tool(soil, settings.bed, widest, how, beds);
+  SteppedWork work(how);
+  const double speed = settings.speed * std::sqrt(settings.bed.gravity * d);
+  work.expect(static_cast<double>(settings.diameters.size()) * (settings.sinkage + 0.7) * d /
+              (speed * bed->setup.numerics.dt));
+  std::vector<PlateRun> runs;
+  for (const double diameter : settings.diameters) runs.push_back(press_plate(*bed, diameter * d, settings, how, work));
+  return runs;
+}
+
+}  // namespace soilbin::dem

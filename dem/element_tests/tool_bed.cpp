@@ -1,0 +1,45 @@
+#include "dem/element_tests/tool_bed.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenario/errors.hpp"
+
+namespace soilbin::dem {
+
+std::shared_ptr<const SettledBed> bed_for_tool(const GranularSoil& soil, const TestBed& bed, double tool,
+                                               const WorkOptions& how, BedStore* beds) {
+  if (!(bed.width > 1.2 && bed.depth > 0.2))
+    throw InputError("the bed must be wider than 1.2 and deeper than 0.2 diameters of the tool");
+  const double side = bed.width * tool;
+  BedRecipe recipe = specimen_recipe(soil, {side, side, bed.depth * tool}, bed.specimen);
+  recipe.gravity = bed.gravity;
+  return specimen_bed(recipe, how, beds);
+}
+
+Simulation simulation_on(const SettledBed& bed, const WorkOptions& how) {
+  Setup setup = bed.setup;
+  add_wall_material(setup, bed.recipe.soil, 1);
+  setup.numerics.skin = 0.2 * bed.recipe.soil.radius_max;
+  setup.numerics.threads = how.threads;
+  setup.numerics.deepest_overlap = 0.5;  // chains of grains under an edge are pressed hard
+  return Simulation(std::move(setup), bed.state);
+}
+
+double surface_of(const SettledBed& bed) {
+  const double r = mean_diameter(bed.recipe.soil) / 2, side = bed.recipe.size.length;
+  return surface_height(bed.state.grains, {2 * r, side - 2 * r, 2 * r, side - 2 * r}, r / 4).mean();
+}
+
+double highest_within(const SettledBed& bed, double radius) {
+  const double middle = bed.recipe.size.length / 2;
+  double top = 0;
+  for (std::size_t k = 0; k < bed.state.grains.count(); ++k) {
+    const Motion& grain = bed.state.grains.motion[k];
+    if (std::hypot(grain.position.x - middle, grain.position.y - middle) < radius + grain.radius)
+      top = std::max(top, grain.position.z + grain.radius);
+  }
+  return top;
+}
+
+}  // namespace soilbin::dem

@@ -1,0 +1,88 @@
+// The bevameter gives back the soil that made its curves.
+#include "compare/bevameter/bevameter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scenario/case.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+constexpr double deg = std::numbers::pi / 180;
+constexpr double n = 1.1, k_c = 990, k_phi = 1.53e6, c = 1040, phi = 28 * deg, K = 0.02;
+
+/// Plates of three radii on a soil whose modulus is `share` of the one above.
+PlateSet plates(double share = 1) {
+  PlateSet set;
+  for (const double radius : {0.05, 0.1, 0.15}) {
+    bekker_wong::PlateCurve curve{.radius = radius, .pressure = {}, .sinkage = {}};
+    for (const double z : {0.01, 0.02, 0.04, 0.06}) {
+      curve.sinkage.push_back(z);
+      curve.pressure.push_back(share * (k_c / radius + k_phi) * std::pow(z, n));
+    }
+    set.push_back(curve);
+  }
+  return set;
+}
+
+ShearCurve sheared(double normal) {
+  ShearCurve curve{.normal_stress = normal, .displacement = {}, .shear_stress = {}};
+  for (int k = 1; k <= 40; ++k) {
+    const double j = 0.003 * k;
+    curve.displacement.push_back(j);
+    curve.shear_stress.push_back((c + normal * std::tan(phi)) * (1 - std::exp(-j / K)));
+  }
+  return curve;
+}
+
+const std::vector<ShearCurve> three_stresses{sheared(5e3), sheared(10e3), sheared(20e3)};
+
+TEST(Bevameter, GivesBackTheSoil) {
+  const std::vector<PlateSet> sets{plates()};
+  const BevameterFit fit = fit_bevameter(sets, three_stresses);
+  EXPECT_NEAR(fit.exponent.value, n, 1e-9);
+  EXPECT_NEAR(fit.k_c.value, k_c, 1e-3);
+  EXPECT_NEAR(fit.k_phi.value, k_phi, 1);
+  EXPECT_NEAR(fit.cohesion.value, c, 0.01);
+  EXPECT_NEAR(fit.friction_angle.value, phi, 1e-6);
+  EXPECT_NEAR(fit.shear_modulus.value, K, 1e-7);
+  EXPECT_NEAR(fit.pressure_error, 0, 1e-9);
+}
+
+TEST(Bevameter, ScatterOfSetsIsTheErrorOfTheMean) {
+  // Moduli of 0.9, 1 and 1.1: mean 1, standard deviation 0.1, error 0.1/sqrt(3).
+  const std::vector<PlateSet> sets{plates(0.9), plates(1), plates(1.1)};
+  const BevameterFit fit = fit_bevameter(sets, three_stresses);
+  EXPECT_NEAR(fit.k_phi.value, k_phi, 1);
+  EXPECT_NEAR(fit.k_phi.std_error, 0.1 * k_phi / std::sqrt(3.0), 1);
+  EXPECT_NEAR(fit.exponent.std_error, 0, 1e-9);
+}
+
+TEST(Bevameter, WritesASoilThatReadsBack) {
+  const std::vector<PlateSet> sets{plates()};
+  Soil soil;
+  soil.name = "grains";
+  const Soil out = with_bevameter(soil, fit_bevameter(sets, three_stresses), 1500, "virtual bevameter");
+  const Soil again = parse_soil({.file = "soil.yaml", .text = write_soil(out)});
+  ASSERT_TRUE(again.semi_empirical);
+  EXPECT_EQ(again.semi_empirical->k_phi.value, out.semi_empirical->k_phi.value);
+  EXPECT_EQ(again.semi_empirical->sources.at("k_phi"), "virtual bevameter");
+  EXPECT_EQ(again.semi_empirical->stress_angle_c1.value, 0.18);
+}
+
+TEST(Bevameter, RefusesTooLittle) {
+  const std::vector<PlateSet> sets{plates()}, one{{plates().front()}};
+  EXPECT_THROW(fit_bevameter(sets, std::vector<ShearCurve>{sheared(5e3)}), InputError);
+  EXPECT_THROW(fit_bevameter(one, three_stresses), InputError);
+  EXPECT_THROW(fit_bevameter({}, three_stresses), InputError);
+  ShearCurve at_zero = sheared(5e3);
+  at_zero.displacement.front() = 0;
+  EXPECT_THROW(fit_janosi(at_zero), InputError);
+}
+
+}  // namespace
+}  // namespace soilbin::compare
