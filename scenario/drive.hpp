@@ -15,12 +15,12 @@ namespace soilbin {
 /// What turns the wheel: a motor that holds a rim speed or one that gives a torque. Exactly one of the two is asked
 /// for.
 struct Controller {
-  std::optional<double> rim_speed;          ///< r w that it holds [m/s]
-  std::optional<double> torque;             ///< M that it gives [N m]
-  std::optional<double> highest_torque;     ///< of a motor that holds a rim speed [N m]
-  std::optional<double> highest_rim_speed;  ///< of a motor that gives a torque [m/s]
-  double ramp = 1.0;                        ///< time over which the setpoint grows from rest [s]
-  double response = 0.02;                   ///< time in which an error of speed is made good [s]
+  std::optional<double> rim_speed{};          ///< r w that it holds [m/s]
+  std::optional<double> torque{};             ///< M that it gives [N m]
+  std::optional<double> highest_torque{};     ///< of a motor that holds a rim speed [N m]
+  std::optional<double> highest_rim_speed{};  ///< of a motor that gives a torque [m/s]
+  double ramp = 1.0;                          ///< time over which the setpoint grows from rest [s]
+  double response = 0.02;                     ///< time in which an error of speed is made good [s]
 };
 
 /// A place along the way. Angles and drawbar load go linearly from one to the next and stay as they are before the

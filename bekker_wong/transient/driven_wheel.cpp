@@ -241,7 +241,7 @@ void DrivenWheel::rate(double time, std::span<const double> state, const Motor& 
   out[spin] = (now.motor_torque - now.soil_torque) / inertia_;
   out[rolled] = (v - std::abs(v) * state[rolled]) / rolling_in_;
   out[mean_speed] = time < drive_.controller.ramp ? 0.0 : (v - state[mean_speed]) / memory;
-  out[speed_error] = motor.integral_rate(time, state[spin]);
+  out[speed_error] = motor.integral_rate(time, state[spin], state[speed_error]);
 }
 
 /// Depth at which the soil carries the load with the shear that the state holds; the state gets it.
@@ -293,12 +293,16 @@ Held DrivenWheel::hold() const {
     spare(0.0);
     return held;
   }
-  const double most = std::copysign(30 * soils_.front().wheel.soil().shear_modulus, pull);
-  if (spare(most) * pull < 0.0)
-    throw NoSolution(fmt::format(
-        "the soil can't hold the wheel at rest: {:.4g} N pull it back, its shear gives {:.4g} N", pull, p.forward));
-  const double root =
-      gsl::bracketed_root(spare, 0.0, most, 1e-12, 1e-10 * std::abs(pull), "the shear that holds the wheel at rest");
+  const double modulus = std::copysign(soils_.front().wheel.soil().shear_modulus, pull);
+  constexpr double most = 32.0;
+  double share = 0.25;
+  while (spare(share * modulus) * pull < 0.0)
+    if ((share *= 2) > most)
+      throw NoSolution(fmt::format(
+          "the soil can't hold the wheel at rest: {:.4g} N pull it back, its shear gives {:.4g} N", pull, p.forward));
+  const double far = share * modulus;
+  const double root = gsl::bracketed_root(spare, std::min(0.0, far), std::max(0.0, far), 1e-12, 1e-10 * std::abs(pull),
+                                          "the shear that holds the wheel at rest");
   spare(root);
   held.torque = p.torque;
   return held;

@@ -23,7 +23,7 @@ class Ride {
         held_(wheel_.hold()),
         motor_(wheel_.motor(held_.torque)),
         integrator_(problem(numerics), 0.0, held_.state) {
-    const auto limits = motor_.switches(0.0, 0.0, 0.0);
+    const auto limits = motor_.beyond(0.0, 0.0, 0.0);
     if (drive_.controller.highest_torque && (limits[0] > 0.0 || limits[1] < 0.0))
       throw NoSolution("the motor's highest torque can't hold the wheel at rest where the drive begins");
   }
@@ -64,7 +64,7 @@ class Ride {
   }
 
   void watch(double t, std::span<const double> y, std::span<double> out) const {
-    const auto limits = motor_.switches(t, y[spin], y[speed_error]);
+    const auto limits = motor_.beyond(t, y[spin], y[speed_error]);
     out[at_goal] = drive_.distance ? y[travelled] - *drive_.distance : 1.0;
     out[at_stuck] = y[mean_speed] - drive_.stuck_speed;
     out[at_lift] = y[depth];
@@ -106,17 +106,15 @@ class Ride {
         ends(at_bury, 1, DriveEnd::buried) || ends(at_roll_back, -1, DriveEnd::rolled_back))
       return true;
     if (stop.signs[at_lift] != 0) note(stop.signs[at_lift] < 0 ? DriveEvent::lifts : DriveEvent::lands);
-    if (stop.signs[at_upper] != 0 || stop.signs[at_lower] != 0) switch_motor(stop);
+    if (stop.signs[at_upper] != 0 || stop.signs[at_lower] != 0) note_limit(stop);
     return false;
   }
 
-  void switch_motor(const sundials::Stop& stop) {
-    const bool upper = stop.signs[at_upper] > 0, lower = stop.signs[at_lower] < 0;
-    motor_.mode = upper ? Motor::Mode::upper_limit : lower ? Motor::Mode::lower_limit : Motor::Mode::free;
-    note(!upper && !lower           ? DriveEvent::free_again
+  void note_limit(const sundials::Stop& stop) {
+    const bool reached = stop.signs[at_upper] > 0 || stop.signs[at_lower] < 0;
+    note(!reached                   ? DriveEvent::free_again
          : drive_.controller.torque ? DriveEvent::speed_limit
                                     : DriveEvent::torque_limit);
-    integrator_.restart();
   }
 
   DriveSample sample(double t) const {
