@@ -20,6 +20,8 @@ struct Session {
 void add_estimate(CLI::App& app, Session& session);
 void add_explain(CLI::App& app, Session& session);
 void add_run(CLI::App& app, Session& session);
+void add_drive(CLI::App& app, Session& session);
+void add_limits(CLI::App& app, Session& session);
 void add_predict(CLI::App& app, Session& session);
 void add_loop(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);

@@ -20,6 +20,8 @@ void add_commands(CLI::App& app, Session& session) {
   add_estimate(app, session);
   add_explain(app, session);
   add_run(app, session);
+  add_limits(app, session);
+  add_drive(app, session);
   add_predict(app, session);
   add_loop(app, session);
   add_report(app, session);

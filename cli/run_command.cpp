@@ -62,7 +62,7 @@ void save(const RunOptions& options, const Case& question, const std::vector<com
 }
 
 int run(const RunOptions& options, const Session& session) {
-  Case question = find_case(session.place, options.study);
+  Case question = find_study(session.place, options.study);
   keep_model(question, options.model);
   question.study.conditions = options.conditions.pick(question.study.conditions);
   const std::vector<compare::ModelAnswers> study =

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bekker_wong/drive_fixture.hpp"
+#include "bekker_wong/limits.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::bekker_wong {
@@ -17,7 +18,7 @@ TEST_P(SlowTransientEffects, EndInTheirStaticWheelOrAreRefused) {
   SCOPED_TRACE(form.id + " " + form.form);
   Scenario s = scenario();
   s.bin = Bin{.depth = 0.3, .width = 1.0};
-  Drive d = drive(-13 * deg, 0.0, 20.0);  // downhill, so that forms that cost much pull still get along
+  Drive d = drive(-9 * deg, 0.0, 20.0);  // downhill, so that forms that cost much pull still get along
   d.profile[0].yaw = 3 * deg;
   d.pass = 2;
   d.effects = {{form.id, form.form, {}}};
@@ -26,6 +27,13 @@ TEST_P(SlowTransientEffects, EndInTheirStaticWheelOrAreRefused) {
     return;
   }
   const DriveRecord record = drive_wheel(s, d, 20, {.nodes = 32, .relative_tolerance = 1e-7});
+  if (record.end == DriveEnd::stuck) {  // a form that resists so much that the static wheel gets along at no slip
+    const RollingWheel wheel(s.tire, values_of(*s.soil.semi_empirical), make_effects(d.effects), s.bin);
+    OperatingCondition at;
+    at.load = load, at.longitudinal_incline = -9 * deg, at.yaw = 3 * deg, at.pass = 2;
+    EXPECT_LT(largest_pull(wheel, at).drawbar_pull, 0.0);
+    return;
+  }
   ASSERT_EQ(record.end, DriveEnd::time_is_up);
   const DriveSample& end = record.samples.back();
   const RolledWheel wheel = steady(s, d, end);
