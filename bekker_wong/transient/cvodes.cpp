@@ -152,7 +152,7 @@ void Integrator::Body::begin_sensitivities() {
   const std::size_t count = problem.parameter_scales.size();
   if (count == 0) return;
   for (std::size_t i = 0; i < count; ++i) {
-    sensitivity_vectors.push_back(vector_of(std::vector<double>(state.size(), 0.0), context.handle));
+    sensitivity_vectors.push_back(vector_of(problem.sensitivity_starts.at(i), context.handle));
     sensitivity_handles.push_back(sensitivity_vectors.back().get());
   }
   void* m = memory.handle;

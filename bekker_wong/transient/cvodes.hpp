@@ -24,6 +24,7 @@ struct Problem {
   int sum_count = 0;
   SensitivityFunction sensitivity;
   std::vector<double> parameter_scales;  ///< one a parameter, for the sensitivities' tolerance; empty: none
+  std::vector<std::vector<double>> sensitivity_starts;  ///< dy/dp_i at the start, one a parameter
   double relative_tolerance = 1e-6;
   std::vector<double> absolute_tolerances;  ///< one a state
   double sum_tolerance = 1e-9;              ///< absolute, of the sums

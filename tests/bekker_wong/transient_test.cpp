@@ -7,6 +7,7 @@
 
 #include "bekker_wong/drive_fixture.hpp"
 #include "bekker_wong/limits.hpp"
+#include "bekker_wong/transient/sensitivity.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::bekker_wong {
@@ -217,6 +218,20 @@ TEST(Transient, ANewSoilUnderTheWheelIsTheStaticWheelThere) {
   EXPECT_NEAR(steady(on_firm, d, end).reading.drawbar_pull, 0.0, 1e-4 * load);
   EXPECT_NEAR(steady(on_firm, d, end).reading.sinkage, end.sinkage, 1e-4 * 0.09);
   EXPECT_LT(std::abs(end.energy.unaccounted()), 1e-6 * end.energy.motor);
+}
+
+// CVODES' forward sensitivities against whole drives with a soil value changed by 1 in 1000 up and down.
+TEST(SlowTransient, SensitivitiesOfTheWayAreThoseOfDifferences) {
+  const Drive d = drive(2 * deg, 0.0, 6.0);
+  const DriveNumerics numerics{.nodes = 24, .relative_tolerance = 1e-8};
+  const TravelSensitivity forward = travel_sensitivity(scenario(), d, numerics);
+  const TravelSensitivity by_hand = travel_differences(scenario(), d, 1e-3, numerics);
+  EXPECT_NEAR(forward.travelled, by_hand.travelled, 1e-6);
+  for (std::size_t i = 0; i < drive_parameters.size(); ++i)
+    EXPECT_NEAR(forward.by_value[i] / by_hand.by_value[i], 1.0, 2e-3) << drive_parameters[i].name;
+  EXPECT_GT(forward.by_value[1], 0.0) << "on stiffer soil it gets further";
+  EXPECT_GT(forward.by_value[3], 0.0) << "on stronger soil too";
+  EXPECT_LT(forward.by_value[4], 0.0) << "where shear takes more displacement it slips more";
 }
 
 TEST(Transient, RefusesWhatItCannotAnswer) {
