@@ -117,6 +117,8 @@ struct EffectForm {
   /// How far nature may differ from this form, as a share of the effect: what a wrong form leaves over is not taken for
   /// a further effect. Small where the form is kinematics (a tilted bed), large where it is a fit (slip sinkage).
   double form_tolerance = 0.25;
+  /// Why a wheel driven in time can't take this form; empty: it can (bekker_wong/transient).
+  std::string steady_only = {};
   std::function<std::unique_ptr<const Effect>(const std::vector<double>& parameters)> make;
 };
 

@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace soilbin::gsl {
@@ -38,6 +39,28 @@ using Workspace = std::unique_ptr<gsl_integration_workspace, Freed<gsl_integrati
 gsl_function as_gsl(FunctionRef& f) {
   return {[](double x, void* o) { return (*static_cast<FunctionRef*>(o))(x); }, &f};
 }
+
+/// A thread's solver, lent for one search: a function may itself look for a root.
+class LentSolver {
+ public:
+  LentSolver() {
+    if (idle().empty()) idle().emplace_back(gsl_root_fsolver_alloc(gsl_root_fsolver_brent));
+    solver_ = std::move(idle().back());
+    idle().pop_back();
+    if (!solver_) throw std::bad_alloc();
+  }
+  LentSolver(const LentSolver&) = delete;
+  LentSolver& operator=(const LentSolver&) = delete;
+  ~LentSolver() { idle().push_back(std::move(solver_)); }
+  gsl_root_fsolver* get() const { return solver_.get(); }
+
+ private:
+  static std::vector<RootSolver>& idle() {
+    thread_local std::vector<RootSolver> solvers;
+    return solvers;
+  }
+  RootSolver solver_;
+};
 
 constexpr int max_rule = 128;
 struct StoredRule {
@@ -68,7 +91,7 @@ LegendreRule legendre_rule(int n) {
 
 double bracketed_root(FunctionRef f, double lower, double upper, double rel_tol, double f_tol,
                       const std::string& what) {
-  thread_local const RootSolver solver(gsl_root_fsolver_alloc(gsl_root_fsolver_brent));
+  const LentSolver solver;
   double best = lower, best_f = std::numeric_limits<double>::infinity();
   const auto noted = [&](double x) {
     const double y = f(x);

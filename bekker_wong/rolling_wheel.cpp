@@ -65,14 +65,22 @@ RollingWheel::Prepared RollingWheel::prepare(const OperatingCondition& at) const
   return p;
 }
 
-void RollingWheel::fill_patch(const Prepared& p, double theta_1, ContactPatch& patch) const {
+ContactAngles RollingWheel::angles(const Prepared& p, double theta_1) const {
   ContactAngles angles = base_angles(theta_1, p.soil, p.motion);
   for (const auto& effect : effects_) effect->angles(angles, p.outline, p.around);
-  fill_geometry(patch, angles, p.outline, p.motion, p.layout);
+  return angles;
+}
+
+void RollingWheel::fill_patch(const Prepared& p, double theta_1, ContactPatch& patch,
+                              const DisplacementFill& displacement_of) const {
+  fill_geometry(patch, angles(p, theta_1), p.outline, p.motion, p.layout);
   for (const auto& effect : effects_) effect->geometry(patch, p.outline, p.around);
   fill_pressure(patch, p.soil, p.outline);
   for (const auto& effect : effects_) effect->pressure(patch, p.soil, p.outline, p.around);
-  fill_displacement(patch, p.outline, p.motion);
+  if (displacement_of)
+    displacement_of(patch, p.outline);
+  else
+    fill_displacement(patch, p.outline, p.motion);
   for (const auto& effect : effects_) effect->displacement(patch, p.outline, p.around);
   fill_strength(patch, p.soil);
   for (const auto& effect : effects_) effect->strength(patch, p.soil, p.outline, p.around);
@@ -140,9 +148,7 @@ WheelForces RollingWheel::integrate(const Prepared& p, const ContactPatch& patch
 }
 
 NodeLayout RollingWheel::layout_at(const Prepared& p, double theta_1) const {
-  ContactAngles angles = base_angles(theta_1, p.soil, p.motion);
-  for (const auto& effect : effects_) effect->angles(angles, p.outline, p.around);
-  return node_layout(p.soil, p.outline, p.motion, angles);
+  return node_layout(p.soil, p.outline, p.motion, angles(p, theta_1));
 }
 
 /// Load carried [N]: all that a search asks of a trial sinkage.
@@ -258,6 +264,20 @@ RolledWheel RollingWheel::roll(const OperatingCondition& at) const {
   settle(p, wheel);
   read(p, wheel);
   return wheel;
+}
+
+WheelForces RollingWheel::hold(const OperatingCondition& at, double theta_1, const DisplacementFill& displacement,
+                               ContactPatch& patch) const {
+  Prepared p = prepare(at);
+  p.layout = layout_at(p, theta_1);
+  fill_patch(p, theta_1, patch, displacement);
+  return integrate(p, patch);
+}
+
+Outline RollingWheel::outline(const OperatingCondition& at) const { return prepare(at).outline; }
+
+ContactAngles RollingWheel::angles(const OperatingCondition& at, double theta_1) const {
+  return angles(prepare(at), theta_1);
 }
 
 RolledWheel RollingWheel::at_entry_angle(const OperatingCondition& at, double theta_1) const {

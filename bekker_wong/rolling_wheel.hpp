@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "bekker_wong/contact_patch.hpp"
@@ -9,6 +10,10 @@
 namespace soilbin::bekker_wong {
 
 struct NodeLayout;
+
+/// Fills j_x and j_y of a patch whose geometry is there, in place of the steady motion's: for a wheel whose motion
+/// changes while it is in contact.
+using DisplacementFill = std::function<void(ContactPatch&, const Outline&)>;
 
 /// Forces at one trial sinkage, in the wheel's axes, without the slope's share of the load.
 struct WheelForces {
@@ -49,13 +54,23 @@ class RollingWheel {
   /// implicit function theorem and for looking at the balance.
   RolledWheel at_entry_angle(const OperatingCondition& at, double theta_1) const;
 
+  /// What presses on the ground where the motion is not steady: `displacement` gives j, theta_1 [rad] the depth; nothing
+  /// is balanced, settled or read. The slip of `at` is what effects and angles look at. The patch is left filled.
+  WheelForces hold(const OperatingCondition& at, double theta_1, const DisplacementFill& displacement,
+                   ContactPatch& patch) const;
+
+  /// Outline after the effects, and the contact's angles at theta_1 [rad].
+  Outline outline(const OperatingCondition& at) const;
+  ContactAngles angles(const OperatingCondition& at, double theta_1) const;
+
   const SoilValues& soil() const { return soil_; }
   const Tire& tire() const { return tire_; }
 
  private:
   struct Prepared;
   Prepared prepare(const OperatingCondition& at) const;
-  void fill_patch(const Prepared&, double theta_1, ContactPatch&) const;
+  ContactAngles angles(const Prepared&, double theta_1) const;
+  void fill_patch(const Prepared&, double theta_1, ContactPatch&, const DisplacementFill& displacement = {}) const;
   NodeLayout layout_at(const Prepared&, double theta_1) const;
   WheelForces integrate(const Prepared&, const ContactPatch&) const;
   double vertical(const Prepared&, const ContactPatch&) const;

@@ -61,10 +61,13 @@ Verdict judge(const fs::path& file, const Workplace& place) {
   }
   const Case question =
       read_case(file, place.library, place.effects);  // refuses any other format with the nearest word
-  return {
-      fmt::format("case '{}': {} on {}, {} models at {} conditions", question.name, in_words(question.scenario.tire),
-                  question.scenario.soil.name, question.study.models.size(), question.study.conditions.size()),
-      compare::doubts(question)};
+  std::string asks;
+  if (!question.study.conditions.empty())
+    asks = fmt::format("{} models at {} conditions", question.study.models.size(), question.study.conditions.size());
+  if (question.drive) asks += (asks.empty() ? "" : ", ") + std::string("a drive");
+  return {fmt::format("case '{}': {} on {}, {}", question.name, in_words(question.scenario.tire),
+                      question.scenario.soil.name, asks),
+          compare::doubts(question)};
 }
 
 int check(const std::string& name, bool json, const Session& session) {

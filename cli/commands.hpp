@@ -22,6 +22,8 @@ void add_explain(CLI::App& app, Session& session);
 void add_run(CLI::App& app, Session& session);
 void add_element_test(CLI::App& app, Session& session);
 void add_bevameter(CLI::App& app, Session& session);
+void add_drive(CLI::App& app, Session& session);
+void add_limits(CLI::App& app, Session& session);
 void add_predict(CLI::App& app, Session& session);
 void add_calibrate(CLI::App& app, Session& session);
 void add_loop(CLI::App& app, Session& session);

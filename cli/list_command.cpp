@@ -85,14 +85,16 @@ Listing studies(const Workplace& place) {
   for (const std::string& name : place.library.names(Shelf::studies))
     add_entry(all, name, 6, [&] {
       const Case question = find_case(place, name);
+      const bool drive_alone = question.study.conditions.empty();
       all.table.add({name, question.scenario.tire.name, question.scenario.soil.name,
-                     std::to_string(question.study.models.size()), std::to_string(question.study.conditions.size()),
-                     question.description});
+                     drive_alone ? "drive" : std::to_string(question.study.models.size()),
+                     drive_alone ? "-" : std::to_string(question.study.conditions.size()), question.description});
       all.json.push_back({{"name", name},
                           {"tire", question.scenario.tire.name},
                           {"soil", question.scenario.soil.name},
                           {"models", question.study.models.size()},
                           {"conditions", question.study.conditions.size()},
+                          {"drive", question.drive.has_value()},
                           {"description", question.description}});
     });
   return all;

@@ -22,6 +22,8 @@ void add_commands(CLI::App& app, Session& session) {
   add_run(app, session);
   add_element_test(app, session);
   add_bevameter(app, session);
+  add_limits(app, session);
+  add_drive(app, session);
   add_predict(app, session);
   add_calibrate(app, session);
   add_loop(app, session);

@@ -24,7 +24,7 @@ struct PredictOptions {
 Scenario scenario_for(const PredictOptions& options, const compare::Campaign& campaign, const Workplace& place) {
   Scenario scenario = compare::scenario_of(campaign);
   if (options.model.empty()) return scenario;
-  const Case fitted = find_case(place, options.model);
+  const Case fitted = find_study(place, options.model);
   if (fitted.study.models.size() != 1 || fitted.study.models.front().model != ModelKind::bekker_wong)
     throw InputError(options.model + ": a model file for predict holds one model, bekker_wong");
   scenario.soil = fitted.scenario.soil;

@@ -86,7 +86,7 @@ std::vector<OperatingCondition> ConditionFlags::pick(const std::vector<Operating
   return kept.empty() ? changed : kept;
 }
 
-Question::Question(CLI::App& app) {
+Question::Question(CLI::App& app, std::vector<std::string> needed) : needed_(std::move(needed)) {
   app.add_option("case", case_name_, "a case file, or a study of the library")->type_name("CASE");
   app.add_option("--soil", soil_, "of the library, or a YAML file")->type_name("NAME|FILE")->group("Tire and soil");
   app.add_option("--tire", tire_, "of the library, or a YAML file")->type_name("NAME|FILE")->group("Tire and soil");
@@ -116,7 +116,7 @@ Case Question::from_flags(const Workplace& place) const {
         "which wheel? --radius and --width (such as --radius 110mm --width 100mm), or --tire NAME\n"
         "  hint: there are " +
         listed(place.library.names(Shelf::tires)));
-  for (const char* key : {"load", "slip"})
+  for (const std::string& key : needed_)
     if (!condition_.given(key)) throw InputError(fmt::format("--{} is missing (such as --load 80N --slip 20%)", key));
   Case question;
   question.name = "estimate";
@@ -130,7 +130,7 @@ Case Question::from_flags(const Workplace& place) const {
 }
 
 Case Question::ask(const Workplace& place) const {
-  Case question = case_name_.empty() ? from_flags(place) : find_case(place, case_name_);
+  Case question = case_name_.empty() ? from_flags(place) : find_study(place, case_name_);
   if (!case_name_.empty()) {
     override_tire(question.scenario.tire, place);
     if (!soil_.empty()) question.scenario.soil = find_soil(soil_, place.library);

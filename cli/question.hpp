@@ -33,7 +33,8 @@ class ConditionFlags {
 /// then going before what the case says.
 class Question {
  public:
-  explicit Question(CLI::App& app);
+  /// `needed`: keys of the condition that must be given where no case is.
+  explicit Question(CLI::App& app, std::vector<std::string> needed = {"load", "slip"});
 
   /// Throws InputError that names the flag that is missing or wrong.
   Case ask(const Workplace& place) const;
@@ -42,6 +43,7 @@ class Question {
   Case from_flags(const Workplace& place) const;
   void override_tire(Tire& tire, const Workplace& place) const;
 
+  std::vector<std::string> needed_;
   std::string case_name_, tire_, soil_;
   std::vector<std::string> effects_;
   DescribedFlags<Tire> wheel_;

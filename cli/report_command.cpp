@@ -34,7 +34,7 @@ int report(const ReportOptions& options, const Session& session) {
     throw InputError("name a study or a campaign: soilbin report paper-straight --measured cmu-smooth");
   std::vector<compare::StudyPart> studies;
   for (const std::string& name : options.studies) {
-    compare::StudyPart part{find_case(session.place, name), {}};
+    compare::StudyPart part{find_study(session.place, name), {}};
     part.study = compare::run_study(part.question, shown_progress());
     studies.push_back(std::move(part));
   }

@@ -82,7 +82,7 @@ std::vector<compare::ModelAnswers> answers_to(const Case& question, const compar
 }
 
 int run(const RunOptions& options, const Session& session) {
-  Case question = find_case(session.place, options.study);
+  Case question = find_study(session.place, options.study);
   keep_model(question, options.model);
   if (!options.soil_bin.recorded.empty() && options.model.empty()) add_dem(question);
   const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();

@@ -66,6 +66,14 @@ Case find_case(const Workplace& place, const std::string& name) {
   return read_case(find_file(place, Shelf::studies, name), place.library, place.effects);
 }
 
+Case find_study(const Workplace& place, const std::string& name) {
+  Case question = find_case(place, name);
+  if (question.study.conditions.empty())
+    throw InputError(
+        fmt::format("{}: the case has no study, it asks for a drive\n  hint: soilbin drive {}", name, name));
+  return question;
+}
+
 compare::Campaign find_campaign(const Workplace& place, const std::string& name) {
   return compare::read_campaign(find_file(place, Shelf::measured, name), place.effects);
 }

@@ -29,6 +29,9 @@ std::filesystem::path find_file(const Workplace& place, Shelf shelf, const std::
 /// Reads a case: the name of a study in the library, or a path.
 Case find_case(const Workplace& place, const std::string& name);
 
+/// The same; refuses a case that asks for a drive alone.
+Case find_study(const Workplace& place, const std::string& name);
+
 /// Reads a campaign: a name of the library, its folder, or its campaign.yaml.
 compare::Campaign find_campaign(const Workplace& place, const std::string& name);
 

@@ -4,11 +4,13 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "scenario/description.hpp"
+#include "scenario/drive.hpp"
 #include "scenario/effect_vocabulary.hpp"
 #include "scenario/library.hpp"
 #include "scenario/scenario.hpp"
@@ -37,13 +39,15 @@ struct Study {
   std::vector<OperatingCondition> conditions;
 };
 
-/// A whole question. `scenario.effects` is empty: effects belong to the study's models.
+/// A whole question: a study, a drive or both. `scenario.effects` is empty: effects belong to the study's models and to
+/// the drive.
 struct Case {
   std::string name;
   std::string description;
   std::string source;
   Scenario scenario;
-  Study study;
+  Study study;  ///< without conditions where the file has none
+  std::optional<Drive> drive;
 };
 
 template <class Visitor>

@@ -154,13 +154,31 @@ Study read_study(const YamlNode& node, const Case& about, const EffectVocabulary
   return study;
 }
 
+Drive read_drive(const YamlNode& node, const Soil& soil, const Library& library, const EffectVocabulary& effects,
+                 Reading reading) {
+  if (!soil.semi_empirical)
+    reading.refuse(node,
+                   fmt::format("a drive needs the soil's 'semi_empirical' section; '{}' has none", clipped(soil.name)));
+  reading.n = soil.semi_empirical->exponent.value;
+  const SoilReader soils = [&](const YamlNode& part, const Reading& at) {
+    Soil other = read_part<Soil>(part, library, at);
+    if (!other.semi_empirical) at.refuse(part, "a drive needs a soil with a 'semi_empirical' section");
+    return other;
+  };
+  reading.soils = &soils;
+  Drive drive = read_mapping<Drive>(node, reading, {"effects"});
+  if (const YamlNode* list = value_of(node, "effects", Need::optional, "list of effects", reading))
+    drive.effects = read_effects(*list, effects, reading);
+  return drive;
+}
+
 }  // namespace
 
 Case parse_case(const SourceText& source, const Library& library, const EffectVocabulary& effects) {
   const YamlNode document = parse_yaml(source);
   const Reading reading{&source, std::nullopt, nullptr, ""};
   expect_format(document, case_format, reading);
-  Case value = read_mapping<Case>(document, reading, {"format", "tire", "soil", "bin", "study"});
+  Case value = read_mapping<Case>(document, reading, {"format", "tire", "soil", "bin", "study", "drive"});
   const Library near = library.beside(source.file);
   const auto part = [&](const char* key, const char* meaning) -> const YamlNode& {
     return *value_of(document, key, Need::required, meaning, reading);
@@ -169,7 +187,11 @@ Case parse_case(const SourceText& source, const Library& library, const EffectVo
   value.scenario.soil = read_part<Soil>(part("soil", "a mapping, a name of the library, or a path"), near, reading);
   if (const YamlNode* bin = value_of(document, "bin", Need::optional, "inner measures of the soil bin", reading))
     value.scenario.bin = read_mapping<Bin>(*bin, reading);
-  value.study = read_study(part("study", "models and conditions"), value, effects, reading);
+  const YamlNode* drive = value_of(document, "drive", Need::optional, "a wheel driven in time", reading);
+  if (drive != nullptr) value.drive = read_drive(*drive, value.scenario.soil, near, effects, reading);
+  const Need study = drive != nullptr ? Need::optional : Need::required;
+  if (const YamlNode* node = value_of(document, "study", study, "models and conditions", reading))
+    value.study = read_study(*node, value, effects, reading);
   return value;
 }
 

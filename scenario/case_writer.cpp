@@ -49,6 +49,14 @@ std::string write_case(const Case& value, const EffectVocabulary& effects) {
   if (value.scenario.bin) write_group("bin", *value.scenario.bin, lines);
   std::optional<double> n;
   if (value.scenario.soil.semi_empirical) n = value.scenario.soil.semi_empirical->exponent.value;
+  if (value.drive) {
+    lines.open("drive");
+    Writing drive{&lines, std::nullopt, nullptr, ""};
+    write_members(*value.drive, drive);
+    write_effects(value.drive->effects, effects, n, lines);
+    lines.close();
+  }
+  if (value.study.conditions.empty()) return lines.text();
   lines.open("study");
   lines.value("name", yaml_scalar(value.study.name));
   write_models(value.study, effects, n, lines);

@@ -8,6 +8,8 @@
 //   visitor.integer (key, member, lowest, need, meaning)     an int or an optional one
 //   visitor.choice  (key, member, need, meaning)             an enum; its words: words_of
 //   visitor.group   (key, member, need, meaning)             a struct with a description of its own, or an optional one
+//   visitor.list    (key, member, need, meaning)             a std::vector of such structs
+//   visitor.part    (key, member, need, meaning)             an optional soil: a mapping, a name of the library, a path
 // `member` is a pointer to a data member. contradiction(T) names what is wrong between members, "" for nothing.
 #pragma once
 
@@ -199,6 +201,14 @@ struct KeyList {
   }
   template <class... Rest>
   void group(const char* key, const Rest&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
+  void list(const char* key, const Rest&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
+  void part(const char* key, const Rest&...) {
     keys.emplace_back(key);
   }
 };

@@ -1,6 +1,7 @@
 // Reads a described struct (description.hpp) from a YAML mapping. Every refusal names file, line and column.
 #pragma once
 
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -13,12 +14,17 @@
 
 namespace soilbin {
 
+struct Reading;
+/// Reads a soil that is a mapping, a name of the library or a path.
+using SoilReader = std::function<Soil(const YamlNode&, const Reading&)>;
+
 /// What the reader knows on its way down a document.
 struct Reading {
   const SourceText* source = nullptr;
   std::optional<double> n;                                ///< the soil's exponent, once read
   std::map<std::string, std::string>* sources = nullptr;  ///< where the `source:` of a number is kept, if anywhere
   std::string path;                                       ///< of this mapping inside the struct that keeps sources
+  const SoilReader* soils = nullptr;                      ///< where descriptions have parts
 
   [[noreturn]] void refuse(const YamlNode& at, const std::string& message, const std::string& hint = "") const {
     source->refuse(at.offset, message, hint);
@@ -100,6 +106,18 @@ class ReadInto {
   template <class U>
   void group(const char* key, U T::*member, Need need, const char* meaning) {
     if (const YamlNode* node = find(key, need, meaning)) descend(key, *node, into_.*member);
+  }
+
+  template <class U>
+  void list(const char* key, std::vector<U> T::*member, Need need, const char* meaning) {
+    const YamlNode* node = find(key, need, meaning);
+    if (node == nullptr) return;
+    if (!node->is_sequence()) reading_.refuse(*node, "expected a list of mappings, not " + node->kind_name());
+    for (const YamlNode& item : node->items) descend(key, item, (into_.*member).emplace_back());
+  }
+
+  void part(const char* key, std::optional<Soil> T::*member, Need need, const char* meaning) {
+    if (const YamlNode* node = find(key, need, meaning)) into_.*member = (*reading_.soils)(*node, reading_);
   }
 
  private:

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "scenario/description.hpp"
 
@@ -101,6 +102,24 @@ class WriteFrom {
 
   template <class U>
   void group(const char* key, std::optional<U> T::*member, Need, const char*) {
+    if (from_.*member) descend(key, *(from_.*member));
+  }
+
+  template <class U>
+  void list(const char* key, std::vector<U> T::*member, Need, const char*) {
+    if ((from_.*member).empty()) return;
+    writing_.lines->open(key);
+    for (const U& inner : from_.*member) {
+      Writing below = writing_;
+      below.path = writing_.path + key + ".";
+      writing_.lines->open_item();
+      write_members(inner, below);
+      writing_.lines->close();
+    }
+    writing_.lines->close();
+  }
+
+  void part(const char* key, std::optional<Soil> T::*member, Need, const char*) {
     if (from_.*member) descend(key, *(from_.*member));
   }
 

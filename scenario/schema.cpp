@@ -121,6 +121,11 @@ ordered_json effect_schema(const std::string& id, const std::vector<EffectFormWo
 
 }  // namespace
 
+ordered_json named_or(ordered_json inline_part) {
+  const ordered_json name = {{"type", "string"}, {"description", "a name of the library, or a relative path"}};
+  return {{"anyOf", ordered_json::array({name, std::move(inline_part)})}};
+}
+
 ordered_json empty_object_schema() {
   return {{"type", "object"},
           {"additionalProperties", false},
@@ -177,16 +182,16 @@ ordered_json effects_schema(const EffectVocabulary& effects) {
 
 ordered_json case_schema(const EffectVocabulary& effects) {
   ordered_json object = object_schema<Case>();
-  const auto named_or = [](ordered_json inline_part) -> ordered_json {
-    const ordered_json name = {{"type", "string"}, {"description", "a name of the library, or a relative path"}};
-    return {{"anyOf", ordered_json::array({name, std::move(inline_part)})}};
-  };
   object["properties"]["tire"] = named_or(object_schema<Tire>());
   object["properties"]["soil"] = named_or(object_schema<Soil>());
   object["properties"]["bin"] = object_schema<Bin>();
   object["properties"]["study"] = study_schema(effects);
-  for (const char* key : {"tire", "soil", "study"}) object["required"].push_back(key);
-  return document_schema(case_format, "A soilbin case", object);
+  object["properties"]["drive"] = object_schema<Drive>();
+  object["properties"]["drive"]["properties"]["effects"] = effects_schema(effects);
+  for (const char* key : {"tire", "soil"}) object["required"].push_back(key);
+  ordered_json schema = document_schema(case_format, "A soilbin case", object);
+  schema["anyOf"] = {{{"required", {"study"}}}, {{"required", {"drive"}}}};
+  return schema;
 }
 
 ordered_json tire_schema() { return document_schema(tire_format, "A soilbin tire", object_schema<Tire>()); }

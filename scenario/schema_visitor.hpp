@@ -17,6 +17,8 @@ nlohmann::ordered_json number_schema(const Measure& measure, const std::string& 
 nlohmann::ordered_json integer_schema(int lowest, const std::string& meaning);
 nlohmann::ordered_json words_schema(const std::vector<std::string>& words, const std::string& meaning);
 nlohmann::ordered_json text_schema(const std::string& meaning);
+/// A tire or soil that a case names, or writes out.
+nlohmann::ordered_json named_or(nlohmann::ordered_json inline_part);
 /// An object with no other keys than those added to "properties".
 nlohmann::ordered_json empty_object_schema();
 
@@ -67,6 +69,17 @@ class SchemaOf {
   template <class U>
   void group(const char* key, std::optional<U> T::*, Need need, const char* meaning) {
     add_group<U>(key, need, meaning);
+  }
+
+  template <class U>
+  void list(const char* key, std::vector<U> T::*, Need need, const char* meaning) {
+    add(key, need, {{"type", "array"}, {"items", object_schema<U>()}, {"description", meaning}});
+  }
+
+  void part(const char* key, std::optional<Soil> T::*, Need need, const char* meaning) {
+    nlohmann::ordered_json soil = named_or(object_schema<Soil>());
+    soil["description"] = meaning;
+    add(key, need, std::move(soil));
   }
 
  private:

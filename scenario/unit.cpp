@@ -90,6 +90,7 @@ constexpr std::array names = {
     Named{"m/s", "a speed", "0.1 m/s"},
     Named{"N", "a force", "4 kN"},
     Named{"N*m", "a torque", "120 N m"},
+    Named{"kg*m^2", "a moment of inertia", "0.02 kg m^2"},
     Named{"Pa", "a pressure", "3.63 kPa"},
     Named{"N/m", "a stiffness", "300 N/m"},
     Named{"kg/m^3", "a density", "1600 kg/m^3"},

@@ -75,6 +75,7 @@ std::vector<EffectForm> bed_tilt_forms() {
        .parameters = {{"a", "deg", 0.5 * degree, -10 * degree, 10 * degree, "tilt along travel, uphill positive"}},
        .measurement = true,
        .form_tolerance = 0.05,
+       .steady_only = of_an_instrument,
        .make = maker<Along>()},
       {.id = id,
        .form = "across",
@@ -83,6 +84,7 @@ std::vector<EffectForm> bed_tilt_forms() {
        .parameters = {{"a", "deg", 0.5 * degree, -10 * degree, 10 * degree, "cross tilt, left side up positive"}},
        .measurement = true,
        .form_tolerance = 0.05,
+       .steady_only = of_an_instrument,
        .make = maker<Across>()},
       {.id = id,
        .form = "along_with_load",
@@ -91,6 +93,7 @@ std::vector<EffectForm> bed_tilt_forms() {
        .parameters = {{"a", "deg", 0.5 * degree, -10 * degree, 10 * degree, "tilt along travel, uphill positive"}},
        .measurement = true,
        .form_tolerance = 0.05,
+       .steady_only = of_an_instrument,
        .make = maker<AlongWithLoad>()},
   };
 }

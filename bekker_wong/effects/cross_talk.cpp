@@ -89,6 +89,7 @@ std::vector<EffectForm> cross_talk_forms() {
          .parameters = {{"a", "-", 0.03, -0.5, 0.5, "share that leaks"}},
          .measurement = true,
          .form_tolerance = 0.08,
+         .steady_only = of_an_instrument,
          .make = [&leak](const std::vector<double>& p) { return std::make_unique<const Leaking>(leak, p[0]); }});
   forms.push_back({.id = id,
                    .form = "turned_cell",
@@ -97,6 +98,7 @@ std::vector<EffectForm> cross_talk_forms() {
                    .parameters = {{"a", "deg", 2 * degree, -30 * degree, 30 * degree, "turn of the cell, to the left"}},
                    .measurement = true,
                    .form_tolerance = 0.08,
+                   .steady_only = of_an_instrument,
                    .make = maker<Turned>()});
   forms.push_back({.id = id,
                    .form = "sinkage_from_load",
@@ -105,6 +107,7 @@ std::vector<EffectForm> cross_talk_forms() {
                    .parameters = {{"a", "mm", 0.001, -0.2, 0.2, "yielding of the frame at a load of 1 kN"}},
                    .measurement = true,
                    .form_tolerance = 0.08,
+                   .steady_only = of_an_instrument,
                    .make = maker<Yielding>()});
   return forms;
 }

@@ -59,6 +59,7 @@ EffectForm soil_form(const char* form, const char* equation, double usual, doubl
           .source = "stated here",
           .parameters = {{"a", "-", usual, -limit, limit, meaning}, reference_run()},
           .measurement = true,
+          .steady_only = of_an_instrument,
           .make = maker<SoilDrift<scale, clock>>()};
 }
 
@@ -71,6 +72,7 @@ EffectForm zero_form(const Channel& channel, Clock clock, const std::string& suf
           .source = "stated here",
           .parameters = {{"a", channel.unit, share * channel.usual, -limit, limit, meaning}, reference_run()},
           .measurement = true,
+          .steady_only = of_an_instrument,
           .make = [value = channel.value, clock](const std::vector<double>& p) {
             return std::make_unique<const ZeroDrift>(value, clock, p);
           }};

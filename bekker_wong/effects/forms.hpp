@@ -28,6 +28,9 @@ std::vector<EffectForm> cross_talk_forms();
 std::vector<EffectForm> soil_gradient_forms();
 std::vector<EffectForm> drift_forms();
 
+/// Why a wheel driven in time can't take a form that changes what the rig's instruments show.
+inline constexpr const char* of_an_instrument = "it belongs to a rig's instruments or bed, and a drive has none";
+
 /// A form's maker from an effect's type that is constructed from the vector of its parameters.
 template <class T>
 std::function<std::unique_ptr<const Effect>(const std::vector<double>&)> maker() {

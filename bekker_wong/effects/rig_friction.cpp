@@ -43,6 +43,7 @@ std::vector<EffectForm> rig_friction_forms() {
        .parameters = {{"a", "N m", 1.0, 0.0, 1e4, "torque that seals and bearings take"}},
        .measurement = true,
        .form_tolerance = 0.15,
+       .steady_only = of_an_instrument,
        .make = maker<Taken<coulomb>>()},
       {.id = id,
        .form = "load_proportional",
@@ -51,6 +52,7 @@ std::vector<EffectForm> rig_friction_forms() {
        .parameters = {{"a", "-", 0.01, 0.0, 0.5, "bearing's friction times its radius over the wheel's"}},
        .measurement = true,
        .form_tolerance = 0.15,
+       .steady_only = of_an_instrument,
        .make = maker<Taken<bearing>>()},
       {.id = id,
        .form = "viscous",
@@ -59,6 +61,7 @@ std::vector<EffectForm> rig_friction_forms() {
        .parameters = {{"a", "N m", 1.0, 0.0, 1e4, "torque taken at a rim speed of 1 m/s"}},
        .measurement = true,
        .form_tolerance = 0.15,
+       .steady_only = of_an_instrument,
        .make = maker<Taken<viscous>>()},
       {.id = id,
        .form = "transmission",
@@ -67,6 +70,7 @@ std::vector<EffectForm> rig_friction_forms() {
        .parameters = {{"a", "-", 0.05, 0.0, 1.0, "share of the torque lost in the gears"}},
        .measurement = true,
        .form_tolerance = 0.15,
+       .steady_only = of_an_instrument,
        .make = maker<Taken<gears>>()},
   };
 }

@@ -28,6 +28,7 @@ std::vector<EffectForm> sensor_offset_forms() {
          .parameters = {{"a", channel.unit, channel.usual, -channel.limit, channel.limit, "offset of the zero"}},
          .measurement = true,
          .form_tolerance = 0.05,
+         .steady_only = of_an_instrument,
          .make = [value = channel.value](const std::vector<double>& p) {
            return std::make_unique<const Offset>(value, p[0]);
          }});

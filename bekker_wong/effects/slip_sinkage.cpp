@@ -74,12 +74,14 @@ class Reece final : public Effect {
 
 std::vector<EffectForm> slip_sinkage_forms() {
   const std::string id = "slip_sinkage";
+  const std::string settles = "it moves the wheel after the balance; ding and loosening change the soil instead";
   return {
       {.id = id,
        .form = "lyasko",
        .equation = "z = z_b (1 + a s)/(1 - a s/2), a = 1: Lyasko; stresses scaled to carry the load",
        .source = "Lyasko 2010, J. Terramechanics 47(1):21 (a = 1)",
        .parameters = {{"a", "-", 1.0, 0.0, 1.6, "amplitude; 1 gives Lyasko's factor"}},
+       .steady_only = settles,
        .make = maker<Settling<lyasko>>()},
       {.id = id,
        .form = "ding",
@@ -92,6 +94,7 @@ std::vector<EffectForm> slip_sinkage_forms() {
        .equation = "z = z_b (1 + S s); stresses scaled to carry the load",
        .source = "after Lyasko 2010, J. Terramechanics 47(1):21 (linear slip-sinkage coefficient S)",
        .parameters = {{"S", "-", 1.0, 0.0, 5.0, "slip sinkage at full slip over the balanced sinkage"}},
+       .steady_only = settles,
        .make = maker<Settling<linear>>()},
       {.id = id,
        .form = "loosening",
@@ -104,6 +107,7 @@ std::vector<EffectForm> slip_sinkage_forms() {
        .equation = "z = z_b + h s/(1 - s), s held below 0.95; stresses scaled to carry the load",
        .source = "after Reece 1965, Principles of Soil-Vehicle Mechanics, Proc. IMechE 180(2A)",
        .parameters = {{"h", "mm", 0.01, 0.0, 0.2, "length of soil that slip digs away"}},
+       .steady_only = settles,
        .make = maker<Reece>()},
   };
 }

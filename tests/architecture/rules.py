@@ -29,8 +29,11 @@ LIBRARIES = {
     "gmock/": ["tests/"],
     "rapidcheck": ["tests/"],
     "benchmark/": ["bench/"],
-    "sundials/": ["bekker_wong/transient/"],
-    "cvode/": ["bekker_wong/transient/"],
+    "sundials/": ["bekker_wong/transient/cvodes.cpp"],  # the wrapper
+    "cvode": ["bekker_wong/transient/cvodes.cpp"],
+    "nvector/": ["bekker_wong/transient/cvodes.cpp"],
+    "sunmatrix/": ["bekker_wong/transient/cvodes.cpp"],
+    "sunlinsol/": ["bekker_wong/transient/cvodes.cpp"],
     "hdf5": ["dem/"],
     "H5": ["dem/"],
     "hwy/": ["dem/"],

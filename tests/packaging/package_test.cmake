@@ -27,7 +27,7 @@ file(GLOB development ${SCRATCH}/libsoilbin-dev_${VERSION}*.deb)
 
 run(dpkg-deb --info ${runtime})
 expect("${output}" "soilbin's control file" "Package: soilbin\n" "Version: ${VERSION}\n" "Depends: [^\n]*libc6 "
-  "Depends: [^\n]*libfmt" "Depends: [^\n]*libgsl" "Depends: [^\n]*libstdc\\+\\+6 " "Depends: [^\n]*libyaml-cpp")
+  "Depends: [^\n]*libfmt" "Depends: [^\n]*libgsl" "Depends: [^\n]*libsundials-cvodes" "Depends: [^\n]*libstdc\\+\\+6 " "Depends: [^\n]*libyaml-cpp")
 run(dpkg-deb --contents ${runtime})
 expect("${output}" "soilbin's files" " ./usr/bin/soilbin\n" " ./usr/share/doc/soilbin/copyright\n"
   " ./usr/share/soilbin/cases/soils/dry-sand.yaml\n" " ./usr/share/soilbin/cases/measured/cmu-smooth/NOTICE.md\n")
@@ -37,7 +37,7 @@ endif()
 
 run(dpkg-deb --info ${development})
 expect("${output}" "libsoilbin-dev's control file" "Package: libsoilbin-dev\n"
-  "Depends: [^\n]*libeigen3-dev[^\n]*libfmt-dev[^\n]*libgsl-dev[^\n]*libyaml-cpp-dev[^\n]*nlohmann-json3-dev")
+  "Depends: [^\n]*libeigen3-dev[^\n]*libfmt-dev[^\n]*libgsl-dev[^\n]*libsundials-dev[^\n]*libyaml-cpp-dev[^\n]*nlohmann-json3-dev")
 run(dpkg-deb --contents ${development})
 expect("${output}" "libsoilbin-dev's files" "/libsoilbin_scenario.a\n" "/libsoilbin_bekker_wong.a\n"
   "/libsoilbin_compare.a\n" "/cmake/soilbin/soilbin-config.cmake\n" " ./usr/include/soilbin/scenario/tire.hpp\n")

@@ -1,0 +1,85 @@
+#include "bekker_wong/limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "bekker_wong/gsl.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::bekker_wong {
+namespace {
+
+constexpr double nothing = -std::numeric_limits<double>::infinity();
+constexpr double scan_step = 0.025;
+
+/// Drawbar pull at a slip; minus infinity where no sinkage carries the load.
+double pull_at(const RollingWheel& wheel, OperatingCondition at, double slip) {
+  at.slip = slip;
+  at.force_frame = ForceFrame::travel;
+  try {
+    return wheel.roll(at).reading.drawbar_pull;
+  } catch (const NoSolution&) {
+    return nothing;
+  }
+}
+
+/// Highest point of f in [low, high], where it rises and then falls, by golden section.
+double summit(gsl::FunctionRef f, double low, double high) {
+  constexpr double golden = 0.6180339887498949, narrow = 1e-7;
+  double a = high - golden * (high - low), b = low + golden * (high - low), fa = f(a), fb = f(b);
+  while (high - low > narrow) {
+    if (fa > fb) {
+      high = b, b = a, fb = fa, a = high - golden * (high - low), fa = f(a);
+    } else {
+      low = a, a = b, fa = fb, b = low + golden * (high - low), fb = f(b);
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+PullPeak largest_pull(const RollingWheel& wheel, const OperatingCondition& at) {
+  const auto f = [&](double slip) { return pull_at(wheel, at, slip); };
+  PullPeak best{0.0, nothing};
+  for (double slip = 0.0; slip < 1.0 + 0.5 * scan_step; slip += scan_step)
+    if (const double pull = f(std::min(slip, 1.0)); pull > best.drawbar_pull) best = {std::min(slip, 1.0), pull};
+  if (best.drawbar_pull == nothing) throw NoSolution("at no slip does the soil carry the load");
+  const double top = summit(f, std::max(0.0, best.slip - scan_step), std::min(1.0, best.slip + scan_step));
+  if (const double pull = f(top); pull > best.drawbar_pull) best = {top, pull};
+  return best;
+}
+
+std::optional<double> slip_for_pull(const RollingWheel& wheel, const OperatingCondition& at, double drawbar) {
+  const auto spare = [&](double slip) { return pull_at(wheel, at, slip) - drawbar; };
+  constexpr double lowest = -0.5;
+  double before = lowest, at_before = spare(lowest);
+  if (at_before >= 0.0) return lowest;
+  for (double slip = lowest + scan_step; slip < 1.0 + 0.5 * scan_step; slip += scan_step) {
+    const double here = std::min(slip, 1.0), value = spare(here);
+    if (value >= 0.0) {
+      if (!std::isfinite(at_before)) return here;
+      return gsl::bracketed_root(spare, before, here, 1e-12, 1e-10 * at.load, "the slip for a pull");
+    }
+    before = here, at_before = value;
+  }
+  const PullPeak peak = largest_pull(wheel, at);  // a summit between two slips of the scan
+  if (peak.drawbar_pull < drawbar) return {};
+  return gsl::bracketed_root(spare, std::max(lowest, peak.slip - scan_step), peak.slip, 1e-12, 1e-10 * at.load,
+                             "the slip for a pull");
+}
+
+std::optional<double> steepest_slope(const RollingWheel& wheel, const OperatingCondition& at, double drawbar) {
+  constexpr double deg = std::numbers::pi / 180, low = -60 * deg, high = 80 * deg;
+  const auto spare = [&](double slope) {
+    OperatingCondition there = at;
+    there.longitudinal_incline = slope;
+    return (largest_pull(wheel, there).drawbar_pull - drawbar) / at.load;
+  };
+  if (spare(low) < 0.0 || spare(high) > 0.0) return {};
+  return gsl::bracketed_root(spare, low, high, 1e-9, 1e-10, "the steepest slope");
+}
+
+}  // namespace soilbin::bekker_wong

@@ -1,0 +1,27 @@
+// What a wheel can do at best in a steady state: the questions that ask for a slip or a slope instead of giving it.
+#pragma once
+
+#include <optional>
+
+#include "bekker_wong/rolling_wheel.hpp"
+
+namespace soilbin::bekker_wong {
+
+/// The largest drawbar pull and the slip that gives it.
+struct PullPeak {
+  double slip = 0.0;
+  double drawbar_pull = 0.0;  ///< [N], less the slope's share of the load
+};
+
+/// Largest drawbar pull over 0 <= slip <= 1 at an otherwise given condition. Slips without a balance are passed over;
+/// throws NoSolution where there is no other.
+PullPeak largest_pull(const RollingWheel& wheel, const OperatingCondition& at);
+
+/// Smallest slip above -0.5 at which the wheel pulls `drawbar` [N] on the slope that `at` gives; none where it can't.
+std::optional<double> slip_for_pull(const RollingWheel& wheel, const OperatingCondition& at, double drawbar = 0.0);
+
+/// Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N]: there its largest pull is just that.
+/// Between -60 and 80 deg; none where it does not even get down the one, or would climb the other.
+std::optional<double> steepest_slope(const RollingWheel& wheel, const OperatingCondition& at, double drawbar = 0.0);
+
+}  // namespace soilbin::bekker_wong

@@ -1,0 +1,229 @@
+#include "bekker_wong/transient/cvodes.hpp"
+
+#include <cvodes/cvodes.h>
+#include <fmt/core.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+namespace soilbin::sundials {
+namespace {
+
+struct Context {
+  Context() {
+    if (SUNContext_Create(nullptr, &handle) != 0) throw std::runtime_error("SUNDIALS gives no context");
+  }
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  ~Context() { SUNContext_Free(&handle); }
+  SUNContext handle = nullptr;
+};
+
+template <auto Free>
+struct Freed {
+  template <class T>
+  void operator()(T* p) const {
+    Free(p);
+  }
+};
+void free_memory(void* memory) { CVodeFree(&memory); }
+
+using Vector = std::unique_ptr<_generic_N_Vector, Freed<N_VDestroy>>;
+using Matrix = std::unique_ptr<_generic_SUNMatrix, Freed<SUNMatDestroy>>;
+using LinearSolver = std::unique_ptr<_generic_SUNLinearSolver, Freed<SUNLinSolFree>>;
+struct Memory {
+  explicit Memory(void* p) : handle(p) {}
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+  ~Memory() { free_memory(handle); }
+  void* handle;
+};
+
+template <class T>
+T* made(T* p) {
+  if (p == nullptr) throw std::bad_alloc();
+  return p;
+}
+
+Vector vector_of(const std::vector<double>& values, SUNContext context) {
+  Vector v(made(N_VNew_Serial(static_cast<sunindextype>(values.size()), context)));
+  std::copy(values.begin(), values.end(), N_VGetArrayPointer(v.get()));
+  return v;
+}
+
+std::span<double> all_of(N_Vector v) {
+  return {N_VGetArrayPointer(v), static_cast<std::size_t>(N_VGetLength_Serial(v))};
+}
+
+void check(int status, const char* what) {
+  if (status < 0) throw std::runtime_error(fmt::format("CVODES: {} gives status {}", what, status));
+}
+
+}  // namespace
+
+struct Integrator::Body {
+  Body(Problem given, double start, std::vector<double> y);
+  void begin_sensitivities();
+  /// Runs a callback; an exception is kept for advance and ends the integration.
+  template <class Call>
+  int guarded(const Call& call) {
+    try {
+      call();
+      return 0;
+    } catch (...) {
+      thrown = std::current_exception();
+      return -1;
+    }
+  }
+
+  static int rate(realtype t, N_Vector y, N_Vector ydot, void* self) {
+    Body& b = *static_cast<Body*>(self);
+    return b.guarded([&] { b.problem.rate(t, all_of(y), all_of(ydot)); });
+  }
+  static int roots(realtype t, N_Vector y, realtype* out, void* self) {
+    Body& b = *static_cast<Body*>(self);
+    return b.guarded([&] { b.problem.roots(t, all_of(y), {out, static_cast<std::size_t>(b.problem.root_count)}); });
+  }
+  static int summands(realtype t, N_Vector y, N_Vector out, void* self) {
+    Body& b = *static_cast<Body*>(self);
+    return b.guarded([&] { b.problem.summands(t, all_of(y), all_of(out)); });
+  }
+  static int sensitivities(int, realtype t, N_Vector y, N_Vector ydot, int i, N_Vector s, N_Vector sdot, void* self,
+                           N_Vector, N_Vector) {
+    Body& b = *static_cast<Body*>(self);
+    return b.guarded([&] { b.problem.sensitivity(i, t, all_of(y), all_of(ydot), all_of(s), all_of(sdot)); });
+  }
+  static void note(int code, const char*, const char* function, char* message, void* self) {
+    if (code < 0) static_cast<Body*>(self)->message = fmt::format("{}: {}", function, message);
+  }
+
+  Problem problem;
+  Context context;
+  std::vector<double> state, sum_values;
+  double time;
+  Vector y, tolerances, sums;
+  Matrix jacobian;
+  LinearSolver solver;
+  std::vector<Vector> sensitivity_vectors;
+  std::vector<N_Vector> sensitivity_handles;
+  Memory memory;
+  std::exception_ptr thrown;
+  std::string message;
+};
+
+Integrator::Body::Body(Problem given, double start, std::vector<double> initial)
+    : problem(std::move(given)),
+      state(std::move(initial)),
+      sum_values(static_cast<std::size_t>(problem.sum_count), 0.0),
+      time(start),
+      y(vector_of(state, context.handle)),
+      tolerances(vector_of(problem.absolute_tolerances, context.handle)),
+      sums(vector_of(sum_values, context.handle)),
+      jacobian(made(SUNDenseMatrix(static_cast<sunindextype>(state.size()), static_cast<sunindextype>(state.size()),
+                                   context.handle))),
+      solver(made(SUNLinSol_Dense(y.get(), jacobian.get(), context.handle))),
+      memory(made(CVodeCreate(CV_BDF, context.handle))) {
+  void* m = memory.handle;
+  check(CVodeSetErrHandlerFn(m, note, this), "the error handler");
+  check(CVodeInit(m, rate, start, y.get()), "the start");
+  check(CVodeSetUserData(m, this), "the user data");
+  check(CVodeSVtolerances(m, problem.relative_tolerance, tolerances.get()), "the tolerances");
+  check(CVodeSetLinearSolver(m, solver.get(), jacobian.get()), "the linear solver");
+  constexpr long most_steps = 200'000;
+  check(CVodeSetMaxNumSteps(m, most_steps), "the most steps");
+  if (problem.longest_step > 0.0) check(CVodeSetMaxStep(m, problem.longest_step), "the longest step");
+  if (problem.root_count > 0) check(CVodeRootInit(m, problem.root_count, roots), "the roots");
+  if (problem.sum_count > 0) {
+    check(CVodeQuadInit(m, summands, sums.get()), "the sums");
+    check(CVodeQuadSStolerances(m, problem.relative_tolerance, problem.sum_tolerance), "the sums' tolerances");
+    check(CVodeSetQuadErrCon(m, 1), "the sums' error control");
+  }
+  begin_sensitivities();
+}
+
+void Integrator::Body::begin_sensitivities() {
+  const std::size_t count = problem.parameter_scales.size();
+  if (count == 0) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    sensitivity_vectors.push_back(vector_of(problem.sensitivity_starts.at(i), context.handle));
+    sensitivity_handles.push_back(sensitivity_vectors.back().get());
+  }
+  void* m = memory.handle;
+  check(CVodeSensInit1(m, static_cast<int>(count), CV_STAGGERED1, sensitivities, sensitivity_handles.data()),
+        "the sensitivities");
+  check(CVodeSetSensParams(m, nullptr, problem.parameter_scales.data(), nullptr), "the parameters' scales");
+  check(CVodeSensEEtolerances(m), "the sensitivities' tolerances");
+  check(CVodeSetSensErrCon(m, 1), "the sensitivities' error control");
+}
+
+Integrator::Integrator(Problem problem, double start, std::vector<double> state)
+    : body_(std::make_unique<Body>(std::move(problem), start, std::move(state))) {}
+Integrator::~Integrator() = default;
+
+Stop Integrator::advance(double until) {
+  Body& b = *body_;
+  realtype reached = b.time;
+  const int status = CVode(b.memory.handle, until, b.y.get(), &reached, CV_NORMAL);
+  if (b.thrown) std::rethrow_exception(std::exchange(b.thrown, nullptr));
+  if (status < 0)
+    throw std::runtime_error(
+        fmt::format("the integration in time stops at {:.6g} s (CVODES status {}): {}", reached, status, b.message));
+  b.time = reached;
+  const std::span<const double> y = all_of(b.y.get());
+  b.state.assign(y.begin(), y.end());
+  if (b.problem.sum_count > 0) {
+    realtype at = 0.0;
+    check(CVodeGetQuad(b.memory.handle, &at, b.sums.get()), "reading the sums");
+    const std::span<const double> sums = all_of(b.sums.get());
+    b.sum_values.assign(sums.begin(), sums.end());
+  }
+  if (!b.sensitivity_handles.empty()) {
+    realtype at = 0.0;
+    check(CVodeGetSens(b.memory.handle, &at, b.sensitivity_handles.data()), "reading the sensitivities");
+  }
+  Stop stop{reached, {}};
+  if (status == CV_ROOT_RETURN) {
+    stop.signs.resize(static_cast<std::size_t>(b.problem.root_count));
+    check(CVodeGetRootInfo(b.memory.handle, stop.signs.data()), "reading the roots");
+  }
+  return stop;
+}
+
+void Integrator::restart() {
+  Body& b = *body_;
+  check(CVodeReInit(b.memory.handle, b.time, b.y.get()), "the new start");
+  if (b.problem.sum_count > 0) check(CVodeQuadReInit(b.memory.handle, b.sums.get()), "the sums' new start");
+  if (!b.sensitivity_handles.empty())
+    check(CVodeSensReInit(b.memory.handle, CV_STAGGERED1, b.sensitivity_handles.data()),
+          "the sensitivities' new start");
+}
+
+const std::vector<double>& Integrator::state() const { return body_->state; }
+const std::vector<double>& Integrator::sums() const { return body_->sum_values; }
+
+std::vector<double> Integrator::sensitivity(int i) const {
+  const std::span<const double> s = all_of(body_->sensitivity_handles.at(static_cast<std::size_t>(i)));
+  return {s.begin(), s.end()};
+}
+
+Effort Integrator::effort() const {
+  Effort e;
+  void* m = body_->memory.handle;
+  CVodeGetNumSteps(m, &e.steps);
+  CVodeGetNumRhsEvals(m, &e.rate_calls);
+  CVodeGetNumJacEvals(m, &e.jacobians);
+  CVodeGetNumErrTestFails(m, &e.failed_steps);
+  long by_jacobian = 0;
+  CVodeGetNumLinRhsEvals(m, &by_jacobian);
+  e.rate_calls += by_jacobian;
+  return e;
+}
+
+}  // namespace soilbin::sundials

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "scenario/drive.hpp"
+
+namespace soilbin::bekker_wong {
+
+/// What a wheel meets at a place along its way.
+struct Place {
+  double longitudinal_incline = 0.0;  ///< [rad]
+  double transverse_incline = 0.0;    ///< [rad]
+  double yaw = 0.0;                   ///< [rad]
+  double drawbar = 0.0;               ///< [N]
+  double curvature = 0.0;             ///< of the way, hollow positive: d(incline)/dx [rad/m]
+  std::size_t soil = 0;               ///< 0: the case's own, i: the i-th that the waypoints bring
+  double next_share = 0.0;            ///< share of the contact that lies on soil + 1
+};
+
+/// The way of a drive: angles and drawbar load linear between the waypoints, soils from theirs on.
+class Way {
+ public:
+  /// `blend`: distance over which the contact passes from one soil to the next [m].
+  Way(const std::vector<Waypoint>& points, double blend);
+  Place at(double x) const;
+  /// The soils that the waypoints bring, in their order.
+  const std::vector<Soil>& soils() const { return soils_; }
+  /// Whether the wheel is yawed anywhere.
+  bool turns() const;
+
+ private:
+  std::vector<Waypoint> points_;
+  std::vector<Soil> soils_;
+  std::vector<double> soil_from_;  ///< where each of them begins
+  double blend_;
+};
+
+}  // namespace soilbin::bekker_wong

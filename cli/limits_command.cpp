@@ -1,0 +1,152 @@
+// soilbin limits: what a wheel can do at best in a steady state: the largest pull, the steepest slope, the slip for
+// each.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <set>
+
+#include "bekker_wong/limits.hpp"
+#include "bekker_wong/model.hpp"
+#include "cli/commands.hpp"
+#include "cli/question.hpp"
+#include "cli/text_output.hpp"
+#include "compare/report/result_json.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// What a wheel can do on one slope.
+struct SlopeRow {
+  double slope = 0.0;          ///< [rad]
+  std::optional<double> slip;  ///< at which it travels without a load behind it
+  bekker_wong::PullPeak best;
+};
+
+/// One model at one load.
+struct LimitsAnswer {
+  ModelChoice model;
+  OperatingCondition at;
+  std::optional<double> steepest;  ///< [rad]
+  std::vector<SlopeRow> slopes;
+  std::string error;
+};
+
+/// Slopes from level ground to the steepest one, at whole degrees that make about ten rows.
+std::vector<double> slopes_up_to(double steepest) {
+  double step = 1.0;
+  for (const double wider : {2.0, 5.0, 10.0})
+    if (steepest / degree / step > 10.0) step = wider;
+  std::vector<double> slopes = {0.0};
+  while ((static_cast<double>(slopes.size()) * step) * degree < steepest)
+    slopes.push_back(static_cast<double>(slopes.size()) * step * degree);
+  if (steepest > 0.0) slopes.push_back(steepest);
+  return slopes;
+}
+
+LimitsAnswer limits_of(const Scenario& scenario, const ModelChoice& model, const OperatingCondition& at) {
+  LimitsAnswer answer{model, at, {}, {}, ""};
+  if (model.model != ModelKind::bekker_wong) throw InputError("limits asks the model bekker_wong alone");
+  const bekker_wong::RollingWheel wheel(scenario.tire, bekker_wong::values_of(*scenario.soil.semi_empirical),
+                                        bekker_wong::make_effects(model.effects), scenario.bin);
+  try {
+    OperatingCondition there = at;
+    there.longitudinal_incline = 0.0;
+    answer.steepest = bekker_wong::steepest_slope(wheel, there);
+    for (const double slope : slopes_up_to(answer.steepest.value_or(0.0))) {
+      there.longitudinal_incline = slope;
+      SlopeRow row{slope, bekker_wong::slip_for_pull(wheel, there), bekker_wong::largest_pull(wheel, there)};
+      if (slope == answer.steepest) row.slip = row.best.slip;
+      answer.slopes.push_back(row);
+    }
+  } catch (const NoSolution& error) {
+    answer.error = error.what();
+  }
+  return answer;
+}
+
+/// The conditions of a question, slip left aside, each once.
+std::vector<OperatingCondition> without_slip(const std::vector<OperatingCondition>& conditions) {
+  std::vector<OperatingCondition> kept;
+  std::set<std::string> seen;
+  for (OperatingCondition at : conditions) {
+    at.slip = 0.0;
+    at.longitudinal_incline = 0.0;
+    if (seen.insert(compare::to_json(at).dump()).second) kept.push_back(at);
+  }
+  return kept;
+}
+
+std::string limits_text(const LimitsAnswer& answer) {
+  std::string text = fmt::format("{}, load {} N\n", answer.model.label, number(answer.at.load));
+  if (!answer.error.empty()) return text + "no solution: " + answer.error + "\n";
+  TextTable table({"slope [deg]", "slip [%]", "largest pull [N]", "at slip [%]"});
+  for (const SlopeRow& row : answer.slopes)
+    table.add({number(row.slope / degree), row.slip ? number(100 * *row.slip) : "-", number(row.best.drawbar_pull),
+               number(100 * row.best.slip)});
+  text += table.text();
+  if (!answer.steepest) return text + "The steepest slope lies beyond -60 .. 80 deg.\n";
+  return text + fmt::format("The steepest slope that it climbs is {} deg.\n", number(*answer.steepest / degree));
+}
+
+nlohmann::ordered_json limits_json(const LimitsAnswer& answer) {
+  nlohmann::ordered_json row = {{"label", answer.model.label}};
+  row.update(compare::to_json(answer.at));
+  row.erase("slip");
+  if (!answer.error.empty()) {
+    row["error"] = answer.error;
+    return row;
+  }
+  const auto value = [](const std::optional<double>& x) {
+    return x ? nlohmann::ordered_json(*x) : nlohmann::ordered_json(nullptr);
+  };
+  row["steepest_slope"] = value(answer.steepest);
+  row["slopes"] = nlohmann::ordered_json::array();
+  for (const SlopeRow& slope : answer.slopes)
+    row["slopes"].push_back({{"longitudinal_incline", slope.slope},
+                             {"slip", value(slope.slip)},
+                             {"largest_pull", slope.best.drawbar_pull},
+                             {"slip_of_largest_pull", slope.best.slip}});
+  return row;
+}
+
+int limits(const Question& inputs, bool json, const Session& session) {
+  const Case question = inputs.ask(session.place);
+  if (!question.scenario.soil.semi_empirical)
+    throw InputError("soil '" + question.scenario.soil.name + "' has no semi_empirical values");
+  std::vector<LimitsAnswer> answers;
+  for (const ModelChoice& model : question.study.models)
+    for (const OperatingCondition& at : without_slip(question.study.conditions))
+      answers.push_back(limits_of(question.scenario, model, at));
+  if (json) {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const LimitsAnswer& answer : answers) rows.push_back(limits_json(answer));
+    fmt::print("{}", compare::json_text({{"format", "soilbin-limits/1"},
+                                         {"tire", question.scenario.tire.name},
+                                         {"soil", question.scenario.soil.name},
+                                         {"rows", rows}}));
+  } else {
+    fmt::print("{} on {}\n", in_words(question.scenario.tire), question.scenario.soil.name);
+    for (const LimitsAnswer& answer : answers) fmt::print("\n{}", limits_text(answer));
+  }
+  for (const LimitsAnswer& answer : answers)
+    if (answer.error.empty()) return done;
+  return failed;
+}
+
+}  // namespace
+
+void add_limits(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("limits", "the largest pull and the steepest slope, and the slip for each");
+  const auto inputs = std::make_shared<Question>(*command, std::vector<std::string>{"load"});
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "soilbin-limits/1, in SI");
+  command->footer("Example: soilbin limits --tire rover-wheel --soil dry-sand --load 64.68N");
+  command->callback([=, &session] { session.action = [=, &session] { return limits(*inputs, *json, session); }; });
+}
+
+}  // namespace soilbin::cli

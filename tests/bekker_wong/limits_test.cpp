@@ -1,0 +1,73 @@
+// The steady questions that ask for a slip or a slope.
+#include "bekker_wong/limits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "bekker_wong/bed_fixture.hpp"
+
+namespace soilbin::bekker_wong {
+namespace {
+
+constexpr double deg = std::numbers::pi / 180;
+
+RollingWheel wheel_on(const SoilValues& soil, const EffectList& effects = {}) {
+  Tire tire;
+  tire.radius = bed::radius, tire.width = bed::width;
+  return {tire, soil, effects};
+}
+
+TEST(Limits, TheSlipFoundGivesThePullAskedFor) {
+  const RollingWheel wheel = wheel_on(bed::sand());
+  OperatingCondition at = bed::driven(400);
+  for (const double slope : {-5 * deg, 0.0, 4 * deg}) {
+    at.longitudinal_incline = slope;
+    const auto slip = slip_for_pull(wheel, at, 20.0);
+    ASSERT_TRUE(slip);
+    at.slip = *slip;
+    EXPECT_NEAR(wheel.roll(at).reading.drawbar_pull, 20.0, 1e-6);
+  }
+}
+
+TEST(Limits, OnTheSteepestSlopeTheLargestPullIsNone) {
+  const RollingWheel wheel = wheel_on(bed::sand());
+  OperatingCondition at = bed::driven(400);
+  const auto slope = steepest_slope(wheel, at);
+  ASSERT_TRUE(slope);
+  at.longitudinal_incline = *slope;
+  EXPECT_NEAR(largest_pull(wheel, at).drawbar_pull, 0.0, 1e-6);
+  at.longitudinal_incline = *slope + 0.01 * deg;
+  EXPECT_FALSE(slip_for_pull(wheel, at));
+  at.longitudinal_incline = *slope - 0.01 * deg;
+  EXPECT_TRUE(slip_for_pull(wheel, at));
+}
+
+// On a hard floor of pure friction, nothing is compacted and full slip calls up sigma tan(phi) everywhere: the pull is
+// W tan(phi) and the steepest slope is phi.
+TEST(Limits, OnHardGroundTheSteepestSlopeIsTheFrictionAngle) {
+  SoilValues hard = bed::sand();
+  hard.cohesion = 0.0, hard.k_phi = 1e12, hard.k_c = 0.0, hard.exponent = 1.0, hard.shear_modulus = 1e-7;
+  const RollingWheel wheel = wheel_on(hard);
+  const auto slope = steepest_slope(wheel, bed::driven(100));
+  ASSERT_TRUE(slope);
+  EXPECT_NEAR(*slope / deg, 28.0, 0.1);
+  EXPECT_NEAR(largest_pull(wheel, bed::driven(100)).drawbar_pull, 100 * std::tan(28 * deg), 0.3);
+}
+
+TEST(Limits, APeakInsideTheRangeIsFound) {  // the wheel digs itself in: pull rises, then falls
+  const RollingWheel wheel = wheel_on(bed::sand(), make_effects({{"slip_sinkage", "lyasko", {}}}));
+  const OperatingCondition at = bed::driven(400);
+  const PullPeak peak = largest_pull(wheel, at);
+  EXPECT_GT(peak.slip, 0.05);
+  EXPECT_LT(peak.slip, 0.95);
+  for (const double slip : {peak.slip - 1e-3, peak.slip + 1e-3}) {
+    OperatingCondition beside = at;
+    beside.slip = slip;
+    EXPECT_LT(wheel.roll(beside).reading.drawbar_pull, peak.drawbar_pull);
+  }
+}
+
+}  // namespace
+}  // namespace soilbin::bekker_wong
