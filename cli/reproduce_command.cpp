@@ -63,7 +63,7 @@ std::vector<compare::StudyAnswers> answers_of(const compare::Findings& findings,
     Case question = find_case(place, name);
     std::erase_if(question.study.models, [](const ModelChoice& c) { return c.model == ModelKind::dem; });
     for (compare::ModelAnswers& model : compare::run_study(question, shown_progress()))
-      all.push_back({name, model.choice.label, std::move(model.answers)});
+      all.push_back({name, model.choice.label, compare::taken_as_exact(std::move(model.answers))});
     std::string remark;
     compare::StudyAnswers dem{name, "dem", {}};
     for (const Recorded& one : records) {

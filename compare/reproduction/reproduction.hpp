@@ -66,6 +66,10 @@ struct Reproduction {
 /// Every finding on every label's answers. A label without the finding's study has no data.
 Reproduction reproduce(const Findings& findings, const std::vector<StudyAnswers>& studies);
 
+/// The same answers without their errors. Those of the analytic model come from the soil's values, which all conditions
+/// share: taken for noise of each point they would hide every trend.
+std::vector<Answer> taken_as_exact(std::vector<Answer> answers);
+
 /// How much further packings scatter than the errors of single runs tell, for a channel: the root of their pooled
 /// variance ratio over all conditions that have several packings; no value with less than four degrees of freedom.
 std::optional<double> packing_factor(const Record& record, Estimate TractionResult::*channel);

@@ -1,4 +1,4 @@
-// Answers from a record for statistical tests: their errors must hold the scatter between packings.
+// Answers made ready for statistical tests: their errors must be independent and hold the scatter between packings.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -46,6 +46,13 @@ std::optional<double> packing_factor(const Record& record, Estimate TractionResu
   }
   if (freedom < least_freedom || !(own > 0)) return std::nullopt;
   return std::sqrt(between / own);
+}
+
+std::vector<Answer> taken_as_exact(std::vector<Answer> answers) {
+  for (Answer& answer : answers)
+    for (const ChannelView& channel : channel_views)
+      if (answer.result) ((*answer.result).*channel.predicted).std_error = 0;
+  return answers;
 }
 
 std::vector<Answer> recorded_answers(const Record& record, const std::vector<OperatingCondition>& conditions,
