@@ -28,6 +28,7 @@ void add_predict(CLI::App& app, Session& session);
 void add_calibrate(CLI::App& app, Session& session);
 void add_loop(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
+void add_reproduce(CLI::App& app, Session& session);
 void add_check(CLI::App& app, Session& session);
 void add_init(CLI::App& app, Session& session);
 void add_list(CLI::App& app, Session& session);

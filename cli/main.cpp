@@ -28,6 +28,7 @@ void add_commands(CLI::App& app, Session& session) {
   add_calibrate(app, session);
   add_loop(app, session);
   add_report(app, session);
+  add_reproduce(app, session);
   add_check(app, session);
   add_init(app, session);
   add_list(app, session);

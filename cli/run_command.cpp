@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/converge.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 struct RunOptions {
   std::string study, model, plot, csv, output;
-  bool json = false;
+  bool json = false, converge = false;
   ConditionFlags conditions;
   SoilBinFlags soil_bin;
 };
@@ -48,16 +49,19 @@ void add_dem(Case& question) {
   question.study.models.push_back({ModelKind::dem, {}, "dem"});
 }
 
-nlohmann::ordered_json document_of(const Case& question, const std::vector<compare::ModelAnswers>& study) {
-  return {{"format", "soilbin-run/1"},
+nlohmann::ordered_json document_of(const Case& question, const std::vector<compare::ModelAnswers>& study,
+                                   const std::optional<dem::StepCriteria>& step) {
+  nlohmann::ordered_json document = {{"format", "soilbin-run/1"},
           {"study", question.study.name},
           {"tire", question.scenario.tire.name},
           {"soil", question.scenario.soil.name},
           {"rows", compare::rows_json(study)}};
+  if (step) document["dem"] = to_json(*step);
+  return document;
 }
 
 void save(const RunOptions& options, const Case& question, const std::vector<compare::ModelAnswers>& study,
-          const Workplace& place) {
+          const std::optional<dem::StepCriteria>& step, const Workplace& place) {
   if (!options.csv.empty()) write_file_atomically(options.csv, compare::study_csv(study));
   if (!options.plot.empty()) write_file_atomically(options.plot, compare::svg(compare::study_sheet(question, study)));
   if (options.output.empty()) return;
@@ -65,7 +69,7 @@ void save(const RunOptions& options, const Case& question, const std::vector<com
   fs::create_directories(folder);
   write_file_atomically(folder / "case.yaml", write_case(question, place.effects));
   write_file_atomically(folder / "results.csv", compare::study_csv(study));
-  write_file_atomically(folder / "results.json", compare::json_text(document_of(question, study)));
+  write_file_atomically(folder / "results.json", compare::json_text(document_of(question, study, step)));
 }
 
 /// Runs the study; what an interrupted one has recorded stays, and the command says how to go on.
@@ -85,16 +89,21 @@ int run(const RunOptions& options, const Session& session) {
   Case question = find_study(session.place, options.study);
   keep_model(question, options.model);
   if (!options.soil_bin.recorded.empty() && options.model.empty()) add_dem(question);
+  if (options.converge) {
+    question.study.conditions = options.conditions.pick(question.study.conditions);
+    return converge(options.soil_bin, question, session.place.effects, options.json);
+  }
   const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
   const compare::MakeModel make = models_with(options.soil_bin, question, session.place.effects, log);
   question.study.conditions = options.conditions.pick(question.study.conditions);
+  const std::optional<dem::StepCriteria> step = step_of(options.soil_bin, question);
   const std::vector<compare::ModelAnswers> study = answers_to(question, make, options, log);
-  save(options, question, study, session.place);
+  save(options, question, study, step, session.place);
   if (options.json) {
-    fmt::print("{}", compare::json_text(document_of(question, study)));
+    fmt::print("{}", compare::json_text(document_of(question, study, step)));
   } else {
-    fmt::print("{}: {} on {}\n\n{}", question.study.name, in_words(question.scenario.tire), question.scenario.soil.name,
-               study_text(study));
+    fmt::print("{}: {} on {}\n{}\n{}", question.study.name, in_words(question.scenario.tire),
+               question.scenario.soil.name, step ? in_words(*step) : "", study_text(study));
     if (const std::string notes = notes_on(*log); !notes.empty()) fmt::print("\n{}", notes);
   }
   if (compare::any_result(study)) return done;
@@ -113,6 +122,8 @@ void add_run(CLI::App& app, Session& session) {
   command->add_option("--csv", options->csv, "save the table")->type_name("FILE.csv");
   command->add_option("--output", options->output, "save the resolved case and the results")->type_name("DIR");
   command->add_flag("--json", options->json, "the results as JSON, in SI");
+  command->add_flag("--converge", options->converge,
+                    "dem: one condition, again with each numerical choice halved or doubled");
   options->conditions.add_to(*command);
   options->soil_bin.add_to(*command);
   command->footer(

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -110,19 +111,11 @@ std::unique_ptr<const Model> from_record(const SoilBinFlags& flags, const Case& 
 std::unique_ptr<const Model> running(const SoilBinFlags& flags, const Case& question, const EffectVocabulary& effects,
                                      const RunLog& log) {
   const dem::DemSettings settings = settings_of(flags);
-  compare::RunOnce run = [runs = std::make_shared<SoilBinRuns>(settings)](
-                             const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
-    return (*runs)(scenario, at, packing);
-  };
-  if (!flags.record.empty()) {
-    compare::Record empty{
-        SOILBIN_VERSION, "dem", write_case(question, effects), inputs_of(settings, question.scenario), {}};
-    run = compare::kept_in(flags.record, std::move(empty), std::move(run));
-  }
   std::vector<std::uint64_t> packings;
   for (int k = 0; k < flags.packings; ++k) packings.push_back(settings.packing + static_cast<std::uint64_t>(k));
   return std::make_unique<const compare::RunOnPackings>(
-      "dem", packings, std::move(run), [log](const compare::RecordedRun& told) { log->push_back(told); });
+      "dem", packings, run_with(settings, question, effects, flags.record),
+      [log](const compare::RecordedRun& told) { log->push_back(told); });
 }
 
 }  // namespace
@@ -139,6 +132,10 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   read("--bed-length", flags.length, {"m", above_zero}, settings.size.length);
   read("--bed-width", flags.width, {"m", above_zero}, settings.size.width);
   read("--bed-depth", flags.depth, {"m", above_zero}, settings.size.depth);
+  read("--behind", flags.behind, {"m", above_zero}, settings.rig.behind);
+  read("--ahead", flags.ahead, {"m", above_zero}, settings.rig.ahead);
+  read("--travel", flags.travel, {"m", above_zero}, settings.rig.travel);
+  read("--time-step", flags.time_step, {"s", above_zero}, settings.rig.dt);
   read("--settling-friction", flags.settling_friction, {"-", {.lower = 0, .upper = 1}}, settings.settling_friction);
   if (flags.packing < 0) throw InputError("--packing: a seed is 0 or more");
   if (flags.packings < 1) throw InputError("--packings: 1 or more");
@@ -154,6 +151,11 @@ void SoilBinFlags::add_to(CLI::App& command) {
   command.add_option("--bed-length", length, "dem: length of the bed, 2.5 m")->type_name("LENGTH");
   command.add_option("--bed-width", width, "dem: its width, 0.8 m")->type_name("LENGTH");
   command.add_option("--bed-depth", depth, "dem: its depth, 0.3 m")->type_name("LENGTH");
+  command.add_option("--behind", behind, "dem: of the axle to the bin's rear end at the start, 0.35 m")
+      ->type_name("LENGTH");
+  command.add_option("--ahead", ahead, "dem: of the axle to its front end at the end, 0.5 m")->type_name("LENGTH");
+  command.add_option("--travel", travel, "dem: way of the axle, as far as the bin lets it")->type_name("LENGTH");
+  command.add_option("--time-step", time_step, "dem: of bed and run, a fifth of the Rayleigh time")->type_name("TIME");
   command.add_option("--packing", packing, "dem: seed of the bed, 1")->type_name("SEED");
   command
       .add_option("--settling-friction", settling_friction,
@@ -175,6 +177,48 @@ compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, 
     if (kind != ModelKind::dem) return compare::make_model(kind);
     return flags.recorded.empty() ? running(flags, question, effects, log) : from_record(flags, question, log);
   };
+}
+
+compare::RunOnce run_with(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
+                          const fs::path& file) {
+  compare::RunOnce run = [runs = std::make_shared<SoilBinRuns>(settings)](
+                             const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
+    return (*runs)(scenario, at, packing);
+  };
+  if (file.empty()) return run;
+  compare::Record empty{
+      SOILBIN_VERSION, "dem", write_case(question, effects), inputs_of(settings, question.scenario), {}};
+  return compare::kept_in(file, std::move(empty), std::move(run));
+}
+
+std::optional<dem::StepCriteria> step_of(const SoilBinFlags& flags, const Case& question) {
+  const auto& models = question.study.models;
+  if (std::none_of(models.begin(), models.end(), [](const ModelChoice& c) { return c.model == ModelKind::dem; }))
+    return std::nullopt;
+  dem::DemSettings settings = settings_of(flags);
+  if (!flags.recorded.empty())
+    for (const auto& [name, value] : compare::read_record(flags.recorded).inputs)
+      if (name == "rig.time_step") settings.rig.dt = read_number(value).value_or(0.0);
+  double fastest = 0;
+  for (const OperatingCondition& at : question.study.conditions)
+    if (at.speed > 0 && std::abs(at.slip) < 1) fastest = std::max(fastest, dem::rim_speed(question.scenario.tire, at));
+  if (!(fastest > 0)) return std::nullopt;
+  return dem::step_criteria(dem::DemModel(settings).recipe(question.scenario), settings.rig, fastest);
+}
+
+std::string in_words(const dem::StepCriteria& step) {
+  return fmt::format(
+      "dem: time step {:.3g} s, {:.2g} of the Rayleigh time of {:.3g} s; an impact at the rim's {:.2g} m/s lasts "
+      "{:.3g} s, "
+      "{:.0f} steps\n",
+      step.step, step.step / step.rayleigh, step.rayleigh, step.speed, step.hertz, step.hertz / step.step);
+}
+
+nlohmann::ordered_json to_json(const dem::StepCriteria& step) {
+  return {{"time_step", step.step},
+          {"rayleigh_time", step.rayleigh},
+          {"impact_speed", step.speed},
+          {"hertz_time", step.hertz}};
 }
 
 std::string notes_on(const std::vector<compare::RecordedRun>& runs) {

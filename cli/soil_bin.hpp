@@ -12,6 +12,7 @@
 #include "compare/sweep/answers.hpp"
 #include "dem/bed/work_options.hpp"
 #include "dem/rig/dem_model.hpp"
+#include "dem/rig/step_criteria.hpp"
 
 namespace soilbin::cli {
 
@@ -24,6 +25,7 @@ void show_dem_progress(const dem::Progress& progress);
 /// Flags of the model dem, as typed; empty: the default.
 struct SoilBinFlags {
   std::string length, width, depth, settling_friction;
+  std::string behind, ahead, travel, time_step;
   std::string record;    ///< file that keeps each run as it is finished, and is gone on with
   std::string recorded;  ///< file to answer from, without running
   int packing = 1, packings = 1, threads = 0;
@@ -42,6 +44,16 @@ using RunLog = std::shared_ptr<std::vector<compare::RecordedRun>>;
 /// record that is begun keeps `question` whole.
 compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, const EffectVocabulary& effects,
                                const RunLog& log);
+
+/// Runs conditions with these settings; where a file is given, keeps them there (kept_in).
+compare::RunOnce run_with(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
+                          const std::filesystem::path& file);
+
+/// The time step that runs of a question take beside the Rayleigh time and how long an impact lasts at the fastest
+/// rim; no value where none of the question's models is dem.
+std::optional<dem::StepCriteria> step_of(const SoilBinFlags& flags, const Case& question);
+std::string in_words(const dem::StepCriteria& step);
+nlohmann::ordered_json to_json(const dem::StepCriteria& step);
 
 /// What to know about runs beside their results: which did not become steady, how far packings differ, what it cost.
 std::string notes_on(const std::vector<compare::RecordedRun>& runs);

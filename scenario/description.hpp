@@ -47,6 +47,13 @@ constexpr std::array<Word<ForceFrame>, 2> words_of(std::type_identity<ForceFrame
   return {{{"travel", ForceFrame::travel}, {"wheel", ForceFrame::wheel}}};
 }
 
+constexpr std::array<Word<RollingResistance>, 3> words_of(std::type_identity<RollingResistance>) {
+  using R = RollingResistance;
+  return {{{"directional", R::directional},
+           {"elastic_plastic", R::elastic_plastic},
+           {"torsion_spring", R::torsion_spring}}};
+}
+
 /// Largest yaw and (open) largest incline [rad].
 inline constexpr double right_angle = std::numbers::pi / 2;
 inline constexpr Range inclines{.lower = -right_angle, .upper = right_angle, .lower_open = true, .upper_open = true};
@@ -105,6 +112,8 @@ void describe(Visitor& v, std::type_identity<ContactPair>) {
            "coefficient of rolling friction");
   v.number("cohesion", &ContactPair::cohesion, Measure{"kJ/m^3", zero_or_more}, Need::optional,
            "energy density of linear cohesion: attraction over the contact's area; 0: none");
+  v.number("rolling_stiffness", &ContactPair::rolling_stiffness, Measure{"N m", zero_or_more}, Need::optional,
+           "couple a radian of rolling; of torsion_spring alone");
 }
 
 template <class Visitor>
@@ -117,12 +126,17 @@ void describe(Visitor& v, std::type_identity<GranularSoil>) {
   v.number("youngs_modulus", &G::youngs_modulus, Measure{"MPa", above_zero}, Need::required, "E of a grain");
   v.number("poisson_ratio", &G::poisson_ratio, Measure{"-", {.lower = -1.0, .upper = 0.5, .lower_open = true}},
            Need::required, "nu of a grain");
+  v.choice("rolling_resistance", &G::rolling_resistance, Need::optional, "how grains resist rolling");
   v.group("grain_grain", &G::grain_grain, Need::required, "contact of two grains");
   v.group("grain_tire", &G::grain_tire, Need::required, "contact of a grain and the tire");
 }
 
 inline std::string contradiction(const GranularSoil& soil) {
-  return soil.radius_max < soil.radius_min ? "radius_max is smaller than radius_min" : "";
+  if (soil.radius_max < soil.radius_min) return "radius_max is smaller than radius_min";
+  const bool stiff = soil.grain_grain.rolling_stiffness > 0 || soil.grain_tire.rolling_stiffness > 0;
+  if (stiff != (soil.rolling_resistance == RollingResistance::torsion_spring))
+    return "rolling_stiffness and rolling_resistance torsion_spring belong together";
+  return "";
 }
 
 template <class Visitor>

@@ -51,6 +51,7 @@ std::string recipe_text(const BedRecipe& recipe) {
   text += fmt::format("laws {} {} {}\n", static_cast<int>(recipe.laws.normal), static_cast<int>(recipe.laws.rolling),
                       static_cast<int>(recipe.laws.cohesion));
   add("tangential_damping", recipe.laws.tangential_damping);
+  if (soil.grain_grain.rolling_stiffness > 0) add("rolling_stiffness", soil.grain_grain.rolling_stiffness);
   add("kinetic", recipe.rest.kinetic), add("unbalanced", recipe.rest.unbalanced), add("every", recipe.rest.every);
   return text;
 }

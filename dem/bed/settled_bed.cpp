@@ -129,12 +129,25 @@ Interaction with_friction(Interaction interaction, double share) {
 
 }  // namespace
 
+RollingLaw rolling_law(RollingResistance resistance) {
+  switch (resistance) {
+    case RollingResistance::elastic_plastic:
+      return RollingLaw::elastic_plastic;
+    case RollingResistance::torsion_spring:
+      return RollingLaw::torsion_spring;
+    case RollingResistance::directional:
+      break;
+  }
+  return RollingLaw::directional;
+}
+
 Interaction interaction_of(const ContactPair& pair) {
   Interaction out;
   out.restitution = pair.restitution;
   out.sliding_friction = pair.sliding_friction;
   out.rolling_friction = pair.rolling_friction;
   out.cohesion = pair.cohesion;
+  out.rolling_stiffness = pair.rolling_stiffness;
   return out;
 }
 

@@ -43,6 +43,9 @@ struct SettledBed {
   BedReport report;
 };
 
+/// The engine's law for a soil's rolling resistance.
+RollingLaw rolling_law(RollingResistance resistance);
+
 /// What grains do to each other, and to tire, of a soil.
 Interaction interaction_of(const ContactPair& pair);
 /// The laws with linear cohesion switched on, where this pair has cohesion and no law of cohesion was chosen.

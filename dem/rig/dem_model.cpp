@@ -11,10 +11,12 @@ BedRecipe DemModel::recipe(const Scenario& scenario) const {
     throw InputError("soil '" + scenario.soil.name + "' has no granular values, which dem needs");
   BedRecipe recipe;
   recipe.soil = *scenario.soil.granular;
+  recipe.laws.rolling = rolling_law(recipe.soil.rolling_resistance);
   recipe.size = settings_.size;
   if (scenario.bin) recipe.size.depth = scenario.bin->depth, recipe.size.width = scenario.bin->width;
   recipe.packing = settings_.packing;
   recipe.settling_friction = settings_.settling_friction;
+  recipe.dt = settings_.rig.dt;
   return recipe;
 }
 

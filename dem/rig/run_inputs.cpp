@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "dem/bed/bed_store.hpp"
+#include "dem/rig/step_criteria.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -52,9 +53,9 @@ Inputs run_inputs(const BedRecipe& recipe, const Tire& tire, const Rig& rig) {
   const ContactPair& contact = recipe.soil.grain_tire;
   add(inputs, "soil.tire_restitution", contact.restitution), add(inputs, "soil.tire_sliding", contact.sliding_friction);
   add(inputs, "soil.tire_rolling", contact.rolling_friction);
+  if (contact.rolling_stiffness > 0) add(inputs, "soil.tire_rolling_stiffness", contact.rolling_stiffness);
   add_rig(inputs, rig);
-  const double bed_step = recipe.dt > 0 ? recipe.dt : longest_step(recipe.soil);
-  add(inputs, "rig.time_step", rig.dt > 0 ? rig.dt : bed_step);
+  add(inputs, "rig.time_step", step_of(recipe, rig));
   return inputs;
 }
 

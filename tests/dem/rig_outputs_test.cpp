@@ -5,6 +5,7 @@
 
 #include "dem/rig/rut.hpp"
 #include "dem/rig/soil_flow.hpp"
+#include "dem/rig/step_criteria.hpp"
 #include "dem/rig/wheel_run.hpp"
 #include "tests/dem/small_bed.hpp"
 
@@ -103,6 +104,27 @@ TEST(SoilFlow, OfARigidTranslationIsUniform) {
     EXPECT_NEAR(flow.vx[k], 0.7, 1e-14);
     EXPECT_NEAR(flow.vz[k], 0.1, 1e-14);
   }
+}
+
+// The step that soilbin takes by itself is a fifth of the Rayleigh time; both times go with the radius of the smallest
+// grain; an impact four times as fast is 4^(1/5) shorter.
+TEST(StepCriteria, FollowTheSmallestGrain) {
+  BedRecipe recipe = test::small_recipe();
+  const StepCriteria one = step_criteria(recipe, {}, 0.5), fast = step_criteria(recipe, {}, 2);
+  EXPECT_NEAR(one.step / one.rayleigh, 0.999 * 0.2, 1e-12);
+  EXPECT_NEAR(one.hertz / fast.hertz, std::pow(4, 0.2), 1e-12);
+  recipe.soil.radius_min /= 2;
+  const StepCriteria small = step_criteria(recipe, {}, 0.5);
+  EXPECT_NEAR(one.rayleigh / small.rayleigh, 2, 1e-12);
+  EXPECT_NEAR(one.hertz / small.hertz, 2, 1e-12);
+  recipe.dt = 1e-6;
+  EXPECT_EQ(step_criteria(recipe, {}, 0.5).step, 1e-6);
+
+  Tire tire;
+  tire.radius = 0.5, tire.lugs.height = 0.02;
+  OperatingCondition at;
+  at.load = 1, at.slip = 0.2, at.speed = 0.4;
+  EXPECT_NEAR(rim_speed(tire, at), 0.52 * 0.4 / (0.5 * 0.8), 1e-12);
 }
 
 // A wheel on grains. Below and far ahead of it the soil rests; under it soil goes down and, at positive slip, backward

@@ -1,0 +1,150 @@
+// soilbin reproduce: whether the models show what a publication found.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "cli/text_output.hpp"
+#include "cli/versions.hpp"
+#include "compare/recorded/recorded_model.hpp"
+#include "compare/report/result_json.hpp"
+#include "compare/reproduction/reproduction_report.hpp"
+#include "scenario/atomic_file.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/mapping_writer.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReproduceOptions {
+  std::string findings = "paper", report;
+  std::vector<std::string> recorded;
+  bool json = false;
+};
+
+/// A name of the library's findings, or a path.
+fs::path findings_file(const Workplace& place, const std::string& name) {
+  std::vector<std::string> names;
+  for (const fs::path& folder : place.folders) {
+    const fs::path file = folder / "findings" / (name + ".yaml");
+    if (fs::exists(file)) return file;
+    if (!fs::is_directory(folder / "findings")) continue;
+    for (const auto& entry : fs::directory_iterator(folder / "findings")) names.push_back(entry.path().stem().string());
+  }
+  if (name.find('/') != std::string::npos || name.ends_with(".yaml")) return name;
+  throw InputError("no findings '" + clipped(name) + "'" + did_you_mean(name, names) + "\n  hint: there are " +
+                   listed(names));
+}
+
+/// Which study a record answers: its case's name.
+std::string study_of(const compare::Record& record, const std::string& file, const Workplace& place) {
+  return parse_case(make_source_text(record.question, file + " (case)"), place.library, place.effects).study.name;
+}
+
+struct Recorded {
+  std::string study, file;
+  compare::Record record;
+};
+
+/// Answers of every model to every study that the findings speak of.
+std::vector<compare::StudyAnswers> answers_of(const compare::Findings& findings, const std::vector<Recorded>& records,
+                                              const Workplace& place, std::vector<std::string>& remarks) {
+  std::set<std::string> names;
+  for (const compare::Finding& finding : findings.all) names.insert(finding.study);
+  std::vector<compare::StudyAnswers> all;
+  for (const std::string& name : names) {
+    Case question = find_case(place, name);
+    std::erase_if(question.study.models, [](const ModelChoice& c) { return c.model == ModelKind::dem; });
+    for (compare::ModelAnswers& model : compare::run_study(question, shown_progress()))
+      all.push_back({name, model.choice.label, compare::taken_as_exact(std::move(model.answers))});
+    std::string remark;
+    compare::StudyAnswers dem{name, "dem", {}};
+    for (const Recorded& one : records) {
+      if (one.study != name) continue;
+      dem.answers = compare::recorded_answers(one.record, question.study.conditions, remark);
+      remarks.push_back(one.file + ": " + remark);
+    }
+    if (dem.answers.empty())
+      for (const OperatingCondition& at : question.study.conditions)
+        dem.answers.push_back({at, std::nullopt, "not run"});
+    all.push_back(std::move(dem));
+  }
+  return all;
+}
+
+std::vector<Recorded> records_of(const std::vector<std::string>& files, const compare::Findings& findings,
+                                 const Workplace& place) {
+  std::vector<Recorded> records;
+  for (const std::string& file : files) {
+    compare::Record record = compare::read_record(file);
+    const std::string study = study_of(record, file, place);
+    const bool asked = std::any_of(findings.all.begin(), findings.all.end(),
+                                   [&](const compare::Finding& finding) { return finding.study == study; });
+    if (!asked) throw InputError(fmt::format("{}: no finding speaks of its study '{}'", file, study));
+    for (const Recorded& other : records)
+      if (other.study == study)
+        throw InputError(
+            fmt::format("{} and {} answer the same study '{}'\n  hint: one record a study", other.file, file, study));
+    records.push_back({study, file, std::move(record)});
+  }
+  return records;
+}
+
+void print_text(const compare::Reproduction& reproduction) {
+  fmt::print("{}\n\n", reproduction.findings.source);
+  std::vector<std::string> header = {"section", "finding"};
+  header.insert(header.end(), reproduction.labels.begin(), reproduction.labels.end());
+  TextTable table(header);
+  for (const compare::ReproducedFinding& row : reproduction.rows) {
+    std::vector<std::string> cells = {row.finding.section, row.finding.id};
+    for (const compare::Evidence& evidence : row.evidence) cells.emplace_back(word_of(evidence.verdict));
+    table.add(std::move(cells));
+  }
+  fmt::print("{}\n", table.text());
+  for (std::size_t k = 0; k < reproduction.labels.size(); ++k)
+    fmt::print("{}: {}\n", reproduction.labels[k], compare::tally(reproduction, k));
+  for (const std::string& remark : reproduction.remarks) fmt::print("{}\n", remark);
+}
+
+int reproduce(const ReproduceOptions& options, const Session& session) {
+  const compare::Findings findings = compare::read_findings(findings_file(session.place, options.findings));
+  const std::vector<Recorded> records = records_of(options.recorded, findings, session.place);
+  std::vector<std::string> remarks;
+  compare::Reproduction reproduction =
+      compare::reproduce(findings, answers_of(findings, records, session.place, remarks));
+  reproduction.remarks = remarks;
+  if (!options.report.empty()) {
+    std::string command = "soilbin reproduce " + options.findings;
+    for (const std::string& file : options.recorded) command += " --recorded " + file;
+    const compare::PageAbout about{"What of " + findings.name + " is reproduced", command, versions()};
+    write_file_atomically(options.report, compare::reproduction_page(reproduction, about));
+  }
+  if (options.json)
+    fmt::print("{}", compare::json_text(compare::to_json(reproduction)));
+  else
+    print_text(reproduction);
+  return done;
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("reproduce", "whether the models show what a publication found");
+  const auto options = std::make_shared<ReproduceOptions>();
+  command->add_option("findings", options->findings, "of the library, or a YAML file; by default paper")
+      ->type_name("FINDINGS");
+  command->add_option("--recorded", options->recorded, "records of dem, one a study")->type_name("FILE.json...");
+  command->add_option("--report", options->report, "save a page to open")->type_name("FILE.html");
+  command->add_flag("--json", options->json, "the verdicts as JSON, in SI");
+  command->footer("Example: soilbin reproduce --recorded straight.json --report reproduction.html");
+  command->callback([=, &session] { session.action = [=, &session] { return reproduce(*options, session); }; });
+}
+
+}  // namespace soilbin::cli

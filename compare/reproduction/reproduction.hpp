@@ -1,0 +1,82 @@
+// Whether answers show what a publication found.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/recorded/record.hpp"
+#include "compare/reproduction/curve_statistics.hpp"
+#include "compare/reproduction/finding.hpp"
+#include "compare/sweep/answers.hpp"
+
+namespace soilbin::compare {
+
+enum class Verdict {
+  shown,         ///< the whole interval lies in the claim
+  not_shown,     ///< the interval lies across an end of the claim
+  contradicted,  ///< no part of it lies in the claim
+  no_data        ///< too few conditions have results
+};
+
+constexpr std::array<Word<Verdict>, 4> words_of(std::type_identity<Verdict>) {
+  return {{{"shown", Verdict::shown},
+           {"not shown", Verdict::not_shown},
+           {"contradicted", Verdict::contradicted},
+           {"no data", Verdict::no_data}}};
+}
+
+/// One finding, as one model's answers have it.
+struct Evidence {
+  Verdict verdict = Verdict::no_data;
+  std::optional<Interval> interval;         ///< of the statistic [SI]
+  std::vector<OperatingCondition> missing;  ///< conditions of the study without a result that belong to it
+};
+
+/// The tractive efficiency with its error, from those of pull and torque taken as independent.
+Estimate efficiency_of(const TractionResult& result);
+
+/// The curve of a finding: at each value of `along`, the mean of all conditions in `where`. A value that lacks one of
+/// its conditions is left out, and the condition named in `missing`.
+Curve curve_of(const Finding& finding, const Where& where, const std::vector<Answer>& answers,
+               std::vector<OperatingCondition>& missing);
+
+/// Tests a finding on the answers to its study's conditions.
+Evidence test_finding(const Finding& finding, const std::vector<Answer>& answers, double level, std::uint64_t seed);
+
+/// One model's answers to the studies.
+struct StudyAnswers {
+  std::string study, label;
+  std::vector<Answer> answers;  ///< to all of the study's conditions, those without result included
+};
+
+/// A finding beside what each label's answers say of it, in the order of `labels`.
+struct ReproducedFinding {
+  Finding finding;
+  std::vector<Evidence> evidence;
+};
+
+struct Reproduction {
+  Findings findings;
+  std::vector<std::string> labels;
+  std::vector<ReproducedFinding> rows;
+  std::vector<std::string> remarks;  ///< on the answers' errors
+};
+
+/// Every finding on every label's answers. A label without the finding's study has no data.
+Reproduction reproduce(const Findings& findings, const std::vector<StudyAnswers>& studies);
+
+/// The same answers without their errors. Those of the analytic model come from the soil's values, which all conditions
+/// share: taken for noise of each point they would hide every trend.
+std::vector<Answer> taken_as_exact(std::vector<Answer> answers);
+
+/// How much further packings scatter than the errors of single runs tell, for a channel: the root of their pooled
+/// variance ratio over all conditions that have several packings; no value with less than four degrees of freedom.
+std::optional<double> packing_factor(const Record& record, Estimate TractionResult::*channel);
+
+/// A record's answers to conditions; errors widened by packing_factor where that is above 1. `remark` says what was
+/// done.
+std::vector<Answer> recorded_answers(const Record& record, const std::vector<OperatingCondition>& conditions,
+                                     std::string& remark);
+
+}  // namespace soilbin::compare
