@@ -18,7 +18,7 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsoilbin-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libeigen3-dev, libfmt-dev, libgsl-dev, libyaml-cpp-dev, nlohmann-json3-dev")
+  "libeigen3-dev, libfmt-dev, libgsl-dev, libyaml-cpp-dev, nlohmann-json3-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS soilbin)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
   "The command soilbin with its tires, soils, studies and measured campaigns: drawbar pull, torque, sinkage and
