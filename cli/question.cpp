@@ -2,49 +2,15 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
 #include <set>
 #include <sstream>
 
 #include "compare/report/result_json.hpp"
+#include "compare/sweep/alike.hpp"
 #include "scenario/mapping_writer.hpp"
 
 namespace soilbin::cli {
 namespace {
-
-/// Whether two conditions agree as far as a person who types numbers can tell.
-class Agreement {
- public:
-  using C = OperatingCondition;
-  Agreement(const C& a, const C& b) : a_(a), b_(b) {}
-  bool agree = true;
-
-  void number(const char*, double C::*member, const Measure&, Need, const char*) { near(a_.*member, b_.*member); }
-  void number(const char*, std::optional<double> C::*member, const Measure&, Need, const char*) {
-    agree = agree && (a_.*member).has_value() == (b_.*member).has_value();
-    near((a_.*member).value_or(0.0), (b_.*member).value_or(0.0));
-  }
-  template <class N>
-  void integer(const char*, N C::*member, int, Need, const char*) {
-    agree = agree && a_.*member == b_.*member;
-  }
-  template <class E>
-  void choice(const char*, E C::*member, Need, const char*) {
-    agree = agree && a_.*member == b_.*member;
-  }
-
- private:
-  void near(double x, double y) { agree = agree && std::abs(x - y) <= 1e-9 * std::max(std::abs(x), std::abs(y)); }
-
-  const C& a_;
-  const C& b_;
-};
-
-bool same(const OperatingCondition& a, const OperatingCondition& b) {
-  Agreement visitor(a, b);
-  describe(visitor, std::type_identity<OperatingCondition>{});
-  return visitor.agree;
-}
 
 std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> parts;
@@ -114,7 +80,7 @@ std::vector<OperatingCondition> ConditionFlags::pick(const std::vector<Operating
   for (const OperatingCondition& at : conditions) {
     OperatingCondition asked = at;
     flags_.apply(asked);
-    if (same(asked, at)) kept.push_back(at);
+    if (compare::alike(asked, at)) kept.push_back(at);
     if (seen.insert(compare::to_json(asked).dump()).second) changed.push_back(asked);
   }
   return kept.empty() ? changed : kept;

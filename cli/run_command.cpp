@@ -41,6 +41,13 @@ void keep_model(Case& question, const std::string& name) {
   question.study.models = std::move(kept);
 }
 
+/// A record answers beside the study's own models.
+void add_dem(Case& question) {
+  for (const ModelChoice& choice : question.study.models)
+    if (choice.model == ModelKind::dem) return;
+  question.study.models.push_back({ModelKind::dem, {}, "dem"});
+}
+
 nlohmann::ordered_json document_of(const Case& question, const std::vector<compare::ModelAnswers>& study) {
   return {{"format", "soilbin-run/1"},
           {"study", question.study.name},
@@ -61,18 +68,34 @@ void save(const RunOptions& options, const Case& question, const std::vector<com
   write_file_atomically(folder / "results.json", compare::json_text(document_of(question, study)));
 }
 
+/// Runs the study; what an interrupted one has recorded stays, and the command says how to go on.
+std::vector<compare::ModelAnswers> answers_to(const Case& question, const compare::MakeModel& make,
+                                              const RunOptions& options, const RunLog& log) {
+  try {
+    return compare::run_study(question, shown_progress(), make);
+  } catch (const Interrupted&) {
+    if (!options.soil_bin.record.empty())
+      fmt::print(stderr, "\n{} runs are in {}: the same command goes on from there", log->size(),
+                 options.soil_bin.record);
+    throw;
+  }
+}
+
 int run(const RunOptions& options, const Session& session) {
   Case question = find_case(session.place, options.study);
   keep_model(question, options.model);
+  if (!options.soil_bin.recorded.empty() && options.model.empty()) add_dem(question);
+  const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
+  const compare::MakeModel make = models_with(options.soil_bin, question, session.place.effects, log);
   question.study.conditions = options.conditions.pick(question.study.conditions);
-  const std::vector<compare::ModelAnswers> study =
-      compare::run_study(question, shown_progress(), models_with(options.soil_bin));
+  const std::vector<compare::ModelAnswers> study = answers_to(question, make, options, log);
   save(options, question, study, session.place);
   if (options.json) {
     fmt::print("{}", compare::json_text(document_of(question, study)));
   } else {
     fmt::print("{}: {} on {}\n\n{}", question.study.name, in_words(question.scenario.tire), question.scenario.soil.name,
                study_text(study));
+    if (const std::string notes = notes_on(*log); !notes.empty()) fmt::print("\n{}", notes);
   }
   if (compare::any_result(study)) return done;
   fmt::print(stderr, "soilbin: no condition of the study has a solution\n");

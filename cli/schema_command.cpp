@@ -5,6 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "compare/measured/campaign_schema.hpp"
+#include "compare/recorded/record.hpp"
 #include "compare/report/result_json.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -22,18 +23,22 @@ int schema(const std::string& what, const Session& session) {
     fmt::print("{}", compare::json_text(soil_schema()));
   else if (what == "campaign")
     fmt::print("{}", compare::json_text(compare::campaign_schema(session.place.effects)));
+  else if (what == "recorded")
+    fmt::print("{}", compare::json_text(compare::record_schema()));
   else
-    throw InputError("no schema '" + clipped(what) + "'" + did_you_mean(what, {"case", "tire", "soil", "campaign"}) +
-                     "\n  hint: one of case, tire, soil, campaign");
+    throw InputError("no schema '" + clipped(what) + "'" +
+                     did_you_mean(what, {"case", "tire", "soil", "campaign", "recorded"}) +
+                     "\n  hint: one of case, tire, soil, campaign, recorded");
   return done;
 }
 
 }  // namespace
 
 void add_schema(CLI::App& app, Session& session) {
-  CLI::App* command = app.add_subcommand("schema", "a file format as JSON Schema: case, tire, soil, campaign");
+  CLI::App* command =
+      app.add_subcommand("schema", "a file format as JSON Schema: case, tire, soil, campaign, recorded");
   const auto what = std::make_shared<std::string>("case");
-  command->add_option("format", *what, "case (the default), tire, soil or campaign")->type_name("FORMAT");
+  command->add_option("format", *what, "case (the default), tire, soil, campaign or recorded")->type_name("FORMAT");
   command->callback([=, &session] { session.action = [=, &session] { return schema(*what, session); }; });
 }
 

@@ -3,13 +3,18 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <memory>
+#include <map>
 
 #include "cli/progress.hpp"
-#include "dem/rig/dem_model.hpp"
+#include "cli/versions.hpp"
+#include "compare/sweep/alike.hpp"
+#include "compare/sweep/channels.hpp"
+#include "compare/sweep/varying.hpp"
+#include "dem/rig/run_inputs.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/quantity.hpp"
 
@@ -39,6 +44,91 @@ void show(const dem::Progress& progress) {
   std::fflush(stderr);
 }
 
+/// Runs conditions, with a model for each packing, so that a bed is taken once.
+class SoilBinRuns {
+ public:
+  explicit SoilBinRuns(dem::DemSettings settings) : settings_(std::move(settings)) {
+    settings_.on_run = [told = told_](const dem::WheelRun& run) { *told = run; };
+  }
+
+  compare::RecordedRun operator()(const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
+    const auto began = std::chrono::steady_clock::now();
+    compare::RecordedRun run;
+    run.answer.at = at, run.packing = packing, run.source = source_state();
+    try {
+      run.answer.result = model(packing).evaluate(scenario, at);
+      run.steady = told_->steady, run.drift = told_->drift, run.power = told_->power;
+      run.rut = told_->rut, run.flow = told_->flow;
+    } catch (const dem::RunStopped& stopped) {
+      run.answer.error = stopped.what();
+    } catch (const NoSolution& error) {
+      run.answer.error = error.what();
+    }
+    run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    return run;
+  }
+
+ private:
+  const dem::DemModel& model(std::uint64_t packing) {
+    const auto known = models_.find(packing);
+    if (known != models_.end()) return *known->second;
+    settings_.packing = packing;
+    return *models_.emplace(packing, std::make_unique<dem::DemModel>(settings_)).first->second;
+  }
+
+  dem::DemSettings settings_;
+  std::shared_ptr<dem::WheelRun> told_ = std::make_shared<dem::WheelRun>();
+  std::map<std::uint64_t, std::unique_ptr<dem::DemModel>> models_;
+};
+
+compare::Inputs inputs_of(const dem::DemSettings& settings, const Scenario& scenario) {
+  return dem::run_inputs(dem::DemModel(settings).recipe(scenario), scenario.tire, settings.rig);
+}
+
+/// A record's answers, with the runs behind them told to a log.
+class FromRecord : public Model {
+ public:
+  FromRecord(compare::Record record, RunLog log) : model_(std::move(record)), log_(std::move(log)) {}
+  std::string name() const override { return model_.name(); }
+  TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override {
+    for (const compare::RecordedRun* run : model_.runs(at)) log_->push_back(*run);
+    return model_.evaluate(scenario, at);
+  }
+
+ private:
+  compare::RecordedModel model_;
+  RunLog log_;
+};
+
+std::unique_ptr<const Model> from_record(const SoilBinFlags& flags, const Case& question, const RunLog& log) {
+  compare::Record record = compare::read_record(flags.recorded);
+  // Bed and rig are the record's; tire and grains must be the study's.
+  compare::refuse_other_inputs(record, inputs_of({}, question.scenario), flags.recorded,
+                               {"tire.", "soil.", "bed.radius", "bed.density", "bed.young", "bed.poisson",
+                                "bed.restitution", "bed.sliding", "bed.rolling"});
+  return std::make_unique<const FromRecord>(std::move(record), log);
+}
+
+std::unique_ptr<const Model> running(const SoilBinFlags& flags, const Case& question, const EffectVocabulary& effects,
+                                     const RunLog& log) {
+  const dem::DemSettings settings = settings_of(flags);
+  compare::RunOnce run = [runs = std::make_shared<SoilBinRuns>(settings)](
+                             const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
+    return (*runs)(scenario, at, packing);
+  };
+  if (!flags.record.empty()) {
+    compare::Record empty{
+        SOILBIN_VERSION, "dem", write_case(question, effects), inputs_of(settings, question.scenario), {}};
+    run = compare::kept_in(flags.record, std::move(empty), std::move(run));
+  }
+  std::vector<std::uint64_t> packings;
+  for (int k = 0; k < flags.packings; ++k) packings.push_back(settings.packing + static_cast<std::uint64_t>(k));
+  return std::make_unique<const compare::RunOnPackings>(
+      "dem", packings, std::move(run), [log](const compare::RecordedRun& told) { log->push_back(told); });
+}
+
+}  // namespace
+
 dem::DemSettings settings_of(const SoilBinFlags& flags) {
   dem::DemSettings settings;
   const auto read = [](const char* flag, const std::string& text, const Measure& measure, double& into) {
@@ -53,6 +143,7 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   read("--bed-depth", flags.depth, {"m", above_zero}, settings.size.depth);
   read("--settling-friction", flags.settling_friction, {"-", {.lower = 0, .upper = 1}}, settings.settling_friction);
   if (flags.packing < 0) throw InputError("--packing: a seed is 0 or more");
+  if (flags.packings < 1) throw InputError("--packings: 1 or more");
   if (flags.threads < 0) throw InputError("--threads: 0 (one a core) or more");
   settings.packing = static_cast<std::uint64_t>(flags.packing);
   settings.beds = folder_of_beds();
@@ -60,24 +151,6 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   settings.how.progress = show;
   return settings;
 }
-
-class SoilBin : public Model {
- public:
-  explicit SoilBin(dem::DemSettings settings) : model_(std::move(settings)) {}
-  std::string name() const override { return model_.name(); }
-  TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override {
-    try {
-      return model_.evaluate(scenario, at);
-    } catch (const dem::RunStopped& stopped) {
-      throw NoSolution(stopped.what());
-    }
-  }
-
- private:
-  dem::DemModel model_;
-};
-
-}  // namespace
 
 void SoilBinFlags::add_to(CLI::App& command) {
   command.add_option("--bed-length", length, "dem: length of the bed, 2.5 m")->type_name("LENGTH");
@@ -88,14 +161,36 @@ void SoilBinFlags::add_to(CLI::App& command) {
       .add_option("--settling-friction", settling_friction,
                   "dem: share of friction while the bed settles, 1; 0: densest")
       ->type_name("SHARE");
+  command.add_option("--packings", packings, "dem: runs on so many packings, from --packing on, and their mean; 1")
+      ->type_name("N");
+  command.add_option("--record", record, "dem: keep each run in this file, and go on with what is there")
+      ->type_name("FILE.json");
+  command.add_option("--recorded", recorded, "dem: answer from this record, without running")
+      ->type_name("FILE.json")
+      ->excludes("--record");
   command.add_option("--threads", threads, "dem: 0, one a core")->type_name("N");
 }
 
-compare::MakeModel models_with(const SoilBinFlags& flags) {
-  return [flags](ModelKind kind) -> std::unique_ptr<const Model> {
-    if (kind == ModelKind::dem) return std::make_unique<const SoilBin>(settings_of(flags));
-    return compare::make_model(kind);
+compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, const EffectVocabulary& effects,
+                               const RunLog& log) {
+  return [=, &effects](ModelKind kind) -> std::unique_ptr<const Model> {
+    if (kind != ModelKind::dem) return compare::make_model(kind);
+    return flags.recorded.empty() ? running(flags, question, effects, log) : from_record(flags, question, log);
   };
+}
+
+std::string notes_on(const std::vector<compare::RecordedRun>& runs) {
+  std::string notes;
+  double seconds = 0;
+  for (const compare::RecordedRun& run : runs) {
+    seconds += run.seconds;
+    if (run.answer.result && !run.steady)
+      notes +=
+          fmt::format("not steady at {}{}: halves differ by {:.3g} standard errors\n", compare::in_words(run.answer.at),
+                      run.packing == 1 ? "" : fmt::format(", packing {}", run.packing), run.drift);
+  }
+  if (runs.empty()) return "";
+  return notes + fmt::format("dem: {} run{}, {:.0f} s in all\n", runs.size(), runs.size() == 1 ? "" : "s", seconds);
 }
 
 }  // namespace soilbin::cli

@@ -1,6 +1,10 @@
 #include "cli/versions.hpp"
 
+#include <source_state.hpp>
+
 namespace soilbin::cli {
+
+std::string source_state() { return SOILBIN_SOURCE_STATE; }
 
 std::vector<std::pair<std::string, std::string>> versions() {
   return {{"soilbin", SOILBIN_VERSION},     {"build", SOILBIN_BUILD_TYPE},           {"compiler", SOILBIN_COMPILER},

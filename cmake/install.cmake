@@ -22,6 +22,9 @@ foreach(floor IN LISTS floors)
   install(DIRECTORY ${floor} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/soilbin COMPONENT development
     FILES_MATCHING PATTERN "*.hpp")
 endforeach()
+# Plain values of the soil bin, which compare's records keep; the grain engine itself is not offered yet.
+install(FILES dem/engine/energy.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/soilbin/dem/engine COMPONENT development)
+install(FILES dem/rig/wheel_outcome.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/soilbin/dem/rig COMPONENT development)
 install(EXPORT soilbin NAMESPACE soilbin:: DESTINATION ${package_folder} FILE soilbin-targets.cmake COMPONENT development)
 
 configure_package_config_file(cmake/soilbin-config.cmake.in ${PROJECT_BINARY_DIR}/soilbin-config.cmake

@@ -6,18 +6,15 @@
 #include <numbers>
 
 #include "compare/measured/csv.hpp"
+#include "compare/report/json_fields.hpp"
+#include "compare/report/result_fields.hpp"
 #include "compare/sweep/channels.hpp"
 #include "scenario/mapping_writer.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr double degree = std::numbers::pi / 180;
-
-/// SI, as null where it is not finite.
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// The visitor of OperatingCondition's description that writes its members in SI.
 class ConditionJson {
@@ -44,44 +41,87 @@ class ConditionJson {
   const C& at_;
 };
 
-void add_channels(const TractionResult& result, Json& row) {
-  for (const ChannelView& channel : channel_views)
-    row[std::string(channel.name)] = finite((result.*channel.predicted).value);
-  row["theta_1"] = finite(result.entry_angle);
-}
+/// The visitor of OperatingCondition's description that reads what ConditionJson wrote.
+class ConditionFromJson {
+ public:
+  using C = OperatingCondition;
 
-void add_rest(const TractionResult& result, Json& row) {
-  for (const ChannelView& channel : channel_views)
-    row["std_error"][std::string(channel.name)] = finite((result.*channel.predicted).std_error);
-  row["tractive_efficiency"] = finite(result.tractive_efficiency);
-  row["theta_m"] = finite(result.max_stress_angle);
-  row["theta_2"] = finite(result.exit_angle);
-  row["budget"] = Json::array();
-  for (const Contribution& part : result.budget)
-    row["budget"].push_back({{"name", part.name}, {"force", finite(part.force)}});
-}
+  explicit ConditionFromJson(const ReadJson& from) : from_(from) {}
+  C at;
+
+  void number(const char* key, double C::*member, const Measure&, Need, const char*) { at.*member = number_at(key); }
+  void number(const char* key, std::optional<double> C::*member, const Measure&, Need, const char*) {
+    if (from_.has(key)) at.*member = number_at(key);
+  }
+  void integer(const char* key, int C::*member, int, Need, const char*) { at.*member = whole_at(key); }
+  void integer(const char* key, std::optional<int> C::*member, int, Need, const char*) {
+    if (from_.has(key)) at.*member = whole_at(key);
+  }
+  template <class E>
+  void choice(const char* key, E C::*member, Need, const char*) {
+    const Json& found = from_.at(key);
+    for (const Word<E>& word : words_of(std::type_identity<E>{}))
+      if (found == word.text) return void(at.*member = word.value);
+    ReadJson::refuse(from_.below(key), "one of the words of a case file");
+  }
+
+ private:
+  double number_at(const char* key) const {
+    if (!from_.at(key).is_number()) ReadJson::refuse(from_.below(key), "a number");
+    return from_.at(key).get<double>();
+  }
+  int whole_at(const char* key) const {
+    if (!from_.at(key).is_number_integer()) ReadJson::refuse(from_.below(key), "a whole number");
+    return from_.at(key).get<int>();
+  }
+
+  const ReadJson& from_;
+};
+
+/// The visitor that makes the schema of what ConditionJson writes.
+class ConditionSchema {
+ public:
+  using C = OperatingCondition;
+
+  Json properties = Json::object();
+
+  template <class N>
+  void number(const char* key, N C::*, const Measure&, Need, const char* meaning) {
+    properties[key] = {{"type", "number"}, {"description", std::string(meaning) + " [SI]"}};
+  }
+  template <class N>
+  void integer(const char* key, N C::*, int lowest, Need, const char* meaning) {
+    properties[key] = {{"type", "integer"}, {"minimum", lowest}, {"description", meaning}};
+  }
+  template <class E>
+  void choice(const char* key, E C::*, Need, const char* meaning) {
+    Json words = Json::array();
+    for (const Word<E>& word : words_of(std::type_identity<E>{})) words.push_back(std::string(word.text));
+    properties[key] = {{"enum", words}, {"description", meaning}};
+  }
+};
 
 Json errors_json(const std::vector<ChannelError>& errors) {
   Json all = Json::object();
   for (const ChannelError& error : errors) {
     const ChannelView& channel = channel_views[error.channel];
-    const std::string unit = channel.name == "sinkage" ? "m" : std::string(channel.unit);
-    all[std::string(channel.name)] = {{"unit", unit},
-                                      {"runs", error.runs},
-                                      {"rmse", finite(error.rmse)},
-                                      {"bias", finite(error.bias)},
-                                      {"range", finite(error.range)},
-                                      {"share_of_range", finite(error.share_of_range)}};
+    all[std::string(channel.name)] = {{"unit", si_unit(channel)},     {"runs", error.runs},
+                                      {"rmse", finite(error.rmse)},   {"bias", finite(error.bias)},
+                                      {"range", finite(error.range)}, {"share_of_range", finite(error.share_of_range)}};
   }
   return all;
 }
 
 Json run_json(const PredictedRun& run) {
   Json row = {{"run", run.run}};
-  if (run.predicted.result)
-    add_channels(*run.predicted.result, row);
-  else
+  if (run.predicted.result) {
+    const TractionResult& result = *run.predicted.result;
+    for (const ChannelView& channel : channel_views)
+      row[std::string(channel.name)] = finite((result.*channel.predicted).value);
+    row["theta_1"] = finite(result.entry_angle);
+  } else {
     row["error"] = run.predicted.error;
+  }
   if (run.measured.setpoint) row["setpoint"] = *run.measured.setpoint;
   row["at"] = to_json(run.measured.at);
   for (const ChannelView& channel : channel_views) {
@@ -116,12 +156,37 @@ Json to_json(const OperatingCondition& at) {
 Json to_json(const Answer& answer) {
   Json row = to_json(answer.at);
   if (answer.result) {
-    add_channels(*answer.result, row);
-    add_rest(*answer.result, row);
+    WriteJson visitor(row);
+    result_fields(visitor, *answer.result);
   } else {
     row["error"] = answer.error;
   }
   return row;
+}
+
+OperatingCondition condition_from_json(const Json& row, const std::string& place) {
+  const ReadJson reader(row, place);
+  ConditionFromJson visitor(reader);
+  describe(visitor, std::type_identity<OperatingCondition>{});
+  return visitor.at;
+}
+
+Answer answer_from_json(const Json& row, const std::string& place) {
+  Answer answer{condition_from_json(row, place), std::nullopt, ""};
+  ReadJson visitor(row, place);
+  if (visitor.has("error")) {
+    visitor.text("error", answer.error, "");
+  } else {
+    result_fields(visitor, answer.result.emplace());
+    answer.result->at = answer.at;
+  }
+  return answer;
+}
+
+Json condition_schema() {
+  ConditionSchema visitor;
+  describe(visitor, std::type_identity<OperatingCondition>{});
+  return visitor.properties;
 }
 
 Json rows_json(const std::vector<ModelAnswers>& study) {

@@ -15,6 +15,13 @@ nlohmann::ordered_json to_json(const OperatingCondition& at);
 /// then efficiency, angles and budget; or {"error": "..."} beside the condition.
 nlohmann::ordered_json to_json(const Answer& answer);
 
+/// Reads back what to_json wrote. `place` names the row in errors, such as "runs.json: rows[3]". Throws InputError.
+OperatingCondition condition_from_json(const nlohmann::ordered_json& row, const std::string& place);
+Answer answer_from_json(const nlohmann::ordered_json& row, const std::string& place);
+
+/// "properties" of a JSON Schema for what to_json writes of a condition.
+nlohmann::ordered_json condition_schema();
+
 /// Every answer of every model as a flat list; each row names its model.
 nlohmann::ordered_json rows_json(const std::vector<ModelAnswers>& study);
 

@@ -27,4 +27,7 @@ inline constexpr std::array<ChannelView, 4> channel_views = {{
     {"lateral_force", "lateral force", "N", 1.0, &TractionResult::lateral_force, &Run::lateral_force},
 }};
 
+/// The unit of a channel in files, which are in SI.
+constexpr const char* si_unit(const ChannelView& channel) { return channel.per_si == 1.0 ? channel.unit.data() : "m"; }
+
 }  // namespace soilbin::compare

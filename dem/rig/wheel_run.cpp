@@ -8,6 +8,8 @@
 #include <limits>
 #include <memory>
 
+#include "dem/rig/rut.hpp"
+#include "dem/rig/soil_flow.hpp"
 #include "dem/rig/wheel_result.hpp"
 #include "scenario/errors.hpp"
 
@@ -40,11 +42,14 @@ class Ride {
   void put_wheel();
   void lower();
   void start();
+  void drive(WheelRun& run);
+  Rut rut_behind() const;
   WheelSample sample(double until_travel);
   std::int64_t steps_of(double time) const { return std::llround(time / simulation_.setup().numerics.dt); }
   void step();
   void tell(std::string_view stage);
   Body& wheel() { return simulation_.body(wheel_); }
+  double wheel_x() { return wheel().position.x; }
 
   const SettledBed& bed_;
   const Tire& tire_;
@@ -55,6 +60,7 @@ class Ride {
   Simulation simulation_;
   int wheel_ = -1;
   double surface_ = 0, begin_x_ = 0;
+  SurfaceHeight before_;  // the whole bed's, where the wheel is put down
   std::int64_t steps_ = 0;
   double all_steps_ = 1;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
@@ -123,6 +129,7 @@ void Ride::put_wheel() {
   const double y = bed_.recipe.size.width / 2, radius = bed_.recipe.soil.radius_min;
   const Footprint track{rig_.behind, rig_.behind + way(), y - tire_.width / 2, y + tire_.width / 2};
   surface_ = surface_height(grains, track, radius / 4).mean();
+  before_ = bed_surface(grains, bed_.recipe.size, radius);
 
   Body body;
   body.name = "wheel";
@@ -197,6 +204,30 @@ WheelSample Ride::sample(double until_travel) {
   return out;
 }
 
+/// Samples until the bed ends; over the second half of the way also what the soil does round the wheel.
+void Ride::drive(WheelRun& run) {
+  const GranularSoil& soil = bed_.recipe.soil;
+  const double depth = bed_.recipe.size.depth, rim = tire_.radius + tire_.lugs.height;
+  FlowMeter meter(soil.radius_min + soil.radius_max, 2 * rim, rim + depth, 0);
+  const double until = way() - motion_.speed * rig_.sampling;
+  for (double travel = wheel_x() - begin_x_; travel < until; travel = wheel_x() - begin_x_) {
+    tell("driving");
+    run.samples.push_back(sample(way()));
+    if (travel > until / 2) meter.add(simulation_.state().grains, wheel().position);
+  }
+  run.flow = meter.flow();
+}
+
+/// Behind the wheel, from where it had gone half its way, or its radius if that is more, to where it lets go.
+Rut Ride::rut_behind() const {
+  const double rim = tire_.radius + tire_.lugs.height, x = simulation_.body(wheel_).position.x;
+  const double begun = std::max((x - begin_x_) / 2, tire_.radius);
+  const Track track{bed_.recipe.size.width / 2, tire_.width, begin_x_ + begun, x - rim, x};
+  const GranularSoil& soil = bed_.recipe.soil;
+  const SurfaceHeight after = bed_surface(simulation_.state().grains, bed_.recipe.size, soil.radius_min);
+  return rut_between(before_, after, track, soil.radius_max);
+}
+
 WheelRun Ride::run() {
   check_room();
   const double before = tilting() + rig_.lowering + rig_.resting + rig_.starting;
@@ -207,14 +238,12 @@ WheelRun Ride::run() {
   start();
   WheelRun run;
   run.surface = surface_;
-  while (wheel().position.x - begin_x_ < way() - motion_.speed * rig_.sampling) {
-    tell("driving");
-    run.samples.push_back(sample(way()));
-  }
+  drive(run);
   if (run.samples.empty())
     throw InputError(
         "the bed ends before the wheel is up to its speed\n  "
         "hint: a longer bed");
+  run.rut = rut_behind();
   summarise(run, tire_, at_, rig_);
   return run;
 }

@@ -8,6 +8,7 @@
 #include "dem/bed/settled_bed.hpp"
 #include "dem/rig/tread_stress.hpp"
 #include "dem/rig/wheel_motion.hpp"
+#include "dem/rig/wheel_outcome.hpp"
 #include "dem/surface/shapes.hpp"
 #include "scenario/operating_condition.hpp"
 #include "scenario/tire.hpp"
@@ -55,17 +56,6 @@ struct WheelSample {
   Ledger ledger;         ///< at its end, since the bed was poured; filled with Rig::ledger
 };
 
-/// Powers, means over the steady part [W].
-struct PowerBalance {
-  double drive = 0;      ///< M w
-  double pull = 0;       ///< F_DP v, in the frame of travel
-  double climb = 0;      ///< lifts the load up the slope
-  double heave = 0;      ///< lifts the load out of the soil; negative while the wheel sinks
-  double into_soil = 0;  ///< given to the grains, counted step by step
-  double rest = 0;       ///< drive less all these: what rounding and the products of fluctuations leave
-  Ledger losses;         ///< with Rig::ledger: where grains lost it
-};
-
 /// What a run tells.
 struct WheelRun {
   TractionResult result;
@@ -76,6 +66,8 @@ struct WheelRun {
   double drift = 0;                  ///< largest drift_over_error of pull, torque and sinkage
   double surface = 0;                ///< height of the undisturbed surface [m]
   Vec3 moment;                       ///< mean, about the wheel's centre [N m]
+  Rut rut;
+  SoilFlow flow;
 };
 
 /// Runs it. The start-up is cut off at the latest end_of_start_up of pull,

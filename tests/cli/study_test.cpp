@@ -91,6 +91,38 @@ study:
   EXPECT_FALSE(fs::is_empty(beds));
 }
 
+// What is recorded is shown again without running, and a file for another question is refused.
+TEST(SlowRun, KeepsItsRunsInARecord) {
+  const Scratch scratch;
+  scratch.write("pebbles.yaml", pebbles);
+  const fs::path file = scratch.write("case.yaml", R"(format: soilbin-case/1
+name: pebbles
+tire: {radius: 150 mm, width: 100 mm}
+soil: pebbles.yaml
+study:
+  models: [dem]
+  conditions: {load: 60 N, slip: [0 %, 20 %], speed: 0.6 m/s}
+)");
+  const std::string bed = " --bed-length 1.2m --bed-width 0.25m --bed-depth 0.09m --threads 1",
+                    run = "run '" + file.string() + "' --json",
+                    record = " --record '" + (scratch / "r.json").string() + "'",
+                    recorded = " --recorded '" + (scratch / "r.json").string() + "'";
+  setenv("SOILBIN_BEDS", (scratch / "beds").c_str(), 1);
+  const Outcome one = soilbin(run + bed + record + " --slip 20%"), all = soilbin(run + bed + record);
+  unsetenv("SOILBIN_BEDS");
+  ASSERT_EQ(all.status, 0) << all.err;
+  EXPECT_EQ(all.json()["rows"][1], one.json()["rows"][0]);
+  const Outcome shown = soilbin(run + recorded);
+  EXPECT_EQ(shown.json()["rows"], all.json()["rows"]);
+  EXPECT_THAT(soilbin("run '" + file.string() + "'" + recorded).out, HasSubstr("dem: 2 runs"));
+  const Outcome other = soilbin(run + record);
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("bed.length: 1.2 in the file, 2.5 asked for"));
+  EXPECT_THAT(soilbin(run + recorded + " --slip 50%").json()["rows"][0]["error"].get<std::string>(),
+              HasSubstr("not in the record"));
+  EXPECT_EQ(soilbin(run + recorded + record).status, 2);
+}
+
 TEST(Run, NamesTheFlagOrModelThatIsWrong) {
   const Outcome length = soilbin("run paper-straight --model dem --bed-length 4");
   EXPECT_EQ(length.status, 2);

@@ -1,0 +1,174 @@
+#include "compare/recorded/record.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "compare/recorded/record_fields.hpp"
+#include "compare/report/json_fields.hpp"
+#include "compare/report/result_json.hpp"
+#include "compare/sweep/alike.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+constexpr std::size_t largest_record = 256U << 20U;
+
+Json lines_json(const std::string& text) {
+  Json lines = Json::array();
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t end = std::min(text.find('\n', from), text.size());
+    lines.push_back(text.substr(from, end - from));
+    from = end + 1;
+  }
+  return lines;
+}
+
+std::string lines_text(const ReadJson& from, const std::string& key) {
+  if (!from.at(key).is_array()) ReadJson::refuse(from.below(key), "a list of lines");
+  std::string text;
+  for (const Json& line : from.at(key)) {
+    if (!line.is_string()) ReadJson::refuse(from.below(key), "a list of lines");
+    text += line.get<std::string>() + "\n";
+  }
+  return text;
+}
+
+Json run_json(const RecordedRun& run) {
+  Json row = Json::object();
+  WriteJson visitor(row);
+  run_fields(visitor, run);
+  row.update(to_json(run.answer));
+  if (run.answer.result) told_fields(visitor, run);
+  return row;
+}
+
+RecordedRun run_from_json(const Json& row, const std::string& place) {
+  RecordedRun run;
+  ReadJson visitor(row, place);
+  run_fields(visitor, run);
+  run.answer = answer_from_json(row, place);
+  if (run.answer.result) told_fields(visitor, run);
+  return run;
+}
+
+Json parsed(const SourceText& source) {
+  try {
+    return Json::parse(source.text);
+  } catch (const Json::parse_error& error) {
+    source.refuse(std::min(error.byte > 0 ? error.byte - 1 : 0, source.text.size()), "this is no JSON",
+                  "a record is made by 'soilbin run STUDY --model dem --record FILE'");
+  }
+}
+
+const std::string* value_of(const Inputs& inputs, const std::string& name) {
+  const auto found = std::find_if(inputs.begin(), inputs.end(), [&](const auto& input) { return input.first == name; });
+  return found == inputs.end() ? nullptr : &found->second;
+}
+
+bool looked_at(const std::string& name, const std::vector<std::string>& only) {
+  return only.empty() ||
+         std::any_of(only.begin(), only.end(), [&](const std::string& begin) { return name.starts_with(begin); });
+}
+
+}  // namespace
+
+std::string inputs_key(const Inputs& inputs) {
+  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a, 64 bit
+  for (const auto& [name, value] : inputs)
+    for (const char c : name + ' ' + value + '\n') hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x100000001b3;
+  return fmt::format("{:016x}", hash);
+}
+
+Record parse_record(const SourceText& source) {
+  const Json document = parsed(source);
+  const ReadJson head(document, source.file + ": ");
+  if (head.at("format") != recorded_format)
+    throw InputError(fmt::format("{}: expected the format '{}'", source.file, recorded_format));
+  Record record;
+  ReadJson reader = head;
+  reader.text("soilbin", record.soilbin, "");
+  reader.text("model", record.model, "");
+  record.question = lines_text(head, "case");
+  if (!head.at("inputs").is_object()) ReadJson::refuse(head.below("inputs"), "an object");
+  for (const auto& [name, value] : head.at("inputs").items()) {
+    if (!value.is_string()) ReadJson::refuse(head.below("inputs." + name), "a text");
+    record.inputs.emplace_back(name, value.get<std::string>());
+  }
+  if (!head.at("runs").is_array()) ReadJson::refuse(head.below("runs"), "a list");
+  for (const Json& row : head.at("runs"))
+    record.runs.push_back(run_from_json(row, head.below(fmt::format("runs[{}]", record.runs.size()))));
+  return record;
+}
+
+Record read_record(const std::filesystem::path& path) { return parse_record(read_source_text(path, largest_record)); }
+
+std::string record_text(const Record& record) {
+  const auto line = [](const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); };
+  Json inputs = Json::object();
+  for (const auto& [name, value] : record.inputs) inputs[name] = value;
+  Json head = {{"format", recorded_format}, {"soilbin", record.soilbin},
+               {"model", record.model},     {"inputs_key", inputs_key(record.inputs)},
+               {"inputs", inputs},          {"case", lines_json(record.question)}};
+  std::string text = json_text(head);
+  text.erase(text.rfind('\n', text.size() - 2));
+  text += ",\n  \"runs\": [";
+  for (const RecordedRun& run : record.runs)
+    text += (&run == record.runs.data() ? "\n    " : ",\n    ") + line(run_json(run));
+  return text + "\n  ]\n}\n";
+}
+
+Json record_schema() {
+  const RecordedRun run{.answer = {{}, TractionResult{}, ""}, .source = {}, .power = {}, .rut = {}, .flow = {}};
+  FieldsSchema always, solved;
+  run_fields(always, run);
+  result_fields(solved, *run.answer.result);
+  told_fields(solved, run);
+  Json row = always.schema;
+  row["properties"].update(condition_schema());
+  row["properties"].update(solved.schema["properties"]);
+  row["properties"]["error"] = {{"type", "string"}, {"description", "why there is no result"}};
+  const Json without = {{"required", {"error"}}};
+  row["anyOf"] = Json::array({without, Json{{"required", solved.schema["required"]}}});
+  FieldsSchema whole;
+  whole.add("format", {{"const", recorded_format}}, "which format this is");
+  whole.text("soilbin", "", "version that began the file");
+  whole.text("model", "", "that answered");
+  whole.text("inputs_key", "", "hash of the inputs, for people; not read");
+  whole.add("inputs", {{"type", "object"}, {"additionalProperties", {{"type", "string"}}}},
+            "what an answer depends on beside condition and packing");
+  whole.add("case", {{"type", "array"}, {"items", {{"type", "string"}}}}, "the resolved case, its lines of YAML");
+  whole.add("runs", {{"type", "array"}, {"items", row}}, "a condition on a packing each, SI");
+  whole.schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
+  whole.schema["title"] = "A soilbin record";
+  return whole.schema;
+}
+
+void refuse_other_inputs(const Record& record, const Inputs& asked, const std::filesystem::path& file,
+                         const std::vector<std::string>& only) {
+  std::string differing;
+  const auto tell = [&](const std::string& name, const std::string* there, const std::string* here) {
+    differing +=
+        fmt::format("\n  {}: {} in the file, {} asked for", name, there ? *there : "nothing", here ? *here : "nothing");
+  };
+  for (const auto& [name, value] : record.inputs) {
+    if (!looked_at(name, only)) continue;
+    const std::string* here = value_of(asked, name);
+    if (here == nullptr || *here != value) tell(name, &value, here);
+  }
+  for (const auto& [name, value] : asked)
+    if (looked_at(name, only) && value_of(record.inputs, name) == nullptr) tell(name, nullptr, &value);
+  if (differing.empty()) return;
+  throw InputError(fmt::format(
+      "{} holds answers to another question:{}\n  hint: another file for these inputs, or the inputs of the file",
+      file.string(), differing));
+}
+
+const RecordedRun* find_run(const Record& record, const OperatingCondition& at, std::uint64_t packing) {
+  const auto found = std::find_if(record.runs.begin(), record.runs.end(), [&](const RecordedRun& run) {
+    return run.packing == packing && alike(run.answer.at, at);
+  });
+  return found == record.runs.end() ? nullptr : &*found;
+}
+
+}  // namespace soilbin::compare

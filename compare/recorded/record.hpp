@@ -1,0 +1,71 @@
+// A study's answers by a model that takes minutes a condition, kept in a file: soilbin-recorded/1, docs/recorded.md.
+// Whoever compares answers gets them from the file as if the model had run.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compare/sweep/answers.hpp"
+#include "dem/rig/wheel_outcome.hpp"
+#include "scenario/source_text.hpp"
+
+namespace soilbin::compare {
+
+/// What an answer depends on beside the condition and the packing, as name and value: "tire.radius", "0.496".
+using Inputs = std::vector<std::pair<std::string, std::string>>;
+
+/// One run: a condition on one packing of the bed.
+struct RecordedRun {
+  Answer answer;
+  std::uint64_t packing = 1;  ///< seed of the bed
+  std::string source;         ///< state of the sources that the program was built from
+  double seconds = 0;         ///< that it took on the clock on the wall, with the bed where that was settled for it
+  bool steady = false;        ///< as in WheelRun; this and the rest mean nothing without a result
+  double drift = 0;
+  dem::PowerBalance power;
+  dem::Rut rut;
+  dem::SoilFlow flow;
+};
+
+/// What a file holds.
+struct Record {
+  std::string soilbin;   ///< version that began it
+  std::string model;     ///< "dem"
+  std::string question;  ///< the resolved case, as YAML; of its conditions some may not have been run
+  Inputs inputs;
+  std::vector<RecordedRun> runs;
+};
+
+inline constexpr const char* recorded_format = "soilbin-recorded/1";
+
+/// Throws InputError with file and place for everything that is no record.
+Record parse_record(const SourceText& source);
+Record read_record(const std::filesystem::path& path);
+
+/// The file's text; reading it gives the same record to the bit. One line a run.
+std::string record_text(const Record& record);
+
+/// JSON Schema of soilbin-recorded/1.
+nlohmann::ordered_json record_schema();
+
+/// Sixteen hexadecimal digits of the inputs.
+std::string inputs_key(const Inputs& inputs);
+
+/// Throws InputError that names the file and the inputs that differ, with a hint. Where `only` is given, looks at the
+/// inputs whose names begin with one of these alone.
+void refuse_other_inputs(const Record& record, const Inputs& asked, const std::filesystem::path& file,
+                         const std::vector<std::string>& only = {});
+
+/// The run of a condition on a packing; nullptr where there is none.
+const RecordedRun* find_run(const Record& record, const OperatingCondition& at, std::uint64_t packing);
+
+/// Adds a run to the file, which is begun with `empty` where there is none. Other processes may add to the same file
+/// at the same time: it is read again and replaced as a whole, one after the other. A run that is there already stays.
+void add_run(const std::filesystem::path& file, const Record& empty, RecordedRun run);
+
+}  // namespace soilbin::compare

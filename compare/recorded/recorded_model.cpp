@@ -1,0 +1,141 @@
+#include "compare/recorded/recorded_model.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "compare/sweep/alike.hpp"
+#include "compare/sweep/channels.hpp"
+#include "compare/sweep/varying.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Runs = std::vector<const RecordedRun*>;
+
+Estimate mean_channel(const Runs& runs, Estimate TractionResult::*channel) {
+  const double n = static_cast<double>(runs.size());
+  double sum = 0, own = 0;
+  for (const RecordedRun* run : runs) {
+    const Estimate& one = (*run->answer.result).*channel;
+    sum += one.value, own += one.std_error * one.std_error;
+  }
+  return {sum / n, std::max(scatter_between(runs, channel) / std::sqrt(n), std::sqrt(own) / n)};
+}
+
+double mean_angle(const Runs& runs, double TractionResult::*angle) {
+  double sum = 0;
+  for (const RecordedRun* run : runs) sum += (*run->answer.result).*angle;
+  return sum / static_cast<double>(runs.size());
+}
+
+/// Pulling over driving power: each run's efficiency weighted by its torque, since all turn and travel alike.
+double efficiency(const Runs& runs) {
+  double pulls = 0, drives = 0;
+  for (const RecordedRun* run : runs) {
+    const TractionResult& one = *run->answer.result;
+    pulls += one.tractive_efficiency * one.torque.value, drives += one.torque.value;
+  }
+  return pulls / drives;
+}
+
+std::vector<StressSample> mean_patch(const Runs& runs) {
+  std::map<double, StressSample> at;
+  const double share = 1 / static_cast<double>(runs.size());
+  for (const RecordedRun* run : runs)
+    for (const StressSample& one : run->answer.result->patch) {
+      StressSample& sum = at[one.theta];
+      sum.theta = one.theta;
+      sum.normal += share * one.normal, sum.shear += share * one.shear;
+      sum.lateral_shear += share * one.lateral_shear;
+    }
+  std::vector<StressSample> patch;
+  for (const auto& [theta, sample] : at) patch.push_back(sample);
+  return patch;
+}
+
+std::vector<Contribution> mean_budget(const Runs& runs) {
+  std::vector<Contribution> budget;
+  for (const RecordedRun* run : runs)
+    for (const Contribution& part : run->answer.result->budget) {
+      const auto same = [&](const Contribution& known) { return known.name == part.name; };
+      auto found = std::find_if(budget.begin(), budget.end(), same);
+      if (found == budget.end()) found = budget.insert(budget.end(), {part.name, 0.0});
+      found->force += part.force / static_cast<double>(runs.size());
+    }
+  return budget;
+}
+
+}  // namespace
+
+double scatter_between(const Runs& runs, Estimate TractionResult::*channel) {
+  std::vector<double> values;
+  for (const RecordedRun* run : runs)
+    if (run->answer.result) values.push_back(((*run->answer.result).*channel).value);
+  if (values.size() < 2) return 0.0;
+  double mean = 0, squares = 0;
+  for (const double value : values) mean += value / static_cast<double>(values.size());
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return std::sqrt(squares / static_cast<double>(values.size() - 1));
+}
+
+TractionResult mean_of_packings(const Runs& runs) {
+  if (runs.empty()) throw InputError("no packing to answer with: at least one is needed");
+  for (const RecordedRun* run : runs)
+    if (!run->answer.result)
+      throw NoSolution(runs.size() == 1 ? run->answer.error
+                                        : fmt::format("packing {}: {}", run->packing, run->answer.error));
+  TractionResult mean = *runs.front()->answer.result;
+  if (runs.size() == 1) return mean;
+  for (const ChannelView& channel : channel_views) mean.*channel.predicted = mean_channel(runs, channel.predicted);
+  mean.tractive_efficiency = efficiency(runs);
+  for (double TractionResult::*angle :
+       {&TractionResult::entry_angle, &TractionResult::max_stress_angle, &TractionResult::exit_angle})
+    mean.*angle = mean_angle(runs, angle);
+  mean.patch = mean_patch(runs);
+  mean.budget = mean_budget(runs);
+  return mean;
+}
+
+RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run) {
+  if (std::filesystem::exists(file)) refuse_other_inputs(read_record(file), empty.inputs, file);
+  return [file, empty = std::move(empty), run = std::move(run)](const Scenario& scenario, const OperatingCondition& at,
+                                                                std::uint64_t packing) {
+    if (std::filesystem::exists(file)) {
+      const Record record = read_record(file);
+      if (const RecordedRun* known = find_run(record, at, packing)) return *known;
+    }
+    RecordedRun fresh = run(scenario, at, packing);
+    add_run(file, empty, fresh);
+    return fresh;
+  };
+}
+
+TractionResult RunOnPackings::evaluate(const Scenario& scenario, const OperatingCondition& at) const {
+  std::vector<RecordedRun> runs;
+  for (const std::uint64_t packing : packings_) {
+    runs.push_back(run_(scenario, at, packing));
+    if (on_run_) on_run_(runs.back());
+  }
+  Runs all;
+  for (const RecordedRun& run : runs) all.push_back(&run);
+  return mean_of_packings(all);
+}
+
+std::vector<const RecordedRun*> RecordedModel::runs(const OperatingCondition& at) const {
+  Runs found;
+  for (const RecordedRun& run : record_.runs)
+    if (alike(run.answer.at, at)) found.push_back(&run);
+  return found;
+}
+
+TractionResult RecordedModel::evaluate(const Scenario&, const OperatingCondition& at) const {
+  const Runs found = runs(at);
+  if (found.empty()) throw NoSolution("not in the record: no run at " + in_words(at));
+  return mean_of_packings(found);
+}
+
+}  // namespace soilbin::compare

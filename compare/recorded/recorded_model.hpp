@@ -1,0 +1,63 @@
+// Models that answer by runs on packings of a bed: run now, taken from a record, or both.
+#pragma once
+
+#include <functional>
+
+#include "compare/recorded/record.hpp"
+
+namespace soilbin::compare {
+
+/// The run of a condition on a packing. A condition without solution is a run whose answer carries the error; what is
+/// refused is an InputError.
+using RunOnce = std::function<RecordedRun(const Scenario&, const OperatingCondition&, std::uint64_t packing)>;
+
+/// Takes a run from the file where it is there, else runs it and adds it at once. `empty` is the record that the file
+/// is begun with. Throws InputError where the file's inputs differ.
+RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run);
+
+/// Several packings' answers to one condition as one: means of the four results, of efficiency (weighted by the power
+/// put in), stresses and budget. The standard error is the scatter between packings over the root of their number or,
+/// where that is larger, what the runs' own errors give: with two or three packings the scatter is poorly known.
+/// Throws NoSolution where a run has no result, and InputError for no runs.
+TractionResult mean_of_packings(const std::vector<const RecordedRun*>& runs);
+
+/// Standard deviation between packings, of a channel of TractionResult; 0 for less than two runs with results.
+double scatter_between(const std::vector<const RecordedRun*>& runs, Estimate TractionResult::*channel);
+
+/// Runs each condition on every packing.
+class RunOnPackings : public Model {
+ public:
+  using Listener = std::function<void(const RecordedRun&)>;
+
+  /// `on_run` gets every run, before evaluate returns.
+  RunOnPackings(std::string name, std::vector<std::uint64_t> packings, RunOnce run, Listener on_run = {})
+      : name_(std::move(name)), packings_(std::move(packings)), run_(std::move(run)), on_run_(std::move(on_run)) {}
+
+  std::string name() const override { return name_; }
+  /// Throws what mean_of_packings and the run throw.
+  TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override;
+
+ private:
+  std::string name_;
+  std::vector<std::uint64_t> packings_;
+  RunOnce run_;
+  Listener on_run_;
+};
+
+/// Answers from a record alone. The scenario isn't looked at: refuse_other_inputs says whether it is the record's.
+class RecordedModel : public Model {
+ public:
+  explicit RecordedModel(Record record) : record_(std::move(record)) {}
+
+  std::string name() const override { return record_.model; }
+  const Record& record() const { return record_; }
+  /// The runs of a condition, on all packings there are.
+  std::vector<const RecordedRun*> runs(const OperatingCondition& at) const;
+  /// Their mean_of_packings. Throws NoSolution where the condition isn't in the record, and says so.
+  TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override;
+
+ private:
+  Record record_;
+};
+
+}  // namespace soilbin::compare

@@ -1,0 +1,46 @@
+#include "dem/rig/soil_flow.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace soilbin::dem {
+
+FlowMeter::FlowMeter(double cell, double ahead, double below, double above) {
+  layout_.cell = cell;
+  layout_.nx = 2 * static_cast<int>(std::ceil(ahead / cell));
+  layout_.nz = static_cast<int>(std::ceil((below + above) / cell));
+  layout_.x = -cell * layout_.nx / 2, layout_.z = -below;
+  const std::size_t cells = static_cast<std::size_t>(layout_.nx) * layout_.nz;
+  volume_.resize(cells), vx_.resize(cells), vz_.resize(cells);
+}
+
+void FlowMeter::add(const Grains& grains, const Vec3& axle) {
+  moments_ += 1;
+  for (std::size_t k = 0; k < grains.count(); ++k) {
+    const auto& grain = grains.motion[k];
+    const Vec3 from = grain.position - axle;
+    if (std::abs(from.y) > layout_.cell) continue;
+    const double ix = std::floor((from.x - layout_.x) / layout_.cell);
+    const double iz = std::floor((from.z - layout_.z) / layout_.cell);
+    if (!(ix >= 0 && ix < layout_.nx && iz >= 0 && iz < layout_.nz)) continue;
+    const std::size_t at = static_cast<std::size_t>(iz) * layout_.nx + static_cast<std::size_t>(ix);
+    const double volume = 4.0 / 3 * std::numbers::pi * grain.radius * grain.radius * grain.radius;
+    volume_[at] += volume;
+    vx_[at] += volume * grain.velocity.x, vz_[at] += volume * grain.velocity.z;
+  }
+}
+
+SoilFlow FlowMeter::flow() const {
+  SoilFlow flow = layout_;
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  const double room = moments_ * 2 * layout_.cell * layout_.cell * layout_.cell;
+  for (std::size_t k = 0; k < volume_.size(); ++k) {
+    flow.vx.push_back(volume_[k] > 0 ? vx_[k] / volume_[k] : nothing);
+    flow.vz.push_back(volume_[k] > 0 ? vz_[k] / volume_[k] : nothing);
+    flow.solid.push_back(room > 0 ? volume_[k] / room : 0);
+  }
+  return flow;
+}
+
+}  // namespace soilbin::dem

@@ -1,0 +1,27 @@
+// Mean velocities of the soil round a wheel.
+#pragma once
+
+#include "dem/engine/grains.hpp"
+#include "dem/engine/vec3.hpp"
+#include "dem/rig/wheel_outcome.hpp"
+
+namespace soilbin::dem {
+
+/// Adds up what grains do near the middle plane of a wheel, moment by moment.
+class FlowMeter {
+ public:
+  /// Cells reach `ahead` to both sides of the axle and from `below` to `above` it; the plane is as thick as two cells.
+  FlowMeter(double cell, double ahead, double below, double above);
+
+  /// Velocities are taken as the engine keeps them, half a step behind: free fall adds g dt/2 to a bed at rest.
+  void add(const Grains& grains, const Vec3& axle);
+  /// The means so far.
+  SoilFlow flow() const;
+
+ private:
+  SoilFlow layout_;
+  std::vector<double> volume_, vx_, vz_;
+  double moments_ = 0;
+};
+
+}  // namespace soilbin::dem

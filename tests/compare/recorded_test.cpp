@@ -1,0 +1,230 @@
+// Records: what comes back is what was kept, nothing else is answered, and nobody mixes up two questions.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "compare/recorded/recorded_model.hpp"
+#include "compare/report/result_json.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using testing::HasSubstr;
+
+OperatingCondition condition(double load, double slip) {
+  OperatingCondition at;
+  at.load = load, at.slip = slip, at.speed = 0.1, at.yaw = 0.1;
+  return at;
+}
+
+/// A run with a different, awkward number in every member.
+RecordedRun made_run(double load, double slip, std::uint64_t packing, double pull = 1.0 / 3) {
+  TractionResult r;
+  r.at = condition(load, slip);
+  r.drawbar_pull = {pull, 0.1}, r.torque = {2.0 / 7, 0.2}, r.sinkage = {1e-300, 1e-3}, r.lateral_force = {-0.7, 0.4};
+  r.tractive_efficiency = std::nan(""), r.entry_angle = 0.61, r.max_stress_angle = 0.3, r.exit_angle = -0.11;
+  r.budget = {{"shear_thrust", 0.9}, {"slope", -0.2}};
+  r.patch = {{-0.1, 10.0 / 3, -3, 0.5}, {0.2, 20, 4, -0.25}};
+  RecordedRun run{.answer = {r.at, r, ""},
+                  .packing = packing,
+                  .source = "abc",
+                  .seconds = 12.5,
+                  .steady = true,
+                  .drift = 1.25,
+                  .power = {},
+                  .rut = {},
+                  .flow = {}};
+  run.power.drive = 5, run.power.pull = 1.5, run.power.rest = 1e-17, run.power.losses.sliding = 2.5;
+  run.rut.y = {-0.1, 0.1}, run.rut.across = {1e-3, -1.0 / 7}, run.rut.axle = 2.25;
+  run.flow.cell = 0.04, run.flow.nx = 2, run.flow.nz = 1, run.flow.vx = {std::nan(""), 1.0 / 9};
+  return run;
+}
+
+RecordedRun failed_run(double load, std::uint64_t packing = 1) {
+  const OperatingCondition at = condition(load, 0.6);
+  return {.answer = {at, std::nullopt, "the wheel dug itself in"},
+          .packing = packing,
+          .source = "abc",
+          .seconds = 1,
+          .power = {},
+          .rut = {},
+          .flow = {}};
+}
+
+Record made_record() {
+  Record record{"0.1.0", "dem", "name: made\nstudy: \"a, b\"\n", {{"bed.length", "2.5"}, {"tire.radius", "0.496"}}, {}};
+  record.runs = {made_run(2000, 0.2, 1), made_run(2000, 0.2, 2, 1.0), failed_run(2000)};
+  return record;
+}
+
+TEST(Record, ComesBackToTheBit) {
+  const Record record = made_record();
+  const std::string text = record_text(record);
+  const Record back = parse_record({"r.json", text});
+  EXPECT_EQ(record_text(back), text);
+  ASSERT_EQ(back.runs.size(), 3U);
+  const TractionResult &a = *record.runs[0].answer.result, &b = *back.runs[0].answer.result;
+  EXPECT_EQ(b.drawbar_pull.value, a.drawbar_pull.value);
+  EXPECT_EQ(b.sinkage.value, 1e-300);
+  EXPECT_EQ(b.lateral_force.std_error, 0.4);
+  EXPECT_TRUE(std::isnan(b.tractive_efficiency));
+  EXPECT_EQ(b.at.yaw, 0.1);
+  EXPECT_EQ(b.patch.at(0).normal, 10.0 / 3);
+  EXPECT_EQ(b.budget.at(1).name, "slope");
+  EXPECT_EQ(back.runs[0].power.losses.sliding, 2.5);
+  EXPECT_EQ(back.runs[0].power.rest, 1e-17);
+  EXPECT_TRUE(back.runs[0].steady);
+  EXPECT_EQ(back.runs[0].rut.across, (std::vector{1e-3, -1.0 / 7}));
+  EXPECT_EQ(back.runs[0].flow.nx, 2);
+  EXPECT_TRUE(std::isnan(back.runs[0].flow.vx.at(0)));
+  EXPECT_EQ(back.runs[0].flow.vx.at(1), 1.0 / 9);
+  EXPECT_EQ(back.runs[1].packing, 2U);
+  EXPECT_FALSE(back.runs[2].answer.result);
+  EXPECT_EQ(back.runs[2].answer.error, "the wheel dug itself in");
+  EXPECT_EQ(back.question, record.question);
+  EXPECT_EQ(back.inputs, record.inputs);
+}
+
+TEST(Record, SchemaNamesEveryKeyOfARow) {
+  const auto row = nlohmann::ordered_json::parse(record_text(made_record()))["runs"][0];
+  const auto properties = record_schema()["properties"]["runs"]["items"]["properties"];
+  for (const auto& [key, value] : row.items()) EXPECT_TRUE(properties.contains(key)) << key;
+}
+
+void expect_refused(const std::string& text, const std::string& words) {
+  try {
+    parse_record({"r.json", text});
+    FAIL() << "took it: " << words;
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(words));
+  }
+}
+
+TEST(Record, NamesThePlaceOfWhatIsWrong) {
+  expect_refused("{\"format\":", "r.json:1");
+  expect_refused("{}", "format is missing");
+  expect_refused("{\"format\": \"soilbin-case/1\"}", "soilbin-recorded/1");
+  std::string text = record_text(made_record());
+  const std::string key = "\"torque\":0.2857142857142857";
+  ASSERT_NE(text.find(key), std::string::npos);
+  expect_refused(std::string(text).replace(text.find(key), key.size(), "\"torque\":\"much\""), "runs[0].torque");
+  expect_refused(std::string(text).replace(text.find(key), key.size(), "\"torsion\":1"), "runs[0].torque is missing");
+}
+
+TEST(Record, RefusesOtherInputsAndNamesThem) {
+  const Record record = made_record();
+  EXPECT_NO_THROW(refuse_other_inputs(record, record.inputs, "r.json"));
+  const Inputs other = {{"bed.length", "4"}, {"tire.radius", "0.496"}, {"rig.skin", "0.2"}};
+  try {
+    refuse_other_inputs(record, other, "r.json");
+    FAIL();
+  } catch (const InputError& error) {
+    for (const char* words :
+         {"r.json", "bed.length: 2.5 in the file, 4 asked for", "rig.skin: nothing in the file, 0.2 asked for", "hint"})
+      EXPECT_THAT(error.what(), HasSubstr(words));
+  }
+  EXPECT_NO_THROW(refuse_other_inputs(record, other, "r.json", {"tire."}));
+}
+
+TEST(RecordedModel, AnswersWhatIsThereAndSaysWhatIsNot) {
+  const RecordedModel model(made_record());
+  EXPECT_EQ(model.name(), "dem");
+  const TractionResult mean = model.evaluate({}, condition(2000, 0.2));
+  EXPECT_NEAR(mean.drawbar_pull.value, 2.0 / 3, 1e-15);
+  EXPECT_EQ(mean.torque.value, 2.0 / 7);
+  EXPECT_EQ(ask(model, {}, condition(2000, 0.6)).error, "the wheel dug itself in");
+  EXPECT_THAT(ask(model, {}, condition(2000, 0.3)).error,
+              HasSubstr("not in the record: no run at load 2 kN, slip 30 %"));
+}
+
+TEST(Packings, ScatterBetweenThemIsTheError) {
+  const RecordedRun one = made_run(1, 0, 1, 10), two = made_run(1, 0, 2, 13), three = made_run(1, 0, 3, 16);
+  const TractionResult mean = mean_of_packings({&one, &two, &three});
+  EXPECT_NEAR(mean.drawbar_pull.value, 13, 1e-12);
+  EXPECT_NEAR(mean.drawbar_pull.std_error, 3 / std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(scatter_between({&one, &two, &three}, &TractionResult::drawbar_pull), 3, 1e-12);
+  // Torques agree: what is left is the runs' own error, 0.2 each.
+  EXPECT_NEAR(mean.torque.std_error, 0.2 / std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(mean.patch.at(1).normal, 20, 1e-12);
+  EXPECT_NEAR(mean.budget.at(0).force, 0.9, 1e-12);
+  const RecordedRun failed = failed_run(1);
+  EXPECT_THROW(mean_of_packings({&one, &failed}), NoSolution);
+  EXPECT_THROW(mean_of_packings({}), InputError);
+}
+
+/// Files are flushed to the disk, which takes its time.
+class SlowKeptRuns : public testing::Test {
+ protected:
+  SlowKeptRuns() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "soilbin-record-XXXXXX").string();
+    folder_ = ::mkdtemp(pattern.data());
+  }
+  ~SlowKeptRuns() override { std::filesystem::remove_all(folder_); }
+
+  /// Counts how often it is really run.
+  RunOnce counted() {
+    return [this](const Scenario&, const OperatingCondition& at, std::uint64_t packing) {
+      ++ran_;
+      return at.slip > 0.5 ? failed_run(at.load, packing) : made_run(at.load, at.slip, packing);
+    };
+  }
+  std::filesystem::path file() const { return folder_ / "record.json"; }
+
+  std::filesystem::path folder_;
+  int ran_ = 0;
+  Record empty_{"0.1.0", "dem", "name: made\n", {{"bed.length", "2.5"}}, {}};
+};
+
+TEST_F(SlowKeptRuns, ARerunSkipsWhatIsThere) {
+  const std::vector<OperatingCondition> conditions = {condition(1, 0.1), condition(1, 0.6), condition(2, 0.1)};
+  const auto study = [&](int packings) {
+    std::vector<std::uint64_t> seeds;
+    for (int k = 1; k <= packings; ++k) seeds.push_back(static_cast<std::uint64_t>(k));
+    return sweep(RunOnPackings("dem", seeds, kept_in(file(), empty_, counted())), {}, conditions);
+  };
+  const std::vector<Answer> first = study(1);
+  EXPECT_EQ(ran_, 3);
+  const std::string text = record_text(read_record(file()));
+  const std::vector<Answer> again = study(1);
+  EXPECT_EQ(ran_, 3) << "failures are kept too";
+  EXPECT_EQ(record_text(read_record(file())), text);
+  EXPECT_EQ(again[1].error, first[1].error);
+  study(2);
+  EXPECT_EQ(ran_, 6);
+  EXPECT_EQ(read_record(file()).runs.size(), 6U);
+}
+
+TEST_F(SlowKeptRuns, WhatIsFinishedStaysWhereTheRestIsStopped) {
+  struct Stop {};
+  const RunOnce stops = [this](const Scenario& s, const OperatingCondition& at, std::uint64_t packing) {
+    if (ran_ == 1) throw Stop();
+    return counted()(s, at, packing);
+  };
+  const RunOnPackings model("dem", {1}, kept_in(file(), empty_, stops));
+  EXPECT_THROW(sweep(model, {}, {condition(1, 0.1), condition(1, 0.2)}), Stop);
+  EXPECT_EQ(read_record(file()).runs.size(), 1U);
+}
+
+TEST_F(SlowKeptRuns, AnotherQuestionIsRefusedBeforeItRuns) {
+  add_run(file(), empty_, made_run(1, 0.1, 1));
+  Record longer = empty_;
+  longer.inputs[0].second = "4";
+  EXPECT_THROW(kept_in(file(), longer, counted()), InputError);
+  EXPECT_THROW(add_run(file(), longer, made_run(1, 0.2, 1)), InputError);
+  EXPECT_EQ(read_record(file()).runs.size(), 1U);
+}
+
+TEST_F(SlowKeptRuns, TwoThatFillOneFileLoseNothing) {
+  const RunOnce one = kept_in(file(), empty_, counted()), other = kept_in(file(), empty_, counted());
+  one({}, condition(1, 0.1), 1), other({}, condition(2, 0.1), 1), one({}, condition(1, 0.2), 1);
+  other({}, condition(1, 0.2), 1);
+  EXPECT_EQ(ran_, 3);
+  EXPECT_EQ(read_record(file()).runs.size(), 3U);
+}
+
+}  // namespace
+}  // namespace soilbin::compare
