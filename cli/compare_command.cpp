@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <thread>
 
 #include "cli/commands.hpp"
@@ -16,6 +17,7 @@
 #include "compare/report/result_json.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -46,10 +48,35 @@ std::vector<ModelChoice> analytic_choices(const Case& question, const Asked& ask
 
 /// The grains where the study, --model or a record asks for them.
 bool asks_for_grains(const Case& question, const Asked& asked) {
-  if (asked.model == "dem") return true;
+  if (asked.model == "dem" || !asked.soil_bin.recorded.empty()) return true;
   for (const ModelChoice& choice : question.study.models)
     if (choice.model == ModelKind::dem) return true;
   return false;
+}
+
+/// Runs the grains, or takes them from the record, and tells what they rest on.
+compare::Side grain_side(const Case& question, const Asked& asked, const Session& session,
+                         compare::ComparisonAbout& about) {
+  const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
+  const auto model = models_with(asked.soil_bin, question, session.place.effects, log)(ModelKind::dem);
+  compare::sweep(*model, question.scenario, question.study.conditions, shown_progress());
+  std::set<std::string> packings, sources;
+  double seconds = 0.0;
+  for (const compare::RecordedRun& run : *log) {
+    packings.insert(std::to_string(run.packing));
+    if (!run.source.empty()) sources.insert(run.source);
+    seconds += run.seconds;
+  }
+  about.facts.emplace_back("runs of grains", fmt::format("{}, {:.0f} s in all", log->size(), seconds));
+  about.facts.emplace_back("packings (seeds of the beds)", listed({packings.begin(), packings.end()}));
+  about.facts.emplace_back("sources of the runs", listed({sources.begin(), sources.end()}));
+  const std::string& file = !asked.soil_bin.recorded.empty() ? asked.soil_bin.recorded : asked.soil_bin.record;
+  if (!file.empty()) {
+    const compare::Record record = compare::read_record(file);
+    about.facts.emplace_back("record", file);
+    about.facts.emplace_back("hash of the record's inputs", compare::inputs_key(record.inputs));
+  }
+  return compare::side_of("dem", *log, question.study.conditions);
 }
 
 void check_model(const Asked& asked) {
@@ -114,8 +141,7 @@ int compare_models(const Asked& asked, const Session& session) {
     for (const compare::ModelAnswers& answers : compare::run_study(analytic, shown_progress()))
       sides.push_back(compare::side_of(answers));
   }
-  if (asks_for_grains(question, asked))
-    sides.push_back(grain_side(question, asked.soil_bin, session.place.effects, about.facts));
+  if (asks_for_grains(question, asked)) sides.push_back(grain_side(question, asked, session, about));
   if (!asked.measured.empty())
     sides.push_back(compare::side_of(find_campaign(session.place, asked.measured), question));
   const compare::Comparison comparison = compare::compare_sides(question, choices, std::move(sides));

@@ -24,7 +24,7 @@ std::vector<Tally> tallies_of(const std::vector<Difference>& rows) {
     t.differ += d.finding == Finding::difference;
     t.in_scatter += d.finding == Finding::within_scatter;
     t.in_errors += d.finding == Finding::within_errors;
-    t.unknown += d.finding == Finding::unknown_accuracy;
+    t.unknown += d.finding == Finding::not_judged;
     t.bias += d.difference;
     t.rms += d.difference * d.difference;
     t.rms_share += d.share * d.share;

@@ -14,8 +14,8 @@ std::string_view word(Finding finding) {
       return "within_scatter";
     case Finding::within_errors:
       return "within_errors";
-    case Finding::unknown_accuracy:
-      return "unknown_accuracy";
+    case Finding::not_judged:
+      return "not_judged";
   }
   return "";
 }
@@ -28,15 +28,15 @@ std::string_view words(Finding finding) {
       return "within the scatter";
     case Finding::within_errors:
       return "within the errors";
-    case Finding::unknown_accuracy:
-      return "accuracy not stated";
+    case Finding::not_judged:
+      return "not judged";
   }
   return "";
 }
 
 Finding finding_of(double difference, double std_error, double scatter) {
   const double size = std::abs(difference);
-  if (std_error == 0.0 && scatter == 0.0) return Finding::unknown_accuracy;
+  if (std_error == 0.0 && scatter == 0.0) return Finding::not_judged;
   if (size <= scatter) return Finding::within_scatter;
   return size <= counting_sigma * std_error ? Finding::within_errors : Finding::difference;
 }
@@ -81,6 +81,13 @@ Difference difference_at(const SidePoint& a, const SidePoint& b, std::size_t cha
   return d;
 }
 
+/// Two analytic models take the same soil values: their doubt moves both alike, and adding it would count it twice.
+void share_the_soil(Difference& d) {
+  d.std_error = 0.0;
+  d.sigma = std::numeric_limits<double>::quiet_NaN();
+  d.finding = Finding::not_judged;
+}
+
 }  // namespace
 
 std::vector<Difference> differences(const std::vector<Side>& sides, std::size_t side, std::size_t reference,
@@ -93,6 +100,8 @@ std::vector<Difference> differences(const std::vector<Side>& sides, std::size_t 
       if (!speaks(a, c) || !speaks(b, c)) continue;
       all.push_back(difference_at(a, b, c, scale_of(c, conditions[i].load, tire.radius)));
       all.back().side = side, all.back().reference = reference, all.back().condition = i;
+      if (sides[side].kind == SideKind::analytic && sides[reference].kind == SideKind::analytic)
+        share_the_soil(all.back());
     }
   }
   return all;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/sweep/alike.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -92,43 +93,48 @@ Side side_of(const ModelAnswers& answers) {
   return side;
 }
 
-SidePoint combine(const std::vector<GrainRun>& runs) {
+SidePoint combine(const std::vector<const RecordedRun*>& runs) {
   SidePoint point;
-  point.runs = runs.size();
-  if (runs.empty()) {
-    point.error = "no run";
+  std::vector<const RecordedRun*> solved;
+  for (const RecordedRun* run : runs)
+    if (run->answer.result) solved.push_back(run);
+  point.runs = solved.size();
+  if (solved.empty()) {
+    point.error = runs.empty() ? "not run" : runs.front()->answer.error;
     return point;
   }
-  point.result = runs.front().result;
-  const auto n = static_cast<double>(runs.size());
+  point.result = mean_of_packings(solved);
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
-    std::vector<double> values;
     double own = 0.0;  // mean variance of a single run's mean
-    for (const GrainRun& run : runs) {
-      const Estimate& x = run.result.*channel_views[c].predicted;
-      values.push_back(x.value);
-      own += x.std_error * x.std_error / n;
-    }
-    const Mean mean = mean_of(values);
-    point.scatter[c] = std::max(std::sqrt(own), mean.spread);
-    (*point.result).*channel_views[c].predicted = {mean.value, point.scatter[c] / std::sqrt(n)};
+    for (const RecordedRun* run : solved)
+      own += std::pow(((*run->answer.result).*channel_views[c].predicted).std_error, 2);
+    point.scatter[c] = std::max(std::sqrt(own / static_cast<double>(solved.size())),
+                                scatter_between(solved, channel_views[c].predicted));
   }
-  const auto drifting = std::count_if(runs.begin(), runs.end(), [](const GrainRun& run) { return !run.steady; });
+  if (solved.size() < runs.size())
+    point.doubts.push_back(fmt::format("{} of {} runs without a result", runs.size() - solved.size(), runs.size()));
+  const auto drifting = std::count_if(solved.begin(), solved.end(), [](const auto* run) { return !run->steady; });
   double most = 0.0;
-  for (const GrainRun& run : runs)
-    if (std::isfinite(run.drift)) most = std::max(most, run.drift);
+  for (const RecordedRun* run : solved)
+    if (std::isfinite(run->drift)) most = std::max(most, run->drift);
   if (drifting > 0)
     point.doubts.push_back(fmt::format("{} of {} run{} not steady: halves differ by up to {:.1f} standard errors",
-                                       drifting, runs.size(), runs.size() == 1 ? "" : "s", most));
-  const bool one_packing =
-      std::all_of(runs.begin(), runs.end(), [&](const GrainRun& run) { return run.packing == runs.front().packing; });
-  if (one_packing) point.doubts.push_back("one packing: the scatter between packings is not known");
+                                       drifting, solved.size(), solved.size() == 1 ? "" : "s", most));
+  if (std::all_of(solved.begin(), solved.end(),
+                  [&](const auto* run) { return run->packing == solved.front()->packing; }))
+    point.doubts.push_back("one packing: the scatter between packings is not known");
   return point;
 }
 
-Side side_of(const std::string& label, const std::vector<std::vector<GrainRun>>& runs) {
+Side side_of(const std::string& label, const std::vector<RecordedRun>& runs,
+             const std::vector<OperatingCondition>& conditions) {
   Side side{label, SideKind::grains, {}};
-  for (const std::vector<GrainRun>& of_condition : runs) side.points.push_back(combine(of_condition));
+  for (const OperatingCondition& at : conditions) {
+    std::vector<const RecordedRun*> members;
+    for (const RecordedRun& run : runs)
+      if (alike(run.answer.at, at)) members.push_back(&run);
+    side.points.push_back(combine(members));
+  }
   return side;
 }
 

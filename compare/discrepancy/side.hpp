@@ -2,24 +2,16 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "compare/recorded/recorded_model.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/channels.hpp"
 
 namespace soilbin::compare {
 
 enum class SideKind { analytic, grains, measured };
-
-/// One run of the discrete elements at one condition.
-struct GrainRun {
-  TractionResult result;      ///< means over the steady part with the errors of its fluctuations
-  std::uint64_t packing = 1;  ///< seed of the bed
-  bool steady = true;         ///< whether the run passed its own test
-  double drift = 0.0;         ///< difference of its halves in standard errors; NaN where it is not known
-};
 
 /// What a side says at one condition.
 struct SidePoint {
@@ -44,13 +36,14 @@ struct Side {
 /// A model's answers as a side. Of grains, scatter is the answers' standard error.
 Side side_of(const ModelAnswers& answers);
 
-/// Runs of one condition as a point. The mean's variance is the larger of two: what the runs' own errors give, and what
-/// the spread between the runs gives. Budget and stresses are those of the first run. One packing says nothing of the
-/// scatter between packings: a doubt tells so.
-SidePoint combine(const std::vector<GrainRun>& runs);
+/// Runs of grains at one condition as a point: mean_of_packings of those with a result. Scatter is the spread between
+/// the runs or, where that is larger, the runs' own errors. One packing says nothing of the scatter between packings: a
+/// doubt tells so, and others tell of runs that were not steady or had no result.
+SidePoint combine(const std::vector<const RecordedRun*>& runs);
 
-/// Runs, a list for each condition, as a side.
-Side side_of(const std::string& label, const std::vector<std::vector<GrainRun>>& runs);
+/// Runs as a side: each counts at the condition that it is alike.
+Side side_of(const std::string& label, const std::vector<RecordedRun>& runs,
+             const std::vector<OperatingCondition>& conditions);
 
 /// How far a measured run may be from a study's condition and still count as one of it.
 struct Nearness {

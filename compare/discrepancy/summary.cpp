@@ -29,7 +29,8 @@ std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share);
 
 /// "3 of 28 conditions differ beyond errors and scatter, 20 lie within one run's scatter, ...".
 std::string counts(const Tally& t) {
-  if (t.unknown == t.values) return "neither side states an accuracy, so none of this is called a difference";
+  if (t.unknown == t.values)
+    return "both rest on the same soil values or state no doubt, so the rows are numbers without a verdict";
   std::string text = fmt::format("{} of {} condition{} differ{} beyond the errors and the scatter", t.differ, t.values,
                                  t.values == 1 ? "" : "s", t.differ == 1 ? "s" : "");
   if (t.in_scatter > 0)
@@ -45,6 +46,9 @@ Clause tally_clause(const Comparison& comparison, const Tally& t) {
   const std::string side = comparison.sides[t.side].label, reference = comparison.sides[t.reference].label;
   Clause clause{std::string(channel_views[t.channel].title), "", rows_of(comparison, t), {}};
   clause.text = fmt::format("{} against {}: {}. ", side, reference, counts(t));
+  const std::string alone =
+      t.expected_rms > 0.0 ? fmt::format("; the stated errors alone would give {}", in_unit(t.channel, t.expected_rms))
+                           : "";
   clause.text += fmt::format(
       "The root mean square is {} ({} of {}), on average {} is {} {}; the stated errors alone would give {}. Widest at "
       "{}: "
@@ -53,7 +57,7 @@ Clause tally_clause(const Comparison& comparison, const Tally& t) {
       channel_views[t.channel].name == "torque"    ? "load x radius"
       : channel_views[t.channel].name == "sinkage" ? "the radius"
                                                    : "the load",
-      side, in_unit(t.channel, std::abs(t.bias)), t.bias < 0 ? "lower" : "higher", in_unit(t.channel, t.expected_rms),
+      side, in_unit(t.channel, std::abs(t.bias)), t.bias < 0 ? "lower" : "higher", alone,
       in_words(comparison.question.study.conditions[worst.condition]), in_unit(t.channel, worst.value.value),
       in_unit(t.channel, worst.reference_value.value));
   return clause;
@@ -98,7 +102,7 @@ std::vector<Clause> cause_clauses(const Comparison& comparison) {
 Clause chance_clause(const Comparison& comparison) {
   const auto counted =
       static_cast<double>(std::count_if(comparison.differences.begin(), comparison.differences.end(),
-                                        [](const Difference& d) { return d.finding != Finding::unknown_accuracy; }));
+                                        [](const Difference& d) { return d.finding != Finding::not_judged; }));
   return {"how sure",
           fmt::format("A row counts as a difference beyond two standard errors of both sides together and beyond the "
                       "scatter of one run. Of {:.0f} rows about {:.0f} would pass two standard errors by chance alone.",
@@ -150,7 +154,9 @@ std::vector<Clause> summary(const Comparison& comparison, const LoopAnswer* loop
     for (const std::string& sentence : explanation(*loop)) text += " " + sentence;
     clauses.push_back({"what is missing", text, {}, {"the loop"}});
   }
-  if (!comparison.differences.empty()) clauses.push_back(chance_clause(comparison));
+  const bool judged = std::any_of(comparison.differences.begin(), comparison.differences.end(),
+                                  [](const Difference& d) { return d.finding != Finding::not_judged; });
+  if (judged) clauses.push_back(chance_clause(comparison));
   for (Clause& clause : doubt_clauses(comparison)) clauses.push_back(std::move(clause));
   for (const std::string& gap : comparison.not_compared) clauses.push_back({"not compared", gap + ".", {}, {}});
   return clauses;

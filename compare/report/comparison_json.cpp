@@ -68,7 +68,7 @@ Json tally_json(const Comparison& comparison, const Tally& t) {
           {"differ", t.differ},
           {"within_scatter", t.in_scatter},
           {"within_errors", t.in_errors},
-          {"unknown_accuracy", t.unknown},
+          {"not_judged", t.unknown},
           {"bias", finite(t.bias)},
           {"rms", finite(t.rms)},
           {"rms_share", finite(t.rms_share)},

@@ -44,20 +44,27 @@ inline ModelAnswers base_answers(const Case& question) {
 
 /// Runs as if grains had given them: the base model's results, the pull moved by `offset` newtons at run k, each run
 /// with the standard error `own`.
-inline std::vector<std::vector<GrainRun>> grain_runs(const ModelAnswers& base, const std::vector<double>& offsets,
-                                                     double own) {
-  std::vector<std::vector<GrainRun>> all;
-  for (const Answer& answer : base.answers) {
-    all.emplace_back();
+inline std::vector<RecordedRun> grain_runs(const ModelAnswers& base, const std::vector<double>& offsets, double own) {
+  std::vector<RecordedRun> all;
+  for (const Answer& answer : base.answers)
     for (std::size_t k = 0; k < offsets.size(); ++k) {
-      GrainRun run{*answer.result, k + 1, true, 0.5};
-      run.result.drawbar_pull = {run.result.drawbar_pull.value + offsets[k], own};
-      run.result.torque.std_error = 2.0;
-      run.result.sinkage.std_error = 1e-3;
-      all.back().push_back(run);
+      RecordedRun run;
+      run.answer = answer;
+      run.packing = k + 1;
+      run.steady = true;
+      run.drift = 0.5;
+      run.answer.result->drawbar_pull = {run.answer.result->drawbar_pull.value + offsets[k], own};
+      run.answer.result->torque.std_error = 2.0;
+      run.answer.result->sinkage.std_error = 1e-3;
+      all.push_back(run);
     }
-  }
   return all;
+}
+
+inline Side grain_side(const ModelAnswers& base, const std::vector<double>& offsets, double own) {
+  std::vector<OperatingCondition> conditions;
+  for (const Answer& answer : base.answers) conditions.push_back(answer.at);
+  return side_of("dem", grain_runs(base, offsets, own), conditions);
 }
 
 }  // namespace soilbin::compare

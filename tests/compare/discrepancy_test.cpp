@@ -21,7 +21,7 @@ TEST(Finding, ADifferenceNeedsBothMoreThanTheScatterAndMoreThanTwoErrors) {
   EXPECT_EQ(finding_of(10, 3, 12), Finding::within_scatter);  // another run would move as much
   EXPECT_EQ(finding_of(10, 6, 5), Finding::within_errors);
   EXPECT_EQ(finding_of(0, 1, 0), Finding::within_scatter);
-  EXPECT_EQ(finding_of(10, 0, 0), Finding::unknown_accuracy);  // exact numbers: nothing to judge by
+  EXPECT_EQ(finding_of(10, 0, 0), Finding::not_judged);  // exact numbers: nothing to judge by
 }
 
 // Three runs of 90, 100 and 110 N: mean 100 N, spread 10 N, so the mean's error is 10/sqrt(3). Own errors of 1 N say
@@ -30,7 +30,7 @@ TEST(GrainRuns, TheSpreadBetweenPackingsGoesIntoTheError) {
   const Case question = sand_study({0.2});
   const ModelAnswers base = base_answers(question);
   const double pull = base.answers[0].result->drawbar_pull.value;
-  const SidePoint point = combine(grain_runs(base, {-10, 0, 10}, 1.0)[0]);
+  const SidePoint point = grain_side(base, {-10, 0, 10}, 1.0).points[0];
   EXPECT_NEAR(point.result->drawbar_pull.value, pull, 1e-9);
   EXPECT_NEAR(point.scatter[0], 10.0, 1e-9);
   EXPECT_NEAR(point.result->drawbar_pull.std_error, 10 / std::sqrt(3.0), 1e-9);
@@ -40,16 +40,16 @@ TEST(GrainRuns, TheSpreadBetweenPackingsGoesIntoTheError) {
 // Where runs agree better than their own errors allow, the errors stand: 4 N each, 4/sqrt(2) for the mean.
 TEST(GrainRuns, LuckyAgreementDoesNotMakeThemSurer) {
   const ModelAnswers base = base_answers(sand_study({0.2}));
-  const SidePoint point = combine(grain_runs(base, {0, 0}, 4.0)[0]);
+  const SidePoint point = grain_side(base, {0, 0}, 4.0).points[0];
   EXPECT_NEAR(point.result->drawbar_pull.std_error, 4 / std::sqrt(2.0), 1e-12);
   EXPECT_NEAR(point.scatter[0], 4.0, 1e-12);
 }
 
 TEST(GrainRuns, OnePackingAndDriftAreToldAsDoubts) {
-  auto runs = grain_runs(base_answers(sand_study({0.2})), {0}, 4.0)[0];
+  auto runs = grain_runs(base_answers(sand_study({0.2})), {0}, 4.0);
   runs[0].steady = false;
   runs[0].drift = 3.7;
-  const SidePoint point = combine(runs);
+  const SidePoint point = combine({&runs[0]});
   EXPECT_THAT(point.doubts, Contains(HasSubstr("scatter between packings is not known")));
   EXPECT_THAT(point.doubts, Contains(HasSubstr("1 of 1 run not steady: halves differ by up to 3.7")));
 }
@@ -60,7 +60,7 @@ class Pair : public testing::Test {
   ModelAnswers base = base_answers(question);
 
   Comparison against(const std::vector<double>& offsets, double own) const {
-    return compare_sides(question, {base.choice}, {side_of("dem", grain_runs(base, offsets, own)), side_of(base)});
+    return compare_sides(question, {base.choice}, {grain_side(base, offsets, own), side_of(base)});
   }
 };
 
@@ -84,6 +84,20 @@ TEST_F(Pair, LessThanTheScatterIsNoDifference) {
       EXPECT_EQ(d.finding, Finding::within_scatter);
     }
   EXPECT_EQ(comparison.tallies.front().differ, 0U);
+}
+
+// An effect of amplitude 0 changes nothing, and two models of one soil can't be two standard errors of that soil apart.
+TEST_F(Pair, TwoAnalyticModelsShareTheSoilsDoubt) {
+  ModelAnswers other = base;
+  other.choice.label = "other";
+  for (Answer& answer : other.answers) answer.result->drawbar_pull.value += 50;
+  const Comparison comparison = compare_sides(question, {base.choice, other.choice}, {side_of(base), side_of(other)});
+  ASSERT_FALSE(comparison.differences.empty());
+  for (const Difference& d : comparison.differences) {
+    EXPECT_EQ(d.finding, Finding::not_judged);
+    EXPECT_EQ(d.std_error, 0.0);
+    EXPECT_NEAR(d.difference, d.channel == 0 ? 50.0 : 0.0, 1e-9);
+  }
 }
 
 TEST_F(Pair, TheTallyIsTheRowsInShort) {
@@ -114,14 +128,14 @@ TEST_F(Pair, TheSoilsDoubtExplainsWhatASoilValueCouldHaveDone) {
   Case harder = question;
   harder.scenario.soil.semi_empirical->friction_angle.value += 0.02;  // within its sd of 1.5 deg
   const ModelAnswers other = base_answers(harder);
-  const auto runs = grain_runs(other, {0}, 5.0);
-  const auto test = joint_test(side_of("dem", runs), question, {});
+  const Side dem = grain_side(other, {0}, 5.0);
+  const auto test = joint_test(dem, question, {});
   ASSERT_TRUE(test);
   double plain = 0;
-  for (std::size_t i = 0; i < runs.size(); ++i)
+  for (std::size_t i = 0; i < dem.points.size(); ++i)
     for (const ChannelView& channel : channel_views) {
       if (channel.name == "lateral_force") continue;
-      const Estimate& there = runs[i][0].result.*channel.predicted;
+      const Estimate& there = (*dem.points[i].result).*channel.predicted;
       plain += std::pow((((*base.answers[i].result).*channel.predicted).value - there.value) / there.std_error, 2);
     }
   EXPECT_NEAR(test->chi2_soil_exact, plain, 1e-6 * plain);
@@ -131,9 +145,9 @@ TEST_F(Pair, TheSoilsDoubtExplainsWhatASoilValueCouldHaveDone) {
 }
 
 TEST_F(Pair, WithoutAStatedErrorThereIsNoJointTest) {
-  auto runs = grain_runs(base, {10}, 5.0);
-  runs[2][0].result.torque.std_error = 0.0;
-  EXPECT_FALSE(joint_test(side_of("dem", runs), question, {}));
+  Side dem = grain_side(base, {10}, 5.0);
+  dem.points[2].result->torque.std_error = 0.0;
+  EXPECT_FALSE(joint_test(dem, question, {}));
 }
 
 TEST_F(Pair, TheBudgetNamesWhatPullsAndAddsUp) {
@@ -157,14 +171,15 @@ TEST_F(Pair, SinkageIsWhatTheLoadPressesAndWhatSlipAdds) {
 
 TEST_F(Pair, AConditionWithoutResultIsToldAndTheOthersStillCompared) {
   auto runs = grain_runs(base, {300}, 40.0);
-  runs[1].clear();
-  const Comparison comparison = compare_sides(question, {base.choice}, {side_of(base), side_of("dem", runs)});
+  runs.erase(runs.begin() + 1);
+  const Comparison comparison =
+      compare_sides(question, {base.choice}, {side_of(base), side_of("dem", runs, question.study.conditions)});
   EXPECT_EQ(comparison.tallies.front().values, 3U);
   EXPECT_THAT(comparison.not_compared, Contains(HasSubstr("dem has no result at 1 of 4")));
 }
 
 TEST_F(Pair, ResultsBecomeACampaignForTheLoop) {
-  const Campaign campaign = as_campaign(side_of("dem", grain_runs(base, {300}, 40.0)), question);
+  const Campaign campaign = as_campaign(grain_side(base, {300}, 40.0), question);
   ASSERT_EQ(campaign.runs.size(), 4U);
   EXPECT_NEAR(*campaign.runs[2].drawbar_pull, base.answers[2].result->drawbar_pull.value + 300, 1e-9);
   EXPECT_FALSE(campaign.runs[2].lateral_force) << "nothing but noise on a flat bed";
