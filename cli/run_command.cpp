@@ -115,6 +115,8 @@ void add_run(CLI::App& app, Session& session) {
   command->add_flag("--json", options->json, "the results as JSON, in SI");
   options->conditions.add_to(*command);
   options->soil_bin.add_to(*command);
+  command->add_option("--replay", options->soil_bin.replay, "dem: keep the first run that is made, to look at it in 3D")
+      ->type_name("FILE");
   command->footer(
       "A condition flag keeps the study's conditions that agree with it; where none does, it overrides them.\n"
       "Example: soilbin run paper-straight --load 4kN --plot pull.svg");

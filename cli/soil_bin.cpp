@@ -10,6 +10,7 @@
 #include <map>
 
 #include "cli/progress.hpp"
+#include "cli/replay_recorder.hpp"
 #include "cli/versions.hpp"
 #include "compare/sweep/alike.hpp"
 #include "compare/sweep/channels.hpp"
@@ -47,7 +48,12 @@ void show(const dem::Progress& progress) {
 /// Runs conditions, with a model for each packing, so that a bed is taken once.
 class SoilBinRuns {
  public:
-  explicit SoilBinRuns(dem::DemSettings settings) : settings_(std::move(settings)) {
+  SoilBinRuns(dem::DemSettings settings, fs::path replay) : settings_(std::move(settings)), replay_(std::move(replay)) {
+    if (!replay_.empty())
+      settings_.rig.onlooker.look = [recorder = recorder_](const dem::Simulation& simulation, int wheel,
+                                                           double surface) {
+        if (!recorder->done) recorder->frames.look(simulation, wheel, surface);
+      };
     settings_.on_run = [told = told_](const dem::WheelRun& run) { *told = run; };
   }
 
@@ -64,11 +70,21 @@ class SoilBinRuns {
     } catch (const NoSolution& error) {
       run.answer.error = error.what();
     }
+    keep_replay(at, packing);
     run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return run;
   }
 
  private:
+  /// Writes the replay of the first run that was made.
+  void keep_replay(const OperatingCondition& at, std::uint64_t packing) {
+    if (replay_.empty() || recorder_->done || !recorder_->frames.has_frames()) return;
+    recorder_->done = true;
+    recorder_->frames.write(replay_, compare::in_words(at),
+                            {{"packing", std::to_string(packing)}, {"sources", source_state()}});
+    fmt::print(stderr, "wrote {}: soilbin compare --replay shows it\n", replay_.string());
+  }
+
   const dem::DemModel& model(std::uint64_t packing) {
     const auto known = models_.find(packing);
     if (known != models_.end()) return *known->second;
@@ -76,7 +92,14 @@ class SoilBinRuns {
     return *models_.emplace(packing, std::make_unique<dem::DemModel>(settings_)).first->second;
   }
 
+  struct Recorder {
+    ReplayRecorder frames;
+    bool done = false;
+  };
+
   dem::DemSettings settings_;
+  fs::path replay_;
+  std::shared_ptr<Recorder> recorder_ = std::make_shared<Recorder>();
   std::shared_ptr<dem::WheelRun> told_ = std::make_shared<dem::WheelRun>();
   std::map<std::uint64_t, std::unique_ptr<dem::DemModel>> models_;
 };
@@ -112,7 +135,7 @@ std::unique_ptr<const Model> from_record(const SoilBinFlags& flags, const Case& 
 std::unique_ptr<const Model> running(const SoilBinFlags& flags, const Case& question, const EffectVocabulary& effects,
                                      const RunLog& log) {
   const dem::DemSettings settings = settings_of(flags);
-  compare::RunOnce run = [runs = std::make_shared<SoilBinRuns>(settings)](
+  compare::RunOnce run = [runs = std::make_shared<SoilBinRuns>(settings, flags.replay)](
                              const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
     return (*runs)(scenario, at, packing);
   };

@@ -17,6 +17,7 @@ struct SoilBinFlags {
   std::string length, width, depth, settling_friction;
   std::string record;    ///< file that keeps each run as it is finished, and is gone on with
   std::string recorded;  ///< file to answer from, without running
+  std::string replay;    ///< file for a replay of the first run that is made; flag of those who add it
   int packing = 1, packings = 1, threads = 0;
 
   void add_to(CLI::App& command);

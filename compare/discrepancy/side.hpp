@@ -47,7 +47,7 @@ Side side_of(const std::string& label, const std::vector<RecordedRun>& runs,
 
 /// How far a measured run may be from a study's condition and still count as one of it.
 struct Nearness {
-  double load = 0.05;   ///< share of the load
+  double load = 0.10;   ///< share of the load
   double slip = 0.025;  ///< [-]
   double angle = 0.02;  ///< [rad]
 };

@@ -49,17 +49,15 @@ Clause tally_clause(const Comparison& comparison, const Tally& t) {
   const std::string alone =
       t.expected_rms > 0.0 ? fmt::format("; the stated errors alone would give {}", in_unit(t.channel, t.expected_rms))
                            : "";
-  clause.text += fmt::format(
-      "The root mean square is {} ({} of {}), on average {} is {} {}; the stated errors alone would give {}. Widest at "
-      "{}: "
-      "{} against {}.",
-      in_unit(t.channel, t.rms), percent(t.rms_share),
-      channel_views[t.channel].name == "torque"    ? "load x radius"
-      : channel_views[t.channel].name == "sinkage" ? "the radius"
-                                                   : "the load",
-      side, in_unit(t.channel, std::abs(t.bias)), t.bias < 0 ? "lower" : "higher", alone,
-      in_words(comparison.question.study.conditions[worst.condition]), in_unit(t.channel, worst.value.value),
-      in_unit(t.channel, worst.reference_value.value));
+  clause.text +=
+      fmt::format("The root mean square is {} ({} of {}), on average {} is {} {}{}. Widest at {}: {} against {}.",
+                  in_unit(t.channel, t.rms), percent(t.rms_share),
+                  channel_views[t.channel].name == "torque"    ? "load x radius"
+                  : channel_views[t.channel].name == "sinkage" ? "the radius"
+                                                               : "the load",
+                  side, in_unit(t.channel, std::abs(t.bias)), t.bias < 0 ? "lower" : "higher", alone,
+                  in_words(comparison.question.study.conditions[worst.condition]),
+                  in_unit(t.channel, worst.value.value), in_unit(t.channel, worst.reference_value.value));
   return clause;
 }
 
