@@ -41,6 +41,12 @@ std::string counts(const Tally& t) {
   return text;
 }
 
+/// What a tally's shares are shares of.
+std::string measure_of(const Tally& t) {
+  if (channel_views[t.channel].name == "torque") return "load x radius";
+  return channel_views[t.channel].name == "sinkage" ? "the radius" : "the load";
+}
+
 Clause tally_clause(const Comparison& comparison, const Tally& t) {
   const Difference& worst = comparison.differences[t.worst];
   const std::string side = comparison.sides[t.side].label, reference = comparison.sides[t.reference].label;
@@ -49,15 +55,29 @@ Clause tally_clause(const Comparison& comparison, const Tally& t) {
   const std::string alone =
       t.expected_rms > 0.0 ? fmt::format("; the stated errors alone would give {}", in_unit(t.channel, t.expected_rms))
                            : "";
-  clause.text +=
-      fmt::format("The root mean square is {} ({} of {}), on average {} is {} {}{}. Widest at {}: {} against {}.",
-                  in_unit(t.channel, t.rms), percent(t.rms_share),
-                  channel_views[t.channel].name == "torque"    ? "load x radius"
-                  : channel_views[t.channel].name == "sinkage" ? "the radius"
-                                                               : "the load",
-                  side, in_unit(t.channel, std::abs(t.bias)), t.bias < 0 ? "lower" : "higher", alone,
-                  in_words(comparison.question.study.conditions[worst.condition]),
-                  in_unit(t.channel, worst.value.value), in_unit(t.channel, worst.reference_value.value));
+  clause.text += fmt::format(
+      "The root mean square is {} ({} of {}), on average {} is {} {}{}. Widest at {}: {} against {}.",
+      in_unit(t.channel, t.rms), percent(t.rms_share), measure_of(t), side, in_unit(t.channel, std::abs(t.bias)),
+      t.bias < 0 ? "lower" : "higher", alone, in_words(comparison.question.study.conditions[worst.condition]),
+      in_unit(t.channel, worst.value.value), in_unit(t.channel, worst.reference_value.value));
+  return clause;
+}
+
+/// How many rows differ at all, and where the sides are widest apart.
+Clause headline(const Comparison& comparison, const Tally& widest) {
+  Clause clause{"in short", "", {}, {}};
+  std::size_t judged = 0;
+  for (std::size_t i = 0; i < comparison.differences.size(); ++i) {
+    judged += comparison.differences[i].finding != Finding::not_judged;
+    if (comparison.differences[i].finding == Finding::difference) clause.rows.push_back(i);
+  }
+  if (judged > 0)
+    clause.text =
+        fmt::format("{} of {} numbers differ by more than errors and scatter explain. ", clause.rows.size(), judged);
+  clause.text += fmt::format("Widest apart is the {}, of {} and {}: {} of {}, root mean square.",
+                             channel_views[widest.channel].title, comparison.sides[widest.side].label,
+                             comparison.sides[widest.reference].label, percent(widest.rms_share), measure_of(widest));
+  clause.rows.push_back(widest.worst);
   return clause;
 }
 
@@ -144,6 +164,7 @@ std::vector<Clause> summary(const Comparison& comparison, const LoopAnswer* loop
   for (const Tally& t : comparison.tallies) order.push_back(&t);
   std::stable_sort(order.begin(), order.end(),
                    [](const Tally* a, const Tally* b) { return a->rms_share > b->rms_share; });
+  if (!order.empty()) clauses.push_back(headline(comparison, *order.front()));
   for (const Tally* t : order) clauses.push_back(tally_clause(comparison, *t));
   for (const JointTest& test : comparison.joint) clauses.push_back(joint_clause(comparison, test));
   for (Clause& clause : cause_clauses(comparison)) clauses.push_back(std::move(clause));

@@ -73,7 +73,7 @@ void add_differences(Markdown& md, const Comparison& comparison) {
   if (!comparison.joint.empty()) md.table(joint_table(comparison));
   for (std::size_t k = 0; k < comparison.tallies.size(); ++k) {
     const HeatMap map = heat_map_of(comparison, comparison.tallies[k]);
-    md.picture(fmt::format("heat-map-{}", k + 1), heat_map_svg(map), map.title);
+    md.picture(fmt::format("heat-map-{}", k + 1), heat_map_svg(map), map.title + ", " + map.subtitle);
   }
   for (const Tally& tally : comparison.tallies) md.table(rows_table(comparison, tally));
   md.text("All rows: [CSV](differences.csv), [JSON](comparison.json).");

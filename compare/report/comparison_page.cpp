@@ -80,7 +80,8 @@ void add_differences(Page& page, const Comparison& comparison) {
   page.table(tally_table(comparison));
   if (!comparison.joint.empty()) page.table(joint_table(comparison));
   std::string maps;
-  for (const Tally& tally : comparison.tallies) maps += heat_map_svg(heat_map_of(comparison, tally)) + "\n";
+  for (const Tally& tally : comparison.tallies)
+    maps += "<div>" + heat_map_svg(heat_map_of(comparison, tally)) + "</div>\n";
   page.drawing(maps, "Bold: a difference. Faint: within the scatter of a run, or covered by the errors.");
   for (const Tally& tally : comparison.tallies)
     page.folded(
@@ -175,7 +176,8 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
 std::string comparison_page(const Comparison& comparison, const ComparisonAbout& about) {
   const Scenario& scenario = comparison.question.scenario;
   Page page(about.page.title,
-            fmt::format("{} on {}: models and measurements side by side", scenario.tire.name, scenario.soil.name));
+            fmt::format("{} on {}: models and measurements side by side",
+                        scenario.tire.name.empty() ? "A wheel" : scenario.tire.name, scenario.soil.name));
   page.enliven(about.libraries);
   if (!about.libraries.missing.empty()) {
     std::string packages;

@@ -193,14 +193,14 @@ HeatMap heat_map_of(const Comparison& comparison, const Tally& tally) {
       slips.push_back(at.slip);
   std::sort(slips.begin(), slips.end());
   HeatMap map;
-  map.title = fmt::format("{}: {} less {} [% of {}]", capital(std::string(channel_views[tally.channel].title)),
-                          comparison.sides[tally.side].label, comparison.sides[tally.reference].label,
+  map.title = fmt::format("{} [% of {}]", capital(std::string(channel_views[tally.channel].title)),
                           channel_views[tally.channel].name == "torque"    ? "load x radius"
                           : channel_views[tally.channel].name == "sinkage" ? "radius"
                                                                            : "load");
+  map.subtitle = fmt::format("{} less {}", comparison.sides[tally.side].label, comparison.sides[tally.reference].label);
   map.x_title = "slip [%]";
   map.y_title = curves.varying.empty() ? "curve" : curves.varying;
-  for (const double slip : slips) map.x.push_back(number(100 * slip));
+  for (const double slip : slips) map.x.push_back(fmt::format("{:.4g}", 100 * slip));
   for (const std::string& label : curves.labels) map.y.push_back(label.empty() ? "all" : label);
   map.cells.assign(curves.labels.size(), std::vector<HeatCell>(slips.size(), HeatCell{not_a_number, "", "", true}));
   for (const Difference& d : comparison.differences) {

@@ -10,7 +10,7 @@
 namespace soilbin::compare {
 namespace {
 
-constexpr double cell_width = 54, cell_height = 30, above = 34, below = 40, letter = 6.6;
+constexpr double cell_width = 54, cell_height = 30, above = 48, below = 40, letter = 6.6;
 
 double deepest(const HeatMap& map) {
   double most = map.limit;
@@ -46,11 +46,13 @@ std::string heat_map_svg(const HeatMap& map) {
   std::size_t longest = 3;
   for (const std::string& name : map.y) longest = std::max(longest, name.size());
   const double left = 26 + letter * static_cast<double>(longest), limit = deepest(map);
-  const double width = std::max(left + cell_width * static_cast<double>(map.x.size()) + 8, 300.0);
+  const double words = letter * static_cast<double>(std::max(map.title.size(), map.subtitle.size())) + 24;
+  const double width = std::max(left + cell_width * static_cast<double>(map.x.size()) + 8, words);
   const double bottom = above + cell_height * static_cast<double>(map.y.size());
   std::string body =
       fmt::format(R"(<text class="ink" fill="#1a1d23" font-size="13" font-weight="600" x="4" y="17">{}</text>)",
                   escaped(map.title));
+  body += fmt::format(R"(<text class="quiet" fill="#5a6270" x="4" y="35">{}</text>)", escaped(map.subtitle));
   for (std::size_t r = 0; r < map.y.size(); ++r) {
     const double y = above + cell_height * static_cast<double>(r);
     body += fmt::format(R"(<text class="quiet" fill="#5a6270" x="{:.0f}" y="{:.0f}" text-anchor="end">{}</text>)",
@@ -66,7 +68,8 @@ std::string heat_map_svg(const HeatMap& map) {
   return fmt::format(
       R"(<svg xmlns="http://www.w3.org/2000/svg" class="plot heat" viewBox="0 0 {:.0f} {:.0f}" role="group" aria-label="{}" )"
       R"(font-size="12">{}</svg>)",
-      width, bottom + below, escaped(map.title + ", " + map.y_title + " by " + map.x_title), body);
+      width, bottom + below, escaped(map.title + ", " + map.subtitle + ", " + map.y_title + " by " + map.x_title),
+      body);
 }
 
 }  // namespace soilbin::compare

@@ -14,7 +14,8 @@ struct HeatCell {
 };
 
 struct HeatMap {
-  std::string title;  ///< what the numbers are, with their unit
+  std::string title;     ///< what the numbers are, with their unit
+  std::string subtitle;  ///< of whom: "dem less bekker_wong"
   std::string x_title, y_title;
   std::vector<std::string> x, y;             ///< names of columns and rows
   std::vector<std::vector<HeatCell>> cells;  ///< a row each of y

@@ -108,6 +108,7 @@ svg.live .cursor{stroke:var(--line);stroke-dasharray:3 3}
 .cell:focus{outline:none}
 .cell:focus rect,.cell:hover rect{stroke:var(--ink);stroke-width:2}
 .heat{max-width:680px}
+.cell-empty{stroke:var(--edge)}
 .warning{background:var(--paper);border:1px solid var(--edge);border-left:4px solid var(--c1);border-radius:8px;
   padding:.7em 1.1em;margin:1em 0}
 .replay{position:relative}

@@ -12,9 +12,13 @@ from pathlib import Path
 
 
 def grains_at_rest(count, seed=1):
-    """Places in a bed of 4 x 0.8 x 0.3 m [m]."""
+    """Places on a lattice, a little disordered, in a bed 4 m long and 0.8 m wide [m]."""
     chance = random.Random(seed)
-    return sorted([chance.uniform(0, 4), chance.uniform(0, 0.8), chance.uniform(0, 0.3)] for _ in range(count))
+    apart = (4 * 0.8 * 0.3 / count) ** (1 / 3)
+    across, along = int(0.8 / apart), int(4 / apart)
+    off = lambda: chance.uniform(-0.15, 0.15)
+    return sorted([(k // across % along + off()) * apart, (k % across + off()) * apart, (k // (across * along) + off()) * apart]
+                  for k in range(count))
 
 
 def after(place, wheel_x):
@@ -44,7 +48,8 @@ def replay(count, frames):
               "frames": frames, "vertices": len(points), "triangles": len(faces), "origin": [-0.05, -0.05, -0.1],
               "step": step, "surface": 0.3, "times": [0.04 * f for f in range(frames)], "wheel": wheel,
               "rotation": [[math.cos(x / 2), 0, math.sin(x / 2), 0] for x in ((c[0] - 0.5) / 0.45 for c in wheel)]}
-    raw = b"".join(struct.pack("<f", 0.009) for _ in rest)
+    radius = 0.5 * (4 * 0.8 * 0.3 / count) ** (1 / 3)
+    raw = b"".join(struct.pack("<f", radius) for _ in rest)
     raw += b"".join(struct.pack("<3f", *p) for p in points) + b"".join(struct.pack("<3I", *f) for f in faces)
     before = [[0] * count for _ in range(3)]
     for centre in wheel:
@@ -53,8 +58,8 @@ def replay(count, frames):
             changes = []
             for k in range(count):
                 at = round((now[k][axis] - header["origin"][axis]) / step)
-                change = at - before[axis][k]
-                changes.append((change << 1 if change >= 0 else (-change << 1) - 1) & 0xFFFF)
+                change = (at - before[axis][k] + 32768) % 65536 - 32768  # modulo 2^16, as a signed number
+                changes.append(change << 1 if change >= 0 else (-change << 1) - 1)
                 before[axis][k] = at
             raw += bytes(c & 0xFF for c in changes) + bytes(c >> 8 for c in changes)
     return json.dumps(header).encode() + b"\n" + zlib.compress(raw, 6)
