@@ -14,6 +14,7 @@ enum ExitStatus { done = 0, failed = 1, bad_input = 2, interrupted = 130 };
 /// What the commands share.
 struct Session {
   Workplace place;
+  std::string command;          ///< as it was typed, words quoted where a shell needs it
   std::function<int()> action;  ///< of the subcommand that was parsed; gives the exit status
 };
 
@@ -27,6 +28,7 @@ void add_limits(CLI::App& app, Session& session);
 void add_predict(CLI::App& app, Session& session);
 void add_calibrate(CLI::App& app, Session& session);
 void add_loop(CLI::App& app, Session& session);
+void add_compare(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
 void add_reproduce(CLI::App& app, Session& session);
 void add_check(CLI::App& app, Session& session);

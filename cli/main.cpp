@@ -27,6 +27,7 @@ void add_commands(CLI::App& app, Session& session) {
   add_predict(app, session);
   add_calibrate(app, session);
   add_loop(app, session);
+  add_compare(app, session);
   add_report(app, session);
   add_reproduce(app, session);
   add_check(app, session);
@@ -35,6 +36,21 @@ void add_commands(CLI::App& app, Session& session) {
   add_schema(app, session);
   add_verify(app, session);
   add_doctor(app, session);
+}
+
+/// The command as a person can type it again.
+std::string command_line(const std::vector<std::string>& words) {
+  std::string line = "soilbin";
+  for (const std::string& word : words) {
+    const bool bare = !word.empty() && word.find_first_not_of(
+                                           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                           "0123456789-_=+.,:/%@") == std::string::npos;
+    std::string quoted = word;
+    for (std::size_t at = quoted.find('\''); at != std::string::npos; at = quoted.find('\'', at + 4))
+      quoted.replace(at, 1, "'\\''");
+    line += bare ? " " + word : " '" + quoted + "'";
+  }
+  return line;
 }
 
 int refuse(const std::string& message) {
@@ -74,7 +90,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", SOILBIN_VERSION);
   app.require_subcommand(1);
   app.get_formatter()->column_width(36);
-  Session session{find_workplace(), {}};
+  Session session{find_workplace(), command_line({argv + 1, argv + argc}), {}};
   add_commands(app, session);
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty()) return fmt::print("{}", app.help()), bad_input;

@@ -52,10 +52,10 @@ void add_dem(Case& question) {
 nlohmann::ordered_json document_of(const Case& question, const std::vector<compare::ModelAnswers>& study,
                                    const std::optional<dem::StepCriteria>& step) {
   nlohmann::ordered_json document = {{"format", "soilbin-run/1"},
-          {"study", question.study.name},
-          {"tire", question.scenario.tire.name},
-          {"soil", question.scenario.soil.name},
-          {"rows", compare::rows_json(study)}};
+                                     {"study", question.study.name},
+                                     {"tire", question.scenario.tire.name},
+                                     {"soil", question.scenario.soil.name},
+                                     {"rows", compare::rows_json(study)}};
   if (step) document["dem"] = to_json(*step);
   return document;
 }
@@ -126,6 +126,8 @@ void add_run(CLI::App& app, Session& session) {
                     "dem: one condition, again with each numerical choice halved or doubled");
   options->conditions.add_to(*command);
   options->soil_bin.add_to(*command);
+  command->add_option("--replay", options->soil_bin.replay, "dem: keep the first run that is made, to look at it in 3D")
+      ->type_name("FILE");
   command->footer(
       "A condition flag keeps the study's conditions that agree with it; where none does, it overrides them.\n"
       "Example: soilbin run paper-straight --load 4kN --plot pull.svg");

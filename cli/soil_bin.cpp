@@ -11,6 +11,7 @@
 #include <map>
 
 #include "cli/progress.hpp"
+#include "cli/replay_recorder.hpp"
 #include "cli/versions.hpp"
 #include "cli/workplace.hpp"
 #include "compare/sweep/alike.hpp"
@@ -46,7 +47,12 @@ namespace {
 /// Runs conditions, with a model for each packing, so that a bed is taken once.
 class SoilBinRuns {
  public:
-  explicit SoilBinRuns(dem::DemSettings settings) : settings_(std::move(settings)) {
+  SoilBinRuns(dem::DemSettings settings, fs::path replay) : settings_(std::move(settings)), replay_(std::move(replay)) {
+    if (!replay_.empty())
+      settings_.rig.onlooker.look = [recorder = recorder_](const dem::Simulation& simulation, int wheel,
+                                                           double surface) {
+        if (!recorder->done) recorder->frames.look(simulation, wheel, surface);
+      };
     settings_.on_run = [told = told_](const dem::WheelRun& run) { *told = run; };
   }
 
@@ -63,11 +69,21 @@ class SoilBinRuns {
     } catch (const NoSolution& error) {
       run.answer.error = error.what();
     }
+    keep_replay(at, packing);
     run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return run;
   }
 
  private:
+  /// Writes the replay of the first run that was made.
+  void keep_replay(const OperatingCondition& at, std::uint64_t packing) {
+    if (replay_.empty() || recorder_->done || !recorder_->frames.has_frames()) return;
+    recorder_->done = true;
+    recorder_->frames.write(replay_, compare::in_words(at),
+                            {{"packing", std::to_string(packing)}, {"sources", source_state()}});
+    fmt::print(stderr, "wrote {}: soilbin compare --replay shows it\n", replay_.string());
+  }
+
   const dem::DemModel& model(std::uint64_t packing) {
     const auto known = models_.find(packing);
     if (known != models_.end()) return *known->second;
@@ -75,7 +91,14 @@ class SoilBinRuns {
     return *models_.emplace(packing, std::make_unique<dem::DemModel>(settings_)).first->second;
   }
 
+  struct Recorder {
+    ReplayRecorder frames;
+    bool done = false;
+  };
+
   dem::DemSettings settings_;
+  fs::path replay_;
+  std::shared_ptr<Recorder> recorder_ = std::make_shared<Recorder>();
   std::shared_ptr<dem::WheelRun> told_ = std::make_shared<dem::WheelRun>();
   std::map<std::uint64_t, std::unique_ptr<dem::DemModel>> models_;
 };
@@ -114,7 +137,7 @@ std::unique_ptr<const Model> running(const SoilBinFlags& flags, const Case& ques
   std::vector<std::uint64_t> packings;
   for (int k = 0; k < flags.packings; ++k) packings.push_back(settings.packing + static_cast<std::uint64_t>(k));
   return std::make_unique<const compare::RunOnPackings>(
-      "dem", packings, run_with(settings, question, effects, flags.record),
+      "dem", packings, run_with(settings, question, effects, flags.record, flags.replay),
       [log](const compare::RecordedRun& told) { log->push_back(told); });
 }
 
@@ -180,8 +203,8 @@ compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, 
 }
 
 compare::RunOnce run_with(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
-                          const fs::path& file) {
-  compare::RunOnce run = [runs = std::make_shared<SoilBinRuns>(settings)](
+                          const fs::path& file, const fs::path& replay) {
+  compare::RunOnce run = [runs = std::make_shared<SoilBinRuns>(settings, replay)](
                              const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
     return (*runs)(scenario, at, packing);
   };

@@ -28,6 +28,7 @@ struct SoilBinFlags {
   std::string behind, ahead, travel, time_step;
   std::string record;    ///< file that keeps each run as it is finished, and is gone on with
   std::string recorded;  ///< file to answer from, without running
+  std::string replay;    ///< file for a replay of the first run that is made; flag of those who add it
   int packing = 1, packings = 1, threads = 0;
 
   void add_to(CLI::App& command);
@@ -45,9 +46,10 @@ using RunLog = std::shared_ptr<std::vector<compare::RecordedRun>>;
 compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, const EffectVocabulary& effects,
                                const RunLog& log);
 
-/// Runs conditions with these settings; where a file is given, keeps them there (kept_in).
+/// Runs conditions with these settings; where a file is given, keeps them there (kept_in), and in `replay` the first
+/// run that is made, to look at.
 compare::RunOnce run_with(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
-                          const std::filesystem::path& file);
+                          const std::filesystem::path& file, const std::filesystem::path& replay = {});
 
 /// The time step that runs of a question take beside the Rayleigh time and how long an impact lasts at the fastest
 /// rim; no value where none of the question's models is dem.

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "compare/report/page_style.hpp"
+#include "compare/report/sheet_json.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -26,7 +27,9 @@ std::string prose(const std::string& text) {
   return out;
 }
 
-std::string anchor(std::size_t section) { return fmt::format("part-{}", section + 1); }
+std::string numbered(std::size_t section) { return fmt::format("part-{}", section + 1); }
+
+std::string id_attribute(const std::string& anchor) { return anchor.empty() ? "" : " id=\"" + escaped(anchor) + "\""; }
 
 }  // namespace
 
@@ -39,6 +42,17 @@ void Page::summary(const std::vector<std::pair<std::string, std::string>>& sente
   body_ += "</div>\n";
 }
 
+void Page::backed_summary(const std::vector<BackedSentence>& sentences) {
+  body_ += "<div class=\"summary\">";
+  for (const BackedSentence& sentence : sentences) {
+    body_ += "<p>" + (sentence.about.empty() ? "" : "<b>" + escaped(sentence.about) + ".</b> ") + prose(sentence.text);
+    for (const auto& [anchor, text] : sentence.evidence)
+      body_ += fmt::format(" <a class=\"evidence\" href=\"#{}\">{}</a>", escaped(anchor), escaped(text));
+    body_ += "</p>";
+  }
+  body_ += "</div>\n";
+}
+
 void Page::figures_at_a_glance(const std::vector<KeyFigure>& figures) {
   body_ += "<div class=\"glance\">";
   for (const KeyFigure& figure : figures)
@@ -46,9 +60,9 @@ void Page::figures_at_a_glance(const std::vector<KeyFigure>& figures) {
   body_ += "</div>\n";
 }
 
-void Page::section(const std::string& title) {
-  body_ += fmt::format("<h2 id=\"{}\">{}</h2>\n", anchor(sections_.size()), escaped(title));
-  sections_.push_back(title);
+void Page::section(const std::string& title, const std::string& anchor) {
+  sections_.emplace_back(anchor.empty() ? numbered(sections_.size()) : anchor, title);
+  body_ += fmt::format("<h2{}>{}</h2>\n", id_attribute(sections_.back().first), escaped(title));
 }
 
 void Page::subsection(const std::string& title) { body_ += "<h3>" + escaped(title) + "</h3>\n"; }
@@ -76,7 +90,8 @@ void Page::table(const HtmlTable& table) {
 }
 
 void Page::figure(const Sheet& sheet, const std::string& caption) {
-  body_ += "<figure>";
+  sheets_.push_back(sheet);
+  body_ += fmt::format("<figure id=\"figure-{}\">", sheets_.size());
   const std::vector<LegendEntry> entries = legend(sheet);
   if (!entries.empty()) {
     body_ += "<ul class=\"legend\">";
@@ -90,22 +105,63 @@ void Page::figure(const Sheet& sheet, const std::string& caption) {
 
 void Page::code(const std::string& text) { body_ += "<pre><code>" + escaped(text) + "</code></pre>\n"; }
 
-void Page::open_fold(const std::string& title) { body_ += "<details><summary>" + escaped(title) + "</summary>\n"; }
+void Page::drawing(const std::string& svg, const std::string& caption) {
+  body_ +=
+      "<figure><div class=\"panels\">" + svg + "</div><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+}
+
+void Page::choices(const std::string& what, const std::vector<Choice>& parts, std::size_t first) {
+  body_ += fmt::format("<div class=\"choices\" data-what=\"{}\">\n", escaped(what));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    body_ += fmt::format("<div class=\"choice\" data-name=\"{0}\"{1}><h3>{0}</h3>\n", escaped(parts[i].name),
+                         i == first ? " data-first" : "");
+    parts[i].fill();
+    body_ += "</div>\n";
+  }
+  body_ += "</div>\n";
+}
+
+void Page::replay(const ReplayFile& file, const std::string& caption) {
+  has_replay_ = true;
+  const bool can = libraries_ && libraries_->three && libraries_->orbit;
+  body_ += fmt::format(
+      "<figure><div class=\"replay\" role=\"group\" aria-label=\"Replay in 3D: {}\"><p "
+      "class=\"replay-note\">{}</p></div>"
+      "<figcaption>{}</figcaption></figure>\n",
+      escaped(file.title),
+      can ? "The replay needs scripts, which this browser doesn't run."
+          : "The replay can't be shown: three.js was not installed where this page was made (package libjs-three).",
+      escaped(caption));
+  if (can) body_ += "<script type=\"text/plain\" id=\"replay-data\">" + base64(file.bytes) + "</script>\n";
+}
+
+void Page::open_fold(const std::string& title, const std::string& anchor) {
+  body_ += "<details" + id_attribute(anchor) + "><summary>" + escaped(title) + "</summary>\n";
+}
 
 void Page::close_fold() { body_ += "</details>\n"; }
+
+std::string Page::scripts() const {
+  if (!libraries_) return "";
+  nlohmann::ordered_json figures = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < sheets_.size(); ++i) figures[fmt::format("figure-{}", i + 1)] = to_json(sheets_[i]);
+  return "<script type=\"application/json\" id=\"figures\">" +
+         in_script(figures.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) + "</script>\n" +
+         script_elements(*libraries_, has_replay_);
+}
 
 std::string Page::html() const {
   std::string contents;
   for (std::size_t i = 0; i < sections_.size(); ++i)
-    contents += fmt::format("<a href=\"#{}\">{}</a>", anchor(i), escaped(sections_[i]));
+    contents += fmt::format("<a href=\"#{}\">{}</a>", escaped(sections_[i].first), escaped(sections_[i].second));
   if (sections_.size() < 2) contents.clear();
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n"
-      "<style>\n{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n<p class=\"subtitle\">{2}</p>\n{3}{4}</main>\n"
+      "<style>\n{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n<p class=\"subtitle\">{2}</p>\n{3}{4}</main>\n{5}"
       "</body>\n</html>\n",
-      escaped(title_), page_style(), escaped(subtitle_), contents.empty() ? "" : "<nav>" + contents + "</nav>\n",
-      body_);
+      escaped(title_), page_style(), escaped(subtitle_), contents.empty() ? "" : "<nav>" + contents + "</nav>\n", body_,
+      scripts());
 }
 
 }  // namespace soilbin::compare

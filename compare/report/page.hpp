@@ -1,4 +1,5 @@
-// One self-contained HTML page: inline CSS and SVG, light and dark, from a phone to a wide screen, nothing loaded.
+// One self-contained HTML page: inline CSS and SVG, light and dark, from a phone to a wide screen,
+// nothing loaded. With `enliven` also inline scripts, without which everything but the replay is still there.
 //
 //   Page page("Title", "one line below it");
 //   page.summary({{"Straight driving", "Plain words first."}, {"", "A sentence without a name."}});
@@ -10,10 +11,14 @@
 //   write_file_atomically("report.html", page.html());
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "compare/replay/replay.hpp"
+#include "compare/report/javascript.hpp"
 #include "compare/report/plot.hpp"
 
 namespace soilbin::compare {
@@ -31,6 +36,18 @@ struct KeyFigure {
   std::string value, meaning;
 };
 
+/// A sentence, what it is about (or ""), and where on the page its evidence stands: (anchor, text).
+struct BackedSentence {
+  std::string about, text;
+  std::vector<std::pair<std::string, std::string>> evidence{};
+};
+
+/// Parts of which a reader looks at one at a time.
+struct Choice {
+  std::string name;  ///< in the list to choose from
+  std::function<void()> fill;
+};
+
 /// A page that grows from top to bottom. Every text is escaped; none is taken as HTML, but for `raw`.
 class Page {
  public:
@@ -38,20 +55,31 @@ class Page {
 
   /// Plain-words sentences in a box, each behind the name of what it is about (or "").
   void summary(const std::vector<std::pair<std::string, std::string>>& sentences);
+  /// The same, each sentence followed by links to what backs it: (anchor of this page, text).
+  void backed_summary(const std::vector<BackedSentence>& sentences);
   void figures_at_a_glance(const std::vector<KeyFigure>& figures);
   /// A heading with an anchor; the page's table of contents lists it.
-  void section(const std::string& title);
+  void section(const std::string& title, const std::string& anchor = "");
   void subsection(const std::string& title);
   void paragraph(const std::string& text);
   void list(const std::vector<std::string>& items);
   void table(const HtmlTable& table);
   /// The sheet's panels side by side as the width allows, its legend above them, a caption below.
   void figure(const Sheet& sheet, const std::string& caption);
+  /// A drawing of its own, an <svg> element or several, with a caption.
+  void drawing(const std::string& svg, const std::string& caption);
   void code(const std::string& text);
+  /// One of the parts at a time, chosen from a list; all of them below each other where there are no scripts. `first`
+  /// is shown at the start.
+  void choices(const std::string& what, const std::vector<Choice>& parts, std::size_t first);
+  /// From now on the page has scripts: figures become interactive where a library for it was found.
+  void enliven(Libraries libraries) { libraries_ = std::move(libraries); }
+  /// A replay to look at in 3D; without scripts its title and facts alone.
+  void replay(const ReplayFile& file, const std::string& caption);
   /// A folded part that a click opens: what `fill` adds to the page goes into it.
   template <class Fill>
-  void folded(const std::string& title, const Fill& fill) {
-    open_fold(title);
+  void folded(const std::string& title, const Fill& fill, const std::string& anchor = "") {
+    open_fold(title, anchor);
     fill();
     close_fold();
   }
@@ -61,11 +89,15 @@ class Page {
   std::string html() const;
 
  private:
-  void open_fold(const std::string& title);
+  void open_fold(const std::string& title, const std::string& anchor);
   void close_fold();
+  std::string scripts() const;
 
   std::string title_, subtitle_, body_;
-  std::vector<std::string> sections_;
+  std::vector<std::pair<std::string, std::string>> sections_;  ///< anchor, title
+  std::vector<Sheet> sheets_;
+  std::optional<Libraries> libraries_;
+  bool has_replay_ = false;
 };
 
 }  // namespace soilbin::compare

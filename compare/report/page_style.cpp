@@ -22,7 +22,9 @@ std::string palette_rules() {
   std::string css;
   for (const auto& [palette, letter] : {std::pair{Palette::named, 'c'}, std::pair{Palette::ordered, 'q'}})
     for (std::size_t i = 0; i < colors(palette).size(); ++i)
-      css += fmt::format(".s.{0}{1}{{stroke:var(--{0}{1})}}.f.{0}{1}{{fill:var(--{0}{1})}}\n", letter, i);
+      css += fmt::format(
+          ".s.{0}{1}{{stroke:var(--{0}{1})}}.f.{0}{1}{{fill:var(--{0}{1})}}.dot.{0}{1}{{background:var(--{0}{1})}}\n",
+          letter, i);
   return css;
 }
 
@@ -72,7 +74,62 @@ pre{overflow-x:auto;background:var(--paper);border:1px solid var(--edge);border-
 details{margin:1em 0}
 summary{cursor:pointer;color:var(--link)}
 footer{margin-top:3em;color:var(--quiet);font-size:.88rem}
-@media print{body{background:#fff}figure,.scroll,.summary{break-inside:avoid}}
+a.evidence{font-size:.86rem;white-space:nowrap;margin-left:.3em}
+button,select,input[type=range]{font:inherit;color:inherit}
+button,select{background:var(--ground);border:1px solid var(--edge);border-radius:6px;padding:.3em .7em;cursor:pointer;
+  min-height:34px}
+button:hover,select:hover{border-color:var(--line)}
+:focus-visible{outline:3px solid var(--link);outline-offset:2px}
+.legend button{display:flex;align-items:center;gap:7px;padding:.1em .6em}
+.legend button[aria-pressed=false]{opacity:.45;text-decoration:line-through}
+.chart{min-width:0}
+.chart-frame{position:relative}
+svg.live{display:block;width:100%;touch-action:pan-y;font-size:12px}
+svg.live .axis text{fill:var(--quiet);font-size:12px}
+svg.live .axis path,svg.live .axis line{stroke:var(--line)}
+svg.live .lines path{stroke:none}
+svg.live .lines line{stroke:var(--edge)}
+svg.live .title{font-size:13px;font-weight:600}
+svg.live .line{fill:none;stroke-width:2}
+svg.live .band{fill-opacity:.16;stroke:none}
+svg.live .cursor{stroke:var(--line);stroke-dasharray:3 3}
+.zoom{position:absolute;top:0;right:0;display:flex;gap:3px}
+.zoom button{padding:0;width:26px;min-height:24px;line-height:1;font-size:.95rem}
+.tip{position:absolute;top:34px;pointer-events:none;background:var(--paper);border:1px solid var(--line);
+  border-radius:6px;padding:.3em .6em;font-size:.82rem;line-height:1.35;z-index:2;max-width:70%}
+.dot{display:inline-block;width:9px;height:9px;border-radius:50%;margin-right:6px}
+.for-ears{position:absolute;width:1px;height:1px;overflow:hidden;clip-path:inset(50%);margin:0}
+.take-along{font-size:.86rem;color:var(--quiet);margin:.6em 0 0}
+.take-along button{padding:.05em .6em;min-height:26px}
+.chooser{display:block;margin:1em 0 .4em}
+.chooser select{max-width:100%}
+.alive>.choice>h3{display:none}
+.reading{min-height:1.6em;color:var(--quiet);font-size:.9rem;margin:.2em 0;grid-column:1/-1}
+.cell:focus{outline:none}
+.cell:focus rect,.cell:hover rect{stroke:var(--ink);stroke-width:2}
+.heat{max-width:680px}
+.cell-empty{stroke:var(--edge)}
+.warning{background:var(--paper);border:1px solid var(--edge);border-left:4px solid var(--c1);border-radius:8px;
+  padding:.7em 1.1em;margin:1em 0}
+.replay{position:relative}
+.replay canvas{display:block;width:100%;height:min(62vh,560px);border-radius:6px;touch-action:pan-y}
+.replay .bar{display:flex;flex-wrap:wrap;gap:8px 14px;align-items:center;margin-top:10px;font-size:.9rem}
+.replay .bar label{display:flex;gap:6px;align-items:center}
+.replay .bar input[type=range]{flex:1 1 160px;min-width:120px}
+.scale{display:flex;align-items:center;gap:8px;font-size:.84rem;color:var(--quiet);margin-top:6px}
+.scale i{flex:0 1 180px;height:10px;border-radius:5px}
+@media print{
+  :root{color-scheme:light}
+  body{background:#fff;font-size:11pt}
+  main{max-width:none;padding:0}
+  figure,.scroll,.summary,tr{break-inside:avoid}
+  h2,h3{break-after:avoid}
+  nav,.zoom,.take-along,.chooser,.replay .bar,.reading{display:none}
+  .alive>.choice>h3{display:block}
+  .scroll{overflow:visible}
+  table{font-size:8.5pt}
+  th,td{white-space:normal}
+}
 )css";
 
 }  // namespace
@@ -84,8 +141,9 @@ std::string page_style() {
   const std::string dark =
       "--ground:#111418;--paper:#191d23;--ink:#e8eaee;--quiet:#a2abb8;--edge:#2d333c;--line:#6d7683;--link:#6cb6ff;" +
       palette_properties(&Color::dark);
-  return fmt::format(":root{{color-scheme:light dark;{}}}\n@media (prefers-color-scheme:dark){{:root{{{}}}}}\n{}{}",
-                     light, dark, rules, palette_rules());
+  return fmt::format(
+      ":root{{color-scheme:light dark;{}}}\n@media screen and (prefers-color-scheme:dark){{:root{{{}}}}}\n{}{}", light,
+      dark, rules, palette_rules());
 }
 
 }  // namespace soilbin::compare

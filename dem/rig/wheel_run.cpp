@@ -212,8 +212,13 @@ void Ride::drive(WheelRun& run) {
   const double depth = bed_.recipe.size.depth, rim = tire_.radius + tire_.lugs.height;
   FlowMeter meter(soil.radius_min + soil.radius_max, 2 * rim, rim + depth, 0);
   const double until = way() - motion_.speed * rig_.sampling;
+  double next_look = begin_x_;
   for (double travel = wheel_x() - begin_x_; travel < until; travel = wheel_x() - begin_x_) {
     tell("driving");
+    if (rig_.onlooker.look && wheel_x() >= next_look) {
+      rig_.onlooker.look(simulation_, wheel_, surface_);
+      next_look += rig_.onlooker.every;
+    }
     run.samples.push_back(sample(way()));
     if (travel > until / 2) meter.add(simulation_.state().grains, wheel().position);
   }

@@ -2,6 +2,7 @@
 // until the bed ends.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,12 @@
 #include "scenario/traction_result.hpp"
 
 namespace soilbin::dem {
+
+/// Sees the grains and the wheel each time the axle has gone on by `every`, and at the start; changes nothing.
+struct Onlooker {
+  double every = 0.02;  ///< [m]
+  std::function<void(const Simulation& simulation, int wheel, double surface)> look;
+};
 
 /// How the wheel is held, driven and read.
 struct Rig {
@@ -41,6 +48,7 @@ struct Rig {
   /// A torque held instead of the rotation [N m]; the rotation is then free and starts at that of the condition's slip.
   /// 0 rolls freely.
   std::optional<double> drive_torque;
+  Onlooker onlooker;  ///< for replays
 };
 
 /// Means over the steps of one sampling time. Force and moment are the soil's on the wheel, in the frame of the bin.

@@ -39,6 +39,7 @@ LIBRARIES = {
     "hwy/": ["dem/"],
     "assimp/": ["dem/"],
     "omp.h": ["dem/", "compare/"],
+    "zlib": ["compare/replay/", "tests/"],
     "pybind11/": ["notebooks/"],
 }
 

@@ -1,0 +1,188 @@
+// soilbin compare: a study's models, grains and measurements side by side, and why they differ.
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <thread>
+
+#include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "cli/question.hpp"
+#include "cli/soil_bin.hpp"
+#include "cli/text_output.hpp"
+#include "cli/versions.hpp"
+#include "compare/report/comparison_page.hpp"
+#include "compare/report/comparison_tables.hpp"
+#include "compare/report/result_json.hpp"
+#include "scenario/atomic_file.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Asked {
+  std::string study, model, measured, report, markdown, csv, replay, title;
+  std::vector<std::string> effects;
+  bool json = false, no_loop = false;
+  unsigned seed = 1;
+  ConditionFlags conditions;
+  SoilBinFlags soil_bin;
+};
+
+/// The base model first; then the study's own analytic models, then those with the effects asked for.
+std::vector<ModelChoice> analytic_choices(const Case& question, const Asked& asked, const Session& session) {
+  std::vector<ModelChoice> choices = {{ModelKind::bekker_wong, {}, "bekker_wong"}};
+  for (const ModelChoice& choice : question.study.models)
+    if (choice.model == ModelKind::bekker_wong && !choice.effects.empty()) choices.push_back(choice);
+  const double n = question.scenario.soil.semi_empirical ? question.scenario.soil.semi_empirical->exponent.value : 1.0;
+  for (const std::string& text : asked.effects) {
+    const EffectChoice effect = parse_effect(text, session.place.effects, n);
+    choices.push_back({ModelKind::bekker_wong, {effect}, "bekker_wong + " + effect.id});
+  }
+  return choices;
+}
+
+/// The grains where the study, --model or a record asks for them.
+bool asks_for_grains(const Case& question, const Asked& asked) {
+  if (asked.model == "dem" || !asked.soil_bin.recorded.empty()) return true;
+  for (const ModelChoice& choice : question.study.models)
+    if (choice.model == ModelKind::dem) return true;
+  return false;
+}
+
+/// Runs the grains, or takes them from the record, and tells what they rest on.
+compare::Side grain_side(const Case& question, const Asked& asked, const Session& session,
+                         compare::ComparisonAbout& about) {
+  const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
+  const auto model = models_with(asked.soil_bin, question, session.place.effects, log)(ModelKind::dem);
+  compare::sweep(*model, question.scenario, question.study.conditions, shown_progress());
+  std::set<std::string> packings, sources;
+  double seconds = 0.0;
+  for (const compare::RecordedRun& run : *log) {
+    packings.insert(std::to_string(run.packing));
+    if (!run.source.empty()) sources.insert(run.source);
+    seconds += run.seconds;
+  }
+  about.facts.emplace_back("runs of grains", fmt::format("{}, {:.0f} s in all", log->size(), seconds));
+  about.facts.emplace_back("packings (seeds of the beds)", listed({packings.begin(), packings.end()}));
+  about.facts.emplace_back("sources of the runs", listed({sources.begin(), sources.end()}));
+  const std::string& file = !asked.soil_bin.recorded.empty() ? asked.soil_bin.recorded : asked.soil_bin.record;
+  if (!file.empty()) {
+    const compare::Record record = compare::read_record(file);
+    about.facts.emplace_back("record", file);
+    about.facts.emplace_back("hash of the record's inputs", compare::inputs_key(record.inputs));
+  }
+  return compare::side_of("dem", *log, question.study.conditions);
+}
+
+void check_model(const Asked& asked) {
+  if (asked.model.empty() || asked.model == "dem" || asked.model == "bekker_wong") return;
+  throw InputError("--model: unknown model '" + clipped(asked.model) + "'" +
+                   did_you_mean(asked.model, {"bekker_wong", "dem"}));
+}
+
+/// What the loop makes of the best reference there is: measurements before grains.
+void run_loop_on(const compare::Comparison& comparison, const Asked& asked, compare::ComparisonAbout& about) {
+  const compare::Side& reference = comparison.sides.back();
+  if (asked.no_loop || reference.kind == compare::SideKind::analytic) return;
+  about.looped = compare::as_campaign(reference, comparison.question);
+  compare::LoopOptions options;
+  options.identify.seed = asked.seed;
+  options.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  options.progress = shown_progress();
+  try {
+    about.loop = compare::run_loop(*about.looped, options);
+  } catch (const NoSolution& none) {
+    fmt::print(stderr, "soilbin: the loop has no answer: {}\n", none.what());
+  }
+}
+
+void print_text(const compare::Comparison& comparison, const compare::ComparisonAbout& about) {
+  fmt::print("{}: {} on {}\n\n", comparison.question.study.name, in_words(comparison.question.scenario.tire),
+             comparison.question.scenario.soil.name);
+  for (const compare::Clause& clause : compare::summary(comparison, about.loop ? &*about.loop : nullptr))
+    fmt::print("{}{}\n", clause.about.empty() ? "" : clause.about + ": ", clause.text);
+  const compare::HtmlTable table = compare::tally_table(comparison);
+  TextTable text(table.header);
+  for (const auto& row : table.rows) text.add(row);
+  fmt::print("\n{}", text.text());
+}
+
+void save(const compare::Comparison& comparison, const compare::ComparisonAbout& about, const Asked& asked) {
+  if (!asked.report.empty()) {
+    const fs::path file = asked.report;
+    if (file.has_parent_path()) fs::create_directories(file.parent_path());
+    write_file_atomically(file, compare::comparison_page(comparison, about));
+    fmt::print(stderr, "wrote {}: open it in a browser\n", asked.report);
+    for (const std::string& package : about.libraries.missing)
+      fmt::print(stderr, "soilbin: without {} some figures of the page are plain drawings\n", package);
+  }
+  if (!asked.csv.empty()) write_file_atomically(asked.csv, compare::differences_csv(comparison));
+  if (asked.markdown.empty()) return;
+  compare::write_markdown(asked.markdown, comparison, about);
+  fmt::print(stderr, "wrote {}\n", (fs::path(asked.markdown) / "report.md").string());
+}
+
+int compare_models(const Asked& asked, const Session& session) {
+  check_model(asked);
+  Case question = find_case(session.place, asked.study);
+  question.study.conditions = asked.conditions.pick(question.study.conditions);
+  compare::ComparisonAbout about;
+  if (!asked.replay.empty()) about.replay = compare::read_replay(asked.replay);  // refused before anything is run
+  const std::vector<ModelChoice> choices = analytic_choices(question, asked, session);
+  std::vector<compare::Side> sides;
+  if (question.scenario.soil.semi_empirical) {
+    Case analytic = question;
+    analytic.study.models = choices;
+    for (const compare::ModelAnswers& answers : compare::run_study(analytic, shown_progress()))
+      sides.push_back(compare::side_of(answers));
+  }
+  if (asks_for_grains(question, asked)) sides.push_back(grain_side(question, asked, session, about));
+  if (!asked.measured.empty())
+    sides.push_back(compare::side_of(find_campaign(session.place, asked.measured), question));
+  const compare::Comparison comparison = compare::compare_sides(question, choices, std::move(sides));
+  run_loop_on(comparison, asked, about);
+  about.page = {asked.title.empty() ? "Comparison: " + question.study.name : asked.title, session.command, versions()};
+  about.resolved_case = write_case(question, session.place.effects);
+  about.libraries = compare::find_libraries();
+  save(comparison, about, asked);
+  if (asked.json)
+    fmt::print("{}", compare::json_text(compare::comparison_json(comparison, about)));
+  else
+    print_text(comparison, about);
+  return done;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Session& session) {
+  CLI::App* command =
+      app.add_subcommand("compare", "models, grains and measurements of a study side by side, and why they differ");
+  const auto asked = std::make_shared<Asked>();
+  command->add_option("study", asked->study, "of the library, or a case file")->type_name("STUDY")->required();
+  command->add_option("--model", asked->model, "dem: run the grains now")->type_name("NAME");
+  command->add_option("--measured", asked->measured, "a campaign of the same wheel")->type_name("CAMPAIGN");
+  command->add_option("--effect", asked->effects, "one more side: the analytic model with this effect; repeatable")
+      ->type_name("ID[:FORM][,PARAMETER=VALUE]");
+  command->add_option("--report", asked->report, "write everything as one page")->type_name("FILE.html");
+  command->add_option("--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data")
+      ->type_name("DIR");
+  command->add_option("--csv", asked->csv, "save every row")->type_name("FILE.csv");
+  command->add_option("--replay", asked->replay, "a replay of grains to put into the page")->type_name("FILE");
+  command->add_option("--title", asked->title, "of the page")->type_name("TEXT");
+  command->add_flag("--no-loop", asked->no_loop, "don't look for what the analytic model lacks");
+  command->add_option("--seed", asked->seed, "of the loop's simulations and folds")->type_name("N");
+  command->add_flag("--json", asked->json, "soilbin-compare/1, in SI");
+  asked->conditions.add_to(*command);
+  asked->soil_bin.add_to(*command);
+  command->footer(
+      "A row counts as a difference beyond two standard errors of both sides and beyond the scatter of one run.\n"
+      "Example: soilbin compare paper-straight --recorded runs.json --report compare.html");
+  command->callback([=, &session] { session.action = [=, &session] { return compare_models(*asked, session); }; });
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,128 @@
+#include "compare/discrepancy/comparison.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/sweep/varying.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// Rows of one pair and channel are neighbours: a tally each.
+std::vector<Tally> tallies_of(const std::vector<Difference>& rows) {
+  std::vector<Tally> all;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Difference& d = rows[i];
+    if (all.empty() || all.back().side != d.side || all.back().reference != d.reference ||
+        all.back().channel != d.channel)
+      all.push_back({.side = d.side, .reference = d.reference, .channel = d.channel, .worst = i});
+    Tally& t = all.back();
+    ++t.values;
+    t.differ += d.finding == Finding::difference;
+    t.in_scatter += d.finding == Finding::within_scatter;
+    t.in_errors += d.finding == Finding::within_errors;
+    t.unknown += d.finding == Finding::not_judged;
+    t.bias += d.difference;
+    t.rms += d.difference * d.difference;
+    t.rms_share += d.share * d.share;
+    t.expected_rms += d.std_error * d.std_error;
+    if (std::abs(d.share) > std::abs(rows[t.worst].share)) t.worst = i;
+  }
+  for (Tally& t : all) {
+    const auto n = static_cast<double>(t.values);
+    t.bias /= n;
+    for (double* square : {&t.rms, &t.rms_share, &t.expected_rms}) *square = std::sqrt(*square / n);
+  }
+  return all;
+}
+
+std::vector<std::string> gaps_of(const Comparison& comparison) {
+  std::vector<std::string> told;
+  for (const Side& side : comparison.sides) {
+    std::size_t missing = 0;
+    std::string first;
+    for (std::size_t i = 0; i < side.points.size(); ++i)
+      if (!side.points[i].result) {
+        if (missing++ == 0)
+          first = fmt::format("{}: {}", in_words(comparison.question.study.conditions[i]), side.points[i].error);
+      }
+    if (missing > 0)
+      told.push_back(
+          fmt::format("{} has no result at {} of {} conditions ({})", side.label, missing, side.points.size(), first));
+  }
+  return told;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<Side>& sides) {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t reference = 0; reference < sides.size(); ++reference) {
+    if (sides[reference].kind == SideKind::analytic) continue;
+    for (std::size_t side = 0; side < sides.size(); ++side)
+      if (sides[side].kind < sides[reference].kind) pairs.emplace_back(side, reference);
+  }
+  if (pairs.empty())
+    for (std::size_t side = 1; side < sides.size(); ++side) pairs.emplace_back(side, 0);
+  return pairs;
+}
+
+Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& choices, std::vector<Side> sides) {
+  std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.kind < b.kind; });
+  Comparison comparison{question, std::move(sides), {}, {}, {}, {}};
+  for (const auto& [side, reference] : pairs_of(comparison.sides)) {
+    const std::vector<Difference> rows =
+        differences(comparison.sides, side, reference, question.study.conditions, question.scenario.tire);
+    if (rows.empty()) {
+      comparison.not_compared.push_back(fmt::format("{} and {} share no condition with a result",
+                                                    comparison.sides[side].label, comparison.sides[reference].label));
+      continue;
+    }
+    comparison.differences.insert(comparison.differences.end(), rows.begin(), rows.end());
+    if (side >= choices.size() || comparison.sides[side].kind != SideKind::analytic ||
+        comparison.sides[reference].kind == SideKind::analytic)
+      continue;
+    if (auto test = joint_test(comparison.sides[reference], question, choices[side].effects)) {
+      test->side = side, test->reference = reference;
+      comparison.joint.push_back(*test);
+    }
+  }
+  comparison.tallies = tallies_of(comparison.differences);
+  const std::vector<std::string> gaps = gaps_of(comparison);
+  comparison.not_compared.insert(comparison.not_compared.end(), gaps.begin(), gaps.end());
+  return comparison;
+}
+
+Campaign as_campaign(const Side& side, const Case& question, const std::vector<EffectChoice>& effects) {
+  if (!question.scenario.soil.semi_empirical)
+    throw InputError("soil '" + question.scenario.soil.name + "' has no semi_empirical values, which the loop needs");
+  Campaign campaign;
+  campaign.name = question.study.name + "-" + side.label;
+  campaign.wheel = question.scenario.tire;
+  campaign.soil = *question.scenario.soil.semi_empirical;
+  campaign.bin = question.scenario.bin;
+  campaign.effects = effects;
+  bool yawed = false;
+  for (const OperatingCondition& at : question.study.conditions)
+    yawed = yawed || at.yaw != 0.0 || at.transverse_incline != 0.0;
+  for (std::size_t i = 0; i < side.points.size(); ++i) {
+    const SidePoint& point = side.points[i];
+    if (!point.result) continue;
+    Run run;
+    run.at = question.study.conditions[i];
+    run.setpoint = fmt::format("C{}", i + 1);
+    for (std::size_t c = 0; c < channel_views.size(); ++c)
+      if (point.has[c] && (yawed || channel_views[c].name != "lateral_force"))
+        run.*channel_views[c].measured = ((*point.result).*channel_views[c].predicted).value;
+    campaign.force_frame = run.at.force_frame;
+    campaign.slip_by = run.at.slip_by;
+    campaign.runs.push_back(std::move(run));
+  }
+  if (campaign.runs.empty()) throw InputError("'" + side.label + "' has no result at any condition");
+  return campaign;
+}
+
+}  // namespace soilbin::compare

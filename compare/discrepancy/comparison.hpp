@@ -1,0 +1,48 @@
+// A study's models and measurements side by side: how far apart, how sure, and why (docs/compare.md).
+//
+//   std::vector<Side> sides = {side_of(bekker_wong), side_of("dem", runs)};
+//   const Comparison comparison = compare_sides(question, choices, sides);
+//   for (const Clause& clause : summary(comparison)) fmt::print("{}\n", clause.text);
+#pragma once
+
+#include <optional>
+
+#include "compare/discrepancy/difference.hpp"
+#include "compare/discrepancy/joint_test.hpp"
+
+namespace soilbin::compare {
+
+/// A pair of sides and one channel over all conditions.
+struct Tally {
+  std::size_t side = 0, reference = 0, channel = 0;
+  std::size_t values = 0, differ = 0, in_scatter = 0, in_errors = 0, unknown = 0;
+  double bias = 0.0;          ///< mean of value less reference [SI]
+  double rms = 0.0;           ///< root mean square [SI]
+  double rms_share = 0.0;     ///< of the load (Difference::share)
+  double expected_rms = 0.0;  ///< what the stated errors alone would give [SI]
+  std::size_t worst = 0;      ///< of Comparison::differences: the largest share of the load
+};
+
+struct Comparison {
+  Case question;
+  std::vector<Side> sides;                ///< analytic first, then grains, then measured
+  std::vector<Difference> differences;    ///< by pair, channel, condition
+  std::vector<Tally> tallies;             ///< by pair, channel
+  std::vector<JointTest> joint;           ///< an analytic side against a reference each, where it can be made
+  std::vector<std::string> not_compared;  ///< why a side has no partner, or a condition no result
+};
+
+/// Which sides are held against which: every analytic one against grains and measurements, grains against measurements,
+/// and, where there is neither, every analytic one against the first.
+std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<Side>& sides);
+
+/// Sides have a point for each condition of the question. `choices`: of each analytic side, its model and effects, for
+/// the joint test; in the sides' order.
+Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& choices, std::vector<Side> sides);
+
+/// A side's results as a measured campaign, so that the loop can look for what the analytic model lacks. A run that
+/// grains gave counts once a condition, at its mean; the declared soil is the case's. Throws InputError where the case
+/// has no semi-empirical soil or the side no result.
+Campaign as_campaign(const Side& side, const Case& question, const std::vector<EffectChoice>& effects = {});
+
+}  // namespace soilbin::compare

@@ -1,0 +1,110 @@
+#include "compare/discrepancy/difference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace soilbin::compare {
+
+std::string_view word(Finding finding) {
+  switch (finding) {
+    case Finding::difference:
+      return "difference";
+    case Finding::within_scatter:
+      return "within_scatter";
+    case Finding::within_errors:
+      return "within_errors";
+    case Finding::not_judged:
+      return "not_judged";
+  }
+  return "";
+}
+
+std::string_view words(Finding finding) {
+  switch (finding) {
+    case Finding::difference:
+      return "difference";
+    case Finding::within_scatter:
+      return "within the scatter";
+    case Finding::within_errors:
+      return "within the errors";
+    case Finding::not_judged:
+      return "not judged";
+  }
+  return "";
+}
+
+Finding finding_of(double difference, double std_error, double scatter) {
+  const double size = std::abs(difference);
+  if (std_error == 0.0 && scatter == 0.0) return Finding::not_judged;
+  if (size <= scatter) return Finding::within_scatter;
+  return size <= counting_sigma * std_error ? Finding::within_errors : Finding::difference;
+}
+
+double scale_of(std::size_t channel, double load, double radius) {
+  if (channel_views[channel].name == "torque") return load * radius;
+  return channel_views[channel].name == "sinkage" ? radius : load;
+}
+
+namespace {
+
+bool speaks(const SidePoint& point, std::size_t channel) {
+  return point.result && point.has[channel] && std::isfinite(((*point.result).*channel_views[channel].predicted).value);
+}
+
+double value_of(const SidePoint& point, std::size_t channel) {
+  return ((*point.result).*channel_views[channel].predicted).value;
+}
+
+/// Whether an analytic model gives this channel a value other than zero anywhere, or both sides were measured or run.
+/// Grains on a flat bed have a lateral force of nothing but noise, and symmetry says what the model's is.
+bool asked_of(const Side& side, const Side& reference, std::size_t channel) {
+  if (channel_views[channel].name != "lateral_force") return true;
+  const auto not_zero = [&](const Side& one) {
+    return std::any_of(one.points.begin(), one.points.end(),
+                       [&](const SidePoint& p) { return speaks(p, channel) && std::abs(value_of(p, channel)) > 1e-9; });
+  };
+  return not_zero(side) && not_zero(reference);
+}
+
+Difference difference_at(const SidePoint& a, const SidePoint& b, std::size_t channel, double scale) {
+  Difference d;
+  d.channel = channel;
+  d.value = (*a.result).*channel_views[channel].predicted;
+  d.reference_value = (*b.result).*channel_views[channel].predicted;
+  d.scatter = std::max(a.scatter[channel], b.scatter[channel]);
+  d.difference = d.value.value - d.reference_value.value;
+  d.std_error = std::hypot(d.value.std_error, d.reference_value.std_error);
+  d.share = d.difference / scale;
+  d.sigma = d.std_error > 0.0 ? d.difference / d.std_error : std::numeric_limits<double>::quiet_NaN();
+  d.finding = finding_of(d.difference, d.std_error, d.scatter);
+  return d;
+}
+
+/// Two analytic models take the same soil values: their doubt moves both alike, and adding it would count it twice.
+void share_the_soil(Difference& d) {
+  d.std_error = 0.0;
+  d.sigma = std::numeric_limits<double>::quiet_NaN();
+  d.finding = Finding::not_judged;
+}
+
+}  // namespace
+
+std::vector<Difference> differences(const std::vector<Side>& sides, std::size_t side, std::size_t reference,
+                                    const std::vector<OperatingCondition>& conditions, const Tire& tire) {
+  std::vector<Difference> all;
+  for (std::size_t c = 0; c < channel_views.size(); ++c) {
+    if (!asked_of(sides[side], sides[reference], c)) continue;
+    for (std::size_t i = 0; i < conditions.size(); ++i) {
+      const SidePoint &a = sides[side].points[i], &b = sides[reference].points[i];
+      if (!speaks(a, c) || !speaks(b, c)) continue;
+      all.push_back(difference_at(a, b, c, scale_of(c, conditions[i].load, tire.radius)));
+      all.back().side = side, all.back().reference = reference, all.back().condition = i;
+      if (sides[side].kind == SideKind::analytic && sides[reference].kind == SideKind::analytic)
+        share_the_soil(all.back());
+    }
+  }
+  return all;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,50 @@
+// One number of one side against the same number of another, with what either doesn't know.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "compare/discrepancy/side.hpp"
+
+namespace soilbin::compare {
+
+/// What can be said of a difference d with standard error u, where one run of the reference scatters by s.
+enum class Finding {
+  difference,      ///< |d| > s and |d| > 2 u
+  within_scatter,  ///< |d| <= s: smaller than what another run of the reference would move; not called a difference
+  within_errors,   ///< s < |d| <= 2 u: the two sides' uncertainties cover it
+  not_judged,      ///< neither side states any doubt, or both share theirs: a number without a verdict
+};
+std::string_view word(Finding finding);
+/// For people: "difference", "within the scatter", ...
+std::string_view words(Finding finding);
+
+/// Standard errors beyond which a difference counts; one row in twenty reaches it by chance.
+inline constexpr double counting_sigma = 2.0;
+
+/// One side against another, one channel, one condition [SI].
+struct Difference {
+  std::size_t side = 0, reference = 0;  ///< of Comparison::sides
+  std::size_t condition = 0;            ///< of the study
+  std::size_t channel = 0;              ///< of channel_views
+  Estimate value, reference_value;
+  double scatter = 0.0;     ///< of one run of the reference, or of the side where that one scatters more
+  double difference = 0.0;  ///< value less reference value
+  double std_error = 0.0;   ///< root of the sum of both standard errors' squares
+  double share = 0.0;       ///< of the load W: forces over W, torque over W r, sinkage over r
+  double sigma = 0.0;       ///< difference over its standard error; NaN where that is 0
+  Finding finding = Finding::not_judged;
+};
+
+Finding finding_of(double difference, double std_error, double scatter);
+
+/// Standard errors add in squares, but for two analytic models, which share the soil's doubt: their rows have none and
+/// are not judged. Each channel that both points speak of and that is not zero on both sides throughout (no lateral
+/// force).
+std::vector<Difference> differences(const std::vector<Side>& sides, std::size_t side, std::size_t reference,
+                                    const std::vector<OperatingCondition>& conditions, const Tire& tire);
+
+/// What a channel is put in relation to: W, W r, r.
+double scale_of(std::size_t channel, double load, double radius);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,59 @@
+// The sides of a comparison: what each model, and the measurement, says at each condition of a study.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "compare/recorded/recorded_model.hpp"
+#include "compare/sweep/answers.hpp"
+#include "compare/sweep/channels.hpp"
+
+namespace soilbin::compare {
+
+enum class SideKind { analytic, grains, measured };
+
+/// What a side says at one condition.
+struct SidePoint {
+  std::optional<TractionResult> result;  ///< means; standard errors of the means
+  /// Of each channel, the standard deviation of one run about the mean of all runs that could have been made [SI]: its
+  /// own fluctuations and, with two packings or more, the packings'. 0 for an analytic model.
+  std::array<double, channel_views.size()> scatter{};
+  /// Channels that the side speaks of; a measurement may lack some.
+  std::array<bool, channel_views.size()> has{true, true, true, true};
+  std::size_t runs = 1;             ///< behind the means
+  std::vector<std::string> doubts;  ///< what limits them: "1 of 2 runs not steady"
+  std::string error;                ///< why there is no result
+};
+
+/// A model or the measurement, a point for each condition of the study.
+struct Side {
+  std::string label;
+  SideKind kind = SideKind::analytic;
+  std::vector<SidePoint> points;
+};
+
+/// A model's answers as a side. Of grains, scatter is the answers' standard error.
+Side side_of(const ModelAnswers& answers);
+
+/// Runs of grains at one condition as a point: mean_of_packings of those with a result. Scatter is the spread between
+/// the runs or, where that is larger, the runs' own errors. One packing says nothing of the scatter between packings: a
+/// doubt tells so, and others tell of runs that were not steady or had no result.
+SidePoint combine(const std::vector<const RecordedRun*>& runs);
+
+/// Runs as a side: each counts at the condition that it is alike.
+Side side_of(const std::string& label, const std::vector<RecordedRun>& runs,
+             const std::vector<OperatingCondition>& conditions);
+
+/// How far a measured run may be from a study's condition and still count as one of it.
+struct Nearness {
+  double load = 0.10;   ///< share of the load
+  double slip = 0.025;  ///< [-]
+  double angle = 0.02;  ///< [rad]
+};
+
+/// Measured runs near each condition, averaged: their spread gives scatter and error. Each run counts at the nearest
+/// condition alone. Throws InputError where no run is near any condition, or where the wheels differ by over 5 %.
+Side side_of(const Campaign& campaign, const Case& question, const Nearness& near = {});
+
+}  // namespace soilbin::compare

@@ -1,0 +1,185 @@
+#include "compare/replay/replay.hpp"
+
+#include <fmt/core.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
+
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double most_steps = 65535;
+
+/// The grid on which places are told.
+struct Grid {
+  Point origin{};
+  double step = 1.0;
+
+  std::uint16_t at(double x, std::size_t axis) const {
+    return static_cast<std::uint16_t>(std::clamp(std::round((x - origin[axis]) / step), 0.0, most_steps));
+  }
+};
+
+Grid grid_of(const Replay& replay) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Point low{far, far, far}, high{-far, -far, -far};
+  for (const ReplayFrame& frame : replay.frames)
+    for (const Point& grain : frame.grains)
+      for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], grain[a]), high[a] = std::max(high[a], grain[a]);
+  double extent = 0.0;
+  for (std::size_t a = 0; a < 3; ++a) extent = std::max(extent, high[a] - low[a]);
+  if (!std::isfinite(extent)) return {};
+  return {low, extent > 0.0 ? extent / most_steps : 1e-6};
+}
+
+std::vector<std::size_t> order_by_place(const std::vector<Point>& grains) {
+  std::vector<std::size_t> order(grains.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return grains[a] < grains[b]; });
+  return order;
+}
+
+/// Little-endian bytes of the payload, low and high bytes of 16-bit numbers in planes of their own.
+class Payload {
+ public:
+  void planes(const std::vector<std::uint16_t>& values) {
+    for (const std::uint16_t v : values) bytes_ += static_cast<char>(v & 0xFF);
+    for (const std::uint16_t v : values) bytes_ += static_cast<char>(v >> 8);
+  }
+  void number(std::uint32_t v) {
+    for (int shift = 0; shift < 32; shift += 8) bytes_ += static_cast<char>((v >> shift) & 0xFF);
+  }
+  void single(double value) {
+    const auto narrow = static_cast<float>(value);
+    number(std::bit_cast<std::uint32_t>(narrow));
+  }
+  std::string deflated() const {
+    uLongf size = compressBound(static_cast<uLong>(bytes_.size()));
+    std::string out(size, '\0');
+    if (compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes_.data()),
+                  static_cast<uLong>(bytes_.size()), Z_BEST_COMPRESSION) != Z_OK)
+      throw std::runtime_error("replay: zlib could not compress it");
+    out.resize(size);
+    return out;
+  }
+
+ private:
+  std::string bytes_;
+};
+
+/// A change modulo 2^16 with its sign in the lowest bit: small changes of either sign are small numbers.
+std::uint16_t zigzag(std::uint16_t now, std::uint16_t before) {
+  const auto change = static_cast<std::int16_t>(static_cast<std::uint16_t>(now - before));
+  return static_cast<std::uint16_t>((static_cast<std::uint16_t>(change) << 1) ^
+                                    static_cast<std::uint16_t>(change < 0 ? 0xFFFF : 0));
+}
+
+void add_frames(const Replay& replay, const Grid& grid, const std::vector<std::size_t>& order, Payload& payload) {
+  std::array<std::vector<std::uint16_t>, 3> before;
+  for (auto& axis : before) axis.assign(order.size(), 0);
+  for (const ReplayFrame& frame : replay.frames)
+    for (std::size_t a = 0; a < 3; ++a) {
+      std::vector<std::uint16_t> changes(order.size());
+      for (std::size_t k = 0; k < order.size(); ++k) {
+        const std::uint16_t now = grid.at(frame.grains[order[k]][a], a);
+        changes[k] = zigzag(now, before[a][k]);
+        before[a][k] = now;
+      }
+      payload.planes(changes);
+    }
+}
+
+Json header_of(const Replay& replay, const Grid& grid) {
+  Json header = {{"format", replay_format}, {"title", replay.title}, {"facts", Json::array()}};
+  for (const auto& [name, value] : replay.facts) header["facts"].push_back({name, value});
+  header["grains"] = replay.radii.size();
+  header["frames"] = replay.frames.size();
+  header["vertices"] = replay.tire.size();
+  header["triangles"] = replay.triangles.size();
+  header["origin"] = grid.origin;
+  header["step"] = grid.step;
+  header["surface"] = replay.surface;
+  header["times"] = header["wheel"] = header["rotation"] = Json::array();
+  for (const ReplayFrame& frame : replay.frames) {
+    header["times"].push_back(frame.time);
+    header["wheel"].push_back(frame.wheel);
+    header["rotation"].push_back(frame.rotation);
+  }
+  return header;
+}
+
+}  // namespace
+
+std::string replay_bytes(const Replay& replay) {
+  if (replay.frames.empty()) throw InputError("a replay needs at least one frame");
+  for (const ReplayFrame& frame : replay.frames)
+    if (frame.grains.size() != replay.radii.size())
+      throw InputError(fmt::format("a replay's frames must hold the same grains: {} and {}", frame.grains.size(),
+                                   replay.radii.size()));
+  const Grid grid = grid_of(replay);
+  const std::vector<std::size_t> order = order_by_place(replay.frames.front().grains);
+  Payload payload;
+  for (const std::size_t k : order) payload.single(replay.radii[k]);
+  for (const Point& vertex : replay.tire)
+    for (const double x : vertex) payload.single(x);
+  for (const auto& triangle : replay.triangles)
+    for (const std::uint32_t corner : triangle) payload.number(corner);
+  add_frames(replay, grid, order, payload);
+  return header_of(replay, grid).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n" + payload.deflated();
+}
+
+ReplayFile read_replay(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in)
+    throw InputError(
+        fmt::format("{}: can't be read\n  hint: soilbin run STUDY --model dem --replay FILE", path.string()));
+  std::ostringstream all;
+  all << in.rdbuf();
+  ReplayFile file;
+  file.bytes = all.str();
+  const std::size_t end = file.bytes.find('\n');
+  const Json header =
+      end == std::string::npos
+          ? Json()
+          : Json::parse(file.bytes.begin(), file.bytes.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
+  try {
+    if (header.at("format") != replay_format) throw InputError("");
+    file.title = header.at("title");
+    for (const Json& fact : header.at("facts")) file.facts.emplace_back(fact.at(0), fact.at(1));
+    file.grains = header.at("grains");
+    file.frames = header.at("frames");
+    file.seconds = header.at("times").back().get<double>() - header.at("times").front().get<double>();
+  } catch (const std::exception&) {
+    throw InputError(fmt::format("{}: no replay ({})\n  hint: soilbin run STUDY --model dem --replay FILE writes one",
+                                 path.string(), replay_format));
+  }
+  return file;
+}
+
+std::string base64(const std::string& bytes) {
+  static constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve(4 * ((bytes.size() + 2) / 3));
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) {
+      return i + k < bytes.size() ? static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i + k])) : 0U;
+    };
+    const std::uint32_t three = byte(0) << 16 | byte(1) << 8 | byte(2);
+    for (std::size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? letters[(three >> (18 - 6 * k)) & 63] : '=';
+  }
+  return out;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,75 @@
+#include "compare/report/heat_map.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/report/plot.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+constexpr double cell_width = 54, cell_height = 30, above = 48, below = 40, letter = 6.6;
+
+double deepest(const HeatMap& map) {
+  double most = map.limit;
+  if (most > 0.0) return most;
+  for (const auto& row : map.cells)
+    for (const HeatCell& cell : row)
+      if (std::isfinite(cell.value)) most = std::max(most, std::abs(cell.value));
+  return most > 0.0 ? most : 1.0;
+}
+
+std::string cell_svg(const HeatCell& cell, double x, double y, double limit, std::size_t row, std::size_t column) {
+  if (!std::isfinite(cell.value))
+    return fmt::format(R"(<rect class="cell-empty" fill="none" stroke="#dfe3e8" x="{:.0f}" y="{:.0f}" width="{:.0f}" )"
+                       R"(height="{:.0f}"/>)",
+                       x + 1, y + 1, cell_width - 2, cell_height - 2);
+  const double depth = std::clamp(std::abs(cell.value) / limit, 0.0, 1.0) * (cell.counts ? 1.0 : 0.35);
+  // Class f and c0 or c1 give the page's colours in the dark; opacity is the depth.
+  const auto palette = colors(Palette::named);
+  const int side = cell.value < 0.0 ? 0 : 1;
+  return fmt::format(
+      R"(<g class="cell" role="img" data-row="{}" data-column="{}" data-tip="{}" aria-label="{}"><title>{}</title>)"
+      R"(<rect class="f c{}" fill="{}" fill-opacity="{:.2f}" x="{:.0f}" y="{:.0f}" width="{:.0f}" height="{:.0f}"/>)"
+      R"(<text class="{}" fill="{}" x="{:.0f}" y="{:.0f}" text-anchor="middle"{}>{}</text></g>)",
+      row, column, escaped(cell.meaning), escaped(cell.meaning), escaped(cell.meaning), side,
+      palette[static_cast<std::size_t>(side)].light, 0.08 + 0.5 * depth, x + 1, y + 1, cell_width - 2, cell_height - 2,
+      cell.counts ? "ink" : "quiet", cell.counts ? "#1a1d23" : "#5a6270", x + cell_width / 2, y + cell_height / 2 + 4,
+      cell.counts ? R"( font-weight="600")" : "", escaped(cell.text));
+}
+
+}  // namespace
+
+std::string heat_map_svg(const HeatMap& map) {
+  std::size_t longest = 3;
+  for (const std::string& name : map.y) longest = std::max(longest, name.size());
+  const double left = 26 + letter * static_cast<double>(longest), limit = deepest(map);
+  const double words = letter * static_cast<double>(std::max(map.title.size(), map.subtitle.size())) + 24;
+  const double width = std::max(left + cell_width * static_cast<double>(map.x.size()) + 8, words);
+  const double bottom = above + cell_height * static_cast<double>(map.y.size());
+  std::string body =
+      fmt::format(R"(<text class="ink" fill="#1a1d23" font-size="13" font-weight="600" x="4" y="17">{}</text>)",
+                  escaped(map.title));
+  body += fmt::format(R"(<text class="quiet" fill="#5a6270" x="4" y="35">{}</text>)", escaped(map.subtitle));
+  for (std::size_t r = 0; r < map.y.size(); ++r) {
+    const double y = above + cell_height * static_cast<double>(r);
+    body += fmt::format(R"(<text class="quiet" fill="#5a6270" x="{:.0f}" y="{:.0f}" text-anchor="end">{}</text>)",
+                        left - 6, y + cell_height / 2 + 4, escaped(map.y[r]));
+    for (std::size_t c = 0; c < map.x.size(); ++c)
+      body += cell_svg(map.cells[r][c], left + cell_width * static_cast<double>(c), y, limit, r, c);
+  }
+  for (std::size_t c = 0; c < map.x.size(); ++c)
+    body += fmt::format(R"(<text class="quiet" fill="#5a6270" x="{:.0f}" y="{:.0f}" text-anchor="middle">{}</text>)",
+                        left + cell_width * (static_cast<double>(c) + 0.5), bottom + 16, escaped(map.x[c]));
+  body += fmt::format(R"(<text class="quiet" fill="#5a6270" x="{:.0f}" y="{:.0f}" text-anchor="middle">{}</text>)",
+                      left + cell_width * 0.5 * static_cast<double>(map.x.size()), bottom + 33, escaped(map.x_title));
+  return fmt::format(
+      R"(<svg xmlns="http://www.w3.org/2000/svg" class="plot heat" viewBox="0 0 {:.0f} {:.0f}" role="group" aria-label="{}" )"
+      R"(font-size="12">{}</svg>)",
+      width, bottom + below, escaped(map.title + ", " + map.subtitle + ", " + map.y_title + " by " + map.x_title),
+      body);
+}
+
+}  // namespace soilbin::compare

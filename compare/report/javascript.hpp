@@ -1,0 +1,36 @@
+// The scripts of a page: our own, which lie in this library, and two that Debian packages, read when a page is made.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace soilbin::compare {
+
+/// A script's file name and text.
+struct Script {
+  std::string name, text;
+};
+
+/// Our own, from compare/report/browser; made by the build.
+std::vector<Script> own_scripts();
+
+/// Libraries that a page inlines.
+struct Libraries {
+  std::optional<std::string> d3;       ///< charts: node-d3, d3.js 5
+  std::optional<std::string> three;    ///< the replay in 3D: libjs-three, three.js
+  std::optional<std::string> orbit;    ///< its camera by mouse, finger and keys
+  std::vector<std::string> missing{};  ///< packages to install for those that are absent
+};
+
+/// Read from $SOILBIN_JAVASCRIPT (a folder with d3.min.js, three.min.js, OrbitControls.js), where that is set, else
+/// from where Debian's packages put them.
+Libraries find_libraries();
+
+/// The scripts of a page as HTML elements: the libraries asked for, then ours.
+std::string script_elements(const Libraries& libraries, bool with_replay);
+
+/// Text that may stand in a <script> element: "</" can't end it.
+std::string in_script(std::string text);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,77 @@
+#include "compare/report/sheet_json.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "compare/measured/csv.hpp"
+#include "compare/report/plot_panel.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// Six digits: what a screen can show, at a third of the bytes.
+double shortened(double value) { return std::isfinite(value) ? std::stod(fmt::format("{:.6g}", value)) : value; }
+
+Json numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(finite(shortened(value)));
+  return list;
+}
+
+Json axis_json(const Axis& axis) {
+  Json json = {{"title", axis.title}};
+  json["lower"] = axis.lower ? Json(*axis.lower) : Json(nullptr);
+  json["upper"] = axis.upper ? Json(*axis.upper) : Json(nullptr);
+  return json;
+}
+
+const char* word_of(Mark mark) {
+  switch (mark) {
+    case Mark::line:
+      return "line";
+    case Mark::points:
+      return "points";
+    case Mark::line_and_points:
+      return "line_and_points";
+  }
+  return "";
+}
+
+}  // namespace
+
+Json to_json(const Sheet& sheet) {
+  Json json = {{"title", sheet.title}, {"plots", Json::array()}};
+  for (const Plot& plot : sheet.plots) {
+    Json one = {{"title", plot.title}, {"x", axis_json(plot.x)}, {"y", axis_json(plot.y)}, {"series", Json::array()}};
+    one["identity_line"] = plot.identity_line;
+    for (const Series& series : plot.series)
+      one["series"].push_back(
+          {{"label", series.label},
+           {"x", numbers(series.x)},
+           {"y", numbers(series.y)},
+           {"error", numbers(series.error)},
+           {"mark", word_of(series.mark)},
+           {"color", fmt::format("{}{}", sheet.palette == Palette::named ? 'c' : 'q', color_of(sheet, series))},
+           {"dash", series.dash}});
+    json["plots"].push_back(std::move(one));
+  }
+  return json;
+}
+
+std::string sheet_csv(const Sheet& sheet) {
+  std::string text = "plot,series,x,y,error\n";
+  const auto cell = [](double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); };
+  for (const Plot& plot : sheet.plots)
+    for (const Series& series : plot.series)
+      for (std::size_t i = 0; i < series.x.size(); ++i)
+        text += fmt::format("{},{},{},{},{}\n", csv_cell(plot.title), csv_cell(series.label), cell(series.x[i]),
+                            cell(series.y[i]), i < series.error.size() ? cell(series.error[i]) : "");
+  return text;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,71 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "cli/command.hpp"
+
+namespace soilbin::cli::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* cmu = R"(format: soilbin-case/1
+name: cmu
+tire: cmu-smooth
+soil: cmu-sand
+study:
+  models: [bekker_wong, {model: bekker_wong, effects: [slip_sinkage]}]
+  conditions: {load: 24 N, slip: [-20 %, 0 %, 23 %, 50 %, 75 %], speed: 0.02 m/s}
+)";
+
+TEST(Compare, HoldsModelsAgainstMeasurementsRowByRow) {
+  const Scratch scratch;
+  const std::string study = "'" + scratch.write("case.yaml", cmu).string() + "'";
+  const Outcome r = soilbin("compare " + study + " --measured cmu-smooth --no-loop --json");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const nlohmann::json document = r.json();
+  EXPECT_EQ(document["format"], "soilbin-compare/1");
+  ASSERT_EQ(document["sides"].size(), 3U);
+  EXPECT_EQ(document["sides"][2]["kind"], "measured");
+  ASSERT_GT(document["rows"].size(), 8U);
+  for (const auto& row : document["rows"]) {
+    const double value = row["value"]["value"], reference = row["reference_value"]["value"];
+    EXPECT_NEAR(row["difference"].get<double>(), value - reference, 1e-9 * (std::abs(value) + std::abs(reference)));
+    const double size = std::abs(row["difference"].get<double>()), error = row["std_error"], scatter = row["scatter"];
+    EXPECT_EQ(row["finding"] == "difference", size > scatter && size > 2 * error);
+  }
+  for (const auto& clause : document["summary"])
+    EXPECT_TRUE(!clause["rows"].empty() || !clause["evidence"].empty() || clause["about"] == "not compared");
+}
+
+// The same numbers in the page, in Markdown and as CSV; the page loads nothing and tells how to make it again.
+TEST(Compare, WritesThePageMarkdownAndData) {
+  const Scratch scratch;
+  const std::string study = "'" + scratch.write("case.yaml", cmu).string() + "'";
+  const fs::path page = scratch / "page.html", folder = scratch / "md", csv = scratch / "rows.csv";
+  const Outcome r = soilbin("compare " + study + " --measured cmu-smooth --no-loop --report '" + page.string() +
+                            "' --markdown '" + folder.string() + "' --csv '" + csv.string() + "'");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const std::string html = text_of(page);
+  for (const char* part :
+       {"soilbin compare", "The resolved case", "class=\"summary\"", "id=\"figures\"", "svg class=\"plot"})
+    EXPECT_THAT(html, HasSubstr(part));
+  for (const char* loads : {"<link", "<img", "src=", "@import"})
+    EXPECT_THAT(html.substr(0, html.find("<script")), Not(HasSubstr(loads)));
+  EXPECT_THAT(text_of(folder / "report.md"), HasSubstr("![")) << "its drawings";
+  EXPECT_EQ(text_of(folder / "differences.csv"), text_of(csv));
+  EXPECT_EQ(soilbin("run '" + (folder / "case.yaml").string() + "' --json").status, 0) << "the resolved case runs";
+  EXPECT_EQ(nlohmann::json::parse(text_of(folder / "comparison.json"))["format"], "soilbin-compare/1");
+}
+
+TEST(Compare, NamesWhatIsWrong) {
+  EXPECT_THAT(soilbin("compare paper-straight --model den").err, HasSubstr("did you mean 'dem'?"));
+  EXPECT_EQ(soilbin("compare paper-straight --model den").status, 2);
+  EXPECT_THAT(soilbin("compare paper-straight --measured cmu-smooth").err, HasSubstr("a wheel of"));
+  EXPECT_THAT(soilbin("compare paper-straight --replay no-such").err, HasSubstr("no-such: can't be read"));
+  EXPECT_EQ(soilbin("compare paper-straight --recorded no-such.json").status, 2);
+}
+
+}  // namespace
+}  // namespace soilbin::cli::test

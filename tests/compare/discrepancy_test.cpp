@@ -1,0 +1,209 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "compare/comparison_fixture.hpp"
+#include "compare/discrepancy/causes.hpp"
+#include "compare/discrepancy/summary.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+TEST(Finding, ADifferenceNeedsBothMoreThanTheScatterAndMoreThanTwoErrors) {
+  EXPECT_EQ(finding_of(10, 3, 5), Finding::difference);
+  EXPECT_EQ(finding_of(-10, 3, 5), Finding::difference);
+  EXPECT_EQ(finding_of(10, 3, 12), Finding::within_scatter);  // another run would move as much
+  EXPECT_EQ(finding_of(10, 6, 5), Finding::within_errors);
+  EXPECT_EQ(finding_of(0, 1, 0), Finding::within_scatter);
+  EXPECT_EQ(finding_of(10, 0, 0), Finding::not_judged);  // exact numbers: nothing to judge by
+}
+
+// Three runs of 90, 100 and 110 N: mean 100 N, spread 10 N, so the mean's error is 10/sqrt(3). Own errors of 1 N say
+// that the packing, not the run's length, makes the scatter.
+TEST(GrainRuns, TheSpreadBetweenPackingsGoesIntoTheError) {
+  const Case question = sand_study({0.2});
+  const ModelAnswers base = base_answers(question);
+  const double pull = base.answers[0].result->drawbar_pull.value;
+  const SidePoint point = grain_side(base, {-10, 0, 10}, 1.0).points[0];
+  EXPECT_NEAR(point.result->drawbar_pull.value, pull, 1e-9);
+  EXPECT_NEAR(point.scatter[0], 10.0, 1e-9);
+  EXPECT_NEAR(point.result->drawbar_pull.std_error, 10 / std::sqrt(3.0), 1e-9);
+  EXPECT_THAT(point.doubts, IsEmpty());
+}
+
+// Where runs agree better than their own errors allow, the errors stand: 4 N each, 4/sqrt(2) for the mean.
+TEST(GrainRuns, LuckyAgreementDoesNotMakeThemSurer) {
+  const ModelAnswers base = base_answers(sand_study({0.2}));
+  const SidePoint point = grain_side(base, {0, 0}, 4.0).points[0];
+  EXPECT_NEAR(point.result->drawbar_pull.std_error, 4 / std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(point.scatter[0], 4.0, 1e-12);
+}
+
+TEST(GrainRuns, OnePackingAndDriftAreToldAsDoubts) {
+  auto runs = grain_runs(base_answers(sand_study({0.2})), {0}, 4.0);
+  runs[0].steady = false;
+  runs[0].drift = 3.7;
+  const SidePoint point = combine({&runs[0]});
+  EXPECT_THAT(point.doubts, Contains(HasSubstr("scatter between packings is not known")));
+  EXPECT_THAT(point.doubts, Contains(HasSubstr("1 of 1 run not steady: halves differ by up to 3.7")));
+}
+
+class Pair : public testing::Test {
+ protected:
+  Case question = sand_study({0.0, 0.1, 0.2, 0.4});
+  ModelAnswers base = base_answers(question);
+
+  Comparison against(const std::vector<double>& offsets, double own) const {
+    return compare_sides(question, {base.choice}, {grain_side(base, offsets, own), side_of(base)});
+  }
+};
+
+TEST_F(Pair, ErrorsOfBothSidesAddInSquares) {
+  const Comparison comparison = against({300}, 40.0);
+  ASSERT_EQ(comparison.sides[0].label, "bekker_wong");  // analytic first
+  const Difference& d = comparison.differences.front();
+  const double soil = base.answers[0].result->drawbar_pull.std_error;
+  EXPECT_NEAR(d.difference, -300, 1e-9);
+  EXPECT_NEAR(d.std_error, std::hypot(soil, 40.0), 1e-9);
+  EXPECT_NEAR(d.sigma, -300 / std::hypot(soil, 40.0), 1e-9);
+  EXPECT_NEAR(d.share, -300 / 1000.0, 1e-12);
+  EXPECT_EQ(d.finding, Finding::difference);
+}
+
+TEST_F(Pair, LessThanTheScatterIsNoDifference) {
+  const Comparison comparison = against({20, 120}, 1.0);  // mean 70 N off, spread 70.7 N
+  for (const Difference& d : comparison.differences)
+    if (d.channel == 0) {
+      EXPECT_NEAR(d.scatter, 100 / std::sqrt(2.0), 1e-9);
+      EXPECT_EQ(d.finding, Finding::within_scatter);
+    }
+  EXPECT_EQ(comparison.tallies.front().differ, 0U);
+}
+
+// An effect of amplitude 0 changes nothing, and two models of one soil can't be two standard errors of that soil apart.
+TEST_F(Pair, TwoAnalyticModelsShareTheSoilsDoubt) {
+  ModelAnswers other = base;
+  other.choice.label = "other";
+  for (Answer& answer : other.answers) answer.result->drawbar_pull.value += 50;
+  const Comparison comparison = compare_sides(question, {base.choice, other.choice}, {side_of(base), side_of(other)});
+  ASSERT_FALSE(comparison.differences.empty());
+  for (const Difference& d : comparison.differences) {
+    EXPECT_EQ(d.finding, Finding::not_judged);
+    EXPECT_EQ(d.std_error, 0.0);
+    EXPECT_NEAR(d.difference, d.channel == 0 ? 50.0 : 0.0, 1e-9);
+  }
+}
+
+TEST_F(Pair, TheTallyIsTheRowsInShort) {
+  const Comparison comparison = against({300}, 40.0);
+  const Tally& pull = comparison.tallies.front();
+  EXPECT_EQ(pull.values, 4U);
+  EXPECT_NEAR(pull.bias, -300, 1e-9);
+  EXPECT_NEAR(pull.rms, 300, 1e-9);
+  EXPECT_NEAR(pull.rms_share, 0.3, 1e-12);
+  EXPECT_EQ(pull.differ + pull.in_scatter + pull.in_errors + pull.unknown, 4U);
+  EXPECT_EQ(comparison.tallies.size(), 3U) << "a flat bed has no lateral force to compare";
+}
+
+TEST_F(Pair, EveryClauseOfTheSummaryHasItsRows) {
+  const Comparison comparison = against({300}, 40.0);
+  const std::vector<Clause> clauses = summary(comparison);
+  for (const Clause& clause : clauses) {
+    EXPECT_FALSE(clause.rows.empty() && clause.evidence.empty()) << clause.text;
+    for (const std::size_t row : clause.rows) EXPECT_LT(row, comparison.differences.size());
+  }
+  EXPECT_EQ(clauses[0].about, "in short");
+  EXPECT_EQ(clauses[1].about, "drawbar pull") << "the largest difference comes first";
+  EXPECT_THAT(clauses[1].text, HasSubstr("30 % of the load"));
+}
+
+// With the soil exact, chi2 is the plain sum of squared sigmas. With doubt it can but fall: an offset that the friction
+// angle could have made costs hardly anything.
+TEST_F(Pair, TheSoilsDoubtExplainsWhatASoilValueCouldHaveDone) {
+  Case harder = question;
+  harder.scenario.soil.semi_empirical->friction_angle.value += 0.02;  // within its sd of 1.5 deg
+  const ModelAnswers other = base_answers(harder);
+  const Side dem = grain_side(other, {0}, 5.0);
+  const auto test = joint_test(dem, question, {});
+  ASSERT_TRUE(test);
+  double plain = 0;
+  for (std::size_t i = 0; i < dem.points.size(); ++i)
+    for (const ChannelView& channel : channel_views) {
+      if (channel.name == "lateral_force") continue;
+      const Estimate& there = (*dem.points[i].result).*channel.predicted;
+      plain += std::pow((((*base.answers[i].result).*channel.predicted).value - there.value) / there.std_error, 2);
+    }
+  EXPECT_NEAR(test->chi2_soil_exact, plain, 1e-6 * plain);
+  EXPECT_GT(test->chi2_soil_exact, 30.0);
+  EXPECT_LT(test->chi2, 2.0) << "(0.02 rad over 1.5 deg)^2 = 0.58, and what first order leaves";
+  EXPECT_GT(test->p_value, 0.9);
+}
+
+TEST_F(Pair, WithoutAStatedErrorThereIsNoJointTest) {
+  Side dem = grain_side(base, {10}, 5.0);
+  dem.points[2].result->torque.std_error = 0.0;
+  EXPECT_FALSE(joint_test(dem, question, {}));
+}
+
+TEST_F(Pair, TheBudgetNamesWhatPullsAndAddsUp) {
+  const Comparison comparison = against({300}, 40.0);
+  const BudgetTable table = budget_at(comparison, 2);
+  ASSERT_EQ(table.sides.size(), 2U);
+  double sum = 0;
+  for (const BudgetRow& row : table.rows) sum += row.force[0];
+  EXPECT_NEAR(sum, base.answers[2].result->drawbar_pull.value, 1e-6);
+}
+
+TEST_F(Pair, SinkageIsWhatTheLoadPressesAndWhatSlipAdds) {
+  const std::vector<SinkageSplit> splits = sinkage_splits(against({0}, 1.0));
+  ASSERT_EQ(splits.size(), 8U);  // two sides, four slips
+  const double rest = base.answers[0].result->sinkage.value;
+  for (const SinkageSplit& split : splits) {
+    EXPECT_NEAR(split.at_rest, rest, 1e-12);
+    EXPECT_NEAR(split.at_rest + split.by_slip, base.answers[split.condition].result->sinkage.value, 1e-12);
+  }
+}
+
+TEST_F(Pair, AConditionWithoutResultIsToldAndTheOthersStillCompared) {
+  auto runs = grain_runs(base, {300}, 40.0);
+  runs.erase(runs.begin() + 1);
+  const Comparison comparison =
+      compare_sides(question, {base.choice}, {side_of(base), side_of("dem", runs, question.study.conditions)});
+  EXPECT_EQ(comparison.tallies.front().values, 3U);
+  EXPECT_THAT(comparison.not_compared, Contains(HasSubstr("dem has no result at 1 of 4")));
+}
+
+TEST_F(Pair, ResultsBecomeACampaignForTheLoop) {
+  const Campaign campaign = as_campaign(grain_side(base, {300}, 40.0), question);
+  ASSERT_EQ(campaign.runs.size(), 4U);
+  EXPECT_NEAR(*campaign.runs[2].drawbar_pull, base.answers[2].result->drawbar_pull.value + 300, 1e-9);
+  EXPECT_FALSE(campaign.runs[2].lateral_force) << "nothing but noise on a flat bed";
+  EXPECT_EQ(campaign.soil.friction_angle.std_error, question.scenario.soil.semi_empirical->friction_angle.std_error);
+}
+
+TEST_F(Pair, MeasuredRunsCountAtTheNearestConditionIfTheyAreNearAny) {
+  Campaign campaign = as_campaign(side_of(base), question);
+  campaign.name = "rig";
+  const double pull = *campaign.runs[2].drawbar_pull;
+  campaign.runs.push_back(campaign.runs[2]);
+  campaign.runs[2].drawbar_pull = pull - 8;
+  campaign.runs.back().drawbar_pull = pull + 8;
+  campaign.runs.back().at.slip += 0.01;
+  campaign.runs.push_back(campaign.runs[2]);
+  campaign.runs.back().at.load *= 1.5;  // near none
+  const Side side = side_of(campaign, question);
+  EXPECT_EQ(side.points[2].runs, 2U);
+  EXPECT_NEAR(side.points[2].result->drawbar_pull.value, pull, 1e-9);
+  EXPECT_NEAR(side.points[2].result->drawbar_pull.std_error, 8.0, 1e-9);  // spread 8 sqrt(2) over sqrt(2)
+  campaign.wheel.radius *= 1.2;
+  EXPECT_THROW(side_of(campaign, question), InputError);
+}
+
+}  // namespace
+}  // namespace soilbin::compare

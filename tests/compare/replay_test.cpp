@@ -1,0 +1,126 @@
+#include "compare/replay/replay.hpp"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// Two grains that move, one that rests; given out of the order of x.
+Replay three_grains() {
+  Replay replay;
+  replay.title = "load 4 kN";
+  replay.facts = {{"packing", "1"}};
+  replay.radii = {0.02, 0.01, 0.03};
+  replay.tire = {{0.1, 0.2, 0.3}};
+  replay.triangles = {{0, 0, 0}};
+  for (int k = 0; k < 4; ++k)
+    replay.frames.push_back({0.1 * k,
+                             {1.0 * k, 0, 0.5},
+                             {1, 0, 0, 0},
+                             {{2.0 - 0.2 * k, 0.1, 0.3}, {0.5, 0.4, 0.2}, {1.0 + 0.001 * k, 0, 0}}});
+  return replay;
+}
+
+/// What a browser does: unpack, join the planes, undo the zigzag, add the changes up.
+struct Unpacked {
+  nlohmann::json header;
+  std::vector<float> radii;
+  std::vector<std::vector<Point>> frames;
+
+  explicit Unpacked(const std::string& bytes) {
+    const std::size_t end = bytes.find('\n');
+    header = nlohmann::json::parse(bytes.substr(0, end));
+    const std::size_t n = header["grains"], count = header["frames"], vertices = header["vertices"],
+                      triangles = header["triangles"];
+    const std::size_t before = 4 * n + 12 * (vertices + triangles);
+    std::string raw(before + count * 6 * n, '\0');
+    uLongf size = raw.size();
+    EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(raw.data()), &size,
+                         reinterpret_cast<const Bytef*>(bytes.data() + end + 1), bytes.size() - end - 1),
+              Z_OK);
+    EXPECT_EQ(size, raw.size());
+    radii.resize(n);
+    std::memcpy(radii.data(), raw.data(), 4 * n);
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned>(static_cast<unsigned char>(raw[i])); };
+    std::vector<std::array<unsigned, 3>> sum(n, {0, 0, 0});
+    for (std::size_t f = 0; f < count; ++f) {
+      frames.emplace_back(n);
+      for (std::size_t a = 0; a < 3; ++a)
+        for (std::size_t k = 0; k < n; ++k) {
+          const std::size_t at = before + (3 * f + a) * 2 * n + k;
+          const unsigned z = byte(at) | byte(at + n) << 8;
+          sum[k][a] = (sum[k][a] + ((z >> 1) ^ (z & 1 ? 0xFFFFU : 0U))) & 0xFFFF;
+          frames[f][k][a] = header["origin"][a].get<double>() + header["step"].get<double>() * sum[k][a];
+        }
+    }
+  }
+};
+
+TEST(Replay, UnpacksToThePlacesWithinHalfAStep) {
+  const Replay replay = three_grains();
+  const Unpacked unpacked(replay_bytes(replay));
+  const std::size_t order[] = {1, 2, 0};                // by first x: 0.5, 1.0, 2.0
+  const double half_a_step = 1.5 / 65535 / 2 * 1.0001;  // x goes from 0.5 to 2.0
+  for (std::size_t f = 0; f < 4; ++f)
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t a = 0; a < 3; ++a)
+        EXPECT_NEAR(unpacked.frames[f][k][a], replay.frames[f].grains[order[k]][a], half_a_step);
+  EXPECT_FLOAT_EQ(unpacked.radii[0], 0.01F);
+  EXPECT_EQ(unpacked.header["wheel"][2][0], 2.0);
+  EXPECT_NEAR(unpacked.header["times"][3].get<double>(), 0.3, 1e-12);
+}
+
+// 20,000 grains of which a hundredth moves: a frame beyond the first costs far less than its 120,000 bytes.
+TEST(Replay, GrainsAtRestCostNothing) {
+  Replay replay;
+  for (std::size_t k = 0; k < 20000; ++k) replay.radii.push_back(0.01);
+  for (int f = 0; f < 2; ++f) {
+    replay.frames.emplace_back();
+    for (std::size_t k = 0; k < 20000; ++k) {
+      const double x = static_cast<double>(k);
+      replay.frames.back().grains.push_back({std::fmod(x * 0.618034, 1.0) * 3, std::fmod(x * 0.41421, 1.0),
+                                             std::fmod(x * 0.7320508, 1.0) + (k % 100 == 0 ? 0.01 * f : 0.0)});
+    }
+  }
+  const std::size_t two = replay_bytes(replay).size();
+  replay.frames.pop_back();
+  EXPECT_LT(two - replay_bytes(replay).size(), 2000U);
+}
+
+TEST(Replay, RefusesWhatIsNone) {
+  EXPECT_THROW(replay_bytes(Replay{}), InputError);
+  Replay lost = three_grains();
+  lost.frames[2].grains.pop_back();
+  EXPECT_THROW(replay_bytes(lost), InputError);
+  EXPECT_THROW(read_replay("no-such-file"), InputError);
+  const auto path = std::filesystem::temp_directory_path() / "soilbin-no-replay";
+  std::ofstream(path) << "{\"format\": \"other\"}\n";
+  EXPECT_THROW(read_replay(path), InputError);
+  std::ofstream(path, std::ios::binary) << replay_bytes(three_grains());
+  const ReplayFile file = read_replay(path);
+  EXPECT_EQ(file.grains, 3U);
+  EXPECT_EQ(file.frames, 4U);
+  EXPECT_NEAR(file.seconds, 0.3, 1e-12);
+  std::filesystem::remove(path);
+}
+
+// RFC 4648, section 10.
+TEST(Base64, PublishedVectors) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+}
+
+}  // namespace
+}  // namespace soilbin::compare

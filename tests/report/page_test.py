@@ -1,0 +1,178 @@
+"""The page of `soilbin compare --report` in a real browser: it opens offline, nothing is asked for from elsewhere, no
+console error, charts and replay are there, and what a person can do works, by mouse and by keys.
+
+Usage: page_test.py SOILBIN [--pictures DIR]     skipped (exit status 77) where no Chromium is installed
+"""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import browser
+import replay_of_many
+
+SOILBIN = sys.argv.pop(1)
+PICTURES = Path(sys.argv.pop(2)) if "--pictures" in sys.argv[1:2] and sys.argv.pop(1) else None
+
+CASE = """format: soilbin-case/1
+name: cmu
+tire: cmu-smooth
+soil: cmu-sand
+study:
+  models: [bekker_wong, {model: bekker_wong, effects: [slip_sinkage]}]
+  conditions: {load: [24 N, 40 N], slip: [-20 %, 0 %, 23 %, 50 %, 75 %], speed: 0.02 m/s}
+"""
+
+
+def compare(folder, name, *words, **environment):
+    (folder / "case.yaml").write_text(CASE)
+    page = folder / name
+    subprocess.run([SOILBIN, "compare", str(folder / "case.yaml"), "--measured", "cmu-smooth", "--no-loop", "--report",
+                    str(page), *words], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                   env=os.environ | environment)
+    return page
+
+
+class ThePage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        folder = Path(cls.scratch.name)
+        (folder / "run.replay").write_bytes(replay_of_many.replay(4000, 6))
+        cls.page = compare(folder, "page.html", "--replay", str(folder / "run.replay"))
+        cls.plain = compare(folder, "plain.html", "--replay", str(folder / "run.replay"), SOILBIN_JAVASCRIPT=str(folder))
+        cls.browser = browser.Browser()
+        cls.browser.open(cls.page)
+        assert cls.browser.until("document.documentElement.dataset.ready === 'yes'")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.__exit__()
+        cls.scratch.cleanup()
+
+    def js(self, expression):
+        return self.browser.js(expression)
+
+    def test_1_opens_without_errors_and_asks_for_nothing(self):
+        self.assertTrue(self.browser.until("document.querySelector('.replay').dataset.ready === 'yes'"))
+        self.assertEqual(self.browser.errors, [])
+        elsewhere = [a for a in self.browser.addresses if not a.startswith((f"file://{self.page}", "blob:", "data:"))]
+        self.assertEqual(elsewhere, [])
+
+    def test_2_summary_comes_first_and_each_clause_leads_to_its_rows(self):
+        self.assertTrue(self.js("document.querySelector('main').children[2].matches('nav') && "
+                                "document.querySelector('main').children[3].matches('.summary')"))
+        self.assertTrue(self.js("[...document.querySelectorAll('a.evidence, nav a')].length > 5 && "
+                                "[...document.querySelectorAll('a.evidence, nav a')].every("
+                                "a => document.getElementById(a.hash.slice(1)))"))
+        self.js("document.querySelector('a.evidence').click()")
+        self.assertTrue(self.browser.until("document.getElementById(location.hash.slice(1)).open === true"))
+        self.js("scrollTo(0, 0)")
+
+    def test_3_charts_read_zoom_and_toggle(self):
+        chart = "document.querySelector('.choice:not([hidden]) .chart')"
+        self.js(f"{chart}.scrollIntoView({{block: 'center'}})")
+        x, y = self.js(f"(r => [r.x + r.width * 0.6, r.y + r.height / 2])({chart}.querySelector('svg').getBoundingClientRect())")
+        self.browser.mouse("mouseMoved", x, y)
+        self.assertTrue(self.js(f"!{chart}.querySelector('.tip').hidden && {chart}.querySelector('.tip').textContent.includes('slip')"))
+        ticks = f"[...{chart}.querySelectorAll('.axis:not(.lines) text')].map(t => t.textContent).join()"
+        whole = self.js(ticks)
+        self.js(f"{chart}.querySelector('.zoom button').click()")
+        self.assertNotEqual(self.js(ticks), whole)
+        self.js(f"{chart}.querySelectorAll('.zoom button')[2].click()")
+        self.assertEqual(self.js(ticks), whole)
+        lines = f"{chart}.querySelectorAll('path.line').length"
+        before, switch = self.js(lines), "document.querySelector('.choice:not([hidden]) .legend button')"
+        self.js(f"{switch}.click()")
+        self.assertEqual(self.js(lines), before - 1)
+        self.assertEqual(self.js(f"{switch}.getAttribute('aria-pressed')"), "false")
+        self.js(f"{switch}.click()")
+        self.assertGreater(self.js(f"{chart}.querySelectorAll('path.band').length"), 0)
+
+    def test_4_keys_read_the_chart_aloud_and_walk_the_heat_map(self):
+        self.js("document.querySelector('.choice:not([hidden]) svg.live').focus()")
+        self.browser.key("ArrowRight")
+        self.browser.key("ArrowRight")
+        self.assertIn("slip [%]: 0", self.js("document.querySelector('.choice:not([hidden]) .for-ears').textContent"))
+        self.js("document.querySelector('.heat .cell').focus()")
+        self.browser.key("ArrowRight")
+        self.assertEqual(self.js("document.activeElement.dataset.column"), "1")
+        self.assertEqual(self.js("document.querySelector('.reading').textContent"), self.js("document.activeElement.dataset.tip"))
+
+    def test_5_choosing_a_condition_shows_that_one_alone(self):
+        box = "[...document.querySelectorAll('.choices')].find(b => b.dataset.what === 'Condition')"
+        self.js(f"(s => {{ s.value = 3; s.dispatchEvent(new Event('change')); }})({box}.querySelector('select'))")
+        self.assertEqual(self.js(f"[...{box}.querySelectorAll(':scope > .choice')].map(c => c.hidden).indexOf(false)"), 3)
+        self.assertGreater(self.js(f"{box}.querySelector('.choice:not([hidden]) svg.live').clientWidth"), 200)
+
+    def test_6_the_replay_draws_and_plays(self):
+        self.assertTrue(self.browser.until("document.querySelector('.replay').dataset.ready === 'yes'"))
+        self.js("document.querySelector('.replay').scrollIntoView()")
+        shade = ("(() => { const c = document.createElement('canvas'); c.width = 64; c.height = 64; const x = c.getContext('2d');"
+                 "soilbin.replayView.refresh(); x.drawImage(document.querySelector('.replay canvas'), 0, 0, 64, 64);"
+                 "return [...x.getImageData(0, 0, 64, 64).data].filter((v, i) => i % 4 === 3 && v > 0).length; })()")
+        self.assertGreater(self.js(shade), 200)
+        self.js("soilbin.replayView.go(0)")
+        self.js("document.querySelector('.replay button').click()")
+        self.assertTrue(self.browser.until("soilbin.replayView.at > 0.5"))
+        self.assertTrue(self.browser.until("!soilbin.replayView.playing"))
+        self.js("document.querySelector('.replay canvas').focus()")
+        before = self.js("soilbin.replayView.scene.camera.position.x")
+        self.browser.key("ArrowLeft")
+        self.assertNotEqual(self.js("soilbin.replayView.scene.camera.position.x"), before)
+        self.assertEqual(self.browser.errors, [])
+
+    # The replay's places against the formula that made them, through the page's own unpacking.
+    def test_7_the_replay_shows_the_grains_where_they_were(self):
+        header = self.js("soilbin.replayView.replay.header")
+        rest, last = replay_of_many.grains_at_rest(4000), header["wheel"][5][0]
+        shown = self.js("[...soilbin.replayView.replay.frames[5]]")
+        for k in range(0, 4000, 501):
+            for axis, true in enumerate(replay_of_many.after(rest[k], last)):
+                self.assertAlmostEqual(header["origin"][axis] + header["step"] * shown[3 * k + axis], true, delta=header["step"])
+
+    def test_8_fits_a_phone_a_desk_and_the_dark(self):
+        for width in (360, 1600):
+            self.browser.size(width, 800)
+            self.assertTrue(self.browser.until(f"document.documentElement.scrollWidth <= {width}"),
+                            f"wider than {width} px: {self.js('document.documentElement.scrollWidth')}")
+        colour = "getComputedStyle(document.body).backgroundColor"
+        light = self.js(colour)
+        self.browser.scheme("dark")
+        self.assertNotEqual(self.js(colour), light)
+        self.browser.scheme("light")
+
+    def test_9_without_the_libraries_it_says_so_and_shows_drawings(self):
+        self.browser.open(self.plain)
+        self.assertTrue(self.browser.until("document.documentElement.dataset.ready === 'yes'"))
+        self.assertEqual(self.browser.errors, [])
+        self.assertIn("node-d3", self.js("document.querySelector('.warning').textContent"))
+        self.assertIn("three.js was not installed", self.js("document.querySelector('.replay').textContent"))
+        self.assertGreater(self.js("document.querySelectorAll('.choice:not([hidden]) svg.plot').length"), 3)
+
+
+def take_pictures():
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch)
+        PICTURES.mkdir(parents=True, exist_ok=True)
+        (folder / "run.replay").write_bytes(replay_of_many.replay(8000, 6))
+        page = compare(folder, "page.html", "--replay", str(folder / "run.replay"))
+        for name, width, dark in (("phone", 360, False), ("phone-dark", 360, True), ("desk", 1600, False), ("desk-dark", 1600, True)):
+            with browser.Browser(width, 900, dark) as one:
+                one.open(page)
+                one.until("document.querySelector('.replay').dataset.ready === 'yes'")
+                one.picture(PICTURES / f"{name}.png")
+                if name == "desk":
+                    one.pdf(PICTURES / "print.pdf")
+
+
+if __name__ == "__main__":
+    if not browser.find():
+        print("no Chromium: skipped")
+        sys.exit(77)
+    if PICTURES:
+        take_pictures()
+    else:
+        unittest.main(verbosity=2)
