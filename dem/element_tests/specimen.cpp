@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "scenario/errors.hpp"
 
@@ -67,11 +68,15 @@ Servo press(const Vec3& direction, double stress, double area, const GranularSoi
   const double d = mean_diameter(soil);
   const double young = soil.youngs_modulus / (2 * (1 - soil.poisson_ratio * soil.poisson_ratio));
   const double overlap = std::pow(0.75 * stress * d * d / (young * std::sqrt(d / 4)), 2.0 / 3);
-  const double layer = area / (d * d) * 2 * young * std::sqrt(d / 4 * overlap);  // stiffness of a layer [N/m]
-  constexpr double share = 0.3;  // of a layer's overlap error that a step takes back
+  const double count = area / (d * d), stiffness = 2 * young * std::sqrt(d / 4 * overlap);
+  const double mass = soil.grain_density * std::numbers::pi / 6 * d * d * d;
+  const double e = std::max(soil.grain_grain.restitution, 1e-6);
+  const double beta = -std::log(e) / std::hypot(std::log(e), std::numbers::pi);
+  const double dashpot = 2 * std::sqrt(5.0 / 6) * beta * std::sqrt(stiffness * mass);
+  constexpr double share = 0.3;  // of a layer's force error that a step takes back
   return {.direction = direction,
           .target = stress * area,
-          .gain = share / (dt * layer),
+          .gain = share / (count * (dt * stiffness + dashpot)),
           .fastest = 0.05 * std::sqrt(stress / soil.grain_density)};
 }
 
