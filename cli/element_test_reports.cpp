@@ -38,12 +38,12 @@ Estimate angle_of_sine(const Estimate& sine) {
   return {std::asin(sine.value), sine.std_error / std::sqrt(1 - sine.value * sine.value)};
 }
 
-std::string degrees(const Estimate& angle) { return number(angle, degree); }
+std::string degrees(const Estimate& angle) { return number(angle, 1 / degree); }
 
 std::string line_text(const char* name, const dem::StrengthLine& line) {
   if (line.points == 0) return "";
   return fmt::format("{}: phi {} deg, c {} kPa; without cohesion phi {} deg\n", name, degrees(line.friction_angle),
-                     number(line.cohesion, 1e3), degrees(line.friction_angle_without_cohesion));
+                     number(line.cohesion, 1e-3), degrees(line.friction_angle_without_cohesion));
 }
 
 /// A column of a curve, in a unit.

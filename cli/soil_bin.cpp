@@ -159,6 +159,7 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   read("--ahead", flags.ahead, {"m", above_zero}, settings.rig.ahead);
   read("--travel", flags.travel, {"m", above_zero}, settings.rig.travel);
   read("--time-step", flags.time_step, {"s", above_zero}, settings.rig.dt);
+  read("--sleep", flags.sleep, {"-", {.lower = 0, .upper = 0.1}}, settings.rig.sleep_speed);
   read("--settling-friction", flags.settling_friction, {"-", {.lower = 0, .upper = 1}}, settings.settling_friction);
   if (flags.packing < 0) throw InputError("--packing: a seed is 0 or more");
   if (flags.packings < 1) throw InputError("--packings: 1 or more");
@@ -179,6 +180,10 @@ void SoilBinFlags::add_to(CLI::App& command) {
   command.add_option("--ahead", ahead, "dem: of the axle to its front end at the end, 0.5 m")->type_name("LENGTH");
   command.add_option("--travel", travel, "dem: way of the axle, as far as the bin lets it")->type_name("LENGTH");
   command.add_option("--time-step", time_step, "dem: of bed and run, a fifth of the Rayleigh time")->type_name("TIME");
+  command
+      .add_option("--sleep", sleep,
+                  "dem: grains far from the wheel rest that are slower than this share of sqrt(g d), 0.003; 0: none")
+      ->type_name("SHARE");
   command.add_option("--packing", packing, "dem: seed of the bed, 1")->type_name("SEED");
   command
       .add_option("--settling-friction", settling_friction,

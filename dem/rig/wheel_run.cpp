@@ -76,7 +76,8 @@ Setup Ride::setup_for(const ContactPair& tire_contact) const {
   setup.numerics.threads = how_.threads;
   setup.numerics.deepest_overlap = rig_.deepest_overlap;
   setup.numerics.ledger = rig_.ledger;
-  setup.numerics.sleep = rig_.sleep;
+  const double g = bed_.recipe.gravity, d = bed_.recipe.soil.radius_min + bed_.recipe.soil.radius_max;
+  setup.numerics.sleep = {rig_.sleep_speed * std::sqrt(g * d), rig_.sleep_time * std::sqrt(d / g)};
   return setup;
 }
 

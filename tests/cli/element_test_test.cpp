@@ -1,0 +1,52 @@
+// soilbin element-test, run as a person runs it.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "cli/command.hpp"
+
+namespace soilbin::cli::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(ElementTestCommand, RefusesWhatMakesNoSenseWithAHint) {
+  struct {
+    const char* arguments;
+    const char* says;
+  } const wrong[] = {
+      {"element-test direct-sheer paper-sand", "did you mean 'direct-shear'"},
+      {"element-test direct-shear papr-sand", "did you mean 'paper-sand'"},
+      {"element-test direct-shear dry-sand", "has no grains: an element test needs its section 'granular'"},
+      {"element-test direct-shear paper-sand --stress 20", "kPa"},
+      {"element-test direct-shear paper-sand --size 0.1", "--size"},
+      {"element-test direct-shear paper-sand --rolling directionl", "did you mean 'directional'"},
+  };
+  for (const auto& [arguments, says] : wrong) {
+    const Outcome outcome = soilbin(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_THAT(outcome.err, HasSubstr(says)) << arguments;
+    EXPECT_EQ(outcome.out, "") << arguments;
+  }
+}
+
+TEST(SlowElementTestCommand, ShowsInDegreesWhatItsJsonHoldsAsARatio) {
+  const std::string box = "element-test direct-shear paper-sand --size 0.5 --stress 20kPa --threads 1";
+  const Outcome table = soilbin(box), json = soilbin(box + " --json");
+  ASSERT_EQ(table.status, 0) << table.err;
+  ASSERT_EQ(json.status, 0) << json.err;
+  const double peak = json.json().at("runs").at(0).at("peak_ratio").at("value");
+  std::istringstream lines(table.out);
+  std::string line;
+  for (int k = 0; k < 3; ++k) std::getline(lines, line);
+  std::istringstream row(line);
+  double stress = 0, packing = 0, void_ratio = 0, shown = 0;
+  row >> stress >> packing >> void_ratio >> shown;
+  EXPECT_EQ(stress, 20);
+  EXPECT_NEAR(shown, std::atan(peak) * 180 / std::numbers::pi, 0.1) << line;
+}
+
+}  // namespace
+}  // namespace soilbin::cli::test
