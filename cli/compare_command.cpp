@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Asked {
-  std::string study, model, measured, report, markdown, csv, replay, title;
+  std::string study, model, measured, report, markdown, csv, replay, title, soil;
   std::vector<std::string> effects;
   bool json = false, no_loop = false;
   unsigned seed = 1;
@@ -127,11 +127,17 @@ void save(const compare::Comparison& comparison, const compare::ComparisonAbout&
   fmt::print(stderr, "wrote {}\n", (fs::path(asked.markdown) / "report.md").string());
 }
 
-int compare_models(const Asked& asked, const Session& session) {
+int compare_models(Asked asked, const Session& session) {
   check_model(asked);
+  if (!asked.soil_bin.recorded.empty())
+    asked.soil_bin.recorded = find_record(session.place, asked.study, asked.soil_bin.recorded);
   Case question = find_case(session.place, asked.study);
   question.study.conditions = asked.conditions.pick(question.study.conditions);
   compare::ComparisonAbout about;
+  if (!asked.soil.empty()) {
+    question.scenario.soil.semi_empirical = find_soil(asked.soil, session.place.library).semi_empirical;
+    about.facts.emplace_back("the analytic model's soil values", asked.soil);
+  }
   if (!asked.replay.empty()) about.replay = compare::read_replay(asked.replay);  // refused before anything is run
   const std::vector<ModelChoice> choices = analytic_choices(question, asked, session);
   std::vector<compare::Side> sides;
@@ -166,6 +172,8 @@ void add_compare(CLI::App& app, Session& session) {
   command->add_option("study", asked->study, "of the library, or a case file")->type_name("STUDY")->required();
   command->add_option("--model", asked->model, "dem: run the grains now")->type_name("NAME");
   command->add_option("--measured", asked->measured, "a campaign of the same wheel")->type_name("CAMPAIGN");
+  command->add_option("--soil", asked->soil, "the analytic model's values from this soil, as bevameter writes one")
+      ->type_name("SOIL");
   command->add_option("--effect", asked->effects, "one more side: the analytic model with this effect; repeatable")
       ->type_name("ID[:FORM][,PARAMETER=VALUE]");
   command->add_option("--report", asked->report, "write everything as one page")->type_name("FILE.html");
@@ -181,7 +189,7 @@ void add_compare(CLI::App& app, Session& session) {
   asked->soil_bin.add_to(*command);
   command->footer(
       "A row counts as a difference beyond two standard errors of both sides and beyond the scatter of one run.\n"
-      "Example: soilbin compare paper-straight --recorded runs.json --report compare.html");
+      "Example: soilbin compare paper-straight --recorded --report compare.html");
   command->callback([=, &session] { session.action = [=, &session] { return compare_models(*asked, session); }; });
 }
 

@@ -79,9 +79,21 @@ std::vector<compare::StudyAnswers> answers_of(const compare::Findings& findings,
   return all;
 }
 
-std::vector<Recorded> records_of(const std::vector<std::string>& files, const compare::Findings& findings,
+/// Records of the library that answer a study of the findings.
+std::vector<std::string> library_records(const compare::Findings& findings, const Workplace& place) {
+  std::set<std::string> files;
+  for (const compare::Finding& finding : findings.all) {
+    const fs::path study = find_file(place, Shelf::studies, finding.study);
+    const fs::path file = study.parent_path() / "recorded" / study.stem().concat(".json");
+    if (fs::exists(file)) files.insert(file.string());
+  }
+  return {files.begin(), files.end()};
+}
+
+std::vector<Recorded> records_of(std::vector<std::string> files, const compare::Findings& findings,
                                  const Workplace& place) {
   std::vector<Recorded> records;
+  if (files.empty()) files = library_records(findings, place);
   for (const std::string& file : files) {
     compare::Record record = compare::read_record(file);
     const std::string study = study_of(record, file, place);
@@ -140,10 +152,11 @@ void add_reproduce(CLI::App& app, Session& session) {
   const auto options = std::make_shared<ReproduceOptions>();
   command->add_option("findings", options->findings, "of the library, or a YAML file; by default paper")
       ->type_name("FINDINGS");
-  command->add_option("--recorded", options->recorded, "records of dem, one a study")->type_name("FILE.json...");
+  command->add_option("--recorded", options->recorded, "records of dem, one a study; by default the library's")
+      ->type_name("FILE.json...");
   command->add_option("--report", options->report, "save a page to open")->type_name("FILE.html");
   command->add_flag("--json", options->json, "the verdicts as JSON, in SI");
-  command->footer("Example: soilbin reproduce --recorded straight.json --report reproduction.html");
+  command->footer("Example: soilbin reproduce --report reproduction.html");
   command->callback([=, &session] { session.action = [=, &session] { return reproduce(*options, session); }; });
 }
 

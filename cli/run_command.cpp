@@ -85,7 +85,9 @@ std::vector<compare::ModelAnswers> answers_to(const Case& question, const compar
   }
 }
 
-int run(const RunOptions& options, const Session& session) {
+int run(RunOptions options, const Session& session) {
+  if (!options.soil_bin.recorded.empty())
+    options.soil_bin.recorded = find_record(session.place, options.study, options.soil_bin.recorded);
   Case question = find_study(session.place, options.study);
   keep_model(question, options.model);
   if (!options.soil_bin.recorded.empty() && options.model.empty()) add_dem(question);

@@ -193,8 +193,12 @@ void SoilBinFlags::add_to(CLI::App& command) {
       ->type_name("N");
   command.add_option("--record", record, "dem: keep each run in this file, and go on with what is there")
       ->type_name("FILE.json");
-  command.add_option("--recorded", recorded, "dem: answer from this record, without running")
-      ->type_name("FILE.json")
+  command
+      .add_option("--recorded", recorded,
+                  "dem: answer from this record, without running; without a file from the one in the library")
+      ->type_name("[FILE.json]")
+      ->expected(0, 1)
+      ->default_str(library_record)
       ->excludes("--record");
   command.add_option("--threads", threads, "dem: 0, one a core")->type_name("N");
 }

@@ -74,6 +74,20 @@ Case find_study(const Workplace& place, const std::string& name) {
   return question;
 }
 
+fs::path find_record(const Workplace& place, const std::string& study) {
+  const fs::path asked = find_file(place, Shelf::studies, study);
+  const fs::path file = asked.parent_path() / "recorded" / asked.stem().concat(".json");
+  if (fs::exists(file)) return file;
+  throw InputError(
+      fmt::format("there are no recorded runs of '{}': no file {}\n  hint: soilbin run {} --model dem "
+                  "--record FILE.json makes them",
+                  clipped(study), file.string(), clipped(study)));
+}
+
+fs::path find_record(const Workplace& place, const std::string& study, const std::string& recorded) {
+  return recorded == library_record ? find_record(place, study) : fs::path(recorded);
+}
+
 compare::Campaign find_campaign(const Workplace& place, const std::string& name) {
   return compare::read_campaign(find_file(place, Shelf::measured, name), place.effects);
 }

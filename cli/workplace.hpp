@@ -32,6 +32,13 @@ Case find_case(const Workplace& place, const std::string& name);
 /// The same; refuses a case that asks for a drive alone.
 Case find_study(const Workplace& place, const std::string& name);
 
+/// The record of a study's runs that lies beside it in the library: recorded/NAME.json. Throws InputError with a hint
+/// where there is none.
+std::filesystem::path find_record(const Workplace& place, const std::string& study);
+/// The same where `recorded`, an option's value, is library_record; else `recorded` itself.
+std::filesystem::path find_record(const Workplace& place, const std::string& study, const std::string& recorded);
+inline constexpr const char* library_record = "library";
+
 /// Reads a campaign: a name of the library, its folder, or its campaign.yaml.
 compare::Campaign find_campaign(const Workplace& place, const std::string& name);
 
