@@ -69,7 +69,7 @@ std::vector<compare::StudyAnswers> answers_of(const compare::Findings& findings,
     for (const Recorded& one : records) {
       if (one.study != name) continue;
       dem.answers = compare::recorded_answers(one.record, question.study.conditions, remark);
-      remarks.push_back(one.file + ": " + remark);
+      remarks.push_back(fs::path(one.file).filename().string() + ": " + remark);
     }
     if (dem.answers.empty())
       for (const OperatingCondition& at : question.study.conditions)

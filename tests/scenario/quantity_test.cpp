@@ -47,6 +47,8 @@ TEST(Quantity, UnitsWithOtherFactors) {
   EXPECT_DOUBLE_EQ(si("0.1 psi", "Pa"), 689.4757293168361);
   EXPECT_DOUBLE_EQ(si("120 N m", "Nm"), 120.0);
   EXPECT_DOUBLE_EQ(si("1 kN*mm", "N m"), 1.0);
+  EXPECT_DOUBLE_EQ(si("1065 kJ/m^3", "kPa"), 1065e3);  // an energy density is a pressure
+  EXPECT_DOUBLE_EQ(si("0.5 MJ", "J"), 5e5);
   EXPECT_DOUBLE_EQ(si("2 (m/s)^2", "m^2/s^2"), 2.0);
   EXPECT_DOUBLE_EQ(si("7\u00b0", "rad"), 7 * pi / 180);
   EXPECT_DOUBLE_EQ(si("3 cm\u00b2", "m^2"), 3e-4);

@@ -1,0 +1,52 @@
+// soilbin reproduce, and the library's recorded runs.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "cli/command.hpp"
+
+namespace soilbin::cli::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(RecordedStudies, AnswerAsTheFileThatIsNamed) {
+  const std::string file = SOILBIN_SOURCE_DIR "/cases/studies/recorded/paper-straight.json";
+  const Outcome found = soilbin("run paper-straight --recorded --load 4kN --slip 20%");
+  const Outcome named = soilbin("run paper-straight --load 4kN --slip 20% --recorded '" + file + "'");
+  ASSERT_EQ(found.status, 0) << found.err;
+  EXPECT_EQ(found.out, named.out);
+  EXPECT_THAT(found.out, HasSubstr("dem: 1 run"));
+}
+
+TEST(RecordedStudies, AStudyWithoutRunsSaysHowToMakeThem) {
+  const Outcome outcome = soilbin("run rover-slip --recorded");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("there are no recorded runs of 'rover-slip'"));
+  EXPECT_THAT(outcome.err, HasSubstr("--model dem --record"));
+}
+
+TEST(ReproduceCommand, CallsFindingsOfThePaperByTheirNames) {
+  const Outcome outcome = soilbin("reproduce --json");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json told = outcome.json();
+  EXPECT_GE(told.at("rows").size(), 40U);
+  // By eye on the recorded runs: at 4 kN the pull rises from 0 to 20 % slip by 992 N and from there to 60 % by 341 N.
+  const auto& all = told.at("rows");
+  const auto steep = std::find_if(all.begin(), all.end(),
+                                  [](const auto& finding) { return finding.at("id") == "straight-pull-steep-to-20"; });
+  ASSERT_NE(steep, all.end());
+  EXPECT_EQ(steep->at("answers").at("dem").at("verdict"), "shown");
+}
+
+TEST(ReproduceCommand, RefusesAnUnknownPaperAndARecordOfAnotherStudy) {
+  const Outcome unknown = soilbin("reproduce papr");
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean 'paper'"));
+  const Outcome missing = soilbin("reproduce --recorded nowhere.json");
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_THAT(missing.err, HasSubstr("nowhere.json"));
+}
+
+}  // namespace
+}  // namespace soilbin::cli::test
