@@ -83,8 +83,8 @@ Measured measure(const Options& options, const GranularSoil& grains) {
 std::string table_of(const compare::BevameterFit& fit, const Soil& soil) {
   TextTable table({"value", "bevameter", "soil file"});
   const auto row = [&](const char* name, const Estimate& found, Estimate SemiEmpiricalSoil::*member, double unit) {
-    table.add(
-        {name, number(found, unit), soil.semi_empirical ? number(soil.semi_empirical.value().*member, unit) : "-"});
+    table.add({name, number(found, 1 / unit),
+               soil.semi_empirical ? number(soil.semi_empirical.value().*member, 1 / unit) : "-"});
   };
   using S = SemiEmpiricalSoil;
   row("n [-]", fit.exponent, &S::exponent, 1);
