@@ -27,7 +27,7 @@ struct Asked {
   std::vector<std::string> effects;
   int first = 24, at_boundary = 12, fresh = 0, rounds = 4;
   unsigned seed = 1;
-  bool json = false, rows = false;
+  bool json = false, rows = false, stored = false;
   SoilBinFlags soil_bin;
 };
 
@@ -85,6 +85,7 @@ compare::VirtualTest grains_test(const Asked& asked, const compare::InclineMap& 
     if (name != "tire.lug_height") test.identity += fmt::format("\n{} {}", name, value);
   test.factors = map.factors;
   test.targets = compare::grain_channels();
+  if (asked.stored) return test;
   test.run = [map, run = run_with(settings, question, place.effects, {})](const Eigen::VectorXd& values,
                                                                           std::uint64_t seed) {
     Scenario grains = scenario_at(map, values);
@@ -198,6 +199,7 @@ void add_failure_map(CLI::App& app, Session& session) {
       ->allow_extra_args(false);
   command->add_option("--store", asked->store, "keep each run in this file, and go on with what is there")
       ->type_name("FILE.json");
+  command->add_flag("--stored", asked->stored, "answer from the store alone, without running");
   command->add_option("--report", asked->report, "write the report as one page")->type_name("FILE.html");
   command->add_option("--seed", asked->seed, "of the design, 1")->type_name("N");
   command->add_flag("--show-rows", asked->rows, "print every condition run");

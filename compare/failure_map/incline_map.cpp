@@ -111,10 +111,11 @@ FailureQuestion failure_question(const InclineMap& map, const VirtualTest& grain
                             const VectorXd& values) -> std::optional<Estimate> {
     const std::optional<double> analytic = analytic_pull(map, *model, values);
     if (!analytic) return std::nullopt;
-    const Experiment run = experiment_at(grains, values, seed, store).first;
-    if (run.results.empty()) return std::nullopt;
+    const std::optional<Experiment> run =
+        grains.run ? experiment_at(grains, values, seed, store).first : store.find(grains, values, seed);
+    if (!run || run->results.empty()) return std::nullopt;
     const double load = values[map_load];
-    return Estimate{(*analytic - run.results.front().value) / load, run.results.front().std_error / load};
+    return Estimate{(*analytic - run->results.front().value) / load, run->results.front().std_error / load};
   };
   return question;
 }

@@ -79,6 +79,11 @@ TEST(InclineMap, TheDifferenceIsAnalyticLessGrainsOverTheLoad) {
   EXPECT_NEAR(difference->std_error, 0.003, 1e-12);
   question.difference(values);
   EXPECT_EQ(runs, 1) << "the second time it comes from the store";
+  VirtualTest kept = grains;
+  kept.run = nullptr;
+  const FailureQuestion stored = failure_question(map, kept, store, 1, 0.1);
+  EXPECT_TRUE(stored.difference(values));
+  EXPECT_FALSE(stored.difference((VectorXd(4) << 501, 0.01, 5 * degree, 0.2).finished())) << "not in the store";
   EXPECT_FALSE(question.difference((VectorXd(4) << 890, 0, 0, 0.2).finished())) << "grains without an answer";
 }
 
