@@ -104,10 +104,10 @@ void show_run(int done, int total) {
 }
 
 /// Where the models agree: without lugs at any slip, else also up to a slip; and with any lugs.
-std::vector<compare::Clause> clauses_of(const compare::FailureQuestion& question, compare::FailureMap& rows,
-                                        int rounds) {
+std::vector<compare::AgreementClause> clauses_of(const compare::FailureQuestion& question, compare::FailureMap& rows,
+                                                 int rounds) {
   using compare::Role;
-  std::vector<compare::Clause> clauses;
+  std::vector<compare::AgreementClause> clauses;
   const auto tell = [&](const std::vector<Role>& roles) {
     if (const auto clause = compare::agreement(question, rows, roles, 9, rounds)) clauses.push_back(*clause);
     return !clauses.empty();

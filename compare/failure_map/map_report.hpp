@@ -15,7 +15,7 @@ struct MapStory {
   InclineMap map;
   FailureQuestion question;
   FailureMap rows;
-  std::vector<Clause> clauses;  ///< where the models agree
+  std::vector<AgreementClause> clauses;  ///< where the models agree
   std::vector<Coordinates> coordinates;
   std::vector<FreshCheck> checks;
 };

@@ -124,7 +124,7 @@ std::vector<std::string> map_summary(const MapStory& story) {
   std::vector<std::string> text = {rows_sentence(story)};
   text.push_back(fmt::format("By the map, {:.0f} % of the box asked for is beyond {:.3g} % of the load.",
                              100 * share_beyond(story), 100 * story.question.tolerance));
-  for (const Clause& clause : story.clauses) text.push_back(clause.text + ".");
+  for (const AgreementClause& clause : story.clauses) text.push_back(clause.text + ".");
   if (story.clauses.empty())
     text.push_back(
         "No box from the lower corner in which the models are sure to agree: with 95 % confidence they may part even "

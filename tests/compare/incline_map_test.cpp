@@ -149,7 +149,9 @@ TEST_F(SlowInclineMap, LearnsTheFormulaAndPredictsFreshConditions) {
   ASSERT_EQ(story.checks.size(), 4U);
   EXPECT_LT(rms_of(story.checks), 0.01);
   for (const FreshCheck& check : story.checks)
-    if (check.found) EXPECT_NEAR(check.found->value, -missing(check.values), 1e-9);
+    if (check.found) {
+      EXPECT_NEAR(check.found->value, -missing(check.values), 1e-9);
+    }
   // Lugs above 12.5 of 20 mm are beyond 10 %: 3 of 9 nodes (15, 17.5, 20), the map errs by a node at most.
   EXPECT_NEAR(share_beyond(story), 3.0 / 9, 1.0 / 9);
 }
