@@ -48,13 +48,14 @@ TEST(ToldCampaign, HasARowForEachRunAndKnowsRerunsByTheirConditions) {
   ASSERT_EQ(told.runs.size(), 3U);
   std::multiset<double> pulls;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Run& row = told.campaign.runs[k];
+    const auto& row = told.campaign.runs[k];
     EXPECT_EQ(row.at.run, static_cast<int>(k) + 1);
     EXPECT_EQ(*row.drawbar_pull, told.runs[k].answer.result->drawbar_pull.value);
     EXPECT_EQ(*row.torque, 2 * *row.drawbar_pull);
     EXPECT_EQ(row.at.longitudinal_incline, 5 * degree);
     EXPECT_FALSE(row.lateral_force) << "zero by symmetry: not told";
-    for (const Run& other : told.campaign.runs) EXPECT_EQ(row.setpoint == other.setpoint, row.at.slip == other.at.slip);
+    for (const auto& other : told.campaign.runs)
+      EXPECT_EQ(row.setpoint == other.setpoint, row.at.slip == other.at.slip);
     pulls.insert(*row.drawbar_pull);
   }
   EXPECT_THAT(pulls, testing::ElementsAre(10, 12, 20));
@@ -67,7 +68,7 @@ TEST(ToldCampaign, LeavesOutWhatIsHidden) {
   lugged.bin = Bin{0.2, 0.5};
   const ToldCampaign told =
       tell_campaign(lugged, on_a_slope(), {.name = "made", .hide = {"longitudinal_incline", "lugs", "bin"}});
-  for (const Run& row : told.campaign.runs) EXPECT_EQ(row.at.longitudinal_incline, 0);
+  for (const auto& row : told.campaign.runs) EXPECT_EQ(row.at.longitudinal_incline, 0);
   EXPECT_EQ(told.runs.front().answer.at.longitudinal_incline, 5 * degree) << "the truth stays with the runs";
   EXPECT_FALSE(is_lugged(told.campaign.wheel));
   EXPECT_FALSE(told.campaign.bin);
@@ -81,7 +82,8 @@ TEST(ToldCampaign, TheOrderIsDrawnFromTheSeed) {
     at.load = 1;
     for (int k = 0; k < 20; ++k) at.slip = 0.01 * k, runs.push_back(run_at(at, k));
     std::vector<double> pulls;
-    for (const Run& row : tell_campaign(sand(), runs, {.seed = seed}).campaign.runs) pulls.push_back(*row.drawbar_pull);
+    for (const auto& row : tell_campaign(sand(), runs, {.seed = seed}).campaign.runs)
+      pulls.push_back(*row.drawbar_pull);
     return pulls;
   };
   EXPECT_EQ(order(1), order(1));
@@ -92,7 +94,8 @@ TEST(ToldCampaign, TheOrderIsDrawnFromTheSeed) {
 TEST(ToldCampaign, TellsTheLateralForceWhereARunLeansOrIsYawed) {
   std::vector<RecordedRun> runs = on_a_slope();
   runs[1].answer.at.yaw = 0.1;
-  for (const Run& row : tell_campaign(sand(), runs, {}).campaign.runs) EXPECT_EQ(row.lateral_force, -*row.drawbar_pull);
+  for (const auto& row : tell_campaign(sand(), runs, {}).campaign.runs)
+    EXPECT_EQ(row.lateral_force, -*row.drawbar_pull);
 }
 
 TEST(ToldCampaign, CountsWhatItLeavesOut) {
