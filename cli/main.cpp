@@ -26,8 +26,10 @@ void add_commands(CLI::App& app, Session& session) {
   add_drive(app, session);
   add_predict(app, session);
   add_calibrate(app, session);
+  add_campaign(app, session);
   add_loop(app, session);
   add_compare(app, session);
+  add_failure_map(app, session);
   add_report(app, session);
   add_reproduce(app, session);
   add_check(app, session);

@@ -158,6 +158,10 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   read("--behind", flags.behind, {"m", above_zero}, settings.rig.behind);
   read("--ahead", flags.ahead, {"m", above_zero}, settings.rig.ahead);
   read("--travel", flags.travel, {"m", above_zero}, settings.rig.travel);
+  read("--lowering", flags.lowering, {"s", above_zero}, settings.rig.lowering);
+  read("--resting", flags.resting, {"s", zero_or_more}, settings.rig.resting);
+  read("--starting", flags.starting, {"s", above_zero}, settings.rig.starting);
+  read("--tilting", flags.tilting, {"s", above_zero}, settings.rig.tilting);
   read("--time-step", flags.time_step, {"s", above_zero}, settings.rig.dt);
   read("--sleep", flags.sleep, {"-", {.lower = 0, .upper = 0.1}}, settings.rig.sleep_speed);
   read("--settling-friction", flags.settling_friction, {"-", {.lower = 0, .upper = 1}}, settings.settling_friction);
@@ -179,6 +183,10 @@ void SoilBinFlags::add_to(CLI::App& command) {
       ->type_name("LENGTH");
   command.add_option("--ahead", ahead, "dem: of the axle to its front end at the end, 0.5 m")->type_name("LENGTH");
   command.add_option("--travel", travel, "dem: way of the axle, as far as the bin lets it")->type_name("LENGTH");
+  command.add_option("--lowering", lowering, "dem: time in which the load comes on, 0.5 s")->type_name("TIME");
+  command.add_option("--resting", resting, "dem: time under the whole load before the start, 0.2 s")->type_name("TIME");
+  command.add_option("--starting", starting, "dem: time in which speed and rotation come on, 0.2 s")->type_name("TIME");
+  command.add_option("--tilting", tilting, "dem: time in which gravity turns to an incline, 0.3 s")->type_name("TIME");
   command.add_option("--time-step", time_step, "dem: of bed and run, a fifth of the Rayleigh time")->type_name("TIME");
   command
       .add_option("--sleep", sleep,

@@ -26,6 +26,7 @@ void show_dem_progress(const dem::Progress& progress);
 struct SoilBinFlags {
   std::string length, width, depth, settling_friction;
   std::string behind, ahead, travel, time_step, sleep;
+  std::string lowering, resting, starting, tilting;
   std::string record;    ///< file that keeps each run as it is finished, and is gone on with
   std::string recorded;  ///< file to answer from, without running
   std::string replay;    ///< file for a replay of the first run that is made; flag of those who add it

@@ -78,7 +78,7 @@ std::optional<std::vector<int>> largest_corner(const Grid& grid, const std::vect
   return best;
 }
 
-std::string text_of(const FailureQuestion& question, const std::vector<Role>& roles, const Clause& clause) {
+std::string text_of(const FailureQuestion& question, const std::vector<Role>& roles, const AgreementClause& clause) {
   std::string limits, held;
   for (std::size_t j = 0; j < roles.size(); ++j) {
     const Factor& factor = question.factors[j];
@@ -95,7 +95,8 @@ std::string text_of(const FailureQuestion& question, const std::vector<Role>& ro
 }
 
 /// Counts the rows in the box and finds the one farthest off. A held factor counts up to a tenth of its range.
-void back_up(const FailureQuestion& question, const FailureMap& map, const std::vector<Role>& roles, Clause& clause) {
+void back_up(const FailureQuestion& question, const FailureMap& map, const std::vector<Role>& roles,
+             AgreementClause& clause) {
   for (const FailureRow& row : map.rows) {
     bool in_box = row.difference.has_value();
     for (std::size_t j = 0; j < roles.size(); ++j) {
@@ -144,8 +145,8 @@ bool was_run(const FailureMap& map, const VectorXd& values) {
 
 }  // namespace
 
-std::optional<Clause> agreement(const FailureQuestion& question, FailureMap& map, const std::vector<Role>& roles,
-                                int nodes, int rounds) {
+std::optional<AgreementClause> agreement(const FailureQuestion& question, FailureMap& map,
+                                         const std::vector<Role>& roles, int nodes, int rounds) {
   const Grid grid(question, roles, nodes);
   std::optional<Box> box = largest_box(question, map, roles, grid);
   for (int round = 0; round < rounds && box && !was_run(map, box->most_doubtful); ++round) {
@@ -153,7 +154,7 @@ std::optional<Clause> agreement(const FailureQuestion& question, FailureMap& map
     box = largest_box(question, map, roles, grid);
   }
   if (!box) return std::nullopt;
-  Clause clause;
+  AgreementClause clause;
   clause.upper = box->upper;
   back_up(question, map, roles, clause);
   if (clause.rows == 0) return std::nullopt;

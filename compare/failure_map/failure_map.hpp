@@ -16,14 +16,14 @@
 namespace soilbin::compare {
 
 /// A share of the load by which two models differ at a condition, analytic less grains, and its standard error.
-using Difference = std::function<std::optional<Estimate>(const Eigen::VectorXd& values)>;
+using PullDifference = std::function<std::optional<Estimate>(const Eigen::VectorXd& values)>;
 
 /// What is compared: one kind of incline, say, over load, lug height, angle and slip. Several kinds are several
 /// questions.
 struct FailureQuestion {
   std::string name;             ///< "longitudinal incline"
   std::vector<Factor> factors;  ///< values in SI
-  Difference difference;        ///< nothing where either model has no answer
+  PullDifference difference;    ///< nothing where either model has no answer
   double tolerance = 0.10;      ///< share of the load beyond which the models disagree
 };
 
@@ -57,7 +57,7 @@ void add_row(const FailureQuestion& question, const Eigen::VectorXd& values, Fai
 FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions& options = {});
 
 /// The largest box of conditions in which the models agree, and what it rests on.
-struct Clause {
+struct AgreementClause {
   std::string text;                        ///< in plain words
   std::vector<double> upper;               ///< of each factor; the lower end is the question's, or the held value [SI]
   int rows = 0;                            ///< that were run in the box
@@ -77,7 +77,7 @@ enum class Role {
 /// The box's most doubtful node is run (and added to the map) and the box found again, until that node is a row that
 /// agrees, at most `rounds` times: so a clause rests on the row that was likeliest to overturn it. Nothing where the
 /// models may disagree in the lower corner, or where no row lies in the box in the end.
-std::optional<Clause> agreement(const FailureQuestion& question, FailureMap& map, const std::vector<Role>& roles,
-                                int nodes = 13, int rounds = 8);
+std::optional<AgreementClause> agreement(const FailureQuestion& question, FailureMap& map,
+                                         const std::vector<Role>& roles, int nodes = 13, int rounds = 8);
 
 }  // namespace soilbin::compare

@@ -23,7 +23,6 @@ BedRecipe DemModel::recipe(const Scenario& scenario) const {
 TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondition& at) const {
   if (!scenario.effects.empty())
     throw InputError("dem takes no effects, but '" + scenario.effects.front().id + "' is switched on");
-  if (at.pass != 1) throw InputError("dem has no second pass yet: pass must be 1");
   wheel_motion(at, scenario.tire.radius);  // refuses what can't be run before a bed is settled for it
   const auto bed = beds_.bed(recipe(scenario), settings_.how);
   const WheelRun run =

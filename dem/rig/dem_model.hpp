@@ -26,8 +26,8 @@ class DemModel : public Model {
 
   std::string name() const override { return "dem"; }
   /// Sinkage, forces and torque are means over the steady part of one run, with the errors of its fluctuations; the
-  /// scatter between packings comes on top. Throws InputError without granular values, for effects, for a second pass,
-  /// and what run_wheel throws. One call at a time: a run uses all the threads it is given.
+  /// scatter between packings comes on top. Throws InputError without granular values, for effects, and
+  /// what run_wheel throws. One call at a time: a run uses all the threads it is given.
   TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override;
 
   /// The bed that a scenario's soil gets.

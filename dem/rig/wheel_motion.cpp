@@ -10,6 +10,7 @@ namespace soilbin::dem {
 WheelMotion wheel_motion(const OperatingCondition& at, double radius) {
   constexpr double right_angle = std::numbers::pi / 2;
   if (!(at.load > 0)) throw InputError("the load must be above 0");
+  if (at.pass < 1) throw InputError("the pass must be 1 or more");
   if (!(at.speed > 0)) throw InputError("the soil bin needs a forward speed above 0");
   if (!(at.slip >= -1 && at.slip < 1)) throw InputError("the soil bin needs a slip from -1 to below 1");
   if (!(std::abs(at.yaw) < right_angle)) throw InputError("yaw must lie between -90 and 90 deg");

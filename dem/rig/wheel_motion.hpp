@@ -19,7 +19,7 @@ struct WheelMotion {
 
 /// Throws InputError for a load or speed that isn't above 0, a slip outside -1
 /// .. 1, slip 1 (the wheel stands and spins: a speed says nothing of its
-/// rotation), a yaw of 90 deg or more, inclines of 90 deg or more.
+/// rotation), a pass below 1, a yaw of 90 deg or more, inclines of 90 deg or more.
 WheelMotion wheel_motion(const OperatingCondition& at, double radius);
 
 /// The slip of a wheel that turns at `rotation` [rad/s] while its axle goes on

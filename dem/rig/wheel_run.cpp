@@ -39,7 +39,10 @@ class Ride {
   double way() const;
   double tilting() const { return at_.longitudinal_incline != 0 || at_.transverse_incline != 0 ? rig_.tilting : 0; }
   void tilt();
+  double free_height() const;
   void put_wheel();
+  void move(const Vec3& way, double speed);
+  void take_back();
   void lower();
   void start();
   void drive(WheelRun& run);
@@ -127,6 +130,19 @@ void Ride::tilt() {
   }
 }
 
+/// The lowest place of the axle over the start where no grain is within the rim that the lugs reach [m].
+double Ride::free_height() const {
+  const double rim = tire_.radius + tire_.lugs.height, y = bed_.recipe.size.width / 2;
+  double z = 0;
+  for (std::size_t k = 0; k < simulation_.state().grains.count(); ++k) {
+    const Vec3 from = simulation_.state().grains.motion[k].position - Vec3{rig_.behind, y, 0};
+    const double x = dot(from, motion_.heading), apart = rim + simulation_.state().grains.motion[k].radius + gap;
+    if (std::abs(dot(from, motion_.axle)) > tire_.width || std::abs(x) >= apart) continue;
+    z = std::max(z, from.z + std::sqrt(apart * apart - x * x));
+  }
+  return z;
+}
+
 void Ride::put_wheel() {
   const Grains& grains = simulation_.state().grains;
   const double y = bed_.recipe.size.width / 2, radius = bed_.recipe.soil.radius_min;
@@ -144,18 +160,37 @@ void Ride::put_wheel() {
   body.free_translation = {false, false, true};
   body.axis = motion_.axle;
   body.rotation = rotation_by({0, 0, at_.yaw});
-  // The lowest place where no grain is within the rim that the lugs reach.
-  const double rim = tire_.radius + tire_.lugs.height, reach = tire_.width;
-  double z = 0;
-  for (std::size_t k = 0; k < grains.count(); ++k) {
-    const Vec3 from = grains.motion[k].position - Vec3{rig_.behind, y, 0};
-    const double x = dot(from, motion_.heading), apart = rim + grains.motion[k].radius + gap;
-    if (std::abs(dot(from, motion_.axle)) > reach || std::abs(x) >= apart) continue;
-    z = std::max(z, from.z + std::sqrt(apart * apart - x * x));
-  }
-  body.position = {rig_.behind, y, z};
+  body.position = {rig_.behind, y, free_height()};
   begin_x_ = rig_.behind;
   wheel_ = simulation_.add_body(body);
+}
+
+/// Moves the wheel, held, by `way`.
+void Ride::move(const Vec3& way, double speed) {
+  const std::int64_t steps = std::max<std::int64_t>(1, steps_of(length(way) / speed));
+  wheel().velocity = 1 / (static_cast<double>(steps) * simulation_.setup().numerics.dt) * way;
+  for (std::int64_t k = 0; k < steps; ++k) {
+    if (k % 100 == 0) tell("going back");
+    step();
+  }
+  wheel().velocity = {};
+}
+
+/// Lifts the wheel clear of all grains, takes it back to where it began and puts it over its rut.
+void Ride::take_back() {
+  constexpr double lifting = 1, returning = 5;  // [m/s]
+  const Grains& grains = simulation_.state().grains;
+  double top = 0;
+  for (std::size_t k = 0; k < grains.count(); ++k)
+    top = std::max(top, grains.motion[k].position.z + grains.motion[k].radius);
+  wheel().free_translation = {false, false, false};
+  wheel().turning = Turning::prescribed;
+  wheel().applied_force = wheel().applied_torque = wheel().spin = {};
+  const double clear = std::max(top + tire_.radius + tire_.lugs.height + gap, wheel().position.z);
+  move({0, 0, clear - wheel().position.z}, lifting);
+  move({begin_x_ - wheel_x(), 0, 0}, returning);
+  move({0, 0, free_height() - wheel().position.z}, lifting);
+  wheel().free_translation = {false, false, true};
 }
 
 void Ride::lower() {
@@ -238,15 +273,20 @@ Rut Ride::rut_behind() const {
 
 WheelRun Ride::run() {
   check_room();
-  const double before = tilting() + rig_.lowering + rig_.resting + rig_.starting;
-  all_steps_ = static_cast<double>(steps_of(before + (way() - motion_.speed * rig_.starting / 2) / motion_.speed));
+  const double before = rig_.lowering + rig_.resting + rig_.starting;
+  const double driven = (way() - motion_.speed * rig_.starting / 2) / motion_.speed;
+  all_steps_ = static_cast<double>(steps_of(tilting() + at_.pass * (before + driven)));
   tilt();
   put_wheel();
-  lower();
-  start();
   WheelRun run;
+  for (int pass = 1; pass <= at_.pass; ++pass) {
+    if (pass > 1) take_back();
+    lower();
+    start();
+    run = {};
+    drive(run);
+  }
   run.surface = surface_;
-  drive(run);
   if (run.samples.empty())
     throw InputError(
         "the bed ends before the wheel is up to its speed\n  "

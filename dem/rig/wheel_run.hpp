@@ -84,9 +84,11 @@ struct WheelRun {
 
 /// Runs it. The start-up is cut off at the latest end_of_start_up of pull,
 /// torque and sinkage; the rest is steady where drift_over_error of none is
-/// above Rig::steady_drift. Throws InputError for a bed too short or narrow,
-/// RunStopped where a grain or the wheel is lost, NoSolution where the wheel
-/// digs itself in to the axle, Stopped.
+/// above Rig::steady_drift. For pass n > 1 the wheel first goes n - 1 times over
+/// the same stretch at the same condition, each time lifted clear, taken back
+/// and lowered onto its rut; the last pass is told, its sinkage from the
+/// undisturbed surface. Throws InputError for a bed too short or narrow, RunStopped where a grain or the wheel is lost,
+/// NoSolution where the wheel digs itself in to the axle, Stopped.
 WheelRun run_wheel(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact,
                    const OperatingCondition& at, const Rig& rig = {}, const WorkOptions& how = {});
 

@@ -55,7 +55,7 @@ TEST(SlowFailureMap, FindsTheBoundaryOfAFormula) {
 TEST(SlowFailureMap, ItsClauseHoldsEverywhereInTheBoxAndRestsOnRows) {
   const FailureQuestion q = question();
   FailureMap map = map_failures(q);
-  const std::optional<Clause> clause = agreement(q, map, without_lugs);
+  const std::optional<AgreementClause> clause = agreement(q, map, without_lugs);
   ASSERT_TRUE(clause);
   EXPECT_THAT(clause->text, HasSubstr("longitudinal incline: within 10 % of the load up to load"));
   EXPECT_THAT(clause->text, HasSubstr("at lug height 0 mm"));

@@ -169,6 +169,24 @@ TEST_F(SlowSmallWheel, UphillLosesTheLoadsShare) {
   EXPECT_NEAR(up.power.climb, load * std::sin(10 * deg) * 0.3, 1e-9);
 }
 
+TEST_F(SlowSmallWheel, GoesTheSecondTimeInItsOwnRut) {
+  OperatingCondition at = condition(load, 0.3, 0.3);
+  at.pass = 2;
+  const WheelRun second = run(at, rough());
+  ASSERT_FALSE(second.samples.empty());
+  // It is put down where the first pass began, and told of the second way alone.
+  EXPECT_NEAR(second.samples.front().travel, level().samples.front().travel, 2e-3);
+  EXPECT_EQ(second.samples.size(), level().samples.size());
+  EXPECT_EQ(second.surface, level().surface);
+  // From the undisturbed surface it lies deeper, but by less than a grain's radius: the rut is firm.
+  const double first = level().result.sinkage.value;
+  EXPECT_GT(second.result.sinkage.value, first);
+  EXPECT_LT(second.result.sinkage.value, first + bed().recipe.soil.radius_min);
+  EXPECT_GT(second.rut.dug, level().rut.dug);
+  at.pass = 0;
+  EXPECT_THROW(run(at, rough()), InputError);
+}
+
 TEST_F(SlowSmallWheel, GivesTheSameForAnyNumberOfThreadsAndStopsWhenAsked) {
   const OperatingCondition at = condition(load, 0.3, 0.3);
   Rig brief = rig();

@@ -1,0 +1,135 @@
+// soilbin campaign: recorded runs of the virtual soil bin as a measured campaign, with what the analyst is told of
+// them.
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include "cli/commands.hpp"
+#include "cli/question.hpp"
+#include "cli/text_output.hpp"
+#include "cli/versions.hpp"
+#include "compare/recorded/told_campaign.hpp"
+#include "compare/sweep/varying.hpp"
+#include "scenario/atomic_file.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Asked {
+  std::vector<std::string> records, hide, effects;
+  std::string output, name, soil;
+  bool only_steady = false;
+  unsigned seed = 1;
+};
+
+/// The records as one: wheel, grains, bed and rig must be the first one's.
+struct Runs {
+  Scenario scenario;
+  std::vector<compare::Record> records;
+  std::vector<compare::RecordedRun> all;
+};
+
+Runs read_runs(const Asked& asked, const Workplace& place) {
+  Runs runs;
+  for (const std::string& file : asked.records) {
+    runs.records.push_back(compare::read_record(file));
+    const compare::Record& record = runs.records.back();
+    compare::refuse_other_inputs(record, runs.records.front().inputs, file);
+    for (const compare::RecordedRun& run : record.runs) runs.all.push_back(run);
+  }
+  const SourceText question{asked.records.front() + " (its case)", runs.records.front().question};
+  runs.scenario = parse_case(question, place.library, place.effects).scenario;
+  if (!asked.soil.empty()) runs.scenario.soil = find_soil(asked.soil, place.library);
+  return runs;
+}
+
+std::string told_words(const Asked& asked) {
+  std::string text = asked.hide.empty() ? "Nothing of the runs' conditions, wheel or bin was left out."
+                                        : "Left out, as if it weren't there: " + listed(asked.hide) + ".";
+  if (!asked.effects.empty()) text += " The declared model has " + listed(asked.effects) + ".";
+  return text;
+}
+
+/// README.md of the campaign: how it was made, and the run behind each row.
+std::string provenance(const Asked& asked, const std::string& command, const Runs& runs,
+                       const compare::ToldCampaign& told) {
+  std::string text = fmt::format(
+      "# {}\n\nRuns of soilbin's virtual soil bin, told as a campaign. {}\n\nMade by soilbin {} ({}) with\n\n    "
+      "{}\n\n",
+      told.campaign.name, told_words(asked), SOILBIN_VERSION, source_state(), command);
+  text += "| record | hash of its inputs | begun by |\n|---|---|---|\n";
+  for (std::size_t k = 0; k < runs.records.size(); ++k)
+    text += fmt::format("| {} | {} | soilbin {} |\n", fs::path(asked.records[k]).filename().string(),
+                        compare::inputs_key(runs.records[k].inputs), runs.records[k].soilbin);
+  text += "\nWhat the runs follow from beside condition and packing, in SI:\n\n```\n";
+  for (const auto& [name, value] : runs.records.front().inputs) text += name + " " + value + "\n";
+  text +=
+      "```\n\n| run | condition in the grains | packing (seed of the bed) | steady | drift | sources |\n"
+      "|---|---|---|---|---|---|\n";
+  for (std::size_t k = 0; k < told.runs.size(); ++k) {
+    const compare::RecordedRun& run = told.runs[k];
+    text += fmt::format("| {} | {} | {} | {} | {:.3g} | {} |\n", k + 1, compare::in_words(run.answer.at), run.packing,
+                        run.steady ? "yes" : "no", run.drift, run.source);
+  }
+  return text;
+}
+
+compare::Telling telling_of(const Asked& asked, const Runs& runs, const Workplace& place) {
+  compare::Telling telling;
+  telling.name = asked.name.empty() ? fs::path(asked.output).filename().string() : asked.name;
+  if (telling.name.empty()) telling.name = fs::path(asked.output).parent_path().filename().string();
+  telling.hide = {asked.hide.begin(), asked.hide.end()};
+  telling.only_steady = asked.only_steady, telling.seed = asked.seed;
+  const auto& soil = runs.scenario.soil.semi_empirical;
+  for (const std::string& text : asked.effects)
+    telling.effects.push_back(parse_effect(text, place.effects, soil ? soil->exponent.value : 1.0));
+  return telling;
+}
+
+int campaign(const Asked& asked, const Session& session) {
+  const Runs runs = read_runs(asked, session.place);
+  const compare::ToldCampaign told =
+      compare::tell_campaign(runs.scenario, runs.all, telling_of(asked, runs, session.place));
+  compare::write_campaign(asked.output, told.campaign, session.place.effects);
+  write_file_atomically(fs::path(asked.output) / "README.md", provenance(asked, session.command, runs, told));
+  compare::read_campaign(asked.output, session.place.effects);  // refuses what a loop would refuse, now
+  const auto drifting = std::count_if(told.runs.begin(), told.runs.end(), [](const auto& run) { return !run.steady; });
+  fmt::print("wrote {}: {} runs, {} not steady", asked.output, told.runs.size(), drifting);
+  if (told.without_result > 0) fmt::print("; left out {} without a result", told.without_result);
+  if (told.not_steady > 0) fmt::print("; left out {} not steady", told.not_steady);
+  fmt::print("\n{}\n", told_words(asked));
+  return done;
+}
+
+}  // namespace
+
+void add_campaign(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("campaign", "recorded runs of grains as a measured campaign");
+  const auto asked = std::make_shared<Asked>();
+  command->add_option("records", asked->records, "made by soilbin run --model dem --record FILE")
+      ->type_name("RECORD.json")
+      ->required();
+  command->add_option("--output", asked->output, "folder of the campaign")->type_name("DIR")->required();
+  command->add_option("--hide", asked->hide, "what the analyst is not told: " + listed(compare::things_to_hide()))
+      ->type_name("WHAT")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--effect", asked->effects, "that his model already has; may be given again")
+      ->type_name("ID[:FORM][,PARAMETER=VALUE...]")
+      ->allow_extra_args(false);
+  command->add_option("--soil", asked->soil, "whose semi-empirical values he is told; those of the record's case")
+      ->type_name("NAME|FILE");
+  command->add_option("--name", asked->name, "of the campaign; the folder's")->type_name("NAME");
+  command->add_flag("--only-steady", asked->only_steady, "leave out runs that did not become steady");
+  command->add_option("--seed", asked->seed, "of the order of the rows, 1")->type_name("N");
+  command->footer("Example: soilbin campaign level.json tilted.json --hide longitudinal_incline --output told");
+  command->callback([=, &session] { session.action = [=, &session] { return campaign(*asked, session); }; });
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,217 @@
+// soilbin failure-map: where the analytic model parts from grains, over load, lug height, an incline and slip.
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "cli/question.hpp"
+#include "cli/soil_bin.hpp"
+#include "cli/text_output.hpp"
+#include "cli/versions.hpp"
+#include "compare/failure_map/map_report.hpp"
+#include "compare/report/result_json.hpp"
+#include "dem/rig/run_inputs.hpp"
+#include "scenario/atomic_file.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+struct Asked {
+  std::string study, incline = "longitudinal", store, report, tolerance = "10%";
+  std::string load, lug_height, angle, slip;
+  std::vector<std::string> effects;
+  int first = 24, at_boundary = 12, fresh = 0, rounds = 4;
+  unsigned seed = 1;
+  bool json = false, rows = false, stored = false;
+  SoilBinFlags soil_bin;
+};
+
+/// "LOW..HIGH" of a flag, in SI.
+compare::Factor range_of(const std::string& flag, const std::string& text, const std::string& name,
+                         const Measure& measure) {
+  const std::size_t dots = text.find("..");
+  if (text.empty() || dots == std::string::npos)
+    throw InputError(fmt::format("{} '{}': expected LOW..HIGH with units, such as --load 40N..100N", flag, text));
+  try {
+    compare::Factor factor{name, read_quantity(text.substr(0, dots), measure),
+                           read_quantity(text.substr(dots + 2), measure), measure.unit};
+    if (!(factor.lower < factor.upper)) throw InputError("the lower end must be below the upper one");
+    return factor;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", flag, error.what()));
+  }
+}
+
+compare::Incline incline_of(const std::string& text) {
+  std::vector<std::string> right;
+  for (const Word<compare::Incline>& word : words_of(std::type_identity<compare::Incline>{})) {
+    if (word.text == text) return word.value;
+    right.emplace_back(word.text);
+  }
+  throw InputError("--incline: unknown kind '" + clipped(text) + "'" + did_you_mean(text, right) +
+                   "\n  hint: there are " + listed(right));
+}
+
+compare::InclineMap map_of(const Asked& asked, const Case& question, const Workplace& place) {
+  compare::InclineMap map;
+  map.scenario = question.scenario;
+  map.base = question.study.conditions.front();
+  map.base.pass = 1;
+  map.incline = incline_of(asked.incline);
+  map.factors = {range_of("--load", asked.load, "load", {"N", above_zero}),
+                 range_of("--lug-height", asked.lug_height, "lug height", {"mm", zero_or_more}),
+                 range_of("--angle", asked.angle, "angle", {"deg", inclines}),
+                 range_of("--slip", asked.slip, "slip", {"%", {.lower = -1.0, .upper = 0.99}})};
+  if (map.factors[compare::map_load].upper >= 1000) map.factors[compare::map_load].unit = "kN";
+  const auto& soil = question.scenario.soil.semi_empirical;
+  for (const std::string& text : asked.effects)
+    map.scenario.effects.push_back(parse_effect(text, place.effects, soil ? soil->exponent.value : 1.0));
+  return map;
+}
+
+/// Runs of grains as experiments: everything that they follow from beside factors and packing is their identity.
+compare::VirtualTest grains_test(const Asked& asked, const compare::InclineMap& map, const Case& question,
+                                 const Workplace& place) {
+  const dem::DemSettings settings = settings_of(asked.soil_bin);
+  compare::VirtualTest test;
+  test.identity = fmt::format("soil bin, {}, speed {}", name_of(map.incline), map.base.speed);
+  for (const auto& [name, value] :
+       dem::run_inputs(dem::DemModel(settings).recipe(map.scenario), map.scenario.tire, settings.rig))
+    if (name != "tire.lug_height") test.identity += fmt::format("\n{} {}", name, value);
+  test.factors = map.factors;
+  test.targets = compare::grain_channels();
+  if (asked.stored) return test;
+  test.run = [map, run = run_with(settings, question, place.effects, {})](const Eigen::VectorXd& values,
+                                                                          std::uint64_t seed) {
+    Scenario grains = scenario_at(map, values);
+    grains.effects.clear();
+    const compare::Answer answer = run(grains, condition_at(map, values), seed).answer;
+    if (!answer.result) throw NoSolution(answer.error);
+    const TractionResult& result = *answer.result;
+    return std::vector<Estimate>{result.drawbar_pull, result.torque, result.sinkage, result.lateral_force};
+  };
+  return test;
+}
+
+void show_run(int done, int total) {
+  if (interrupt_asked()) throw Interrupted();
+  if (isatty(STDERR_FILENO) == 1) fmt::print(stderr, "\r\033[Kcondition {} of {}; ", done + 1, total);
+}
+
+/// Where the models agree: without lugs at any slip, else also up to a slip; and with any lugs.
+std::vector<compare::AgreementClause> clauses_of(const compare::FailureQuestion& question, compare::FailureMap& rows,
+                                                 int rounds) {
+  using compare::Role;
+  std::vector<compare::AgreementClause> clauses;
+  const auto tell = [&](const std::vector<Role>& roles) {
+    if (const auto clause = compare::agreement(question, rows, roles, 9, rounds)) clauses.push_back(*clause);
+    return !clauses.empty();
+  };
+  if (!tell({Role::limited, Role::held, Role::limited, Role::whole}))
+    tell({Role::limited, Role::held, Role::limited, Role::limited});
+  tell({Role::limited, Role::limited, Role::limited, Role::whole});
+  return clauses;
+}
+
+compare::MapStory learn(const Asked& asked, const Case& question, const Workplace& place,
+                        compare::ExperimentStore& store, compare::VirtualTest& grains) {
+  compare::MapStory story;
+  story.map = map_of(asked, question, place);
+  grains = grains_test(asked, story.map, question, place);
+  story.question =
+      compare::failure_question(story.map, grains, store, static_cast<std::uint64_t>(asked.soil_bin.packing),
+                                read_flag("--tolerance", asked.tolerance, {"%", above_zero}));
+  story.rows = compare::map_failures(
+      story.question,
+      {.first = asked.first, .at_boundary = asked.at_boundary, .seed = asked.seed, .progress = show_run});
+  story.clauses = clauses_of(story.question, story.rows, asked.rounds);
+  story.coordinates = compare::compare_coordinates(story.map, story.rows);
+  story.checks = compare::check_fresh(story.question, story.rows, asked.fresh, asked.seed);
+  if (isatty(STDERR_FILENO) == 1) fmt::print(stderr, "\r\033[K");
+  return story;
+}
+
+std::string as_text(const compare::HtmlTable& table) {
+  TextTable text(table.header);
+  for (const auto& row : table.rows) text.add(row);
+  return fmt::format("\n{}\n{}", table.caption, text.text());
+}
+
+void print_story(const compare::MapStory& story, bool rows) {
+  for (const std::string& sentence : compare::map_summary(story)) fmt::print("{}\n", sentence);
+  if (rows) fmt::print("{}", as_text(compare::rows_table(story)));
+  fmt::print("{}", as_text(compare::coordinates_table(story)));
+  if (!story.checks.empty()) fmt::print("{}", as_text(compare::checks_table(story)));
+}
+
+int failure_map(const Asked& asked, const Session& session) {
+  const Case question = find_study(session.place, asked.study);
+  if (asked.first < 6) throw InputError("--first: 6 conditions or more");
+  if (asked.at_boundary < 0 || asked.fresh < 0) throw InputError("--boundary and --check: 0 or more");
+  compare::ExperimentStore store(asked.store);
+  compare::VirtualTest grains;
+  try {
+    const compare::MapStory story = learn(asked, question, session.place, store, grains);
+    if (!asked.report.empty())
+      write_file_atomically(
+          asked.report,
+          compare::failure_map_page(story, {"Failure map: " + name_of(story.map.incline), session.command, versions()},
+                                    write_case(question, session.place.effects)));
+    if (asked.json)
+      fmt::print("{}", compare::json_text(compare::failure_map_json(story)));
+    else
+      print_story(story, asked.rows);
+  } catch (const Interrupted&) {
+    if (!asked.store.empty())
+      fmt::print(stderr, "\n{} runs are in {}: the same command goes on from there", store.size(), asked.store);
+    throw;
+  }
+  return done;
+}
+
+}  // namespace
+
+void add_failure_map(CLI::App& app, Session& session) {
+  CLI::App* command =
+      app.add_subcommand("failure-map", "where the analytic model parts from grains: load, lugs, an incline, slip");
+  const auto asked = std::make_shared<Asked>();
+  command->add_option("study", asked->study, "whose wheel, soil, bin and speed it is")->type_name("STUDY")->required();
+  command->add_option("--incline", asked->incline, "longitudinal (default), transverse or yaw")->type_name("KIND");
+  command->add_option("--load", asked->load, "range of loads")->type_name("LOW..HIGH")->required();
+  command->add_option("--lug-height", asked->lug_height, "range of lug heights")->type_name("LOW..HIGH")->required();
+  command->add_option("--angle", asked->angle, "range of the incline or the yaw")->type_name("LOW..HIGH")->required();
+  command->add_option("--slip", asked->slip, "range of slips")->type_name("LOW..HIGH")->required();
+  command->add_option("--first", asked->first, "conditions that fill the box, 24")->type_name("N");
+  command->add_option("--boundary", asked->at_boundary, "more, each where the boundary may be, 12")->type_name("N");
+  command->add_option("--rounds", asked->rounds, "more for each clause, each where it is likeliest to be wrong, 4")
+      ->type_name("N");
+  command->add_option("--check", asked->fresh, "predict and run so many conditions that the map hasn't seen")
+      ->type_name("N");
+  command->add_option("--tolerance", asked->tolerance, "share of the load beyond which the models part, 10 %")
+      ->type_name("SHARE");
+  command->add_option("--effect", asked->effects, "of the analytic model; may be given again")
+      ->type_name("ID[:FORM][,PARAMETER=VALUE...]")
+      ->allow_extra_args(false);
+  command->add_option("--store", asked->store, "keep each run in this file, and go on with what is there")
+      ->type_name("FILE.json");
+  command->add_flag("--stored", asked->stored, "answer from the store alone, without running");
+  command->add_option("--report", asked->report, "write the report as one page")->type_name("FILE.html");
+  command->add_option("--seed", asked->seed, "of the design, 1")->type_name("N");
+  command->add_flag("--show-rows", asked->rows, "print every condition run");
+  command->add_flag("--json", asked->json, "soilbin-failure-map/1, in SI");
+  asked->soil_bin.add_to(*command);
+  command->get_option("--record")->group("");
+  command->get_option("--recorded")->group("");
+  command->get_option("--packings")->group("");
+  command->footer(
+      "Example: soilbin failure-map dem-lugs --incline longitudinal --load 40N..100N --lug-height 0mm..15mm\n"
+      "         --angle 0deg..18deg --slip 5%..40% --store map.json --report map.html --check 5");
+  command->callback([=, &session] { session.action = [=, &session] { return failure_map(*asked, session); }; });
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,167 @@
+#include "compare/failure_map/incline_map.hpp"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "bekker_wong/closed_forms.hpp"
+#include "bekker_wong/model.hpp"
+#include "compare/design/space_filling.hpp"
+#include "compare/sweep/answers.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double gravity = 9.81;
+
+std::optional<double> analytic_pull(const InclineMap& map, const Model& model, const VectorXd& values) {
+  const Answer answer = ask(model, scenario_at(map, values), condition_at(map, values));
+  return answer.result ? std::optional(answer.result->drawbar_pull.value) : std::nullopt;
+}
+
+/// Load number, lug height over static sinkage, tan of the angle, slip.
+VectorXd groups_at(const InclineMap& map, const VectorXd& values) {
+  const Scenario scenario = scenario_at(map, values);
+  const OperatingCondition at = condition_at(map, values);
+  const SemiEmpiricalSoil& soil = *scenario.soil.semi_empirical;
+  const Tire& tire = scenario.tire;
+  const double pressing = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
+  const double sinkage =
+      bekker_wong::bekker_static_sinkage(bekker_wong::values_of(soil), tire.radius, tire.width, pressing);
+  return (VectorXd(4) << at.load / (soil.density * gravity * tire.width * tire.radius * tire.radius),
+          values[map_lug_height] / sinkage, std::tan(values[map_angle]), values[map_slip])
+      .finished();
+}
+
+/// Rows with an answer, in coordinates that are stretched onto the unit cube.
+Samples samples_in(const FailureMap& rows, const std::function<VectorXd(const VectorXd&)>& coordinates) {
+  std::vector<VectorXd> x;
+  std::vector<Estimate> y;
+  for (const FailureRow& row : rows.rows)
+    if (row.difference) x.push_back(coordinates(row.values)), y.push_back(*row.difference);
+  const Index n = static_cast<Index>(x.size());
+  Samples samples{MatrixXd(n, n > 0 ? x.front().size() : 0), VectorXd(n), VectorXd(n)};
+  for (Index i = 0; i < n; ++i) {
+    samples.x.row(i) = x[static_cast<std::size_t>(i)];
+    samples.y[i] = y[static_cast<std::size_t>(i)].value;
+    samples.variance[i] = std::pow(y[static_cast<std::size_t>(i)].std_error, 2);
+  }
+  for (Index k = 0; k < samples.x.cols(); ++k) {
+    const double low = samples.x.col(k).minCoeff(), high = samples.x.col(k).maxCoeff();
+    samples.x.col(k) = (samples.x.col(k).array() - low) / (high > low ? high - low : 1.0);
+  }
+  return samples;
+}
+
+}  // namespace
+
+std::string name_of(Incline incline) {
+  switch (incline) {
+    case Incline::longitudinal:
+      return "longitudinal incline";
+    case Incline::transverse:
+      return "transverse incline";
+    case Incline::yaw:
+      return "yaw";
+  }
+  return "";
+}
+
+Scenario scenario_at(const InclineMap& map, const VectorXd& values) {
+  Scenario scenario = map.scenario;
+  scenario.tire.lugs.height = values[map_lug_height];
+  return scenario;
+}
+
+OperatingCondition condition_at(const InclineMap& map, const VectorXd& values) {
+  OperatingCondition at = map.base;
+  at.load = values[map_load], at.slip = values[map_slip];
+  at.longitudinal_incline = at.transverse_incline = at.yaw = 0;
+  (map.incline == Incline::longitudinal ? at.longitudinal_incline
+   : map.incline == Incline::transverse ? at.transverse_incline
+                                        : at.yaw) = values[map_angle];
+  return at;
+}
+
+std::vector<Target> grain_channels() {
+  return {{"drawbar_pull", {}, "N"}, {"torque", {}, "N m"}, {"sinkage", {}, "mm"}, {"lateral_force", {}, "N"}};
+}
+
+FailureQuestion failure_question(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store,
+                                 std::uint64_t seed, double tolerance) {
+  if (!map.scenario.soil.semi_empirical)
+    throw InputError("soil '" + map.scenario.soil.name +
+                     "' has no semi-empirical values for the analytic model\n  hint: soilbin bevameter gives them from "
+                     "the grains");
+  if (map.factors.at(map_lug_height).upper > 0 && !(map.scenario.tire.lugs.count && map.scenario.tire.lugs.thickness))
+    throw InputError(
+        "tire '" + map.scenario.tire.name +
+        "' tells no count and thickness of lugs, which runs with lugs need\n  hint: a lugged tire; the map "
+        "varies its lugs' height");
+  FailureQuestion question;
+  question.name = name_of(map.incline);
+  question.factors = map.factors;
+  question.tolerance = tolerance;
+  question.difference = [map, &grains, &store, seed, model = std::shared_ptr(make_model(ModelKind::bekker_wong))](
+                            const VectorXd& values) -> std::optional<Estimate> {
+    const std::optional<double> analytic = analytic_pull(map, *model, values);
+    if (!analytic) return std::nullopt;
+    const std::optional<Experiment> run =
+        grains.run ? experiment_at(grains, values, seed, store).first : store.find(grains, values, seed);
+    if (!run || run->results.empty()) return std::nullopt;
+    const double load = values[map_load];
+    return Estimate{(*analytic - run->results.front().value) / load, run->results.front().std_error / load};
+  };
+  return question;
+}
+
+double FreshCheck::sigma() const {
+  if (!found) return std::numeric_limits<double>::quiet_NaN();
+  return (found->value - predicted.value) / std::hypot(found->std_error, predicted.std_error);
+}
+
+std::vector<FreshCheck> check_fresh(const FailureQuestion& question, const FailureMap& map, int count,
+                                    std::uint64_t seed) {
+  constexpr std::uint64_t of_checks = 1'000'000;  // far from the seeds of designs and clouds
+  const MatrixXd fresh = latin_hypercube(count, static_cast<int>(question.factors.size()), seed + of_checks);
+  const double between_runs = map.surrogate.at(0).mode().hyperparameters().extra_sd;
+  std::vector<FreshCheck> checks;
+  for (Index i = 0; i < fresh.rows(); ++i) {
+    FreshCheck check{from_unit(question.factors, fresh.row(i)), {}, std::nullopt};
+    check.predicted = map.at(question, check.values);
+    check.predicted.std_error = std::hypot(check.predicted.std_error, between_runs);
+    check.found = question.difference(check.values);
+    checks.push_back(std::move(check));
+  }
+  return checks;
+}
+
+double rms_of(const std::vector<FreshCheck>& checks) {
+  double squares = 0, count = 0;
+  for (const FreshCheck& check : checks)
+    if (check.found) squares += std::pow(check.found->value - check.predicted.value, 2), count += 1;
+  return count > 0 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<Coordinates> compare_coordinates(const InclineMap& map, const FailureMap& rows) {
+  const auto groups = [&](const VectorXd& values) { return groups_at(map, values); };
+  const std::vector<std::pair<std::string, std::function<VectorXd(const VectorXd&)>>> all = {
+      {"load, lug height, angle, slip", [](const VectorXd& values) { return values; }},
+      {"load number, lug height over sinkage, tan(angle), slip", groups},
+      {"lug height over sinkage, tan(angle), slip", [&](const VectorXd& v) { return VectorXd(groups(v).tail(3)); }},
+      {"load number, tan(angle), slip", [&](const VectorXd& v) {
+         const VectorXd g = groups(v);
+         return VectorXd((VectorXd(3) << g[0], g[2], g[3]).finished());
+       }}};
+  std::vector<Coordinates> compared;
+  for (const auto& [name, coordinates] : all)
+    compared.push_back({name, fit_surrogate(samples_in(rows, coordinates)).leave_one_out().rms()});
+  return compared;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,69 @@
+// A failure map over load, lug height, angle and slip, for one kind of incline: the analytic model against runs of
+// grains. Runs are kept in a store of experiments, so that a map that was stopped goes on, and is drawn again without a
+// run.
+#pragma once
+
+#include "compare/calibrate/experiment_store.hpp"
+#include "compare/failure_map/failure_map.hpp"
+#include "scenario/case.hpp"
+
+namespace soilbin::compare {
+
+enum class Incline { longitudinal, transverse, yaw };
+constexpr std::array<Word<Incline>, 3> words_of(std::type_identity<Incline>) {
+  return {{{"longitudinal", Incline::longitudinal}, {"transverse", Incline::transverse}, {"yaw", Incline::yaw}}};
+}
+/// "longitudinal incline", "transverse incline", "yaw".
+std::string name_of(Incline incline);
+
+/// Where the factors of an incline's map stand.
+enum MapFactor { map_load = 0, map_lug_height = 1, map_angle = 2, map_slip = 3 };
+
+struct InclineMap {
+  Scenario scenario;        ///< of its tire all but the lugs' height is kept; count and thickness are needed
+  OperatingCondition base;  ///< speed, frames: what the factors don't set
+  Incline incline = Incline::longitudinal;
+  std::vector<Factor> factors;  ///< by MapFactor [N], [m], [rad], [-]
+};
+
+/// The wheel and the condition at values of the factors.
+Scenario scenario_at(const InclineMap& map, const Eigen::VectorXd& values);
+OperatingCondition condition_at(const InclineMap& map, const Eigen::VectorXd& values);
+
+/// What a run of grains is asked for; the first is the drawbar pull.
+std::vector<Target> grain_channels();
+
+/// Drawbar pull of the analytic model (with the scenario's effects) less that of the grains over the load. The error is
+/// that of the run of grains on one packing: the soil's values are taken as declared, and the scatter between packings
+/// is for the surrogate to find. Where `grains` has no `run`, conditions that the store doesn't hold have no answer.
+/// `grains` and `store` must outlive the question. seed: of the packing.
+FailureQuestion failure_question(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store,
+                                 std::uint64_t seed, double tolerance);
+
+/// A condition that the map had not seen when it predicted it.
+struct FreshCheck {
+  Eigen::VectorXd values;
+  Estimate predicted;             ///< share of the load; the error that of a new run, its own left out
+  std::optional<Estimate> found;  ///< nothing where either model has no answer
+  double sigma() const;           ///< found less predicted over the root of both variances
+};
+
+/// Predicts and runs `count` conditions of a Latin hypercube of its own seed. The map does not learn from them.
+std::vector<FreshCheck> check_fresh(const FailureQuestion& question, const FailureMap& map, int count,
+                                    std::uint64_t seed);
+
+/// Root mean square of found less predicted [share of the load]; NaN where nothing was found.
+double rms_of(const std::vector<FreshCheck>& checks);
+
+/// What a surrogate may see instead of the factors, and how well it then predicts rows that are left out.
+struct Coordinates {
+  std::string name;       ///< "load number, lug height over sinkage, tan of the angle, slip"
+  double held_out = 0.0;  ///< root mean square error, left out one at a time [share of the load]
+};
+
+/// The factors themselves; dimensionless groups of them (load number W/(gamma b r^2), lug height over Bekker's static
+/// sinkage at that load and slope, tan of the angle, slip); and these without the load number: where that is no worse,
+/// the groups collapse the data. One wheel on one soil can't tell more, since its load number is the load.
+std::vector<Coordinates> compare_coordinates(const InclineMap& map, const FailureMap& rows);
+
+}  // namespace soilbin::compare

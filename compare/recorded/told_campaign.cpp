@@ -1,0 +1,117 @@
+#include "compare/recorded/told_campaign.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "compare/measured/run_columns.hpp"
+#include "compare/sweep/alike.hpp"
+#include "compare/sweep/channels.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+#include "scenario/source_text.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// Columns of conditions that a run has by default, so that leaving them out says something else than the truth.
+bool can_be_hidden(const RunColumn& column) {
+  return !column.required && !column.channel && column.set && column.get && column.get(Run{}).has_value();
+}
+
+void hide_conditions(const std::set<std::string>& hide, Run& run) {
+  const Run plain;
+  for (const RunColumn& column : run_columns())
+    if (can_be_hidden(column) && hide.contains(column.quantity)) column.set(run, *column.get(plain));
+}
+
+/// The setpoint's number, from 1: that of the first row whose conditions agree.
+std::size_t setpoint_of(const OperatingCondition& at, std::vector<OperatingCondition>& known) {
+  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return alike(k, at); });
+  if (found != known.end()) return static_cast<std::size_t>(found - known.begin()) + 1;
+  known.push_back(at);
+  return known.size();
+}
+
+/// 0 .. count - 1 in an order drawn from the seed (Fisher and Yates), the same bits everywhere.
+std::vector<std::size_t> drawn_order(std::size_t count, std::uint64_t seed) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::mt19937_64 random(seed);
+  for (std::size_t k = count; k > 1; --k) std::swap(order[k - 1], order[random() % k]);
+  return order;
+}
+
+bool has_side(const RecordedRun& run) { return run.answer.at.yaw != 0 || run.answer.at.transverse_incline != 0; }
+
+void check_words(const std::set<std::string>& hide) {
+  const std::vector<std::string> right = things_to_hide();
+  for (const std::string& word : hide)
+    if (std::find(right.begin(), right.end(), word) == right.end())
+      throw InputError(fmt::format("nothing to hide is called '{}'{}\n  hint: what can be hidden is {}", clipped(word),
+                                   did_you_mean(word, right), listed(right)));
+}
+
+Campaign empty_campaign(const Scenario& scenario, const Telling& telling, const OperatingCondition& first) {
+  Campaign campaign;
+  campaign.name = telling.name;
+  campaign.wheel = scenario.tire;
+  campaign.wheel.name.clear();
+  if (telling.hide.contains("lugs")) campaign.wheel.lugs = {};
+  campaign.soil = *scenario.soil.semi_empirical;
+  if (!telling.hide.contains("bin")) campaign.bin = scenario.bin;
+  campaign.effects = telling.effects;
+  campaign.force_frame = first.force_frame;
+  campaign.slip_by = first.slip_by;
+  return campaign;
+}
+
+}  // namespace
+
+std::vector<std::string> things_to_hide() {
+  std::vector<std::string> things;
+  for (const RunColumn& column : run_columns())
+    if (can_be_hidden(column)) things.push_back(column.quantity);
+  things.insert(things.end(), {"lugs", "bin"});
+  return things;
+}
+
+ToldCampaign tell_campaign(const Scenario& scenario, const std::vector<RecordedRun>& runs, const Telling& telling) {
+  check_words(telling.hide);
+  if (!scenario.soil.semi_empirical)
+    throw InputError(
+        fmt::format("soil '{}' has no semi-empirical values, which a campaign declares\n  hint: soilbin "
+                    "bevameter gives them from the grains; --soil takes the file",
+                    scenario.soil.name));
+  ToldCampaign told;
+  if (!runs.empty()) told.campaign = empty_campaign(scenario, telling, runs.front().answer.at);
+  const bool sideways = std::any_of(runs.begin(), runs.end(), has_side);
+  std::vector<OperatingCondition> setpoints;
+  for (const std::size_t index : drawn_order(runs.size(), telling.seed)) {
+    const RecordedRun& run = runs[index];
+    if (!run.answer.result) {
+      ++told.without_result;
+      continue;
+    }
+    if (telling.only_steady && !run.steady) {
+      ++told.not_steady;
+      continue;
+    }
+    Run row;
+    row.at = run.answer.at;
+    hide_conditions(telling.hide, row);
+    row.setpoint = fmt::format("S{:02}", setpoint_of(row.at, setpoints));
+    row.at.run = static_cast<int>(told.runs.size()) + 1;
+    for (const ChannelView& channel : channel_views)
+      if (sideways || channel.name != "lateral_force")
+        row.*channel.measured = ((*run.answer.result).*channel.predicted).value;
+    told.campaign.runs.push_back(row);
+    told.runs.push_back(run);
+  }
+  if (told.runs.empty()) throw InputError("no run is left to tell of");
+  return told;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,76 @@
+// soilbin failure-map on the runs that come with the project, and soilbin campaign on what is no record.
+#include <gmock/gmock.h>
+
+#include "cli/command.hpp"
+
+namespace soilbin::cli::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// The command of docs/failure-map.md, from the runs in the store alone.
+std::string stored(const std::string& more) {
+  return "failure-map dem-lugs --incline longitudinal --load 40N..100N --lug-height 0mm..15mm --angle 0deg..15deg "
+         "--slip 5%..40% --boundary 0 --rounds 0 --settling-friction 0.2 --bed-length 0.5m --behind 0.12m --ahead "
+         "0.12m "
+         "--lowering 0.2s --resting 0.1s --starting 0.1s --tilting 0.2s --stored --store '" SOILBIN_SOURCE_DIR
+         "/cases/failure_maps/dem-nature-longitudinal.json' " +
+         more;
+}
+
+TEST(SlowFailureMapCommand, LearnsFromTheStoredRuns) {
+  const Scratch scratch;
+  const fs::path page = scratch / "map.html";
+  const Outcome r = soilbin(stored("--json --report '" + page.string() + "'"));
+  ASSERT_EQ(r.status, 0) << r.err;
+  const nlohmann::json map = r.json();
+  EXPECT_EQ(map["format"], "soilbin-failure-map/1");
+  EXPECT_EQ(map["rows"].size(), 24U);
+  for (const auto& row : map["rows"]) {
+    if (row["difference"].is_null()) continue;
+    EXPECT_LT(std::abs(row["difference"]["value"].get<double>()), 1.0);
+    EXPECT_GT(row["difference"]["std_error"].get<double>(), 0.0);
+  }
+  EXPECT_THAT(text_of(page), HasSubstr(map["summary"][0].get<std::string>()));
+}
+
+TEST(FailureMapCommand, NamesWhatIsWrong) {
+  EXPECT_THAT(soilbin(stored("--incline sideways")).err, HasSubstr("unknown kind 'sideways'"));
+  EXPECT_THAT(soilbin(stored("--load 100N..40N")).err, HasSubstr("below the upper"));
+  EXPECT_THAT(soilbin(stored("--angle 15deg")).err, HasSubstr("expected LOW..HIGH"));
+  const Outcome none = soilbin(
+      "failure-map dem-lugs --load 1N..2N --lug-height 0mm..1mm --angle 0deg..1deg --slip 0%..1% "
+      "--stored --store no-such.json");
+  EXPECT_EQ(none.status, 1);
+  EXPECT_THAT(none.err, HasSubstr("only 0 of 24 conditions have an answer of both models"));
+}
+
+TEST(CampaignCommand, RefusesWhatIsNoRecord) {
+  const Scratch scratch;
+  const std::string output = " --output '" + (scratch / "told").string() + "'";
+  EXPECT_EQ(soilbin("campaign no-such.json" + output).status, 2);
+  const fs::path text = scratch.write("record.json", "{}");
+  EXPECT_EQ(soilbin("campaign '" + text.string() + "'" + output).status, 2);
+  EXPECT_FALSE(fs::exists(scratch / "told"));
+  EXPECT_THAT(soilbin("campaign --help").out, HasSubstr("longitudinal_incline"));
+}
+
+// The control that comes with the project: grains in which nothing was switched on. What the loop names is true of
+// them.
+TEST(SlowCampaigns, TheLoopFindsHowSoftGrainsSpringBack) {
+  const Outcome r = soilbin("loop dem-null --json");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const nlohmann::json found = r.json();
+  EXPECT_EQ(found["verdict"], "effect_found");
+  bool exit_angle = false;
+  for (const auto& effect : found["effects"])
+    if (effect["id"] == "exit_angle") {
+      exit_angle = true;
+      // 98 % of the normal stress under the wheel lies ahead of 11 to 13 deg behind the axle (0.19 to 0.23 rad).
+      EXPECT_NEAR(effect["parameters"]["theta_c"].get<double>(), 0.21, 0.04);
+    }
+  EXPECT_TRUE(exit_angle);
+}
+
+}  // namespace
+}  // namespace soilbin::cli::test

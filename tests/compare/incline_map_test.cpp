@@ -1,0 +1,191 @@
+// A failure map of a wheel on an incline, with a stand-in for the grains that differs from the analytic model by a
+// formula.
+#include "compare/failure_map/incline_map.hpp"
+
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <filesystem>
+
+#include "compare/comparison_fixture.hpp"
+#include "compare/failure_map/map_report.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Eigen::VectorXd;
+using testing::HasSubstr;
+
+constexpr double degree = std::numbers::pi / 180;
+
+InclineMap slope_map() {
+  InclineMap map;
+  map.scenario = sand_study({}).scenario;
+  map.scenario.tire.lugs = {.height = 0, .count = 16, .thickness = 0.006};
+  map.factors = {{"load", 300, 900, "N"},
+                 {"lug height", 0, 0.02, "mm"},
+                 {"angle", 0, 10 * degree, "deg"},
+                 {"slip", 0.05, 0.4, "%"}};
+  return map;
+}
+
+/// Share of the load by which the analytic model is too low: lugs of 20 mm pull 16 % of the load.
+double missing(const VectorXd& values) { return 8 * values[map_lug_height]; }
+
+/// Grains that pull as the analytic model of a smooth wheel does, and what lugs add; `runs` counts them.
+VirtualTest stand_in(const InclineMap& map, int& runs) {
+  VirtualTest grains;
+  grains.identity = "stand-in", grains.factors = map.factors, grains.targets = grain_channels();
+  grains.run = [map, &runs](const VectorXd& values, std::uint64_t) {
+    ++runs;
+    if (values[map_load] > 880) throw NoSolution("too heavy");
+    const Answer answer = ask(*make_model(ModelKind::bekker_wong), scenario_at(map, values), condition_at(map, values));
+    const double load = values[map_load];
+    return std::vector<Estimate>{
+        {answer.result->drawbar_pull.value + missing(values) * load, 0.003 * load}, {0, 1}, {0, 1}, {0, 1}};
+  };
+  return grains;
+}
+
+TEST(InclineMap, SetsTheFactorsAndTheKindOfIncline) {
+  InclineMap map = slope_map();
+  map.base.speed = 0.3;
+  const VectorXd values = (VectorXd(4) << 500, 0.01, 5 * degree, 0.2).finished();
+  EXPECT_EQ(scenario_at(map, values).tire.lugs.height, 0.01);
+  EXPECT_EQ(scenario_at(map, values).tire.lugs.count, 16);
+  for (const Incline kind : {Incline::longitudinal, Incline::transverse, Incline::yaw}) {
+    map.incline = kind;
+    const OperatingCondition at = condition_at(map, values);
+    EXPECT_EQ(at.load, 500);
+    EXPECT_EQ(at.slip, 0.2);
+    EXPECT_EQ(at.speed, 0.3);
+    EXPECT_EQ(at.longitudinal_incline, kind == Incline::longitudinal ? 5 * degree : 0);
+    EXPECT_EQ(at.transverse_incline, kind == Incline::transverse ? 5 * degree : 0);
+    EXPECT_EQ(at.yaw, kind == Incline::yaw ? 5 * degree : 0);
+  }
+}
+
+TEST(InclineMap, TheDifferenceIsAnalyticLessGrainsOverTheLoad) {
+  const InclineMap map = slope_map();
+  int runs = 0;
+  const VirtualTest grains = stand_in(map, runs);
+  ExperimentStore store;
+  const FailureQuestion question = failure_question(map, grains, store, 1, 0.1);
+  const VectorXd values = (VectorXd(4) << 500, 0.01, 5 * degree, 0.2).finished();
+  const std::optional<Estimate> difference = question.difference(values);
+  ASSERT_TRUE(difference);
+  EXPECT_NEAR(difference->value, -0.08, 1e-12);
+  EXPECT_NEAR(difference->std_error, 0.003, 1e-12);
+  question.difference(values);
+  EXPECT_EQ(runs, 1) << "the second time it comes from the store";
+  VirtualTest kept = grains;
+  kept.run = nullptr;
+  const FailureQuestion stored = failure_question(map, kept, store, 1, 0.1);
+  EXPECT_TRUE(stored.difference(values));
+  EXPECT_FALSE(stored.difference((VectorXd(4) << 501, 0.01, 5 * degree, 0.2).finished())) << "not in the store";
+  EXPECT_FALSE(question.difference((VectorXd(4) << 890, 0, 0, 0.2).finished())) << "grains without an answer";
+}
+
+TEST(InclineMap, RefusesAWheelWithoutLugsToVaryAndGrainsWithoutAnalyticValues) {
+  InclineMap map = slope_map();
+  int runs = 0;
+  const VirtualTest grains = stand_in(map, runs);
+  ExperimentStore store;
+  map.scenario.tire.lugs.count.reset();
+  EXPECT_THROW(failure_question(map, grains, store, 1, 0.1), InputError);
+  map = slope_map(), map.scenario.soil.semi_empirical.reset();
+  EXPECT_THROW(failure_question(map, grains, store, 1, 0.1), InputError);
+}
+
+TEST(InclineMap, ACheckCountsBothErrors) {
+  EXPECT_NEAR((FreshCheck{{}, {0.10, 0.03}, Estimate{0.15, 0.04}}.sigma()), 1.0, 1e-12);
+  const std::vector<FreshCheck> checks = {
+      {{}, {0.1, 0}, Estimate{0.13, 0}}, {{}, {0.2, 0}, Estimate{0.16, 0}}, {{}, {}, {}}};
+  EXPECT_NEAR(rms_of(checks), std::sqrt((0.03 * 0.03 + 0.04 * 0.04) / 2), 1e-12);
+}
+
+/// A map of the stand-in, its story, and the file that keeps its runs; several tests look at it.
+class SlowInclineMap : public testing::Test {
+ protected:
+  struct Learnt {
+    std::filesystem::path file;
+    int runs = 0, again = 0;
+    MapStory story;
+  };
+  static MapStory learn(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store) {
+    MapStory story;
+    story.map = map;
+    story.question = failure_question(map, grains, store, 1, 0.1);
+    story.rows = map_failures(story.question, {.first = 16, .at_boundary = 6});
+    story.coordinates = compare_coordinates(map, story.rows);
+    story.checks = check_fresh(story.question, story.rows, 4, 1);
+    return story;
+  }
+  static const Learnt& learnt() {
+    static const Learnt once = [] {
+      Learnt l;
+      std::string pattern = (std::filesystem::temp_directory_path() / "soilbin-map-XXXXXX").string();
+      l.file = std::filesystem::path(::mkdtemp(pattern.data())) / "runs.json";
+      const InclineMap map = slope_map();
+      {
+        const VirtualTest grains = stand_in(map, l.runs);
+        ExperimentStore store(l.file);
+        l.story = learn(map, grains, store);
+      }
+      const VirtualTest grains = stand_in(map, l.again);
+      ExperimentStore kept(l.file);
+      learn(map, grains, kept);
+      std::filesystem::remove_all(l.file.parent_path());
+      return l;
+    }();
+    return once;
+  }
+};
+
+TEST_F(SlowInclineMap, LearnsTheFormulaAndPredictsFreshConditions) {
+  const MapStory& story = learnt().story;
+  EXPECT_LT(story.rows.held_out.rms(), 0.01);
+  ASSERT_EQ(story.checks.size(), 4U);
+  EXPECT_LT(rms_of(story.checks), 0.01);
+  for (const FreshCheck& check : story.checks)
+    if (check.found) {
+      EXPECT_NEAR(check.found->value, -missing(check.values), 1e-9);
+    }
+  // Lugs above 12.5 of 20 mm are beyond 10 %: 3 of 9 nodes (15, 17.5, 20), the map errs by a node at most.
+  EXPECT_NEAR(share_beyond(story), 3.0 / 9, 1.0 / 9);
+}
+
+TEST_F(SlowInclineMap, GoesOnFromTheStoreWithoutARun) {
+  EXPECT_GE(learnt().runs, 20);
+  EXPECT_EQ(learnt().again, 0);
+}
+
+// What the lugs add follows from their height alone: neither sinkage nor load number helps, and to hide the height
+// hurts.
+TEST_F(SlowInclineMap, SaysWhichCoordinatesCollapseTheData) {
+  const std::vector<Coordinates>& c = learnt().story.coordinates;
+  ASSERT_EQ(c.size(), 4U);
+  EXPECT_GT(c[3].held_out, 4 * c[0].held_out) << "without the lugs' height";
+  EXPECT_GE(c[2].held_out, 0.9 * c[0].held_out) << "lug height over sinkage alone";
+}
+
+TEST_F(SlowInclineMap, TellsItInWordsAsAPageAndAsJson) {
+  const MapStory& story = learnt().story;
+  const std::vector<std::string> words = map_summary(story);
+  EXPECT_THAT(words.front(), HasSubstr("longitudinal incline: of "));
+  EXPECT_THAT(words.front(), HasSubstr("too high at 0, too low at "));
+  const std::string page = failure_map_page(story, {"Map", "soilbin failure-map made", {}}, "format: ...");
+  for (const std::string& word : words) EXPECT_THAT(page, HasSubstr(escaped(word)));
+  EXPECT_THAT(page, HasSubstr("class=\"plot heat\""));
+  EXPECT_THAT(page, HasSubstr("soilbin failure-map made"));
+  const auto json = failure_map_json(story);
+  EXPECT_EQ(json["format"], "soilbin-failure-map/1");
+  EXPECT_EQ(json["rows"].size(), story.rows.rows.size());
+  EXPECT_NEAR(json["cross_validated_error"].get<double>(), story.rows.held_out.rms(), 1e-15);
+  EXPECT_EQ(rows_table(story).rows.size(), story.rows.rows.size());
+  EXPECT_EQ(checks_table(story).rows.size(), 4U);
+}
+
+}  // namespace
+}  // namespace soilbin::compare
