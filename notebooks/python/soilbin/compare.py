@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 import pandas as pd
@@ -39,9 +39,11 @@ def runs_frame(campaign: Union[Campaign, str]) -> pd.DataFrame:
     known = find_campaign(campaign) if isinstance(campaign, str) else campaign
     rows = []
     for run in known.runs:
-        measured = {name: getattr(run, name) for name in CHANNELS}
-        rows.append({**condition_columns(run.at), "setpoint": run.setpoint,
-                     **{name: np.nan if value is None else value for name, value in measured.items()}})
+        row: dict[str, Any] = {**condition_columns(run.at), "setpoint": run.setpoint}
+        for name in CHANNELS:
+            value = getattr(run, name)
+            row[name] = np.nan if value is None else value
+        rows.append(row)
     return without_empty(pd.DataFrame(rows))
 
 

@@ -72,9 +72,9 @@ def condition_columns(at: OperatingCondition) -> dict[str, Any]:
     return {name: getattr(at, name) for name in CONDITION}
 
 
-def result_columns(result: Optional[TractionResult]) -> dict[str, float]:
+def result_columns(result: Optional[TractionResult]) -> dict[str, Any]:
     """The result's numbers by name; NaN where there is none."""
-    row: dict[str, float] = {}
+    row: dict[str, Any] = {}
     for name in CHANNELS:
         estimated = getattr(result, name) if result is not None else None
         row[name] = estimated.value if estimated is not None else np.nan
