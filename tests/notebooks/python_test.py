@@ -58,8 +58,8 @@ class Answers(unittest.TestCase):
     def test_predictions_and_their_errors_are_the_commands(self):
         known = command("predict", "cmu-smooth")
         errors = compare.error_frame(compare.predict("cmu-smooth"))
-        for row in known["errors"]:
-            self.assertAlmostEqual(errors.loc[row["channel"], "rmse"], row["rmse"], delta=1e-9 * row["rmse"])
+        for channel, row in known["error"].items():
+            self.assertAlmostEqual(errors.loc[channel, "rmse"], row["rmse"], delta=1e-9 * row["rmse"])
 
     def test_every_name_of_the_library_can_be_read(self):
         for shelf, read in ((soilbin.Shelf.tires, soilbin.find_tire), (soilbin.Shelf.soils, soilbin.find_soil),
@@ -108,7 +108,7 @@ class Errors(unittest.TestCase):
         for wrong, right in ((lambda: soilbin.find_soil("dry-snad"), "dry-sand"),
                              (lambda: compare.find_campaign("cmu-smoth"), "cmu-smooth"),
                              (lambda: ROVER.with_effects(["slip_sinkag"]), "slip_sinkage"),
-                             (lambda: soilbin.EffectChoice("slip_sinkage", "lyasko", ammplitude=1), "did you mean")):
+                             (lambda: soilbin.EffectChoice("multipass", "stifer"), "stiffer")):
             with self.assertRaises(soilbin.InputError) as caught:
                 wrong()
             self.assertIn(right, str(caught.exception))
