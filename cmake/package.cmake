@@ -33,9 +33,9 @@ if(TARGET soilbin_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-soilbin)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
-  math(EXPR next "${Python3_VERSION_MINOR} + 1")
+  math(EXPR next "${python_minor} + 1")
   string(JOIN ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "soilbin (= ${PROJECT_VERSION})"
-    "python3 (>= 3.${Python3_VERSION_MINOR})" "python3 (<< 3.${next})" python3-numpy python3-pandas)
+    "python3 (>= 3.${python_minor})" "python3 (<< 3.${next})" python3-numpy python3-pandas)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, jupyter-nbconvert, python3-ipykernel")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "jupyter-notebook, python3-ipywidgets")
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION

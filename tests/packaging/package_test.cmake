@@ -47,7 +47,7 @@ expect("${output}" "libsoilbin-dev's files" "/libsoilbin_scenario.a\n" "/libsoil
 if(WITH_PYTHON)
   run(dpkg-deb --info ${python})
   expect("${output}" "python3-soilbin's control file" "Package: python3-soilbin\n"
-    "Depends: [^\n]*soilbin \\(= ${VERSION}\\)[^\n]*python3-numpy, python3-pandas" "Depends: [^\n]*libc6 " "Depends: [^\n]*libhdf5")
+    "Depends: [^\n]*soilbin \\(= ${VERSION}\\), python3 \\(>= 3\\.[0-9]+\\), python3 \\(<< 3\\.[0-9]+\\), python3-numpy, python3-pandas" "Depends: [^\n]*libc6 " "Depends: [^\n]*libhdf5")
   run(dpkg-deb --contents ${python})
   expect("${output}" "python3-soilbin's files" " ./usr/lib/python3/dist-packages/soilbin/__init__.py\n"
     " ./usr/lib/python3/dist-packages/soilbin/_soilbin.cpython-[^ ]*.so\n" "/soilbin/py.typed\n" "/soilbin/_soilbin.pyi\n"
@@ -57,6 +57,6 @@ if(WITH_PYTHON)
   run(dpkg-deb --extract ${runtime} ${SCRATCH}/installed)
   run(${CMAKE_COMMAND} -E env --unset=SOILBIN_CASES PYTHONPATH=${SCRATCH}/installed/usr/lib/python3/dist-packages
     PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -c
-    "import soilbin; print(soilbin.cases_folders()[0], soilbin.estimate(soilbin.Scenario('rover-wheel', 'dry-sand'), load=80, slip=0.2))")
+    "import soilbin\nprint(soilbin.cases_folders()[0], soilbin.estimate(soilbin.Scenario('rover-wheel', 'dry-sand'), load=80, slip=0.2))")
   expect("${output}" "what python3-soilbin answers" "${SCRATCH}/installed/usr/share/soilbin/cases.*TractionResult\\(drawbar_pull=")
 endif()
