@@ -9,61 +9,20 @@
 #include "scenario/nearest_word.hpp"
 
 namespace soilbin::cli {
-namespace {
-
 namespace fs = std::filesystem;
-
-std::string kind_of(Shelf shelf) {
-  switch (shelf) {
-    case Shelf::tires:
-      return "tire";
-    case Shelf::soils:
-      return "soil";
-    case Shelf::studies:
-      return "study";
-    case Shelf::measured:
-      return "campaign";
-  }
-  return "";
-}
-
-void add_where_present(const fs::path& folder, std::vector<fs::path>& folders) {
-  std::error_code error;
-  if (fs::is_directory(folder, error)) folders.push_back(folder);
-}
-
-}  // namespace
 
 Workplace find_workplace() {
   Workplace place;
-  if (const char* named = std::getenv("SOILBIN_CASES"); named != nullptr) {
-    std::istringstream parts(named);
-    for (std::string part; std::getline(parts, part, ':');)
-      if (!part.empty()) add_where_present(part, place.folders);
-  }
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (!error) add_where_present((program.parent_path() / "../share/soilbin/cases").lexically_normal(), place.folders);
-  add_where_present(SOILBIN_SOURCE_CASES, place.folders);
+  const fs::path installed = error ? fs::path() : program.parent_path() / "../share/soilbin/cases";
+  place.folders = case_folders(installed.lexically_normal(), SOILBIN_SOURCE_CASES);
   place.library = Library(place.folders);
   return place;
 }
 
-fs::path find_file(const Workplace& place, Shelf shelf, const std::string& name) {
-  const bool is_path = name.find('/') != std::string::npos || name.ends_with(".yaml");
-  if (is_path) return name;
-  if (const auto file = place.library.find(shelf, name)) return *file;
-  std::error_code error;
-  if (fs::exists(name, error)) return name;
-  const std::vector<std::string> names = place.library.names(shelf);
-  throw InputError(
-      fmt::format("no {} '{}' in the library, and no such file{}\n  hint: {}", kind_of(shelf), clipped(name),
-                  did_you_mean(name, names),
-                  names.empty() ? "the library is empty; see soilbin doctor" : "there are " + listed(names)));
-}
-
 Case find_case(const Workplace& place, const std::string& name) {
-  return read_case(find_file(place, Shelf::studies, name), place.library, place.effects);
+  return read_case(find_file(place.library, Shelf::studies, name), place.library, place.effects);
 }
 
 Case find_study(const Workplace& place, const std::string& name) {
@@ -89,7 +48,7 @@ fs::path find_record(const Workplace& place, const std::string& study, const std
 }
 
 compare::Campaign find_campaign(const Workplace& place, const std::string& name) {
-  return compare::read_campaign(find_file(place, Shelf::measured, name), place.effects);
+  return compare::read_campaign(find_file(place.library, Shelf::measured, name), place.effects);
 }
 
 fs::path user_cache() {

@@ -1,4 +1,4 @@
-// Where the command finds its library of cases, and how it turns names into files.
+// Where the command finds its library of cases.
 #pragma once
 
 #include <filesystem>
@@ -21,10 +21,6 @@ struct Workplace {
 /// Searches $SOILBIN_CASES (folders separated by ':'), then ../share/soilbin/cases beside the program, then the source
 /// tree that the program was built from.
 Workplace find_workplace();
-
-/// The file behind a name on a shelf, or a path to a file (or, for a campaign, its folder). A name without '/' and
-/// '.yaml' is looked up in the library first. Throws InputError with the nearest name.
-std::filesystem::path find_file(const Workplace& place, Shelf shelf, const std::string& name);
 
 /// Reads a case: the name of a study in the library, or a path.
 Case find_case(const Workplace& place, const std::string& name);

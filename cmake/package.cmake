@@ -1,5 +1,5 @@
-# `cmake --build --preset release --target package`: two Debian packages, soilbin (the command and its cases) and
-# libsoilbin-dev (the libraries).
+# `cmake --build --preset release --target package`: Debian packages, soilbin (the command and its cases), libsoilbin-dev
+# (the libraries) and, where it is built, python3-soilbin (the Python package and the notebooks).
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME soilbin)
 set(CPACK_PACKAGE_CONTACT "The soilbin developers <soilbin@users.noreply.github.com>")
@@ -28,4 +28,18 @@ virtual soil bin, and the comparison with measurements.")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
   "Static libraries, headers and a CMake package: find_package(soilbin) gives soilbin::scenario,
 soilbin::bekker_wong, soilbin::dem and soilbin::compare.")
+if(TARGET soilbin_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-soilbin)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  math(EXPR next "${python_minor} + 1")
+  string(JOIN ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "soilbin (= ${PROJECT_VERSION})"
+    "python3 (>= 3.${python_minor})" "python3 (<< 3.${next})" python3-numpy python3-pandas)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, jupyter-nbconvert, python3-ipykernel")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "jupyter-notebook, python3-ipywidgets")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+    "soilbin in Python: the analytic wheel, grains, measured campaigns and the loop as classes, numpy arrays and pandas
+frames, with six notebooks that teach terramechanics.")
+endif()
 include(CPack)

@@ -1,7 +1,15 @@
 #include "scenario/library.hpp"
 
+#include <fmt/core.h>
+
+#include <cstdlib>
 #include <set>
+#include <sstream>
 #include <system_error>
+
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+#include "scenario/source_text.hpp"
 
 namespace soilbin {
 namespace {
@@ -13,7 +21,51 @@ fs::path file_of(const fs::path& folder, Shelf shelf, const std::string& name) {
   return shelf == Shelf::measured ? on_shelf / name / "campaign.yaml" : on_shelf / (name + ".yaml");
 }
 
+std::string kind_of(Shelf shelf) {
+  switch (shelf) {
+    case Shelf::tires:
+      return "tire";
+    case Shelf::soils:
+      return "soil";
+    case Shelf::studies:
+      return "study";
+    case Shelf::measured:
+      return "campaign";
+  }
+  return "";
+}
+
+void add_where_present(const fs::path& folder, std::vector<fs::path>& folders) {
+  std::error_code error;
+  if (fs::is_directory(folder, error)) folders.push_back(folder);
+}
+
 }  // namespace
+
+std::vector<fs::path> case_folders(const fs::path& installed, const fs::path& sources) {
+  std::vector<fs::path> folders;
+  if (const char* named = std::getenv("SOILBIN_CASES"); named != nullptr) {
+    std::istringstream parts(named);
+    for (std::string part; std::getline(parts, part, ':');)
+      if (!part.empty()) add_where_present(part, folders);
+  }
+  if (!installed.empty()) add_where_present(installed, folders);
+  add_where_present(sources, folders);
+  return folders;
+}
+
+fs::path find_file(const Library& library, Shelf shelf, const std::string& name) {
+  const bool is_path = name.find('/') != std::string::npos || name.ends_with(".yaml");
+  if (is_path) return name;
+  if (const auto file = library.find(shelf, name)) return *file;
+  std::error_code error;
+  if (fs::exists(name, error)) return name;
+  const std::vector<std::string> names = library.names(shelf);
+  throw InputError(
+      fmt::format("no {} '{}' in the library, and no such file{}\n  hint: {}", kind_of(shelf), clipped(name),
+                  did_you_mean(name, names),
+                  names.empty() ? "the library is empty; see soilbin doctor" : "there are " + listed(names)));
+}
 
 std::string_view folder_of(Shelf shelf) {
   switch (shelf) {

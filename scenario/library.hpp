@@ -32,4 +32,13 @@ class Library {
 /// Name of a shelf's folder: "tires".
 std::string_view folder_of(Shelf shelf);
 
+/// Folders of cases in the order in which they are searched, as far as they are there: those of $SOILBIN_CASES
+/// (separated by ':'), that of an installation, the source tree's.
+std::vector<std::filesystem::path> case_folders(const std::filesystem::path& installed,
+                                                const std::filesystem::path& sources);
+
+/// The file behind a name on a shelf, or a path to a file (or, for a campaign, its folder). A name without '/' and
+/// '.yaml' is looked up in the library first. Throws InputError with the nearest name.
+std::filesystem::path find_file(const Library& library, Shelf shelf, const std::string& name);
+
 }  // namespace soilbin

@@ -206,8 +206,9 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
   answer.soil_shifts = soil_shifts(id, predictor);
   answer.dependences_after = dependences(
       id.observations, best.fit.residual.head(static_cast<Eigen::Index>(id.observations.cells.size())), 999, 11);
-  answer.reason = fmt::format("p = {:.2g} among the whole catalogue; held-out error falls by {:.2g} +- {:.2g} sigma^2",
-                              id.p_value, cv.gain, cv.gain_error);
+  answer.reason = fmt::format("p = {:.2g} among the whole catalogue", id.p_value);
+  if (cv.overall.cells > 0)
+    answer.reason += fmt::format("; held-out error falls by {:.2g} +- {:.2g} sigma^2", cv.gain, cv.gain_error);
 }
 
 /// Backward: an effect stays only if conditions left out are predicted better with it by a standard error; then the

@@ -22,7 +22,7 @@ LIBRARIES = {
     "yaml-cpp/": ["scenario/"],
     "Eigen/": ["scenario/", "bekker_wong/", "compare/", "tests/", "bench/"],
     "nlohmann/": ["scenario/", "compare/", "cli/", "tests/", "bench/"],
-    "fmt/": ["scenario/", "bekker_wong/", "dem/", "compare/", "cli/", "tests/", "bench/"],
+    "fmt/": ["scenario/", "bekker_wong/", "dem/", "compare/", "cli/", "notebooks/", "tests/", "bench/"],
     "boost/": ["compare/", "tests/"],
     "CLI/": ["cli/"],
     "gtest/": ["tests/"],

@@ -1,0 +1,84 @@
+// What the files of the bindings share. One file a floor; each adds its classes and functions to the module.
+#pragma once
+
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bekker_wong/effect_vocabulary.hpp"
+#include "scenario/library.hpp"
+
+namespace soilbin::python {
+
+namespace py = pybind11;
+
+void bind_errors(py::module_& module);
+void bind_scenario(py::module_& module);
+void bind_results(py::module_& module);
+void bind_wheel(py::module_& module);
+void bind_drive(py::module_& module);
+void bind_plates(py::module_& module);
+void bind_grains(py::module_& module);
+void bind_run_parts(py::module_& module);
+void bind_soil_bin(py::module_& module);
+void bind_element_tests(py::module_& module);
+void bind_measured(py::module_& module);
+void bind_loop(py::module_& module);
+void bind_comparison(py::module_& module);
+void bind_recorded(py::module_& module);
+
+/// Where cases lie: $SOILBIN_CASES, the installation's, the source tree's.
+std::vector<std::filesystem::path> cases_folders();
+Library cases_library();
+const bekker_wong::CatalogueVocabulary& effect_vocabulary();
+
+/// Long work, watched from Python. Called from the thread that gave up the interpreter's lock; a few times a second it
+/// takes the lock back, lets Python see to signals, and tells `told`, a callable of (share done, stage) or None. What
+/// Python raises (KeyboardInterrupt) goes through the library as an exception and stops the work.
+class Watch {
+ public:
+  explicit Watch(py::object told) : told_(std::move(told)) {}
+  void operator()(double share, std::string_view stage = "");
+
+ private:
+  py::object told_;
+  std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();
+};
+
+/// Does work without the interpreter's lock.
+template <class Work>
+auto unlocked(const Work& work) {
+  const py::gil_scoped_release lock;
+  return work();
+}
+
+/// One number of each row as a numpy array that looks into the rows: no copy; `owner` keeps them alive. Not writable.
+/// `member` is a pointer to a data member or a function from a row to a reference.
+template <class Row, class Member>
+py::array column(const std::vector<Row>& rows, const Member& member, py::handle owner) {
+  using Value = std::remove_cvref_t<std::invoke_result_t<Member, const Row&>>;
+  if (rows.empty()) return py::array_t<Value>(0);
+  py::array out(py::dtype::of<Value>(), std::vector<py::ssize_t>{static_cast<py::ssize_t>(rows.size())},
+                std::vector<py::ssize_t>{sizeof(Row)}, &std::invoke(member, rows.front()), owner);
+  out.attr("setflags")(py::arg("write") = false);
+  return out;
+}
+
+/// A vector of numbers as an array that looks into it.
+py::array view(const std::vector<double>& numbers, py::handle owner);
+
+/// The same with rows of `columns` numbers each.
+py::array view(const std::vector<double>& numbers, py::ssize_t columns, py::handle owner);
+
+/// A dictionary of columns, in the order given.
+using Columns = std::vector<std::pair<const char*, py::array>>;
+py::dict dict_of(const Columns& columns);
+
+}  // namespace soilbin::python

@@ -1,0 +1,151 @@
+// Classes made from the descriptions that the file formats use (scenario/description.hpp): a key of a case file and an
+// attribute in Python have one name, one meaning, one range. Attributes are SI where files carry units.
+#pragma once
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "notebooks/bindings/bindings.hpp"
+#include "scenario/description.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin::python {
+
+/// The unit of an attribute whose key has this unit in files: "mm" -> "m", "%" -> "-".
+std::string si_unit_of(const std::string& unit);
+/// "radius to the tread base [m], above 0 m"
+std::string field_doc(const std::string& meaning, const Measure& measure);
+/// Throws InputError that names the attribute where the value is out of range or not finite.
+void check_value(const char* key, double value, const Measure& measure);
+
+/// Adds an attribute for each key of T's description.
+template <class T>
+class FieldsOf {
+ public:
+  explicit FieldsOf(py::class_<T>& to) : to_(to) {}
+
+  std::vector<std::string> required;
+
+  void text(const char* key, std::string T::*member, Need need, const char* meaning) {
+    plain(key, member, need, meaning);
+  }
+  void number(const char* key, double T::*member, const Measure& measure, Need need, const char* meaning) {
+    checked<double>(key, member, measure, need, meaning, [](double x) { return std::optional(x); });
+  }
+  void number(const char* key, std::optional<double> T::*member, const Measure& measure, Need need,
+              const char* meaning) {
+    checked<std::optional<double>>(key, member, measure, need, meaning, [](auto x) { return x; });
+  }
+  void number(const char* key, Estimate T::*member, const Measure& measure, Need need, const char* meaning) {
+    checked<Estimate>(key, member, measure, need, meaning, [](const Estimate& x) { return std::optional(x.value); });
+  }
+  void exponent(const char* key, Estimate T::*member, const Range& range, Need need, const char* meaning) {
+    number(key, member, Measure{"-", range}, need, meaning);
+  }
+  template <class N>
+  void integer(const char* key, N T::*member, int lowest, Need need, const char* meaning) {
+    const Measure measure{"-", {.lower = static_cast<double>(lowest)}};
+    checked<N>(key, member, measure, need, meaning, [](const N& x) {
+      if constexpr (std::is_same_v<N, int>)
+        return std::optional<double>(x);
+      else
+        return x ? std::optional<double>(*x) : std::nullopt;
+    });
+  }
+  template <class E>
+  void choice(const char* key, E T::*member, Need need, const char* meaning) {
+    plain(key, member, need, meaning);
+  }
+  template <class U>
+  void group(const char* key, U T::*member, Need need, const char* meaning) {
+    plain(key, member, need, meaning);
+  }
+  template <class U>
+  void list(const char* key, std::vector<U> T::*member, Need need, const char* meaning) {
+    plain(key, member, need, meaning);
+  }
+  void part(const char* key, std::optional<Soil> T::*member, Need need, const char* meaning) {
+    plain(key, member, need, meaning);
+  }
+
+ private:
+  template <class U>
+  void plain(const char* key, U T::*member, Need need, const char* meaning) {
+    note(key, need);
+    to_.def_readwrite(key, member, meaning);
+  }
+
+  template <class U, class ValueOf>
+  void checked(const char* key, U T::*member, const Measure& measure, Need need, const char* meaning,
+               ValueOf value_of) {
+    note(key, need);
+    const std::string doc = field_doc(meaning, measure);
+    to_.def_property(
+        key, [member](const T& self) { return self.*member; },
+        [=](T& self, const U& value) {
+          if (const std::optional<double> number = value_of(value)) check_value(key, *number, measure);
+          self.*member = value;
+        },
+        doc.c_str());
+  }
+
+  void note(const char* key, Need need) {
+    if (need == Need::required) required.emplace_back(key);
+  }
+
+  py::class_<T>& to_;
+};
+
+/// Sets attributes of `self` from keyword arguments. Raises TypeError, with the nearest right word, for one that it
+/// doesn't have.
+void set_attributes(py::handle self, const py::kwargs& given, const std::vector<std::string>& known);
+
+/// "Tire(radius=0.09, width=0.11)": what differs from a value made from nothing.
+std::string described_text(py::handle self, py::handle plain, const std::vector<std::string>& keys);
+
+/// The attributes of T's description, a constructor by keywords, replace() and a representation. `more`: attributes
+/// beside the description's.
+template <class T>
+void described(py::class_<T>& to, const std::vector<std::string>& more = {}) {
+  FieldsOf<T> fields(to);
+  describe(fields, std::type_identity<T>{});
+  std::vector<std::string> known = keys_of<T>();
+  known.insert(known.end(), more.begin(), more.end());
+  const auto fill = [known](T& value, const py::kwargs& given) {
+    set_attributes(py::cast(&value, py::return_value_policy::reference), given, known);
+    if (const std::string wrong = contradiction(value); !wrong.empty()) throw InputError(wrong);
+  };
+  to.def(py::init([fill, required = fields.required](const py::kwargs& given) {
+           for (const std::string& key : required)
+             if (!given.contains(key.c_str())) throw py::type_error("missing keyword argument '" + key + "'");
+           T value{};
+           fill(value, given);
+           return value;
+         }),
+         "By keywords: the attributes, in SI.");
+  to.def(
+      "replace",
+      [fill](const T& self, const py::kwargs& given) {
+        T value = self;
+        fill(value, given);
+        return value;
+      },
+      "A copy in which the attributes given are changed.");
+  to.def("__copy__", [](const T& self) { return self; });
+  to.def("__deepcopy__", [](const T& self, const py::dict&) { return self; });
+  to.def("__repr__", [known](const py::object& self) {
+    const T plain{};
+    return described_text(self, py::cast(&plain, py::return_value_policy::reference), known);
+  });
+}
+
+/// An enum with the words that files use.
+template <class E>
+void bind_words(py::module_& module, const char* name, const char* doc) {
+  py::enum_<E> bound(module, name, doc);
+  for (const Word<E>& word : words_of(std::type_identity<E>{})) bound.value(std::string(word.text).c_str(), word.value);
+}
+
+}  // namespace soilbin::python

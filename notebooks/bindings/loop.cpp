@@ -1,0 +1,125 @@
+// compare/loop: what does the model lack?
+#include "compare/loop/loop.hpp"
+
+#include <fmt/core.h>
+
+#include "compare/loop/answer_words.hpp"
+#include "compare/report/result_json.hpp"
+#include "notebooks/bindings/bindings.hpp"
+#include "scenario/case.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::python {
+namespace {
+
+using compare::AcceptedEffect;
+using compare::Campaign;
+using compare::LackOfFit;
+using compare::LoopAnswer;
+using compare::NextTest;
+using compare::Verdict;
+using compare::Weighted;
+
+void bind_parts(py::module_& module) {
+  py::enum_<Verdict>(module, "Verdict", "What the loop says.")
+      .value("effect_found", Verdict::effect_found)
+      .value("nothing_missing", Verdict::nothing_missing)
+      .value("unknown_effect", Verdict::unknown_effect)
+      .value("not_enough_data", Verdict::not_enough_data);
+  py::class_<AcceptedEffect>(module, "AcceptedEffect", "An effect that the loop accepts, in the form that fits best.")
+      .def_readonly("choice", &AcceptedEffect::choice, "with fitted parameters [SI]")
+      .def_readonly("fitted", &AcceptedEffect::fitted, "names of the parameters that were fitted")
+      .def_readonly("ci95", &AcceptedEffect::ci95, "of each fitted parameter")
+      .def_readonly("p_value", &AcceptedEffect::p_value, "family-wise, beside the other accepted effects")
+      .def_readonly("cosines", &AcceptedEffect::cosines, "of its trace with each other effect's");
+  py::class_<Weighted>(module, "Weighted", "A set of effects with its share of the evidence.")
+      .def_readonly("ids", &Weighted::ids)
+      .def_readonly("weight", &Weighted::weight);
+  py::class_<LackOfFit>(module, "LackOfFit", "Residual mean square over the noise's, as an F test.")
+      .def_readonly("f", &LackOfFit::f)
+      .def_readonly("freedom", &LackOfFit::freedom)
+      .def_readonly("noise_freedom", &LackOfFit::noise_freedom)
+      .def_readonly("p_value", &LackOfFit::p_value);
+  py::class_<NextTest>(module, "NextTest", "The run to make next.")
+      .def_readonly("at", &NextTest::at)
+      .def_readonly("quantities", &NextTest::quantities)
+      .def_readonly("separates", &NextTest::separates)
+      .def_readonly("runs", &NextTest::runs);
+}
+
+py::dict held_out(const LoopAnswer& answer) {
+  py::dict out;
+  const auto row = [](const compare::ErrorPair& pair) {
+    py::dict one;
+    one["cells"] = pair.cells, one["before"] = pair.before, one["after"] = pair.after;
+    one["noise_floor"] = pair.noise_floor;
+    return one;
+  };
+  for (std::size_t i = 0; i < compare::channel_count; ++i)
+    if (answer.validation.channels[i].cells > 0)
+      out[py::str(std::string(compare::channel_names[i]))] = row(answer.validation.channels[i]);
+  if (answer.validation.overall.cells > 0) out["all"] = row(answer.validation.overall);
+  return out;
+}
+
+void bind_answer(py::module_& module) {
+  py::class_<LoopAnswer>(module, "LoopAnswer", "The loop's answer (docs/loop.md).")
+      .def_readonly("campaign", &LoopAnswer::campaign)
+      .def_readonly("verdict", &LoopAnswer::verdict)
+      .def_readonly("reason", &LoopAnswer::reason, "one plain sentence")
+      .def_readonly("effects", &LoopAnswer::effects)
+      .def_readonly("ambiguity_set", &LoopAnswer::ambiguity_set, "best first; empty unless effects compete")
+      .def_readonly("not_testable", &LoopAnswer::not_testable)
+      .def_readonly("next", &LoopAnswer::next)
+      .def_readonly("before", &LoopAnswer::before)
+      .def_readonly("after", &LoopAnswer::after)
+      .def_readonly("soil", &LoopAnswer::soil, "refitted with the accepted effects, with standard errors")
+      .def_readonly("outliers", &LoopAnswer::outliers, "values set aside")
+      .def_property_readonly(
+          "weights", [](const LoopAnswer& a) { return a.details.weights; }, "over sets of effects, best first")
+      .def_property_readonly("held_out", &held_out,
+                             "root mean square errors on conditions that neither choice nor fit has seen, by channel "
+                             "[SI] and 'all' [sigma]: cells, before, after, noise_floor; empty without validation")
+      .def_property_readonly(
+          "sentences",
+          [](const LoopAnswer& a) {
+            std::vector<std::string> all = {compare::verdict_sentence(a)};
+            for (const std::string& sentence : compare::explanation(a)) all.push_back(sentence);
+            return all;
+          },
+          "the verdict and what stands behind it, in plain words")
+      .def(
+          "json", [](const LoopAnswer& a) { return compare::json_text(compare::to_json(a)); }, "soilbin-loop/1")
+      .def(
+          "resolved_model", [](const LoopAnswer& a, const Campaign& c) { return compare::resolved_model(c, a); },
+          py::arg("campaign"), "The campaign's wheel on the refitted soil with the accepted effects, as a Case.")
+      .def("__repr__", [](const LoopAnswer& a) { return "LoopAnswer(" + compare::verdict_sentence(a) + ")"; });
+}
+
+}  // namespace
+
+void bind_loop(py::module_& module) {
+  bind_parts(module);
+  bind_answer(module);
+  module.def(
+      "run_loop",
+      [](const Campaign& campaign, int folds, std::uint64_t seed, bool validate, int threads,
+         const py::object& progress) {
+        if (folds < 2 || folds > 50) throw InputError("folds: 2 .. 50");
+        if (threads < 1) throw InputError("threads: 1 or more");
+        compare::LoopOptions options;
+        options.folds = folds, options.identify.seed = seed, options.validate = validate, options.threads = threads;
+        Watch watch(progress);
+        options.progress = [&watch](std::size_t done, std::size_t total) {
+          watch(static_cast<double>(done) / static_cast<double>(total));
+        };
+        return unlocked([&] { return compare::run_loop(campaign, options); });
+      },
+      py::arg("campaign"), py::arg("folds") = 5, py::arg("seed") = 1, py::arg("validate") = true,
+      py::arg("threads") = 1, py::arg("progress") = py::none(),
+      "Residual, cause, effect added, error before and after. validate: the whole procedure redone in each fold, for "
+      "honest errors; without it they are absent. threads change the time, never the answer. Raises InputError for a "
+      "campaign that can't be used; one too small to say anything is a verdict.");
+}
+
+}  // namespace soilbin::python

@@ -1,0 +1,121 @@
+// Results and the models that give them.
+#include <fmt/core.h>
+
+#include "bekker_wong/model.hpp"
+#include "compare/sweep/answers.hpp"
+#include "compare/sweep/explanation.hpp"
+#include "compare/sweep/plausibility.hpp"
+#include "compare/sweep/varying.hpp"
+#include "notebooks/bindings/bindings.hpp"
+#include "scenario/case.hpp"
+
+namespace soilbin::python {
+namespace {
+
+using compare::Answer;
+
+py::dict patch_of(const py::object& self) {
+  const auto& rows = self.cast<const TractionResult&>().patch;
+  return dict_of({{"theta", column(rows, &StressSample::theta, self)},
+                  {"normal", column(rows, &StressSample::normal, self)},
+                  {"shear", column(rows, &StressSample::shear, self)},
+                  {"lateral_shear", column(rows, &StressSample::lateral_shear, self)}});
+}
+
+py::dict budget_of(const TractionResult& result) {
+  py::dict out;
+  for (const Contribution& part : result.budget) out[py::str(part.name)] = part.force;
+  return out;
+}
+
+void bind_result(py::module_& module) {
+  using R = TractionResult;
+  py::class_<R>(module, "TractionResult", "The answer of a model or of a measurement at one condition.")
+      .def_readonly("at", &R::at)
+      .def_readonly("drawbar_pull", &R::drawbar_pull, "F_DP [N] along travel, less the slope's share of the load")
+      .def_readonly("torque", &R::torque, "M [N m]; positive drives")
+      .def_readonly("sinkage", &R::sinkage, "z [m]")
+      .def_readonly("lateral_force", &R::lateral_force, "F_y [N], to the left of travel")
+      .def_readonly("tractive_efficiency", &R::tractive_efficiency, "F_DP v/(M w) [-]; NaN where M w is 0")
+      .def_readonly("entry_angle", &R::entry_angle, "theta_1 [rad]")
+      .def_readonly("max_stress_angle", &R::max_stress_angle, "theta_m [rad]")
+      .def_readonly("exit_angle", &R::exit_angle, "theta_2 [rad]; negative behind the axle")
+      .def_property_readonly("budget", &budget_of, "named parts [N] that add up to the drawbar pull")
+      .def_property_readonly("patch", &patch_of,
+                             "stresses [Pa] under the wheel, from exit to entry: arrays theta [rad], normal, shear, "
+                             "lateral_shear; views of the result, not copies")
+      .def("__repr__", [](const R& r) {
+        return fmt::format("TractionResult(drawbar_pull={:.4g} N, torque={:.4g} N m, sinkage={:.4g} m)",
+                           r.drawbar_pull.value, r.torque.value, r.sinkage.value);
+      });
+  py::class_<Answer>(module, "Answer", "What a model says at one condition: a result, or why there is none.")
+      .def_readonly("at", &Answer::at)
+      .def_readonly("result", &Answer::result, "None where there is none")
+      .def_readonly("error", &Answer::error, "'' where there is a result");
+}
+
+void bind_models(py::module_& module) {
+  py::class_<Model>(module, "Model", "One way of answering.")
+      .def_property_readonly("name", &Model::name)
+      .def(
+          "evaluate",
+          [](const Model& model, const Scenario& scenario, const OperatingCondition& at) {
+            return unlocked([&] { return model.evaluate(scenario, at); });
+          },
+          py::arg("scenario"), py::arg("at"),
+          "Raises InputError where the scenario lacks what the model needs, NoSolution where it has no answer.");
+  using bekker_wong::BekkerWong;
+  py::class_<BekkerWong, Model>(module, "BekkerWong", "The Bekker / Wong-Reece model (docs/conventions.md).")
+      .def(py::init([](bool errors, bool patch) { return BekkerWong({.errors = errors, .patch = patch}); }),
+           py::arg("errors") = true, py::arg("patch") = true,
+           "errors: standard errors from the soil's standard deviations, to first order. patch: stresses under the "
+           "wheel. Without them it is several times as fast.");
+  module.def(
+      "answers",
+      [](const Model& model, const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
+         const py::object& progress) {
+        Watch watch(progress);
+        const auto told = [&watch](std::size_t done, std::size_t total) {
+          watch(static_cast<double>(done) / static_cast<double>(total));
+        };
+        return unlocked([&] { return compare::sweep(model, scenario, conditions, told); });
+      },
+      py::arg("model"), py::arg("scenario"), py::arg("conditions"), py::arg("progress") = py::none(),
+      "Each condition in turn; one without solution carries its error. progress: called with (share done, stage).");
+}
+
+void bind_explanation(py::module_& module) {
+  using compare::Explanation;
+  using compare::Step;
+  py::class_<Step>(module, "Step", "One equation, in symbols and in numbers.")
+      .def_readonly("name", &Step::name)
+      .def_readonly("equation", &Step::equation)
+      .def_readonly("numbers", &Step::numbers)
+      .def_readonly("value", &Step::value, "in `unit`")
+      .def_readonly("unit", &Step::unit)
+      .def_readonly("remark", &Step::remark)
+      .def("__repr__", [](const Step& s) {
+        return fmt::format("{}: {} = {} = {:.4g} {}", s.name, s.equation, s.numbers, s.value, s.unit);
+      });
+  py::class_<Explanation>(module, "Explanation", "Why the semi-empirical answer is what it is.")
+      .def_readonly("result", &Explanation::result)
+      .def_readonly("steps", &Explanation::steps, "of the model, in the order in which it takes them")
+      .def_readonly("effects", &Explanation::effects)
+      .def_readonly("cross_checks", &Explanation::cross_checks, "closed forms that need no balance");
+  module.def("explain", &compare::explain, py::arg("scenario"), py::arg("at"),
+             "The model's equations with their values. Raises InputError and NoSolution as the model does.");
+  module.def(
+      "doubts", [](const Case& question) { return compare::doubts(question); }, py::arg("case"),
+      "What is possible in a case, but hardly meant: sentences.");
+  module.def("in_words", &compare::in_words, py::arg("at"), "A condition in words, without what is at its default.");
+}
+
+}  // namespace
+
+void bind_results(py::module_& module) {
+  bind_result(module);
+  bind_models(module);
+  bind_explanation(module);
+}
+
+}  // namespace soilbin::python

@@ -1,0 +1,182 @@
+// dem/rig: the virtual soil bin.
+#include "dem/rig/dem_model.hpp"
+#include "dem/rig/run_inputs.hpp"
+#include "notebooks/bindings/vectors.hpp"
+#include "scenario/case.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::python {
+namespace {
+
+using dem::DemSettings;
+using dem::PowerBalance;
+using dem::Rut;
+using dem::SoilFlow;
+using dem::WheelRun;
+using dem::WheelSample;
+
+/// A soil bin that keeps its beds between calls.
+class SoilBin {
+ public:
+  explicit SoilBin(DemSettings settings) : settings_(watched(std::move(settings))), model_(settings_) {}
+
+  WheelRun run(const Scenario& scenario, const OperatingCondition& at, const py::object& progress) {
+    Watch watch(progress);
+    WheelRun told;
+    watch_ = &watch, told_ = &told;
+    try {
+      unlocked([&] { return model_.evaluate(scenario, at); });
+    } catch (...) {
+      watch_ = nullptr, told_ = nullptr;
+      throw;
+    }
+    watch_ = nullptr, told_ = nullptr;
+    return told;
+  }
+
+  std::vector<std::pair<std::string, std::string>> inputs(const Scenario& scenario) const {
+    return dem::run_inputs(model_.recipe(scenario), scenario.tire, settings_.rig);
+  }
+
+ private:
+  DemSettings watched(DemSettings settings) {
+    settings.how.progress = [this](const dem::Progress& p) {
+      if (watch_ != nullptr) (*watch_)(p.done, p.stage);
+    };
+    settings.on_run = [this](const WheelRun& run) { *told_ = run; };
+    return settings;
+  }
+
+  Watch* watch_ = nullptr;
+  WheelRun* told_ = nullptr;
+  DemSettings settings_;
+  dem::DemModel model_;
+};
+
+/// Numbers of the settings by name, wherever they stand.
+struct Setting {
+  const char* name;
+  double& (*of)(DemSettings&);
+  const char* doc;
+};
+
+const Setting settings_by_name[] = {
+    {"length", [](DemSettings& s) -> double& { return s.size.length; }, "of the bed [m]"},
+    {"width", [](DemSettings& s) -> double& { return s.size.width; }, "of the bed [m]; a scenario's bin replaces it"},
+    {"depth", [](DemSettings& s) -> double& { return s.size.depth; }, "of the bed [m]; a scenario's bin replaces it"},
+    {"settling_friction", [](DemSettings& s) -> double& { return s.settling_friction; },
+     "share of friction while the bed settles [-], 0 (densest) .. 1 (loose)"},
+    {"behind", [](DemSettings& s) -> double& { return s.rig.behind; }, "of the axle to the rear end, at the start [m]"},
+    {"ahead", [](DemSettings& s) -> double& { return s.rig.ahead; }, "of the axle to the front end, at the end [m]"},
+    {"travel", [](DemSettings& s) -> double& { return s.rig.travel; }, "of the axle [m]; 0: as far as the bin lets it"},
+    {"lowering", [](DemSettings& s) -> double& { return s.rig.lowering; }, "time in which the load comes on [s]"},
+    {"resting", [](DemSettings& s) -> double& { return s.rig.resting; }, "time under the load before the start [s]"},
+    {"starting", [](DemSettings& s) -> double& { return s.rig.starting; }, "time in which the motion comes on [s]"},
+    {"dt", [](DemSettings& s) -> double& { return s.rig.dt; }, "[s]; 0: a fifth of the Rayleigh time"}};
+
+DemSettings settings_of(const py::kwargs& numbers, std::uint64_t packing, const std::filesystem::path& beds,
+                        bool ledger, int threads) {
+  DemSettings out;
+  for (const auto& [key, value] : numbers) {
+    bool known = false;
+    for (const Setting& setting : settings_by_name)
+      if (key.cast<std::string>() == setting.name) setting.of(out) = value.cast<double>(), known = true;
+    if (!known) throw py::type_error("SoilBin has no setting '" + key.cast<std::string>() + "'");
+  }
+  if (threads < 0) throw InputError("threads: 0 (one a core) or more");
+  out.packing = packing, out.beds = beds, out.rig.ledger = ledger, out.how.threads = threads;
+  return out;
+}
+
+std::string settings_doc() {
+  std::string doc =
+      "packing: seed of the bed. beds: folder that keeps settled beds; '': none is kept. ledger: tells "
+      "where the power goes. threads: 0, one a core; changes no bit. By keywords:";
+  for (const Setting& setting : settings_by_name) doc += "\n  " + std::string(setting.name) + ": " + setting.doc;
+  return doc;
+}
+
+py::dict samples_of(const py::object& self) {
+  const auto& rows = self.cast<const WheelRun&>().samples;
+  const auto of = [&](double WheelSample::*member) { return column(rows, member, self); };
+  return dict_of({{"time", of(&WheelSample::time)},
+                  {"travel", of(&WheelSample::travel)},
+                  {"sinkage", of(&WheelSample::sinkage)},
+                  {"speed", of(&WheelSample::speed)},
+                  {"heave", of(&WheelSample::heave)},
+                  {"rotation", of(&WheelSample::rotation)},
+                  {"into_soil", of(&WheelSample::into_soil)},
+                  {"force", vectors(rows, &WheelSample::force, self)},
+                  {"moment", vectors(rows, &WheelSample::moment, self)}});
+}
+
+void bind_told(py::module_& module) {
+  py::class_<PowerBalance>(module, "PowerBalance", "Powers, means over the steady part [W].")
+      .def_readonly("drive", &PowerBalance::drive, "M w")
+      .def_readonly("pull", &PowerBalance::pull, "F_DP v")
+      .def_readonly("climb", &PowerBalance::climb)
+      .def_readonly("heave", &PowerBalance::heave)
+      .def_readonly("into_soil", &PowerBalance::into_soil)
+      .def_readonly("rest", &PowerBalance::rest, "drive less all these");
+  const auto array = [](auto member) {
+    return [member](const py::object& self) { return view(self.cast<const Rut&>().*member, self); };
+  };
+  py::class_<Rut>(module, "Rut", "Change of the bed's surface, seen from above. Arrays are views.")
+      .def_property_readonly("y", array(&Rut::y), "from the middle of the track to the left [m]")
+      .def_property_readonly("across", array(&Rut::across), "change of height at each y [m]")
+      .def_property_readonly("x", array(&Rut::x), "along the bin [m]")
+      .def_property_readonly("along", array(&Rut::along), "change of height at each x [m]")
+      .def_readonly("axle", &Rut::axle, "where the axle stood at the end [m]")
+      .def_readonly("volume", &Rut::volume, "[m^3] = heaped - dug")
+      .def_readonly("heaped", &Rut::heaped, "[m^3]")
+      .def_readonly("dug", &Rut::dug, "[m^3]");
+  const auto grid = [](auto member) {
+    return [member](const py::object& self) {
+      const auto& flow = self.cast<const SoilFlow&>();
+      return view(flow.*member, flow.nx, self);
+    };
+  };
+  py::class_<SoilFlow>(module, "SoilFlow",
+                       "Mean velocity of the soil round the wheel in its middle plane; grids of nz x nx, views.")
+      .def_readonly("cell", &SoilFlow::cell, "side of a cell [m]")
+      .def_readonly("nx", &SoilFlow::nx)
+      .def_readonly("nz", &SoilFlow::nz)
+      .def_readonly("x", &SoilFlow::x, "lower corner of the first cell, from the axle [m]")
+      .def_readonly("z", &SoilFlow::z, "lower corner of the first cell, from the axle [m]")
+      .def_property_readonly("vx", grid(&SoilFlow::vx), "forward [m/s]; NaN where no grain came")
+      .def_property_readonly("vz", grid(&SoilFlow::vz), "upward [m/s]")
+      .def_property_readonly("solid", grid(&SoilFlow::solid), "share of a cell that is grain [-]");
+}
+
+}  // namespace
+
+void bind_run_parts(py::module_& module) { bind_told(module); }
+
+void bind_soil_bin(py::module_& module) {
+  py::class_<WheelRun>(module, "WheelRun", "What a run of the soil bin tells.")
+      .def_readonly("result", &WheelRun::result)
+      .def_readonly("power", &WheelRun::power)
+      .def_readonly("steady", &WheelRun::steady, "whether the run became steady (docs/soil-bin.md)")
+      .def_readonly("drift", &WheelRun::drift, "largest difference of halves over its standard error")
+      .def_readonly("steady_from", &WheelRun::steady_from, "first sample that counts")
+      .def_readonly("rut", &WheelRun::rut)
+      .def_readonly("flow", &WheelRun::flow)
+      .def_property_readonly("samples", &samples_of,
+                             "arrays over time from the start of the motion on, views: time [s], travel, sinkage [m], "
+                             "force [N] and moment [N m] of the soil on the wheel (three columns), ...");
+  py::class_<SoilBin>(module, "SoilBin",
+                      "A virtual soil bin: a case's tire over a settled bed of its grains. Keeps its beds.")
+      .def(py::init([](std::uint64_t packing, const std::filesystem::path& beds, bool ledger, int threads,
+                       const py::kwargs& numbers) {
+             return std::make_unique<SoilBin>(settings_of(numbers, packing, beds, ledger, threads));
+           }),
+           py::arg("packing") = 1, py::arg("beds") = std::filesystem::path(), py::arg("ledger") = false,
+           py::arg("threads") = 0, settings_doc().c_str())
+      .def("run", &SoilBin::run, py::arg("scenario"), py::arg("at"), py::arg("progress") = py::none(),
+           "One run. progress: called with (share done, stage). Raises InputError for a bed too small and for what "
+           "grains can't do (effects, a second pass), NoSolution where the wheel digs itself in, RunStopped.")
+      .def("inputs", &SoilBin::inputs, py::arg("scenario"),
+           "Everything that a run follows from beside condition and packing, as names and values.");
+}
+
+}  // namespace soilbin::python

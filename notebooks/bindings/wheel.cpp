@@ -1,0 +1,134 @@
+// bekker_wong/: the wheel opened up, what it can do at best, closed forms.
+#include <fmt/core.h>
+
+#include "bekker_wong/closed_forms.hpp"
+#include "bekker_wong/limits.hpp"
+#include "bekker_wong/model.hpp"
+#include "notebooks/bindings/bindings.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::python {
+namespace {
+
+using bekker_wong::ContactPatch;
+using bekker_wong::RolledWheel;
+using bekker_wong::RollingWheel;
+using bekker_wong::WheelForces;
+
+const SemiEmpiricalSoil& values_in(const Soil& soil) {
+  if (!soil.semi_empirical) throw InputError("soil '" + soil.name + "' has no semi_empirical values");
+  return *soil.semi_empirical;
+}
+
+RollingWheel wheel_of(const Scenario& scenario) {
+  return {scenario.tire, bekker_wong::values_of(values_in(scenario.soil)), bekker_wong::make_effects(scenario.effects),
+          scenario.bin};
+}
+
+/// Arrays over the nodes; each looks into the patch.
+py::dict nodes_of(const py::object& self) {
+  const ContactPatch& patch = self.cast<const RolledWheel&>().patch;
+  const auto nodes = [&](const ContactPatch::Array& values) {
+    py::array out(py::dtype::of<double>(), std::vector<py::ssize_t>{patch.count}, {}, values.data(), self);
+    out.attr("setflags")(py::arg("write") = false);
+    return out;
+  };
+  return dict_of({{"theta", nodes(patch.theta)},
+                  {"arc", nodes(patch.arc)},
+                  {"depth", nodes(patch.depth)},
+                  {"sigma", nodes(patch.sigma)},
+                  {"j_x", nodes(patch.j_x)},
+                  {"j_y", nodes(patch.j_y)},
+                  {"strength", nodes(patch.strength)},
+                  {"tau_x", nodes(patch.tau_x)},
+                  {"tau_y", nodes(patch.tau_y)}});
+}
+
+void bind_rolled(py::module_& module) {
+  py::class_<RolledWheel>(module, "RolledWheel", "A wheel at one sinkage: contact and forces, in the wheel's axes.")
+      .def_readonly("at", &RolledWheel::at)
+      .def_readonly("sinkage", &RolledWheel::sinkage, "z [m]")
+      .def_property_readonly(
+          "entry_angle", [](const RolledWheel& w) { return w.patch.angles.entry; }, "theta_1 [rad]")
+      .def_property_readonly(
+          "max_stress_angle", [](const RolledWheel& w) { return w.patch.angles.max_stress; }, "theta_m [rad]")
+      .def_property_readonly(
+          "exit_angle", [](const RolledWheel& w) { return w.patch.angles.exit; }, "theta_2 [rad]")
+      .def_property_readonly("nodes", &nodes_of,
+                             "arrays over the quadrature's nodes, views: theta [rad], arc (weight times arc length) "
+                             "[m], depth [m], sigma, strength, tau_x, tau_y [Pa], j_x, j_y [m]")
+      .def_property_readonly(
+          "thrust", [](const RolledWheel& w) { return w.forces.thrust; }, "[N]")
+      .def_property_readonly(
+          "compaction", [](const RolledWheel& w) { return w.forces.compaction; }, "compaction resistance, negative [N]")
+      .def_property_readonly(
+          "vertical", [](const RolledWheel& w) { return w.forces.vertical; }, "load that the contact carries [N]")
+      .def_property_readonly(
+          "torque", [](const RolledWheel& w) { return w.forces.torque; }, "[N m]");
+  py::class_<RollingWheel>(module, "RollingWheel", "The wheel of Wong and Reece (1967) on its soil, with effects.")
+      .def(py::init(&wheel_of), py::arg("scenario"), "Raises InputError where a value is missing or out of range.")
+      .def("roll", &RollingWheel::roll, py::arg("at"), "The balanced wheel. Raises InputError, NoSolution.")
+      .def("at_entry_angle", &RollingWheel::at_entry_angle, py::arg("at"), py::arg("theta_1"),
+           "The wheel at a given theta_1 [rad], balanced or not: `vertical` says what it carries.");
+}
+
+void bind_limits(py::module_& module) {
+  using bekker_wong::PullPeak;
+  py::class_<PullPeak>(module, "PullPeak", "The largest drawbar pull [N] and the slip that gives it.")
+      .def_readonly("slip", &PullPeak::slip)
+      .def_readonly("drawbar_pull", &PullPeak::drawbar_pull)
+      .def("__repr__", [](const PullPeak& p) {
+        return fmt::format("PullPeak(slip={:.4g}, drawbar_pull={:.4g} N)", p.slip, p.drawbar_pull);
+      });
+  module.def(
+      "largest_pull",
+      [](const Scenario& scenario, const OperatingCondition& at) {
+        return bekker_wong::largest_pull(wheel_of(scenario), at);
+      },
+      py::arg("scenario"), py::arg("at"),
+      "Largest drawbar pull over 0 <= slip <= 1; the slip of `at` is not read. Raises NoSolution where no slip has a "
+      "balance.");
+  module.def(
+      "slip_for_pull",
+      [](const Scenario& scenario, const OperatingCondition& at, double drawbar) {
+        return bekker_wong::slip_for_pull(wheel_of(scenario), at, drawbar);
+      },
+      py::arg("scenario"), py::arg("at"), py::arg("drawbar") = 0.0,
+      "Smallest slip above -0.5 at which the wheel pulls `drawbar` [N] on the slope of `at`; None where it can't.");
+  module.def(
+      "steepest_slope",
+      [](const Scenario& scenario, const OperatingCondition& at, double drawbar) {
+        return bekker_wong::steepest_slope(wheel_of(scenario), at, drawbar);
+      },
+      py::arg("scenario"), py::arg("at"), py::arg("drawbar") = 0.0,
+      "Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N]; None beyond -60 .. 80 deg.");
+}
+
+void bind_closed_forms(py::module_& module) {
+  using Form = double (*)(const bekker_wong::SoilValues&, double, double, double);
+  const auto form = [&](const char* name, Form of, const char* doc) {
+    module.def(
+        name,
+        [of](const Scenario& scenario, double load) {
+          const Tire& tire = scenario.tire;
+          return of(bekker_wong::values_of(values_in(scenario.soil)), tire.radius, tire.width, load);
+        },
+        py::arg("scenario"), py::arg("load"), doc);
+  };
+  form("bekker_static_sinkage", &bekker_wong::bekker_static_sinkage,
+       "Bekker's static sinkage of a towed rigid wheel [m] (Bekker 1956). load [N] >= 0.");
+  form("rolling_resistance", &bekker_wong::rolling_resistance,
+       "Bekker's rolling resistance of a towed rigid wheel [N] (Bekker 1956).");
+  form("critical_ground_pressure", &bekker_wong::critical_ground_pressure,
+       "Wong's critical ground pressure [Pa]: a tire harder than this rolls as if rigid.");
+}
+
+}  // namespace
+
+void bind_wheel(py::module_& module) {
+  bind_rolled(module);
+  bind_limits(module);
+  bind_closed_forms(module);
+}
+
+}  // namespace soilbin::python

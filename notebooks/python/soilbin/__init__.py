@@ -1,0 +1,64 @@
+"""What does this tire do on this soil?
+
+The floors of soilbin under the names that they have in C++ and in files, SI and radians throughout:
+
+    import soilbin
+    wheel = soilbin.Scenario("rover-wheel", "dry-sand")
+    soilbin.estimate(wheel, load=64.68, slip=0.2).drawbar_pull
+    soilbin.sweep(wheel, soilbin.conditions(load=64.68, slip=[0.1, 0.2, 0.3]))     # a data frame
+
+soilbin.bekker_wong opens the analytic wheel, soilbin.dem runs grains, soilbin.compare holds both against measurements.
+Long work lets Ctrl-C through and shows its progress; progress=None keeps it silent.
+"""
+from soilbin import bekker_wong, compare, dem
+from soilbin._soilbin import (
+    Bin,
+    Case,
+    ContactPair,
+    Controller,
+    Drive,
+    EffectChoice,
+    EffectForm,
+    Estimate,
+    ForceFrame,
+    GranularSoil,
+    InputError,
+    Lugs,
+    LugPattern,
+    Model,
+    ModelKind,
+    NoSolution,
+    OperatingCondition,
+    RollingResistance,
+    RunStopped,
+    Scenario,
+    SemiEmpiricalSoil,
+    Shelf,
+    SlipBy,
+    Soil,
+    Tire,
+    TractionResult,
+    Waypoint,
+    __version__,
+    cases_folders,
+    doubts,
+    effect_catalogue,
+    find_case,
+    find_soil,
+    find_tire,
+    in_words,
+    names,
+    parse_case,
+    write_soil,
+    write_tire,
+)
+from soilbin.questions import conditions, estimate, run_study, sweep
+
+__all__ = [
+    "Bin", "Case", "ContactPair", "Controller", "Drive", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",
+    "GranularSoil", "InputError", "LugPattern", "Lugs", "Model", "ModelKind", "NoSolution", "OperatingCondition",
+    "RollingResistance", "RunStopped", "Scenario", "SemiEmpiricalSoil", "Shelf", "SlipBy", "Soil", "Tire",
+    "TractionResult", "Waypoint", "__version__", "bekker_wong", "cases_folders", "compare", "conditions", "dem",
+    "doubts", "effect_catalogue", "estimate", "find_case", "find_soil", "find_tire", "in_words", "names", "parse_case",
+    "run_study", "sweep", "write_soil", "write_tire",
+]

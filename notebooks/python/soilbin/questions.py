@@ -1,0 +1,97 @@
+"""Questions and their answers as data frames."""
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Sequence
+from typing import Any, Optional, Union
+
+import numpy as np
+import pandas as pd
+
+from soilbin import _soilbin
+from soilbin._soilbin import Answer, BekkerWong, Case, Model, ModelKind, OperatingCondition, Scenario, TractionResult
+from soilbin.progress import Progress, told_to
+
+CONDITION = ("load", "slip", "speed", "longitudinal_incline", "transverse_incline", "yaw", "pass", "moisture",
+             "position", "run")
+CHANNELS = ("drawbar_pull", "torque", "sinkage", "lateral_force")
+
+
+def conditions(**axes: Any) -> list[OperatingCondition]:
+    """Every combination of the values given, the first axis varying slowest.
+
+    An axis is a number or a sequence of them, SI and radians: conditions(load=[2e3, 4e3], slip=np.linspace(0, 0.6, 7)).
+    `pass` is a word of Python: write conditions(**{"pass": [1, 2]}). Raises TypeError for an unknown axis or where load
+    or slip is missing, InputError for a value out of range.
+    """
+    values = [np.atleast_1d(axis).tolist() if not isinstance(axis, (str, bytes)) else [axis] for axis in axes.values()]
+    return [OperatingCondition(**dict(zip(axes, point))) for point in itertools.product(*values)]
+
+
+def estimate(scenario: Scenario, at: Optional[OperatingCondition] = None, **condition: Any) -> TractionResult:
+    """The analytic model's answer at one condition: estimate(wheel, load=80, slip=0.2).
+
+    Keywords set or change attributes of the condition. Raises InputError for what is refused, NoSolution where the
+    wheel would bury itself.
+    """
+    asked = OperatingCondition(**condition) if at is None else at.replace(**condition)
+    return BekkerWong().evaluate(scenario, asked)
+
+
+def sweep(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[Model] = None,
+          progress: Progress = "shown") -> pd.DataFrame:
+    """A model's answers, a row a condition (the analytic model where none is given).
+
+    Columns: the condition, the four channels with NAME_std_error, tractive_efficiency, the three angles of the contact,
+    budget_NAME for each part of the pull, error ('' where there is a result). SI and radians. A condition without
+    solution is a row of NaN with its error.
+    """
+    answers = _soilbin.answers(model or BekkerWong(patch=False), scenario, list(at), told_to(progress))
+    return answers_frame(answers)
+
+
+def run_study(case: Union[Case, str], progress: Progress = "shown") -> pd.DataFrame:
+    """The answers of a study's analytic models as sweep gives them, with a first column `model`.
+
+    case: a Case, the name of a study in the library, or the path of a YAML file. Grains take minutes a condition: ask
+    soilbin.dem.SoilBin for them.
+    """
+    question = _soilbin.find_case(case) if isinstance(case, str) else case
+    frames = []
+    for choice in question.study.models:
+        if choice.model == ModelKind.bekker_wong:
+            scenario = question.scenario.with_effects(choice.effects)
+            frame = sweep(scenario, question.study.conditions, progress=progress)
+            frame.insert(0, "model", choice.label)
+            frames.append(frame)
+    return pd.concat(frames, ignore_index=True) if frames else pd.DataFrame()
+
+
+def condition_columns(at: OperatingCondition) -> dict[str, Any]:
+    """The condition's numbers by name."""
+    return {name: getattr(at, name) for name in CONDITION}
+
+
+def result_columns(result: Optional[TractionResult]) -> dict[str, Any]:
+    """The result's numbers by name; NaN where there is none."""
+    row: dict[str, Any] = {}
+    for name in CHANNELS:
+        estimated = getattr(result, name) if result is not None else None
+        row[name] = estimated.value if estimated is not None else np.nan
+        row[name + "_std_error"] = estimated.std_error if estimated is not None else np.nan
+    for name in ("tractive_efficiency", "entry_angle", "max_stress_angle", "exit_angle"):
+        row[name] = getattr(result, name) if result is not None else np.nan
+    if result is not None:
+        row.update({"budget_" + part: force for part, force in result.budget.items()})
+    return row
+
+
+def answers_frame(answers: Sequence[Answer]) -> pd.DataFrame:
+    """Answers as sweep gives them. Columns of the condition that say nothing in any row are left out."""
+    rows = [{**condition_columns(a.at), **result_columns(a.result), "error": a.error} for a in answers]
+    return without_empty(pd.DataFrame(rows))
+
+
+def without_empty(frame: pd.DataFrame) -> pd.DataFrame:
+    unused = [name for name in ("moisture", "position", "run") if name in frame and frame[name].isna().all()]
+    return frame.drop(columns=unused)

@@ -1,0 +1,275 @@
+"""The package soilbin: the same answers as the command's, errors with places, arrays without copies, work that stops."""
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+import unittest
+
+COMMAND = sys.argv.pop(1)
+
+import numpy as np  # noqa: E402
+
+import soilbin  # noqa: E402
+from soilbin import bekker_wong, compare, dem  # noqa: E402
+
+ROVER = soilbin.Scenario("rover-wheel", "dry-sand")
+AT = soilbin.OperatingCondition(load=64.68, slip=0.2)
+
+
+def command(*words):
+    done = subprocess.run([COMMAND, *words, "--json"], capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+class Answers(unittest.TestCase):
+    def test_estimate_says_what_the_command_says(self):
+        row = command("estimate", "--tire", "rover-wheel", "--soil", "dry-sand", "--load", "64.68N", "--slip", "20%")["rows"][0]
+        here = soilbin.estimate(ROVER, AT)
+        self.assertEqual(here.drawbar_pull.value, row["drawbar_pull"])
+        self.assertEqual(here.sinkage.std_error, row["std_error"]["sinkage"])
+        self.assertAlmostEqual(sum(here.budget.values()), here.drawbar_pull.value, delta=1e-9)
+
+    def test_a_study_gives_a_frame_of_the_commands_rows(self):
+        rows = command("run", "rover-slip")["rows"]
+        frame = soilbin.run_study("rover-slip")
+        self.assertEqual(len(frame), len(rows))
+        for name in ("slip", "drawbar_pull", "torque", "sinkage"):
+            self.assertTrue(np.array_equal(frame[name], [row[name] for row in rows]), name)
+        self.assertEqual(list(frame.model.unique()), ["bekker_wong", "bekker_wong + slip_sinkage"])
+
+    def test_a_condition_without_solution_is_a_row_with_its_error(self):
+        frame = soilbin.sweep(ROVER, soilbin.conditions(load=[60.0, 1e5], slip=0.2))
+        self.assertEqual(frame.error[0], "")
+        self.assertIn("sink deeper", frame.error[1])
+        self.assertTrue(math.isnan(frame.drawbar_pull[1]))
+
+    def test_conditions_span_the_grid_first_axis_slowest(self):
+        got = [(at.load, at.slip, at.yaw) for at in soilbin.conditions(load=[1, 2], slip=np.array([0.1, 0.2]), yaw=0.3)]
+        self.assertEqual(got, [(1, 0.1, 0.3), (1, 0.2, 0.3), (2, 0.1, 0.3), (2, 0.2, 0.3)])
+
+    def test_the_steepest_slope_is_the_commands(self):
+        limits = command("limits", "--tire", "rover-wheel", "--soil", "dry-sand", "--load", "64.68N")["rows"][0]
+        self.assertEqual(bekker_wong.steepest_slope(ROVER, AT), limits["steepest_slope"])
+
+    def test_predictions_and_their_errors_are_the_commands(self):
+        known = command("predict", "cmu-smooth")
+        errors = compare.error_frame(compare.predict("cmu-smooth"))
+        for channel, row in known["error"].items():
+            self.assertAlmostEqual(errors.loc[channel, "rmse"], row["rmse"], delta=1e-9 * row["rmse"])
+
+    def test_every_name_of_the_library_can_be_read(self):
+        for shelf, read in ((soilbin.Shelf.tires, soilbin.find_tire), (soilbin.Shelf.soils, soilbin.find_soil),
+                            (soilbin.Shelf.studies, soilbin.find_case), (soilbin.Shelf.measured, compare.find_campaign)):
+            self.assertGreater(len(soilbin.names(shelf)), 0)
+            for name in soilbin.names(shelf):
+                self.assertEqual(read(name).name, name)
+
+    def test_the_resolved_case_comes_back(self):
+        text = soilbin.find_case("rover-climb").yaml()
+        self.assertEqual(soilbin.parse_case(text).yaml(), text)
+
+
+class Values(unittest.TestCase):
+    def test_a_changed_copy_leaves_the_first_alone(self):
+        wide = ROVER.tire.replace(width=0.22)
+        self.assertEqual((wide.width, ROVER.tire.width, wide.radius), (0.22, 0.11, ROVER.tire.radius))
+
+    def test_a_number_does_for_an_estimate(self):
+        sand = ROVER.soil.semi_empirical.replace(k_phi=8e6, cohesion=soilbin.Estimate(500, 100))
+        self.assertEqual((sand.k_phi.value, sand.k_phi.std_error), (8e6, 0.0))
+        self.assertEqual((float(sand.cohesion), sand.cohesion.std_error), (500.0, 100.0))
+
+    def test_attributes_tell_meaning_unit_and_range(self):
+        self.assertEqual(soilbin.Tire.radius.__doc__, "radius to the tread base, without lugs [m], above 0 m")
+        self.assertIn("[N/m^(n+1)]", soilbin.SemiEmpiricalSoil.k_c.__doc__)
+        self.assertIn("[rad]", soilbin.OperatingCondition.yaw.__doc__)
+
+    def test_everything_public_has_a_docstring(self):
+        for module in (soilbin, bekker_wong, dem, compare):
+            for name in module.__all__:
+                if not name.startswith("__"):
+                    self.assertTrue((getattr(module, name).__doc__ or "").strip(), f"{module.__name__}.{name}")
+
+
+class Errors(unittest.TestCase):
+    def test_a_file_is_named_with_line_and_column(self):
+        with self.assertRaises(soilbin.InputError) as caught:
+            soilbin.parse_case("format: soilbin-case/1\nnmae: x\n", "mine.yaml")
+        error = caught.exception
+        self.assertEqual((error.file, error.line, error.column), ("mine.yaml", 2, 1))
+        self.assertIn("did you mean 'name'?", str(error))
+        self.assertIsInstance(error, ValueError)
+
+    def test_names_and_words_get_the_nearest_right_one(self):
+        for wrong, right in ((lambda: soilbin.find_soil("dry-snad"), "dry-sand"),
+                             (lambda: compare.find_campaign("cmu-smoth"), "cmu-smooth"),
+                             (lambda: ROVER.with_effects(["slip_sinkag"]), "slip_sinkage"),
+                             (lambda: soilbin.EffectChoice("multipass", "stifer"), "stiffer")):
+            with self.assertRaises(soilbin.InputError) as caught:
+                wrong()
+            self.assertIn(right, str(caught.exception))
+            self.assertIsNone(caught.exception.line)
+
+    def test_keywords_are_checked(self):
+        with self.assertRaisesRegex(TypeError, "did you mean 'radius'"):
+            soilbin.Tire(raduis=1, radius=1, width=1)
+        with self.assertRaisesRegex(TypeError, "missing keyword argument 'width'"):
+            soilbin.Tire(radius=1)
+        for value in (-0.1, 0.0, math.nan, math.inf):
+            with self.assertRaises(soilbin.InputError):
+                soilbin.Tire(radius=value, width=1)
+        with self.assertRaisesRegex(soilbin.InputError, "either 'rim_speed' or 'torque'"):
+            soilbin.Controller(rim_speed=1, torque=1)
+
+    def test_a_wheel_that_buries_itself_has_no_solution(self):
+        with self.assertRaisesRegex(soilbin.NoSolution, "sink deeper"):
+            soilbin.estimate(ROVER, load=1e6, slip=0.2)
+
+    def test_a_grain_pressed_too_deep_stops_the_run(self):
+        sim = dem.Simulation(dem.Material(young=1e6), dem.Interaction(), dt=1e-5)
+        sim.add_grain((0, 0, 0), 0.01)
+        sim.add_grain((0.012, 0, 0), 0.01)
+        with self.assertRaises(soilbin.RunStopped):
+            sim.run(1)
+
+
+class Arrays(unittest.TestCase):
+    def check_view(self, array, owner):
+        self.assertIs(array.base, owner)
+        self.assertFalse(array.flags.owndata)
+        with self.assertRaises(ValueError):
+            array[0] = 1
+
+    def test_stresses_are_views_that_keep_the_result_alive(self):
+        result = soilbin.estimate(ROVER, AT)
+        patch = result.patch
+        self.check_view(patch["normal"], result)
+        first = patch["theta"].copy()
+        del result
+        self.assertTrue(np.array_equal(patch["theta"], first))
+
+    def test_a_drives_samples_are_views_and_a_frame(self):
+        case = soilbin.find_case("rover-climb")
+        record = bekker_wong.drive_wheel(case.scenario, case.drive, samples=50)
+        self.check_view(record.samples["time"], record)
+        frame = bekker_wong.drive_frame(record)
+        self.assertEqual(record.end, bekker_wong.DriveEnd.stuck)
+        self.assertEqual(frame.time.iloc[-1], record.end_time)
+        spent = frame[["kinetic", "height", "drawbar_work", "compaction", "shear", "added", "damping"]].sum(axis=1)
+        self.assertLess((frame.motor_work - spent).abs().max(), 1e-6 * frame.motor_work.max())
+
+    def test_the_contact_integrates_to_the_load(self):
+        rolled = bekker_wong.RollingWheel(ROVER).roll(AT)
+        n = rolled.nodes
+        load = ROVER.tire.width * np.sum(n["arc"] * (n["sigma"] * np.cos(n["theta"]) + n["tau_x"] * np.sin(n["theta"])))
+        self.assertAlmostEqual(load, AT.load, delta=1e-8 * AT.load)
+        self.check_view(n["sigma"], rolled)
+
+
+def two_spheres(steps=4000):
+    sim = dem.Simulation(dem.Material(), dem.Interaction(restitution=0.5, sliding_friction=0.0), dt=2e-6)
+    sim.add_grain((-0.0101, 0, 0), 0.01, velocity=(0.5, 0, 0))
+    sim.add_grain((0.0101, 0, 0), 0.01, velocity=(-0.5, 0, 0))
+    sim.run(steps)
+    return sim
+
+
+class Grains(unittest.TestCase):
+    def test_two_spheres_part_at_the_restitution(self):
+        v = two_spheres().velocities
+        self.assertAlmostEqual(v[1, 0] - v[0, 0], 0.5, delta=0.005)
+        self.assertEqual(v[0, 0], -v[1, 0])
+
+    def test_arrays_are_in_the_order_of_ids(self):
+        sim = dem.Simulation(dem.Material(), dem.Interaction(), dt=1e-6)
+        for k in (5, 1, 3):
+            sim.add_grain((k, 0, 0), 0.1 * k)
+        sim.run(1)
+        self.assertTrue(np.array_equal(sim.radii, [0.5, 0.1, 0.30000000000000004]))
+        self.assertTrue(np.allclose(sim.positions[:, 0], [5, 1, 3]))
+
+    def test_a_shear_box_has_the_same_bits_for_any_number_of_threads(self):
+        sand = soilbin.find_soil("paper-sand").granular
+        runs = [dem.direct_shear(sand, [20e3], length=6, width=5, height=5, travel=0.4, threads=n).runs[0] for n in (1, 3)]
+        self.assertTrue(np.array_equal(runs[0].curve["shear_stress"], runs[1].curve["shear_stress"]))
+
+
+class Stops(RuntimeError):
+    """Raised by a progress in these tests."""
+
+
+class LongWork(unittest.TestCase):
+    def box(self, progress):
+        sand = soilbin.find_soil("paper-sand").granular
+        return dem.direct_shear(sand, [20e3], length=12, width=8, height=10, threads=1, progress=progress)
+
+    def test_progress_is_told_and_may_stop_the_work(self):
+        told = []
+
+        def progress(share, stage):
+            told.append((share, stage))
+            if len(told) == 3:
+                raise Stops()
+
+        with self.assertRaises(Stops):
+            self.box(progress)
+        self.assertEqual(len(told), 3)
+        self.assertTrue(all(0 <= share <= 1 for share, _ in told))
+
+    def test_ctrl_c_stops_each_kind_of_long_work(self):
+        case = soilbin.find_case("rover-slip")
+        many = soilbin.conditions(load=60.0, slip=np.linspace(0, 0.5, 50_000))
+        for work in (lambda: self.box(None), lambda: compare.run_loop("cmu-smooth", progress=None),
+                     lambda: soilbin.sweep(case.scenario, many, progress=None)):
+            timer = threading.Timer(0.4, os.kill, (os.getpid(), signal.SIGINT))
+            began = time.monotonic()
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                work()
+            self.assertLess(time.monotonic() - began, 20)
+
+    def test_other_threads_go_on_meanwhile(self):
+        turns, done = [], threading.Event()
+
+        def count():
+            while not done.is_set():
+                turns.append(1)
+                time.sleep(0.001)
+
+        def stop_later(share, stage):
+            if len(turns) > 20:
+                raise Stops()
+
+        other = threading.Thread(target=count)
+        other.start()
+        try:
+            with self.assertRaises(Stops):
+                self.box(stop_later)
+        finally:
+            done.set()
+            other.join()
+
+
+class Loop(unittest.TestCase):
+    def test_it_says_what_the_command_says(self):
+        known = command("loop", "made-lesson")
+        answer = compare.run_loop("made-lesson", threads=2)
+        self.assertEqual(json.loads(answer.json()), known)
+        self.assertEqual(answer.verdict, compare.Verdict.effect_found)
+        self.assertEqual(answer.effects[0].choice.id, "multipass")
+
+    def test_a_model_beside_itself_differs_by_nothing(self):
+        comparison = compare.compare_case("rover-slip", measured=None)
+        frame = compare.differences_frame(comparison)
+        self.assertEqual(set(frame.reference), {"bekker_wong"})
+        at_zero = frame[(frame.slip == 0) & (frame.channel == "drawbar_pull")]
+        self.assertTrue((at_zero.difference == 0).all())  # slip sinkage begins with slip
+        self.assertTrue((frame.difference == frame.value - frame.reference_value).all())
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
