@@ -83,7 +83,7 @@ std::vector<compare::StudyAnswers> answers_of(const compare::Findings& findings,
 std::vector<std::string> library_records(const compare::Findings& findings, const Workplace& place) {
   std::set<std::string> files;
   for (const compare::Finding& finding : findings.all) {
-    const fs::path study = find_file(place, Shelf::studies, finding.study);
+    const fs::path study = find_file(place.library, Shelf::studies, finding.study);
     const fs::path file = study.parent_path() / "recorded" / study.stem().concat(".json");
     if (fs::exists(file)) files.insert(file.string());
   }

@@ -34,7 +34,7 @@ Case find_study(const Workplace& place, const std::string& name) {
 }
 
 fs::path find_record(const Workplace& place, const std::string& study) {
-  const fs::path asked = find_file(place, Shelf::studies, study);
+  const fs::path asked = find_file(place.library, Shelf::studies, study);
   const fs::path file = asked.parent_path() / "recorded" / asked.stem().concat(".json");
   if (fs::exists(file)) return file;
   throw InputError(
