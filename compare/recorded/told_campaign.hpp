@@ -13,8 +13,8 @@ namespace soilbin::compare {
 
 /// What the analyst is told.
 struct Telling {
-  std::string name;                     ///< of the campaign
-  std::set<std::string> hide;           ///< of things_to_hide(): left out of the campaign, as if it weren't there
+  std::string name{};                   ///< of the campaign
+  std::set<std::string> hide{};         ///< of things_to_hide(): left out of the campaign, as if it weren't there
   std::vector<EffectChoice> effects{};  ///< that his model already has
   bool only_steady = false;             ///< leaves out runs that did not become steady
   std::uint64_t seed = 1;               ///< of the order in which the rows are numbered
