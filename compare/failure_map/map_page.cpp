@@ -117,8 +117,7 @@ nlohmann::ordered_json failure_map_json(const MapStory& story) {
       {"format", "soilbin-failure-map/1"},     {"incline", name_of(story.map.incline)},
       {"tolerance", story.question.tolerance}, {"summary", map_summary(story)},
       {"share_beyond", share_beyond(story)},   {"cross_validated_error", finite(story.rows.held_out.rms())}};
-  Json &ranges = document["factors"] = Json::array(), &rows = document["rows"] = Json::array();
-  Json &groups = document["coordinates"] = Json::array(), &checks = document["checks"] = Json::array();
+  Json ranges = Json::array(), rows = Json::array(), groups = Json::array(), checks = Json::array();
   for (const Factor& factor : factors)
     ranges.push_back({{"name", factor.name}, {"lower", factor.lower}, {"upper", factor.upper}});
   for (const FailureRow& row : story.rows.rows) {
@@ -132,6 +131,8 @@ nlohmann::ordered_json failure_map_json(const MapStory& story) {
     json["predicted"] = estimate_json(check.predicted), json["found"] = estimate_json(check.found);
     checks.push_back(std::move(json));
   }
+  document["factors"] = ranges, document["rows"] = rows;
+  document["coordinates"] = groups, document["checks"] = checks;
   return document;
 }
 

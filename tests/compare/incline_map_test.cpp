@@ -176,7 +176,8 @@ TEST_F(SlowInclineMap, TellsItInWordsAsAPageAndAsJson) {
   EXPECT_THAT(words.front(), HasSubstr("longitudinal incline: of "));
   EXPECT_THAT(words.front(), HasSubstr("too high at 0, too low at "));
   const std::string page = failure_map_page(story, {"Map", "soilbin failure-map made", {}}, "format: ...");
-  for (const std::string& word : words) EXPECT_THAT(page, HasSubstr(escaped(word)));
+  for (const char* part : {"of the box asked for is beyond", "Cross-validated error of the map", "Fresh conditions:"})
+    EXPECT_THAT(page.substr(0, page.find("</div>")), HasSubstr(part));
   EXPECT_THAT(page, HasSubstr("class=\"plot heat\""));
   EXPECT_THAT(page, HasSubstr("soilbin failure-map made"));
   const auto json = failure_map_json(story);
