@@ -74,8 +74,10 @@ const Setting settings_by_name[] = {
     {"starting", [](DemSettings& s) -> double& { return s.rig.starting; }, "time in which the motion comes on [s]"},
     {"dt", [](DemSettings& s) -> double& { return s.rig.dt; }, "[s]; 0: a fifth of the Rayleigh time"}};
 
-DemSettings settings_of(const py::kwargs& numbers, std::uint64_t packing, const std::filesystem::path& beds,
-                        bool ledger, int threads) {
+/// Where settled beds are kept, if anywhere.
+using Beds = std::optional<std::filesystem::path>;
+
+DemSettings settings_of(const py::kwargs& numbers, std::uint64_t packing, const Beds& beds, bool ledger, int threads) {
   DemSettings out;
   for (const auto& [key, value] : numbers) {
     bool known = false;
@@ -84,13 +86,13 @@ DemSettings settings_of(const py::kwargs& numbers, std::uint64_t packing, const 
     if (!known) throw py::type_error("SoilBin has no setting '" + key.cast<std::string>() + "'");
   }
   if (threads < 0) throw InputError("threads: 0 (one a core) or more");
-  out.packing = packing, out.beds = beds, out.rig.ledger = ledger, out.how.threads = threads;
+  out.packing = packing, out.beds = beds.value_or(""), out.rig.ledger = ledger, out.how.threads = threads;
   return out;
 }
 
 std::string settings_doc() {
   std::string doc =
-      "packing: seed of the bed. beds: folder that keeps settled beds; '': none is kept. ledger: tells "
+      "packing: seed of the bed. beds: folder that keeps settled beds; None: none is kept. ledger: tells "
       "where the power goes. threads: 0, one a core; changes no bit. By keywords:";
   for (const Setting& setting : settings_by_name) doc += "\n  " + std::string(setting.name) + ": " + setting.doc;
   return doc;
@@ -166,12 +168,11 @@ void bind_soil_bin(py::module_& module) {
                              "force [N] and moment [N m] of the soil on the wheel (three columns), ...");
   py::class_<SoilBin>(module, "SoilBin",
                       "A virtual soil bin: a case's tire over a settled bed of its grains. Keeps its beds.")
-      .def(py::init([](std::uint64_t packing, const std::filesystem::path& beds, bool ledger, int threads,
-                       const py::kwargs& numbers) {
+      .def(py::init([](std::uint64_t packing, const Beds& beds, bool ledger, int threads, const py::kwargs& numbers) {
              return std::make_unique<SoilBin>(settings_of(numbers, packing, beds, ledger, threads));
            }),
-           py::arg("packing") = 1, py::arg("beds") = std::filesystem::path(), py::arg("ledger") = false,
-           py::arg("threads") = 0, settings_doc().c_str())
+           py::arg("packing") = 1, py::arg("beds") = py::none(), py::arg("ledger") = false, py::arg("threads") = 0,
+           settings_doc().c_str())
       .def("run", &SoilBin::run, py::arg("scenario"), py::arg("at"), py::arg("progress") = py::none(),
            "One run. progress: called with (share done, stage). Raises InputError for a bed too small and for what "
            "grains can't do (effects, a second pass), NoSolution where the wheel digs itself in, RunStopped.")

@@ -4,14 +4,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "scenario/case.hpp"
 #include "scenario/yaml_node.hpp"
 #include "tests/scenario/fake_vocabulary.hpp"
+#include "tests/scenario/refusal.hpp"
 
 namespace soilbin {
 namespace {
 
 using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
 
 const Library& library() {
   static const Library cases({SOILBIN_SOURCE_DIR "/cases"});
@@ -31,6 +36,22 @@ TEST(Library, TheFirstFolderWins) {
   EXPECT_EQ(found, std::filesystem::path(SOILBIN_SOURCE_DIR) / "cases/tires/paper-lugged.yaml");
   EXPECT_FALSE(library().find(Shelf::tires, "../tires/paper-lugged")) << "a name is no path";
   EXPECT_FALSE(library().find(Shelf::tires, ""));
+}
+
+TEST(Library, FindsTheFileBehindANameOrAPath) {
+  const std::filesystem::path cases = std::filesystem::path(SOILBIN_SOURCE_DIR) / "cases";
+  EXPECT_EQ(find_file(library(), Shelf::measured, "cmu-smooth"), cases / "measured/cmu-smooth/campaign.yaml");
+  EXPECT_EQ(find_file(library(), Shelf::studies, "mine/case.yaml"), "mine/case.yaml") << "a path is taken as it is";
+  EXPECT_THAT(test::refusal([] { find_file(library(), Shelf::measured, "cmu-smoth"); }),
+              HasSubstr("no campaign 'cmu-smoth' in the library, and no such file, did you mean 'cmu-smooth'?"));
+}
+
+TEST(Library, SearchesTheUsersFoldersFirst) {
+  const std::filesystem::path source = SOILBIN_SOURCE_DIR, cases = source / "cases";
+  setenv("SOILBIN_CASES", ("no/such/folder:" + (source / "docs").string()).c_str(), 1);
+  EXPECT_THAT(case_folders(source / "bench", cases), ElementsAre(source / "docs", source / "bench", cases));
+  unsetenv("SOILBIN_CASES");
+  EXPECT_THAT(case_folders("", cases), ElementsAre(cases)) << "nothing installed";
 }
 
 TEST(Library, EveryTireAndSoilIsReadAndNamesItsSource) {

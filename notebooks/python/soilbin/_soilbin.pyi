@@ -1466,8 +1466,8 @@ class WheelRun:
 
 class SoilBin:
     """A virtual soil bin: a case's tire over a settled bed of its grains. Keeps its beds."""
-    def __init__(self, packing: int = ..., beds: Union[str, PathLike[str]] = ..., ledger: bool = ..., threads: int = ..., **parameters: float) -> None:
-        """packing: seed of the bed. beds: folder that keeps settled beds; '': none is kept. ledger: tells where the power goes. threads: 0, one a core; changes no bit. By keywords:
+    def __init__(self, packing: int = ..., beds: Optional[Union[str, PathLike[str]]] = ..., ledger: bool = ..., threads: int = ..., **parameters: float) -> None:
+        """packing: seed of the bed. beds: folder that keeps settled beds; None: none is kept. ledger: tells where the power goes. threads: 0, one a core; changes no bit. By keywords:
           length: of the bed [m]
           width: of the bed [m]; a scenario's bin replaces it
           depth: of the bed [m]; a scenario's bin replaces it
