@@ -92,7 +92,7 @@ void Ride::check_room() const {
                     "{:.4g} m behind and {:.4g} m ahead are kept"
                     "\n  hint: a longer bed",
                     size.length, rig_.behind, rig_.ahead));
-  if (size.width < 1.5 * tire_.width)
+  if (size.width < 1.4999 * tire_.width)  // 150 mm is 1.5 times 100 mm, whatever rounding says
     throw InputError(
         fmt::format("a bed {:.4g} m wide is too narrow for a tire "
                     "of {:.4g} m: at least 1.5 times its width",

@@ -248,9 +248,11 @@ TEST(SlowTransient, SensitivitiesGrowAsTheStaticWheelsSlipHasThem) {
   for (std::size_t i = 0; i < drive_parameters.size(); ++i) {
     const SoilParameter& parameter = drive_parameters[i];
     const double value = ((*scenario().soil.semi_empirical).*parameter.value).value;
-    const double slip = (slip_with(parameter, 1.001) - slip_with(parameter, 0.999)) / (0.002 * value);
+    const double slip = (slip_with(parameter, 1.01) - slip_with(parameter, 0.99)) / (0.02 * value);
     const double way = (end.by_value[i] - begin.by_value[i]) / (late.duration - early.duration);
-    EXPECT_NEAR(way / (-0.05 * slip), 1.0, 0.01) << parameter.name;
+    // A stiffer soil carries the wheel higher and holds it over a shorter way: what k_phi gives and takes nearly
+    // cancels.
+    EXPECT_NEAR(way * value / -0.05, slip * value, 1e-3) << parameter.name;
   }
 }
 

@@ -9,11 +9,13 @@ namespace {
 using testing::HasSubstr;
 
 /// The command of docs/failure-map.md, from the runs in the store alone.
-std::string stored(const std::string& more) {
-  return "failure-map dem-lugs --incline longitudinal --load 40N..100N --lug-height 0mm..15mm --angle 0deg..15deg "
+std::string stored(const std::string& more, const std::string& incline = "longitudinal",
+                   const std::string& load = "40N..100N", const std::string& angle = "0deg..15deg") {
+  return "failure-map dem-lugs --incline " + incline + " --load " + load + " --lug-height 0mm..15mm --angle " + angle +
+         " "
          "--slip 5%..40% --boundary 0 --rounds 0 --settling-friction 0.2 --bed-length 0.5m --behind 0.12m --ahead "
          "0.12m "
-         "--lowering 0.2s --resting 0.1s --starting 0.1s --tilting 0.2s --stored --store '" SOILBIN_SOURCE_DIR
+         "--lowering 0.2s --resting 0.1s --starting 0.1s --tilting 0.2s --sleep 0 --stored --store '" SOILBIN_SOURCE_DIR
          "/cases/failure_maps/dem-nature-longitudinal.json' " +
          more;
 }
@@ -35,9 +37,9 @@ TEST(SlowFailureMapCommand, LearnsFromTheStoredRuns) {
 }
 
 TEST(FailureMapCommand, NamesWhatIsWrong) {
-  EXPECT_THAT(soilbin(stored("--incline sideways")).err, HasSubstr("unknown kind 'sideways'"));
-  EXPECT_THAT(soilbin(stored("--load 100N..40N")).err, HasSubstr("below the upper"));
-  EXPECT_THAT(soilbin(stored("--angle 15deg")).err, HasSubstr("expected LOW..HIGH"));
+  EXPECT_THAT(soilbin(stored("", "sideways")).err, HasSubstr("unknown kind 'sideways'"));
+  EXPECT_THAT(soilbin(stored("", "longitudinal", "100N..40N")).err, HasSubstr("below the upper"));
+  EXPECT_THAT(soilbin(stored("", "longitudinal", "40N..100N", "15deg")).err, HasSubstr("expected LOW..HIGH"));
   const Outcome none = soilbin(
       "failure-map dem-lugs --load 1N..2N --lug-height 0mm..1mm --angle 0deg..1deg --slip 0%..1% "
       "--stored --store no-such.json");

@@ -7,6 +7,7 @@
 
 #include <numbers>
 
+#include "bekker_wong/effect_vocabulary.hpp"
 #include "scenario/library.hpp"
 #include "tests/scenario/fake_vocabulary.hpp"
 #include "tests/scenario/refusal.hpp"
@@ -263,7 +264,7 @@ TEST(Campaign, EveryMeasuredOneIsRead) {
   const std::vector<std::string> names = library.names(Shelf::measured);
   EXPECT_GE(names.size(), 4u);
   for (const std::string& name : names) {
-    const Campaign c = read_campaign(*library.find(Shelf::measured, name), FakeVocabulary());
+    const Campaign c = read_campaign(*library.find(Shelf::measured, name), bekker_wong::CatalogueVocabulary());
     EXPECT_EQ(c.name, name);
     EXPECT_GE(static_cast<int>(c.runs.size()), free_parameters(c.soil)) << name;
   }
