@@ -1,6 +1,8 @@
 // soilbin failure-map on the runs that come with the project, and soilbin campaign on what is no record.
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "cli/command.hpp"
 
 namespace soilbin::cli::test {
@@ -35,9 +37,12 @@ TEST(SlowFailureMapCommand, LearnsFromTheStoredRuns) {
 }
 
 TEST(FailureMapCommand, NamesWhatIsWrong) {
-  EXPECT_THAT(soilbin(stored("--incline sideways")).err, HasSubstr("unknown kind 'sideways'"));
-  EXPECT_THAT(soilbin(stored("--load 100N..40N")).err, HasSubstr("below the upper"));
-  EXPECT_THAT(soilbin(stored("--angle 15deg")).err, HasSubstr("expected LOW..HIGH"));
+  const auto error = [](const std::string& flags) {
+    return soilbin("failure-map dem-lugs --lug-height 0mm..1mm --slip 0%..1% --stored " + flags).err;
+  };
+  EXPECT_THAT(error("--incline sideways --load 1N..2N --angle 0deg..1deg"), HasSubstr("unknown kind 'sideways'"));
+  EXPECT_THAT(error("--load 100N..40N --angle 0deg..1deg"), HasSubstr("below the upper"));
+  EXPECT_THAT(error("--load 1N..2N --angle 15deg"), HasSubstr("expected LOW..HIGH"));
   const Outcome none = soilbin(
       "failure-map dem-lugs --load 1N..2N --lug-height 0mm..1mm --angle 0deg..1deg --slip 0%..1% "
       "--stored --store no-such.json");
