@@ -54,8 +54,9 @@ class RollingWheel {
   /// implicit function theorem and for looking at the balance.
   RolledWheel at_entry_angle(const OperatingCondition& at, double theta_1) const;
 
-  /// What presses on the ground where the motion is not steady: `displacement` gives j, theta_1 [rad] the depth; nothing
-  /// is balanced, settled or read. The slip of `at` is what effects and angles look at. The patch is left filled.
+  /// What presses on the ground where the motion is not steady: `displacement` gives j, theta_1 [rad] the depth;
+  /// nothing is balanced, settled or read. The slip of `at` is what effects and angles look at. The patch is left
+  /// filled.
   WheelForces hold(const OperatingCondition& at, double theta_1, const DisplacementFill& displacement,
                    ContactPatch& patch) const;
 

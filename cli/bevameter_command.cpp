@@ -64,7 +64,7 @@ Measured measure(const Options& options, const GranularSoil& grains) {
   dem::PlateSettings plates;
   dem::AnnulusSettings ring;
   for (dem::TestBed* bed : {&plates.bed, &ring.bed}) {
-    bed->specimen = options.flags.specimen();
+    bed->specimen = options.flags.specimen(grains);
     bed->width *= options.flags.size, bed->depth *= options.flags.size;
   }
   for (int k = 0; k < options.packings; ++k) {
@@ -108,7 +108,7 @@ int bevameter(const Options& options, const Session& session) {
   if (isatty(STDERR_FILENO) == 1) fmt::print(stderr, "\r\033[K");
   const std::string source = fmt::format(
       "virtual bevameter on the grains of {}: 3 round plates, ring with grousers, {} packings, settling friction {}",
-      soil.name, options.packings, number(options.flags.specimen().settling_friction));
+      soil.name, options.packings, number(options.flags.specimen(grains_of(soil)).settling_friction));
   if (!options.output.empty())
     write_file_atomically(options.output, write_soil(with_bevameter(soil, fit, measured.density, source)));
   if (options.json) {

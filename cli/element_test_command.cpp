@@ -119,7 +119,8 @@ int element_test(const Options& options, const Session& session) {
   if (options.inertial < 0) throw InputError("--inertial: above 0");
   const Soil soil = find_soil(options.soil, session.place.library);
   dem::BedStore beds(folder_of_beds());
-  TestReport report = test.run({options, grains_of(soil), options.flags.specimen(), options.flags.work(), beds});
+  TestReport report =
+      test.run({options, grains_of(soil), options.flags.specimen(grains_of(soil)), options.flags.work(), beds});
   if (isatty(STDERR_FILENO) == 1) fmt::print(stderr, "\r\033[K");
   if (!options.plot.empty()) write_file_atomically(options.plot, compare::svg(report.sheet));
   if (options.json) {

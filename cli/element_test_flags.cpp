@@ -16,15 +16,17 @@ void ElementTestFlags::add_to(CLI::App& command) {
       .add_option("--settling-friction", settling_friction,
                   "share of friction while the specimen settles, 1; 0: densest")
       ->type_name("SHARE");
-  command.add_option("--rolling", rolling, "law of rolling resistance: directional (default), elastic_plastic, none")
+  command
+      .add_option("--rolling", rolling, "law of rolling resistance: directional, elastic_plastic, none; the soil's own")
       ->type_name("LAW");
   command.add_option("--size", size, "of specimens and beds, times the default; tools keep theirs")
       ->type_name("FACTOR");
   command.add_option("--threads", threads, "0, one a core")->type_name("N");
 }
 
-dem::SpecimenSettings ElementTestFlags::specimen() const {
+dem::SpecimenSettings ElementTestFlags::specimen(const GranularSoil& soil) const {
   dem::SpecimenSettings out;
+  out.laws.rolling = dem::rolling_law(soil.rolling_resistance);
   if (packing < 0) throw InputError("--packing: a seed is 0 or more");
   if (!(size >= 0.4 && size <= 10)) throw InputError("--size: a factor from 0.4 to 10");
   out.packing = static_cast<std::uint64_t>(packing);

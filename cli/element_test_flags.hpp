@@ -16,8 +16,8 @@ struct ElementTestFlags {
   double size = 1;
 
   void add_to(CLI::App& command);
-  /// Throws InputError that names the flag.
-  dem::SpecimenSettings specimen() const;
+  /// With the soil's own rolling resistance, where no flag gives another. Throws InputError that names the flag.
+  dem::SpecimenSettings specimen(const GranularSoil& soil) const;
   dem::WorkOptions work() const;
 };
 
