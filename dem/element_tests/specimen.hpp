@@ -41,7 +41,8 @@ int add_wall_material(Setup& setup, const GranularSoil& soil, double share_of_fr
 double put_grains(Simulation& simulation, const SettledBed& bed);
 
 /// A servo that keeps `stress` [Pa] on a wall of `area` [m^2]; its gain follows from the stiffness and the dashpots of
-/// a layer of Hertz contacts at this stress: a wall that answers its own dashpots in full flips to and fro every step. `direction` points from the grains to the wall.
+/// a layer of Hertz contacts at this stress: a wall that answers its own dashpots in full flips to and fro every step.
+/// `direction` points from the grains to the wall.
 Servo press(const Vec3& direction, double stress, double area, const GranularSoil& soil, double dt);
 
 /// I = rate d sqrt(rho/p): inertial number of a shear rate [1/s] at pressure p [Pa]. Below 1e-3 dense grains count as
