@@ -16,7 +16,7 @@ TEST(RecordedStudies, AnswerAsTheFileThatIsNamed) {
   const Outcome named = soilbin("run paper-straight --load 4kN --slip 20% --recorded '" + file + "'");
   ASSERT_EQ(found.status, 0) << found.err;
   EXPECT_EQ(found.out, named.out);
-  EXPECT_THAT(found.out, HasSubstr("dem: 1 run"));
+  EXPECT_THAT(found.out, HasSubstr("dem: 3 runs"));
 }
 
 TEST(RecordedStudies, AStudyWithoutRunsSaysHowToMakeThem) {
