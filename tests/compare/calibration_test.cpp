@@ -102,7 +102,7 @@ TEST(Calibration, CandidatesAreRunNearAndDifferent) {
   }
 }
 
-TEST(Calibration, MeetsTwoTargetsAtOnce) {
+TEST(SlowCalibration, MeetsTwoTargetsAtOnce) {
   ExperimentStore store;
   const VirtualTest test = shear_box();
   const Calibration found = calibrate(test, {.most_runs = 40}, store);
@@ -115,7 +115,7 @@ TEST(Calibration, MeetsTwoTargetsAtOnce) {
   EXPECT_GT(found.told[2], 0.7);
 }
 
-TEST(Calibration, ChancesAreWhatTheySay) {
+TEST(SlowCalibration, ChancesAreWhatTheySay) {
   // Of fifty calibrations with other noise that claim at least 90 %, at most a share of 10 % and its scatter are wrong.
   int claimed = 0, wrong = 0;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
