@@ -1,15 +1,16 @@
 // soilbin bevameter: from a soil's grains to the values of the Bekker / Wong-Reece model.
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <memory>
 #include <numbers>
 
 #include "cli/commands.hpp"
 #include "cli/element_test_flags.hpp"
+#include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "compare/bevameter/bevameter.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/report/result_json.hpp"
 #include "dem/element_tests/plate_tests.hpp"
 #include "scenario/atomic_file.hpp"
@@ -105,24 +106,22 @@ int bevameter(const Options& options, const Session& session) {
   const Soil soil = find_soil(options.soil, session.place.library);
   const Measured measured = measure(options, grains_of(soil));
   const compare::BevameterFit fit = compare::fit_bevameter(measured.plates, measured.shear);
-  if (isatty(STDERR_FILENO) == 1) fmt::print(stderr, "\r\033[K");
+  clear_progress_line();
   const std::string source = fmt::format(
       "virtual bevameter on the grains of {}: 3 round plates, ring with grousers, {} packings, settling friction {}",
       soil.name, options.packings, number(options.flags.specimen(grains_of(soil)).settling_friction));
   if (!options.output.empty())
     write_file_atomically(options.output, write_soil(with_bevameter(soil, fit, measured.density, source)));
   if (options.json) {
-    const auto json = [](const Estimate& e) {
-      return nlohmann::ordered_json{{"value", e.value}, {"std_error", e.std_error}};
-    };
+    using compare::estimate_json;
     fmt::print("{}", compare::json_text({{"format", "soilbin-bevameter/1"},
                                          {"soil", soil.name},
-                                         {"exponent", json(fit.exponent)},
-                                         {"k_c", json(fit.k_c)},
-                                         {"k_phi", json(fit.k_phi)},
-                                         {"cohesion", json(fit.cohesion)},
-                                         {"friction_angle", json(fit.friction_angle)},
-                                         {"shear_modulus", json(fit.shear_modulus)},
+                                         {"exponent", estimate_json(fit.exponent)},
+                                         {"k_c", estimate_json(fit.k_c)},
+                                         {"k_phi", estimate_json(fit.k_phi)},
+                                         {"cohesion", estimate_json(fit.cohesion)},
+                                         {"friction_angle", estimate_json(fit.friction_angle)},
+                                         {"shear_modulus", estimate_json(fit.shear_modulus)},
                                          {"cohesion_as_fitted", fit.cohesion_as_fitted},
                                          {"pressure_error", fit.pressure_error},
                                          {"density", measured.density}}));

@@ -1,14 +1,15 @@
 // soilbin calibrate: contact parameters of grains from virtual element tests.
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <tuple>
 
 #include "cli/commands.hpp"
 #include "cli/element_experiments.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
 #include "compare/calibrate/published_sets.hpp"
@@ -35,23 +36,6 @@ struct Asked {
   bool json = false, runs = false;
 };
 
-std::vector<std::string> parts_of(const std::string& text, const std::string& between) {
-  std::vector<std::string> parts;
-  std::size_t from = 0;
-  for (std::size_t at; (at = text.find(between, from)) != std::string::npos; from = at + between.size())
-    parts.push_back(text.substr(from, at - from));
-  parts.push_back(text.substr(from));
-  return parts;
-}
-
-double read(const std::string& flag, const std::string& text, const Measure& measure) {
-  try {
-    return read_quantity(text, measure);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", flag, error.what()));
-  }
-}
-
 /// "NAME=REST" of a flag, NAME one of `right`.
 std::pair<std::string, std::string> named(const std::string& flag, const std::string& text,
                                           const std::vector<std::string>& right) {
@@ -69,9 +53,9 @@ std::vector<Target> targets_of(const Asked& asked, ContactKind kind, const Soil&
   for (const std::string& text : asked.targets) {
     const auto [name, value] = named("--target", text, target_names(kind));
     const std::string unit = unit_of_target(name);
-    const std::vector<std::string> parts = parts_of(value, ",");
-    Target target{name, {read("--target " + name, parts[0], {unit, above_zero}), 0.0}, unit};
-    if (parts.size() > 1) target.measured.std_error = read("--target " + name, parts[1], {unit, zero_or_more});
+    const std::vector<std::string> parts = split(value, ",");
+    Target target{name, {read_flag("--target " + name, parts[0], {unit, above_zero}), 0.0}, unit};
+    if (parts.size() > 1) target.measured.std_error = read_flag("--target " + name, parts[1], {unit, zero_or_more});
     targets.push_back(std::move(target));
   }
   if (!targets.empty()) return targets;
@@ -93,14 +77,10 @@ std::vector<Factor> factors_of(const Asked& asked, ContactKind kind) {
   for (const Factor& factor : factors) names.push_back(factor.name);
   for (const std::string& text : asked.bounds) {
     const auto [name, range] = named("--vary", text, names);
-    const std::vector<std::string> ends = parts_of(range, "..");
-    if (ends.size() != 2)
-      throw InputError(fmt::format("--vary '{}': expected NAME=LOW..HIGH, such as sliding_friction=0.2..0.8", text));
     for (Factor& factor : factors)
       if (factor.name == name) {
         const Measure measure{factor.unit, factor.name == "restitution" ? fractions : zero_or_more};
-        factor.lower = read("--vary " + name, ends[0], measure);
-        factor.upper = read("--vary " + name, ends[1], measure);
+        std::tie(factor.lower, factor.upper) = read_range("--vary " + name, range, measure);
       }
   }
   for (const std::string& text : asked.kept) {
@@ -122,22 +102,17 @@ class Shown {
     if (interrupt_asked()) throw Interrupted();
     print(std::string(progress.stage), progress.done);
   }
-  void clear() const {
-    if (terminal_) fmt::print(stderr, "\r\033[K");
-  }
 
  private:
   void print(const std::string& doing, double share) const {
-    if (!terminal_) return;
-    fmt::print(stderr, "\r\033[K{}: run {} of at most {}", word_of(at_.stage), at_.done + 1, at_.at_most);
-    if (!doing.empty()) fmt::print(stderr, ", {} {:.0f} %", doing, 100 * share);
-    if (at_.stage == compare::Stage::refinement) fmt::print(stderr, ", best chance {:.0f} %", 100 * at_.chance);
+    std::string line = fmt::format("{}: run {} of at most {}", word_of(at_.stage), at_.done + 1, at_.at_most);
+    if (!doing.empty()) line += fmt::format(", {} {:.0f} %", doing, 100 * share);
+    if (at_.stage == compare::Stage::refinement) line += fmt::format(", best chance {:.0f} %", 100 * at_.chance);
     if (at_.seconds_a_run > 0)
-      fmt::print(stderr, ", at most {:.0f} s left", at_.seconds_a_run * (at_.at_most - at_.done - share));
-    std::fflush(stderr);
+      line += fmt::format(", at most {:.0f} s left", at_.seconds_a_run * (at_.at_most - at_.done - share));
+    show_progress_line(line);
   }
 
-  bool terminal_ = isatty(STDERR_FILENO) == 1;
   compare::CalibrationProgress at_;
 };
 
@@ -146,7 +121,7 @@ compare::VirtualTest test_of(const Asked& asked, ContactKind kind, const Soil& s
   ElementExperiment experiment{*soil.granular, factors_of(asked, kind), targets_of(asked, kind, soil), {}};
   experiment.how.threads = asked.threads;
   experiment.how.progress = [shown](const dem::Progress& progress) { shown->within_run(progress); };
-  const double settling = read("--settling-friction", asked.settling_friction, {"-", fractions});
+  const double settling = read_flag("--settling-friction", asked.settling_friction, {"-", fractions});
   if (kind == ContactKind::grain_tire) {
     dem::TiltingBoardSettings settings;
     settings.across = asked.across;
@@ -159,8 +134,8 @@ compare::VirtualTest test_of(const Asked& asked, ContactKind kind, const Soil& s
   settings.packings = asked.packings > 0 ? asked.packings : 1;
   settings.specimen.settling_friction = settling;
   settings.stresses.clear();
-  for (const std::string& stress : parts_of(asked.stresses, ","))
-    settings.stresses.push_back(read("--stresses", stress, {"kPa", above_zero}));
+  for (const std::string& stress : split(asked.stresses, ","))
+    settings.stresses.push_back(read_flag("--stresses", stress, {"kPa", above_zero}));
   const std::vector<std::string> strengths{"peak", "residual"};
   named("--strength", asked.strength, strengths);
   return shear_box_test(experiment, settings, asked.strength == "peak" ? Strength::peak : Strength::residual);
@@ -172,12 +147,6 @@ fs::path store_of(const Asked& asked, const Soil& soil) {
   if (cache.empty()) return {};
   fs::create_directories(cache / "experiments");
   return cache / "experiments" / fmt::format("{}-{}.json", soil.name, asked.contact);
-}
-
-std::string as_text(const compare::HtmlTable& table) {
-  TextTable text(table.header);
-  for (const auto& row : table.rows) text.add(row);
-  return fmt::format("{}\n{}", table.caption, text.text());
 }
 
 void print(const Asked& asked, const compare::VirtualTest& test, const compare::Calibration& calibration) {
@@ -197,7 +166,7 @@ int set_beside(const Asked& asked, const compare::VirtualTest& test, compare::Ex
   compare::run_sets(sets, test, asked.options.seed, store, [&](int made, int total) {
     shown->next({compare::Stage::design, made, total, 0.0, 0.0});
   });
-  shown->clear();
+  clear_progress_line();
   fmt::print("{}", as_text(compare::beside_table(test, sets)));
   return done;
 }
@@ -208,10 +177,10 @@ int calibrate(Asked asked, const Session& session) {
     throw InputError(fmt::format("soil '{}' has no grains\n  hint: it needs a section 'granular'", soil.name));
   named("--contact", asked.contact, {"sand", "tire"});
   const ContactKind kind = asked.contact == "sand" ? ContactKind::grain_grain : ContactKind::grain_tire;
-  asked.options.near = read("--near", asked.near, {"-", {.lower = 0, .upper = 1, .lower_open = true}});
-  asked.options.within = read("--within", asked.within, {"-", {.lower = 0, .upper = 1, .lower_open = true}});
-  asked.options.probability =
-      read("--probability", asked.probability, {"-", {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true}});
+  asked.options.near = read_flag("--near", asked.near, {"-", {.lower = 0, .upper = 1, .lower_open = true}});
+  asked.options.within = read_flag("--within", asked.within, {"-", {.lower = 0, .upper = 1, .lower_open = true}});
+  asked.options.probability = read_flag("--probability", asked.probability,
+                                        {"-", {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true}});
   const auto shown = std::make_shared<Shown>();
   asked.options.progress = [shown](const compare::CalibrationProgress& progress) { shown->next(progress); };
   const compare::VirtualTest test = test_of(asked, kind, soil, shown);
@@ -222,13 +191,13 @@ int calibrate(Asked asked, const Session& session) {
     if (!asked.beside.empty()) return set_beside(asked, test, store, shown);
     calibration = compare::calibrate(test, asked.options, store);
   } catch (const Interrupted&) {
-    shown->clear();
+    clear_progress_line();
     if (!file.empty())
       fmt::print(stderr, "{} finished experiments are in {}; the same command goes on from there", store.size(),
                  file.string());
     throw;
   }
-  shown->clear();
+  clear_progress_line();
   if (!asked.output.empty())
     write_file_atomically(asked.output,
                           write_soil(compare::calibrated_soil(soil, kind, test, asked.options, calibration)));

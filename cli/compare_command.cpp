@@ -106,10 +106,9 @@ void print_text(const compare::Comparison& comparison, const compare::Comparison
              comparison.question.scenario.soil.name);
   for (const compare::Clause& clause : compare::summary(comparison, about.loop ? &*about.loop : nullptr))
     fmt::print("{}{}\n", clause.about.empty() ? "" : clause.about + ": ", clause.text);
-  const compare::HtmlTable table = compare::tally_table(comparison);
-  TextTable text(table.header);
-  for (const auto& row : table.rows) text.add(row);
-  fmt::print("\n{}", text.text());
+  compare::HtmlTable table = compare::tally_table(comparison);
+  table.caption.clear();
+  fmt::print("\n{}", as_text(table));
 }
 
 void save(const compare::Comparison& comparison, const compare::ComparisonAbout& about, const Asked& asked) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <type_traits>
 
+#include "cli/flag_values.hpp"
 #include "scenario/description.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -18,15 +19,6 @@ namespace soilbin::cli {
 inline std::string flag_of(const std::string& prefix, std::string key) {
   std::replace(key.begin(), key.end(), '_', '-');
   return "--" + prefix + key;
-}
-
-/// A number as a flag gives it. Throws InputError that names the flag.
-inline double read_flag(const std::string& flag, const std::string& text, const Measure& measure) {
-  try {
-    return read_quantity(text, measure);
-  } catch (const InputError& error) {
-    throw InputError(flag + ": " + error.what());
-  }
 }
 
 /// Flags for the described numbers, whole numbers and choices of T.

@@ -71,14 +71,6 @@ std::vector<Estimate> answered(const Run& run) {
   }
 }
 
-Estimate mean_of(const std::vector<double>& values) {
-  double mean = 0.0, square = 0.0;
-  const double n = static_cast<double>(values.size());
-  for (const double value : values) mean += value / n;
-  for (const double value : values) square += (value - mean) * (value - mean) / (n - 1);
-  return {mean, std::sqrt(square / n)};
-}
-
 }  // namespace
 
 compare::VirtualTest shear_box_test(const ElementExperiment& experiment, const dem::DirectShearSettings& settings,

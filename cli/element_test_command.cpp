@@ -1,12 +1,13 @@
 // soilbin element-test: what a soil's grains do in the laboratory's tests.
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/element_test_flags.hpp"
 #include "cli/element_test_reports.hpp"
+#include "cli/flag_values.hpp"
+#include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "compare/report/result_json.hpp"
 #include "scenario/atomic_file.hpp"
@@ -37,11 +38,7 @@ struct Asked {
 std::vector<double> stresses_of(const Options& options, std::vector<double> otherwise) {
   if (options.stresses.empty()) return otherwise;
   std::vector<double> out;
-  for (const std::string& text : options.stresses) try {
-      out.push_back(read_quantity(text, {"kPa", above_zero}));
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("--stress: {}", error.what()));
-    }
+  for (const std::string& text : options.stresses) out.push_back(read_flag("--stress", text, {"kPa", above_zero}));
   return out;
 }
 
@@ -121,7 +118,7 @@ int element_test(const Options& options, const Session& session) {
   dem::BedStore beds(folder_of_beds());
   TestReport report =
       test.run({options, grains_of(soil), options.flags.specimen(grains_of(soil)), options.flags.work(), beds});
-  if (isatty(STDERR_FILENO) == 1) fmt::print(stderr, "\r\033[K");
+  clear_progress_line();
   if (!options.plot.empty()) write_file_atomically(options.plot, compare::svg(report.sheet));
   if (options.json) {
     nlohmann::ordered_json document{{"format", "soilbin-element-test/1"}, {"test", test.name}, {"soil", soil.name}};

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "cli/flag_values.hpp"
 #include "cli/soil_bin.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -30,12 +31,7 @@ dem::SpecimenSettings ElementTestFlags::specimen(const GranularSoil& soil) const
   if (packing < 0) throw InputError("--packing: a seed is 0 or more");
   if (!(size >= 0.4 && size <= 10)) throw InputError("--size: a factor from 0.4 to 10");
   out.packing = static_cast<std::uint64_t>(packing);
-  try {
-    if (!settling_friction.empty())
-      out.settling_friction = read_quantity(settling_friction, {"-", {.lower = 0, .upper = 1}});
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("--settling-friction: {}", error.what()));
-  }
+  set_where_given("--settling-friction", settling_friction, {"-", fractions}, out.settling_friction);
   if (rolling == "elastic_plastic") {
     out.laws.rolling = dem::RollingLaw::elastic_plastic;
   } else if (rolling == "none") {

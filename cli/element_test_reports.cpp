@@ -7,27 +7,27 @@
 #include <numbers>
 
 #include "cli/text_output.hpp"
+#include "compare/report/json_fields.hpp"
 
 namespace soilbin::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using compare::estimate_json;
 using compare::Mark;
 using compare::Plot;
 using compare::Series;
 
 constexpr double degree = std::numbers::pi / 180;
 
-Json json_of(const Estimate& estimate) { return {{"value", estimate.value}, {"std_error", estimate.std_error}}; }
-
 Json json_of(const dem::StrengthLine& line) {
   if (line.points == 0) return nullptr;
-  return {{"friction_angle", json_of(line.friction_angle)},
-          {"cohesion", json_of(line.cohesion)},
+  return {{"friction_angle", estimate_json(line.friction_angle)},
+          {"cohesion", estimate_json(line.cohesion)},
           {"covariance", line.covariance},
           {"chi2", line.chi2},
           {"points", line.points},
-          {"friction_angle_without_cohesion", json_of(line.friction_angle_without_cohesion)}};
+          {"friction_angle_without_cohesion", estimate_json(line.friction_angle_without_cohesion)}};
 }
 
 /// The angle behind a ratio's tangent or sine.
@@ -85,9 +85,9 @@ TestReport report_on(const dem::DirectShearResult& result) {
              {"packing", run.packing},
              {"void_ratio", run.void_ratio},
              {"speed", run.speed},
-             {"peak_ratio", json_of(run.peak)},
+             {"peak_ratio", estimate_json(run.peak)},
              {"peak_at", run.peak_at},
-             {"residual_ratio", json_of(run.residual)},
+             {"residual_ratio", estimate_json(run.residual)},
              {"imbalance", run.imbalance},
              {"work", run.work},
              {"work_of_stress", run.work_of_stress},
@@ -131,9 +131,9 @@ TestReport report_on(const dem::TriaxialResult& result) {
                     {"void_ratio", run.void_ratio},
                     {"isotropic_error", run.isotropic_error},
                     {"confining_error", run.confining_error},
-                    {"peak_sine", json_of(run.peak)},
+                    {"peak_sine", estimate_json(run.peak)},
                     {"peak_at", run.peak_at},
-                    {"residual_sine", json_of(run.residual)},
+                    {"residual_sine", estimate_json(run.residual)},
                     {"dilation_angle", run.dilation_angle},
                     {"work", run.work},
                     {"work_of_stress", run.work_of_stress},
@@ -191,7 +191,7 @@ TestReport report_on(const dem::AngleOfReposeResult& result) {
                          degrees(result.angle), result.grains, number(result.height * 1e3), number(result.base * 1e3),
                          number(result.settling_time));
   out.json = {{"mean_diameter", result.mean_diameter},
-              {"angle", json_of(result.angle)},
+              {"angle", estimate_json(result.angle)},
               {"by_sector", result.by_sector},
               {"grains", result.grains},
               {"height", result.height},

@@ -1,6 +1,5 @@
 // soilbin failure-map: where the analytic model parts from grains, over load, lug height, an incline and slip.
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
@@ -34,17 +33,8 @@ struct Asked {
 /// "LOW..HIGH" of a flag, in SI.
 compare::Factor range_of(const std::string& flag, const std::string& text, const std::string& name,
                          const Measure& measure) {
-  const std::size_t dots = text.find("..");
-  if (text.empty() || dots == std::string::npos)
-    throw InputError(fmt::format("{} '{}': expected LOW..HIGH with units, such as --load 40N..100N", flag, text));
-  try {
-    compare::Factor factor{name, read_quantity(text.substr(0, dots), measure),
-                           read_quantity(text.substr(dots + 2), measure), measure.unit};
-    if (!(factor.lower < factor.upper)) throw InputError("the lower end must be below the upper one");
-    return factor;
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", flag, error.what()));
-  }
+  const auto [lower, upper] = read_range(flag, text, measure);
+  return {name, lower, upper, measure.unit};
 }
 
 compare::Incline incline_of(const std::string& text) {
@@ -100,7 +90,7 @@ compare::VirtualTest grains_test(const Asked& asked, const compare::InclineMap& 
 
 void show_run(int done, int total) {
   if (interrupt_asked()) throw Interrupted();
-  if (isatty(STDERR_FILENO) == 1) fmt::print(stderr, "\r\033[Kcondition {} of {}; ", done + 1, total);
+  show_progress_line(fmt::format("condition {} of {}", done + 1, total));
 }
 
 /// Where the models agree: without lugs at any slip, else also up to a slip; and with any lugs.
@@ -132,21 +122,15 @@ compare::MapStory learn(const Asked& asked, const Case& question, const Workplac
   story.clauses = clauses_of(story.question, story.rows, asked.rounds);
   story.coordinates = compare::compare_coordinates(story.map, story.rows);
   story.checks = compare::check_fresh(story.question, story.rows, asked.fresh, asked.seed);
-  if (isatty(STDERR_FILENO) == 1) fmt::print(stderr, "\r\033[K");
+  clear_progress_line();
   return story;
-}
-
-std::string as_text(const compare::HtmlTable& table) {
-  TextTable text(table.header);
-  for (const auto& row : table.rows) text.add(row);
-  return fmt::format("\n{}\n{}", table.caption, text.text());
 }
 
 void print_story(const compare::MapStory& story, bool rows) {
   for (const std::string& sentence : compare::map_summary(story)) fmt::print("{}\n", sentence);
-  if (rows) fmt::print("{}", as_text(compare::rows_table(story)));
-  fmt::print("{}", as_text(compare::coordinates_table(story)));
-  if (!story.checks.empty()) fmt::print("{}", as_text(compare::checks_table(story)));
+  if (rows) fmt::print("\n{}", as_text(compare::rows_table(story)));
+  fmt::print("\n{}", as_text(compare::coordinates_table(story)));
+  if (!story.checks.empty()) fmt::print("\n{}", as_text(compare::checks_table(story)));
 }
 
 int failure_map(const Asked& asked, const Session& session) {

@@ -66,12 +66,6 @@ compare::Limits read_limits(const std::vector<std::string>& texts) {
   return limits;
 }
 
-std::string as_text(const compare::HtmlTable& table) {
-  TextTable text(table.header);
-  for (const auto& row : table.rows) text.add(row);
-  return fmt::format("{}\n{}", table.caption, text.text());
-}
-
 void print_answer(const compare::LoopAnswer& answer, bool only_next) {
   if (!only_next) {
     fmt::print("{}: {}\n\n", answer.campaign, compare::verdict_sentence(answer));

@@ -25,6 +25,14 @@ void catch_interrupts() {
 
 bool interrupt_asked() { return stop_asked != 0; }
 
+void show_progress_line(const std::string& text) {
+  if (isatty(STDERR_FILENO) != 1) return;
+  fmt::print(stderr, "\r\033[K{}", text);
+  std::fflush(stderr);
+}
+
+void clear_progress_line() { show_progress_line(""); }
+
 compare::Progress shown_progress() {
   using Clock = std::chrono::steady_clock;
   const bool terminal = isatty(STDERR_FILENO) == 1;
@@ -38,13 +46,13 @@ compare::Progress shown_progress() {
     if (passed < 0.5 || (!last && now - shown < std::chrono::milliseconds(100))) return;
     shown = now;
     if (last) {
-      if (open) fmt::print(stderr, "\r\033[K");
+      if (open) clear_progress_line();
       return;
     }
     open = true;
     const double left = passed * static_cast<double>(total - done) / static_cast<double>(done);
-    fmt::print(stderr, "\r\033[K{:3.0f} %  {} of {}, {:.0f} s left",
-               100.0 * static_cast<double>(done) / static_cast<double>(total), done, total, left);
+    show_progress_line(fmt::format("{:3.0f} %  {} of {}, {:.0f} s left",
+                                   100.0 * static_cast<double>(done) / static_cast<double>(total), done, total, left));
   };
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 #include "compare/sweep/answers.hpp"
 
@@ -16,6 +17,11 @@ struct Interrupted : std::runtime_error {
 void catch_interrupts();
 /// Whether it was pressed.
 bool interrupt_asked();
+
+/// One line that takes the place of the last one, where standard error is a terminal.
+void show_progress_line(const std::string& text);
+/// Takes away the line that shows progress, where there is a terminal.
+void clear_progress_line();
 
 /// Stops at Ctrl-C. Shows the share done and the time left, once the work has taken longer than half a second.
 compare::Progress shown_progress();

@@ -12,13 +12,6 @@
 namespace soilbin::cli {
 namespace {
 
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, at);) parts.push_back(part);
-  return parts;
-}
-
 const EffectFormWords& pick_form(const std::string& id, const std::string& form,
                                  const std::vector<EffectFormWords>& forms) {
   std::vector<std::string> names;
@@ -56,8 +49,8 @@ double exponent_of(const Soil& soil) { return soil.semi_empirical ? soil.semi_em
 }  // namespace
 
 EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocabulary, double n) {
-  const std::vector<std::string> parts = split(text, ',');
-  if (parts.empty()) throw InputError("--effect: expected id[:form][,parameter=value...]");
+  if (text.empty()) throw InputError("--effect: expected id[:form][,parameter=value...]");
+  const std::vector<std::string> parts = split(text, ",");
   const std::size_t colon = parts.front().find(':');
   EffectChoice choice;
   choice.id = parts.front().substr(0, colon);

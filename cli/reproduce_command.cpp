@@ -83,8 +83,7 @@ std::vector<compare::StudyAnswers> answers_of(const compare::Findings& findings,
 std::vector<std::string> library_records(const compare::Findings& findings, const Workplace& place) {
   std::set<std::string> files;
   for (const compare::Finding& finding : findings.all) {
-    const fs::path study = find_file(place.library, Shelf::studies, finding.study);
-    const fs::path file = study.parent_path() / "recorded" / study.stem().concat(".json");
+    const fs::path file = place_of_record(place, finding.study);
     if (fs::exists(file)) files.insert(file.string());
   }
   return {files.begin(), files.end()};
@@ -133,9 +132,7 @@ int reproduce(const ReproduceOptions& options, const Session& session) {
       compare::reproduce(findings, answers_of(findings, records, session.place, remarks));
   reproduction.remarks = remarks;
   if (!options.report.empty()) {
-    std::string command = "soilbin reproduce " + options.findings;
-    for (const std::string& file : options.recorded) command += " --recorded " + file;
-    const compare::PageAbout about{"What of " + findings.name + " is reproduced", command, versions()};
+    const compare::PageAbout about{"What of " + findings.name + " is reproduced", session.command, versions()};
     write_file_atomically(options.report, compare::reproduction_page(reproduction, about));
   }
   if (options.json)

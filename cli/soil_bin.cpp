@@ -1,7 +1,6 @@
 #include "cli/soil_bin.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +9,7 @@
 #include <filesystem>
 #include <map>
 
+#include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/replay_recorder.hpp"
 #include "cli/versions.hpp"
@@ -33,13 +33,10 @@ std::filesystem::path folder_of_beds() {
 
 void show_dem_progress(const dem::Progress& progress) {
   if (interrupt_asked()) throw Interrupted();
-  if (isatty(STDERR_FILENO) != 1) return;
-  const bool last = progress.done >= 1;
-  fmt::print(stderr, "\r\033[K");
-  if (last) return;
-  fmt::print(stderr, "dem, {}: {:.0f} %", progress.stage, 100 * progress.done);
-  if (std::isfinite(progress.seconds_left)) fmt::print(stderr, ", {:.0f} s left", progress.seconds_left);
-  std::fflush(stderr);
+  if (progress.done >= 1) return clear_progress_line();
+  const bool known = std::isfinite(progress.seconds_left);
+  show_progress_line(fmt::format("dem, {}: {:.0f} %{}", progress.stage, 100 * progress.done,
+                                 known ? fmt::format(", {:.0f} s left", progress.seconds_left) : ""));
 }
 
 namespace {
@@ -145,26 +142,21 @@ std::unique_ptr<const Model> running(const SoilBinFlags& flags, const Case& ques
 
 dem::DemSettings settings_of(const SoilBinFlags& flags) {
   dem::DemSettings settings;
-  const auto read = [](const char* flag, const std::string& text, const Measure& measure, double& into) {
-    try {
-      if (!text.empty()) into = read_quantity(text, measure);
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", flag, error.what()));
-    }
-  };
-  read("--bed-length", flags.length, {"m", above_zero}, settings.size.length);
-  read("--bed-width", flags.width, {"m", above_zero}, settings.size.width);
-  read("--bed-depth", flags.depth, {"m", above_zero}, settings.size.depth);
-  read("--behind", flags.behind, {"m", above_zero}, settings.rig.behind);
-  read("--ahead", flags.ahead, {"m", above_zero}, settings.rig.ahead);
-  read("--travel", flags.travel, {"m", above_zero}, settings.rig.travel);
-  read("--lowering", flags.lowering, {"s", above_zero}, settings.rig.lowering);
-  read("--resting", flags.resting, {"s", zero_or_more}, settings.rig.resting);
-  read("--starting", flags.starting, {"s", above_zero}, settings.rig.starting);
-  read("--tilting", flags.tilting, {"s", above_zero}, settings.rig.tilting);
-  read("--time-step", flags.time_step, {"s", above_zero}, settings.rig.dt);
-  read("--sleep", flags.sleep, {"-", {.lower = 0, .upper = 0.1}}, settings.rig.sleep_speed);
-  read("--settling-friction", flags.settling_friction, {"-", {.lower = 0, .upper = 1}}, settings.settling_friction);
+  set_where_given("--bed-length", flags.length, {"m", above_zero}, settings.size.length);
+  set_where_given("--bed-width", flags.width, {"m", above_zero}, settings.size.width);
+  set_where_given("--bed-depth", flags.depth, {"m", above_zero}, settings.size.depth);
+  set_where_given("--behind", flags.behind, {"m", above_zero}, settings.rig.behind);
+  set_where_given("--ahead", flags.ahead, {"m", above_zero}, settings.rig.ahead);
+  set_where_given("--travel", flags.travel, {"m", above_zero}, settings.rig.travel);
+  set_where_given("--lowering", flags.lowering, {"s", above_zero}, settings.rig.lowering);
+  set_where_given("--resting", flags.resting, {"s", zero_or_more}, settings.rig.resting);
+  set_where_given("--starting", flags.starting, {"s", above_zero}, settings.rig.starting);
+  set_where_given("--tilting", flags.tilting, {"s", above_zero}, settings.rig.tilting);
+  set_where_given("--time-step", flags.time_step, {"s", above_zero}, settings.rig.dt);
+  set_where_given("--sleep", flags.sleep, {"-", {.lower = 0, .upper = 0.1}}, settings.rig.sleep_speed);
+  set_where_given("--deepest-overlap", flags.deepest_overlap, {"-", {.lower = 0.05, .upper = 2}},
+                  settings.rig.deepest_overlap);
+  set_where_given("--settling-friction", flags.settling_friction, {"-", fractions}, settings.settling_friction);
   if (flags.packing < 0) throw InputError("--packing: a seed is 0 or more");
   if (flags.packings < 1) throw InputError("--packings: 1 or more");
   if (flags.threads < 0) throw InputError("--threads: 0 (one a core) or more");
@@ -191,6 +183,8 @@ void SoilBinFlags::add_to(CLI::App& command) {
   command
       .add_option("--sleep", sleep,
                   "dem: grains far from the wheel rest that are slower than this share of sqrt(g d), 0.003; 0: none")
+      ->type_name("SHARE");
+  command.add_option("--deepest-overlap", deepest_overlap, "dem: of the smaller radius that grains may overlap, 0.5")
       ->type_name("SHARE");
   command.add_option("--packing", packing, "dem: seed of the bed, 1")->type_name("SEED");
   command

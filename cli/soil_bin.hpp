@@ -25,7 +25,7 @@ void show_dem_progress(const dem::Progress& progress);
 /// Flags of the model dem, as typed; empty: the default.
 struct SoilBinFlags {
   std::string length, width, depth, settling_friction;
-  std::string behind, ahead, travel, time_step, sleep;
+  std::string behind, ahead, travel, time_step, sleep, deepest_overlap;
   std::string lowering, resting, starting, tilting;
   std::string record;    ///< file that keeps each run as it is finished, and is gone on with
   std::string recorded;  ///< file to answer from, without running

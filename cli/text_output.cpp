@@ -76,6 +76,12 @@ std::string TextTable::text() const {
   return text;
 }
 
+std::string as_text(const HtmlTable& table) {
+  TextTable text(table.header);
+  for (const auto& row : table.rows) text.add(row);
+  return table.caption.empty() ? text.text() : fmt::format("{}\n{}", table.caption, text.text());
+}
+
 std::string in_words(const Tire& tire) {
   std::string words = fmt::format("{} (r {:.4g} mm, b {:.4g} mm, ", tire.name.empty() ? "a wheel" : tire.name,
                                   1000 * tire.radius, 1000 * tire.width);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compare/report/number_text.hpp"
+#include "compare/report/page.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "scenario/tire.hpp"
@@ -22,6 +23,9 @@ class TextTable {
  private:
   std::vector<std::vector<std::string>> rows_;
 };
+
+/// Its caption, where it has one, over its aligned columns.
+std::string as_text(const compare::HtmlTable& table);
 
 using compare::number;
 

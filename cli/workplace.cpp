@@ -33,9 +33,13 @@ Case find_study(const Workplace& place, const std::string& name) {
   return question;
 }
 
-fs::path find_record(const Workplace& place, const std::string& study) {
+fs::path place_of_record(const Workplace& place, const std::string& study) {
   const fs::path asked = find_file(place.library, Shelf::studies, study);
-  const fs::path file = asked.parent_path() / "recorded" / asked.stem().concat(".json");
+  return asked.parent_path() / "recorded" / asked.stem().concat(".json");
+}
+
+fs::path find_record(const Workplace& place, const std::string& study) {
+  const fs::path file = place_of_record(place, study);
   if (fs::exists(file)) return file;
   throw InputError(
       fmt::format("there are no recorded runs of '{}': no file {}\n  hint: soilbin run {} --model dem "

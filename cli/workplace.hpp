@@ -28,8 +28,9 @@ Case find_case(const Workplace& place, const std::string& name);
 /// The same; refuses a case that asks for a drive alone.
 Case find_study(const Workplace& place, const std::string& name);
 
-/// The record of a study's runs that lies beside it in the library: recorded/NAME.json. Throws InputError with a hint
-/// where there is none.
+/// Where the record of a study's runs lies, beside it in the library, or would: recorded/NAME.json.
+std::filesystem::path place_of_record(const Workplace& place, const std::string& study);
+/// The record of a study's runs that lies beside it in the library. Throws InputError with a hint where there is none.
 std::filesystem::path find_record(const Workplace& place, const std::string& study);
 /// The same where `recorded`, an option's value, is library_record; else `recorded` itself.
 std::filesystem::path find_record(const Workplace& place, const std::string& study, const std::string& recorded);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 namespace soilbin {
 
 /// A number and its standard error (or, for an input, its standard deviation), both in the same unit.
@@ -8,5 +10,11 @@ struct Estimate {
   double value = 0.0;
   double std_error = 0.0;
 };
+
+/// Sample standard deviation of repeats; 0 for fewer than two.
+double spread_of(std::span<const double> repeats);
+
+/// Mean of repeats and its standard error, 0 for one. NaN without any.
+Estimate mean_of(std::span<const double> repeats);
 
 }  // namespace soilbin

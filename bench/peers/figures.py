@@ -1,51 +1,76 @@
-"""What bench/peers/run prints of its runs, from standard input.
+"""What the benches against other engines print of their runs, from standard input.
 
-figures.py lammps CORES STEPS   a LAMMPS log -> one line: engine cores=.. particle_steps_per_second=.. mean_force=.. coordination=..
-figures.py ratios               such lines -> medians, whether both beds agree, and the ratios
+figures.py lammps CORES STEPS           a LAMMPS log -> one line: engine threads=.. particle_steps_per_second=.. FIELD=..
+figures.py liggghts CORES STEPS FORCES  a LIGGGHTS log and its file of forces -> such a line
+figures.py ratios PEER FIELD... [SHARE] such lines of soilbin and a peer -> medians, how far the fields are apart (more
+                                        than SHARE: exit status 1), and the ratios
 """
 import re
 import statistics
 import sys
 
-AGREEMENT = 0.02  # of mean contact force and coordination number
+
+def rate_of(log, steps):
+    """Grain-steps a second of the log's last run of so many steps."""
+    seconds, atoms = [m.groups() for m in re.finditer(
+        rf"Loop time of (\S+) on \d+ procs for {steps} steps with (\d+) atoms", log)][-1]
+    return int(atoms) * steps / float(seconds)
+
+
+def line(engine, cores, rate, **fields):
+    print(f"{engine} threads={cores} particle_steps_per_second={rate:.5g}",
+          *(f"{name}={value:.6g}" for name, value in fields.items()))
 
 
 def lammps(cores, steps, log):
-    loop = [m for m in re.finditer(r"Loop time of (\S+) on \d+ procs for (\d+) steps with (\d+) atoms", log)
-            if int(m[2]) == steps][-1]
     force, coordination = re.findall(r"^\s*\d+\s+(\S+)\s+(\S+)\s*$", log, re.M)[-1]
-    rate = int(loop[3]) * steps / float(loop[1])
-    print(f"lammps threads={cores} particle_steps_per_second={rate:.5g} mean_force={force} coordination={coordination}")
+    line("lammps", cores, rate_of(log, steps), mean_force=float(force), coordination=float(coordination))
 
 
-def ratios(text):
+def liggghts(cores, steps, forces, log):
+    with open(forces, encoding="utf-8") as file:
+        rows = [[float(word) for word in row.split()] for row in file if not row.startswith("#")]
+    push, lift, torque = (statistics.mean(column) for column in list(zip(*rows[1:]))[1:])
+    line("liggghts", cores, rate_of(log, steps), lift=lift, push=push, torque=-torque)
+
+
+def ratios(peer, fields, allowed, text):
     runs = {}
-    for line in text.splitlines():
-        engine, *pairs = line.split()
+    for row in text.splitlines():
+        engine, *pairs = row.split()
         values = {key: float(value) for key, value in (pair.split("=") for pair in pairs)}
         runs.setdefault((engine, int(values["threads"])), []).append(values)
     median = {key: {name: statistics.median(run[name] for run in of) for name in of[0]} for key, of in runs.items()}
-    print(f"{'engine':10}{'cores':>6}{'grain-steps/s, median':>24}{'least .. most':>24}{'force [N]':>12}{'coordination':>14}")
+    print(f"{'engine':10}{'cores':>6}{'grain-steps/s, median':>24}{'least .. most':>24}",
+          *(f"{name:>13}" for name in fields), sep="")
     for (engine, cores), of in sorted(runs.items()):
         rates = [run["particle_steps_per_second"] for run in of]
         values = median[engine, cores]
-        print(f"{engine:10}{cores:>6}{values['particle_steps_per_second']:>24.4g}{min(rates):>13.3g} ..{max(rates):>8.3g}"
-              f"{values['mean_force']:>12.4g}{values['coordination']:>14.4g}")
-    apart = max(abs(median["soilbin", cores][name] / median["lammps", cores][name] - 1)
-                for cores in (1, 2) for name in ("mean_force", "coordination"))
-    print(f"beds agree to {100 * apart:.2g} %; {'as demanded' if apart <= AGREEMENT else 'NOT to 2 %'}")
+        print(f"{engine:10}{cores:>6}{values['particle_steps_per_second']:>24.4g}{min(rates):>13.3g} ..{max(rates):>8.3g}",
+              *(f"{values[name]:>13.4g}" for name in fields), sep="")
+    apart = max(abs(median["soilbin", cores][name] / median[peer, cores][name] - 1)
+                for cores in (1, 2) for name in fields)
+    verdict = "" if allowed is None else "; as demanded" if apart <= allowed else f"; NOT to {100 * allowed:g} %"
+    print(f"{' and '.join(fields)} are at most {100 * apart:.2g} % apart{verdict}")
     two = median["soilbin", 2]["particle_steps_per_second"] / median["soilbin", 1]["particle_steps_per_second"]
     print(f"two cores are {two:.3g} times one")
-    of = [median["soilbin", cores]["particle_steps_per_second"] / median["lammps", cores]["particle_steps_per_second"]
-          for cores in (1, 2)]
-    print(f"lammps_ratio_1={of[0]:.3g} lammps_ratio_2={of[1]:.3g}")
-    return apart <= AGREEMENT
+    print(*(f"{peer}_ratio_{cores}="
+            f"{median['soilbin', cores]['particle_steps_per_second'] / median[peer, cores]['particle_steps_per_second']:.3g}"
+            for cores in (1, 2)))
+    return allowed is None or apart <= allowed
+
+
+def main(words):
+    if words[:1] == ["lammps"] and len(words) == 3:
+        return lammps(int(words[1]), int(words[2]), sys.stdin.read())
+    if words[:1] == ["liggghts"] and len(words) == 4:
+        return liggghts(int(words[1]), int(words[2]), words[3], sys.stdin.read())
+    if words[:1] == ["ratios"] and len(words) > 2:
+        allowed = float(words[-1]) if words[-1][0].isdigit() else None
+        fields = words[2:] if allowed is None else words[2:-1]
+        return 0 if ratios(words[1], fields, allowed, sys.stdin.read()) else 1
+    return __doc__
 
 
 if __name__ == "__main__":
-    if sys.argv[1:2] == ["lammps"]:
-        lammps(int(sys.argv[2]), int(sys.argv[3]), sys.stdin.read())
-    elif sys.argv[1:2] == ["ratios"]:
-        sys.exit(0 if ratios(sys.stdin.read()) else 1)
-    else:
-        sys.exit(__doc__)
+    sys.exit(main(sys.argv[1:]))

@@ -7,60 +7,20 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "bench/peers/shared_bed.hpp"
 #include "dem/bed/insertion.hpp"
-#include "dem/engine/simulation.hpp"
 #include "scenario/atomic_file.hpp"
 
 namespace soilbin::dem {
 namespace {
 
-constexpr int grain_count = 57000;
-constexpr double length_x = 6, length_y = 1, top = 2.6, density = 2463.51;
-
-/// The law of LAMMPS's pair granular with hertz/material, mindlin, sds rolling and damping tsuji; the numbers stand in
-/// bench/peers/bed.lammps once more.
-Setup setup_of(int threads) {
-  Setup setup;
-  setup.materials.add({"sand", density, 31.75e6, 0.18}, {.restitution = 0.56,
-                                                         .sliding_friction = 0.5,
-                                                         .rolling_friction = 0.1,
-                                                         .rolling_stiffness = 5000,
-                                                         .rolling_viscosity = 1});
-  setup.laws.rolling = RollingLaw::spring_slider;
-  setup.laws.tangential_damping = 1;
-  setup.domain = {{-0.01, -0.01, -0.01}, {length_x + 0.01, length_y + 0.01, top + 0.01}};
-  setup.numerics.dt = 5e-5;
-  setup.numerics.threads = threads;
-  if (const char* skin = std::getenv("SKIN")) setup.numerics.skin = std::atof(skin);
-  if (const char* set = std::getenv("INSTRUCTION_SET")) setup.numerics.instruction_set = set;
-  return setup;
-}
-
-Simulation empty_bin(int threads, double length = length_x) {
-  Setup setup = setup_of(threads);
-  setup.domain.upper.x = length + 0.01;
-  Simulation simulation(setup);
-  simulation.set_gravity({0, 0, -9.81});
-  Body bin;
-  bin.name = "bin";
-  bin.surfaces = {{Plane{{0, 0, 0}, {0, 0, 1}}, 0},
-                  {Plane{{0, 0, 0}, {1, 0, 0}}, 0},
-                  {Plane{{length, 0, 0}, {-1, 0, 0}}, 0},
-                  {Plane{{0, 0, 0}, {0, 1, 0}}, 0},
-                  {Plane{{0, length_y, 0}, {0, -1, 0}}, 0}};
-  simulation.add_body(bin);
-  return simulation;
-}
-
 void make(const std::string& file, double seconds) {
-  Simulation simulation = empty_bin(0);
+  Simulation simulation = empty_bin(setup_of(0));
   insert_loosely(simulation, {{0, 0, 0}, {length_x, length_y, top}}, {0.015, 0.025}, 0, grain_count, 1);
   const auto steps = static_cast<std::int64_t>(seconds / simulation.setup().numerics.dt);
   for (int part = 0; part < 20; ++part) {
@@ -79,30 +39,6 @@ void make(const std::string& file, double seconds) {
   write_file_atomically(file, text);
 }
 
-struct Place {
-  Vec3 position;
-  double radius;
-};
-
-std::vector<Place> read(const std::string& file) {
-  std::ifstream in(file);
-  std::string line;
-  while (std::getline(in, line) && !line.starts_with("Atoms")) continue;
-  std::vector<Place> places;
-  long id;
-  int type;
-  double diameter, rho, x, y, z;
-  while (in >> id >> type >> diameter >> rho >> x >> y >> z) places.push_back({{x, y, z}, diameter / 2});
-  if (places.size() != grain_count) throw std::runtime_error(file + " is no bed of this bench");
-  return places;
-}
-
-double seconds_of(Simulation& simulation, long steps) {
-  const auto start = std::chrono::steady_clock::now();
-  simulation.run(steps);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// Memory of this process [bytes].
 double memory() {
   std::ifstream in("/proc/self/statm");
@@ -112,7 +48,7 @@ double memory() {
 }
 
 void size(const std::string& file, int count, int threads, long steps) {
-  std::vector<Place> bed = read(file);
+  std::vector<Place> bed = read_places(file);
   std::sort(bed.begin(), bed.end(), [](const Place& a, const Place& b) { return a.position.x < b.position.x; });
   const double before = memory();
   const auto place = [&](int k) {
@@ -124,7 +60,7 @@ void size(const std::string& file, int count, int threads, long steps) {
   for (int k = std::max(0, count - grain_count); k < count; ++k)
     end = std::max(end, place(k).position.x + place(k).radius);
   if (count < grain_count) end = place(count - 1).position.x + place(count - 1).radius;
-  Simulation simulation = empty_bin(threads, end);
+  Simulation simulation = empty_bin(setup_of(threads), end);
   for (int k = 0; k < count; ++k) simulation.add_grain(place(k).position, place(k).radius, 0);
   simulation.run(100);
   const double seconds = seconds_of(simulation, steps);
@@ -133,8 +69,8 @@ void size(const std::string& file, int count, int threads, long steps) {
 }
 
 void time(const std::string& file, int threads, long warm, long steps) {
-  Simulation simulation = empty_bin(threads);
-  for (const Place& place : read(file)) simulation.add_grain(place.position, place.radius, 0);
+  Simulation simulation = empty_bin(setup_of(threads));
+  for (const Place& place : read_places(file)) simulation.add_grain(place.position, place.radius, 0);
   simulation.run(warm);
   const double seconds = seconds_of(simulation, steps);
   double force = 0;

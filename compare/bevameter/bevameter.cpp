@@ -8,14 +8,6 @@
 namespace soilbin::compare {
 namespace {
 
-Estimate mean_of(const std::vector<double>& values) {
-  const auto n = static_cast<double>(values.size());
-  double sum = 0, squares = 0;
-  for (const double value : values) sum += value;
-  for (const double value : values) squares += (value - sum / n) * (value - sum / n);
-  return {sum / n, n > 1 ? std::sqrt(squares / (n - 1) / n) : 0.0};
-}
-
 /// tau_max and the sum of squares left, at this K.
 JanosiFit at_modulus(const ShearCurve& curve, double modulus) {
   double uu = 0, ut = 0, tt = 0;

@@ -1,18 +1,9 @@
 // A calibration as JSON.
-#include <cmath>
-
 #include "compare/calibrate/calibration_words.hpp"
+#include "compare/report/json_fields.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json json_of(const Estimate& estimate) {
-  return {{"value", number_or_null(estimate.value)}, {"std_error", number_or_null(estimate.std_error)}};
-}
 
 Json values_json(const VirtualTest& test, const Eigen::VectorXd& values) {
   Json json = Json::object();
@@ -23,21 +14,22 @@ Json values_json(const VirtualTest& test, const Eigen::VectorXd& values) {
 
 Json results_json(const VirtualTest& test, const std::vector<Estimate>& results) {
   Json json = Json::object();
-  for (std::size_t t = 0; t < results.size(); ++t) json[test.targets[t].name] = json_of(results[t]);
+  for (std::size_t t = 0; t < results.size(); ++t) json[test.targets[t].name] = estimate_json(results[t]);
   return json;
 }
 
 Json json_of(const VirtualTest& test, const Candidate& candidate) {
   return {{"values", values_json(test, candidate.values)},
           {"predicted", results_json(test, candidate.predicted)},
-          {"chi_square", number_or_null(candidate.chi_square)},
+          {"chi_square", finite(candidate.chi_square)},
           {"chance", candidate.chance},
           {"runs", candidate.runs}};
 }
 
 Json json_of(const VarianceRow& row) {
-  return {{"source", row.source}, {"sum_of_squares", row.sum_of_squares}, {"freedom", row.freedom},
-          {"pooled", row.pooled}, {"f", number_or_null(row.f)},           {"p_value", number_or_null(row.p_value)}};
+  return {{"source", row.source},   {"sum_of_squares", row.sum_of_squares},
+          {"freedom", row.freedom}, {"pooled", row.pooled},
+          {"f", finite(row.f)},     {"p_value", finite(row.p_value)}};
 }
 
 Json analysis_json(const VirtualTest& test, const TargetAnalysis& analysis) {
@@ -76,11 +68,11 @@ Json to_json(const VirtualTest& test, const CalibrationOptions& options, const C
     factors.push_back({{"name", test.factors[j].name},
                        {"lower", test.factors[j].lower},
                        {"upper", test.factors[j].upper},
-                       {"given_targets", json_of(calibration.parameters[j])},
+                       {"given_targets", estimate_json(calibration.parameters[j])},
                        {"told", calibration.told[j]}});
   for (std::size_t t = 0; t < test.targets.size(); ++t) {
     Json target{{"name", test.targets[t].name},
-                {"measured", json_of(test.targets[t].measured)},
+                {"measured", estimate_json(test.targets[t].measured)},
                 {"held_out_rms", calibration.held_out[t].rms()},
                 {"extra_sd", calibration.extra_sd[t]}};
     if (!calibration.analyses.empty()) target["design"] = analysis_json(test, calibration.analyses[t]);

@@ -14,21 +14,6 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-struct Mean {
-  double value = 0.0;
-  double spread = 0.0;  ///< standard deviation between the values; 0 for one
-};
-
-Mean mean_of(const std::vector<double>& values) {
-  Mean mean;
-  const auto n = static_cast<double>(values.size());
-  for (const double x : values) mean.value += x / n;
-  if (values.size() < 2) return mean;
-  for (const double x : values) mean.spread += (x - mean.value) * (x - mean.value) / (n - 1);
-  mean.spread = std::sqrt(mean.spread);
-  return mean;
-}
-
 /// How far apart two conditions are, in units of what counts as near; above 1: not near.
 double apart(const OperatingCondition& a, const OperatingCondition& b, const Nearness& near) {
   if (a.pass != b.pass) return std::numeric_limits<double>::infinity();
@@ -63,12 +48,9 @@ SidePoint measured_point(const std::vector<const Run*>& runs, const OperatingCon
     std::vector<double> values;
     for (const Run* run : runs)
       if (const auto& value = run->*channel_views[c].measured) values.push_back(*value);
-    const Mean mean = mean_of(values);
     point.has[c] = !values.empty();
-    point.scatter[c] = mean.spread;
-    result.*channel_views[c].predicted = {
-        values.empty() ? not_a_number : mean.value,
-        values.empty() ? 0.0 : mean.spread / std::sqrt(static_cast<double>(values.size()))};
+    point.scatter[c] = spread_of(values);
+    result.*channel_views[c].predicted = values.empty() ? Estimate{not_a_number, 0.0} : mean_of(values);
   }
   if (runs.size() == 1) point.doubts.push_back("one measured run: its scatter is not known");
   point.result = result;

@@ -45,9 +45,8 @@ Json values_json(const std::vector<Factor>& factors, const VectorXd& values) {
   return json;
 }
 
-Json estimate_json(const std::optional<Estimate>& estimate) {
-  if (!estimate) return nullptr;
-  return {{"value", estimate->value}, {"std_error", estimate->std_error}};
+Json where_known(const std::optional<Estimate>& estimate) {
+  return estimate ? estimate_json(*estimate) : Json(nullptr);
 }
 
 }  // namespace
@@ -122,13 +121,13 @@ nlohmann::ordered_json failure_map_json(const MapStory& story) {
     ranges.push_back({{"name", factor.name}, {"lower", factor.lower}, {"upper", factor.upper}});
   for (const FailureRow& row : story.rows.rows) {
     Json json = values_json(factors, row.values);
-    json["difference"] = estimate_json(row.difference), json["beyond"] = row.beyond(story.question.tolerance);
+    json["difference"] = where_known(row.difference), json["beyond"] = row.beyond(story.question.tolerance);
     rows.push_back(std::move(json));
   }
   for (const Coordinates& c : story.coordinates) groups.push_back({{"name", c.name}, {"held_out", finite(c.held_out)}});
   for (const FreshCheck& check : story.checks) {
     Json json = values_json(factors, check.values);
-    json["predicted"] = estimate_json(check.predicted), json["found"] = estimate_json(check.found);
+    json["predicted"] = where_known(check.predicted), json["found"] = where_known(check.found);
     checks.push_back(std::move(json));
   }
   document["factors"] = ranges, document["rows"] = rows;

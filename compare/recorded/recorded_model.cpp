@@ -75,11 +75,7 @@ double scatter_between(const Runs& runs, Estimate TractionResult::*channel) {
   std::vector<double> values;
   for (const RecordedRun* run : runs)
     if (run->answer.result) values.push_back(((*run->answer.result).*channel).value);
-  if (values.size() < 2) return 0.0;
-  double mean = 0, squares = 0;
-  for (const double value : values) mean += value / static_cast<double>(values.size());
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return std::sqrt(squares / static_cast<double>(values.size() - 1));
+  return spread_of(values);
 }
 
 TractionResult mean_of_packings(const Runs& runs) {

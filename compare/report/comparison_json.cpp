@@ -1,23 +1,14 @@
 #include <fmt/core.h>
 
-#include <cmath>
-
 #include "compare/loop/loop.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/report/comparison_page.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/report/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json estimate_json(const Estimate& estimate) {
-  return {{"value", finite(estimate.value)}, {"std_error", finite(estimate.std_error)}};
-}
 
 const char* word_of(SideKind kind) {
   switch (kind) {

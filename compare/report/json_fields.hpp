@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scenario/errors.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
 
@@ -19,6 +20,10 @@ using Json = nlohmann::ordered_json;
 
 /// SI, as null where it is not finite.
 inline Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+inline Json estimate_json(const Estimate& estimate) {
+  return {{"value", finite(estimate.value)}, {"std_error", finite(estimate.std_error)}};
+}
 
 class WriteJson {
  public:

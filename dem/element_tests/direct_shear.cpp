@@ -190,16 +190,9 @@ DirectShearResult direct_shear(const GranularSoil& soil, const DirectShearSettin
     const double speed = shear_rate(settings.inertial, stress, soil) * size.depth;
     work.expect(settings.packings * (settings.travel * d / (speed * dt) + 0.5 / dt));
   }
-  for (int k = 0; k < settings.packings; ++k) {
-    SpecimenSettings specimen = settings.specimen;
-    specimen.packing += static_cast<std::uint64_t>(k);
-    const auto bed = specimen_bed(specimen_recipe(soil, size, specimen), how, beds);
-    for (const double stress : settings.stresses) {
-      DirectShearRun run = ShearBox(*bed, settings, stress, how, work).run();
-      run.packing = specimen.packing;
-      result.runs.push_back(std::move(run));
-    }
-  }
+  result.runs = on_packings(
+      specimen_recipe(soil, size, settings.specimen), settings.packings, settings.stresses, how, beds,
+      [&](const SettledBed& bed, double stress) { return ShearBox(bed, settings, stress, how, work).run(); });
   result.peak = line_of(result.runs, &DirectShearRun::peak);
   result.residual = line_of(result.runs, &DirectShearRun::residual);
   return result;

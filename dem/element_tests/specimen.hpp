@@ -5,7 +5,9 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
+#include <type_traits>
 
 #include "dem/bed/bed_store.hpp"
 
@@ -56,6 +58,20 @@ double void_ratio_within(const Simulation& simulation, const BedSize& size, doub
 
 /// A mesh moved by a vector, as the surface of a body.
 MeshSurface surface_at(const TriangleMesh& mesh, const Vec3& by);
+
+/// A test on every packing under every stress: run_one(bed, stress) gives the result, which keeps its packing. Each
+/// packing's bed is taken once.
+template <class RunOne>
+auto on_packings(const BedRecipe& first, int packings, std::span<const double> stresses, const WorkOptions& how,
+                 BedStore* beds, const RunOne& run_one) {
+  std::vector<std::invoke_result_t<RunOne, const SettledBed&, double>> runs;
+  BedRecipe recipe = first;
+  for (int k = 0; k < packings; ++k, ++recipe.packing) {
+    const std::shared_ptr<const SettledBed> bed = specimen_bed(recipe, how, beds);
+    for (const double stress : stresses) runs.push_back(run_one(*bed, stress)), runs.back().packing = recipe.packing;
+  }
+  return runs;
+}
 
 /// Steps a simulation, tells progress and stops when asked to. Shares of the work are counted in steps.
 class SteppedWork {

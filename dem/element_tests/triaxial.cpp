@@ -224,16 +224,9 @@ TriaxialResult triaxial(const GranularSoil& soil, const TriaxialSettings& settin
   const double dt = settings.specimen.dt > 0 ? settings.specimen.dt : longest_step(soil);
   for (const double stress : settings.stresses)
     work.expect(settings.packings * (settings.strain / (shear_rate(settings.inertial, stress, soil) * dt) + 0.5 / dt));
-  for (int k = 0; k < settings.packings; ++k) {
-    SpecimenSettings specimen = settings.specimen;
-    specimen.packing += static_cast<std::uint64_t>(k);
-    const auto bed = specimen_bed(specimen_recipe(soil, size, specimen), how, beds);
-    for (const double stress : settings.stresses) {
-      TriaxialRun run = Cell(*bed, settings, stress, how, work).run();
-      run.packing = specimen.packing;
-      result.runs.push_back(std::move(run));
-    }
-  }
+  result.runs =
+      on_packings(specimen_recipe(soil, size, settings.specimen), settings.packings, settings.stresses, how, beds,
+                  [&](const SettledBed& bed, double stress) { return Cell(bed, settings, stress, how, work).run(); });
   result.peak = line_of(result.runs, &TriaxialRun::peak);
   result.residual = line_of(result.runs, &TriaxialRun::residual);
   return result;

@@ -1,0 +1,41 @@
+#include "cli/flag_values.hpp"
+
+#include <fmt/core.h>
+
+#include "scenario/errors.hpp"
+#include "scenario/source_text.hpp"
+
+namespace soilbin::cli {
+
+std::vector<std::string> split(std::string_view text, std::string_view between) {
+  std::vector<std::string> parts;
+  std::size_t from = 0;
+  for (std::size_t at; (at = text.find(between, from)) != std::string_view::npos; from = at + between.size())
+    parts.emplace_back(text.substr(from, at - from));
+  parts.emplace_back(text.substr(from));
+  return parts;
+}
+
+double read_flag(const std::string& flag, const std::string& text, const Measure& measure) {
+  try {
+    return read_quantity(text, measure);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", flag, error.what()));
+  }
+}
+
+void set_where_given(const std::string& flag, const std::string& text, const Measure& measure, double& number) {
+  if (!text.empty()) number = read_flag(flag, text, measure);
+}
+
+std::pair<double, double> read_range(const std::string& flag, const std::string& text, const Measure& measure) {
+  const std::vector<std::string> ends = split(text, "..");
+  if (ends.size() != 2)
+    throw InputError(fmt::format("{}: expected LOW..HIGH with units, not '{}'", flag, clipped(text)));
+  const std::pair range{read_flag(flag, ends[0], measure), read_flag(flag, ends[1], measure)};
+  if (!(range.first < range.second))
+    throw InputError(fmt::format("{}: the lower end must be below the upper one, not '{}'", flag, clipped(text)));
+  return range;
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,25 @@
+// Values as flags give them: numbers with units, ranges, lists. Each error names its flag.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scenario/quantity.hpp"
+
+namespace soilbin::cli {
+
+/// The parts of a text, those that are empty too: one part where `between` isn't in it.
+std::vector<std::string> split(std::string_view text, std::string_view between);
+
+/// A number [SI]. Throws InputError that names the flag.
+double read_flag(const std::string& flag, const std::string& text, const Measure& measure);
+
+/// Sets a number [SI] where the flag was given. Throws InputError that names the flag.
+void set_where_given(const std::string& flag, const std::string& text, const Measure& measure, double& number);
+
+/// "LOW..HIGH" [SI], the lower end below the upper one. Throws InputError that names the flag.
+std::pair<double, double> read_range(const std::string& flag, const std::string& text, const Measure& measure);
+
+}  // namespace soilbin::cli
