@@ -21,7 +21,7 @@ namespace soilbin::cli {
 namespace {
 
 struct Asked {
-  std::string study, incline = "longitudinal", store, report, tolerance = "10%";
+  std::string study, soil, incline = "longitudinal", store, report, tolerance = "10%";
   std::string load, lug_height, angle, slip;
   std::vector<std::string> effects;
   int first = 24, at_boundary = 12, fresh = 0, rounds = 4;
@@ -134,7 +134,9 @@ void print_story(const compare::MapStory& story, bool rows) {
 }
 
 int failure_map(const Asked& asked, const Session& session) {
-  const Case question = find_study(session.place, asked.study);
+  Case question = find_study(session.place, asked.study);
+  if (!asked.soil.empty())
+    question.scenario.soil.semi_empirical = find_soil(asked.soil, session.place.library).semi_empirical;
   if (asked.first < 6) throw InputError("--first: 6 conditions or more");
   if (asked.at_boundary < 0 || asked.fresh < 0) throw InputError("--boundary and --check: 0 or more");
   compare::ExperimentStore store(asked.store);
@@ -165,6 +167,8 @@ void add_failure_map(CLI::App& app, Session& session) {
       app.add_subcommand("failure-map", "where the analytic model parts from grains: load, lugs, an incline, slip");
   const auto asked = std::make_shared<Asked>();
   command->add_option("study", asked->study, "whose wheel, soil, bin and speed it is")->type_name("STUDY")->required();
+  command->add_option("--soil", asked->soil, "the analytic model's values from this soil, as bevameter writes one")
+      ->type_name("SOIL");
   command->add_option("--incline", asked->incline, "longitudinal (default), transverse or yaw")->type_name("KIND");
   command->add_option("--load", asked->load, "range of loads")->type_name("LOW..HIGH")->required();
   command->add_option("--lug-height", asked->lug_height, "range of lug heights")->type_name("LOW..HIGH")->required();

@@ -17,20 +17,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 Samples samples_of(const FailureQuestion& question, const std::vector<FailureRow>& rows) {
-  std::vector<const FailureRow*> answered;
-  for (const FailureRow& row : rows)
-    if (row.difference) answered.push_back(&row);
-  const Index n = static_cast<Index>(answered.size()), d = static_cast<Index>(question.factors.size());
-  if (n < d + 2)
-    throw NoSolution(
-        fmt::format("{}: only {} of {} conditions have an answer of both models", question.name, n, rows.size()));
-  Samples samples{MatrixXd(n, d), VectorXd(n), VectorXd(n)};
-  for (Index i = 0; i < n; ++i) {
-    const FailureRow& row = *answered[static_cast<std::size_t>(i)];
-    samples.x.row(i) = to_unit(question.factors, row.values);
-    samples.y[i] = row.difference->value;
-    samples.variance[i] = row.difference->std_error * row.difference->std_error;
-  }
+  Samples samples =
+      answered_rows(rows, [&](const VectorXd& values) -> VectorXd { return to_unit(question.factors, values); });
+  if (samples.y.size() < static_cast<Index>(question.factors.size()) + 2)
+    throw NoSolution(fmt::format("{}: only {} of {} conditions have an answer of both models", question.name,
+                                 samples.y.size(), rows.size()));
   return samples;
 }
 
@@ -54,6 +45,21 @@ bool asked(const FailureQuestion& question, const FailureMap& map, const VectorX
 }
 
 }  // namespace
+
+Samples answered_rows(const std::vector<FailureRow>& rows,
+                      const std::function<VectorXd(const VectorXd&)>& coordinates) {
+  std::vector<VectorXd> x;
+  std::vector<Estimate> y;
+  for (const FailureRow& row : rows)
+    if (row.difference) x.push_back(coordinates(row.values)), y.push_back(*row.difference);
+  const Index n = static_cast<Index>(x.size());
+  Samples samples{MatrixXd(n, n > 0 ? x.front().size() : 0), VectorXd(n), VectorXd(n)};
+  for (Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    samples.x.row(i) = x[k], samples.y[i] = y[k].value, samples.variance[i] = y[k].std_error * y[k].std_error;
+  }
+  return samples;
+}
 
 bool FailureRow::beyond(double tolerance) const {
   return difference && std::abs(difference->value) > std::max(tolerance, 2 * difference->std_error);

@@ -42,6 +42,10 @@ struct FailureRow {
   bool beyond(double tolerance) const;  ///< |difference| above the tolerance and above 2 standard errors
 };
 
+/// The rows with an answer, at coordinates(values) each.
+Samples answered_rows(const std::vector<FailureRow>& rows,
+                      const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& coordinates);
+
 struct FailureMap {
   std::vector<FailureRow> rows;
   std::vector<Surrogate> surrogate;  ///< one

@@ -40,17 +40,7 @@ VectorXd groups_at(const InclineMap& map, const VectorXd& values) {
 
 /// Rows with an answer, in coordinates that are stretched onto the unit cube.
 Samples samples_in(const FailureMap& rows, const std::function<VectorXd(const VectorXd&)>& coordinates) {
-  std::vector<VectorXd> x;
-  std::vector<Estimate> y;
-  for (const FailureRow& row : rows.rows)
-    if (row.difference) x.push_back(coordinates(row.values)), y.push_back(*row.difference);
-  const Index n = static_cast<Index>(x.size());
-  Samples samples{MatrixXd(n, n > 0 ? x.front().size() : 0), VectorXd(n), VectorXd(n)};
-  for (Index i = 0; i < n; ++i) {
-    samples.x.row(i) = x[static_cast<std::size_t>(i)];
-    samples.y[i] = y[static_cast<std::size_t>(i)].value;
-    samples.variance[i] = std::pow(y[static_cast<std::size_t>(i)].std_error, 2);
-  }
+  Samples samples = answered_rows(rows.rows, coordinates);
   for (Index k = 0; k < samples.x.cols(); ++k) {
     const double low = samples.x.col(k).minCoeff(), high = samples.x.col(k).maxCoeff();
     samples.x.col(k) = (samples.x.col(k).array() - low) / (high > low ? high - low : 1.0);

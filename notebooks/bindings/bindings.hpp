@@ -29,6 +29,8 @@ void bind_grains(py::module_& module);
 void bind_run_parts(py::module_& module);
 void bind_soil_bin(py::module_& module);
 void bind_element_tests(py::module_& module);
+void bind_strength_tests(py::module_& module);
+void bind_plate_tests(py::module_& module);
 void bind_measured(py::module_& module);
 void bind_loop(py::module_& module);
 void bind_comparison(py::module_& module);

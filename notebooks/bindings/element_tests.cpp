@@ -1,9 +1,10 @@
 // dem/element_tests: grains in the laboratory.
+#include "notebooks/bindings/element_tests.hpp"
+
 #include <fmt/core.h>
 
 #include "dem/element_tests/angle_of_repose.hpp"
 #include "dem/element_tests/direct_shear.hpp"
-#include "notebooks/bindings/bindings.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::python {
@@ -15,14 +16,6 @@ using dem::DirectShearRun;
 using dem::HeapProfile;
 using dem::ShearSample;
 using dem::StrengthLine;
-
-dem::WorkOptions watched(Watch& watch, int threads) {
-  if (threads < 0) throw InputError("threads: 0 (one a core) or more");
-  dem::WorkOptions how;
-  how.threads = threads;
-  how.progress = [&watch](const dem::Progress& p) { watch(p.done, p.stage); };
-  return how;
-}
 
 py::dict curve_of(const py::object& self) {
   const auto& rows = self.cast<const DirectShearRun&>().curve;
@@ -77,11 +70,8 @@ DirectShearResult shear_box(const GranularSoil& soil, const std::vector<double>&
   settings.stresses = stresses, settings.packings = packings;
   settings.length = size.length, settings.width = size.width, settings.height = size.height;
   settings.travel = travel, settings.inertial = inertial;
-  settings.specimen.packing = packing, settings.specimen.settling_friction = settling_friction;
-  settings.specimen.laws.rolling = rolling;
-  Watch watch(progress);
-  const dem::WorkOptions how = watched(watch, threads);
-  return unlocked([&] { return dem::direct_shear(soil, settings, how); });
+  settings.specimen = specimen_of(packing, settling_friction, rolling);
+  return tested(threads, progress, [&](const dem::WorkOptions& how) { return dem::direct_shear(soil, settings, how); });
 }
 
 void bind_shear_box(py::module_& module) {
@@ -124,9 +114,8 @@ void bind_heap(py::module_& module) {
         dem::AngleOfReposeSettings settings;
         settings.packing = packing, settings.radius = radius, settings.height = height;
         settings.laws.rolling = rolling;
-        Watch watch(progress);
-        const dem::WorkOptions how = watched(watch, threads);
-        return unlocked([&] { return dem::angle_of_repose(soil, settings, how); });
+        return tested(threads, progress,
+                      [&](const dem::WorkOptions& how) { return dem::angle_of_repose(soil, settings, how); });
       },
       py::arg("soil"), py::arg("packing") = usual.packing, py::arg("radius") = usual.radius,
       py::arg("height") = usual.height, py::arg("rolling") = usual.laws.rolling, py::arg("threads") = 0,
@@ -136,6 +125,20 @@ void bind_heap(py::module_& module) {
 }
 
 }  // namespace
+
+dem::WorkOptions watched(Watch& watch, int threads) {
+  if (threads < 0) throw InputError("threads: 0 (one a core) or more");
+  dem::WorkOptions how;
+  how.threads = threads;
+  how.progress = [&watch](const dem::Progress& p) { watch(p.done, p.stage); };
+  return how;
+}
+
+dem::SpecimenSettings specimen_of(std::uint64_t packing, double settling_friction, dem::RollingLaw rolling) {
+  dem::SpecimenSettings specimen;
+  specimen.packing = packing, specimen.settling_friction = settling_friction, specimen.laws.rolling = rolling;
+  return specimen;
+}
 
 void bind_element_tests(py::module_& module) {
   bind_shear_results(module);

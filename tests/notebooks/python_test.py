@@ -197,6 +197,36 @@ class Grains(unittest.TestCase):
         runs = [dem.direct_shear(sand, [20e3], length=6, width=5, height=5, travel=0.4, threads=n).runs[0] for n in (1, 3)]
         self.assertTrue(np.array_equal(runs[0].curve["shear_stress"], runs[1].curve["shear_stress"]))
 
+    def test_a_triaxial_cell_keeps_its_stress_and_its_sand_resists_by_less_than_a_wall(self):
+        sand = soilbin.find_soil("paper-sand").granular
+        run = dem.triaxial(sand, [20e3], side=5, height=7, strain=0.05, settling_friction=0.2, progress=None).runs[0]
+        self.assertLess(run.isotropic_error, 0.05)
+        lateral = (run.curve["lateral_x"] + run.curve["lateral_y"]) / 2
+        self.assertLess(abs(lateral.mean() / 20e3 - 1), 0.1)
+        self.assertTrue(0.2 < run.peak.value < 1)
+        self.assertGreater(run.curve["axial"].max(), 1.5 * 20e3)
+
+    def test_sand_slides_off_a_board_no_later_than_its_friction_lets_it(self):
+        sand = soilbin.find_soil("paper-sand").granular
+        board = dem.tilting_board(sand, across=6, progress=None)
+        self.assertTrue(board.slid)
+        self.assertLess(board.onset, np.arctan(sand.grain_tire.sliding_friction) + 0.02)
+        self.assertLess(board.onset, board.gone)
+        self.assertEqual(board.curve["angle"].size, board.curve["slide"].size)
+
+    def test_a_plate_under_five_grains_wide_is_refused(self):
+        sand = soilbin.find_soil("paper-sand").granular
+        with self.assertRaisesRegex(soilbin.InputError, "too narrow"):
+            dem.plate_sinkage(sand, [3], progress=None)
+        with self.assertRaises(soilbin.InputError):
+            dem.annular_shear(sand, inner=4, outer=6, progress=None)
+
+    def test_pressure_under_a_plate_grows_with_its_sinkage(self):
+        sand = soilbin.find_soil("paper-sand").granular
+        plate, = dem.plate_sinkage(sand, [5], sinkage=1, width=2, depth=0.8, progress=None)
+        half = plate.curve["pressure"].size // 2
+        self.assertGreater(plate.curve["pressure"][half:].mean(), plate.curve["pressure"][:half].mean())
+
 
 class Stops(RuntimeError):
     """Raised by a progress in these tests."""

@@ -1587,6 +1587,138 @@ def angle_of_repose(soil: GranularSoil, packing: int = ..., radius: float = ...,
     by eight sectors. Raises InputError, RunStopped where no rest is found.
     """
 
+class TriaxialRun:
+    """One specimen under one confining stress."""
+    @property
+    def stress(self) -> float:
+        """confining [Pa]"""
+    @property
+    def packing(self) -> int:
+        """seed"""
+    @property
+    def void_ratio(self) -> float:
+        """after isotropic consolidation [-]"""
+    @property
+    def isotropic_error(self) -> float:
+        """after it, largest |stress/asked - 1| of the axes [-]"""
+    @property
+    def confining_error(self) -> float:
+        """during compression, of the mean lateral stresses [-]"""
+    @property
+    def peak(self) -> Estimate:
+        """(s1 - s3)/(s1 + s3), the sine of the mobilised angle [-]"""
+    @property
+    def residual(self) -> Estimate:
+        """the same at the end [-]"""
+    @property
+    def peak_at(self) -> float:
+        """axial strain [-]"""
+    @property
+    def dilation_angle(self) -> float:
+        """at the peak [rad]"""
+    @property
+    def work(self) -> float:
+        """of the walls on the grains during compression [J]"""
+    @property
+    def curve(self) -> dict[str, Array]:
+        """arrays, views: strain, volumetric (compression positive) [-], axial, lateral_x, lateral_y [Pa]"""
+
+class TriaxialResult:
+    """The triaxial cell's answer."""
+    @property
+    def runs(self) -> list[TriaxialRun]: ...
+    @property
+    def peak(self) -> StrengthLine:
+        """points 0 with a single stress"""
+    @property
+    def residual(self) -> StrengthLine: ...
+    @property
+    def mean_diameter(self) -> float:
+        """[m]"""
+
+def triaxial(soil: GranularSoil, stresses: Sequence[float] = ..., packings: int = ..., packing: int = ..., side: float = ..., height: float = ..., strain: float = ..., settling_friction: float = ..., rolling: RollingLaw = ..., inertial: float = ..., threads: int = ..., progress: Optional[Told] = ...) -> TriaxialResult:
+    """True triaxial compression between six smooth walls (docs/element-tests.md). stresses: confining [Pa], at least two
+    for c and phi. side, height: of the specimen, in mean diameters. strain: axial, at the end. inertial: number that
+    sets the rate. Raises InputError, RunStopped.
+    """
+
+class TiltingBoardResult:
+    """A layer of grains on a board that was tilted."""
+    @property
+    def onset(self) -> float:
+        """angle at which it began to slide [rad]"""
+    @property
+    def gone(self) -> float:
+        """angle at which it had slid by a diameter [rad]"""
+    @property
+    def slid(self) -> bool:
+        """False: it held up to the steepest angle, and both angles are that"""
+    @property
+    def grains(self) -> int: ...
+    @property
+    def mean_diameter(self) -> float:
+        """[m]"""
+    @property
+    def curve(self) -> dict[str, Array]:
+        """arrays, views: angle [rad], slide down the board [m], turn: how far grains rolled [rad]"""
+
+def tilting_board(soil: GranularSoil, packing: int = ..., across: int = ..., layers: float = ..., dt: float = ..., rolling: RollingLaw = ..., threads: int = ..., progress: Optional[Told] = ...) -> TiltingBoardResult:
+    """The paper's friction test: sand on a board of the tire's material, tilted until it slides. across: grains along a
+    side. layers: height in mean diameters. dt: time step [s]; 0: the longest that is safe, at which directional
+    rolling resistance lets grains creep. Raises InputError, RunStopped.
+    """
+
+class PlateRun:
+    """One plate pressed into the bed."""
+    @property
+    def diameter(self) -> float:
+        """[m]"""
+    @property
+    def speed(self) -> float:
+        """[m/s]"""
+    @property
+    def grains(self) -> int:
+        """in the bed"""
+    @property
+    def void_ratio(self) -> float:
+        """of the bed [-]"""
+    @property
+    def density(self) -> float:
+        """of the bed in bulk [kg/m^3]"""
+    @property
+    def packing(self) -> int:
+        """seed"""
+    @property
+    def curve(self) -> dict[str, Array]:
+        """arrays, views: sinkage [m], pressure [Pa]"""
+
+class AnnulusRun:
+    """The ring turned under one stress."""
+    @property
+    def stress(self) -> float:
+        """asked for [Pa]"""
+    @property
+    def speed(self) -> float:
+        """at the mean radius [m/s]"""
+    @property
+    def packing(self) -> int:
+        """seed"""
+    @property
+    def curve(self) -> dict[str, Array]:
+        """arrays, views: displacement, sinkage [m], shear_stress, normal_stress [Pa]"""
+
+def plate_sinkage(soil: GranularSoil, diameters: Sequence[float] = ..., sinkage: float = ..., width: float = ..., depth: float = ..., packing: int = ..., settling_friction: float = ..., rolling: RollingLaw = ..., threads: int = ..., progress: Optional[Told] = ...) -> list[PlateRun]:
+    """Round plates pressed into a bed of the grains, each into a fresh copy (docs/element-tests.md). diameters, sinkage:
+    in mean diameters of the grains. width, depth: of the bed, in diameters of the widest plate. Raises InputError for
+    a plate under five grains wide, RunStopped.
+    """
+
+def annular_shear(soil: GranularSoil, stresses: Sequence[float] = ..., inner: float = ..., outer: float = ..., travel: float = ..., width: float = ..., depth: float = ..., packing: int = ..., settling_friction: float = ..., rolling: RollingLaw = ..., threads: int = ..., progress: Optional[Told] = ...) -> list[AnnulusRun]:
+    """A ring with grousers turned on a bed of the grains under each stress [Pa] (docs/element-tests.md). inner, outer:
+    its radii; travel: at the mean radius; all in mean diameters. width, depth: of the bed, in diameters of the ring.
+    Raises InputError for a ring under five grains wide, RunStopped.
+    """
+
 class Verdict:
     """What the loop says."""
     effect_found: ClassVar[Verdict]

@@ -8,6 +8,7 @@ import pandas as pd
 from soilbin import _soilbin
 from soilbin._soilbin import (
     AngleOfReposeResult,
+    AnnulusRun,
     CohesionLaw,
     DirectShearResult,
     GranularSoil,
@@ -15,19 +16,23 @@ from soilbin._soilbin import (
     Material,
     NormalLaw,
     OperatingCondition,
+    PlateRun,
     RollingLaw,
     Scenario,
     Simulation,
     SoilBin,
     StrengthLine,
+    TiltingBoardResult,
+    TriaxialResult,
     WheelRun,
 )
 from soilbin.progress import Progress, told_to
 
 __all__ = [
-    "AngleOfReposeResult", "CohesionLaw", "DirectShearResult", "GranularSoil", "Interaction", "Material", "NormalLaw",
-    "RollingLaw", "Simulation", "SoilBin", "StrengthLine", "WheelRun", "angle_of_repose", "direct_shear", "run_wheel",
-    "samples_frame",
+    "AngleOfReposeResult", "AnnulusRun", "CohesionLaw", "DirectShearResult", "GranularSoil", "Interaction", "Material",
+    "NormalLaw", "PlateRun", "RollingLaw", "Simulation", "SoilBin", "StrengthLine", "TiltingBoardResult",
+    "TriaxialResult", "WheelRun", "angle_of_repose", "annular_shear", "direct_shear", "plate_sinkage", "run_wheel",
+    "samples_frame", "tilting_board", "triaxial",
 ]
 
 
@@ -44,6 +49,56 @@ def direct_shear(soil: GranularSoil, stresses: Sequence[float] = (10e3, 20e3, 40
     """
     return _soilbin.direct_shear(soil, list(stresses), packings, packing, length, width, height, travel,
                                  settling_friction, rolling, inertial, threads, told_to(progress))
+
+
+def triaxial(soil: GranularSoil, stresses: Sequence[float] = (10e3, 20e3, 40e3), *, packings: int = 1,
+             packing: int = 1, side: float = 9, height: float = 14, strain: float = 0.25,
+             settling_friction: float = 1, rolling: RollingLaw = RollingLaw.directional, inertial: float = 1e-3,
+             threads: int = 0, progress: Progress = "shown") -> TriaxialResult:
+    """True triaxial compression between six smooth walls (docs/element-tests.md).
+
+    stresses: confining stresses [Pa], at least two for c and phi. side, height: of the specimen, in mean diameters of
+    the grains. strain: axial, logarithmic, at the end. The rest as in direct_shear. Raises InputError, RunStopped.
+    """
+    return _soilbin.triaxial(soil, list(stresses), packings, packing, side, height, strain, settling_friction, rolling,
+                             inertial, threads, told_to(progress))
+
+
+def tilting_board(soil: GranularSoil, *, packing: int = 1, across: int = 16, layers: float = 1, dt: float = 0,
+                  rolling: RollingLaw = RollingLaw.directional, threads: int = 0,
+                  progress: Progress = "shown") -> TiltingBoardResult:
+    """The paper's friction test: sand on a board of the tire's material, tilted until it slides.
+
+    across: grains along each side of the board. layers: height of the sand, in mean diameters. dt: time step [s]; 0, the
+    longest that is safe, at which directional rolling resistance lets grains creep. Raises InputError, RunStopped.
+    """
+    return _soilbin.tilting_board(soil, packing, across, layers, dt, rolling, threads, told_to(progress))
+
+
+def plate_sinkage(soil: GranularSoil, diameters: Sequence[float] = (5, 7, 9), *, sinkage: float = 2, width: float = 3,
+                  depth: float = 1.2, packing: int = 1, settling_friction: float = 1,
+                  rolling: RollingLaw = RollingLaw.directional, threads: int = 0,
+                  progress: Progress = "shown") -> list[PlateRun]:
+    """Round plates pressed into a bed of the grains, each into a fresh copy (docs/element-tests.md).
+
+    diameters of the plates and the sinkage that they reach: in mean diameters of the grains. width, depth: of the square
+    bed, in diameters of the widest plate. Raises InputError for a plate under five grains wide, RunStopped.
+    """
+    return _soilbin.plate_sinkage(soil, list(diameters), sinkage, width, depth, packing, settling_friction, rolling,
+                                  threads, told_to(progress))
+
+
+def annular_shear(soil: GranularSoil, stresses: Sequence[float] = (5e3, 10e3, 20e3), *, inner: float = 4,
+                  outer: float = 9, travel: float = 5, width: float = 1.6, depth: float = 0.55, packing: int = 1,
+                  settling_friction: float = 1, rolling: RollingLaw = RollingLaw.directional, threads: int = 0,
+                  progress: Progress = "shown") -> list[AnnulusRun]:
+    """A ring with grousers turned on a bed of the grains, under each normal stress [Pa] (docs/element-tests.md).
+
+    inner, outer: radii of the ring; travel: at its mean radius; in mean diameters of the grains. width, depth: of the
+    square bed, in diameters of the ring. Raises InputError for a ring under five grains wide, RunStopped.
+    """
+    return _soilbin.annular_shear(soil, list(stresses), inner, outer, travel, width, depth, packing, settling_friction,
+                                  rolling, threads, told_to(progress))
 
 
 def angle_of_repose(soil: GranularSoil, *, packing: int = 1, radius: float = 6, height: float = 12,

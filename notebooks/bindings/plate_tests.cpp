@@ -1,0 +1,98 @@
+// dem/element_tests: the bevameter's plates and ring on grains.
+#include "dem/element_tests/plate_tests.hpp"
+
+#include "notebooks/bindings/element_tests.hpp"
+
+namespace soilbin::python {
+namespace {
+
+using dem::AnnulusRun;
+using dem::AnnulusSample;
+using dem::PlateRun;
+using dem::PlateSample;
+
+py::dict pressed(const py::object& self) {
+  const auto& rows = self.cast<const PlateRun&>().curve;
+  return dict_of({{"sinkage", column(rows, &PlateSample::sinkage, self)},
+                  {"pressure", column(rows, &PlateSample::pressure, self)}});
+}
+
+py::dict sheared(const py::object& self) {
+  const auto& rows = self.cast<const AnnulusRun&>().curve;
+  return dict_of({{"displacement", column(rows, &AnnulusSample::displacement, self)},
+                  {"shear_stress", column(rows, &AnnulusSample::shear_stress, self)},
+                  {"normal_stress", column(rows, &AnnulusSample::normal_stress, self)},
+                  {"sinkage", column(rows, &AnnulusSample::sinkage, self)}});
+}
+
+void bind_runs(py::module_& module) {
+  py::class_<PlateRun>(module, "PlateRun", "One plate pressed into the bed.")
+      .def_readonly("diameter", &PlateRun::diameter, "[m]")
+      .def_readonly("speed", &PlateRun::speed, "[m/s]")
+      .def_readonly("grains", &PlateRun::grains, "in the bed")
+      .def_readonly("void_ratio", &PlateRun::void_ratio, "of the bed [-]")
+      .def_readonly("density", &PlateRun::density, "of the bed in bulk [kg/m^3]")
+      .def_readonly("packing", &PlateRun::packing, "seed")
+      .def_property_readonly("curve", &pressed, "arrays, views: sinkage [m], pressure [Pa]");
+  py::class_<AnnulusRun>(module, "AnnulusRun", "The ring turned under one stress.")
+      .def_readonly("stress", &AnnulusRun::stress, "asked for [Pa]")
+      .def_readonly("speed", &AnnulusRun::speed, "at the mean radius [m/s]")
+      .def_readonly("packing", &AnnulusRun::packing, "seed")
+      .def_property_readonly("curve", &sheared,
+                             "arrays, views: displacement, sinkage [m], shear_stress, normal_stress [Pa]");
+}
+
+void bind_plate(py::module_& module) {
+  const dem::PlateSettings usual;
+  module.def(
+      "plate_sinkage",
+      [](const GranularSoil& soil, const std::vector<double>& diameters, double sinkage, double width, double depth,
+         std::uint64_t packing, double settling_friction, dem::RollingLaw rolling, int threads,
+         const py::object& progress) {
+        dem::PlateSettings settings;
+        settings.bed = {specimen_of(packing, settling_friction, rolling), width, depth};
+        settings.diameters = diameters, settings.sinkage = sinkage;
+        return tested(threads, progress,
+                      [&](const dem::WorkOptions& how) { return dem::plate_sinkage(soil, settings, how); });
+      },
+      py::arg("soil"), py::arg("diameters") = usual.diameters, py::arg("sinkage") = usual.sinkage,
+      py::arg("width") = usual.bed.width, py::arg("depth") = usual.bed.depth,
+      py::arg("packing") = usual.bed.specimen.packing, py::arg("settling_friction") = 1.0,
+      py::arg("rolling") = usual.bed.specimen.laws.rolling, py::arg("threads") = 0, py::arg("progress") = py::none(),
+      "Round plates pressed into a bed of the grains, each into a fresh copy (docs/element-tests.md). diameters, "
+      "sinkage: in mean diameters of the grains. width, depth: of the bed, in diameters of the widest plate. Raises "
+      "InputError for a plate under five grains wide, RunStopped.");
+}
+
+void bind_ring(py::module_& module) {
+  const dem::AnnulusSettings usual;
+  module.def(
+      "annular_shear",
+      [](const GranularSoil& soil, const std::vector<double>& stresses, double inner, double outer, double travel,
+         double width, double depth, std::uint64_t packing, double settling_friction, dem::RollingLaw rolling,
+         int threads, const py::object& progress) {
+        dem::AnnulusSettings settings;
+        settings.bed = {specimen_of(packing, settling_friction, rolling), width, depth};
+        settings.stresses = stresses, settings.inner = inner, settings.outer = outer, settings.travel = travel;
+        return tested(threads, progress,
+                      [&](const dem::WorkOptions& how) { return dem::annular_shear(soil, settings, how); });
+      },
+      py::arg("soil"), py::arg("stresses") = usual.stresses, py::arg("inner") = usual.inner,
+      py::arg("outer") = usual.outer, py::arg("travel") = usual.travel, py::arg("width") = usual.bed.width,
+      py::arg("depth") = usual.bed.depth, py::arg("packing") = usual.bed.specimen.packing,
+      py::arg("settling_friction") = 1.0, py::arg("rolling") = usual.bed.specimen.laws.rolling, py::arg("threads") = 0,
+      py::arg("progress") = py::none(),
+      "A ring with grousers turned on a bed of the grains under each stress [Pa] (docs/element-tests.md). inner, "
+      "outer: its radii; travel: at the mean radius; all in mean diameters. width, depth: of the bed, in diameters of "
+      "the ring. Raises InputError for a ring under five grains wide, RunStopped.");
+}
+
+}  // namespace
+
+void bind_plate_tests(py::module_& module) {
+  bind_runs(module);
+  bind_plate(module);
+  bind_ring(module);
+}
+
+}  // namespace soilbin::python
