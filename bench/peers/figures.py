@@ -54,9 +54,10 @@ def ratios(peer, fields, allowed, text):
     print(f"{' and '.join(fields)} are at most {100 * apart:.2g} % apart{verdict}")
     two = median["soilbin", 2]["particle_steps_per_second"] / median["soilbin", 1]["particle_steps_per_second"]
     print(f"two cores are {two:.3g} times one")
-    print(*(f"{peer}_ratio_{cores}="
-            f"{median['soilbin', cores]['particle_steps_per_second'] / median[peer, cores]['particle_steps_per_second']:.3g}"
-            for cores in (1, 2)))
+    for one in sorted({engine for engine, _ in runs} - {"soilbin", peer}) + [peer]:  # the peer's come last
+        print(*(f"{one}_ratio_{cores}=" + format(median["soilbin", cores]["particle_steps_per_second"]
+                                                 / median[one, cores]["particle_steps_per_second"], ".3g")
+                for cores in (1, 2)))
     return allowed is None or apart <= allowed
 
 
