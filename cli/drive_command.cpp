@@ -60,7 +60,7 @@ std::string energy_text(const bekker_wong::EnergyLedger& energy) {
 std::string drive_text(const compare::DrivePart& part) {
   std::string text = fmt::format("{}: {} on {}\n\n{}\n", part.question.name, in_words(part.question.scenario.tire),
                                  part.question.scenario.soil.name, samples_text(part.record));
-  for (const bekker_wong::DriveHappening& h : part.record.happenings)
+  for (const DriveHappening& h : part.record.happenings)
     text += fmt::format("At {} s and {} m {}.\n", number(h.time), number(h.travelled), word_of(h.what));
   for (const std::string& sentence : compare::in_words(part)) text += sentence + "\n";
   return text + "\n" + energy_text(part.record.samples.back().energy);
