@@ -28,7 +28,7 @@ constexpr std::size_t shown_rows = 12;
 struct DriveOptions {
   std::string name, model = "bekker_wong", plot, csv, report;
   int samples = 400;
-  bool json = false;
+  bool json = false, ledger = false;
   SoilBinFlags soil_bin;
 };
 
@@ -93,7 +93,7 @@ int drive_analytically(const DriveOptions& options, const Case& question) {
 /// The bed is as long as the way needs, where no length is asked for.
 dem::DemSettings settings_for(const DriveOptions& options, const Drive& drive) {
   dem::DemSettings settings = settings_of(options.soil_bin);
-  settings.rig.ledger = true;
+  settings.rig.ledger = options.ledger;
   if (const double length = dem::bed_length_for(drive, settings.rig); options.soil_bin.length.empty() && length > 0.0)
     settings.size.length = length;
   return settings;
@@ -225,6 +225,7 @@ void add_drive(CLI::App& app, Session& session) {
       ->check(CLI::Range(1, 1000000));
   command->add_flag("--json", options->json, "soilbin-drive/1, with grains soilbin-drive-sides/1; in SI");
   options->soil_bin.add_rig_to(*command);
+  command->add_flag("--ledger", options->ledger, "dem: tell what the grains did with their work too; costs a tenth");
   command->add_option("--replay", options->soil_bin.replay, "dem: keep the drive, to look at it in 3D")
       ->type_name("FILE");
   command->footer(

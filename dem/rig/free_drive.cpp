@@ -156,7 +156,7 @@ bool FreeDrive::ended() {
     return is;
   };
   return ends(drive_.distance && travelled_ >= *drive_.distance, DriveEnd::arrived) ||
-         ends(bin_.travel() >= bin_.way(), DriveEnd::bed_ends) ||
+         ends(travelled_ >= bin_.way(), DriveEnd::bed_ends) ||
          ends(mean_speed_ < drive_.stuck_speed, DriveEnd::stuck) ||
          ends(sinkage > drive_limits::deepest * tire_.radius, DriveEnd::buried) ||
          ends(travelled_ < -drive_limits::roll_back * tire_.radius, DriveEnd::rolled_back);
@@ -241,6 +241,7 @@ GrainDriveRecord FreeDrive::run() {
   rest.force = bin_.wheel().force, rest.speed = bin_.wheel().velocity.x;
   rest.sinkage = bin_.surface() - (bin_.wheel().position.z - tire_.radius);
   record_.samples.push_back(state_of(rest, record_.hold));
+  record_.samples.back().slip.reset();  // a braked wheel has none
   std::int64_t taken = 0;
   for (int i = 1; i <= samples_; ++i) {
     const std::int64_t until = bin_.steps_of(drive_.duration * i / samples_);

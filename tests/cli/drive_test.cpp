@@ -97,7 +97,7 @@ drive:
 )";
 constexpr const char* small_bin =
     " --bed-width 16cm --bed-depth 6cm --behind 12cm --ahead 12cm --lowering 0.1s --resting 0.05s --threads 1 "
-    "--samples 100 ";
+    "--samples 100 --ledger ";
 
 TEST(Drive, GrainsTakeWhatTheyCanAndSayWhatTheyCannot) {
   const Outcome unknown = soilbin("drive rover-climb --model dme");
