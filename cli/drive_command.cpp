@@ -1,18 +1,24 @@
 // soilbin drive: the wheel of a case driven in time, from rest to where it arrives or gets stuck.
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <numbers>
 
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
+#include "cli/replay_recorder.hpp"
+#include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
 #include "compare/report/drive_report.hpp"
+#include "compare/report/drive_sides.hpp"
 #include "compare/report/result_json.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -20,10 +26,17 @@ namespace {
 constexpr std::size_t shown_rows = 12;
 
 struct DriveOptions {
-  std::string name, plot, csv, report;
+  std::string name, model = "bekker_wong", plot, csv, report;
   int samples = 400;
-  bool json = false;
+  bool json = false, ledger = false;
+  SoilBinFlags soil_bin;
 };
+
+void check_model(const std::string& name) {
+  const std::vector<std::string> right = {"bekker_wong", "dem", "both"};
+  if (std::find(right.begin(), right.end(), name) == right.end())
+    throw InputError("--model: unknown model '" + clipped(name) + "'" + did_you_mean(name, right));
+}
 
 bekker_wong::DriveProgress progress_in_time() {
   constexpr double parts = 1000.0;
@@ -33,7 +46,7 @@ bekker_wong::DriveProgress progress_in_time() {
   };
 }
 
-std::string slip_text(const bekker_wong::DriveSample& s) { return s.slip ? number(100 * *s.slip) : "-"; }
+std::string slip_text(const DriveState& s) { return s.slip ? number(100 * *s.slip) : "-"; }
 
 /// A dozen of the samples, the last among them.
 std::string samples_text(const bekker_wong::DriveRecord& record) {
@@ -60,17 +73,13 @@ std::string energy_text(const bekker_wong::EnergyLedger& energy) {
 std::string drive_text(const compare::DrivePart& part) {
   std::string text = fmt::format("{}: {} on {}\n\n{}\n", part.question.name, in_words(part.question.scenario.tire),
                                  part.question.scenario.soil.name, samples_text(part.record));
-  for (const bekker_wong::DriveHappening& h : part.record.happenings)
+  for (const DriveHappening& h : part.record.happenings)
     text += fmt::format("At {} s and {} m {}.\n", number(h.time), number(h.travelled), word_of(h.what));
   for (const std::string& sentence : compare::in_words(part)) text += sentence + "\n";
   return text + "\n" + energy_text(part.record.samples.back().energy);
 }
 
-int drive(const DriveOptions& options, const Session& session) {
-  const Case question = find_case(session.place, options.name);
-  if (!question.drive)
-    throw InputError(fmt::format("{}: the case has no section 'drive'\n  hint: soilbin run {} answers its study",
-                                 options.name, options.name));
+int drive_analytically(const DriveOptions& options, const Case& question) {
   const compare::DrivePart part = compare::run_drive(question, options.samples, progress_in_time());
   if (!options.csv.empty()) write_file_atomically(options.csv, compare::drive_csv(part));
   if (!options.plot.empty()) write_file_atomically(options.plot, compare::svg(compare::drive_sheet(part)));
@@ -81,6 +90,121 @@ int drive(const DriveOptions& options, const Session& session) {
   return done;
 }
 
+/// The bed is as long as the way needs, where no length is asked for.
+dem::DemSettings settings_for(const DriveOptions& options, const Drive& drive) {
+  dem::DemSettings settings = settings_of(options.soil_bin);
+  settings.rig.ledger = options.ledger;
+  if (const double length = dem::bed_length_for(drive, settings.rig); options.soil_bin.length.empty() && length > 0.0)
+    settings.size.length = length;
+  return settings;
+}
+
+/// Drives on grains; the notes tell of bed and cost.
+dem::GrainDriveRecord drive_on_grains(const DriveOptions& options, const Case& question,
+                                      std::vector<std::string>& notes) {
+  dem::DemSettings settings = settings_for(options, *question.drive);
+  ReplayRecorder replay;
+  if (!options.soil_bin.replay.empty())
+    settings.rig.onlooker.look = [&](const dem::Simulation& simulation, int wheel, double surface) {
+      replay.look(simulation, wheel, surface);
+    };
+  const auto began = std::chrono::steady_clock::now();
+  const dem::GrainDriveRecord record =
+      dem::DemModel(settings).drive(question.scenario, *question.drive, options.samples);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
+  if (replay.has_frames())
+    replay.write(options.soil_bin.replay, question.name,
+                 {{"packing", std::to_string(settings.packing)}, {"sources", source_state()}});
+  const dem::BedSize& size = settings.size;
+  notes.push_back(
+      fmt::format("dem: {} grains in {:.4g} x {:.4g} x {:.4g} m, packing {}, settling friction {:.3g}; {} "
+                  "steps, {:.0f} s with the bed",
+                  record.grains, size.length, size.width, size.depth, settings.packing, settings.settling_friction,
+                  record.steps, spent.count()));
+  return record;
+}
+
+std::string sides_samples_text(const compare::DriveSides& drive) {
+  TextTable table({"model", "time [s]", "travelled [m]", "slope [deg]", "speed [cm/s]", "slip [%]", "sinkage [mm]",
+                   "torque [N m]", "soil force [N]"});
+  for (const compare::DriveSide& side : drive.sides) {
+    const std::size_t count = side.samples.size(), rows = std::min(count, shown_rows / 2);
+    for (std::size_t row = 0; row < rows; ++row) {
+      const compare::DriveSideSample& s = side.samples[rows == 1 ? 0 : row * (count - 1) / (rows - 1)];
+      table.add({side.label, number(s.time), number(s.travelled),
+                 number(s.longitudinal_incline * 180 / std::numbers::pi), number(100 * s.speed), slip_text(s),
+                 number(1000 * s.sinkage), number(s.torque), number(s.forward)});
+    }
+  }
+  return table.text();
+}
+
+std::string differences_text(const compare::DriveSides& drive) {
+  if (drive.differences.empty()) return "";
+  TextTable table({"steadily", "bekker_wong", "dem", "difference", ""});
+  for (const compare::DriveDifference& row : drive.differences)
+    table.add({fmt::format("{} [{}]", row.name, row.unit), number(row.analytic, row.per_si),
+               number(row.grains, row.per_si), number({row.difference, row.std_error}, row.per_si),
+               std::string(compare::words(row.finding))});
+  return "\n" + table.text();
+}
+
+std::string work_text(const compare::DriveSides& drive) {
+  std::vector<std::string> header{"of the motor's work [J]"};
+  for (const compare::DriveSide& side : drive.sides) header.push_back(side.label);
+  TextTable table(header);
+  for (const compare::DriveWorkRow& work : compare::work_rows(drive)) {
+    std::vector<std::string> row{work.name};
+    for (const std::optional<double>& joules : work.joules) row.push_back(joules ? number(*joules) : "");
+    table.add(row);
+  }
+  std::vector<std::string> all{"in all"};
+  for (const compare::DriveSide& side : drive.sides) all.push_back(number(side.samples.back().energy.motor));
+  table.add(all);
+  return "\n" + table.text();
+}
+
+std::string sides_text(const compare::DriveSides& drive) {
+  std::string text = fmt::format("{}: {} on {}\n\n{}\n", drive.question.name, in_words(drive.question.scenario.tire),
+                                 drive.question.scenario.soil.name, sides_samples_text(drive));
+  for (const compare::DriveSide& side : drive.sides)
+    for (const DriveHappening& h : side.happenings)
+      text +=
+          fmt::format("{}: at {} s and {} m {}.\n", side.label, number(h.time), number(h.travelled), word_of(h.what));
+  for (const std::string& sentence : compare::in_words(drive)) text += sentence + "\n";
+  text += differences_text(drive) + work_text(drive) + "\n";
+  for (const std::string& note : drive.notes) text += note + "\n";
+  return text;
+}
+
+int drive_with_grains(const DriveOptions& options, const Case& question) {
+  std::vector<compare::DriveSide> sides;
+  if (options.model == "both")
+    sides.push_back(compare::analytic_side(compare::run_drive(question, options.samples, progress_in_time())));
+  std::vector<std::string> notes;
+  sides.push_back(compare::grain_side(drive_on_grains(options, question, notes)));
+  const compare::DriveSides drive = compare::side_by_side(question, std::move(sides), std::move(notes));
+  if (!options.csv.empty()) write_file_atomically(options.csv, compare::drive_csv(drive));
+  if (!options.plot.empty()) write_file_atomically(options.plot, compare::svg(compare::drive_sheet(drive)));
+  if (!options.report.empty())
+    write_file_atomically(
+        options.report,
+        compare::drive_page(
+            drive,
+            {question.name, fmt::format("soilbin drive {} --model {}", options.name, options.model), versions()}));
+  fmt::print("{}", options.json ? compare::json_text(compare::to_json(drive)) : sides_text(drive));
+  return done;
+}
+
+int drive(const DriveOptions& options, const Session& session) {
+  check_model(options.model);
+  const Case question = find_case(session.place, options.name);
+  if (!question.drive)
+    throw InputError(fmt::format("{}: the case has no section 'drive'\n  hint: soilbin run {} answers its study",
+                                 options.name, options.name));
+  return options.model == "bekker_wong" ? drive_analytically(options, question) : drive_with_grains(options, question);
+}
+
 }  // namespace
 
 void add_drive(CLI::App& app, Session& session) {
@@ -89,6 +213,9 @@ void add_drive(CLI::App& app, Session& session) {
   command->add_option("case", options->name, "a case with a section 'drive', of the library or a file")
       ->type_name("CASE")
       ->required();
+  command->add_option("--model", options->model, "bekker_wong; dem: on grains, in the virtual soil bin; or both")
+      ->type_name("NAME")
+      ->capture_default_str();
   command->add_option("--plot", options->plot, "draw speed, slip, sinkage, torque, forces and energy against time")
       ->type_name("FILE.svg");
   command->add_option("--csv", options->csv, "save every sample")->type_name("FILE.csv");
@@ -96,8 +223,14 @@ void add_drive(CLI::App& app, Session& session) {
   command->add_option("--samples", options->samples, "intervals of time that are recorded; 400")
       ->type_name("WHOLE")
       ->check(CLI::Range(1, 1000000));
-  command->add_flag("--json", options->json, "soilbin-drive/1, in SI");
-  command->footer("Example: soilbin drive rover-climb --report climb.html");
+  command->add_flag("--json", options->json, "soilbin-drive/1, with grains soilbin-drive-sides/1; in SI");
+  options->soil_bin.add_rig_to(*command);
+  command->add_flag("--ledger", options->ledger, "dem: tell what the grains did with their work too; costs a tenth");
+  command->add_option("--replay", options->soil_bin.replay, "dem: keep the drive, to look at it in 3D")
+      ->type_name("FILE");
+  command->footer(
+      "Examples: soilbin drive rover-climb --report climb.html\n"
+      "          soilbin drive drive-in-grains --model both --settling-friction 0 --report sides.html");
   command->callback([=, &session] { session.action = [=, &session] { return drive(*options, session); }; });
 }
 

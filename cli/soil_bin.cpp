@@ -167,7 +167,7 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   return settings;
 }
 
-void SoilBinFlags::add_to(CLI::App& command) {
+void SoilBinFlags::add_rig_to(CLI::App& command) {
   command.add_option("--bed-length", length, "dem: length of the bed, 2.5 m")->type_name("LENGTH");
   command.add_option("--bed-width", width, "dem: its width, 0.8 m")->type_name("LENGTH");
   command.add_option("--bed-depth", depth, "dem: its depth, 0.3 m")->type_name("LENGTH");
@@ -191,6 +191,11 @@ void SoilBinFlags::add_to(CLI::App& command) {
       .add_option("--settling-friction", settling_friction,
                   "dem: share of friction while the bed settles, 1; 0: densest")
       ->type_name("SHARE");
+  command.add_option("--threads", threads, "dem: 0, one a core")->type_name("N");
+}
+
+void SoilBinFlags::add_to(CLI::App& command) {
+  add_rig_to(command);
   command.add_option("--packings", packings, "dem: runs on so many packings, from --packing on, and their mean; 1")
       ->type_name("N");
   command.add_option("--record", record, "dem: keep each run in this file, and go on with what is there")
@@ -202,7 +207,6 @@ void SoilBinFlags::add_to(CLI::App& command) {
       ->expected(0, 1)
       ->default_str(library_record)
       ->excludes("--record");
-  command.add_option("--threads", threads, "dem: 0, one a core")->type_name("N");
 }
 
 compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, const EffectVocabulary& effects,

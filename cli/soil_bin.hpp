@@ -33,6 +33,8 @@ struct SoilBinFlags {
   int packing = 1, packings = 1, threads = 0;
 
   void add_to(CLI::App& command);
+  /// Bed, rig and threads alone: for who keeps no records.
+  void add_rig_to(CLI::App& command);
 };
 
 /// Throws InputError that names the flag.

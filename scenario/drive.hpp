@@ -49,6 +49,18 @@ struct Drive {
   std::vector<EffectChoice> effects{};  ///< forms and parameters resolved
 };
 
+/// The mass that travels with the wheel [kg].
+inline double mass_of(const Drive& drive) {
+  constexpr double gravity = 9.80665;
+  return drive.mass.value_or(drive.load / gravity);
+}
+
+/// The inertia of what spins on a wheel of this radius, about the axle [kg m^2].
+inline double inertia_of(const Drive& drive, double radius) {
+  constexpr double spinning_share = 0.1;  // of m r^2
+  return drive.inertia.value_or(spinning_share * mass_of(drive) * radius * radius);
+}
+
 template <class Visitor>
 void describe(Visitor& v, std::type_identity<Controller>) {
   using C = Controller;

@@ -9,18 +9,15 @@
 #include "bekker_wong/gsl.hpp"
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/transient/shear_line.hpp"
+#include "scenario/drive_record.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
 
-constexpr double gravity = 9.80665;
-constexpr double spinning_share = 0.1;    // of m r^2: the inertia where none is given
 constexpr double rolling_in_share = 0.2;  // of the contact's length, see Drive's page: the elastic part of the sinkage
 constexpr double floor_share = 0.02;      // of the depth at rest: below it the contact fades
-constexpr double memory = 1.0;            // of the mean speed [s]
 constexpr double deepest = 0.95;          // of the radius: the equations end there
-constexpr double gentle = 20.0;           // mean speed at the start over the one that counts as stuck: 3 s of grace
 
 EffectList time_effects(const std::vector<EffectChoice>& choices) {
   for (const EffectChoice& choice : choices) {
@@ -62,8 +59,8 @@ DrivenWheel::DrivenWheel(const Scenario& scenario, const Drive& drive, const Dri
       way_(drive.profile, scenario.tire.radius),
       nodes_(numerics.nodes),
       turns_(way_.turns()),
-      mass_(drive.mass.value_or(drive.load / gravity)),
-      inertia_(drive.inertia.value_or(spinning_share * mass_ * scenario.tire.radius * scenario.tire.radius)) {
+      mass_(mass_of(drive)),
+      inertia_(inertia_of(drive, scenario.tire.radius)) {
   if (nodes_ < 6) throw InputError("the shear displacement needs at least 6 nodes along the contact");
   if (const std::string wrong = contradiction(drive_.controller); !wrong.empty()) throw InputError(wrong);
   const EffectList effects = time_effects(drive.effects);
@@ -240,7 +237,7 @@ void DrivenWheel::rate(double time, std::span<const double> state, const Motor& 
   out[turned] = state[spin];
   out[spin] = (now.motor_torque - now.soil_torque) / inertia_;
   out[rolled] = (v - std::abs(v) * state[rolled]) / rolling_in_;
-  out[mean_speed] = time < drive_.controller.ramp ? 0.0 : (v - state[mean_speed]) / memory;
+  out[mean_speed] = time < drive_.controller.ramp ? 0.0 : (v - state[mean_speed]) / drive_limits::memory;
   out[speed_error] = motor.integral_rate(time, state[spin], state[speed_error]);
 }
 
@@ -276,7 +273,7 @@ void DrivenWheel::lay_held_shear(std::vector<double>& state, double displacement
 Held DrivenWheel::hold() const {
   Held held{std::vector<double>(state_size(), 0.0), 0.0};
   std::vector<double>& state = held.state;
-  state[mean_speed] = gentle * drive_.stuck_speed;
+  state[mean_speed] = drive_limits::first_speed * drive_.stuck_speed;
   const Place start = way_.at(0.0);
   const double pull = drive_.load * std::sin(start.longitudinal_incline) + start.drawbar;
   Push p;

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "bekker_wong/rolling_wheel.hpp"
-#include "bekker_wong/transient/motor.hpp"
-#include "bekker_wong/transient/way.hpp"
 #include "scenario/drive.hpp"
+#include "scenario/drive_motor.hpp"
+#include "scenario/drive_way.hpp"
 
 namespace soilbin::bekker_wong {
 

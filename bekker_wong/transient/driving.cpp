@@ -12,7 +12,7 @@ namespace {
 enum SumPlace : std::size_t { by_motor, by_height, by_drawbar, by_compaction, by_shear, by_added, by_damping, sums };
 enum RootPlace : std::size_t { at_goal, at_stuck, at_lift, at_upper, at_lower, at_bury, at_roll_back, roots };
 
-constexpr double standing_share = 1e-3;  // of the rim speed asked for: slower than that, slip says nothing
+static_assert(drive_limits::deepest <= max_sinkage_share, "a drive ends before the model does");
 
 /// One drive under way.
 class Ride {
@@ -23,9 +23,7 @@ class Ride {
         held_(wheel_.hold()),
         motor_(wheel_.motor(held_.torque)),
         integrator_(problem(numerics), 0.0, held_.state) {
-    const auto limits = motor_.beyond(0.0, 0.0, 0.0);
-    if (drive_.controller.highest_torque && (limits[0] > 0.0 || limits[1] < 0.0))
-      throw NoSolution("the motor's highest torque can't hold the wheel at rest where the drive begins");
+    motor_.require_hold();
   }
 
   DriveRecord run(int samples, const DriveProgress& progress) {
@@ -69,8 +67,8 @@ class Ride {
     out[at_stuck] = y[mean_speed] - drive_.stuck_speed;
     out[at_lift] = y[depth];
     out[at_upper] = limits[0], out[at_lower] = limits[1];
-    out[at_bury] = y[depth] - max_sinkage_share * wheel_.radius();
-    out[at_roll_back] = y[travelled] + 0.5 * wheel_.radius();
+    out[at_bury] = y[depth] - drive_limits::deepest * wheel_.radius();
+    out[at_roll_back] = y[travelled] + drive_limits::roll_back * wheel_.radius();
   }
 
   void powers(double t, std::span<const double> y, std::span<double> out) const {
@@ -121,10 +119,9 @@ class Ride {
     const std::vector<double>& y = integrator_.state();
     const Instant now = wheel_.look(t, y, motor_);
     const double rim = wheel_.radius() * y[spin], alpha = now.place.longitudinal_incline;
-    const double along = y[speed] * std::cos(now.place.yaw), larger = std::max(std::abs(rim), std::abs(along));
     DriveSample s;
     s.time = t, s.travelled = y[travelled], s.speed = y[speed], s.rim_speed = rim;
-    if (larger > standing_share * drive_.controller.rim_speed.value_or(0.1)) s.slip = (rim - along) / larger;
+    s.slip = drive_slip(rim, y[speed] * std::cos(now.place.yaw), drive_.controller.rim_speed);
     s.contact_slip = now.contact_slip, s.sinkage = y[depth], s.torque = now.motor_torque;
     s.forward = now.forward, s.drawbar = now.place.drawbar, s.longitudinal_incline = alpha;
     s.lateral = now.left - wheel_.load() * std::cos(alpha) * std::sin(now.place.transverse_incline);
@@ -152,38 +149,6 @@ class Ride {
 };
 
 }  // namespace
-
-std::string_view word_of(DriveEvent event) {
-  switch (event) {
-    case DriveEvent::torque_limit:
-      return "the motor reaches its highest torque";
-    case DriveEvent::speed_limit:
-      return "the motor reaches its highest speed";
-    case DriveEvent::free_again:
-      return "the motor is within its limit again";
-    case DriveEvent::lifts:
-      return "the wheel lifts off";
-    case DriveEvent::lands:
-      return "the wheel lands";
-  }
-  return "";
-}
-
-std::string_view word_of(DriveEnd end) {
-  switch (end) {
-    case DriveEnd::time_is_up:
-      return "time is up";
-    case DriveEnd::arrived:
-      return "arrived";
-    case DriveEnd::stuck:
-      return "stuck";
-    case DriveEnd::buried:
-      return "buried";
-    case DriveEnd::rolled_back:
-      return "rolled back";
-  }
-  return "";
-}
 
 DriveRecord drive_wheel(const Scenario& scenario, const Drive& drive, int samples, const DriveNumerics& numerics,
                         const DriveProgress& progress) {

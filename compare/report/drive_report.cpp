@@ -17,7 +17,6 @@
 namespace soilbin::compare {
 namespace {
 
-using bekker_wong::DriveEnd;
 using bekker_wong::DriveSample;
 using bekker_wong::EnergyLedger;
 using Json = nlohmann::ordered_json;
@@ -171,7 +170,7 @@ Json to_json(const DrivePart& part) {
                    {"travelled", end.travelled},
                    {"steepest_steady_slope", part.steepest ? Json(*part.steepest) : Json(nullptr)}};
   document["happenings"] = Json::array();
-  for (const bekker_wong::DriveHappening& h : record.happenings)
+  for (const DriveHappening& h : record.happenings)
     document["happenings"].push_back(
         {{"time", h.time}, {"travelled", h.travelled}, {"what", std::string(word_of(h.what))}});
   document["energy"] = {{"motor", end.energy.motor},
@@ -226,7 +225,7 @@ std::string drive_page(const DrivePart& part, const PageAbout& about) {
   if (!part.record.happenings.empty()) {
     page.section("On the way");
     HtmlTable events{"", {"time [s]", "travelled [m]", "what happened"}, {}, {false, false, true}};
-    for (const bekker_wong::DriveHappening& h : part.record.happenings)
+    for (const DriveHappening& h : part.record.happenings)
       events.rows.push_back({number(h.time), number(h.travelled), std::string(word_of(h.what))});
     page.table(events);
   }

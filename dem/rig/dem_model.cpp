@@ -36,4 +36,11 @@ TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondi
   return run.result;
 }
 
+GrainDriveRecord DemModel::drive(const Scenario& scenario, const Drive& drive, int samples) const {
+  check_drive(drive);
+  const auto bed = beds_.bed(recipe(scenario), settings_.how);
+  return drive_freely(*bed, scenario.tire, scenario.soil.granular->grain_tire, drive, settings_.rig, samples,
+                      settings_.how);
+}
+
 }  // namespace soilbin::dem

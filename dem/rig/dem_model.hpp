@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "dem/bed/bed_store.hpp"
+#include "dem/rig/free_drive.hpp"
 #include "dem/rig/wheel_run.hpp"
 #include "scenario/scenario.hpp"
 
@@ -29,6 +30,10 @@ class DemModel : public Model {
   /// scatter between packings comes on top. Throws InputError without granular values, for effects, and
   /// what run_wheel throws. One call at a time: a run uses all the threads it is given.
   TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override;
+
+  /// A drive of the scenario's tire on a bed of its soil. Throws what drive_freely throws, and InputError without
+  /// granular values. The drive's effects belong to the analytic model and are not read.
+  GrainDriveRecord drive(const Scenario& scenario, const Drive& drive, int samples = 400) const;
 
   /// The bed that a scenario's soil gets.
   BedRecipe recipe(const Scenario& scenario) const;

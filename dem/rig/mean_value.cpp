@@ -77,4 +77,12 @@ double drift_over_error(std::span<const double> series) {
   return error > 0 ? difference / error : (difference > 0 ? 1e300 : 0);
 }
 
+SteadyPart steady_part(const std::vector<std::vector<double>>& series) {
+  SteadyPart part;
+  for (const std::vector<double>& one : series) part.from = std::max(part.from, end_of_start_up(one));
+  for (const std::vector<double>& one : series)
+    part.drift = std::max(part.drift, drift_over_error(std::span(one).subspan(part.from)));
+  return part;
+}
+
 }  // namespace soilbin::dem

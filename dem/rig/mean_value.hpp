@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "scenario/estimate.hpp"
 
@@ -28,5 +29,12 @@ std::size_t end_of_start_up(std::span<const double> series);
 /// halves' own errors; around 1 where the series is steady. 0 for less than
 /// sixteen samples.
 double drift_over_error(std::span<const double> series);
+
+/// What is left of several series of one length once their start-up is cut off.
+struct SteadyPart {
+  std::size_t from = 0;  ///< the latest end_of_start_up of them
+  double drift = 0;      ///< the largest drift_over_error of what is left
+};
+SteadyPart steady_part(const std::vector<std::vector<double>>& series);
 
 }  // namespace soilbin::dem

@@ -95,12 +95,10 @@ void tell_stresses(TractionResult& result, std::span<const WheelSample> samples,
 void summarise(WheelRun& run, const Tire& tire, const OperatingCondition& at, const Rig& rig) {
   const WheelMotion motion = wheel_motion(at, tire.radius);
   const Channels all = channels_of(run.samples, motion, at.force_frame);
-  for (const auto* series : {&all.pull, &all.torque, &all.sinkage})
-    run.steady_from = std::max(run.steady_from, end_of_start_up(*series));
+  const SteadyPart part = steady_part({all.pull, all.torque, all.sinkage});
+  run.steady_from = part.from, run.drift = part.drift;
   const std::span<const WheelSample> steady = std::span(run.samples).subspan(run.steady_from);
   const Channels kept = channels_of(steady, motion, at.force_frame);
-  for (const auto* series : {&kept.pull, &kept.torque, &kept.sinkage})
-    run.drift = std::max(run.drift, drift_over_error(*series));
   run.steady = steady.size() >= 16 && run.drift <= rig.steady_drift;
 
   TractionResult& result = run.result;

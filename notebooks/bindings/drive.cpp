@@ -9,12 +9,11 @@
 namespace soilbin::python {
 namespace {
 
-using bekker_wong::DriveHappening;
 using bekker_wong::DriveRecord;
 using bekker_wong::DriveSample;
 using bekker_wong::EnergyLedger;
 
-template <double EnergyLedger::*part>
+template <auto part>
 const double& energy(const DriveSample& sample) {
   return sample.energy.*part;
 }
@@ -67,13 +66,13 @@ void bind_record(py::module_& module) {
       .def_readonly("time", &DriveHappening::time)
       .def_readonly("travelled", &DriveHappening::travelled)
       .def_property_readonly("what", [](const DriveHappening& h) { return std::string(word_of(h.what)); });
-  using bekker_wong::DriveEnd;
   py::enum_<DriveEnd>(module, "DriveEnd", "Why a drive ended.")
       .value("time_is_up", DriveEnd::time_is_up)
       .value("arrived", DriveEnd::arrived, "at Drive.distance")
       .value("stuck", DriveEnd::stuck, "the mean speed has fallen below Drive.stuck_speed")
       .value("buried", DriveEnd::buried, "deeper than the model answers for")
-      .value("rolled_back", DriveEnd::rolled_back, "by half a radius behind the start");
+      .value("rolled_back", DriveEnd::rolled_back, "by half a radius behind the start")
+      .value("bed_ends", DriveEnd::bed_ends, "of the virtual soil bin alone");
   py::class_<DriveRecord>(module, "DriveRecord", "What came of a drive.")
       .def_readonly("end", &DriveRecord::end, "why it ended")
       .def_readonly("end_time", &DriveRecord::end_time, "[s]")

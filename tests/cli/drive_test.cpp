@@ -70,6 +70,97 @@ TEST(Drive, AnEffectThatHoldsInASteadyStateOnlyIsRefused) {
   EXPECT_THAT(r.err, HasSubstr("a wheel driven in time can't take the effect slip_sinkage"));
 }
 
+/// A small wheel that pulls a little on grains of 20 mm, level, then uphill.
+constexpr const char* small_drive = R"(format: soilbin-case/1
+name: small
+tire: {radius: 100 mm, width: 80 mm}
+soil:
+  semi_empirical: {exponent: 1.1, k_c: 0.99 kN/m^(n+1), k_phi: 1528 kN/m^(n+2), cohesion: {value: 0.5 kPa, sd: 0.2 kPa},
+                   friction_angle: {value: 28 deg, sd: 2 deg}, shear_modulus: 10 mm, stress_angle_c1: 0.18,
+                   stress_angle_c2: 0.32, density: 1500 kg/m^3}
+  granular:
+    radius_min: 8 mm
+    radius_max: 12 mm
+    grain_density: 2500 kg/m^3
+    youngs_modulus: 5 MPa
+    poisson_ratio: 0.2
+    grain_grain: {restitution: 0.4, sliding_friction: 0.5, rolling_friction: 0.1}
+    grain_tire: {restitution: 0.4, sliding_friction: 0.5, rolling_friction: 0.1}
+drive:
+  load: 20 N
+  duration: 2 s
+  distance: 0.25 m
+  controller: {rim_speed: 30 cm/s, ramp: 0.2 s}
+  profile:
+    - {at: 0 m, drawbar: 1 N}
+    - {at: 0.1 m, longitudinal_incline: 3 deg, drawbar: 1 N}
+)";
+constexpr const char* small_bin =
+    " --bed-width 16cm --bed-depth 6cm --behind 12cm --ahead 12cm --lowering 0.1s --resting 0.05s --threads 1 "
+    "--samples 100 --ledger ";
+
+TEST(Drive, GrainsTakeWhatTheyCanAndSayWhatTheyCannot) {
+  const Outcome unknown = soilbin("drive rover-climb --model dme");
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean 'dem'"));
+  const Outcome without = soilbin("drive rover-climb --model dem");
+  EXPECT_EQ(without.status, 2);
+  EXPECT_THAT(without.err, HasSubstr("no granular values"));
+  const Scratch scratch;
+  const std::string file =
+      scratch.write("two.yaml", std::string(small_drive) + "    - {at: 0.2 m, soil: snow}\n").string();
+  const Outcome two = soilbin("drive '" + file + "' --model both");
+  EXPECT_EQ(two.status, 2);
+  EXPECT_THAT(two.err, AllOf(HasSubstr("one soil from end to end; 'snow' begins at 0.2 m"), HasSubstr("hint: ")));
+}
+
+/// Motor's work less all that a side says became of it.
+double left_over(const nlohmann::json& side) {
+  const nlohmann::json& e = side["energy"];
+  return e["motor"].get<double>() - e["kinetic"].get<double>() - e["height"].get<double>() -
+         e["drawbar"].get<double>() - e["soil"].get<double>();
+}
+
+TEST(SlowDriveInGrains, BothModelsStandSideBySide) {
+  const Scratch scratch;
+  const std::string file = scratch.write("small.yaml", small_drive).string(), page = (scratch / "p.html").string(),
+                    csv = (scratch / "t.csv").string();
+  ::setenv("SOILBIN_BEDS", (scratch / "beds").string().c_str(), 1);
+  const Outcome r = soilbin("drive '" + file + "' --model both" + small_bin + "--json");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const nlohmann::json drive = r.json();
+  EXPECT_EQ(drive["format"], "soilbin-drive-sides/1");
+  ASSERT_EQ(drive["sides"].size(), 2U);
+  EXPECT_EQ(drive["sides"][0]["model"], "bekker_wong");
+  const nlohmann::json& grains = drive["sides"][1];
+  EXPECT_EQ(grains["model"], "dem");
+  EXPECT_EQ(grains["end"], "arrived");
+  EXPECT_NEAR(grains["travelled"].get<double>(), 0.25, 1e-3);
+  EXPECT_NEAR(left_over(grains), 0.0, 1e-9);
+  EXPECT_NEAR(left_over(drive["sides"][0]), 0.0, 1e-4 * drive["sides"][0]["energy"]["motor"].get<double>());
+  double parts = 0.0;
+  for (const auto& [name, joules] : grains["soil_parts"].items()) parts += joules.get<double>();
+  EXPECT_NEAR(parts, grains["energy"]["soil"].get<double>(), 1e-9);
+  for (const nlohmann::json& side : drive["sides"])
+    for (const auto& [name, values] : side["samples"].items())
+      EXPECT_EQ(values.size(), side["samples"]["time_s"].size()) << name;
+  ASSERT_EQ(drive["differences"].size(), 5U);
+  for (const nlohmann::json& row : drive["differences"]) {
+    EXPECT_NEAR(row["difference"].get<double>(),
+                row["analytic"]["value"].get<double>() - row["grains"]["value"].get<double>(), 1e-12);
+    EXPECT_GT(row["grains"]["std_error"].get<double>(), 0.0) << row["of"];
+  }
+  const Outcome said =
+      soilbin("drive '" + file + "' --model both" + small_bin + "--report '" + page + "' --csv '" + csv + "'");
+  ::unsetenv("SOILBIN_BEDS");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_THAT(said.out, AllOf(HasSubstr("dem: arrived after"), HasSubstr("is given to the soil"),
+                              HasSubstr("of that: grains slide"), HasSubstr("soil force [N]")));
+  EXPECT_THAT(text_of(page), AllOf(HasSubstr("Against time"), HasSubstr("Travelled [m]"),
+                                   HasSubstr("Where nothing changes any more")));
+  EXPECT_THAT(text_of(csv), AllOf(testing::StartsWith("model,time_s,travelled_m"), HasSubstr("\ndem,")));
+}
+
 TEST(LimitsCommand, TheSlipOnASlopeIsTheSlipOfNoPullThere) {
   const Outcome r = soilbin("limits --tire rover-wheel --soil dry-sand --load 64.68N --json");
   ASSERT_EQ(r.status, 0) << r.err;

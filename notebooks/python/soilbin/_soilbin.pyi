@@ -920,6 +920,7 @@ class DriveEnd:
     stuck: ClassVar[DriveEnd]
     buried: ClassVar[DriveEnd]
     rolled_back: ClassVar[DriveEnd]
+    bed_ends: ClassVar[DriveEnd]
     def __init__(self, value: int) -> None: ...
     def __int__(self) -> int: ...
     @property

@@ -1,8 +1,11 @@
-#include "bekker_wong/transient/motor.hpp"
+#include "scenario/drive_motor.hpp"
 
 #include <algorithm>
+#include <cmath>
 
-namespace soilbin::bekker_wong {
+#include "scenario/errors.hpp"
+
+namespace soilbin {
 
 Motor::Motor(const Controller& controller, double radius, double swung, double hold)
     : controller_(controller),
@@ -10,6 +13,11 @@ Motor::Motor(const Controller& controller, double radius, double swung, double h
       hold_(hold),
       proportional_(swung / controller.response),
       integral_(proportional_ / (4 * controller.response)) {}  // critically damped where the wheel doesn't slip
+
+void Motor::require_hold() const {
+  if (controller_.highest_torque && std::abs(hold_) > *controller_.highest_torque)
+    throw NoSolution("the motor's highest torque can't hold the wheel at rest where the drive begins");
+}
 
 double Motor::share(double time) const {
   const double t = std::clamp(time / controller_.ramp, 0.0, 1.0);
@@ -52,4 +60,4 @@ std::array<double, 2> Motor::beyond(double time, double spin, double integral) c
   return {torque - *controller_.highest_torque, torque + *controller_.highest_torque};
 }
 
-}  // namespace soilbin::bekker_wong
+}  // namespace soilbin

@@ -4,7 +4,7 @@
 
 #include "scenario/drive.hpp"
 
-namespace soilbin::bekker_wong {
+namespace soilbin {
 
 /// What a wheel meets at a place along its way.
 struct Place {
@@ -35,4 +35,4 @@ class Way {
   double blend_;
 };
 
-}  // namespace soilbin::bekker_wong
+}  // namespace soilbin

@@ -4,7 +4,7 @@
 
 #include "scenario/drive.hpp"
 
-namespace soilbin::bekker_wong {
+namespace soilbin {
 
 /// What turns the wheel: a PI controller of the rim speed, held within its highest torque; or a torque, given up to a
 /// PI controller where the rim would turn faster than its highest speed. Beyond a limit the integral is led back by
@@ -13,6 +13,9 @@ class Motor {
  public:
   /// `swung`: inertia that the controller is laid out for, I + m r^2 [kg m^2]; `hold`: torque at rest [N m].
   Motor(const Controller& controller, double radius, double swung, double hold);
+
+  /// Throws NoSolution where the highest torque is less than the torque at rest.
+  void require_hold() const;
 
   /// M [N m] at a spin [rad/s] and an error integral [rad].
   double torque(double time, double spin, double integral) const;
@@ -31,4 +34,4 @@ class Motor {
   double radius_, hold_, proportional_, integral_;
 };
 
-}  // namespace soilbin::bekker_wong
+}  // namespace soilbin

@@ -1,8 +1,8 @@
-#include "bekker_wong/transient/way.hpp"
+#include "scenario/drive_way.hpp"
 
 #include <algorithm>
 
-namespace soilbin::bekker_wong {
+namespace soilbin {
 
 Way::Way(const std::vector<Waypoint>& points, double blend) : points_(points), blend_(blend) {
   for (const Waypoint& point : points_) {
@@ -42,4 +42,4 @@ Place Way::at(double x) const {
   return place;
 }
 
-}  // namespace soilbin::bekker_wong
+}  // namespace soilbin

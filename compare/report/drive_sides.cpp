@@ -1,0 +1,200 @@
+#include "compare/report/drive_sides.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "compare/report/number_text.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// The values of a steady drive that are set side by side.
+struct SteadyValue {
+  const char* name;
+  const char* unit;
+  double per_si;
+  Estimate dem::SteadyDrive::*value;
+};
+constexpr std::array<SteadyValue, 5> steady_values = {{{"speed", "cm/s", 100, &dem::SteadyDrive::speed},
+                                                       {"slip", "%", 100, &dem::SteadyDrive::slip},
+                                                       {"sinkage", "mm", 1000, &dem::SteadyDrive::sinkage},
+                                                       {"torque", "N m", 1, &dem::SteadyDrive::torque},
+                                                       {"soil force", "N", 1, &dem::SteadyDrive::forward}}};
+
+using bekker_wong::DriveRecord;
+
+/// Why the end of an analytic drive is not a steady state, or nothing: the setpoint and the way have stopped changing,
+/// and so has the speed, to a thousandth over the last twentieth of the time.
+std::string unsteady(const DriveRecord& record, const Drive& drive) {
+  constexpr double same = 1e-3, part = 0.05;
+  const DriveState& end = record.samples.back();
+  if (record.end != DriveEnd::time_is_up && record.end != DriveEnd::arrived)
+    return fmt::format("the wheel is {}", word_of(record.end));
+  const double last_place = drive.profile.empty() ? 0.0 : drive.profile.back().at;
+  const double since = record.end_time * (1 - part);
+  for (const DriveState& s : record.samples) {
+    if (s.time < since) continue;
+    if (s.time < drive.controller.ramp || s.travelled < last_place || !s.slip ||
+        std::abs(s.speed - end.speed) > same * std::abs(end.speed))
+      return "it ended before its speed had stopped changing";
+  }
+  return "";
+}
+
+dem::SteadyDrive values_at(const DriveState& end) {
+  dem::SteadyDrive steady;
+  steady.from = steady.to = end.time;
+  steady.speed.value = end.speed, steady.rim_speed.value = end.rim_speed, steady.slip.value = end.slip.value_or(0.0);
+  steady.sinkage.value = end.sinkage, steady.torque.value = end.torque, steady.forward.value = end.forward;
+  steady.steady = true;
+  return steady;
+}
+
+/// Adds errors: sd of each soil value times the central difference of the steady values over it. A drive that doesn't
+/// become steady with a changed soil leaves that value out, and says so.
+std::string add_doubt(dem::SteadyDrive& steady, const Case& question) {
+  using Soil = SemiEmpiricalSoil;
+  constexpr double nudge = 0.1;  // of the standard deviation
+  std::array<double, steady_values.size()> variance{};
+  std::string left_out;
+  for (Estimate Soil::*value : {&Soil::exponent, &Soil::k_c, &Soil::k_phi, &Soil::cohesion, &Soil::friction_angle,
+                                &Soil::shear_modulus, &Soil::stress_angle_c1, &Soil::stress_angle_c2}) {
+    const Estimate of = (*question.scenario.soil.semi_empirical).*value;
+    if (!(of.std_error > 0.0)) continue;
+    const auto end_with = [&](double changed) {
+      Scenario scenario = question.scenario;
+      ((*scenario.soil.semi_empirical).*value).value = changed;
+      const DriveRecord record = bekker_wong::drive_wheel(scenario, *question.drive, 40);
+      if (!unsteady(record, *question.drive).empty()) left_out = "a soil value's doubt would keep it from steadiness";
+      return values_at(record.samples.back());
+    };
+    const double high = of.value + nudge * of.std_error;
+    const double low = std::max(of.value - nudge * of.std_error, value == &Soil::cohesion ? 0.0 : -INFINITY);
+    const dem::SteadyDrive up = end_with(high), down = end_with(low);
+    for (std::size_t i = 0; i < variance.size(); ++i) {
+      const auto member = steady_values[i].value;
+      variance[i] += std::pow(of.std_error * ((up.*member).value - (down.*member).value) / (high - low), 2);
+    }
+  }
+  for (std::size_t i = 0; i < variance.size(); ++i) (steady.*steady_values[i].value).std_error = std::sqrt(variance[i]);
+  return left_out;
+}
+
+template <class Sample>
+DriveSideSample side_sample(const Sample& sample, double soil) {
+  DriveSideSample out{static_cast<const DriveState&>(sample), {}, soil};
+  out.energy = sample.energy;
+  return out;
+}
+
+std::vector<DriveDifference> differences_of(const DriveSide& analytic, const DriveSide& grains) {
+  std::vector<DriveDifference> rows;
+  if (!analytic.steady || !grains.steady) return rows;
+  for (const SteadyValue& value : steady_values) {
+    DriveDifference row{value.name, value.unit, value.per_si, (*analytic.steady).*value.value,
+                        (*grains.steady).*value.value};
+    row.difference = row.analytic.value - row.grains.value;
+    row.std_error = std::hypot(row.analytic.std_error, row.grains.std_error);
+    row.finding = finding_of(row.difference, row.std_error, row.grains.std_error);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::string sentence_of(const DriveSide& side) {
+  const DriveState& end = side.samples.back();
+  std::string text =
+      fmt::format("{}: {} after {:.4g} s and {:.4g} m", side.label, word_of(side.end), side.end_time, end.travelled);
+  if (!side.steady) return text + fmt::format("; no steady state: {}.", side.not_steady);
+  const dem::SteadyDrive& s = *side.steady;
+  text += fmt::format("; steady{} at a slip of {} %, {} mm deep, with {} N m",
+                      s.steady ? "" : " by its way and motor, but still drifting,", number(s.slip, 100),
+                      number(s.sinkage, 1000), number(s.torque));
+  return text + (side.not_steady.empty() ? "." : fmt::format(" ({}).", side.not_steady));
+}
+
+}  // namespace
+
+DriveSide analytic_side(const DrivePart& part) {
+  const DriveRecord& record = part.record;
+  DriveSide side{SideKind::analytic, "bekker_wong", record.end, record.end_time, {}, record.happenings, {}, {}, {}};
+  for (const bekker_wong::DriveSample& s : record.samples)
+    side.samples.push_back(side_sample(s, s.energy.compaction + s.energy.shear + s.energy.added + s.energy.damping));
+  const bekker_wong::EnergyLedger& end = record.samples.back().energy;
+  side.soil_parts = {{"shears the soil", end.shear},
+                     {"presses the soil", end.compaction},
+                     {"added forces of effects", end.added},
+                     {"damps the heave", end.damping}};
+  side.not_steady = unsteady(record, *part.question.drive);
+  if (!side.not_steady.empty()) return side;
+  side.steady = values_at(record.samples.back());
+  side.not_steady = add_doubt(*side.steady, part.question);
+  return side;
+}
+
+DriveSide grain_side(const dem::GrainDriveRecord& record) {
+  DriveSide side{SideKind::grains, "dem", record.end, record.end_time, {}, record.happenings, {}, {}, {}};
+  for (const dem::GrainDriveSample& s : record.samples) side.samples.push_back(side_sample(s, s.energy.soil));
+  const dem::GrainDriveEnergy& end = record.samples.back().energy;
+  if (end.told)
+    side.soil_parts = {{"grains slide", end.sliding},
+                       {"grains roll", end.rolling},
+                       {"grains hit each other", end.damping},
+                       {"grains keep", end.stored},
+                       {"left over by the time step", end.soil_unaccounted()}};
+  side.steady = record.steady;
+  side.not_steady = record.not_steady;
+  return side;
+}
+
+DriveSides side_by_side(const Case& question, std::vector<DriveSide> sides, std::vector<std::string> notes) {
+  DriveSides drive{question, std::move(sides), {}, std::move(notes)};
+  const auto of = [&](SideKind kind) {
+    return std::find_if(drive.sides.begin(), drive.sides.end(), [&](const DriveSide& s) { return s.kind == kind; });
+  };
+  const auto analytic = of(SideKind::analytic), grains = of(SideKind::grains);
+  if (analytic != drive.sides.end() && grains != drive.sides.end())
+    drive.differences = differences_of(*analytic, *grains);
+  return drive;
+}
+
+std::vector<std::string> in_words(const DriveSides& drive) {
+  std::vector<std::string> sentences;
+  for (const DriveSide& side : drive.sides) sentences.push_back(sentence_of(side));
+  std::string apart;
+  for (const DriveDifference& row : drive.differences)
+    if (row.finding == Finding::difference)
+      apart += fmt::format("{}{} by {} {}", apart.empty() ? "" : ", ", row.name,
+                           number({row.difference, row.std_error}, row.per_si), row.unit);
+  if (!apart.empty())
+    sentences.push_back("Steadily the models part in " + apart + ".");
+  else if (!drive.differences.empty())
+    sentences.push_back("Steadily nothing parts the models beyond what they don't know.");
+  return sentences;
+}
+
+std::vector<DriveWorkRow> work_rows(const DriveSides& drive) {
+  std::vector<DriveWorkRow> rows;
+  const auto add = [&](const std::string& name, const auto& of) {
+    DriveWorkRow row{name, {}};
+    for (const DriveSide& side : drive.sides) row.joules.push_back(of(side.samples.back()));
+    rows.push_back(std::move(row));
+  };
+  add("lifts the load", [](const DriveSideSample& s) { return s.energy.height; });
+  add("pulls the drawbar", [](const DriveSideSample& s) { return s.energy.drawbar; });
+  add("is in motion", [](const DriveSideSample& s) { return s.energy.kinetic; });
+  add("is given to the soil", [](const DriveSideSample& s) { return s.soil; });
+  for (std::size_t i = 0; i < drive.sides.size(); ++i)
+    for (const auto& [name, joules] : drive.sides[i].soil_parts) {
+      DriveWorkRow row{"  of that: " + name, std::vector<std::optional<double>>(drive.sides.size())};
+      row.joules[i] = joules;
+      rows.push_back(std::move(row));
+    }
+  add("unaccounted for", [](const DriveSideSample& s) { return s.energy.left() - s.soil; });
+  return rows;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,88 @@
+// The same drive by the analytic wheel and by grains, side by side: over time, and where nothing changes any more with
+// what either side doesn't know.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compare/discrepancy/difference.hpp"
+#include "compare/report/analysis_page.hpp"
+#include "compare/report/drive_report.hpp"
+#include "compare/report/plot.hpp"
+#include "dem/rig/drive_outcome.hpp"
+#include "scenario/case.hpp"
+
+namespace soilbin::compare {
+
+/// A sample of either model: of the analytic wheel an instant, of grains means since the sample before.
+struct DriveSideSample : DriveState {
+  WheelEnergy energy;
+  double soil = 0.0;  ///< given to the soil since the start [J]
+};
+
+/// What one model makes of a case's drive.
+struct DriveSide {
+  SideKind kind = SideKind::analytic;
+  std::string label;  ///< the model's name
+  DriveEnd end = DriveEnd::time_is_up;
+  double end_time = 0.0;
+  std::vector<DriveSideSample> samples;
+  std::vector<DriveHappening> happenings;
+  std::vector<std::pair<std::string, double>> soil_parts;  ///< what became of the soil's share at the end [J]
+  /// Steady values; errors are the soil's doubt on the analytic side, block averages on that of grains.
+  std::optional<dem::SteadyDrive> steady;
+  std::string not_steady;  ///< why there are none
+};
+
+/// A steady value of both sides [SI].
+struct DriveDifference {
+  const char* name;
+  const char* unit;  ///< to show it in
+  double per_si;     ///< value in that unit
+  Estimate analytic, grains;
+  double difference = 0.0;  ///< analytic less grains
+  double std_error = 0.0;   ///< root of the sum of both errors' squares
+  Finding finding = Finding::not_judged;
+};
+
+struct DriveSides {
+  Case question;
+  std::vector<DriveSide> sides;
+  std::vector<DriveDifference> differences;  ///< where both sides are steady
+  std::vector<std::string> notes;            ///< what to know of the grains' run: bed, cost
+};
+
+/// The analytic side. Its steady values are those of the end, with the soil's doubt as their errors: the drive is run
+/// again with each soil value a tenth of its standard deviation up and down.
+DriveSide analytic_side(const DrivePart& part);
+DriveSide grain_side(const dem::GrainDriveRecord& record);
+
+/// Puts sides together, with the differences where both an analytic side and one of grains are steady.
+DriveSides side_by_side(const Case& question, std::vector<DriveSide> sides, std::vector<std::string> notes);
+
+/// How each ended, one sentence a side; then what differs at the end that both reach steadily.
+std::vector<std::string> in_words(const DriveSides& drive);
+
+/// Where the motor's work went: a name and J of each side (absent: the side doesn't know it), the rest last.
+struct DriveWorkRow {
+  std::string name;
+  std::vector<std::optional<double>> joules;
+};
+std::vector<DriveWorkRow> work_rows(const DriveSides& drive);
+
+/// Travelled way, speed, slip, sinkage, torque and work against time, a colour for each side; steady means of grains
+/// with their errors as bands.
+Sheet drive_sheet(const DriveSides& drive);
+
+/// soilbin-drive-sides/1, in SI.
+nlohmann::ordered_json to_json(const DriveSides& drive);
+
+/// A line a sample, the model's name first; SI, angles in degrees.
+std::string drive_csv(const DriveSides& drive);
+
+std::string drive_page(const DriveSides& drive, const PageAbout& about);
+
+}  // namespace soilbin::compare

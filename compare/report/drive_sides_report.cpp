@@ -1,0 +1,256 @@
+// The same drive by two models as a sheet, JSON, CSV and a page.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "compare/report/drive_sides.hpp"
+#include "compare/report/number_text.hpp"
+#include "compare/report/page.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Get = std::function<double(const DriveSideSample&)>;
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double degree = std::numbers::pi / 180;
+
+struct Column {
+  const char* name;
+  Get get;
+};
+
+const std::vector<Column>& columns() {
+  using S = DriveSideSample;
+  static const std::vector<Column> all = {
+      {"time_s", [](const S& s) { return s.time; }},
+      {"travelled_m", [](const S& s) { return s.travelled; }},
+      {"speed_m_s", [](const S& s) { return s.speed; }},
+      {"rim_speed_m_s", [](const S& s) { return s.rim_speed; }},
+      {"slip", [](const S& s) { return s.slip.value_or(not_a_number); }},
+      {"sinkage_m", [](const S& s) { return s.sinkage; }},
+      {"torque_Nm", [](const S& s) { return s.torque; }},
+      {"soil_force_N", [](const S& s) { return s.forward; }},
+      {"lateral_force_N", [](const S& s) { return s.lateral; }},
+      {"drawbar_N", [](const S& s) { return s.drawbar; }},
+      {"longitudinal_incline_deg", [](const S& s) { return s.longitudinal_incline / degree; }},
+      {"motor_J", [](const S& s) { return s.energy.motor; }},
+      {"kinetic_J", [](const S& s) { return s.energy.kinetic; }},
+      {"height_J", [](const S& s) { return s.energy.height; }},
+      {"drawbar_J", [](const S& s) { return s.energy.drawbar; }},
+      {"soil_J", [](const S& s) { return s.soil; }},
+  };
+  return all;
+}
+
+/// One quantity over time; `steady`: its mean where nothing changes any more.
+struct Panel {
+  const char* title;
+  double per_si;
+  Get get;
+  Estimate dem::SteadyDrive::*steady = nullptr;
+};
+
+/// The mean of grains over the time that it is a mean of, with its error.
+Series steady_line(const DriveSide& side, const Panel& panel, int color) {
+  const Estimate mean = (*side.steady).*panel.steady;
+  Series line;
+  line.label = side.label + ", steady";
+  line.x = {side.steady->from, side.steady->to};
+  line.y.assign(2, panel.per_si * mean.value);
+  line.error.assign(2, panel.per_si * mean.std_error);
+  line.color = color, line.dash = 1;
+  return line;
+}
+
+Plot plot_of(const DriveSides& drive, const Panel& panel) {
+  Plot plot{panel.title, {"time [s]", {}, {}}, {}, {}, false};
+  for (std::size_t i = 0; i < drive.sides.size(); ++i) {
+    const DriveSide& side = drive.sides[i];
+    Series series;
+    series.label = side.label;
+    series.color = static_cast<int>(i);
+    for (const DriveSideSample& sample : side.samples) {
+      series.x.push_back(sample.time);
+      series.y.push_back(panel.per_si * panel.get(sample));
+    }
+    plot.series.push_back(std::move(series));
+  }
+  constexpr int after_sides = 2;
+  for (const DriveSide& side : drive.sides)
+    if (panel.steady && side.steady && side.kind == SideKind::grains)
+      plot.series.push_back(steady_line(side, panel, after_sides));
+  return plot;
+}
+
+Json to_json(const Estimate& value) { return {{"value", value.value}, {"std_error", value.std_error}}; }
+
+Json to_json(const dem::SteadyDrive& steady) {
+  return {{"from", steady.from},
+          {"to", steady.to},
+          {"speed", to_json(steady.speed)},
+          {"rim_speed", to_json(steady.rim_speed)},
+          {"slip", to_json(steady.slip)},
+          {"sinkage", to_json(steady.sinkage)},
+          {"torque", to_json(steady.torque)},
+          {"soil_force", to_json(steady.forward)},
+          {"steady", steady.steady},
+          {"drift", steady.drift}};
+}
+
+Json happenings_json(const std::vector<DriveHappening>& happenings) {
+  Json rows = Json::array();
+  for (const DriveHappening& h : happenings)
+    rows.push_back({{"time", h.time}, {"travelled", h.travelled}, {"what", std::string(word_of(h.what))}});
+  return rows;
+}
+
+Json to_json(const DriveSide& side) {
+  const DriveSideSample& end = side.samples.back();
+  Json row = {{"model", side.label},
+              {"end", std::string(word_of(side.end))},
+              {"end_time", side.end_time},
+              {"travelled", end.travelled},
+              {"happenings", happenings_json(side.happenings)}};
+  row["steady"] = side.steady ? to_json(*side.steady) : Json(nullptr);
+  if (!side.not_steady.empty()) row["not_steady"] = side.not_steady;
+  row["energy"] = {{"motor", end.energy.motor},
+                   {"kinetic", end.energy.kinetic},
+                   {"height", end.energy.height},
+                   {"drawbar", end.energy.drawbar},
+                   {"soil", end.soil},
+                   {"unaccounted", end.energy.left() - end.soil}};
+  row["soil_parts"] = Json::object();
+  for (const auto& [name, joules] : side.soil_parts) row["soil_parts"][name] = joules;
+  row["samples"] = Json::object();
+  for (const Column& column : columns()) {
+    Json& values = row["samples"][column.name] = Json::array();
+    for (const DriveSideSample& sample : side.samples) {
+      const double value = column.get(sample);
+      values.push_back(std::isfinite(value) ? Json(value) : Json(nullptr));
+    }
+  }
+  return row;
+}
+
+HtmlTable differences_table(const DriveSides& drive) {
+  HtmlTable table{
+      "± is one standard error: of the analytic wheel the soil's doubt, of grains block averages of one run",
+      {"steadily", "bekker_wong", "dem", "difference", ""},
+      {},
+      {true, false, false, false, true}};
+  for (const DriveDifference& row : drive.differences)
+    table.rows.push_back({fmt::format("{} [{}]", row.name, row.unit), number(row.analytic, row.per_si),
+                          number(row.grains, row.per_si), number({row.difference, row.std_error}, row.per_si),
+                          std::string(words(row.finding))});
+  return table;
+}
+
+HtmlTable work_table(const DriveSides& drive) {
+  HtmlTable table{"Of the motor's work in all", {"J"}, {}, {true}};
+  for (const DriveSide& side : drive.sides) table.header.push_back(side.label), table.text_columns.push_back(false);
+  for (const DriveWorkRow& work : work_rows(drive)) {
+    std::vector<std::string> row{work.name};
+    for (const std::optional<double>& joules : work.joules) row.push_back(joules ? number(*joules) : "");
+    table.rows.push_back(std::move(row));
+  }
+  std::vector<std::string> all{"motor's work"};
+  for (const DriveSide& side : drive.sides) all.push_back(number(side.samples.back().energy.motor));
+  table.rows.push_back(std::move(all));
+  return table;
+}
+
+HtmlTable happenings_table(const DriveSides& drive) {
+  HtmlTable table{"", {"model", "time [s]", "travelled [m]", "what happened"}, {}, {true, false, false, true}};
+  for (const DriveSide& side : drive.sides) {
+    for (const DriveHappening& h : side.happenings)
+      table.rows.push_back({side.label, number(h.time), number(h.travelled), std::string(word_of(h.what))});
+    table.rows.push_back(
+        {side.label, number(side.end_time), number(side.samples.back().travelled), std::string(word_of(side.end))});
+  }
+  return table;
+}
+
+}  // namespace
+
+Sheet drive_sheet(const DriveSides& drive) {
+  using S = DriveSideSample;
+  using M = dem::SteadyDrive;
+  Sheet sheet{drive.question.name, {}, Palette::named};
+  for (const Panel& panel : std::initializer_list<Panel>{
+           {"Travelled [m]", 1, [](const S& s) { return s.travelled; }},
+           {"Speed [cm/s]", 100, [](const S& s) { return s.speed; }, &M::speed},
+           {"Slip [%]", 100, [](const S& s) { return s.slip.value_or(not_a_number); }, &M::slip},
+           {"Sinkage [mm]", 1000, [](const S& s) { return s.sinkage; }, &M::sinkage},
+           {"Torque [N m]", 1, [](const S& s) { return s.torque; }, &M::torque},
+           {"Force of the soil along travel [N]", 1, [](const S& s) { return s.forward; }, &M::forward},
+           {"Motor's work [J]", 1, [](const S& s) { return s.energy.motor; }},
+           {"Work given to the soil [J]", 1, [](const S& s) { return s.soil; }}})
+    sheet.plots.push_back(plot_of(drive, panel));
+  return sheet;
+}
+
+Json to_json(const DriveSides& drive) {
+  Json document = {{"format", "soilbin-drive-sides/1"},
+                   {"case", drive.question.name},
+                   {"tire", drive.question.scenario.tire.name},
+                   {"soil", drive.question.scenario.soil.name}};
+  document["sides"] = Json::array();
+  for (const DriveSide& side : drive.sides) document["sides"].push_back(to_json(side));
+  document["differences"] = Json::array();
+  for (const DriveDifference& row : drive.differences)
+    document["differences"].push_back({{"of", row.name},
+                                       {"analytic", to_json(row.analytic)},
+                                       {"grains", to_json(row.grains)},
+                                       {"difference", row.difference},
+                                       {"std_error", row.std_error},
+                                       {"finding", std::string(word(row.finding))}});
+  document["notes"] = drive.notes;
+  return document;
+}
+
+std::string drive_csv(const DriveSides& drive) {
+  std::string text = "model";
+  for (const Column& column : columns()) text += "," + std::string(column.name);
+  for (const DriveSide& side : drive.sides)
+    for (const DriveSideSample& sample : side.samples) {
+      text += "\n" + side.label;
+      for (const Column& column : columns()) {
+        const double value = column.get(sample);
+        text += std::isfinite(value) ? fmt::format(",{}", value) : ",";
+      }
+    }
+  return text + "\n";
+}
+
+std::string drive_page(const DriveSides& drive, const PageAbout& about) {
+  Page page(about.title, drive.question.description);
+  std::vector<std::pair<std::string, std::string>> sentences;
+  for (const std::string& sentence : in_words(drive)) sentences.emplace_back("", sentence);
+  page.summary(sentences);
+  page.section("Against time");
+  page.figure(
+      drive_sheet(drive),
+      "Instants of the analytic wheel; of grains means since the sample before. Dashed: mean of the grains where "
+      "way and motor no longer change, with its standard error.");
+  if (!drive.differences.empty()) {
+    page.section("Where nothing changes any more");
+    page.table(differences_table(drive));
+  }
+  page.section("Where the motor's work went");
+  page.table(work_table(drive));
+  page.section("On the way");
+  page.table(happenings_table(drive));
+  page.section("Made by");
+  page.code(about.command);
+  std::vector<std::string> facts = drive.notes;
+  for (const auto& [name, version] : about.versions) facts.push_back(name + " " + version);
+  page.list(facts);
+  return page.html();
+}
+
+}  // namespace soilbin::compare
