@@ -46,19 +46,35 @@ bekker_wong::DriveProgress progress_in_time() {
   };
 }
 
+/// So many of the samples, evenly, the first and the last among them.
+template <class Sample>
+std::vector<Sample> picked(const std::vector<Sample>& samples, std::size_t rows) {
+  std::vector<Sample> some;
+  rows = std::min(rows, samples.size());
+  for (std::size_t row = 0; row < rows; ++row)
+    some.push_back(samples[rows == 1 ? 0 : row * (samples.size() - 1) / (rows - 1)]);
+  return some;
+}
+
+/// Writes what is asked for as files.
+template <class Answer>
+void save(const DriveOptions& options, const Answer& answer, const std::string& title, const Session& session) {
+  if (!options.csv.empty()) write_file_atomically(options.csv, compare::drive_csv(answer));
+  if (!options.plot.empty()) write_file_atomically(options.plot, compare::svg(compare::drive_sheet(answer)));
+  if (!options.report.empty())
+    write_file_atomically(options.report, compare::drive_page(answer, {title, session.command, versions()}));
+}
+
 std::string slip_text(const DriveState& s) { return s.slip ? number(100 * *s.slip) : "-"; }
 
 /// A dozen of the samples, the last among them.
 std::string samples_text(const bekker_wong::DriveRecord& record) {
   TextTable table({"time [s]", "travelled [m]", "slope [deg]", "speed [cm/s]", "rim [cm/s]", "slip [%]", "sinkage [mm]",
                    "torque [N m]", "soil force [N]"});
-  const std::size_t count = record.samples.size(), rows = std::min(count, shown_rows);
-  for (std::size_t row = 0; row < rows; ++row) {
-    const bekker_wong::DriveSample& s = record.samples[rows == 1 ? 0 : row * (count - 1) / (rows - 1)];
+  for (const bekker_wong::DriveSample& s : picked(record.samples, shown_rows))
     table.add({number(s.time), number(s.travelled), number(s.longitudinal_incline * 180 / std::numbers::pi),
                number(100 * s.speed), number(100 * s.rim_speed), slip_text(s), number(1000 * s.sinkage),
                number(s.torque), number(s.forward)});
-  }
   return table.text();
 }
 
@@ -79,13 +95,9 @@ std::string drive_text(const compare::DrivePart& part) {
   return text + "\n" + energy_text(part.record.samples.back().energy);
 }
 
-int drive_analytically(const DriveOptions& options, const Case& question) {
+int drive_analytically(const DriveOptions& options, const Case& question, const Session& session) {
   const compare::DrivePart part = compare::run_drive(question, options.samples, progress_in_time());
-  if (!options.csv.empty()) write_file_atomically(options.csv, compare::drive_csv(part));
-  if (!options.plot.empty()) write_file_atomically(options.plot, compare::svg(compare::drive_sheet(part)));
-  if (!options.report.empty())
-    write_file_atomically(options.report,
-                          compare::drive_page(part, {question.name, "soilbin drive " + options.name, versions()}));
+  save(options, part, question.name, session);
   fmt::print("{}", options.json ? compare::json_text(compare::to_json(part)) : drive_text(part));
   return done;
 }
@@ -127,15 +139,11 @@ dem::GrainDriveRecord drive_on_grains(const DriveOptions& options, const Case& q
 std::string sides_samples_text(const compare::DriveSides& drive) {
   TextTable table({"model", "time [s]", "travelled [m]", "slope [deg]", "speed [cm/s]", "slip [%]", "sinkage [mm]",
                    "torque [N m]", "soil force [N]"});
-  for (const compare::DriveSide& side : drive.sides) {
-    const std::size_t count = side.samples.size(), rows = std::min(count, shown_rows / 2);
-    for (std::size_t row = 0; row < rows; ++row) {
-      const compare::DriveSideSample& s = side.samples[rows == 1 ? 0 : row * (count - 1) / (rows - 1)];
+  for (const compare::DriveSide& side : drive.sides)
+    for (const compare::DriveSideSample& s : picked(side.samples, shown_rows / 2))
       table.add({side.label, number(s.time), number(s.travelled),
                  number(s.longitudinal_incline * 180 / std::numbers::pi), number(100 * s.speed), slip_text(s),
                  number(1000 * s.sinkage), number(s.torque), number(s.forward)});
-    }
-  }
   return table.text();
 }
 
@@ -177,21 +185,14 @@ std::string sides_text(const compare::DriveSides& drive) {
   return text;
 }
 
-int drive_with_grains(const DriveOptions& options, const Case& question) {
+int drive_with_grains(const DriveOptions& options, const Case& question, const Session& session) {
   std::vector<compare::DriveSide> sides;
   if (options.model == "both")
     sides.push_back(compare::analytic_side(compare::run_drive(question, options.samples, progress_in_time())));
   std::vector<std::string> notes;
   sides.push_back(compare::grain_side(drive_on_grains(options, question, notes)));
   const compare::DriveSides drive = compare::side_by_side(question, std::move(sides), std::move(notes));
-  if (!options.csv.empty()) write_file_atomically(options.csv, compare::drive_csv(drive));
-  if (!options.plot.empty()) write_file_atomically(options.plot, compare::svg(compare::drive_sheet(drive)));
-  if (!options.report.empty())
-    write_file_atomically(
-        options.report,
-        compare::drive_page(
-            drive,
-            {question.name, fmt::format("soilbin drive {} --model {}", options.name, options.model), versions()}));
+  save(options, drive, question.name, session);
   fmt::print("{}", options.json ? compare::json_text(compare::to_json(drive)) : sides_text(drive));
   return done;
 }
@@ -202,7 +203,8 @@ int drive(const DriveOptions& options, const Session& session) {
   if (!question.drive)
     throw InputError(fmt::format("{}: the case has no section 'drive'\n  hint: soilbin run {} answers its study",
                                  options.name, options.name));
-  return options.model == "bekker_wong" ? drive_analytically(options, question) : drive_with_grains(options, question);
+  return options.model == "bekker_wong" ? drive_analytically(options, question, session)
+                                        : drive_with_grains(options, question, session);
 }
 
 }  // namespace

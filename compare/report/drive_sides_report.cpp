@@ -7,13 +7,13 @@
 #include <numbers>
 
 #include "compare/report/drive_sides.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Get = std::function<double(const DriveSideSample&)>;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -87,17 +87,15 @@ Plot plot_of(const DriveSides& drive, const Panel& panel) {
   return plot;
 }
 
-Json to_json(const Estimate& value) { return {{"value", value.value}, {"std_error", value.std_error}}; }
-
 Json to_json(const dem::SteadyDrive& steady) {
   return {{"from", steady.from},
           {"to", steady.to},
-          {"speed", to_json(steady.speed)},
-          {"rim_speed", to_json(steady.rim_speed)},
-          {"slip", to_json(steady.slip)},
-          {"sinkage", to_json(steady.sinkage)},
-          {"torque", to_json(steady.torque)},
-          {"soil_force", to_json(steady.forward)},
+          {"speed", estimate_json(steady.speed)},
+          {"rim_speed", estimate_json(steady.rim_speed)},
+          {"slip", estimate_json(steady.slip)},
+          {"sinkage", estimate_json(steady.sinkage)},
+          {"torque", estimate_json(steady.torque)},
+          {"soil_force", estimate_json(steady.forward)},
           {"steady", steady.steady},
           {"drift", steady.drift}};
 }
@@ -204,8 +202,8 @@ Json to_json(const DriveSides& drive) {
   document["differences"] = Json::array();
   for (const DriveDifference& row : drive.differences)
     document["differences"].push_back({{"of", row.name},
-                                       {"analytic", to_json(row.analytic)},
-                                       {"grains", to_json(row.grains)},
+                                       {"analytic", estimate_json(row.analytic)},
+                                       {"grains", estimate_json(row.grains)},
                                        {"difference", row.difference},
                                        {"std_error", row.std_error},
                                        {"finding", std::string(word(row.finding))}});
