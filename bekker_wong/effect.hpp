@@ -102,8 +102,12 @@ struct EffectParameter {
   double upper = 0.0;     ///< [SI]
   std::string meaning;
   /// "moisture", "position" or "run" where this is a reference value about which the effect is centred: the loop then
-  /// sets it to the campaign's mean and does not fit it. Empty for every other parameter.
+  /// sets it to the campaign's mean. Empty for every other parameter.
   std::string centred_on = {};
+  /// Of a shape parameter (not the amplitude): the standard deviation about its default with which the loop fits it
+  /// [SI]. 0: half the default or 1 % of its range. Of a reference value: in half the campaign's range of that
+  /// condition; 0: not fitted.
+  double spread = 0.0;
 };
 
 /// One published (or stated) form of an effect. parameters[0] is its amplitude: at 0 the form is the base model.

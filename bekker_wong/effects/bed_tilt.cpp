@@ -43,6 +43,32 @@ class Across final : public Effect {
   double tilt_;
 };
 
+/// The bed leans in any direction: along, and across by a multiple of that.
+class AlongAndAcross final : public Effect {
+ public:
+  explicit AlongAndAcross(const std::vector<double>& p) : tilt_(p[0]), across_(p[0] * p[1]) {}
+  void sensor(Reading& reading, const Surroundings& around) const override {
+    add_force_of_travel(reading, leak_along(around.at, tilt_), leak_across(around.at, across_), around.at);
+  }
+
+ private:
+  double tilt_, across_;
+};
+
+/// The bed sags or crowns: its slope grows along the bin, level at x_ref.
+class Sagging final : public Effect {
+ public:
+  explicit Sagging(const std::vector<double>& p) : growth_(p[0]), level_(p[1]) {}
+  void sensor(Reading& reading, const Surroundings& around) const override {
+    if (!around.at.position) return;
+    const double tilt = std::atan(growth_ * (*around.at.position - level_));
+    add_force_of_travel(reading, leak_along(around.at, tilt), 0.0, around.at);
+  }
+
+ private:
+  double growth_, level_;
+};
+
 /// The bed truly tilts: the leak, and only W cos(alpha + a) cos(beta_t) presses on the ground.
 class AlongWithLoad final : public Effect {
  public:
@@ -95,6 +121,26 @@ std::vector<EffectForm> bed_tilt_forms() {
        .form_tolerance = 0.05,
        .steady_only = of_an_instrument,
        .make = maker<AlongWithLoad>()},
+      {.id = id,
+       .form = "along_and_across",
+       .equation = "F_DP - W [sin(alpha + a) - sin(alpha)], F_y - W cos(alpha) [sin(beta_t + e a) - sin(beta_t)]",
+       .source = source,
+       .parameters = {{"a", "deg", 0.5 * degree, -10 * degree, 10 * degree, "tilt along travel, uphill positive"},
+                      {"e", "-", 0.0, -9.0, 9.0, "cross tilt over the tilt along travel", "", 1.0}},
+       .measurement = true,
+       .form_tolerance = 0.05,
+       .steady_only = of_an_instrument,
+       .make = maker<AlongAndAcross>()},
+      {.id = id,
+       .form = "sagging",
+       .equation = "along, by a tilt of atan(a (x - x_ref)); nothing where a run has no position",
+       .source = "stated here: the least even bed, of constant curvature",
+       .parameters = {{"a", "1/m", 0.005, -0.2, 0.2, "curvature of the bed along the bin"},
+                      {"x_ref", "m", 0.0, -1e4, 1e4, "where the bed is level", "position", 1.0}},
+       .measurement = true,
+       .form_tolerance = 0.05,
+       .steady_only = of_an_instrument,
+       .make = maker<Sagging>()},
   };
 }
 

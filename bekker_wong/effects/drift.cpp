@@ -49,7 +49,10 @@ class ZeroDrift final : public Effect {
   double amplitude_, reference_;
 };
 
-EffectParameter reference_run() { return {"run_ref", "-", 1.0, -1e6, 1e6, "run in which all is as declared", "run"}; }
+/// When the instruments were zeroed and the soil was tested is seldom known: before the first run, or in between.
+EffectParameter reference_run() {
+  return {"run_ref", "-", 1.0, -1e6, 1e6, "run in which all is as declared", "run", 1.0};
+}
 
 template <Scale scale, Clock clock>
 EffectForm soil_form(const char* form, const char* equation, double usual, double limit, const char* meaning) {

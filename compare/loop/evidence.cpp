@@ -112,7 +112,7 @@ std::vector<MatrixXd> row_families(const Observations& observations) {
   with_offset << VectorXd::Ones(rows), smooth;
   std::vector<MatrixXd> families = {with_offset};
   for (const Covariate& c : covariates(observations))
-    if (c.name == "slip" || c.name == "position" || c.name == "run")
+    if (c.name == "slip" || c.name == "load" || c.name == "position" || c.name == "run")
       families.push_back(waves(c.values, std::clamp(static_cast<int>(rows) / 10, 1, 5)));
   return families;
 }

@@ -34,11 +34,13 @@ constexpr double ambiguity_base = 4.0;      // ln evidence by which a set may st
 constexpr double ambiguity_growth = 0.03;   // and more for each ln evidence that the best one gains
 constexpr double ambiguity_cells = 200.0;   // measured values below which both grow, as their root,
 constexpr double ambiguity_most = 2.0;      // at most twofold
-constexpr double superset_allowed = -1.0;   // the same for sets that hold the best one and more
+constexpr double superset_allowed = 2.0;    // the same for sets that hold the best one and more
 constexpr double odds_enough = 3.0;         // ln 20 to 1 over the base model, price paid
-constexpr double second_test_level = 0.01;  // of lack of fit after the best named effects
-constexpr double unexplained_share = 0.4;   // of the base model's excess chi2: above it the best name is no name
-constexpr double unnamed_alone = 3.0;       // ln 20 over the base model: P(by chance) <= 5 % (Kass and Raftery 1995)
+constexpr double second_test_level = 0.1;   // of lack of fit after the best named effects: the noise was estimated
+                                            // beside a smooth function, so that it seldom falls under 0.3 by chance
+constexpr double unexplained_share = 0.15;  // of the base model's excess chi2 that a form 40 % off would leave
+constexpr double first_test_level = 0.02;   // of lack of fit where no effect is named
+constexpr double unnamed_alone = 2.0;       // ln evidence over the base model where no effect is named
 constexpr double unnamed_after = 1.0;       // ln evidence beyond the best named effects
 
 std::vector<std::string> not_testable(const Campaign& campaign, const Identification& id) {
@@ -155,20 +157,27 @@ void describe_effects(const Campaign& campaign, LoopAnswer& answer, const Identi
   }
 }
 
+/// Where no effect is accepted: whether the residual is real all the same. Then the verdict is `unknown_effect`.
+bool unnamed_residual(LoopAnswer& answer) {
+  const Identification& id = answer.details;
+  const bool patterned = id.unnamed_gain > unnamed_alone;
+  if (!patterned && answer.before.p_value > first_test_level) return false;
+  answer.verdict = Verdict::unknown_effect;
+  answer.reason = fmt::format("no effect of the catalogue is accepted (p = {:.3g}), but ", id.p_value);
+  answer.reason += patterned ? fmt::format(
+                                   "a function of the conditions that none of them makes explains the residual "
+                                   "e^{:.1f} times better than noise",
+                                   id.unnamed_gain)
+                             : fmt::format("the residual is more than noise (p = {:.2g})", answer.before.p_value);
+  return true;
+}
+
 void decide(const Campaign& campaign, LoopAnswer& answer) {
   const Identification& id = answer.details;
   const CrossValidation& cv = answer.validation;
   const bool improves = confirmed(answer);
   if (!id.best) {
-    const double unnamed = id.unnamed_gain;
-    if (unnamed > unnamed_alone) {
-      answer.verdict = Verdict::unknown_effect;
-      answer.reason = fmt::format(
-          "no effect of the catalogue passes its test (p = {:.3g}), but a smooth function of the conditions explains "
-          "the residual e^{:.1f} times better than noise",
-          id.p_value, unnamed);
-      return;
-    }
+    if (unnamed_residual(answer)) return;
     answer.verdict = Verdict::nothing_missing;
     answer.reason =
         fmt::format("the strongest of all effects reaches p = {:.3g} among the whole catalogue", id.p_value);
@@ -191,6 +200,7 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
     return;
   }
   if (!improves) {
+    if (unnamed_residual(answer)) return;
     answer.verdict = Verdict::nothing_missing;
     answer.reason = fmt::format(
         "the best effect fits (p = {:.2g}) but does not predict held-out conditions better "

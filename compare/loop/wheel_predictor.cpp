@@ -38,17 +38,22 @@ constexpr std::array<SoilSlot, 8> soil_slots = {{
     {"stress_angle_c2", &SoilValues::c2, &SemiEmpiricalSoil::stress_angle_c2, -0.5, 0.98},
 }};
 
-double mean_of(const std::string& covariate, const Observations& observations, double fallback) {
-  double sum = 0.0;
+/// Mean and half range of a covariate.
+struct Extent {
+  double mean, half_range;
+};
+
+Extent extent_of(const std::string& covariate, const Observations& observations, double fallback) {
+  double sum = 0.0, least = unbounded, most = -unbounded;
   int count = 0;
   for (const OperatingCondition& at : observations.rows) {
     const auto value = covariate == "moisture"   ? at.moisture
                        : covariate == "position" ? at.position
                        : at.run                  ? std::optional<double>(*at.run)
                                                  : std::nullopt;
-    if (value) sum += *value, ++count;
+    if (value) sum += *value, ++count, least = std::min(least, *value), most = std::max(most, *value);
   }
-  return count > 0 ? sum / count : fallback;
+  return count > 0 ? Extent{sum / count, 0.5 * (most - least)} : Extent{fallback, 0.0};
 }
 
 bool finite(const Reading& r) {
@@ -72,13 +77,15 @@ double channel_of(const Reading& reading, int channel) {
 }
 
 Term make_term(const bekker_wong::EffectForm& form, const Observations& observations, bool free_shape) {
-  Term term{.form = &form, .defaults = {}, .free = {0}};
+  Term term{.form = &form, .defaults = {}, .free = {0}, .spread = {}};
   for (std::size_t i = 0; i < form.parameters.size(); ++i) {
     const EffectParameter& p = form.parameters[i];
     const bool centre = !p.centred_on.empty();
-    term.defaults.push_back(centre ? std::clamp(mean_of(p.centred_on, observations, p.fallback), p.lower, p.upper)
-                                   : p.fallback);
-    if (free_shape && i > 0 && !centre && p.upper > p.lower) term.free.push_back(static_cast<int>(i));
+    const Extent extent = centre ? extent_of(p.centred_on, observations, p.fallback) : Extent{p.fallback, 1.0};
+    term.defaults.push_back(std::clamp(extent.mean, p.lower, p.upper));
+    term.spread.push_back(p.spread * extent.half_range);
+    if (free_shape && i > 0 && p.upper > p.lower && (!centre || term.spread.back() > 0.0))
+      term.free.push_back(static_cast<int>(i));
   }
   return term;
 }
@@ -100,7 +107,8 @@ WheelPredictor::WheelPredictor(const Campaign& campaign, const Observations& obs
       const EffectParameter& p = term.form->parameters[static_cast<std::size_t>(i)];
       const double start = term.defaults[static_cast<std::size_t>(i)];
       const double reach = std::max(std::abs(p.fallback), 0.02 * (p.upper - p.lower));
-      const double sd = i == 0 ? unbounded : std::min(0.5 * reach, 0.25 * (p.upper - p.lower));
+      const double stated = term.spread[static_cast<std::size_t>(i)];
+      const double sd = i == 0 ? unbounded : stated > 0.0 ? stated : std::min(0.5 * reach, 0.25 * (p.upper - p.lower));
       parameters_.push_back({term.form->id + "." + p.name, start, sd, p.lower, p.upper, i == 0 ? reach : sd});
     }
   }

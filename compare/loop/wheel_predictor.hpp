@@ -30,9 +30,11 @@ struct Term {
   const bekker_wong::EffectForm* form = nullptr;
   std::vector<double> defaults;  ///< parameters' values to start from [SI], reference values already centred
   std::vector<int> free;         ///< indices of the parameters that a fit moves; 0 is the amplitude
+  std::vector<double> spread;    ///< sd of each parameter's prior about its default [SI]; 0: none stated
 };
 
-/// A form with its reference values set to the observations' means (moisture, position, run).
+/// A form with its reference values set to the observations' means (moisture, position, run). free_shape: the other
+/// parameters move as well, a reference value where its form says that nobody knows it.
 Term make_term(const bekker_wong::EffectForm& form, const Observations& observations, bool free_shape);
 
 /// What one prediction tells the next.

@@ -7,6 +7,7 @@ namespace {
 TEST(BedTilt, ZeroAmplitudeIsTheBaseModel) {
   OperatingCondition at = driven();
   at.longitudinal_incline = 5 * deg, at.transverse_incline = -3 * deg, at.yaw = 20 * deg;
+  at.position = 2.5;
   expect_base_at_zero("bed_tilt", at);
   at.force_frame = ForceFrame::wheel;
   expect_base_at_zero("bed_tilt", at);
@@ -32,6 +33,28 @@ TEST(BedTilt, LeakAcrossGoesIntoTheLateralForce) {
   const Reading b = base(driven()), e = with({"bed_tilt", "across", {{"a", 2 * deg}}}, driven());
   EXPECT_NEAR(e.lateral_force - b.lateral_force, -800 * 0.0348994967025, 1e-9);
   EXPECT_EQ(e.drawbar_pull, b.drawbar_pull);
+}
+
+// A bed that leans both ways leaks into both forces: e = -0.5 is half the tilt, right side up.
+TEST(BedTilt, LeansInAnyDirection) {
+  const Reading b = base(driven()), e = with({"bed_tilt", "along_and_across", {{"a", 2 * deg}, {"e", -0.5}}}, driven());
+  EXPECT_NEAR(e.drawbar_pull - b.drawbar_pull, -800 * 0.0348994967025, 1e-9);
+  EXPECT_NEAR(e.lateral_force - b.lateral_force, 800 * 0.0174524064373, 1e-9);
+  EXPECT_EQ(e.torque, b.torque);
+}
+
+// A bed of curvature 0.02/m that is level at 1 m rises by 4 % at 3 m and falls by as much at -1 m; where a run has no
+// position nothing is known.
+TEST(BedTilt, SaggingBedIsLevelAtOnePlace) {
+  const EffectChoice effect{"bed_tilt", "sagging", {{"a", 0.02}, {"x_ref", 1.0}}};
+  for (const auto& [position, rise] : {std::pair{3.0, 0.04}, {1.0, 0.0}, {-1.0, -0.04}}) {
+    OperatingCondition at = driven();
+    at.position = position;
+    const Reading b = base(at), e = with(effect, at);
+    EXPECT_NEAR(e.drawbar_pull - b.drawbar_pull, -800 * rise / std::hypot(1.0, rise), 1e-9);
+    EXPECT_EQ(e.sinkage, b.sinkage);
+  }
+  expect_same_bits(with(effect, driven()), base(driven()));
 }
 
 // Yawed by 30 deg to the left and measured in the wheel's plane, the backward force -W sin(a) has cos(30 deg) of itself

@@ -23,6 +23,18 @@ TEST(PressureDependentShearModulus, ZeroAmplitudeIsTheBaseModel) {
   expect_heard(id, driven());
 }
 
+// Where the shear test pressed with b p0, the declared K holds there: f(b) = 1.
+TEST(PressureDependentShearModulus, DeclaredModulusHoldsAtThePivot) {
+  const double p0 = sand().pressure_modulus(width) * std::pow(0.15 * radius, sand().exponent);
+  const ContactPatch linear = patch({id, "linear", {{"a", 2.0}, {"b", 0.5}}});
+  const ContactPatch power = patch({id, "power", {{"m", 0.4}, {"b", 3.0}}});
+  for (int i = 0; i < linear.count; ++i) {
+    const double x = std::max(linear.sigma[i] / p0, 0.02), y = std::max(power.sigma[i] / p0, 0.02);
+    EXPECT_NEAR(linear.modulus[i], 0.02 * (1 + 2 * x) / 2, 1e-12);
+    EXPECT_NEAR(power.modulus[i], 0.02 * std::pow(y / 3, 0.4), 1e-12);
+  }
+}
+
 // K is softer than declared above p_0 and harder below it: at little slip the heavy wheel loses torque and pull, the
 // light wheel gains.
 TEST(PressureDependentShearModulus, HeavyWheelsLoseLightWheelsGain) {

@@ -73,6 +73,19 @@ TEST(Loop, NamesTwoEffects) {
   EXPECT_TRUE(multipass);
 }
 
+// A torque sensor zeroed before the first run creeps from there: half a line about the mean run and half an offset, but
+// one effect.
+TEST(Loop, CountsADriftFromWhicheverRun) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {{"drift", "torque", {{"a", 0.5}, {"run_ref", 1.0}}}}, fine_noise, 29);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
+  EXPECT_EQ(answer.ambiguity_set.front().ids, (std::set<std::string>{"drift"}));
+  ASSERT_EQ(answer.effects.size(), 1u);
+  EXPECT_NE(std::find(answer.effects[0].fitted.begin(), answer.effects[0].fitted.end(), "run_ref"),
+            answer.effects[0].fitted.end());
+}
+
 // Each accepted effect has a p-value of its own beside the other, and the soil's bias is told for each free value.
 TEST(Loop, TellsWhatEachEffectRestsOn) {
   Campaign campaign = sand_campaign();

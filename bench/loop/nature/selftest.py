@@ -163,10 +163,19 @@ def nulls(check):
         check.true(f"same seed, same bytes ({len(texts[0])} files)", texts[0] == texts[1])
 
 
+def refits(check):
+    """Derivatives of a refit never ask for what physics forbids: at a bound they are one-sided."""
+    low, high = np.array([0.0, -5.0]), np.array([9.0, 5.0])
+    curve = lambda u: np.array([u[0] ** 1.5 + 3 * u[1], np.sqrt(u[0] + 1e-9)])  # no number at u[0] < 0
+    middle, edge = (sensitivity.slopes(curve, np.array([u0, 1.0]), low, high) for u0 in (4.0, 0.0))
+    check.near("slope of u^1.5 at 4", middle[0, 0], 3.0, 1e-4)
+    check.true("slopes at a bound are numbers", bool(np.isfinite(edge).all()) and abs(edge[0, 1] - 3) < 1e-9)
+
+
 def run():
     """All checks; 0 where all hold."""
     check = Checks()
-    for part in (closed_forms, points, invariants, forms, nulls):
+    for part in (closed_forms, points, invariants, forms, refits, nulls):
         part(check)
     print("self-test: " + ("all good" if not check.failed else f"{check.failed} FAILED"))
     return int(check.failed > 0)

@@ -63,18 +63,24 @@ def refit(world, fx, free=None):
         forms = [type(free)(free.a * u[8], free.shape)] if free else ()
         return np.concatenate([whiten(world, world.truth(forms, soil)) - want, u[:8]])
 
-    def slopes(u):
-        step = 0.02
-        return np.stack([(model(u + step * e) - model(u - step * e)) / (2 * step) for e in np.eye(len(u))], axis=1)
-
     low = [-0.95 * world.soil[k] / world.sd[k] if not k.startswith("stress") else -15.0 for k in base.SOIL_KEYS]
     low, high = np.array(low), 15.0 + np.abs(low)
     start = np.zeros(8)
     if free:
         top = type(free).LARGEST / abs(free.a)
         low, high, start = np.append(low, -top if free.SIGNED else 0.0), np.append(high, top * 1.01), np.append(start, 1.0)
-    found = least_squares(model, start, slopes, bounds=(low, high), method="trf", ftol=1e-4, xtol=1e-6, max_nfev=40)
+    found = least_squares(model, start, lambda u: slopes(model, u, low, high), bounds=(low, high), method="trf", ftol=1e-4,
+                          xtol=1e-6, max_nfev=40)
     return float(2 * found.cost)
+
+
+def slopes(model, u, low, high, step=0.02):
+    """Derivatives of model (a vector) at u, by columns: central differences, their ends held within the bounds.
+
+    A scale of an effect that physics keeps above 0 is 0 where the fit does without it: a step beyond has no balance.
+    """
+    ends = [(np.minimum(u + step * e, high), np.maximum(u - step * e, low)) for e in np.eye(len(u))]
+    return np.stack([(model(up) - model(down)) / (up - down).sum() for up, down in ends], axis=1)
 
 
 def whiten(world, channels):
