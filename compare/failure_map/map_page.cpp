@@ -60,7 +60,8 @@ HeatMap heat_map_of(const MapStory& story, double lug_height, double slip) {
   map.subtitle = "analytic less grains [% of the load]";
   map.x_title = heading(load.name, load.unit), map.y_title = heading(angle.name, angle.unit);
   map.limit = 300 * story.question.tolerance;
-  for (int c = 0; c < cells; ++c) map.x.push_back(fmt::format("{:.4g}", level_value(load, c, cells) * per_unit(load.unit)));
+  for (int c = 0; c < cells; ++c)
+    map.x.push_back(fmt::format("{:.4g}", level_value(load, c, cells) * per_unit(load.unit)));
   for (int r = cells - 1; r >= 0; --r) {
     map.y.push_back(in_units(angle, level_value(angle, r, cells)));
     std::vector<HeatCell> row;
