@@ -149,27 +149,16 @@ std::string sides_samples_text(const compare::DriveSides& drive) {
 
 std::string differences_text(const compare::DriveSides& drive) {
   if (drive.differences.empty()) return "";
-  TextTable table({"steadily", "bekker_wong", "dem", "difference", ""});
-  for (const compare::DriveDifference& row : drive.differences)
-    table.add({fmt::format("{} [{}]", row.name, row.unit), number(row.analytic, row.per_si),
-               number(row.grains, row.per_si), number({row.difference, row.std_error}, row.per_si),
-               std::string(compare::words(row.finding))});
-  return "\n" + table.text();
+  compare::HtmlTable table = compare::differences_table(drive);
+  table.caption.clear();
+  return "\n" + as_text(table);
 }
 
 std::string work_text(const compare::DriveSides& drive) {
-  std::vector<std::string> header{"of the motor's work [J]"};
-  for (const compare::DriveSide& side : drive.sides) header.push_back(side.label);
-  TextTable table(header);
-  for (const compare::DriveWorkRow& work : compare::work_rows(drive)) {
-    std::vector<std::string> row{work.name};
-    for (const std::optional<double>& joules : work.joules) row.push_back(joules ? number(*joules) : "");
-    table.add(row);
-  }
-  std::vector<std::string> all{"in all"};
-  for (const compare::DriveSide& side : drive.sides) all.push_back(number(side.samples.back().energy.motor));
-  table.add(all);
-  return "\n" + table.text();
+  compare::HtmlTable table = compare::work_table(drive);
+  table.caption.clear();
+  table.header.front() = "of the motor's work [J]", table.rows.back().front() = "in all";
+  return "\n" + as_text(table);
 }
 
 std::string sides_text(const compare::DriveSides& drive) {

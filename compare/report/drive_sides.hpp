@@ -11,6 +11,7 @@
 #include "compare/discrepancy/difference.hpp"
 #include "compare/report/analysis_page.hpp"
 #include "compare/report/drive_report.hpp"
+#include "compare/report/page.hpp"
 #include "compare/report/plot.hpp"
 #include "dem/rig/drive_outcome.hpp"
 #include "scenario/case.hpp"
@@ -72,6 +73,11 @@ struct DriveWorkRow {
   std::vector<std::optional<double>> joules;
 };
 std::vector<DriveWorkRow> work_rows(const DriveSides& drive);
+
+/// Steady values of both sides and how they differ; a row each.
+HtmlTable differences_table(const DriveSides& drive);
+/// work_rows, the whole of it last [J].
+HtmlTable work_table(const DriveSides& drive);
 
 /// Travelled way, speed, slip, sinkage, torque and work against time, a colour for each side; steady means of grains
 /// with their errors as bands.

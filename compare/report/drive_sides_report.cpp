@@ -9,7 +9,6 @@
 #include "compare/report/drive_sides.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/report/page.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -127,13 +126,23 @@ Json to_json(const DriveSide& side) {
   row["samples"] = Json::object();
   for (const Column& column : columns()) {
     Json& values = row["samples"][column.name] = Json::array();
-    for (const DriveSideSample& sample : side.samples) {
-      const double value = column.get(sample);
-      values.push_back(std::isfinite(value) ? Json(value) : Json(nullptr));
-    }
+    for (const DriveSideSample& sample : side.samples) values.push_back(finite(column.get(sample)));
   }
   return row;
 }
+
+HtmlTable happenings_table(const DriveSides& drive) {
+  HtmlTable table{"", {"model", "time [s]", "travelled [m]", "what happened"}, {}, {true, false, false, true}};
+  for (const DriveSide& side : drive.sides) {
+    for (const DriveHappening& h : side.happenings)
+      table.rows.push_back({side.label, number(h.time), number(h.travelled), std::string(word_of(h.what))});
+    table.rows.push_back(
+        {side.label, number(side.end_time), number(side.samples.back().travelled), std::string(word_of(side.end))});
+  }
+  return table;
+}
+
+}  // namespace
 
 HtmlTable differences_table(const DriveSides& drive) {
   HtmlTable table{
@@ -161,19 +170,6 @@ HtmlTable work_table(const DriveSides& drive) {
   table.rows.push_back(std::move(all));
   return table;
 }
-
-HtmlTable happenings_table(const DriveSides& drive) {
-  HtmlTable table{"", {"model", "time [s]", "travelled [m]", "what happened"}, {}, {true, false, false, true}};
-  for (const DriveSide& side : drive.sides) {
-    for (const DriveHappening& h : side.happenings)
-      table.rows.push_back({side.label, number(h.time), number(h.travelled), std::string(word_of(h.what))});
-    table.rows.push_back(
-        {side.label, number(side.end_time), number(side.samples.back().travelled), std::string(word_of(side.end))});
-  }
-  return table;
-}
-
-}  // namespace
 
 Sheet drive_sheet(const DriveSides& drive) {
   using S = DriveSideSample;

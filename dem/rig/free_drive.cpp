@@ -150,7 +150,6 @@ void FreeDrive::account(const Vec3& velocity, double spin) {
 
 /// Whether the drive is over, and why.
 bool FreeDrive::ended() {
-  const double sinkage = bin_.surface() - (bin_.wheel().position.z - tire_.radius);
   const auto ends = [&](bool is, DriveEnd end) {
     if (is) record_.end = end;
     return is;
@@ -158,7 +157,7 @@ bool FreeDrive::ended() {
   return ends(drive_.distance && travelled_ >= *drive_.distance, DriveEnd::arrived) ||
          ends(travelled_ >= bin_.way(), DriveEnd::bed_ends) ||
          ends(mean_speed_ < drive_.stuck_speed, DriveEnd::stuck) ||
-         ends(sinkage > drive_limits::deepest * tire_.radius, DriveEnd::buried) ||
+         ends(bin_.sinkage() > drive_limits::deepest * tire_.radius, DriveEnd::buried) ||
          ends(travelled_ < -drive_limits::roll_back * tire_.radius, DriveEnd::rolled_back);
 }
 
@@ -239,7 +238,7 @@ GrainDriveRecord FreeDrive::run() {
   put_down();
   WheelSample rest;
   rest.force = bin_.wheel().force, rest.speed = bin_.wheel().velocity.x;
-  rest.sinkage = bin_.surface() - (bin_.wheel().position.z - tire_.radius);
+  rest.sinkage = bin_.sinkage();
   record_.samples.push_back(state_of(rest, record_.hold));
   record_.samples.back().slip.reset();  // a braked wheel has none
   std::int64_t taken = 0;

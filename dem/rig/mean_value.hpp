@@ -10,6 +10,14 @@
 
 namespace soilbin::dem {
 
+/// One number of each sample.
+template <class Sample, class Read>
+std::vector<double> series_of(std::span<const Sample> samples, const Read& read) {
+  std::vector<double> out;
+  for (const Sample& sample : samples) out.push_back(read(sample));
+  return out;
+}
+
 /// The autocorrelation time of a series in samples: 1 + 2 sum of rho(k), k up
 /// to the first window that is at least six times the sum so far (Sokal 1997).
 /// 1 where samples are independent, and for less than four samples.

@@ -12,13 +12,6 @@ namespace {
 constexpr std::size_t fewest = 16;  // samples
 
 template <class Read>
-std::vector<double> series_of(std::span<const GrainDriveSample> samples, const Read& read) {
-  std::vector<double> out;
-  for (const GrainDriveSample& sample : samples) out.push_back(read(sample));
-  return out;
-}
-
-template <class Read>
 Estimate mean_of(std::span<const GrainDriveSample> samples, const Read& read) {
   return mean_with_error(series_of(samples, read));
 }

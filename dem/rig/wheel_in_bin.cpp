@@ -145,7 +145,7 @@ WheelSample WheelInBin::sample(std::int64_t steps, const std::function<bool()>& 
     const Body& now = wheel();
     out.force += each * now.force;
     out.moment += each * now.torque;
-    out.sinkage += each * (surface_ - (now.position.z - tire_.radius));
+    out.sinkage += each * sinkage();
     out.speed += each * now.velocity.x;
     out.heave += each * now.velocity.z;
     out.rotation += each * dot(now.spin, stance_.axle);

@@ -68,6 +68,8 @@ class WheelInBin {
   const SurfaceHeight& before() const { return before_; }
   /// Where the axle is put down, x in the bin [m].
   double begin() const { return rig_.behind; }
+  /// Of the tread base below the undisturbed surface, now [m].
+  double sinkage() const { return surface_ - (wheel().position.z - tire_.radius); }
   double travel() const { return wheel().position.x - begin(); }
 
  private:

@@ -10,13 +10,6 @@
 namespace soilbin::dem {
 namespace {
 
-template <class Read>
-std::vector<double> series_of(std::span<const WheelSample> samples, const Read& read) {
-  std::vector<double> out;
-  for (const WheelSample& sample : samples) out.push_back(read(sample));
-  return out;
-}
-
 /// What the answer is made of, sample by sample.
 struct Channels {
   std::vector<double> pull, lateral, torque, sinkage;
