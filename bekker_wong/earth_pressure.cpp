@@ -12,16 +12,16 @@ double flow_value(const SoilValues& soil) {
   return t * t;
 }
 
-double passive_force(const SoilValues& soil, double depth, double surcharge) {
+WallResistance passive_wall(const SoilValues& soil) {
   const double n = flow_value(soil);
-  return depth * (n * (0.5 * specific_weight(soil) * depth + surcharge) + 2 * soil.cohesion * std::sqrt(n));
+  return {2 * soil.cohesion * std::sqrt(n), 0.5 * n * specific_weight(soil), n};
 }
 
-double hegedus_force(const SoilValues& soil, double depth) {
+WallResistance hegedus_wall(const SoilValues& soil) {
   const double x = std::numbers::pi / 4 - soil.friction_angle / 2, cot = 1 / std::tan(x);
   const double d1 = cot + std::tan(x + soil.friction_angle);
   const double d2 = cot + cot * cot * std::tan(soil.friction_angle);
-  return d1 * depth * (soil.cohesion + 0.5 * d2 * specific_weight(soil) * depth);
+  return {d1 * soil.cohesion, 0.5 * d1 * d2 * specific_weight(soil), 0.0};
 }
 
 BearingFactors bearing_factors(double phi) {

@@ -220,9 +220,9 @@ void RollingWheel::settle(const Prepared& p, RolledWheel& wheel) const {
     deeper = effect->settle(deeper, {p.around, p.soil, p.outline, wheel.patch, wheel.sinkage});
   if (deeper == wheel.sinkage) return;
   const double share = (deeper + wheel.patch.deflection) / p.outline.radius;
-  if (share > max_sinkage_share)
+  if (share > max_settled_share)
     throw NoSolution(
-        fmt::format("the wheel would dig itself in to {:.3g} of its radius, deeper than {}", share, max_sinkage_share));
+        fmt::format("the wheel would dig itself in to {:.3g} of its radius, deeper than {}", share, max_settled_share));
   fill_patch(p, std::acos(1.0 - share), wheel.patch);
   const WheelForces unscaled = integrate(p, wheel.patch);
   const double added = unscaled.added.vertical();

@@ -36,8 +36,10 @@ struct RolledWheel {
   Reading reading;             ///< what conventions.md calls F_DP, M, z, F_y, after the sensor joint
 };
 
-/// Deepest sinkage that the model answers for, as a share of the radius.
+/// Deepest sinkage at which the model balances a load, as a share of the radius.
 inline constexpr double max_sinkage_share = 0.9;
+/// Deepest sinkage to which an effect may settle the wheel: the contact then reaches above the axle.
+inline constexpr double max_settled_share = 1.5;
 
 /// The Bekker / Wong-Reece wheel: a rigid wheel on soil, with effects (Wong and Reece 1967; docs/conventions.md).
 /// A value without hidden state; const members may be called from any number of threads.

@@ -80,13 +80,14 @@ class Blade final : public Effect {
     if (share_ == 0.0) return;
     const double h = share_ * height(r.around.tire);
     const double lugs_per_metre = r.outline.width / spacing(r.around.tire);
+    const WallResistance face = passive_wall(r.soil);
     AddedForce force{.name = "lug_thrust"};
     for (int i = 0; i < r.patch.count; ++i) {
       const double j = std::hypot(r.patch.j_x[i], r.patch.j_y[i]);
       if (!(j > 0.0)) continue;
       const double surcharge = with_surcharge ? r.patch.sigma[i] : 0.0;
-      const double push = lugs_per_metre * r.patch.arc[i] * passive_force(r.soil, h, surcharge) * r.patch.mobilised[i] *
-                          r.patch.j_x[i] / j;
+      const double push =
+          lugs_per_metre * r.patch.arc[i] * face(h, surcharge) * r.patch.mobilised[i] * r.patch.j_x[i] / j;
       force.forward += push * r.patch.normal_cosine[i];
       force.vertical += push * r.patch.normal_sine[i];
       force.torque += push * (r.patch.arm[i] + 0.5 * h);

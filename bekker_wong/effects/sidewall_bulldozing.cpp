@@ -3,11 +3,12 @@
 // At yaw the wheel moves sideways and its wall shoves the soil beside the rut: a side force beyond the tread's shear,
 // toward the side to which the wheel points, growing with sinkage. On a cross slope at zero yaw the wheel leans on the
 // soil at its lower side, which takes a part of the load's share along the slope: the force points uphill and never
-// exceeds that share (amplitude 1). Vertical component and torque: none, as in the sources.
+// exceeds that share (amplitude 1). Vertical component and torque: none, as in the sources, except where the wall rubs.
 //
 // How much of the resistance is called up: 1 - exp(-|q|) with q = j_y/K + D/R, j_y the sideways travel since the entry,
 // D the load's share along the slope, R the whole resistance. Ishigami 2007 takes all of it at once.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,9 +18,15 @@
 namespace soilbin::bekker_wong {
 namespace {
 
-/// Depth of the tread's edge under the surface at node i [m].
-double edge_depth(const Rolling& r, int i) {
-  return std::max(0.0, r.outline.radius * (std::cos(r.patch.theta[i]) - std::cos(r.patch.angles.entry)));
+/// The wall's edge at a node of the tread.
+struct Edge {
+  double cosine;  ///< of theta
+  double depth;   ///< under the surface [m]
+};
+
+Edge edge(const Rolling& r, int i, double entry_cosine) {
+  const double cosine = std::cos(r.patch.theta[i]);
+  return {cosine, std::max(0.0, r.outline.radius * (cosine - entry_cosine))};
 }
 
 /// Share of the load along the cross slope, positive where the soil must hold the wheel from the right [N].
@@ -27,12 +34,19 @@ double downhill_share(const Surroundings& around) {
   return around.at.load * std::cos(around.at.longitudinal_incline) * std::sin(around.at.transverse_incline);
 }
 
-double ishigami(const Rolling& r, int i) {
-  const double h = edge_depth(r, i);
-  return hegedus_force(r.soil, h) * (1 - h * std::cos(r.patch.theta[i]) / r.outline.radius);
-}
+/// Resistances by metre of arc.
+struct Ishigami {
+  explicit Ishigami(const Rolling& r) : soil(hegedus_wall(r.soil)), radius(r.outline.radius) {}
+  double operator()(const Edge& e) const { return soil(e.depth) * (1 - e.depth * e.cosine / radius); }
+  WallResistance soil;
+  double radius;
+};
 
-double wedge(const Rolling& r, int i) { return passive_force(r.soil, edge_depth(r, i)) * std::cos(r.patch.theta[i]); }
+struct Wedge {
+  explicit Wedge(const Rolling& r) : soil(passive_wall(r.soil)) {}
+  double operator()(const Edge& e) const { return soil(e.depth) * e.cosine; }
+  WallResistance soil;
+};
 
 /// j_y/K, or its limit where the wheel is locked.
 double sideways_travel(const Rolling& r, int i) {
@@ -41,27 +55,48 @@ double sideways_travel(const Rolling& r, int i) {
   return std::abs(r.around.motion.lateral) > 1e-12 ? std::copysign(std::numeric_limits<double>::infinity(), j_y) : 0.0;
 }
 
-/// Force by metre of arc from `Resistance`, called up node by node.
-template <double (*Resistance)(const Rolling&, int)>
+/// What soil that presses on the wall with `pressing` [N] at node i does to a wall that slides along it with the
+/// coefficient of friction mu; adds to `sum`. Passive pressure grows with depth: it acts a third of h above the rim.
+void rub(AddedForce& sum, double mu, double pressing, const Edge& e, const Rolling& r, int i) {
+  const double sine = r.patch.theta[i] < 0.0 ? -std::sqrt(1 - e.cosine * e.cosine) : std::sqrt(1 - e.cosine * e.cosine);
+  const double arm = r.outline.radius - e.depth / 3;
+  const double turns = r.around.motion.locked ? 0.0 : arm / r.outline.radius;
+  const double back = turns * e.cosine - r.around.motion.forward, down = turns * sine;  // of the wall over the soil
+  const double speed = std::sqrt(back * back + down * down);
+  if (!(speed > 1e-12)) return;
+  const double forward = mu * pressing * back / speed, upward = mu * pressing * down / speed;
+  sum.forward += forward, sum.vertical += upward, sum.torque += arm * (forward * e.cosine + upward * sine);
+}
+
+/// Force by metre of arc from `Resistance`, called up node by node; p[1], if there: the wall's coefficient of friction.
+template <class Resistance>
 class Wall final : public Effect {
  public:
-  explicit Wall(const std::vector<double>& p) : amplitude_(p[0]) {}
+  explicit Wall(const std::vector<double>& p) : amplitude_(p[0]), friction_(p.size() > 1 ? p[1] : 0.0) {}
   void added_forces(ForceLedger& ledger, const Rolling& r) const override {
-    const double downhill = downhill_share(r.around);
+    const double downhill = downhill_share(r.around), entry_cosine = std::cos(r.patch.angles.entry);
     if (amplitude_ == 0.0 || (r.around.motion.lateral == 0.0 && downhill == 0.0)) return;
+    const Resistance resistance(r);
+    std::array<Edge, ContactPatch::capacity> edges;
+    ContactPatch::Array resisting;
     double whole = 0.0;
-    for (int i = 0; i < r.patch.count; ++i) whole += r.patch.arc[i] * Resistance(r, i);
-    if (!(whole > 0.0)) return;
-    double force = 0.0;
-    for (int i = 0; i < r.patch.count; ++i) {
-      const double q = sideways_travel(r, i) + downhill / whole;
-      force += r.patch.arc[i] * Resistance(r, i) * std::copysign(-std::expm1(-std::abs(q)), q);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(r.patch.count); ++i) {
+      edges[i] = edge(r, static_cast<int>(i), entry_cosine);
+      whole += resisting[i] = r.patch.arc[i] * resistance(edges[i]);
     }
-    ledger.add({.name = "sidewall_bulldozing", .lateral = amplitude_ * force});
+    if (!(whole > 0.0)) return;
+    AddedForce sum{.name = "sidewall_bulldozing"};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(r.patch.count); ++i) {
+      const double q = sideways_travel(r, static_cast<int>(i)) + downhill / whole;
+      const double force = amplitude_ * resisting[i] * std::copysign(-std::expm1(-std::abs(q)), q);
+      sum.lateral += force;
+      if (friction_ > 0.0) rub(sum, friction_, std::abs(force), edges[i], r, static_cast<int>(i));
+    }
+    ledger.add(sum);
   }
 
  private:
-  double amplitude_;
+  double amplitude_, friction_;
 };
 
 /// A share of the mean ground pressure on the buried area of the wall, times the sine of the angle at which the tread's
@@ -73,9 +108,11 @@ class SideArea final : public Effect {
     const Kinematics& motion = r.around.motion;
     const double downhill = downhill_share(r.around);
     if (amplitude_ == 0.0 || (motion.lateral == 0.0 && downhill == 0.0)) return;
+    const double entry_cosine = std::cos(r.patch.angles.entry);
     double area = 0.0, length = 0.0;
     for (int i = 0; i < r.patch.count; ++i) {
-      area += r.patch.arc[i] * std::cos(r.patch.theta[i]) * edge_depth(r, i);
+      const Edge e = edge(r, i, entry_cosine);
+      area += r.patch.arc[i] * e.cosine * e.depth;
       length += r.patch.arc[i] * r.patch.normal_cosine[i];
     }
     const double whole = area * r.around.normal_load / (r.outline.width * length);
@@ -100,13 +137,22 @@ std::vector<EffectForm> sidewall_bulldozing_forms() {
                    "R_b: Hegedus",
        .source = "after Ishigami, Miwa, Nagatani, Yoshida 2007, J. Field Robotics 24:233 (there fully called up)",
        .parameters = {{"a", "-", 1.0, 0.0, 10.0, "multiplier of the published side force"}},
-       .make = maker<Wall<ishigami>>()},
+       .make = maker<Wall<Ishigami>>()},
       {.id = id,
        .form = "passive_wedge",
        .equation = "F = a Int (gamma h^2 N_phi/2 + 2 c h sqrt(N_phi)) (1 - exp(-|q|)) r cos theta d theta",
        .source = "after Wong, Theory of Ground Vehicles, ch. 2 (Rankine's passive pressure on the wall)",
        .parameters = {{"a", "-", 1.0, 0.0, 20.0, "multiplier of the passive force"}},
-       .make = maker<Wall<wedge>>()},
+       .make = maker<Wall<Wedge>>()},
+      {.id = id,
+       .form = "rough_wedge",
+       .equation =
+           "passive_wedge; the wall rubs on that soil with mu, against its motion in the wheel's plane, a third "
+           "of h above the rim",
+       .source = "stated: after Wong, Theory of Ground Vehicles, ch. 2, with Coulomb's friction on the wall",
+       .parameters = {{"a", "-", 3.0, 0.0, 40.0, "multiplier of the passive force"},
+                      {"mu", "-", 0.3, 0.0, 1.0, "friction of the soil on the wall", {}, 0.1}},
+       .make = maker<Wall<Wedge>>()},
       {.id = id,
        .form = "side_area",
        .equation = "F = a A_side (W/A) sin(psi_s), tan(psi_s) = v_y/(r w)",

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "bekker_wong/effects/forms.hpp"
+#include "bekker_wong/rolling_wheel.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
@@ -70,6 +71,28 @@ class Reece final : public Effect {
   double length_;
 };
 
+/// Reece's h s/(1 - s) is h times the way that the tread slides over the way that it rolls, held below 100. So counted,
+/// a braked tread and a wheel that goes sideways dig as well, and digging comes to an end: at a share of the radius
+/// along the wheel's plane, at 0.9 of it across.
+class Sliding final : public Effect {
+ public:
+  explicit Sliding(const std::vector<double>& p) : length_(p[0]), driven_end_(p[1]), braked_end_(p[2]) {}
+  double settle(double sinkage, const Rolling& rolling) const override {
+    const Kinematics& motion = rolling.around.motion;
+    const double radius = rolling.outline.radius, rim = motion.locked ? 0.0 : 1.0;
+    const double rolls = std::max(std::min(rim, motion.forward), least_rolled), slides = rim - motion.forward;
+    const double along = dug(std::abs(slides) / rolls, (slides > 0.0 ? driven_end_ : braked_end_) * radius);
+    const double across = dug(std::abs(motion.lateral) / rolls, across_end * radius);
+    const double deepest = std::max(sinkage, 0.98 * max_settled_share * radius - rolling.patch.deflection);
+    return std::min(sinkage + std::hypot(along, across), deepest);
+  }
+
+ private:
+  static constexpr double least_rolled = 0.01, across_end = 0.9;
+  double dug(double slid, double end) const { return length_ * slid / (1 + length_ * slid / end); }
+  double length_, driven_end_, braked_end_;
+};
+
 }  // namespace
 
 std::vector<EffectForm> slip_sinkage_forms() {
@@ -109,6 +132,18 @@ std::vector<EffectForm> slip_sinkage_forms() {
        .parameters = {{"h", "mm", 0.01, 0.0, 0.2, "length of soil that slip digs away"}},
        .steady_only = settles,
        .make = maker<Reece>()},
+      {.id = id,
+       .form = "sliding",
+       .equation =
+           "z = z_b + sqrt(D(x, d r)^2 + D(y, 0.9 r)^2), D(x, L) = h x/(1 + h x/L), x and y: ways slid along and "
+           "across over the way rolled, held below 100 (driven x = s/(1 - s)), d_b for d where braked; stresses "
+           "scaled to carry the load",
+       .source = "stated: after Reece 1965, Proc. IMechE 180(2A), his h s/(1 - s) taken for sliding in any direction",
+       .parameters = {{"h", "mm", 0.015, 0.0, 0.2, "length of soil that sliding digs away"},
+                      {"d", "-", 0.3, 0.02, 1.0, "most that a driven tread digs, over the radius", {}, 0.2},
+                      {"d_b", "-", 0.4, 0.02, 1.0, "most that a braked tread digs, over the radius", {}, 0.2}},
+       .steady_only = settles,
+       .make = maker<Sliding>()},
   };
 }
 

@@ -12,9 +12,9 @@ namespace {
 
 ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
 
-ordered_json effects_json(const LoopAnswer& answer) {
+ordered_json effects_json(const std::vector<AcceptedEffect>& effects) {
   ordered_json list = ordered_json::array();
-  for (const AcceptedEffect& effect : answer.effects) {
+  for (const AcceptedEffect& effect : effects) {
     ordered_json parameters = ordered_json::object(), ci = ordered_json::object();
     for (const auto& [name, value] : effect.choice.parameters) parameters[name] = number(value);
     for (std::size_t i = 0; i < effect.fitted.size(); ++i)
@@ -100,12 +100,18 @@ ordered_json to_json(const LoopAnswer& answer) {
   ordered_json ambiguity = ordered_json::array();
   for (const Weighted& w : answer.ambiguity_set)
     ambiguity.push_back({{"effects", w.ids}, {"weight", number(w.weight)}});
-  return {{"format", "soilbin-loop/1"},          {"campaign", answer.campaign},
-          {"verdict", word(answer.verdict)},     {"reason", answer.reason},
-          {"effects", effects_json(answer)},     {"ambiguity_set", ambiguity},
-          {"not_testable", answer.not_testable}, {"error", error_json(answer)},
-          {"next_test", next_json(answer)},      {"soil", soil_json(answer)},
-          {"outliers", answer.outliers}};
+  return {{"format", "soilbin-loop/1"},
+          {"campaign", answer.campaign},
+          {"verdict", word(answer.verdict)},
+          {"reason", answer.reason},
+          {"effects", effects_json(answer.effects)},
+          {"ambiguity_set", ambiguity},
+          {"not_testable", answer.not_testable},
+          {"error", error_json(answer)},
+          {"next_test", next_json(answer)},
+          {"soil", soil_json(answer)},
+          {"outliers", answer.outliers},
+          {"stand_in", effects_json(answer.stand_in)}};
 }
 
 ordered_json details_json(const LoopAnswer& answer) {

@@ -72,6 +72,8 @@ std::string listed_words(const std::vector<std::string>& words) {
 std::vector<std::string> explanation(const LoopAnswer& answer) {
   std::vector<std::string> sentences;
   for (const AcceptedEffect& effect : answer.effects) sentences.push_back(effect_sentence(effect));
+  for (const AcceptedEffect& effect : answer.stand_in)
+    sentences.push_back("In its place, without explaining it, the saved model takes " + effect_sentence(effect));
   if (answer.ambiguity_set.size() > 1) {
     std::string rivals;
     for (const Weighted& w : answer.ambiguity_set)
@@ -153,6 +155,7 @@ Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
   ModelChoice choice;
   choice.effects = campaign.effects;
   for (const AcceptedEffect& effect : answer.effects) choice.effects.push_back(effect.choice);
+  for (const AcceptedEffect& effect : answer.stand_in) choice.effects.push_back(effect.choice);
   choice.label = "fitted";
   model.study.models = {choice};
   for (const Run& run : campaign.runs) model.study.conditions.push_back(run.at);

@@ -128,7 +128,7 @@ std::optional<Fit> fit(const WheelPredictor& predictor, const VectorXd& values, 
   double damping = 1e-3, growth = 2.0;
   BalanceMemory memory;
   constexpr int max_iterations = 40;
-  constexpr double small_gain = 2e-3, small_share = 1e-5;  // of chi2, far below what any decision turns on
+  constexpr double small_gain = 2e-3, small_share = 1e-4;  // of chi2, far below what any decision turns on
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     const Linearised l = augment(predictor, best.theta, values, whitening, best.prediction, best.jacobian, scale);
     const std::vector<bool> hold = held(parameters, best.theta, l.columns.transpose() * l.residual);

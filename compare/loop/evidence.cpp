@@ -88,6 +88,11 @@ double log_evidence(const LinearProblem& problem, int terms) {
   return -0.5 * chi2 - 0.5 * log_determinant(problem) - terms * std::log(amplitude_range);
 }
 
+double foreign_log_evidence(const Fit& fit, Index cells) {
+  const double n = static_cast<double>(cells), k = static_cast<double>(fit.column_parameter.size());
+  return -0.5 * n * std::log(fit.chi2) - 0.5 * k * std::log(n);
+}
+
 namespace {
 
 /// Waves of one to `most` periods over a covariate's range.

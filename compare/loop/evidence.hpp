@@ -46,6 +46,11 @@ LinearProblem linear_problem(const WheelPredictor& predictor, const Fit& fit, Ei
 /// range of sizes `amplitude_range` in sd (so that no form is favoured by its units).
 double log_evidence(const LinearProblem& problem, int terms);
 
+/// The same where no model comes near the noise: what is left is then not noise of a known size, and forms that could
+/// take it over within their tolerance say nothing. With the residual's variance unknown: -N/2 ln(chi2) - k/2 ln N
+/// (Schwarz 1978), k free parameters.
+double foreign_log_evidence(const Fit& fit, Eigen::Index cells);
+
 /// What an unnamed effect could look like: families of functions of the conditions (smooth; waves in slip, in position,
 /// in time; what the run before left behind), each in every channel, whitened to about 1 sd a cell.
 std::vector<Eigen::MatrixXd> unnamed_families(const Observations& observations, const NoiseFloor& noise,

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "compare/loop/base_fit.hpp"
+#include "compare/loop/rival_fit.hpp"
 
 namespace soilbin::compare {
 
@@ -14,79 +15,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-/// What the term adds to the cells at the fit.
-VectorXd contribution_of(const WheelPredictor& predictor, const Fit& fit, int term) {
-  VectorXd theta = fit.theta, without;
-  theta[predictor.amplitude_index(term)] = 0.0;
-  if (!predictor.predict(theta, without)) return VectorXd::Zero(fit.prediction.size());
-  return fit.prediction - without;
-}
-
-/// Share of a contribution that the soil's values, as far as their priors let them, could not have made.
-double share_kept(const Identification& id, const WheelPredictor& predictor, const Fit& fit,
-                  const VectorXd& contribution) {
-  std::vector<Index> soil;
-  for (std::size_t c = 0; c < fit.column_parameter.size(); ++c)
-    if (fit.column_parameter[c] < predictor.soil_parameters()) soil.push_back(static_cast<Index>(c));
-  MatrixXd columns(fit.columns.rows(), static_cast<Index>(soil.size()));
-  for (std::size_t c = 0; c < soil.size(); ++c) columns.col(static_cast<Index>(c)) = fit.columns.col(soil[c]);
-  VectorXd whole = VectorXd::Zero(fit.columns.rows());
-  whole.head(contribution.size()) = (*id.whitening)(contribution);
-  const double size = whole.norm();
-  return size > 0 ? Projector(columns).vector(whole).norm() / size : 0.0;
-}
-
-/// Form tolerance of every term, shrunk by the root of the share that the soil's values could not have made: a form
-/// that is almost a change of soil would else be free to be anything. (Root: found best on the tuning sets among 0,
-/// 1/2, 1.)
-MatrixXd tolerance_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit) {
-  MatrixXd all(fit.prediction.size(), 0);
-  for (int t = 0; t < static_cast<int>(predictor.terms().size()); ++t) {
-    const VectorXd contribution = contribution_of(predictor, fit, t);
-    const double tolerance = predictor.terms()[static_cast<std::size_t>(t)].form->form_tolerance *
-                             std::sqrt(share_kept(id, predictor, fit, contribution));
-    const MatrixXd more = form_columns(id.observations, *id.whitening, contribution, tolerance);
-    MatrixXd joined(all.rows(), all.cols() + more.cols());
-    joined << all, more;
-    all = joined;
-  }
-  return all;
-}
-
-LinearProblem problem_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit) {
-  return linear_problem(predictor, fit, static_cast<Index>(id.observations.cells.size()),
-                        tolerance_of(id, predictor, fit));
-}
-
-/// Fits the terms in full, from the amplitudes as traced; from smaller ones as well where that gained less than half
-/// of what the trace promised (expected_gain, in chi2).
-std::optional<Rival> refit(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms,
-                           const std::vector<double>& amplitudes, double expected_gain) {
-  const WheelPredictor predictor(campaign, id.observations, terms);
-  std::optional<Rival> best;
-  for (const double share : {1.0, 0.3}) {
-    VectorXd start = predictor.start();
-    start.head(predictor.soil_parameters()) = id.base.theta.head(predictor.soil_parameters());
-    for (std::size_t t = 0; t < terms.size(); ++t) {
-      const bekker_wong::EffectParameter& p = terms[t].form->parameters.front();
-      start[predictor.amplitude_index(static_cast<int>(t))] =
-          std::clamp(share * amplitudes[t], p.lower + 1e-3 * (p.upper - p.lower), p.upper);
-    }
-    VectorXd prediction;
-    for (int halving = 0; halving < 6 && !predictor.predict(start, prediction); ++halving)
-      for (std::size_t t = 0; t < terms.size(); ++t) start[predictor.amplitude_index(static_cast<int>(t))] *= 0.5;
-    auto found = fit(predictor, id.observations.values(), *id.whitening, start);
-    if (!found || (best && found->chi2 >= best->fit.chi2)) continue;
-    const bool enough = found->chi2 < id.base.chi2 - 0.5 * expected_gain;
-    Rival rival{.ids = {}, .terms = terms, .fit = std::move(*found), .log_evidence = 0.0};
-    for (const Term& term : terms) rival.ids.insert(term.form->id);
-    best = std::move(rival);
-    if (enough) break;
-  }
-  if (best) best->log_evidence = log_evidence(problem_of(id, predictor, best->fit), static_cast<int>(terms.size()));
-  return best;
-}
 
 /// The strongest signatures, at most two forms an effect, within reach of the strongest of all.
 std::vector<const Signature*> contenders(const std::vector<Signature>& signatures, int most) {
@@ -144,6 +72,27 @@ std::vector<SignaturePair> strongest_pairs(const std::vector<Signature>& signatu
     if (sets[{pair.a->term.form->id, pair.b->term.form->id}]++ < 2) best.push_back(pair);
   }
   return best;
+}
+
+/// A pair from where the better of its members ended alone, if either was fitted; else both from the base model.
+std::optional<Rival> refit_pair(const Campaign& campaign, const Identification& id, const SignaturePair& pair) {
+  const Signature *first = pair.a, *second = pair.b;
+  const Rival* alone = nullptr;
+  for (const Rival& rival : id.rivals) {
+    const auto* form = rival.terms.front().form;
+    if (rival.terms.size() != 1 || (form != pair.a->term.form && form != pair.b->term.form)) continue;
+    if (!alone || rival.fit.chi2 < alone->fit.chi2) alone = &rival;
+  }
+  if (alone && alone->terms.front().form == second->term.form) std::swap(first, second);
+  RivalStart start{id.base.theta, id.base.chi2, {{1, reach_of(*second)}}, pair.gain};
+  if (alone)
+    start.known = alone->fit.theta, start.chi2 = alone->fit.chi2, start.promised -= id.base.chi2 - alone->fit.chi2;
+  else
+    start.amplitudes[0] = reach_of(*first);
+  return refit(
+      campaign, id,
+      {make_term(*first->term.form, id.observations, true), make_term(*second->term.form, id.observations, true)},
+      start);
 }
 
 /// ln prior of one rival: an effect among about twenty, a form among the effect's, and, where physics fixes the sign,
@@ -221,12 +170,10 @@ void extend(const Campaign& campaign, Identification& id, std::size_t index, con
     options.pulse();
     std::vector<Term> terms = from.terms;
     terms.push_back(make_term(*s->term.form, id.observations, true));
-    std::vector<double> amplitudes;
-    for (int t = 0; t < static_cast<int>(from.terms.size()); ++t)
-      amplitudes.push_back(from.fit.theta[predictor.amplitude_index(t)]);
-    amplitudes.push_back(reach_of(*s));
-    const double expected = id.base.chi2 - from.fit.chi2 + s->score * s->score;
-    if (auto rival = refit(campaign, id, terms, amplitudes, expected)) id.rivals.push_back(std::move(*rival));
+    const int added = static_cast<int>(from.terms.size());
+    if (auto rival =
+            refit(campaign, id, terms, {from.fit.theta, from.fit.chi2, {{added, reach_of(*s)}}, s->score * s->score}))
+      id.rivals.push_back(std::move(*rival));
   }
 }
 
@@ -239,22 +186,32 @@ std::optional<std::size_t> strongest_rival(const Identification& id, const Wante
   return best;
 }
 
-/// Forward from the best single effect, then from each member of the best pair (another partner may suit it better),
-/// then from the best pair.
-void extend_all(const Campaign& campaign, Identification& id, const IdentifyOptions& options) {
+/// Where even the rival that leaves least is far from the noise, all are weighed by what they leave from here on.
+void judge_misfit(const Campaign& campaign, Identification& id) {
+  constexpr double far = 3.0;  // chi2 a value
+  const double cells = static_cast<double>(id.observations.cells.size());
+  id.foreign = std::all_of(id.rivals.begin(), id.rivals.end(),
+                           [&](const Rival& rival) { return rival.fit.chi2_cells > far * cells; });
+  if (!id.foreign) return;
+  id.base_log_evidence = evidence_of(id, WheelPredictor(campaign, id.observations), id.base);
+  for (Rival& rival : id.rivals)
+    rival.log_evidence = evidence_of(id, WheelPredictor(campaign, id.observations, rival.terms), rival.fit);
+}
+
+const auto of_size = [](std::size_t n) { return [n](const Rival& r) { return r.ids.size() == n; }; };
+
+/// Forward from the best single effect, then from each member of the best pair: another partner may suit it better.
+void extend_singles(const Campaign& campaign, Identification& id, const IdentifyOptions& options) {
   std::set<std::size_t> extended;
   const auto once = [&](std::optional<std::size_t> from) {
     if (from && extended.insert(*from).second) extend(campaign, id, *from, options);
   };
-  const auto of_size = [](std::size_t n) { return [n](const Rival& r) { return r.ids.size() == n; }; };
   once(strongest_rival(id, of_size(1)));
-  if (const auto pair = strongest_rival(id, of_size(2)); pair && options.every_form) {
+  if (const auto pair = strongest_rival(id, of_size(2)); pair) {
     const std::set<std::string> members = id.rivals[*pair].ids;
     for (const std::string& member : members)
       once(strongest_rival(id, [&](const Rival& r) { return r.ids == std::set<std::string>{member}; }));
   }
-  for (int effects = 2; effects < options.most_effects; ++effects)
-    once(strongest_rival(id, of_size(static_cast<std::size_t>(effects))));
 }
 
 /// Refits a pair with each of the other forms of its effects in turn.
@@ -270,17 +227,18 @@ void other_forms(const Campaign& campaign, Identification& id, const Rival& from
       terms[m] = make_term(*s.term.form, id.observations, true);
       if (!fitted.insert(forms_of(terms)).second) continue;
       options.pulse();
-      std::vector<double> amplitudes;
+      std::map<int, double> amplitudes;
       for (int t = 0; t < static_cast<int>(terms.size()); ++t)
-        amplitudes.push_back(from.fit.theta[predictor.amplitude_index(t)]);
-      amplitudes[m] = reach_of(s);
-      if (auto rival = refit(campaign, id, terms, amplitudes, id.base.chi2 - from.fit.chi2))
+        amplitudes[t] = from.fit.theta[predictor.amplitude_index(t)];
+      amplitudes[static_cast<int>(m)] = reach_of(s);
+      if (auto rival =
+              refit(campaign, id, terms, {id.base.theta, id.base.chi2, amplitudes, id.base.chi2 - from.fit.chi2}))
         id.rivals.push_back(std::move(*rival));
     }
 }
 
-/// The same for the few pairs that stand close to the best set, so that they are weighed over as many forms as a single
-/// effect is.
+/// The same for the few pairs that stand close to the best set so far, so that they are weighed over as many forms as a
+/// single effect is, and a third effect joins the best of them.
 void complete_pairs(const Campaign& campaign, Identification& id, const IdentifyOptions& options) {
   constexpr double close = 15.0;  // ln evidence: what other forms may add
   constexpr int most = 3;
@@ -310,8 +268,8 @@ Identification identify(const Campaign& campaign, const Observations& observatio
                              options.seed);
   for (const Signature* s : contenders(id.signatures, options.refits)) {
     options.pulse();
-    if (auto rival =
-            refit(campaign, id, {make_term(*s->term.form, id.observations, true)}, {reach_of(*s)}, s->score * s->score))
+    if (auto rival = refit(campaign, id, {make_term(*s->term.form, id.observations, true)},
+                           {id.base.theta, id.base.chi2, {{0, reach_of(*s)}}, s->score * s->score}))
       id.rivals.push_back(std::move(*rival));
   }
   if (id.p_value > options.level || id.rivals.empty()) {
@@ -320,14 +278,14 @@ Identification identify(const Campaign& campaign, const Observations& observatio
   }
   for (const SignaturePair& pair : strongest_pairs(id.signatures, options.refits / 2)) {
     options.pulse();
-    if (auto rival = refit(campaign, id,
-                           {make_term(*pair.a->term.form, id.observations, true),
-                            make_term(*pair.b->term.form, id.observations, true)},
-                           {reach_of(*pair.a), reach_of(*pair.b)}, pair.gain))
-      id.rivals.push_back(std::move(*rival));
+    if (auto rival = refit_pair(campaign, id, pair)) id.rivals.push_back(std::move(*rival));
   }
-  extend_all(campaign, id, options);
-  if (options.every_form) complete_pairs(campaign, id, options);
+  extend_singles(campaign, id, options);
+  judge_misfit(campaign, id);
+  complete_pairs(campaign, id, options);
+  for (int effects = 2; effects < options.most_effects; ++effects)
+    if (const auto best = strongest_rival(id, of_size(static_cast<std::size_t>(effects))))
+      extend(campaign, id, *best, options);
   weigh(id);
   prefer(campaign, id, id.weights.front().best_rival);
   return id;

@@ -37,7 +37,6 @@ struct IdentifyOptions {
   int refits = 16;  ///< forms refitted in full at each stage, at the most
   std::uint64_t seed = 1;
   bool drop_outliers = true;
-  bool every_form = true;               ///< pairs weighed over all forms of their effects, as single effects are
   std::function<void()> pulse = [] {};  ///< called before every fit of a rival; may throw to stop the work
 };
 
@@ -52,7 +51,8 @@ struct Identification {
   double p_value = 1.0;               ///< family-wise, of the strongest signature against the base model
   std::vector<Rival> rivals;          ///< all that were refitted, base model not among them
   double base_log_evidence = 0.0;
-  double unnamed_gain = 0.0;           ///< ln evidence that an unnamed term adds to the base model
+  bool foreign = false;       ///< no rival comes near the noise: what is left is not noise (foreign_log_evidence)
+  double unnamed_gain = 0.0;  ///< ln evidence that an unnamed term adds to the base model
   double residual_unnamed_gain = 0.0;  ///< the same for the best rival, with the tolerance of its forms
   std::vector<Weighted> weights;       ///< over sets of effects, best first
   std::optional<std::size_t> best;     ///< rival that the test accepts

@@ -172,6 +172,20 @@ bool unnamed_residual(LoopAnswer& answer) {
   return true;
 }
 
+/// The best rival's effects; its soil and what its residual still depends on go into the answer.
+std::vector<AcceptedEffect> take_best(const Campaign& campaign, LoopAnswer& answer) {
+  const Identification& id = answer.details;
+  const Rival& best = id.rivals[*id.best];
+  const WheelPredictor predictor(campaign, id.observations, best.terms);
+  std::vector<AcceptedEffect> effects;
+  for (int t = 0; t < static_cast<int>(best.terms.size()); ++t) effects.push_back(accepted(predictor, best, t));
+  answer.soil = fitted_soil(campaign, predictor, best.fit);
+  answer.soil_shifts = soil_shifts(id, predictor);
+  answer.dependences_after = dependences(
+      id.observations, best.fit.residual.head(static_cast<Eigen::Index>(id.observations.cells.size())), 999, 11);
+  return effects;
+}
+
 void decide(const Campaign& campaign, LoopAnswer& answer) {
   const Identification& id = answer.details;
   const CrossValidation& cv = answer.validation;
@@ -197,6 +211,7 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
                   "the residual is real (p = {:.2g}), and after the best set of named effects a function of "
                   "the conditions that none of them makes explains e^{:.0f} times more than chance would",
                   id.p_value, id.residual_unnamed_gain);
+    if (improves) answer.stand_in = take_best(campaign, answer);
     return;
   }
   if (!improves) {
@@ -209,13 +224,7 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
     return;
   }
   answer.verdict = Verdict::effect_found;
-  const Rival& best = id.rivals[*id.best];
-  const WheelPredictor predictor(campaign, id.observations, best.terms);
-  for (int t = 0; t < static_cast<int>(best.terms.size()); ++t) answer.effects.push_back(accepted(predictor, best, t));
-  answer.soil = fitted_soil(campaign, predictor, best.fit);
-  answer.soil_shifts = soil_shifts(id, predictor);
-  answer.dependences_after = dependences(
-      id.observations, best.fit.residual.head(static_cast<Eigen::Index>(id.observations.cells.size())), 999, 11);
+  answer.effects = take_best(campaign, answer);
   answer.reason = fmt::format("p = {:.2g} among the whole catalogue", id.p_value);
   if (cv.overall.cells > 0)
     answer.reason += fmt::format("; held-out error falls by {:.2g} +- {:.2g} sigma^2", cv.gain, cv.gain_error);
@@ -282,12 +291,10 @@ void compare_rivals(const Campaign& campaign, LoopAnswer& answer, const Limits& 
   answer.next = next_test(campaign, id, rivals, limits.empty() ? limits_of(id.observations) : limits);
 }
 
-/// The choice within a fold: faster, its outliers set aside by the whole.
+/// The choice within a fold: fewer simulations, its outliers set aside by the whole.
 IdentifyOptions of_a_fold(IdentifyOptions options) {
   options.simulations = std::max(500, options.simulations / 4);
   options.drop_outliers = false;
-  options.refits = std::max(4, options.refits / 2);
-  options.every_form = false;
   return options;
 }
 

@@ -45,6 +45,9 @@ struct LoopAnswer {
   Verdict verdict = Verdict::not_enough_data;
   std::string reason;  ///< one plain sentence
   std::vector<AcceptedEffect> effects;
+  /// Of an unknown effect: the best named ones, where conditions left out are predicted better with them. They stand in
+  /// for it in the model that is saved, and explain nothing.
+  std::vector<AcceptedEffect> stand_in;
   std::vector<Weighted> ambiguity_set;  ///< best first; empty unless effects compete
   std::vector<std::string> not_testable;
   std::optional<NextTest> next;
@@ -54,8 +57,8 @@ struct LoopAnswer {
   std::vector<Dependence> dependences_before, dependences_after;
   Identification details;
   std::vector<SoilShift> soil_shifts;  ///< of the free values, where effects are accepted
-  SemiEmpiricalSoil soil;              ///< refitted with the accepted effects, with standard errors
-  int outliers = 0;                    ///< cells set aside
+  SemiEmpiricalSoil soil;  ///< refitted with the accepted effects or those that stand in, with standard errors
+  int outliers = 0;        ///< cells set aside
 };
 
 /// Runs the loop. Throws InputError for a campaign that can't be used; a campaign too small to say anything is a

@@ -193,12 +193,14 @@ std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const 
     const Identification& id = answer.details;
     const Eigen::VectorXd before = standardised(id, id.base.prediction);
     std::optional<Eigen::VectorXd> after;
-    if (answer.verdict == Verdict::effect_found) after = standardised(id, id.rivals[*id.best].fit.prediction);
+    if (!answer.effects.empty() || !answer.stand_in.empty())
+      after = standardised(id, id.rivals[*id.best].fit.prediction);
     page.section("Error before and after");
     page.table(error_table(answer));
     const std::vector<Covariate> variables = covariates(id.observations);
     if (after && !variables.empty()) {
-      page.section("The effect over the residual");
+      page.section(answer.effects.empty() ? "What stands in for the effect, over the residual"
+                                          : "The effect over the residual");
       const Eigen::VectorXd change = signature_of_best(id);
       page.figure(signature_sheet(id, before, change, telling_variable(id, change, variables)),
                   "Points: what the base model, refitted, leaves; and what the effect changes in the prediction.");
@@ -206,10 +208,8 @@ std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const 
     page.section("Rivals");
     page.table(rivals_table(answer));
     page.table(trace_table(answer));
-    if (!answer.effects.empty()) {
-      page.table(likeness_table(answer));
-      page.table(soil_table(answer));
-    }
+    if (!answer.effects.empty()) page.table(likeness_table(answer));
+    if (!answer.soil_shifts.empty()) page.table(soil_table(answer));
     page.section("Residuals against every variable");
     for (const Covariate& x : variables)
       page.figure(residual_sheet(id, x, before, after ? &*after : nullptr), "In standard deviations of the noise.");

@@ -68,6 +68,9 @@ void bind_answer(py::module_& module) {
       .def_readonly("verdict", &LoopAnswer::verdict)
       .def_readonly("reason", &LoopAnswer::reason, "one plain sentence")
       .def_readonly("effects", &LoopAnswer::effects)
+      .def_readonly("stand_in", &LoopAnswer::stand_in,
+                    "of an unknown effect: the best named ones, where they predict held-out conditions better; they "
+                    "explain nothing")
       .def_readonly("ambiguity_set", &LoopAnswer::ambiguity_set, "best first; empty unless effects compete")
       .def_readonly("not_testable", &LoopAnswer::not_testable)
       .def_readonly("next", &LoopAnswer::next)

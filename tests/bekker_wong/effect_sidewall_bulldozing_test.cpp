@@ -80,6 +80,45 @@ TEST(SidewallBulldozing, HoldsOnACrossSlope) {
   }
 }
 
+/// The wall's row of the budget, in the wheel's axes.
+AddedForce wall(const std::string& form, double mu, const OperatingCondition& at) {
+  Tire tire;
+  tire.radius = radius;
+  tire.width = width;
+  std::map<std::string, double> values{{"a", 1.0}};
+  if (form == "rough_wedge") values["mu"] = mu;
+  return RollingWheel(tire, sand(), make_effects({{id, form, values}})).roll(at).forces.added.rows()[0];
+}
+
+// The wall rubs on the soil that it presses: without friction it is the wedge to the bit, with it a force of mu times
+// the pressing, against the wall's motion. Dragged locked at yaw the whole wall moves forward: exactly mu N backward.
+// A spinning wheel's buried wall moves backward: forward thrust, paid by the motor.
+TEST(SidewallBulldozing, ARoughWallRubs) {
+  expect_same_bits(with({id, "rough_wedge", {{"a", 1.0}, {"mu", 0.0}}}, yawed(20)),
+                   with({id, "passive_wedge", {{"a", 1.0}}}, yawed(20)));
+  const AddedForce dragged = wall("rough_wedge", 0.3, yawed(30, 200, -1.0));
+  EXPECT_NEAR(dragged.forward, -0.3 * dragged.lateral, 1e-12 * dragged.lateral);
+  EXPECT_EQ(dragged.vertical, 0.0);
+  EXPECT_LT(dragged.torque, 0.0);  // the soil turns it on
+  const AddedForce spun = wall("rough_wedge", 0.3, yawed(30, 400, 0.7));
+  EXPECT_GT(spun.forward, 0.0);
+  EXPECT_GT(spun.torque, 0.0);
+  EXPECT_LE(std::hypot(spun.forward, spun.vertical), 0.3 * spun.lateral * (1 + 1e-12));
+  const AddedForce left = wall("rough_wedge", 0.3, yawed(-30, 400, 0.7));
+  EXPECT_NEAR(left.lateral, -spun.lateral, 1e-9);
+  EXPECT_NEAR(left.forward, spun.forward, 1e-9);
+}
+
+// What the wall rubs away is no more than what the motor gives to it: M w >= F v in its plane.
+TEST(SidewallBulldozing, FrictionTakesPower) {
+  for (const double slip : {-0.8, -0.3, 0.0, 0.3, 0.8}) {
+    const OperatingCondition at = yawed(25, 300, slip);
+    const AddedForce f = wall("rough_wedge", 0.5, at);
+    const Kinematics motion = kinematics(at);
+    EXPECT_GT(f.torque / radius - f.forward * motion.forward, 0.0) << slip;
+  }
+}
+
 // Closed form: sideways and locked all of the wall's resistance is called up. In weightless clay (phi = 0, gamma = 0)
 // Rankine's pressure is 2 c, on the wall's buried half segment r^2 (theta_1 - sin theta_1 cos theta_1)/2.
 TEST(SidewallBulldozing, LockedSidewaysInClosedForm) {

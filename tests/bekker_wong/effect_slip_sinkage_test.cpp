@@ -4,7 +4,7 @@
 namespace soilbin::bekker_wong::bed {
 namespace {
 
-const char* const forms[] = {"lyasko", "ding", "linear", "loosening", "reece"};
+const char* const forms[] = {"lyasko", "ding", "linear", "loosening", "reece", "sliding"};
 
 TEST(SlipSinkage, ZeroAmplitudeIsTheBaseModel) {
   expect_base_at_zero("slip_sinkage", driven(800, 0.6));
@@ -58,6 +58,52 @@ TEST(SlipSinkage, DigsAndBendsTheDrawbarPullDown) {
     }
     EXPECT_GT(loss_before, 0.0);
   }
+}
+
+/// What `sliding` digs with h = 20 mm, d = 0.3, d_b = 0.4 [m].
+double dug(OperatingCondition at) {
+  at.slip_by = SlipBy::travel_speed;
+  const EffectChoice choice{"slip_sinkage", "sliding", {{"h", 0.02}, {"d", 0.3}, {"d_b", 0.4}}};
+  return with(choice, at).sinkage - base(at).sinkage;
+}
+
+OperatingCondition yawed(double yaw_deg, double slip) {
+  OperatingCondition at = driven(200, slip);
+  at.yaw = yaw_deg * deg;
+  return at;
+}
+
+/// h x/(1 + h x/end), h = 20 mm.
+double toward(double x, double end) { return 0.02 * x / (1 + 0.02 * x / end); }
+
+// Straight ahead x is s/(1 - s) driven and -s/(1 + s) braked, so equal for s and -s; little of it is Reece's h x.
+TEST(SlipSinkage, SlidingIsReecesLawInBothDirectionsWithAnEnd) {
+  EXPECT_NEAR(dug(driven(200, 0.5)), toward(1.0, 0.3 * radius), 1e-14);
+  EXPECT_NEAR(dug(driven(200, -0.5)), toward(1.0, 0.4 * radius), 1e-14);
+  EXPECT_NEAR(dug(driven(200, 0.01)) / (0.02 * 0.01 / 0.99), 1.0, 0.01);
+  EXPECT_LT(dug(driven(200, 1.0)), 0.3 * radius);
+}
+
+// A wheel whose rim turns as fast as it rolls in its plane, s = 1 - 1/cos(psi) by the speed of travel, slides across by
+// tan(psi) and not along. The mirrored yaw digs as deep.
+TEST(SlipSinkage, SlidesSidewaysByTheTangentOfYaw) {
+  const double slip = -(1 - std::cos(40 * deg));
+  EXPECT_NEAR(dug(yawed(40, slip)), toward(std::tan(40 * deg), 0.9 * radius), 1e-12);
+  EXPECT_NEAR(dug(yawed(-40, slip)), dug(yawed(40, slip)), 1e-14);
+  // Both at once add as the sides of a right angle do.
+  const double along = toward(1 / (0.5 * std::cos(40 * deg)) - 1, 0.3 * radius);
+  const double across = toward(std::tan(40 * deg), 0.9 * radius);
+  EXPECT_NEAR(dug(yawed(40, 0.5)), std::hypot(along, across), 1e-12);
+}
+
+// Sideways it digs deeper the more yaw, and never past the end.
+TEST(SlipSinkage, DeeperWithYaw) {
+  double before = dug(yawed(0, 0.2));
+  for (const double yaw : {10.0, 30.0, 60.0, 85.0}) {
+    EXPECT_GT(dug(yawed(yaw, 0.2)), before);
+    before = dug(yawed(yaw, 0.2));
+  }
+  EXPECT_LT(before, std::hypot(0.3, 0.9) * radius);
 }
 
 // Where the wheel settles, the stresses still carry the load.

@@ -134,6 +134,42 @@ TEST(Loop, SaysUnknownWhereTheCatalogueHasNoName) {
   EXPECT_TRUE(answer.effects.empty());
 }
 
+// Slip sinkage and, beside it, waves that no effect makes: the verdict stays unknown and names nothing, but the saved
+// model carries what predicts better than nothing.
+TEST(Loop, LetsNamedEffectsStandInForAnUnknownOne) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {{"slip_sinkage", "lyasko", {{"a", 1.0}}}}, fine_noise, 25);
+  for (compare::Run& run : campaign.runs)
+    *run.torque += 10.0 * std::sin(2 * 3.141592653589793 * 3.0 * run.at.slip / 0.65);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  ASSERT_EQ(answer.verdict, Verdict::unknown_effect) << answer.reason;
+  EXPECT_TRUE(answer.effects.empty());
+  ASSERT_FALSE(answer.stand_in.empty());
+  EXPECT_EQ(to_json(answer).at("effects").size(), 0u);
+  EXPECT_EQ(to_json(answer).at("stand_in").at(0).at("id"), answer.stand_in[0].choice.id);
+  EXPECT_EQ(resolved_model(campaign, answer).study.models[0].effects.size(), answer.stand_in.size());
+}
+
+// Where no model comes near the noise a set of effects still loses nothing by one more: of nested fits the larger
+// leaves no more (the two lugs' wheels of the library end there).
+TEST(Loop, ALargerSetOfEffectsLeavesNoMore) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {{"slip_sinkage", "lyasko", {{"a", 1.2}}}, {"bulldozing", "", {}}}, fine_noise, 31);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  const auto& rivals = answer.details.rivals;
+  int nested = 0;
+  for (const auto& more : rivals)
+    for (const auto& less : rivals) {
+      const bool holds = more.terms.size() == less.terms.size() + 1 &&
+                         std::equal(less.terms.begin(), less.terms.end(), more.terms.begin(),
+                                    [](const auto& a, const auto& b) { return a.form == b.form; });
+      if (!holds) continue;
+      EXPECT_LE(more.fit.chi2, less.fit.chi2 * (1 + 1e-3) + 0.1);
+      ++nested;
+    }
+  EXPECT_GT(nested, 0);
+}
+
 // Effects whose covariate never varies leave no trace: not testable, never absent.
 TEST(Loop, ListsWhatTheDataCannotShow) {
   Campaign campaign = sand_campaign();

@@ -1792,6 +1792,10 @@ class LoopAnswer:
     @property
     def effects(self) -> list[AcceptedEffect]: ...
     @property
+    def stand_in(self) -> list[AcceptedEffect]:
+        """of an unknown effect: the best named ones, where they predict held-out conditions better; they explain nothing
+        """
+    @property
     def ambiguity_set(self) -> list[Weighted]:
         """best first; empty unless effects compete"""
     @property

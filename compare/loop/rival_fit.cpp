@@ -1,0 +1,96 @@
+#include "compare/loop/rival_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace soilbin::compare {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// What the term adds to the cells at the fit.
+VectorXd contribution_of(const WheelPredictor& predictor, const Fit& fit, int term) {
+  VectorXd theta = fit.theta, without;
+  theta[predictor.amplitude_index(term)] = 0.0;
+  if (!predictor.predict(theta, without)) return VectorXd::Zero(fit.prediction.size());
+  return fit.prediction - without;
+}
+
+/// Share of a contribution that the soil's values, as far as their priors let them, could not have made.
+double share_kept(const Identification& id, const WheelPredictor& predictor, const Fit& fit,
+                  const VectorXd& contribution) {
+  std::vector<Index> soil;
+  for (std::size_t c = 0; c < fit.column_parameter.size(); ++c)
+    if (fit.column_parameter[c] < predictor.soil_parameters()) soil.push_back(static_cast<Index>(c));
+  MatrixXd columns(fit.columns.rows(), static_cast<Index>(soil.size()));
+  for (std::size_t c = 0; c < soil.size(); ++c) columns.col(static_cast<Index>(c)) = fit.columns.col(soil[c]);
+  VectorXd whole = VectorXd::Zero(fit.columns.rows());
+  whole.head(contribution.size()) = (*id.whitening)(contribution);
+  const double size = whole.norm();
+  return size > 0 ? Projector(columns).vector(whole).norm() / size : 0.0;
+}
+
+/// Form tolerance of every term, shrunk by the root of the share that the soil's values could not have made: a form
+/// that is almost a change of soil would else be free to be anything. (Root: found best on the tuning sets among 0,
+/// 1/2, 1.)
+MatrixXd tolerance_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit) {
+  MatrixXd all(fit.prediction.size(), 0);
+  for (int t = 0; t < static_cast<int>(predictor.terms().size()); ++t) {
+    const VectorXd contribution = contribution_of(predictor, fit, t);
+    const double tolerance = predictor.terms()[static_cast<std::size_t>(t)].form->form_tolerance *
+                             std::sqrt(share_kept(id, predictor, fit, contribution));
+    const MatrixXd more = form_columns(id.observations, *id.whitening, contribution, tolerance);
+    MatrixXd joined(all.rows(), all.cols() + more.cols());
+    joined << all, more;
+    all = joined;
+  }
+  return all;
+}
+
+/// Soil values and earlier terms to start from, then the terms that join them at their defaults.
+VectorXd start_from(const WheelPredictor& predictor, const VectorXd& known) {
+  VectorXd start = predictor.start();
+  start.head(known.size()) = known;
+  return start;
+}
+
+}  // namespace
+
+LinearProblem problem_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit) {
+  return linear_problem(predictor, fit, static_cast<Index>(id.observations.cells.size()),
+                        tolerance_of(id, predictor, fit));
+}
+
+double evidence_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit) {
+  if (id.foreign) return foreign_log_evidence(fit, static_cast<Index>(id.observations.cells.size()));
+  return log_evidence(problem_of(id, predictor, fit), static_cast<int>(predictor.terms().size()));
+}
+
+std::optional<Rival> refit(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms,
+                           const RivalStart& from) {
+  const WheelPredictor predictor(campaign, id.observations, terms);
+  std::optional<Rival> best;
+  for (const double share : {1.0, 0.3, 0.0}) {
+    if (best && best->fit.chi2 < from.chi2 - (share > 0.0 ? 0.5 * from.promised : 0.0)) break;
+    VectorXd start = start_from(predictor, from.known);
+    for (const auto& [term, amplitude] : from.amplitudes) {
+      const bekker_wong::EffectParameter& p = terms[static_cast<std::size_t>(term)].form->parameters.front();
+      start[predictor.amplitude_index(term)] =
+          std::clamp(share * amplitude, p.lower + 1e-3 * (p.upper - p.lower), p.upper);
+    }
+    VectorXd prediction;
+    for (int halving = 0; halving < 6 && !predictor.predict(start, prediction); ++halving)
+      for (const auto& [term, amplitude] : from.amplitudes) start[predictor.amplitude_index(term)] *= 0.5;
+    auto found = fit(predictor, id.observations.values(), *id.whitening, start);
+    if (!found || (best && found->chi2 >= best->fit.chi2)) continue;
+    best = Rival{.ids = {}, .terms = terms, .fit = std::move(*found), .log_evidence = 0.0};
+    for (const Term& term : terms) best->ids.insert(term.form->id);
+  }
+  if (best) best->log_evidence = evidence_of(id, predictor, best->fit);
+  return best;
+}
+
+}  // namespace soilbin::compare
