@@ -70,10 +70,10 @@ void Simulation::stop_grains(int slab) {
   fastest_[slab] = 0;
 }
 
-/// What neighbours that are awake press on a slab asleep is let go.
+/// What neighbours that are awake, and surfaces after a search, press on a slab asleep is let go.
 void Simulation::drop_loads(int slab) {
   const int slabs = static_cast<int>(asleep_.size());
-  if (asleep_[(slab + 1) % slabs] && asleep_[(slab + slabs - 1) % slabs]) return;
+  if (asleep_[(slab + 1) % slabs] && asleep_[(slab + slabs - 1) % slabs] && !searched_now_) return;
   Load* loads = state_.grains.load.data();
   std::fill(loads + state_.slab_rows[slab], loads + state_.slab_rows[slab + 1], Load{});
 }

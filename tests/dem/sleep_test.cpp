@@ -169,6 +169,24 @@ TEST(SlowSleep, AddsNothingToWhatTheLedgerMisses) {
   EXPECT_NEAR(sleeping, full, 0.002 * losses_full);
 }
 
+TEST(SlowSleep, LeavesNoLoadsBehindThatWouldKickGrainsAwake) {
+  Simulation simulation = ploughed(setup_with(slow));
+  simulation.run(steps_of(simulation, 2 * calm_time));
+  for (int k = 0; k < 10; ++k) {  // with searches, after which those asleep press on the floor anew
+    simulation.run(steps_of(simulation, 0.01));
+    ASSERT_GT(simulation.share_asleep(), 0.5);
+    for (const Load& load : simulation.state().grains.load) EXPECT_TRUE(load.force == Vec3{} && load.torque == Vec3{});
+  }
+  std::vector<GrainId> stood;
+  const Grains& grains = simulation.state().grains;
+  for (std::size_t row = 0; row < grains.count(); ++row)
+    if (grains.motion[row].velocity == Vec3{}) stood.push_back(grains.id[row]);
+  simulation.set_gravity(simulation.state().gravity);  // wakes all
+  simulation.run(1);
+  ASSERT_EQ(simulation.share_asleep(), 0);
+  for (const GrainId id : stood) EXPECT_LT(length(simulation.grain(id).velocity), slow);
+}
+
 TEST(SlowSleep, HasTheSameBitsForSeveralThreadsAndAcrossARestart) {
   test::Folder folder;
   Simulation one = ploughed(setup_with(slow, 1)), two = ploughed(setup_with(slow, 2)),
