@@ -216,7 +216,8 @@ void add_drive(CLI::App& app, Session& session) {
       ->check(CLI::Range(1, 1000000));
   command->add_flag("--json", options->json, "soilbin-drive/1, with grains soilbin-drive-sides/1; in SI");
   options->soil_bin.add_rig_to(*command);
-  command->add_flag("--ledger", options->ledger, "dem: tell what the grains did with their work too; costs a tenth");
+  command->add_flag("--ledger", options->ledger,
+                    "dem: tell what the grains did with their work too; takes up to twice as long");
   command->add_option("--replay", options->soil_bin.replay, "dem: keep the drive, to look at it in 3D")
       ->type_name("FILE");
   command->footer(

@@ -2,11 +2,14 @@
 
 namespace soilbin::dem {
 
-/// Energy that left the motion since the start [J], summed step by step where Numerics::ledger is set.
+/// Energy that left the motion since the start [J], summed step by step where Numerics::ledger is set. The work of a
+/// force is counted at the mean of the velocities half a step before and after it, which is exactly what the motion got
+/// from it. Two of the rows, of which no sum is made, are counted by the velocity before alone: where spins tremble
+/// from step to step (directional rolling) they hold the trembling too.
 struct Ledger {
   double damping = 0;        ///< lost in normal dashpots
-  double shear_damping = 0;  ///< lost in tangential dashpots
-  double sliding = 0;        ///< lost in sliders
+  double shear_damping = 0;  ///< lost in tangential dashpots, by the velocity before
+  double sliding = 0;        ///< lost in sliders, by the velocity before
   double into_slide = 0;     ///< taken by tangential springs, dashpots and sliders together
   double into_roll = 0;      ///< taken by rolling resistance, its springs included
   double adhesion = 0;       ///< left in contacts of jkr when they broke
@@ -33,8 +36,10 @@ struct EnergyBalance {
   double work_of_drives = 0;  ///< done since the start by what drives bodies, and by what is applied to them
   Ledger ledger;
 
-  /// Zero but for the error of the time step, of first order in dt: what is there, plus what left, less what came. So
-  /// it stands where Numerics::ledger was set from the start; else it is constant.
+  /// Zero but for the error of the time step: what is there, plus what left, less what came. So it stands where
+  /// Numerics::ledger was set from the start; else it is constant. The error adds up with the second order in dt, and
+  /// with the first where light bodies move freely: contacts with those are counted by the body's velocity half a step
+  /// early. What doesn't add up is half a step's loss: the rest is told at t, what left only up to t - dt/2.
   double total() const {
     return kinetic + potential + elastic + ledger.damping + ledger.into_slide + ledger.into_roll + ledger.adhesion -
            work_of_drives - ledger.added;

@@ -232,6 +232,20 @@ EnergyBalance Simulation::energy() const {
   return out;
 }
 
+/// Contacts told what they took from the motion by velocities of half a step ago. The work of a load on the way from
+/// that half step to the next is exactly that at the mean of both velocities; this adds the difference.
+void Simulation::count_kick(int slab, std::uint32_t row) {
+  const Load& load = state_.grains.load[row];
+  Taking& taking = taking_[row];
+  const Kick half = kick(row, load, setup_.numerics.dt / 2);
+  double* losses = found_[slab].losses;  // in the order of Losses
+  const double rolled = dot(taking.couple, half.spin);
+  losses[0] -= dot(taking.dashpot, half.velocity);
+  losses[3] -= dot(taking.slide, half.velocity) + dot(load.torque, half.spin) - rolled;
+  losses[4] -= rolled;
+  taking = {};
+}
+
 /// What contacts of jkr that broke in the last step had stored [J]: each is stretched to its utmost when it breaks.
 double Simulation::broken_bonds() const {
   if (setup_.laws.cohesion != CohesionLaw::jkr) return 0;

@@ -100,6 +100,7 @@ void Simulation::make_room(int slabs) {
   found_.assign(slabs, {});
   fastest_.assign(slabs, 0.0);
   made_.resize(slabs);
+  if (setup_.numerics.ledger) taking_.assign(state_.grains.motion.size(), {});
   asleep_.assign(slabs, 0);
   near_.assign(slabs * state_.bodies.size(), 0);
   for (int slab = 0; slab < slabs; ++slab)

@@ -181,6 +181,7 @@ void Simulation::step() {
   sweep_ = {s.grains.motion.data(),
             s.grains.spin.data(),
             s.grains.load.data(),
+            setup_.numerics.ledger ? taking_.data() : nullptr,
             s.pairs.first.data(),
             s.pairs.second.data(),
             s.pairs.kind.data(),
@@ -191,8 +192,7 @@ void Simulation::step() {
             setup_.laws,
             setup_.numerics.dt,
             {},
-            setup_.numerics.deepest_overlap,
-            setup_.numerics.ledger};
+            setup_.numerics.deepest_overlap};
   const Periods periods(setup_.domain);
   sweep_.period[0] = periods.length.x;
   sweep_.period[1] = periods.length.y;
@@ -270,6 +270,12 @@ void Simulation::touch_surfaces(TouchWork& work, std::span<SurfaceContact> made)
     const Vec3 slide = column(batch.memory, k), roll = column(batch.memory + 3, k);
     contact->memory = {{slide.x, slide.y, slide.z}, {roll.x, roll.y, roll.z}};
     const NearSurface& who = contact->who;
+    if (sweep.ledger) {
+      Taking& taking = taking_[who.grain];
+      taking.dashpot += column(batch.dashpot, k);
+      taking.slide += column(batch.slide, k);
+      taking.couple += couple;
+    }
     Load& load = s.grains.load[who.grain];
     load.force += force;
     load.torque += couple - (batch.radius[k] - batch.overlap[k] / 2) * cross(contact->normal, force);
@@ -290,6 +296,7 @@ void Simulation::motion_stage(int slab) {
     Motion& grain = s.grains.motion[k];
     Spin& spin = s.grains.spin[k];
     Load& load = s.grains.load[k];
+    if (setup_.numerics.ledger) count_kick(slab, k);
     const double share = dt * grain.inverse_mass;
     grain.velocity += share * load.force + (grain.inverse_mass > 0 ? dt : 0.0) * s.gravity;
     grain.position += dt * grain.velocity;

@@ -40,7 +40,7 @@ struct Numerics {
   bool force_step = false;       ///< takes a longer one all the same
   int threads = 0;               ///< 0: one a core
   std::string instruction_set;   ///< of instruction_sets(); empty: the widest
-  bool ledger = false;           ///< counts where the energy goes; costs about a tenth
+  bool ledger = false;           ///< counts where the energy goes; a step takes about twice as long
   Sleep sleep;
 };
 
@@ -181,6 +181,7 @@ class Simulation {
   void surface_stage(int slab);
   void touch_surfaces(TouchWork& work, std::span<SurfaceContact> made);
   void motion_stage(int slab);
+  void count_kick(int slab, std::uint32_t row);
   void finish_step();
   int kind_of(int material, int other) const;
   const LawConstants<double>& constants_of(int kind) const;
@@ -204,6 +205,7 @@ class Simulation {
   int threads_ = 1;
   double reach_ = 0;                        ///< margin of the search for motion [m]
   double adhesion_reach_ = 0;               ///< jkr: how far apart a contact still holds [m]
+  std::vector<Taking> taking_;              ///< a row each of grains, where the ledger is kept; empty between steps
   std::vector<std::uint8_t> bonds_before_;  ///< pairs.touching before the step, where the ledger counts adhesion
   bool searched_now_ = false;               ///< in this step
   std::vector<std::uint8_t> near_;          ///< whether slab k has grains near body b, at k*bodies + b

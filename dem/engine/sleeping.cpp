@@ -76,6 +76,8 @@ void Simulation::drop_loads(int slab) {
   if (asleep_[(slab + 1) % slabs] && asleep_[(slab + slabs - 1) % slabs] && !searched_now_) return;
   Load* loads = state_.grains.load.data();
   std::fill(loads + state_.slab_rows[slab], loads + state_.slab_rows[slab + 1], Load{});
+  if (!setup_.numerics.ledger) return;
+  std::fill(taking_.begin() + state_.slab_rows[slab], taking_.begin() + state_.slab_rows[slab + 1], Taking{});
 }
 
 void Simulation::count_calm() {

@@ -46,7 +46,7 @@ struct Rig {
   /// their mean diameter; 0: none does. The paper's wheel on grains of 40 mm then pulls within its errors of what it
   /// pulls with all awake (docs/dem-performance.md).
   double sleep_speed = 0.003, sleep_time = 0.8;
-  bool ledger = false;      ///< tells where the power goes; costs about a tenth
+  bool ledger = false;      ///< tells where the power goes; a step takes about twice as long
   double steady_drift = 3;  ///< largest drift_over_error of a steady run
   /// A torque held instead of the rotation [N m]; the rotation is then free and starts at that of the condition's slip.
   /// 0 rolls freely.

@@ -151,18 +151,19 @@ TEST_F(SlowFreeDriveOnGrains, TheMotorsWorkIsAccountedFor) {
   EXPECT_GT(end.sliding, end.damping);
   EXPECT_GT(end.rolling, 0);
   EXPECT_GT(end.height, 0);
+  // The grains' balance closes too, though couples tremble from step to step in every contact while gravity turns.
+  EXPECT_NEAR(end.soil_unaccounted(), 0, 0.02 * end.soil);
 }
 
-// Without rolling resistance, whose couple trembles from step to step (docs/soil-bin.md), the grains' balance closes
-// too, to the error of the time step, while gravity turns.
-TEST(SlowFreeDrive, WhatTheGrainsWereGivenIsAccountedFor) {
+// Without rolling resistance grains are livelier, and the time step leaves more over.
+TEST(SlowFreeDrive, WhatTheGrainsWereGivenIsAccountedForWithoutRollingResistance) {
   BedRecipe recipe = test::small_recipe({1.0, 0.16, 0.06});
   recipe.soil.grain_grain.rolling_friction = recipe.soil.grain_tire.rolling_friction = 0;
   const SettledBed bed = settle_bed(recipe, with_threads(1));
   const GrainDriveEnergy end = told_drive(bed, 0.6, bed.setup.numerics.dt / 4).samples.back().energy;
   EXPECT_EQ(end.rolling, 0);
   EXPECT_GT(end.soil, 0.2 * end.motor);
-  EXPECT_NEAR(end.soil_unaccounted(), 0, 0.01 * end.soil);
+  EXPECT_NEAR(end.soil_unaccounted(), 0, 0.005 * end.soil);
 }
 
 TEST_F(SlowFreeDriveOnGrains, PullsWhatTheGuidedWheelPullsAtItsSlip) {

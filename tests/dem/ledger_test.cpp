@@ -1,7 +1,9 @@
 // The energy ledger: what is there, plus what left, less what came, is zero but for the error of the time step.
 //
-// Forces at t are made from velocities at t - dt/2, so a dashpot's loss is counted by the velocity half a step early:
-// the ledger closes to first order in dt. Tests state how far it is off and that half the step halves that.
+// Work is counted at the mean of the velocities half a step before and after a force: exactly what the motion gets.
+// What is left is of second order in dt, but for half a step's loss: what is there is told at t, what left up to t -
+// dt/2. That is of first order and doesn't add up. Tests state how far the ledger is off and what half the step does to
+// it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -72,9 +74,52 @@ TEST(SlowLedger, ClosesInImpactsUnderEachLaw) {
       const double spin = offset > 0 ? 80 : 0;
       const double coarse = open_after_impact(laws, 4e-6, offset, spin, 0.6);
       const double fine = open_after_impact(laws, 2e-6, offset, spin, 0.6);
-      EXPECT_LT(coarse, 1e-2) << test::name_of(laws) << ", offset " << offset;
+      EXPECT_LT(coarse, 3e-3) << test::name_of(laws) << ", offset " << offset;
       EXPECT_LT(fine, 0.6 * coarse) << test::name_of(laws) << ", offset " << offset;
     }
+}
+
+/// How far it is open when both have parted, as a share of the energy that came in.
+double open_when_over(const ContactLaws& laws, double dt) {
+  Simulation simulation(counted(laws, dt));
+  simulation.add_grain({0, 0, 0}, r, 0, {1, 0, 0}, {0, 80, 0});
+  simulation.add_grain({2 * r + 1e-4, 0.5 * r, 0}, r, 0, {-1, 0, 0}, {0, 0, 80});
+  simulation.run(std::lround(8e-3 / dt));
+  EXPECT_TRUE(simulation.contacts().empty()) << test::name_of(laws);
+  return std::abs(simulation.energy().total()) / simulation.energy().ledger.added;
+}
+
+TEST(Ledger, ClosesToSecondOrderOnceAnImpactIsOver) {
+  for (const ContactLaws& laws : test::all_laws()) {
+    const double coarse = open_when_over(laws, 4e-6);
+    EXPECT_LT(coarse, 5e-6) << test::name_of(laws);
+    // These begin or end with a jump, whose place within the step is chance.
+    if (laws.normal == NormalLaw::hooke || laws.cohesion == CohesionLaw::jkr) continue;
+    EXPECT_LT(open_when_over(laws, 2e-6), 0.3 * coarse) << test::name_of(laws);
+  }
+}
+
+// Three walls press on a grain that comes to rest. Each couple may stop its whole spin in a step, so all three together
+// turn it round again and again.
+TEST(Ledger, ClosesWhereCouplesTurnASpinRound) {
+  Interaction contact = test::every_law();
+  contact.rolling_friction = 0.3;
+  Simulation simulation(counted({{NormalLaw::hertz, RollingLaw::directional, CohesionLaw::none}, -1}, 2e-5, contact));
+  simulation.set_gravity({-5, -6, -7});
+  simulation.add_body(test::box_of_planes({0, 0, 0}, {1, 1, 1}));
+  simulation.add_grain({r, r, r}, r, 0, {}, {30, -20, 10});
+  simulation.run(2000);
+  const double came = simulation.energy().ledger.added, before = simulation.energy().total();
+  ASSERT_EQ(simulation.contacts().size(), 3u);
+  int turned = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const Vec3 spin = simulation.state().grains.spin[0].rate;
+    simulation.run(1);
+    turned += dot(spin, simulation.state().grains.spin[0].rate) < 0;
+  }
+  EXPECT_GT(turned, 900);
+  simulation.run(9000);
+  EXPECT_NEAR(simulation.energy().total(), before, 1e-6 * came);
 }
 
 TEST(Ledger, TellsWhatAnAdhesiveContactKeepsWhenItBreaks) {
@@ -118,8 +163,24 @@ double open_cloud(const ContactLaws& laws, double dt) {
 TEST(SlowLedger, ClosesInABoxUnderEachLaw) {
   for (const ContactLaws& laws : test::all_laws()) {
     const double coarse = open_cloud(laws, 1e-5), fine = open_cloud(laws, 5e-6);
-    EXPECT_LT(coarse, 1e-2) << test::name_of(laws);
+    EXPECT_LT(coarse, 1e-3) << test::name_of(laws);
     EXPECT_LT(fine, 0.6 * coarse) << test::name_of(laws);
+  }
+}
+
+TEST(Ledger, IsTheSameByEveryInstructionSet) {
+  std::vector<Ledger> told;
+  for (const std::string_view set : instruction_sets()) {
+    auto setup = counted({{NormalLaw::hertz, RollingLaw::directional, CohesionLaw::none}, -1}, 1e-5);
+    setup.numerics.instruction_set = set;
+    Simulation simulation(setup);
+    simulation.add_body(test::box_of_planes({-0.015, -0.015, -0.015}, {0.06, 0.06, 0.06}));
+    test::add(simulation, test::cloud(27, 3, 1));
+    simulation.run(600);
+    told.push_back(simulation.energy().ledger);
+    EXPECT_GT(told.back().into_roll, 1e-4 * told.back().added) << set;
+    for (double Ledger::*row : {&Ledger::damping, &Ledger::into_slide, &Ledger::into_roll})
+      EXPECT_NEAR(told.back().*row, told.front().*row, 1e-8 * told.front().added) << set;
   }
 }
 
@@ -140,13 +201,13 @@ double open_column(double dt) {
 
 TEST(SlowLedger, ClosesInAColumnThatSettles) {
   const double coarse = open_column(2e-5), fine = open_column(1e-5);
-  EXPECT_LT(coarse, 1e-2);
+  EXPECT_LT(coarse, 1e-3);
   EXPECT_LT(fine, 0.6 * coarse);
 }
 
 /// A paddle sweeps through a layer of grains; as a share of the work it does.
-double open_paddle(double dt) {
-  auto setup = counted({{NormalLaw::hertz, RollingLaw::elastic_plastic, CohesionLaw::none}, -1}, dt);
+double open_paddle(RollingLaw rolling, double dt) {
+  auto setup = counted({{NormalLaw::hertz, rolling, CohesionLaw::none}, -1}, dt);
   Simulation simulation(setup);
   simulation.set_gravity({0, 0, -9.81});
   simulation.add_body(test::box_of_planes({-0.015, -0.015, -0.015}, {0.2, 0.06, 1}));
@@ -165,9 +226,11 @@ double open_paddle(double dt) {
 }
 
 TEST(SlowLedger, ClosesWithADrivenBody) {
-  const double coarse = open_paddle(2e-5), fine = open_paddle(1e-5);
-  EXPECT_LT(coarse, 1e-2);
-  EXPECT_LT(fine, 0.6 * coarse);
+  for (const RollingLaw rolling : {RollingLaw::elastic_plastic, RollingLaw::directional}) {
+    const double coarse = open_paddle(rolling, 2e-5), fine = open_paddle(rolling, 1e-5);
+    EXPECT_LT(coarse, 1e-3);
+    EXPECT_LT(fine, 0.6 * coarse);
+  }
 }
 
 /// A heavy box falls on a layer of grains, turns as it likes and is pushed; as a share of what it and the grains fall
@@ -196,7 +259,7 @@ double open_free_box(double dt) {
 
 TEST(SlowLedger, ClosesWithAFreeBody) {
   const double coarse = open_free_box(2e-5), fine = open_free_box(1e-5);
-  EXPECT_LT(coarse, 1e-2);
+  EXPECT_LT(coarse, 1e-3);
   EXPECT_LT(fine, 0.6 * coarse);
 }
 

@@ -152,9 +152,7 @@ TEST(SlowSleep, DoesNotChangeWhatAPloughFeelsBeyondRounding) {
 
 TEST(SlowSleep, AddsNothingToWhatTheLedgerMisses) {
   const auto missed = [](double speed, double& losses) {
-    auto setup = setup_with(speed);
-    setup.laws.rolling = RollingLaw::elastic_plastic;  // directional closes no ledger, asleep or not
-    Simulation simulation = ploughed(setup);
+    Simulation simulation = ploughed(setup_with(speed));
     simulation.run(1);
     const double before = simulation.energy().total();
     simulation.run(steps_of(simulation, 0.1));

@@ -35,6 +35,8 @@ HWY_INLINE Pack nearest_image(Pack d, double period) {
   return period > 0 ? d - Pack(period) * round(d * Pack(1 / period)) : d;
 }
 
+HWY_INLINE Triad where(PackMask yes, const Triad& a) { return {where(yes, a.x), where(yes, a.y), where(yes, a.z)}; }
+
 /// Adds what the contacts did to the loads of their grains, contact by contact.
 HWY_INLINE void scatter(const PairSweep& sweep, std::size_t pair, const Triad& force, const Triad& on_first,
                         const Triad& on_second) {
@@ -58,6 +60,25 @@ HWY_INLINE void meet(const Grain& i, const Grain& j, Pack distance, Touch<Pack>&
   out.rotation = i.rate - j.rate;
 }
 
+/// Where losses are counted: adds them up, and adds the parts of the loads that make them.
+HWY_INLINE void count(const PairSweep& sweep, std::size_t pair, PackMask touching, const Touch<Pack>& touch,
+                      const Response<Pack>& does, const Losses<Pack>& losses, PairFindings& found) {
+  const Pack all[] = {losses.damping, losses.shear_damping, losses.sliding, losses.into_slide, losses.into_roll};
+  for (int k = 0; k < 5; ++k) found.losses[k] = add_up(found.losses[k], where(touching, all[k]));
+  const Triad dashpot = where(touching, losses.dashpot * touch.normal), slide = where(touching, does.tangential);
+  const SixPacks forces{dashpot.x, dashpot.y, dashpot.z, slide.x, slide.y, slide.z};
+  add_rows(forces, [&](int k) { return &sweep.taking[sweep.first[pair + k]].dashpot.x; });
+  add_rows({-forces.a, -forces.b, -forces.c, -forces.d, -forces.e, -forces.f},
+           [&](int k) { return &sweep.taking[sweep.second[pair + k]].dashpot.x; });
+  if (sweep.laws.rolling == RollingLaw::none) return;
+  const Triad couple = where(touching, does.couple);
+  const Pack zero(0.0);
+  add_rows({couple.x, couple.y, couple.z, zero, zero, zero},
+           [&](int k) { return &sweep.taking[sweep.first[pair + k]].couple.x; });
+  add_rows({-couple.x, -couple.y, -couple.z, zero, zero, zero},
+           [&](int k) { return &sweep.taking[sweep.second[pair + k]].couple.x; });
+}
+
 HWY_INLINE Memory<Pack> recall(const double* memory) {
   return {{load(memory), load(memory + 8), load(memory + 16)},
           {load(memory + 24), load(memory + 32), load(memory + 40)}};
@@ -67,13 +88,6 @@ HWY_INLINE void keep(const Triad& what, PackMask where_touching, double* to) {
   store(where(where_touching, what.x), to);
   store(where(where_touching, what.y), to + 8);
   store(where(where_touching, what.z), to + 16);
-}
-
-HWY_INLINE Triad where(PackMask yes, const Triad& a) { return {where(yes, a.x), where(yes, a.y), where(yes, a.z)}; }
-
-HWY_INLINE void count_losses(const Losses<Pack>& losses, PackMask touching, double* sums) {
-  const Pack all[] = {losses.damping, losses.shear_damping, losses.sliding, losses.into_slide, losses.into_roll};
-  for (int k = 0; k < 5; ++k) sums[k] = add_up(sums[k], where(touching, all[k]));
 }
 
 /// Places of a pack's contacts in the list.
@@ -99,8 +113,8 @@ HWY_INLINE void respond(const PairSweep& sweep, const LawConstants<Pack>& consta
   Memory<Pack> kept = recall(memory);
   Losses<Pack> losses;
   const Response<Pack> does =
-      contact_response(sweep.laws, constants, touch, kept, sweep.dt, sweep.ledger ? &losses : nullptr);
-  if (sweep.ledger) count_losses(losses, touching, found.losses);
+      contact_response(sweep.laws, constants, touch, kept, sweep.dt, sweep.taking ? &losses : nullptr);
+  if (sweep.taking) count(sweep, at.pair, touching, touch, does, losses, found);
   keep(kept.slide, touching, memory);
   if (sweep.laws.rolling != RollingLaw::none) keep(kept.roll, touching, memory + 24);
 
@@ -144,6 +158,9 @@ HWY_INLINE void fetch_rows(const PairSweep& sweep, std::uint32_t grain) {
   __builtin_prefetch(sweep.motion + grain);
   __builtin_prefetch(sweep.load + grain, 1);
   __builtin_prefetch(sweep.spin + grain);
+  if (!sweep.taking) return;
+  __builtin_prefetch(&sweep.taking[grain].dashpot, 1);
+  __builtin_prefetch(&sweep.taking[grain].couple, 1);
 }
 
 }  // namespace

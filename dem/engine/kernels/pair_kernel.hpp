@@ -13,12 +13,14 @@ namespace soilbin::dem {
 struct Motion;
 struct Spin;
 struct Load;
+struct Taking;
 
 /// What a sweep over the contacts of a step reads and writes; the same for all its slabs.
 struct PairSweep {
   const Motion* motion;
   const Spin* spin;
   Load* load;
+  Taking* taking;  ///< nullptr: losses aren't counted
   const std::uint32_t *first, *second;
   const std::uint8_t* kind;
   double* memory;
@@ -29,7 +31,6 @@ struct PairSweep {
   double dt;         ///< [s]
   double period[3];  ///< [m]; 0: not periodic
   double deepest;    ///< largest overlap allowed, as a share of the smaller radius
-  bool ledger;       ///< whether losses are counted
 };
 
 /// What a sweep over some batches found.

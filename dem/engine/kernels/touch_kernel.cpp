@@ -39,6 +39,8 @@ void run_touches(const TouchSweep& sweep, TouchBatch& batch, int count) {
     store_triad(does.force, batch.force, first);
     store_triad(does.couple, batch.couple, first);
     if (!sweep.ledger) continue;
+    store_triad(losses.dashpot * touch.normal, batch.dashpot, first);
+    store_triad(does.tangential, batch.slide, first);
     const Pack all[] = {losses.damping, losses.shear_damping, losses.sliding, losses.into_slide, losses.into_roll};
     const PackMask used = mask_of((1u << (count - first)) - 1);
     for (int k = 0; k < 5; ++k) batch.losses[k] = add_up(batch.losses[k], where(used, all[k]));

@@ -16,7 +16,9 @@ struct alignas(64) TouchBatch {
   double memory[6][8];
   // Out: on the grain.
   double force[3][8], couple[3][8];
-  double losses[5];  ///< Losses in their order, summed over the contacts [W]; only where counted
+  // Out, only where counted.
+  double dashpot[3][8], slide[3][8];  ///< parts of force: of the normal dashpot, and tangential
+  double losses[5];                   ///< Losses in their order, summed over the contacts [W]
   std::uint8_t kind[8];
 };
 

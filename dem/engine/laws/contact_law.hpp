@@ -38,7 +38,7 @@ struct Response {
   Real pressing;            ///< F_N [N]
 };
 
-/// Where a contact's energy goes, as powers [W].
+/// Where a contact's energy goes, as powers [W], by the velocities of half a step ago.
 template <class Real>
 struct Losses {
   Real damping;        ///< lost in the normal dashpot
@@ -46,6 +46,7 @@ struct Losses {
   Real sliding;        ///< lost in the slider
   Real into_slide;     ///< taken from the motion by tangential spring, dashpot and slider together
   Real into_roll;      ///< taken by rolling resistance
+  Real dashpot;        ///< no power but the normal dashpot's push on i [N]
 };
 
 namespace law {
@@ -178,6 +179,7 @@ template <class Real>
     out.couple = law::rolling(laws, c, at, normal.stiffness, out.pressing, memory.roll, dt);
   if (losses) {
     const Triple<Real> stretched = (memory.slide - before) * Real(1 / dt);
+    losses->dashpot = -normal.damping * approach;
     losses->damping = normal.damping * approach * approach;
     losses->shear_damping = normal.shear_damping * dot(along, stretched);
     losses->sliding = -dot(out.tangential, along - stretched);
