@@ -58,7 +58,7 @@ double sideways_travel(const Rolling& r, int i) {
 /// What soil that presses on the wall with `pressing` [N] at node i does to a wall that slides along it with the
 /// coefficient of friction mu; adds to `sum`. Passive pressure grows with depth: it acts a third of h above the rim.
 void rub(AddedForce& sum, double mu, double pressing, const Edge& e, const Rolling& r, int i) {
-  const double sine = r.patch.theta[i] < 0.0 ? -std::sqrt(1 - e.cosine * e.cosine) : std::sqrt(1 - e.cosine * e.cosine);
+  const double sine = std::copysign(std::sqrt(1 - e.cosine * e.cosine), r.patch.theta[i]);
   const double arm = r.outline.radius - e.depth / 3;
   const double turns = r.around.motion.locked ? 0.0 : arm / r.outline.radius;
   const double back = turns * e.cosine - r.around.motion.forward, down = turns * sine;  // of the wall over the soil

@@ -34,12 +34,15 @@ inline OperatingCondition driven(double load = 800, double slip = 0.2) {
   return at;
 }
 
+inline RollingWheel wheel_on(const SoilValues& soil, const EffectList& effects = {}, std::optional<Bin> bin = {}) {
+  Tire tire;
+  tire.radius = radius, tire.width = width;
+  return {tire, soil, effects, bin};
+}
+
 inline Reading roll(const SoilValues& soil, const EffectList& effects, const OperatingCondition& at,
                     std::optional<Bin> bin = {}) {
-  Tire tire;
-  tire.radius = radius;
-  tire.width = width;
-  return RollingWheel(tire, soil, effects, bin).roll(at).reading;
+  return wheel_on(soil, effects, bin).roll(at).reading;
 }
 
 inline Reading base(const OperatingCondition& at) { return roll(sand(), {}, at); }

@@ -5,10 +5,7 @@ namespace soilbin::bekker_wong::bed {
 namespace {
 
 RolledWheel rolled(const EffectChoice& choice, const OperatingCondition& at) {
-  Tire tire;
-  tire.radius = radius;
-  tire.width = width;
-  return RollingWheel(tire, sand(), make_effects({choice})).roll(at);
+  return wheel_on(sand(), make_effects({choice})).roll(at);
 }
 
 TEST(ExitAngle, ZeroAmplitudeIsTheBaseModel) {
@@ -56,12 +53,9 @@ TEST(ExitAngle, IsWhatTheFormsSay) {
 TEST(ExitAngle, FullReboundTakesTheCompactionResistance) {
   SoilValues soil = sand();
   soil.c1 = soil.c2 = 0;
-  Tire tire;
-  tire.radius = radius;
-  tire.width = width;
-  const RollingWheel wheel(tire, soil, make_effects({{"exit_angle", "rebound", {{"lambda", 1.0}}}}));
+  const RollingWheel wheel = wheel_on(soil, make_effects({{"exit_angle", "rebound", {{"lambda", 1.0}}}}));
   EXPECT_NEAR(wheel.roll(driven()).forces.compaction, 0.0, 1e-9 * 800);
-  EXPECT_LT(RollingWheel(tire, soil).roll(driven()).forces.compaction, -100.0);
+  EXPECT_LT(wheel_on(soil).roll(driven()).forces.compaction, -100.0);
 }
 
 }  // namespace

@@ -7,12 +7,7 @@ namespace {
 const std::string id = "pressure_dependent_shear_modulus";
 const char* const forms[] = {"power", "linear", "constant_stiffness"};
 
-ContactPatch patch(const EffectChoice& choice) {
-  Tire tire;
-  tire.radius = radius;
-  tire.width = width;
-  return RollingWheel(tire, sand(), make_effects({choice})).roll(driven()).patch;
-}
+ContactPatch patch(const EffectChoice& choice) { return wheel_on(sand(), make_effects({choice})).roll(driven()).patch; }
 
 double torque_ratio(const char* form, const OperatingCondition& at) {
   return with({id, form, {}}, at).torque / base(at).torque;

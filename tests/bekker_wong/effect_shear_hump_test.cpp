@@ -6,12 +6,7 @@
 namespace soilbin::bekker_wong::bed {
 namespace {
 
-RollingWheel wheel(const EffectChoice& choice) {
-  Tire tire;
-  tire.radius = radius;
-  tire.width = width;
-  return {tire, sand(), make_effects({choice})};
-}
+RollingWheel wheel(const EffectChoice& choice) { return wheel_on(sand(), make_effects({choice})); }
 
 TEST(ShearHump, ZeroAmplitudeIsTheBaseModel) {
   expect_base_at_zero("shear_hump", driven());

@@ -80,14 +80,10 @@ TEST(SidewallBulldozing, HoldsOnACrossSlope) {
   }
 }
 
-/// The wall's row of the budget, in the wheel's axes.
-AddedForce wall(const std::string& form, double mu, const OperatingCondition& at) {
-  Tire tire;
-  tire.radius = radius;
-  tire.width = width;
-  std::map<std::string, double> values{{"a", 1.0}};
-  if (form == "rough_wedge") values["mu"] = mu;
-  return RollingWheel(tire, sand(), make_effects({{id, form, values}})).roll(at).forces.added.rows()[0];
+/// A rough wall's row of the budget, in the wheel's axes.
+AddedForce rough_wall(double mu, const OperatingCondition& at) {
+  const EffectList effects = make_effects({{id, "rough_wedge", {{"a", 1.0}, {"mu", mu}}}});
+  return wheel_on(sand(), effects).roll(at).forces.added.rows()[0];
 }
 
 // The wall rubs on the soil that it presses: without friction it is the wedge to the bit, with it a force of mu times
@@ -96,15 +92,15 @@ AddedForce wall(const std::string& form, double mu, const OperatingCondition& at
 TEST(SidewallBulldozing, ARoughWallRubs) {
   expect_same_bits(with({id, "rough_wedge", {{"a", 1.0}, {"mu", 0.0}}}, yawed(20)),
                    with({id, "passive_wedge", {{"a", 1.0}}}, yawed(20)));
-  const AddedForce dragged = wall("rough_wedge", 0.3, yawed(30, 200, -1.0));
+  const AddedForce dragged = rough_wall(0.3, yawed(30, 200, -1.0));
   EXPECT_NEAR(dragged.forward, -0.3 * dragged.lateral, 1e-12 * dragged.lateral);
   EXPECT_EQ(dragged.vertical, 0.0);
   EXPECT_LT(dragged.torque, 0.0);  // the soil turns it on
-  const AddedForce spun = wall("rough_wedge", 0.3, yawed(30, 400, 0.7));
+  const AddedForce spun = rough_wall(0.3, yawed(30, 400, 0.7));
   EXPECT_GT(spun.forward, 0.0);
   EXPECT_GT(spun.torque, 0.0);
   EXPECT_LE(std::hypot(spun.forward, spun.vertical), 0.3 * spun.lateral * (1 + 1e-12));
-  const AddedForce left = wall("rough_wedge", 0.3, yawed(-30, 400, 0.7));
+  const AddedForce left = rough_wall(0.3, yawed(-30, 400, 0.7));
   EXPECT_NEAR(left.lateral, -spun.lateral, 1e-9);
   EXPECT_NEAR(left.forward, spun.forward, 1e-9);
 }
@@ -113,7 +109,7 @@ TEST(SidewallBulldozing, ARoughWallRubs) {
 TEST(SidewallBulldozing, FrictionTakesPower) {
   for (const double slip : {-0.8, -0.3, 0.0, 0.3, 0.8}) {
     const OperatingCondition at = yawed(25, 300, slip);
-    const AddedForce f = wall("rough_wedge", 0.5, at);
+    const AddedForce f = rough_wall(0.5, at);
     const Kinematics motion = kinematics(at);
     EXPECT_GT(f.torque / radius - f.forward * motion.forward, 0.0) << slip;
   }
@@ -126,11 +122,7 @@ TEST(SidewallBulldozing, LockedSidewaysInClosedForm) {
   clay.friction_angle = 0, clay.density = 0, clay.cohesion = 3000;
   OperatingCondition at = yawed(90, 300, -1.0);
   at.slip_by = SlipBy::travel_speed;
-  Tire tire;
-  tire.radius = radius;
-  tire.width = width;
-  const EffectList effects = make_effects({{id, "passive_wedge", {{"a", 1.0}}}});
-  const RolledWheel w = RollingWheel(tire, clay, effects).roll(at);
+  const RolledWheel w = wheel_on(clay, make_effects({{id, "passive_wedge", {{"a", 1.0}}}})).roll(at);
   const double t = w.balance_angle, wall = radius * radius * (t - std::sin(t) * std::cos(t)) / 2;
   ASSERT_EQ(w.forces.added.rows().size(), 1u);
   EXPECT_NEAR(w.forces.added.rows()[0].lateral, 2 * 3000 * wall, 1e-7);

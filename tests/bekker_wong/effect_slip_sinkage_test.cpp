@@ -108,11 +108,8 @@ TEST(SlipSinkage, DeeperWithYaw) {
 
 // Where the wheel settles, the stresses still carry the load.
 TEST(SlipSinkage, CarriesTheLoadWhereItSettles) {
-  Tire tire;
-  tire.radius = radius;
-  tire.width = width;
   for (const char* form : forms) {
-    const RollingWheel wheel(tire, sand(), make_effects({{"slip_sinkage", form, {}}}));
+    const RollingWheel wheel = wheel_on(sand(), make_effects({{"slip_sinkage", form, {}}}));
     EXPECT_NEAR(wheel.roll(driven(500, 0.5)).forces.vertical, 500, 1e-9 * 500) << form;
   }
 }

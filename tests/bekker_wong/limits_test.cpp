@@ -13,11 +13,7 @@ namespace {
 
 constexpr double deg = std::numbers::pi / 180;
 
-RollingWheel wheel_on(const SoilValues& soil, const EffectList& effects = {}) {
-  Tire tire;
-  tire.radius = bed::radius, tire.width = bed::width;
-  return {tire, soil, effects};
-}
+using bed::wheel_on;
 
 TEST(Limits, TheSlipFoundGivesThePullAskedFor) {
   const RollingWheel wheel = wheel_on(bed::sand());
