@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/element_test_flags.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
@@ -138,7 +139,9 @@ void add_bevameter(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("bevameter", "n, k_c, k_phi, c, phi and K of a soil's grains");
   const auto options = std::make_shared<Options>();
   command->add_option("soil", options->soil, "of the library, or a YAML file")->type_name("SOIL")->required();
-  command->add_option("--output", options->output, "save the soil with these values")->type_name("FILE.yaml");
+  command->add_option("--output", options->output, "save the soil with these values")
+      ->type_name("FILE.yaml")
+      ->check(writable_file());
   command->add_option("--packings", options->packings, "number of beds, 2; their scatter is the error")->type_name("N");
   command->add_flag("--json", options->json, "soilbin-bevameter/1, in SI");
   options->flags.add_to(*command);

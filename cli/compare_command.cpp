@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
@@ -175,10 +176,12 @@ void add_compare(CLI::App& app, Session& session) {
       ->type_name("SOIL");
   command->add_option("--effect", asked->effects, "one more side: the analytic model with this effect; repeatable")
       ->type_name("ID[:FORM][,PARAMETER=VALUE]");
-  command->add_option("--report", asked->report, "write everything as one page")->type_name("FILE.html");
+  command->add_option("--report", asked->report, "write everything as one page")
+      ->type_name("FILE.html")
+      ->check(writable_file());
   command->add_option("--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data")
       ->type_name("DIR");
-  command->add_option("--csv", asked->csv, "save every row")->type_name("FILE.csv");
+  command->add_option("--csv", asked->csv, "save every row")->type_name("FILE.csv")->check(writable_file());
   command->add_option("--replay", asked->replay, "a replay of grains to put into the page")->type_name("FILE");
   command->add_option("--title", asked->title, "of the page")->type_name("TEXT");
   command->add_flag("--no-loop", asked->no_loop, "don't look for what the analytic model lacks");

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/replay_recorder.hpp"
 #include "cli/soil_bin.hpp"
@@ -208,9 +209,12 @@ void add_drive(CLI::App& app, Session& session) {
       ->type_name("NAME")
       ->capture_default_str();
   command->add_option("--plot", options->plot, "draw speed, slip, sinkage, torque, forces and energy against time")
-      ->type_name("FILE.svg");
-  command->add_option("--csv", options->csv, "save every sample")->type_name("FILE.csv");
-  command->add_option("--report", options->report, "save a page to open in a browser")->type_name("FILE.html");
+      ->type_name("FILE.svg")
+      ->check(writable_file());
+  command->add_option("--csv", options->csv, "save every sample")->type_name("FILE.csv")->check(writable_file());
+  command->add_option("--report", options->report, "save a page to open in a browser")
+      ->type_name("FILE.html")
+      ->check(writable_file());
   command->add_option("--samples", options->samples, "intervals of time that are recorded; 400")
       ->type_name("WHOLE")
       ->check(CLI::Range(1, 1000000));
@@ -219,7 +223,8 @@ void add_drive(CLI::App& app, Session& session) {
   command->add_flag("--ledger", options->ledger,
                     "dem: tell what the grains did with their work too; takes up to twice as long");
   command->add_option("--replay", options->soil_bin.replay, "dem: keep the drive, to look at it in 3D")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(writable_file());
   command->footer(
       "Examples: soilbin drive rover-climb --report climb.html\n"
       "          soilbin drive drive-in-grains --model both --settling-friction 0 --report sides.html");

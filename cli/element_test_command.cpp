@@ -147,7 +147,7 @@ void add_element_test(CLI::App& app, Session& session) {
   command->add_option("--inertial", options->inertial, "direct-shear, triaxial: inertial number of the rate, 0.001")
       ->type_name("I");
   command->add_flag("--ledger", options->ledger, "direct-shear, triaxial: check the balance of energy (in --json)");
-  command->add_option("--plot", options->plot, "draw the curves")->type_name("FILE.svg");
+  command->add_option("--plot", options->plot, "draw the curves")->type_name("FILE.svg")->check(writable_file());
   command->add_flag("--json", options->json, "soilbin-element-test/1, in SI");
   options->flags.add_to(*command);
   command->footer("Example: soilbin element-test direct-shear paper-sand --stress 10kPa --stress 40kPa --plot box.svg");

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
@@ -186,9 +187,12 @@ void add_failure_map(CLI::App& app, Session& session) {
       ->type_name("ID[:FORM][,PARAMETER=VALUE...]")
       ->allow_extra_args(false);
   command->add_option("--store", asked->store, "keep each run in this file, and go on with what is there")
-      ->type_name("FILE.json");
+      ->type_name("FILE.json")
+      ->check(writable_file());
   command->add_flag("--stored", asked->stored, "answer from the store alone, without running");
-  command->add_option("--report", asked->report, "write the report as one page")->type_name("FILE.html");
+  command->add_option("--report", asked->report, "write the report as one page")
+      ->type_name("FILE.html")
+      ->check(writable_file());
   command->add_option("--seed", asked->seed, "of the design, 1")->type_name("N");
   command->add_flag("--show-rows", asked->rows, "print every condition run");
   command->add_flag("--json", asked->json, "soilbin-failure-map/1, in SI");

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
+
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
 
@@ -36,6 +38,19 @@ std::pair<double, double> read_range(const std::string& flag, const std::string&
   if (!(range.first < range.second))
     throw InputError(fmt::format("{}: the lower end must be below the upper one, not '{}'", flag, clipped(text)));
   return range;
+}
+
+CLI::Validator writable_file() {
+  const auto problem = [](const std::string& name) -> std::string {
+    namespace fs = std::filesystem;
+    std::error_code none;
+    const fs::path path(name), folder = path.parent_path();
+    if (fs::is_directory(path, none))
+      return fmt::format("'{}' is a folder, where a file is to be written", clipped(name));
+    if (folder.empty() || fs::is_directory(folder, none)) return "";
+    return fmt::format("there is no folder '{}'\n  hint: mkdir -p '{}'", folder.string(), folder.string());
+  };
+  return {[problem](std::string& name) { return problem(name); }, ""};
 }
 
 }  // namespace soilbin::cli

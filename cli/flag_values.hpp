@@ -1,6 +1,7 @@
 // Values as flags give them: numbers with units, ranges, lists. Each error names its flag.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,5 +22,8 @@ void set_where_given(const std::string& flag, const std::string& text, const Mea
 
 /// "LOW..HIGH" [SI], the lower end below the upper one. Throws InputError that names the flag.
 std::pair<double, double> read_range(const std::string& flag, const std::string& text, const Measure& measure);
+
+/// For flags that name a file to write: refuses, before any work is done, what can't become one.
+CLI::Validator writable_file();
 
 }  // namespace soilbin::cli

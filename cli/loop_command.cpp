@@ -1,17 +1,18 @@
 // soilbin loop: residual, cause, effect added, error before and after, on a measured campaign.
 #include <fmt/core.h>
 
-#include <charconv>
+#include <algorithm>
 #include <memory>
-#include <numbers>
 #include <thread>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/report/result_json.hpp"
 #include "scenario/atomic_file.hpp"
+#include "scenario/description.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 
@@ -26,42 +27,36 @@ struct Asked {
   unsigned seed = 1;
 };
 
-/// "load=50..200" in the campaign's units (N, m/s, deg, %, m).
+/// "load=50..200" in the campaign's units (N, m/s, deg, %, m), or with units: "load=50N..0.2kN".
 compare::Limits read_limits(const std::vector<std::string>& texts) {
-  constexpr double degree = std::numbers::pi / 180;
-  const std::vector<std::pair<std::string, double>> known = {{"slip", 1.0},
-                                                             {"load", 1.0},
-                                                             {"speed", 1.0},
-                                                             {"pass", 1.0},
-                                                             {"yaw", degree},
-                                                             {"longitudinal_incline", degree},
-                                                             {"transverse_incline", degree},
-                                                             {"position", 1.0},
-                                                             {"moisture", 0.01}};
+  const std::vector<std::pair<std::string, Measure>> known = {{"slip", {"-", {.lower = -1.0, .upper = 1.0}}},
+                                                              {"load", {"N", above_zero}},
+                                                              {"speed", {"m/s", above_zero}},
+                                                              {"pass", {"-", {.lower = 1.0}}},
+                                                              {"yaw", {"deg", yaws}},
+                                                              {"longitudinal_incline", {"deg", inclines}},
+                                                              {"transverse_incline", {"deg", inclines}},
+                                                              {"position", {"m", any_value}},
+                                                              {"moisture", {"%", fractions}}};
   compare::Limits limits;
   for (const std::string& text : texts) {
-    const std::size_t equals = text.find('='), dots = text.find("..");
-    if (equals == std::string::npos || dots == std::string::npos || dots < equals)
-      throw InputError(fmt::format("--limit '{}': expected NAME=LOW..HIGH, such as load=50..200", text));
-    const std::string name = text.substr(0, equals);
+    const std::vector<std::string> parts = split(text, "=");
+    if (parts.size() != 2 || split(parts[1], "..").size() != 2)
+      throw InputError(fmt::format("--limit '{}': expected NAME=LOW..HIGH, such as load=50N..200N", clipped(text)));
     std::vector<std::string> names;
-    double unit = 0.0;
-    for (const auto& [word, factor] : known) {
-      names.push_back(word);
-      if (word == name) unit = factor;
-    }
-    if (unit == 0.0)
-      throw InputError(fmt::format("--limit: unknown condition '{}'{}", name, did_you_mean(name, names)));
-    const auto value = [&](const std::string& part) {
-      double v = 0.0;
-      const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), v);
-      if (error != std::errc() || end != part.data() + part.size())
-        throw InputError(fmt::format("--limit '{}': '{}' is not a number", text, part));
-      return v * unit;
-    };
-    const double low = value(text.substr(equals + 1, dots - equals - 1)), high = value(text.substr(dots + 2));
-    if (!(low <= high)) throw InputError(fmt::format("--limit '{}': the lower end is above the upper", text));
-    limits[name] = {low, high};
+    for (const auto& [name, measure] : known) names.push_back(name);
+    const auto found = std::find(names.begin(), names.end(), parts[0]);
+    if (found == names.end())
+      throw InputError(
+          fmt::format("--limit: unknown condition '{}'{}", clipped(parts[0]), did_you_mean(parts[0], names)));
+    const Measure& measure = known[static_cast<std::size_t>(found - names.begin())].second;
+    std::vector<double> ends;
+    for (const std::string& end : split(parts[1], ".."))
+      ends.push_back(read_flag("--limit " + parts[0],
+                               read_number(end) && measure.unit != "-" ? end + measure.unit : end, measure));
+    if (!(ends[0] <= ends[1]))
+      throw InputError(fmt::format("--limit '{}': the lower end is above the upper", clipped(text)));
+    limits[parts[0]] = {ends[0], ends[1]};
   }
   return limits;
 }
@@ -74,9 +69,9 @@ void print_answer(const compare::LoopAnswer& answer, bool only_next) {
     if (answer.validation.overall.cells > 0) fmt::print("\n{}", as_text(compare::error_table(answer)));
     return;
   }
-  const std::vector<std::string> sentences = compare::explanation(answer);
-  fmt::print("{}\n", sentences.empty() || !answer.next ? "No condition within the limits would decide more."
-                                                       : sentences.back());
+  const std::vector<std::string> sentences = compare::what_next(answer);
+  for (const std::string& sentence : sentences) fmt::print("{}\n", sentence);
+  if (sentences.empty()) fmt::print("No condition within the limits would decide more.\n");
 }
 
 int loop(const Asked& asked, const Session& session) {
@@ -111,11 +106,17 @@ void add_loop(CLI::App& app, Session& session) {
       app.add_subcommand("loop", "find what the model lacks: residual, cause, effect added, error before and after");
   const auto asked = std::make_shared<Asked>();
   command->add_option("campaign", asked->campaign, "of the library, or its folder")->type_name("CAMPAIGN")->required();
-  command->add_option("--report", asked->report, "write the report as one page")->type_name("FILE.html");
+  command->add_option("--report", asked->report, "write the report as one page")
+      ->type_name("FILE.html")
+      ->check(writable_file());
   command->add_option("--save-model", asked->model, "write soil and effects as a case that other commands take")
-      ->type_name("FILE.yaml");
+      ->type_name("FILE.yaml")
+      ->check(writable_file());
   command->add_flag("--next", asked->next, "say only what to measure next");
-  command->add_option("--limit", asked->limits, "range that the rig can reach, for --next; repeatable")
+  command
+      ->add_option(
+          "--limit", asked->limits,
+          "for what to measure next: range that the rig can reach, where it isn't the campaign's own; repeatable")
       ->type_name("NAME=LOW..HIGH");
   command->add_option("--folds", asked->folds, "parts into which conditions are dealt for the honest errors")
       ->type_name("N")

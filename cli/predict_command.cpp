@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/curves.hpp"
@@ -64,7 +65,9 @@ void add_predict(CLI::App& app, Session& session) {
       ->add_option("--model", options->model,
                    "a resolved model (soilbin-case/1) in place of the declared soil and effects")
       ->type_name("FILE");
-  command->add_option("--plot", options->plot, "draw measured and predicted against slip")->type_name("FILE.svg");
+  command->add_option("--plot", options->plot, "draw measured and predicted against slip")
+      ->type_name("FILE.svg")
+      ->check(writable_file());
   command->add_flag("--json", options->json, "soilbin-predict/1, in SI");
   command->footer("Example: soilbin predict cmu-smooth --plot predicted.svg");
   command->callback([=, &session] { session.action = [=, &session] { return predict(*options, session); }; });

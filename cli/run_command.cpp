@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/converge.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
@@ -120,8 +121,10 @@ void add_run(CLI::App& app, Session& session) {
   const auto options = std::make_shared<RunOptions>();
   command->add_option("study", options->study, "of the library, or a case file")->type_name("STUDY")->required();
   command->add_option("--model", options->model, "only this model: bekker_wong or dem")->type_name("NAME");
-  command->add_option("--plot", options->plot, "draw the curves against slip")->type_name("FILE.svg");
-  command->add_option("--csv", options->csv, "save the table")->type_name("FILE.csv");
+  command->add_option("--plot", options->plot, "draw the curves against slip")
+      ->type_name("FILE.svg")
+      ->check(writable_file());
+  command->add_option("--csv", options->csv, "save the table")->type_name("FILE.csv")->check(writable_file());
   command->add_option("--output", options->output, "save the resolved case and the results")->type_name("DIR");
   command->add_flag("--json", options->json, "the results as JSON, in SI");
   command->add_flag("--converge", options->converge,
@@ -129,7 +132,8 @@ void add_run(CLI::App& app, Session& session) {
   options->conditions.add_to(*command);
   options->soil_bin.add_to(*command);
   command->add_option("--replay", options->soil_bin.replay, "dem: keep the first run that is made, to look at it in 3D")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(writable_file());
   command->footer(
       "A condition flag keeps the study's conditions that agree with it; where none does, it overrides them.\n"
       "Example: soilbin run paper-straight --load 4kN --plot pull.svg");

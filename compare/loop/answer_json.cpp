@@ -91,7 +91,10 @@ ordered_json next_json(const LoopAnswer& answer) {
     for (const std::string& id : ids) joined += (joined.empty() ? "" : "+") + id;
     separates.push_back(joined.empty() ? "base" : joined);
   }
-  return {{"condition", condition_json(*answer.next)}, {"separates", separates}, {"runs", answer.next->runs}};
+  return {{"condition", condition_json(*answer.next)},
+          {"separates", separates},
+          {"runs", answer.next->runs},
+          {"beyond", answer.next->beyond}};
 }
 
 }  // namespace

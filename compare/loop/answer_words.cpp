@@ -69,6 +69,23 @@ std::string listed_words(const std::vector<std::string>& words) {
 
 }  // namespace
 
+std::vector<std::string> what_next(const LoopAnswer& answer) {
+  if (!answer.next && answer.ambiguity_set.size() > 1)
+    return {"No condition within the limits would set these rivals apart in 50 runs."};
+  if (!answer.next) return {};
+  const NextTest& next = *answer.next;
+  std::vector<std::string> sentences = {
+      fmt::format("Measure next: {}. It sets {} apart from {}; {} run{} should decide.", condition_words(next),
+                  joined(next.separates.front()), joined(next.separates.back()), next.runs, next.runs == 1 ? "" : "s")};
+  if (next.beyond.empty()) return sentences;
+  std::vector<std::string> names = next.beyond;
+  for (std::string& name : names) std::replace(name.begin(), name.end(), '_', ' ');
+  sentences.push_back(fmt::format(
+      "That is beyond what was run (in {}), where rivals part best. What the rig can't reach: --limit {}=LOW..HIGH.",
+      listed_words(names), next.beyond.front()));
+  return sentences;
+}
+
 std::vector<std::string> explanation(const LoopAnswer& answer) {
   std::vector<std::string> sentences;
   for (const AcceptedEffect& effect : answer.effects) sentences.push_back(effect_sentence(effect));
@@ -95,13 +112,8 @@ std::vector<std::string> explanation(const LoopAnswer& answer) {
   if (!answer.not_testable.empty())
     sentences.push_back(
         "Not testable with these data (which does not mean absent): " + listed_words(answer.not_testable) + ".");
-  if (answer.next)
-    sentences.push_back(fmt::format("Measure next: {}. It sets {} apart from {}; {} run{} should decide.",
-                                    condition_words(*answer.next), joined(answer.next->separates.front()),
-                                    joined(answer.next->separates.back()), answer.next->runs,
-                                    answer.next->runs == 1 ? "" : "s"));
-  else if (answer.ambiguity_set.size() > 1)
-    sentences.push_back("No condition within the limits would set these rivals apart in 50 runs.");
+  const std::vector<std::string> next = what_next(answer);
+  sentences.insert(sentences.end(), next.begin(), next.end());
   return sentences;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace soilbin::compare {
@@ -170,6 +171,32 @@ MatrixXd common_gain(const Observations& observations, const Whitening& whitenin
   return size > 0 ? MatrixXd(white / size) : white;
 }
 
+/// Each channel bent over its own range: Legendre's polynomials of the prediction of order 2 to 4. An instrument that
+/// is not linear, whatever the conditions.
+MatrixXd bent(const Observations& observations, const NoiseFloor& noise, const Whitening& whitening,
+              const VectorXd& prediction) {
+  constexpr int bends = 3;
+  std::array<double, channel_count> low, high;
+  low.fill(std::numeric_limits<double>::infinity()), high.fill(-std::numeric_limits<double>::infinity());
+  const auto channel_of = [&](Index i) {
+    return static_cast<std::size_t>(observations.cells[static_cast<std::size_t>(i)].channel);
+  };
+  for (Index i = 0; i < prediction.size(); ++i) {
+    double &least = low[channel_of(i)], &most = high[channel_of(i)];
+    least = std::min(least, prediction[i]), most = std::max(most, prediction[i]);
+  }
+  MatrixXd columns = MatrixXd::Zero(prediction.size(), channel_count * bends);
+  for (Index i = 0; i < prediction.size(); ++i) {
+    const std::size_t c = channel_of(i);
+    if (!(high[c] > low[c])) continue;
+    const double x = 2 * (prediction[i] - low[c]) / (high[c] - low[c]) - 1;
+    for (int k = 0; k < bends; ++k)
+      columns(i, static_cast<Index>(c) * bends + k) =
+          noise.channels[c].sd(prediction[i]) * std::sqrt(2.0 * k + 5) * std::legendre(static_cast<unsigned>(k) + 2, x);
+  }
+  return whitening(columns);
+}
+
 }  // namespace
 
 std::vector<MatrixXd> unnamed_families(const Observations& observations, const NoiseFloor& noise,
@@ -178,6 +205,7 @@ std::vector<MatrixXd> unnamed_families(const Observations& observations, const N
   for (const MatrixXd& functions : row_families(observations))
     families.push_back(in_every_channel(observations, noise, whitening, prediction, functions));
   families.push_back(carried_over(observations, noise, whitening, prediction));
+  families.push_back(bent(observations, noise, whitening, prediction));
   for (const Covariate& c : covariates(observations))
     if (c.name == "run" || c.name == "load")
       families.push_back(common_gain(observations, whitening, prediction, c.values));

@@ -70,23 +70,35 @@ bool confirmed(const LoopAnswer& answer) {
   return gain.mean > gain.std_error || (gain.mean > 0 && odds > odds_enough);
 }
 
-/// The sets that the data can't tell from the best, best first. How far a set may stand behind grows with what the best
-/// one explains: the more there is to explain, the more a form that nature does not share costs. It is wider on small
-/// designs, where a few values decide.
-std::vector<Weighted> ambiguity(const Identification& id) {
-  const Rival& best = id.rivals[*id.best];
-  const auto own = set_of(id, best.ids);
+/// How far each set may stand behind the best one and still not be told from it [ln evidence]. It grows with what the
+/// best one explains: the more there is to explain, the more a form that nature does not share costs. It is wider on
+/// small designs, where a few values decide, and narrower for sets that hold the best one and more.
+double allowed_behind(const Identification& id, const Weighted& best, const std::set<std::string>& ids) {
+  if (ids.size() > best.ids.size() && std::includes(ids.begin(), ids.end(), best.ids.begin(), best.ids.end()))
+    return superset_allowed;
   const double cells = static_cast<double>(id.observations.cells.size());
-  const double allowed = std::clamp(std::sqrt(ambiguity_cells / cells), 1.0, ambiguity_most) *
-                         (ambiguity_base + ambiguity_growth * std::max(0.0, own->log_evidence - id.base_log_evidence));
-  std::vector<Weighted> set = {*own};
-  for (const Weighted& w : id.weights) {
-    if (w.ids == best.ids || !(w.weight > 0)) continue;
-    const bool more =
-        w.ids.size() > best.ids.size() && std::includes(w.ids.begin(), w.ids.end(), best.ids.begin(), best.ids.end());
-    const double behind = own->log_evidence - w.log_evidence;
-    if (behind <= (more ? superset_allowed : allowed)) set.push_back(w);
+  return std::clamp(std::sqrt(ambiguity_cells / cells), 1.0, ambiguity_most) *
+         (ambiguity_base + ambiguity_growth * std::max(0.0, best.log_evidence - id.base_log_evidence));
+}
+
+/// The sets that the data can't tell from the best, as indices of id.weights, best first.
+std::vector<Competitor> competitors(const Identification& id) {
+  const std::set<std::string>& best = id.rivals[*id.best].ids;
+  const auto own = set_of(id, best);
+  std::vector<Competitor> all = {{static_cast<std::size_t>(own - id.weights.begin()), allowed_behind(id, *own, best)}};
+  for (std::size_t i = 0; i < id.weights.size(); ++i) {
+    const Weighted& w = id.weights[i];
+    if (w.ids == best || !(w.weight > 0)) continue;
+    const double allowed = allowed_behind(id, *own, w.ids);
+    if (own->log_evidence - w.log_evidence <= allowed) all.push_back({i, allowed});
   }
+  return all;
+}
+
+/// The same as the answer lists them, with weights that sum to 1.
+std::vector<Weighted> ambiguity(const Identification& id, const std::vector<Competitor>& all) {
+  std::vector<Weighted> set;
+  for (const Competitor& c : all) set.push_back(id.weights[c.weighted]);
   double total = 0.0;
   for (const Weighted& w : set) total += w.weight;
   for (Weighted& w : set) w.weight /= total;
@@ -282,13 +294,12 @@ bool describe_base(const Campaign& campaign, LoopAnswer& answer) {
 void compare_rivals(const Campaign& campaign, LoopAnswer& answer, const Limits& limits) {
   const Identification& id = answer.details;
   if (!id.best || (answer.verdict != Verdict::effect_found && answer.verdict != Verdict::unknown_effect)) return;
-  answer.ambiguity_set = ambiguity(id);
+  const std::vector<Competitor> all = competitors(id);
+  answer.ambiguity_set = ambiguity(id, all);
   if (answer.verdict != Verdict::effect_found) return;
-  std::vector<std::size_t> rivals;
-  for (std::size_t i = 0; i < id.weights.size(); ++i)
-    for (const Weighted& w : answer.ambiguity_set)
-      if (w.ids == id.weights[i].ids) rivals.push_back(i);
-  answer.next = next_test(campaign, id, rivals, limits.empty() ? limits_of(id.observations) : limits);
+  Limits reach = limits;  // what is given comes before what the campaign spans
+  reach.merge(limits_of(id.observations));
+  answer.next = next_test(campaign, id, all, reach);
 }
 
 /// The choice within a fold: fewer simulations, its outliers set aside by the whole.

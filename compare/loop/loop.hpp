@@ -20,7 +20,7 @@ struct LoopOptions {
   IdentifyOptions identify;
   int folds = 5;
   int threads = 2;       ///< changes the time, never the answer
-  Limits limits;         ///< of the next test; empty: the campaign's own ranges
+  Limits limits;         ///< of the next test; where there is none, the campaign's own range
   bool validate = true;  ///< honest errors by the whole procedure redone in each fold; without it they are absent
   Progress progress;     ///< share of the work done, from the calling thread; may throw to stop
 };

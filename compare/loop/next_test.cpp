@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scenario/errors.hpp"
 
@@ -34,6 +35,7 @@ struct Candidate {
   VectorXd theta;
   std::vector<int> free;
   MatrixXd covariance;  ///< of the free parameters [SI]
+  double log_evidence = 0.0, allowed = 0.0;
 };
 
 Candidate candidate(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms, const Fit& fit,
@@ -103,6 +105,25 @@ double squared_distance(const std::pair<Vector4d, Matrix4d>& a, const std::pair<
   return gap.dot(spread.ldlt().solve(gap));
 }
 
+/// What the campaign spans, by name.
+Limits ranges_of(const Observations& observations) {
+  Limits ranges;
+  for (const Covariate& c : covariates(observations))
+    if (c.name != "run") ranges[c.name] = {c.values.minCoeff(), c.values.maxCoeff()};
+  return ranges;
+}
+
+/// Names of the conditions that lie outside what was run.
+std::vector<std::string> beyond(const Observations& observations, const OperatingCondition& at) {
+  Observations more = observations;
+  more.rows.push_back(at);
+  const Limits run = ranges_of(observations);
+  std::vector<std::string> names;
+  for (const auto& [name, range] : ranges_of(more))
+    if (const auto was = run.find(name); was == run.end() || was->second != range) names.push_back(name);
+  return names;
+}
+
 /// Every combination of a few levels of each limited condition, at most about a thousand.
 std::vector<OperatingCondition> grid(const Observations& observations, const Limits& limits) {
   OperatingCondition centre = observations.rows[observations.rows.size() / 2];
@@ -124,55 +145,126 @@ std::vector<OperatingCondition> grid(const Observations& observations, const Lim
   return points;
 }
 
+/// What a run at a condition would tell.
+struct Prospect {
+  double worth = 0.0;               ///< expected number of pairs that one run decides
+  std::size_t against = 0;          ///< the rival that it bears most upon, if the first is true
+  double distance = 0.0, runs = 0;  ///< of these two; runs until that one is out
+};
+
+/// The rivals with their weights, the best first.
+class Contest {
+ public:
+  Contest(std::vector<Candidate> rivals, const NoiseFloor& noise) : rivals_(std::move(rivals)), noise_(noise) {
+    double top = -std::numeric_limits<double>::infinity(), total = 0.0;
+    for (const Candidate& c : rivals_) top = std::max(top, c.log_evidence);
+    for (const Candidate& c : rivals_) weights_.push_back(std::exp(c.log_evidence - top)), total += weights_.back();
+    for (double& w : weights_) w /= total;
+  }
+
+  /// Nothing where a rival has no balance there, or can't be asked.
+  std::optional<Prospect> at(const OperatingCondition& condition) const try {
+    std::vector<std::pair<Vector4d, Matrix4d>> predictions;
+    for (const Candidate& c : rivals_) predictions.push_back(predict(c, condition));
+    Prospect p;
+    double most = 0.0;
+    for (std::size_t i = 0; i < rivals_.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const double d = squared_distance(predictions[i], predictions[j], noise_);
+        p.worth += weights_[i] * std::min(1.0, d / needed(i, j)) + weights_[j] * std::min(1.0, d / needed(j, i));
+        if (j > 0) continue;
+        const double bears =
+            std::min(1.0, d / needed(0, i)) + 1e-6 * weights_[i];  // of several that it decides, the likeliest
+        if (bears > most) most = bears, p.against = i, p.distance = d, p.runs = std::ceil(needed(0, i) / d);
+      }
+    return p.distance > 0 ? std::optional(p) : std::nullopt;
+  } catch (const NoSolution&) {
+    return std::nullopt;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+
+  const Candidate& rival(std::size_t i) const { return rivals_[i]; }
+
+ private:
+  /// Squared distance that puts j out where i is true.
+  double needed(std::size_t i, std::size_t j) const {
+    constexpr double least = 0.5;  // ln evidence: one that stands at the very edge
+    return 2 * std::max(least, rivals_[j].allowed - (rivals_[i].log_evidence - rivals_[j].log_evidence));
+  }
+
+  std::vector<Candidate> rivals_;
+  std::vector<double> weights_;
+  const NoiseFloor& noise_;
+};
+
+/// The most telling condition so far.
+class Search {
+ public:
+  explicit Search(const Contest& contest) : contest_(contest) {}
+  void ask(const OperatingCondition& at) {
+    if (const auto p = contest_.at(at); p && (!best_ || p->worth > best_->second.worth)) best_.emplace(at, *p);
+  }
+  const auto& best() const { return best_; }
+
+ private:
+  const Contest& contest_;
+  std::optional<std::pair<OperatingCondition, Prospect>> best_;
+};
+
+/// One condition after the other on finer levels, from the best so far.
+void refine(Search& search, const Limits& limits) {
+  constexpr int levels = 13;
+  for (const auto& [name, range] : limits) {
+    if (name == "pass" || !search.best()) continue;
+    const OperatingCondition from = search.best()->first;
+    for (int k = 0; k < levels; ++k) {
+      OperatingCondition at = from;
+      set_condition(at, name, range.first + (range.second - range.first) * k / (levels - 1));
+      search.ask(at);
+    }
+  }
+}
+
 }  // namespace
 
 Limits limits_of(const Observations& observations) {
-  Limits limits;
-  for (const Covariate& c : covariates(observations)) {
-    if (c.name == "run") continue;
-    limits[c.name] = {c.values.minCoeff(), c.values.maxCoeff()};
-  }
-  auto& slip = limits.try_emplace("slip", 0.05, 0.6).first->second;
-  slip.first = std::min(slip.first, 0.05);
-  slip.second = std::max(slip.second, 0.6);
+  Limits limits = ranges_of(observations);
+  auto& slip = limits.try_emplace("slip", 0.0, 0.0).first->second;
+  slip = {std::min(slip.first, -0.2), std::max(slip.second, 0.8)};
+  const double load = observations.rows.front().load;
+  auto& loads = limits.try_emplace("load", load, load).first->second;
+  loads = {0.7 * loads.first, 1.4 * loads.second};
   return limits;
 }
 
 std::optional<NextTest> next_test(const Campaign& campaign, const Identification& id,
-                                  const std::vector<std::size_t>& rivals, const Limits& limits) {
-  std::vector<Candidate> competing;
-  for (const std::size_t w : rivals) {
-    const Rival& rival = id.rivals[id.weights[w].best_rival];
-    competing.push_back(candidate(campaign, id, rival.terms, rival.fit, rival.ids));
+                                  const std::vector<Competitor>& competitors, const Limits& limits) {
+  std::vector<Candidate> rivals;
+  const auto add = [&](const std::vector<Term>& terms, const Fit& fit, std::set<std::string> ids, double evidence,
+                       double allowed) {
+    rivals.push_back(candidate(campaign, id, terms, fit, std::move(ids)));
+    rivals.back().log_evidence = evidence, rivals.back().allowed = allowed;
+  };
+  for (const Competitor& c : competitors) {
+    const Weighted& w = id.weights[c.weighted];
+    add(id.rivals[w.best_rival].terms, id.rivals[w.best_rival].fit, w.ids, w.log_evidence, c.allowed);
   }
-  if (competing.size() < 2) competing.push_back(candidate(campaign, id, {}, id.base, {}));
-  constexpr double decided = 2 * 3.0;  // 2 ln 20: what lies further apart than that is decided by one run
-  std::optional<NextTest> best;
-  double most = 0.0;
-  for (const OperatingCondition& at : grid(id.observations, limits)) try {
-      std::vector<std::pair<Vector4d, Matrix4d>> predictions;
-      for (const Candidate& c : competing) predictions.push_back(predict(c, at));
-      double worth = 0.0, widest = 0.0;
-      std::pair<std::size_t, std::size_t> apart{0, 1};
-      for (std::size_t i = 0; i < competing.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j) {
-          const double d = squared_distance(predictions[i], predictions[j], id.noise);
-          worth += std::min(d, decided);
-          if (d > widest) widest = d, apart = {j, i};
-        }
-      if (worth <= most || !(widest > 0)) continue;
-      most = worth;
-      best = NextTest{.at = at,
-                      .quantities = {},
-                      .separates = {competing[apart.first].ids, competing[apart.second].ids},
-                      .runs = static_cast<int>(std::ceil(decided / widest)),
-                      .distance = widest};
-    } catch (const NoSolution&) {  // no balance there: not a condition to ask for
-    } catch (const InputError&) {}
-  if (!best || best->runs > 50) return std::nullopt;
-  best->runs = std::max(best->runs, 1);
-  for (const auto& [name, range] : limits) best->quantities.push_back(name);
-  return best;
+  if (rivals.size() < 2) add({}, id.base, {}, id.base_log_evidence, competitors.front().allowed);
+  const Contest contest(std::move(rivals), id.noise);
+  Search search(contest);
+  for (const OperatingCondition& at : grid(id.observations, limits)) search.ask(at);
+  refine(search, limits);
+  if (!search.best() || search.best()->second.runs > 50) return std::nullopt;
+  const auto& [at, told] = *search.best();
+  NextTest next{.at = at,
+                .quantities = {},
+                .beyond = beyond(id.observations, at),
+                .separates = {contest.rival(0).ids, contest.rival(told.against).ids},
+                .runs = static_cast<int>(told.runs),
+                .distance = told.distance};
+  for (const auto& [name, range] : limits) next.quantities.push_back(name);
+  return next;
 }
 
 }  // namespace soilbin::compare

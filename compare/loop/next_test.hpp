@@ -14,23 +14,33 @@ namespace soilbin::compare {
 /// Closed ranges within which the rig can go, by condition name (slip, load, speed, yaw, pass, ...) [SI].
 using Limits = std::map<std::string, std::pair<double, double>>;
 
-/// The ranges that a campaign itself spans; slip reaches at least 0.05 .. 0.6.
+/// Where a campaign's rig can go as long as nobody says otherwise: the ranges that the campaign spans; loads from 0.7
+/// to 1.4 times them; slip at least -0.2 .. 0.8. Rivals that fit the same runs part best a little beyond them.
 Limits limits_of(const Observations& observations);
 
 struct NextTest {
   OperatingCondition at;
   std::vector<std::string> quantities;           ///< names of the conditions that matter: those that limits hold
-  std::vector<std::set<std::string>> separates;  ///< the rivals that it sets apart
-  int runs = 0;           ///< until the weaker of them is expected to be twenty times less likely
-  double distance = 0.0;  ///< squared distance of the rivals' predictions a run, in sd
+  std::vector<std::string> beyond;               ///< those of them that lie outside what the campaign has run
+  std::vector<std::set<std::string>> separates;  ///< the best rival, and the one that these runs bear most upon
+  int runs = 0;           ///< until that one is expected to be out of the set, if the best is true
+  double distance = 0.0;  ///< squared distance of the two predictions a run, in sd
 };
 
-/// The condition within limits with the largest sum over pairs of rivals of the squared distance between their
-/// predictions, over noise plus the predictions' own uncertainty and the tolerance of their forms (Buzzi-Ferraris and
-/// Forzatti 1983, Chem. Eng. Sci. 38:225), on a grid. A pair counts at most what decides between them.
-/// rivals: indices of id.weights that compete. With a single one it competes against the base model. Nothing where no
-/// condition within limits sets them apart in 50 runs.
+/// A set of effects that competes.
+struct Competitor {
+  std::size_t weighted = 0;  ///< index of id.weights
+  double allowed = 0.0;      ///< ln evidence by which it may stand behind and still competes
+};
+
+/// The condition within limits that is expected to put most rivals out: sum over rivals i, by their weight, of what one
+/// run would do against each other one j if i were true, min(1, d/d_needed). d is the squared distance between their
+/// predictions over noise plus the predictions' own uncertainty and the tolerance of their forms (Buzzi-Ferraris and
+/// Forzatti 1983, Chem. Eng. Sci. 38:225); a run adds d/2 to the ln evidence between them, and j is out where it stands
+/// further behind than allowed. On a grid, then one condition after the other on a finer one.
+/// competitors: the best one first. A single one competes against the base model. Nothing where no condition within
+/// limits sets them apart in 50 runs.
 std::optional<NextTest> next_test(const Campaign& campaign, const Identification& id,
-                                  const std::vector<std::size_t>& rivals, const Limits& limits);
+                                  const std::vector<Competitor>& competitors, const Limits& limits);
 
 }  // namespace soilbin::compare

@@ -6,7 +6,10 @@
 namespace soilbin::cli::test {
 namespace {
 
+using testing::AllOf;
+using testing::Ge;
 using testing::HasSubstr;
+using testing::Le;
 
 TEST(LoopCommand, NamesTheLessonsEffectInWordsAndLeavesItsFiles) {
   const Scratch scratch;
@@ -36,6 +39,30 @@ TEST(LoopCommand, RefusesALimitThatIsNone) {
   const Outcome outcome = soilbin("loop made-lesson --limit lod=1..2");
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.err, HasSubstr("did you mean 'load'"));
+  EXPECT_THAT(soilbin("loop made-lesson --limit load=2m..3m").err, HasSubstr("'m' is a length"));
+  EXPECT_THAT(soilbin("loop made-lesson --limit load=3kN..2kN").err, HasSubstr("the lower end is above the upper"));
+}
+
+// A range with units or in the campaign's own; what has no limit keeps to the campaign's range.
+TEST(LoopCommand, AsksForARunWithinTheLimits) {
+  const Outcome outcome =
+      soilbin("loop made-lesson --folds 2 --json --limit slip=0.1..0.2 --limit yaw=-2..3 --limit load=0.3kN..400N");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json condition = outcome.json().at("next_test").at("condition");
+  EXPECT_THAT(condition.at("slip").get<double>(), AllOf(Ge(0.1), Le(0.2)));
+  EXPECT_THAT(condition.at("yaw_deg").get<double>(), AllOf(Ge(-2.0), Le(3.0)));
+  EXPECT_THAT(condition.at("load_N").get<double>(), AllOf(Ge(300.0), Le(400.0)));
+  EXPECT_TRUE(condition.contains("speed_m_s"));
+}
+
+// What can't be written is refused before minutes of work, not after them.
+TEST(LoopCommand, RefusesAFileThatCannotBeWrittenBeforeItWorks) {
+  const Scratch scratch;
+  const Outcome outcome = soilbin("loop made-lesson --save-model '" + (scratch / "none" / "model.yaml").string() + "'");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("there is no folder"));
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(soilbin("run paper-straight --csv '" + (scratch / "").string() + "'").err, HasSubstr("is a folder"));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bekker_wong/effect_vocabulary.hpp"
@@ -129,6 +130,18 @@ TEST(Loop, SaysUnknownWhereTheCatalogueHasNoName) {
   measure(campaign, sweep(), {}, fine_noise, 25);
   for (compare::Run& run : campaign.runs)
     *run.torque += 10.0 * std::sin(2 * 3.141592653589793 * 3.0 * run.at.slip / 0.65);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  EXPECT_EQ(answer.verdict, Verdict::unknown_effect) << answer.reason;
+  EXPECT_TRUE(answer.effects.empty());
+}
+
+// A cell that reads too little the more it is pulled: a gain and an offset mimic the most of it, but not the bend.
+TEST(Loop, SaysUnknownWhereAnInstrumentIsBent) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 31);
+  double most = 0.0;
+  for (const compare::Run& run : campaign.runs) most = std::max(most, std::abs(*run.drawbar_pull));
+  for (compare::Run& run : campaign.runs) *run.drawbar_pull = most * std::tanh(*run.drawbar_pull / most);
   const LoopAnswer answer = run_loop(campaign, quick());
   EXPECT_EQ(answer.verdict, Verdict::unknown_effect) << answer.reason;
   EXPECT_TRUE(answer.effects.empty());
