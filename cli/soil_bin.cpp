@@ -177,7 +177,6 @@ void SoilBinFlags::add_rig_to(CLI::App& command) {
   command.add_option("--travel", travel, "dem: way of the axle, as far as the bin lets it")->type_name("LENGTH");
   command.add_option("--lowering", lowering, "dem: time in which the load comes on, 0.5 s")->type_name("TIME");
   command.add_option("--resting", resting, "dem: time under the whole load before the start, 0.2 s")->type_name("TIME");
-  command.add_option("--starting", starting, "dem: time in which speed and rotation come on, 0.2 s")->type_name("TIME");
   command.add_option("--tilting", tilting, "dem: time in which gravity turns to an incline, 0.3 s")->type_name("TIME");
   command.add_option("--time-step", time_step, "dem: of bed and run, a fifth of the Rayleigh time")->type_name("TIME");
   command
@@ -196,6 +195,7 @@ void SoilBinFlags::add_rig_to(CLI::App& command) {
 
 void SoilBinFlags::add_to(CLI::App& command) {
   add_rig_to(command);
+  command.add_option("--starting", starting, "dem: time in which speed and rotation come on, 0.2 s")->type_name("TIME");
   command.add_option("--packings", packings, "dem: runs on so many packings, from --packing on, and their mean; 1")
       ->type_name("N");
   command.add_option("--record", record, "dem: keep each run in this file, and go on with what is there")

@@ -23,7 +23,8 @@ HeatCell cell_at(const MapStory& story, const VectorXd& values) {
   const std::vector<Factor>& factors = story.question.factors;
   const Estimate there = story.rows.at(story.question, values);
   const double tolerance = story.question.tolerance, size = std::abs(there.value);
-  HeatCell cell{100 * there.value, fmt::format("{:+.0f}", 100 * there.value), "", true};
+  const double percent = std::round(100 * there.value);
+  HeatCell cell{100 * there.value, percent == 0 ? "0" : fmt::format("{:+.0f}", percent), "", true};
   cell.counts = size - 1.645 * there.std_error > tolerance;
   for (std::size_t j = 0; j < factors.size(); ++j)
     cell.meaning += fmt::format("{}{} {}", j == 0 ? "" : ", ", factors[j].name,
