@@ -3,7 +3,6 @@
 
 #include <charconv>
 #include <memory>
-#include <numbers>
 #include <thread>
 
 #include "cli/commands.hpp"
@@ -14,11 +13,12 @@
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::cli {
 namespace {
 
-struct Asked {
+struct LoopOptions {
   std::string campaign, report, model;
   std::vector<std::string> limits;
   bool json = false, details = false, next = false;
@@ -28,7 +28,6 @@ struct Asked {
 
 /// "load=50..200" in the campaign's units (N, m/s, deg, %, m).
 compare::Limits read_limits(const std::vector<std::string>& texts) {
-  constexpr double degree = std::numbers::pi / 180;
   const std::vector<std::pair<std::string, double>> known = {{"slip", 1.0},
                                                              {"load", 1.0},
                                                              {"speed", 1.0},
@@ -79,7 +78,7 @@ void print_answer(const compare::LoopAnswer& answer, bool only_next) {
                                                        : sentences.back());
 }
 
-int loop(const Asked& asked, const Session& session) {
+int loop(const LoopOptions& asked, const Session& session) {
   const compare::Campaign campaign = find_campaign(session.place, asked.campaign);
   compare::LoopOptions options;
   options.folds = asked.folds;
@@ -109,7 +108,7 @@ int loop(const Asked& asked, const Session& session) {
 void add_loop(CLI::App& app, Session& session) {
   CLI::App* command =
       app.add_subcommand("loop", "find what the model lacks: residual, cause, effect added, error before and after");
-  const auto asked = std::make_shared<Asked>();
+  const auto asked = std::make_shared<LoopOptions>();
   command->add_option("campaign", asked->campaign, "of the library, or its folder")->type_name("CAMPAIGN")->required();
   command->add_option("--report", asked->report, "write the report as one page")->type_name("FILE.html");
   command->add_option("--save-model", asked->model, "write soil and effects as a case that other commands take")

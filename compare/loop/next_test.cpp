@@ -28,7 +28,7 @@ void set_condition(OperatingCondition& at, const std::string& name, double value
 }
 
 /// A rival's predictor with its fit, and the covariance of its parameters.
-struct Candidate {
+struct Contender {
   std::set<std::string> ids;
   WheelPredictor predictor;
   VectorXd theta;
@@ -36,9 +36,9 @@ struct Candidate {
   MatrixXd covariance;  ///< of the free parameters [SI]
 };
 
-Candidate candidate(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms, const Fit& fit,
+Contender contender(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms, const Fit& fit,
                     std::set<std::string> ids) {
-  Candidate c{std::move(ids), WheelPredictor(campaign, id.observations, terms), fit.theta, fit.column_parameter, {}};
+  Contender c{std::move(ids), WheelPredictor(campaign, id.observations, terms), fit.theta, fit.column_parameter, {}};
   MatrixXd gram = fit.columns.transpose() * fit.columns;
   gram.diagonal().array() += 1e-9;
   c.covariance = gram.ldlt().solve(MatrixXd::Identity(gram.rows(), gram.cols()));
@@ -53,7 +53,7 @@ Candidate candidate(const Campaign& campaign, const Identification& id, const st
 Vector4d as_vector(const bekker_wong::Reading& r) { return {r.drawbar_pull, r.torque, r.sinkage, r.lateral_force}; }
 
 /// Variance that each term's form may be wrong by: its contribution times the form's tolerance, channel by channel.
-Matrix4d form_variance(const Candidate& c, const OperatingCondition& at, const Vector4d& here) {
+Matrix4d form_variance(const Contender& c, const OperatingCondition& at, const Vector4d& here) {
   Matrix4d variance = Matrix4d::Zero();
   for (int t = 0; t < static_cast<int>(c.predictor.terms().size()); ++t) {
     VectorXd theta = c.theta;
@@ -67,7 +67,7 @@ Matrix4d form_variance(const Candidate& c, const OperatingCondition& at, const V
 
 /// Prediction and its covariance from the parameters' uncertainty, by one-sided differences of 0.1 sd, and from the
 /// tolerance of its forms.
-std::pair<Vector4d, Matrix4d> predict(const Candidate& c, const OperatingCondition& at) {
+std::pair<Vector4d, Matrix4d> predict(const Contender& c, const OperatingCondition& at) {
   const Vector4d here = as_vector(c.predictor.reading(c.theta, at));
   MatrixXd jacobian(4, static_cast<Index>(c.free.size()));
   for (std::size_t i = 0; i < c.free.size(); ++i) {
@@ -140,18 +140,18 @@ Limits limits_of(const Observations& observations) {
 
 std::optional<NextTest> next_test(const Campaign& campaign, const Identification& id,
                                   const std::vector<std::size_t>& rivals, const Limits& limits) {
-  std::vector<Candidate> competing;
+  std::vector<Contender> competing;
   for (const std::size_t w : rivals) {
     const Rival& rival = id.rivals[id.weights[w].best_rival];
-    competing.push_back(candidate(campaign, id, rival.terms, rival.fit, rival.ids));
+    competing.push_back(contender(campaign, id, rival.terms, rival.fit, rival.ids));
   }
-  if (competing.size() < 2) competing.push_back(candidate(campaign, id, {}, id.base, {}));
+  if (competing.size() < 2) competing.push_back(contender(campaign, id, {}, id.base, {}));
   constexpr double decided = 2 * 3.0;  // 2 ln 20: what lies further apart than that is decided by one run
   std::optional<NextTest> best;
   double most = 0.0;
   for (const OperatingCondition& at : grid(id.observations, limits)) try {
       std::vector<std::pair<Vector4d, Matrix4d>> predictions;
-      for (const Candidate& c : competing) predictions.push_back(predict(c, at));
+      for (const Contender& c : competing) predictions.push_back(predict(c, at));
       double worth = 0.0, widest = 0.0;
       std::pair<std::size_t, std::size_t> apart{0, 1};
       for (std::size_t i = 0; i < competing.size(); ++i)
