@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "bekker_wong/gsl.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
 
 constexpr double nothing = -std::numeric_limits<double>::infinity();
-constexpr double scan_step = 0.025;
+constexpr double slip_step = 0.025;
 
 /// Drawbar pull at a slip; minus infinity where no sinkage carries the load.
 double pull_at(const RollingWheel& wheel, OperatingCondition at, double slip) {
@@ -44,10 +44,10 @@ double summit(gsl::FunctionRef f, double low, double high) {
 PullPeak largest_pull(const RollingWheel& wheel, const OperatingCondition& at) {
   const auto f = [&](double slip) { return pull_at(wheel, at, slip); };
   PullPeak best{0.0, nothing};
-  for (double slip = 0.0; slip < 1.0 + 0.5 * scan_step; slip += scan_step)
+  for (double slip = 0.0; slip < 1.0 + 0.5 * slip_step; slip += slip_step)
     if (const double pull = f(std::min(slip, 1.0)); pull > best.drawbar_pull) best = {std::min(slip, 1.0), pull};
   if (best.drawbar_pull == nothing) throw NoSolution("at no slip does the soil carry the load");
-  const double top = summit(f, std::max(0.0, best.slip - scan_step), std::min(1.0, best.slip + scan_step));
+  const double top = summit(f, std::max(0.0, best.slip - slip_step), std::min(1.0, best.slip + slip_step));
   if (const double pull = f(top); pull > best.drawbar_pull) best = {top, pull};
   return best;
 }
@@ -57,7 +57,7 @@ std::optional<double> slip_for_pull(const RollingWheel& wheel, const OperatingCo
   constexpr double lowest = -0.5;
   double before = lowest, at_before = spare(lowest);
   if (at_before >= 0.0) return lowest;
-  for (double slip = lowest + scan_step; slip < 1.0 + 0.5 * scan_step; slip += scan_step) {
+  for (double slip = lowest + slip_step; slip < 1.0 + 0.5 * slip_step; slip += slip_step) {
     const double here = std::min(slip, 1.0), value = spare(here);
     if (value >= 0.0) {
       if (!std::isfinite(at_before)) return here;
@@ -67,12 +67,12 @@ std::optional<double> slip_for_pull(const RollingWheel& wheel, const OperatingCo
   }
   const PullPeak peak = largest_pull(wheel, at);  // a summit between two slips of the scan
   if (peak.drawbar_pull < drawbar) return {};
-  return gsl::bracketed_root(spare, std::max(lowest, peak.slip - scan_step), peak.slip, 1e-12, 1e-10 * at.load,
+  return gsl::bracketed_root(spare, std::max(lowest, peak.slip - slip_step), peak.slip, 1e-12, 1e-10 * at.load,
                              "the slip for a pull");
 }
 
 std::optional<double> steepest_slope(const RollingWheel& wheel, const OperatingCondition& at, double drawbar) {
-  constexpr double deg = std::numbers::pi / 180, low = -60 * deg, high = 80 * deg;
+  constexpr double low = -60 * degree, high = 80 * degree;
   const auto spare = [&](double slope) {
     OperatingCondition there = at;
     there.longitudinal_incline = slope;

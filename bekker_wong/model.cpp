@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "scenario/errors.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::bekker_wong {
 
@@ -109,7 +109,7 @@ TractionResult traction_result(const RolledWheel& wheel, const Tire& tire, bool 
   result.lateral_force.value = wheel.reading.lateral_force;
   result.tractive_efficiency =
       wheel.motion.locked || wheel.reading.torque == 0.0
-          ? std::numeric_limits<double>::quiet_NaN()
+          ? not_a_number
           : wheel.reading.drawbar_pull * tire.radius * wheel.motion.travel_ratio / wheel.reading.torque;
   result.entry_angle = wheel.patch.angles.entry;
   result.max_stress_angle = wheel.patch.angles.max_stress;

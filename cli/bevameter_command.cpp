@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <memory>
-#include <numbers>
 
 #include "cli/commands.hpp"
 #include "cli/element_test_flags.hpp"
@@ -16,11 +15,12 @@
 #include "dem/element_tests/plate_tests.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::cli {
 namespace {
 
-struct Options {
+struct BevameterOptions {
   std::string soil, output;
   int packings = 2;
   bool json = false;
@@ -59,7 +59,7 @@ compare::ShearCurve curve_of(const dem::AnnulusRun& run) {
   return out;
 }
 
-Measured measure(const Options& options, const GranularSoil& grains) {
+Measured measure(const BevameterOptions& options, const GranularSoil& grains) {
   Measured out;
   dem::BedStore beds(folder_of_beds());
   const dem::WorkOptions how = options.flags.work();
@@ -93,7 +93,7 @@ std::string table_of(const compare::BevameterFit& fit, const Soil& soil) {
   row("k_c [kN/m^(n+1)]", fit.k_c, &S::k_c, 1e3);
   row("k_phi [kN/m^(n+2)]", fit.k_phi, &S::k_phi, 1e3);
   row("c [kPa]", fit.cohesion, &S::cohesion, 1e3);
-  row("phi [deg]", fit.friction_angle, &S::friction_angle, std::numbers::pi / 180);
+  row("phi [deg]", fit.friction_angle, &S::friction_angle, degree);
   row("K [mm]", fit.shear_modulus, &S::shear_modulus, 1e-3);
   std::string text = table.text();
   if (fit.cohesion_as_fitted < 0)
@@ -102,7 +102,7 @@ std::string table_of(const compare::BevameterFit& fit, const Soil& soil) {
                             number(fit.pressure_error * 100));
 }
 
-int bevameter(const Options& options, const Session& session) {
+int bevameter(const BevameterOptions& options, const Session& session) {
   if (options.packings < 1) throw InputError("--packings: 1 or more");
   const Soil soil = find_soil(options.soil, session.place.library);
   const Measured measured = measure(options, grains_of(soil));
@@ -137,7 +137,7 @@ int bevameter(const Options& options, const Session& session) {
 
 void add_bevameter(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("bevameter", "n, k_c, k_phi, c, phi and K of a soil's grains");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BevameterOptions>();
   command->add_option("soil", options->soil, "of the library, or a YAML file")->type_name("SOIL")->required();
   command->add_option("--output", options->output, "save the soil with these values")
       ->type_name("FILE.yaml")

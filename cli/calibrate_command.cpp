@@ -27,7 +27,7 @@ using compare::ContactKind;
 using compare::Factor;
 using compare::Target;
 
-struct Asked {
+struct CalibrateOptions {
   std::string soil, contact = "sand", store, output, beside, near = "5%", within = "3%", probability = "90%";
   std::string strength = "peak", settling_friction = "1", stresses = "10kPa,20kPa,40kPa";
   std::vector<std::string> targets, bounds, kept;
@@ -48,7 +48,7 @@ std::pair<std::string, std::string> named(const std::string& flag, const std::st
 }
 
 /// The soil's own phi and c for sand on sand; what --target names, where it names any.
-std::vector<Target> targets_of(const Asked& asked, ContactKind kind, const Soil& soil) {
+std::vector<Target> targets_of(const CalibrateOptions& asked, ContactKind kind, const Soil& soil) {
   std::vector<Target> targets;
   for (const std::string& text : asked.targets) {
     const auto [name, value] = named("--target", text, target_names(kind));
@@ -71,7 +71,7 @@ std::vector<Target> targets_of(const Asked& asked, ContactKind kind, const Soil&
   return targets;
 }
 
-std::vector<Factor> factors_of(const Asked& asked, ContactKind kind) {
+std::vector<Factor> factors_of(const CalibrateOptions& asked, ContactKind kind) {
   std::vector<Factor> factors = usual_factors(kind);
   std::vector<std::string> names;
   for (const Factor& factor : factors) names.push_back(factor.name);
@@ -105,7 +105,7 @@ class Shown {
 
  private:
   void print(const std::string& doing, double share) const {
-    std::string line = fmt::format("{}: run {} of at most {}", word_of(at_.stage), at_.done + 1, at_.at_most);
+    std::string line = fmt::format("{}: run {} of at most {}", stage_name(at_.stage), at_.done + 1, at_.at_most);
     if (!doing.empty()) line += fmt::format(", {} {:.0f} %", doing, 100 * share);
     if (at_.stage == compare::Stage::refinement) line += fmt::format(", best chance {:.0f} %", 100 * at_.chance);
     if (at_.seconds_a_run > 0)
@@ -116,7 +116,7 @@ class Shown {
   compare::CalibrationProgress at_;
 };
 
-compare::VirtualTest test_of(const Asked& asked, ContactKind kind, const Soil& soil,
+compare::VirtualTest test_of(const CalibrateOptions& asked, ContactKind kind, const Soil& soil,
                              const std::shared_ptr<Shown>& shown) {
   ElementExperiment experiment{*soil.granular, factors_of(asked, kind), targets_of(asked, kind, soil), {}};
   experiment.how.threads = asked.threads;
@@ -141,7 +141,7 @@ compare::VirtualTest test_of(const Asked& asked, ContactKind kind, const Soil& s
   return shear_box_test(experiment, settings, asked.strength == "peak" ? Strength::peak : Strength::residual);
 }
 
-fs::path store_of(const Asked& asked, const Soil& soil) {
+fs::path store_of(const CalibrateOptions& asked, const Soil& soil) {
   if (!asked.store.empty()) return asked.store;
   const fs::path cache = user_cache();
   if (cache.empty()) return {};
@@ -149,7 +149,7 @@ fs::path store_of(const Asked& asked, const Soil& soil) {
   return cache / "experiments" / fmt::format("{}-{}.json", soil.name, asked.contact);
 }
 
-void print(const Asked& asked, const compare::VirtualTest& test, const compare::Calibration& calibration) {
+void print(const CalibrateOptions& asked, const compare::VirtualTest& test, const compare::Calibration& calibration) {
   for (const std::string& sentence : compare::calibration_sentences(test, asked.options, calibration))
     fmt::print("{}\n", sentence);
   for (std::size_t t = 0; t < calibration.analyses.size(); ++t)
@@ -159,7 +159,7 @@ void print(const Asked& asked, const compare::VirtualTest& test, const compare::
 }
 
 /// The published sets of a file by our virtual test.
-int set_beside(const Asked& asked, const compare::VirtualTest& test, compare::ExperimentStore& store,
+int set_beside(const CalibrateOptions& asked, const compare::VirtualTest& test, compare::ExperimentStore& store,
                const std::shared_ptr<Shown>& shown) {
   std::vector<compare::PublishedSet> sets =
       compare::parse_published_sets(read_source_text(asked.beside, compare::largest_csv), test);
@@ -171,7 +171,7 @@ int set_beside(const Asked& asked, const compare::VirtualTest& test, compare::Ex
   return done;
 }
 
-int calibrate(Asked asked, const Session& session) {
+int calibrate(CalibrateOptions asked, const Session& session) {
   const Soil soil = find_soil(asked.soil, session.place.library);
   if (!soil.granular)
     throw InputError(fmt::format("soil '{}' has no grains\n  hint: it needs a section 'granular'", soil.name));
@@ -208,7 +208,7 @@ int calibrate(Asked asked, const Session& session) {
   return calibration.reached ? done : failed;
 }
 
-void add_options(CLI::App& command, Asked& asked) {
+void add_options(CLI::App& command, CalibrateOptions& asked) {
   command.add_option("soil", asked.soil, "of the library, or a soil file; with grains")->type_name("SOIL")->required();
   command.add_option("--contact", asked.contact, "sand: direct shear; tire: tilting board")->type_name("sand|tire");
   command.add_option("--target", asked.targets, "what was measured; repeatable; sand: the soil's own")
@@ -247,7 +247,7 @@ void add_options(CLI::App& command, Asked& asked) {
 
 void add_calibrate(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("calibrate", "contacts of grains from virtual element tests");
-  const auto asked = std::make_shared<Asked>();
+  const auto asked = std::make_shared<CalibrateOptions>();
   add_options(*command, *asked);
   command->footer(
       "Finished experiments are kept: after Ctrl-C the same command goes on. Exit status 1: targets not reached.\n"

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Asked {
+struct CampaignOptions {
   std::vector<std::string> records, hide, effects;
   std::string output, name, soil;
   bool only_steady = false;
@@ -35,7 +35,7 @@ struct Runs {
   std::vector<compare::RecordedRun> all;
 };
 
-Runs read_runs(const Asked& asked, const Workplace& place) {
+Runs read_runs(const CampaignOptions& asked, const Workplace& place) {
   Runs runs;
   for (const std::string& file : asked.records) {
     runs.records.push_back(compare::read_record(file));
@@ -49,7 +49,7 @@ Runs read_runs(const Asked& asked, const Workplace& place) {
   return runs;
 }
 
-std::string told_words(const Asked& asked) {
+std::string told_words(const CampaignOptions& asked) {
   std::string text = asked.hide.empty() ? "Nothing of the runs' conditions, wheel or bin was left out."
                                         : "Left out, as if it weren't there: " + listed(asked.hide) + ".";
   if (!asked.effects.empty()) text += " The declared model has " + listed(asked.effects) + ".";
@@ -57,7 +57,7 @@ std::string told_words(const Asked& asked) {
 }
 
 /// README.md of the campaign: how it was made, and the run behind each row.
-std::string provenance(const Asked& asked, const std::string& command, const Runs& runs,
+std::string provenance(const CampaignOptions& asked, const std::string& command, const Runs& runs,
                        const compare::ToldCampaign& told) {
   std::string text = fmt::format(
       "# {}\n\nRuns of soilbin's virtual soil bin, told as a campaign. {}\n\nMade by soilbin {} ({}) with\n\n    "
@@ -80,7 +80,7 @@ std::string provenance(const Asked& asked, const std::string& command, const Run
   return text;
 }
 
-compare::Telling telling_of(const Asked& asked, const Runs& runs, const Workplace& place) {
+compare::Telling telling_of(const CampaignOptions& asked, const Runs& runs, const Workplace& place) {
   compare::Telling telling;
   telling.name = asked.name.empty() ? fs::path(asked.output).filename().string() : asked.name;
   if (telling.name.empty()) telling.name = fs::path(asked.output).parent_path().filename().string();
@@ -92,7 +92,7 @@ compare::Telling telling_of(const Asked& asked, const Runs& runs, const Workplac
   return telling;
 }
 
-int campaign(const Asked& asked, const Session& session) {
+int campaign(const CampaignOptions& asked, const Session& session) {
   const Runs runs = read_runs(asked, session.place);
   const compare::ToldCampaign told =
       compare::tell_campaign(runs.scenario, runs.all, telling_of(asked, runs, session.place));
@@ -111,7 +111,7 @@ int campaign(const Asked& asked, const Session& session) {
 
 void add_campaign(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("campaign", "recorded runs of grains as a measured campaign");
-  const auto asked = std::make_shared<Asked>();
+  const auto asked = std::make_shared<CampaignOptions>();
   command->add_option("records", asked->records, "made by soilbin run --model dem --record FILE")
       ->type_name("RECORD.json")
       ->required();

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Asked {
+struct CompareOptions {
   std::string study, model, measured, report, markdown, csv, replay, title, soil;
   std::vector<std::string> effects;
   bool json = false, no_loop = false;
@@ -35,7 +35,7 @@ struct Asked {
 };
 
 /// The base model first; then the study's own analytic models, then those with the effects asked for.
-std::vector<ModelChoice> analytic_choices(const Case& question, const Asked& asked, const Session& session) {
+std::vector<ModelChoice> analytic_choices(const Case& question, const CompareOptions& asked, const Session& session) {
   std::vector<ModelChoice> choices = {{ModelKind::bekker_wong, {}, "bekker_wong"}};
   for (const ModelChoice& choice : question.study.models)
     if (choice.model == ModelKind::bekker_wong && !choice.effects.empty()) choices.push_back(choice);
@@ -48,7 +48,7 @@ std::vector<ModelChoice> analytic_choices(const Case& question, const Asked& ask
 }
 
 /// The grains where the study, --model or a record asks for them.
-bool asks_for_grains(const Case& question, const Asked& asked) {
+bool asks_for_grains(const Case& question, const CompareOptions& asked) {
   if (asked.model == "dem" || !asked.soil_bin.recorded.empty()) return true;
   for (const ModelChoice& choice : question.study.models)
     if (choice.model == ModelKind::dem) return true;
@@ -56,7 +56,7 @@ bool asks_for_grains(const Case& question, const Asked& asked) {
 }
 
 /// Runs the grains, or takes them from the record, and tells what they rest on.
-compare::Side grain_side(const Case& question, const Asked& asked, const Session& session,
+compare::Side grain_side(const Case& question, const CompareOptions& asked, const Session& session,
                          compare::ComparisonAbout& about) {
   const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
   const auto model = models_with(asked.soil_bin, question, session.place.effects, log)(ModelKind::dem);
@@ -80,14 +80,14 @@ compare::Side grain_side(const Case& question, const Asked& asked, const Session
   return compare::side_of("dem", *log, question.study.conditions);
 }
 
-void check_model(const Asked& asked) {
+void check_model(const CompareOptions& asked) {
   if (asked.model.empty() || asked.model == "dem" || asked.model == "bekker_wong") return;
   throw InputError("--model: unknown model '" + clipped(asked.model) + "'" +
                    did_you_mean(asked.model, {"bekker_wong", "dem"}));
 }
 
 /// What the loop makes of the best reference there is: measurements before grains.
-void run_loop_on(const compare::Comparison& comparison, const Asked& asked, compare::ComparisonAbout& about) {
+void run_loop_on(const compare::Comparison& comparison, const CompareOptions& asked, compare::ComparisonAbout& about) {
   const compare::Side& reference = comparison.sides.back();
   if (asked.no_loop || reference.kind == compare::SideKind::analytic) return;
   about.looped = compare::as_campaign(reference, comparison.question);
@@ -112,7 +112,7 @@ void print_text(const compare::Comparison& comparison, const compare::Comparison
   fmt::print("\n{}", as_text(table));
 }
 
-void save(const compare::Comparison& comparison, const compare::ComparisonAbout& about, const Asked& asked) {
+void save(const compare::Comparison& comparison, const compare::ComparisonAbout& about, const CompareOptions& asked) {
   if (!asked.report.empty()) {
     const fs::path file = asked.report;
     if (file.has_parent_path()) fs::create_directories(file.parent_path());
@@ -127,7 +127,7 @@ void save(const compare::Comparison& comparison, const compare::ComparisonAbout&
   fmt::print(stderr, "wrote {}\n", (fs::path(asked.markdown) / "report.md").string());
 }
 
-int compare_models(Asked asked, const Session& session) {
+int compare_models(CompareOptions asked, const Session& session) {
   check_model(asked);
   if (!asked.soil_bin.recorded.empty())
     asked.soil_bin.recorded = find_record(session.place, asked.study, asked.soil_bin.recorded);
@@ -168,7 +168,7 @@ int compare_models(Asked asked, const Session& session) {
 void add_compare(CLI::App& app, Session& session) {
   CLI::App* command =
       app.add_subcommand("compare", "models, grains and measurements of a study side by side, and why they differ");
-  const auto asked = std::make_shared<Asked>();
+  const auto asked = std::make_shared<CompareOptions>();
   command->add_option("study", asked->study, "of the library, or a case file")->type_name("STUDY")->required();
   command->add_option("--model", asked->model, "dem: run the grains now")->type_name("NAME");
   command->add_option("--measured", asked->measured, "a campaign of the same wheel")->type_name("CAMPAIGN");

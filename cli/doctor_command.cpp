@@ -4,20 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "bekker_wong/rolling_wheel.hpp"
 #include "cli/commands.hpp"
 #include "cli/versions.hpp"
 #include "compare/report/result_json.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::cli {
 namespace {
 
-using bekker_wong::Reading;
 using bekker_wong::SoilValues;
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// A published operating point and what it gives.
 struct Published {
@@ -91,7 +88,7 @@ double difference(const Published& point) {
   tire.radius = point.radius, tire.width = point.width;
   OperatingCondition at;
   at.load = point.load, at.slip = point.slip;
-  const Reading r = bekker_wong::RollingWheel(tire, point.soil).roll(at).reading;
+  const bekker_wong::Reading r = bekker_wong::RollingWheel(tire, point.soil).roll(at).reading;
   const auto relative = [](double value, double expected) { return std::abs(value / expected - 1); };
   return std::max({relative(r.sinkage, point.sinkage), relative(r.drawbar_pull, point.drawbar_pull),
                    relative(r.torque, point.torque)});

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
@@ -20,6 +19,7 @@
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -73,9 +73,8 @@ std::string samples_text(const bekker_wong::DriveRecord& record) {
   TextTable table({"time [s]", "travelled [m]", "slope [deg]", "speed [cm/s]", "rim [cm/s]", "slip [%]", "sinkage [mm]",
                    "torque [N m]", "soil force [N]"});
   for (const bekker_wong::DriveSample& s : picked(record.samples, shown_rows))
-    table.add({number(s.time), number(s.travelled), number(s.longitudinal_incline * 180 / std::numbers::pi),
-               number(100 * s.speed), number(100 * s.rim_speed), slip_text(s), number(1000 * s.sinkage),
-               number(s.torque), number(s.forward)});
+    table.add({number(s.time), number(s.travelled), number(s.longitudinal_incline / degree), number(100 * s.speed),
+               number(100 * s.rim_speed), slip_text(s), number(1000 * s.sinkage), number(s.torque), number(s.forward)});
   return table.text();
 }
 
@@ -142,9 +141,8 @@ std::string sides_samples_text(const compare::DriveSides& drive) {
                    "torque [N m]", "soil force [N]"});
   for (const compare::DriveSide& side : drive.sides)
     for (const compare::DriveSideSample& s : picked(side.samples, shown_rows / 2))
-      table.add({side.label, number(s.time), number(s.travelled),
-                 number(s.longitudinal_incline * 180 / std::numbers::pi), number(100 * s.speed), slip_text(s),
-                 number(1000 * s.sinkage), number(s.torque), number(s.forward)});
+      table.add({side.label, number(s.time), number(s.travelled), number(s.longitudinal_incline / degree),
+                 number(100 * s.speed), slip_text(s), number(1000 * s.sinkage), number(s.torque), number(s.forward)});
   return table.text();
 }
 

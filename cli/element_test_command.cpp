@@ -17,7 +17,7 @@
 namespace soilbin::cli {
 namespace {
 
-struct Options {
+struct ElementTestOptions {
   std::string test, soil, plot;
   std::vector<std::string> stresses;
   int packings = 1;
@@ -26,8 +26,8 @@ struct Options {
   ElementTestFlags flags;
 };
 
-struct Asked {
-  const Options& options;
+struct AskedTest {
+  const ElementTestOptions& options;
   const GranularSoil& grains;
   dem::SpecimenSettings specimen;
   dem::WorkOptions how;
@@ -35,14 +35,14 @@ struct Asked {
 };
 
 /// The stresses given, else those of the test.
-std::vector<double> stresses_of(const Options& options, std::vector<double> otherwise) {
+std::vector<double> stresses_of(const ElementTestOptions& options, std::vector<double> otherwise) {
   if (options.stresses.empty()) return otherwise;
   std::vector<double> out;
   for (const std::string& text : options.stresses) out.push_back(read_flag("--stress", text, {"kPa", above_zero}));
   return out;
 }
 
-TestReport direct_shear(const Asked& asked) {
+TestReport direct_shear(const AskedTest& asked) {
   dem::DirectShearSettings s;
   s.specimen = asked.specimen, s.packings = asked.options.packings, s.ledger = asked.options.ledger;
   s.stresses = stresses_of(asked.options, s.stresses);
@@ -51,7 +51,7 @@ TestReport direct_shear(const Asked& asked) {
   return report_on(dem::direct_shear(asked.grains, s, asked.how, &asked.beds));
 }
 
-TestReport triaxial(const Asked& asked) {
+TestReport triaxial(const AskedTest& asked) {
   dem::TriaxialSettings s;
   s.specimen = asked.specimen, s.packings = asked.options.packings, s.ledger = asked.options.ledger;
   s.stresses = stresses_of(asked.options, s.stresses);
@@ -60,28 +60,28 @@ TestReport triaxial(const Asked& asked) {
   return report_on(dem::triaxial(asked.grains, s, asked.how, &asked.beds));
 }
 
-TestReport tilting_board(const Asked& asked) {
+TestReport tilting_board(const AskedTest& asked) {
   dem::TiltingBoardSettings s;
   s.packing = asked.specimen.packing, s.laws = asked.specimen.laws;
   s.across = static_cast<int>(std::lround(s.across * asked.options.flags.size));
   return report_on(dem::tilting_board(asked.grains, s, asked.how));
 }
 
-TestReport repose(const Asked& asked) {
+TestReport repose(const AskedTest& asked) {
   dem::AngleOfReposeSettings s;
   s.packing = asked.specimen.packing, s.laws = asked.specimen.laws;
   s.radius *= asked.options.flags.size, s.height *= asked.options.flags.size;
   return report_on(dem::angle_of_repose(asked.grains, s, asked.how));
 }
 
-TestReport plate(const Asked& asked) {
+TestReport plate(const AskedTest& asked) {
   dem::PlateSettings s;
   s.bed.specimen = asked.specimen;
   s.bed.width *= asked.options.flags.size, s.bed.depth *= asked.options.flags.size;
   return report_on(dem::plate_sinkage(asked.grains, s, asked.how, &asked.beds));
 }
 
-TestReport shear(const Asked& asked) {
+TestReport shear(const AskedTest& asked) {
   dem::AnnulusSettings s;
   s.bed.specimen = asked.specimen;
   s.stresses = stresses_of(asked.options, s.stresses);
@@ -91,7 +91,7 @@ TestReport shear(const Asked& asked) {
 
 struct Test {
   const char* name;
-  TestReport (*run)(const Asked&);
+  TestReport (*run)(const AskedTest&);
 };
 constexpr Test tests[] = {{"direct-shear", direct_shear},
                           {"tilting-board", tilting_board},
@@ -110,7 +110,7 @@ const Test& test_of(const std::string& name) {
                                listed(names)));
 }
 
-int element_test(const Options& options, const Session& session) {
+int element_test(const ElementTestOptions& options, const Session& session) {
   const Test& test = test_of(options.test);
   if (options.packings < 1) throw InputError("--packings: 1 or more");
   if (options.inertial < 0) throw InputError("--inertial: above 0");
@@ -134,7 +134,7 @@ int element_test(const Options& options, const Session& session) {
 
 void add_element_test(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("element-test", "a soil's grains in a test of the laboratory");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ElementTestOptions>();
   command->add_option("test", options->test, "direct-shear, tilting-board, repose, triaxial, plate or shear")
       ->type_name("TEST")
       ->required();

@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "cli/text_output.hpp"
 #include "compare/report/json_fields.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -17,8 +17,6 @@ using compare::estimate_json;
 using compare::Mark;
 using compare::Plot;
 using compare::Series;
-
-constexpr double degree = std::numbers::pi / 180;
 
 Json json_of(const dem::StrengthLine& line) {
   if (line.points == 0) return nullptr;

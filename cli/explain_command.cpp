@@ -63,8 +63,8 @@ nlohmann::ordered_json steps_json(const std::vector<Step>& steps) {
   return all;
 }
 
-nlohmann::ordered_json to_json(const ModelChoice& choice, const Explanation& explanation,
-                               const OperatingCondition& at) {
+nlohmann::ordered_json explanation_json(const ModelChoice& choice, const Explanation& explanation,
+                                        const OperatingCondition& at) {
   nlohmann::ordered_json row = {{"model", "bekker_wong"}, {"label", choice.label}};
   row.update(compare::to_json(compare::Answer{at, explanation.result, ""}));
   row["steps"] = steps_json(explanation.steps);
@@ -99,7 +99,7 @@ int explain(const Question& inputs, bool json, const Session& session) {
     for (const OperatingCondition& at : question.study.conditions) {
       const Explanation explanation = compare::explain(scenario, at);
       if (json)
-        rows.push_back(to_json(choice, explanation, at));
+        rows.push_back(explanation_json(choice, explanation, at));
       else
         fmt::print("{}", first ? "" : "\n"), print_text(choice, explanation, at);
       first = false;

@@ -21,7 +21,7 @@
 namespace soilbin::cli {
 namespace {
 
-struct Asked {
+struct FailureMapOptions {
   std::string study, soil, incline = "longitudinal", store, report, tolerance = "10%";
   std::string load, lug_height, angle, slip;
   std::vector<std::string> effects;
@@ -48,7 +48,7 @@ compare::Incline incline_of(const std::string& text) {
                    "\n  hint: there are " + listed(right));
 }
 
-compare::InclineMap map_of(const Asked& asked, const Case& question, const Workplace& place) {
+compare::InclineMap map_of(const FailureMapOptions& asked, const Case& question, const Workplace& place) {
   compare::InclineMap map;
   map.scenario = question.scenario;
   map.base = question.study.conditions.front();
@@ -66,7 +66,7 @@ compare::InclineMap map_of(const Asked& asked, const Case& question, const Workp
 }
 
 /// Runs of grains as experiments: everything that they follow from beside factors and packing is their identity.
-compare::VirtualTest grains_test(const Asked& asked, const compare::InclineMap& map, const Case& question,
+compare::VirtualTest grains_test(const FailureMapOptions& asked, const compare::InclineMap& map, const Case& question,
                                  const Workplace& place) {
   const dem::DemSettings settings = settings_of(asked.soil_bin);
   compare::VirtualTest test;
@@ -109,7 +109,7 @@ std::vector<compare::AgreementClause> clauses_of(const compare::FailureQuestion&
   return clauses;
 }
 
-compare::MapStory learn(const Asked& asked, const Case& question, const Workplace& place,
+compare::MapStory learn(const FailureMapOptions& asked, const Case& question, const Workplace& place,
                         compare::ExperimentStore& store, compare::VirtualTest& grains) {
   compare::MapStory story;
   story.map = map_of(asked, question, place);
@@ -134,7 +134,7 @@ void print_story(const compare::MapStory& story, bool rows) {
   if (!story.checks.empty()) fmt::print("\n{}", as_text(compare::checks_table(story)));
 }
 
-int failure_map(const Asked& asked, const Session& session) {
+int failure_map(const FailureMapOptions& asked, const Session& session) {
   Case question = find_study(session.place, asked.study);
   if (!asked.soil.empty())
     question.scenario.soil.semi_empirical = find_soil(asked.soil, session.place.library).semi_empirical;
@@ -166,7 +166,7 @@ int failure_map(const Asked& asked, const Session& session) {
 void add_failure_map(CLI::App& app, Session& session) {
   CLI::App* command =
       app.add_subcommand("failure-map", "where the analytic model parts from grains: load, lugs, an incline, slip");
-  const auto asked = std::make_shared<Asked>();
+  const auto asked = std::make_shared<FailureMapOptions>();
   command->add_option("study", asked->study, "whose wheel, soil, bin and speed it is")->type_name("STUDY")->required();
   command->add_option("--soil", asked->soil, "the analytic model's values from this soil, as bevameter writes one")
       ->type_name("SOIL");

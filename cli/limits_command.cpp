@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <set>
 
 #include "bekker_wong/limits.hpp"
@@ -14,11 +13,10 @@
 #include "cli/text_output.hpp"
 #include "compare/report/result_json.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::cli {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// What a wheel can do on one slope.
 struct SlopeRow {

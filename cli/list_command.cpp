@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "bekker_wong/effect.hpp"
 #include "cli/commands.hpp"
@@ -11,6 +10,7 @@
 #include "compare/report/result_json.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -46,8 +46,7 @@ Listing soils(const Workplace& place) {
       if (!soil.semi_empirical) return all.table.add({name, "-", "-", "-", "-", "-", "-", soil.source});
       const SemiEmpiricalSoil& s = *soil.semi_empirical;
       all.table.add({name, number(s.exponent), number(s.k_c, 1e-3), number(s.k_phi, 1e-3), number(s.cohesion, 1e-3),
-                     number(s.friction_angle, 180 / std::numbers::pi), number(s.shear_modulus, 1e3),
-                     clipped(soil.source)});
+                     number(s.friction_angle, 1 / degree), number(s.shear_modulus, 1e3), clipped(soil.source)});
       all.json.push_back({{"name", name},
                           {"exponent", s.exponent.value},
                           {"k_c", s.k_c.value},

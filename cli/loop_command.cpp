@@ -19,7 +19,7 @@
 namespace soilbin::cli {
 namespace {
 
-struct Asked {
+struct LoopOptions {
   std::string campaign, report, model;
   std::vector<std::string> limits;
   bool json = false, details = false, next = false;
@@ -74,7 +74,7 @@ void print_answer(const compare::LoopAnswer& answer, bool only_next) {
   if (sentences.empty()) fmt::print("No condition within the limits would decide more.\n");
 }
 
-int loop(const Asked& asked, const Session& session) {
+int loop(const LoopOptions& asked, const Session& session) {
   const compare::Campaign campaign = find_campaign(session.place, asked.campaign);
   compare::LoopOptions options;
   options.folds = asked.folds;
@@ -104,7 +104,7 @@ int loop(const Asked& asked, const Session& session) {
 void add_loop(CLI::App& app, Session& session) {
   CLI::App* command =
       app.add_subcommand("loop", "find what the model lacks: residual, cause, effect added, error before and after");
-  const auto asked = std::make_shared<Asked>();
+  const auto asked = std::make_shared<LoopOptions>();
   command->add_option("campaign", asked->campaign, "of the library, or its folder")->type_name("CAMPAIGN")->required();
   command->add_option("--report", asked->report, "write the report as one page")
       ->type_name("FILE.html")

@@ -5,17 +5,27 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <numbers>
 
 #include "compare/sweep/channels.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::cli {
 namespace {
 
-using namespace soilbin::compare;
-
-constexpr double degree = std::numbers::pi / 180;
+using compare::Answer;
+using compare::capital;
+using compare::channel_views;
+using compare::ChannelError;
+using compare::ChannelView;
+using compare::Curves;
+using compare::curves_against_slip;
+using compare::drives_and_pulls;
+using compare::HtmlTable;
+using compare::ModelAnswers;
+using compare::PredictedRun;
+using compare::Prediction;
+using compare::Spread;
 
 /// Characters of a UTF-8 text.
 std::size_t width(const std::string& text) {
@@ -40,11 +50,6 @@ bool any_side_force(const std::vector<ModelAnswers>& study) {
     for (const Answer& answer : model.answers)
       if (answer.result && answer.result->lateral_force.value != 0.0) return true;
   return false;
-}
-
-std::string capital(std::string text) {
-  if (!text.empty()) text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-  return text;
 }
 
 /// In percent; "-" for a wheel that does not both drive and pull.

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <limits>
 #include <span>
 
 namespace soilbin {
+
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// A number and its standard error (or, for an input, its standard deviation), both in the same unit.
 /// std_error 0 means "taken as exact".

@@ -1,11 +1,14 @@
 // Units as a person writes them ('kN/m^(n+1)', 'km/h', '%'), and the dimension behind them.
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace soilbin {
+
+inline constexpr double degree = std::numbers::pi / 180;  ///< [rad]
 
 /// An exponent that may depend on the soil's exponent n: constant + per_n n. (k_c is in kN/m^(n+1).)
 struct Exponent {

@@ -6,6 +6,7 @@
 
 #include "bekker_wong/effects/channels.hpp"
 #include "bekker_wong/effects/forms.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
@@ -91,7 +92,6 @@ class AlongWithLoad final : public Effect {
 }  // namespace
 
 std::vector<EffectForm> bed_tilt_forms() {
-  constexpr double degree = 0.017453292519943295;
   const std::string id = "bed_tilt", source = "statics, stated here";
   return {
       {.id = id,

@@ -38,7 +38,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   return near.empty() ? std::string() : fmt::format(", did you mean '{}'?", near);
 }
 
-std::vector<double> values_of(const EffectForm& form, const EffectChoice& choice) {
+std::vector<double> parameters_of(const EffectForm& form, const EffectChoice& choice) {
   std::vector<double> values;
   std::vector<std::string> names;
   for (const EffectParameter& p : form.parameters) values.push_back(p.fallback), names.push_back(p.name);
@@ -81,7 +81,7 @@ const EffectForm& find_form(const EffectChoice& choice) {
 
 std::unique_ptr<const Effect> make_effect(const EffectChoice& choice) {
   const EffectForm& form = find_form(choice);
-  return form.make(values_of(form, choice));
+  return form.make(parameters_of(form, choice));
 }
 
 EffectList make_effects(const std::vector<EffectChoice>& choices) {

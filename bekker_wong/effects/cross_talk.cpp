@@ -8,6 +8,7 @@
 
 #include "bekker_wong/effects/channels.hpp"
 #include "bekker_wong/effects/forms.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
@@ -77,7 +78,6 @@ class Yielding final : public Effect {
 }  // namespace
 
 std::vector<EffectForm> cross_talk_forms() {
-  constexpr double degree = 0.017453292519943295;
   const std::string id = "cross_talk";
   std::vector<EffectForm> forms;
   for (const Leak& leak : leaks)

@@ -11,8 +11,8 @@ namespace {
 using Scale = void (*)(SoilValues&, double factor);
 using Shape = double (*)(double amplitude, double d);
 
-double linear(double a, double d) { return held_positive(1 + a * d); }
-double exponential(double a, double d) { return grown(a * d); }
+double grown_linearly(double a, double d) { return held_positive(1 + a * d); }
+double grown_exponentially(double a, double d) { return grown(a * d); }
 
 void scale_both(SoilValues& soil, double factor) {
   scale_stiffness(soil, factor);
@@ -20,9 +20,9 @@ void scale_both(SoilValues& soil, double factor) {
 }
 
 template <Scale scale, Shape shape>
-class Along final : public Effect {
+class Gradient final : public Effect {
  public:
-  explicit Along(const std::vector<double>& p) : amplitude_(p[0]), reference_(p[1]) {}
+  explicit Gradient(const std::vector<double>& p) : amplitude_(p[0]), reference_(p[1]) {}
   void soil(SoilValues& soil, const Surroundings& around) const override {
     if (around.at.position) scale(soil, shape(amplitude_, *around.at.position - reference_));
   }
@@ -43,28 +43,28 @@ std::vector<EffectForm> soil_gradient_forms() {
        .source = source,
        .parameters = {{"a", "1/m", 0.1, -5.0, 5.0, "relative growth of the stiffness a metre"}, reference},
        .measurement = true,
-       .make = maker<Along<scale_stiffness, linear>>()},
+       .make = maker<Gradient<scale_stiffness, grown_linearly>>()},
       {.id = id,
        .form = "stiffness_exponential",
        .equation = "k times exp(a d)",
        .source = source,
        .parameters = {{"a", "1/m", 0.1, -5.0, 5.0, "logarithmic growth of the stiffness a metre"}, reference},
        .measurement = true,
-       .make = maker<Along<scale_stiffness, exponential>>()},
+       .make = maker<Gradient<scale_stiffness, grown_exponentially>>()},
       {.id = id,
        .form = "strength",
        .equation = "c and tan(phi) times 1 + a d",
        .source = source,
        .parameters = {{"a", "1/m", 0.05, -5.0, 5.0, "relative growth of the shear strength a metre"}, reference},
        .measurement = true,
-       .make = maker<Along<scale_strength, linear>>()},
+       .make = maker<Gradient<scale_strength, grown_linearly>>()},
       {.id = id,
        .form = "stiffness_and_strength",
        .equation = "k, c and tan(phi) times 1 + a d",
        .source = source,
        .parameters = {{"a", "1/m", 0.05, -5.0, 5.0, "relative growth of stiffness and strength a metre"}, reference},
        .measurement = true,
-       .make = maker<Along<scale_both, linear>>()},
+       .make = maker<Gradient<scale_both, grown_linearly>>()},
   };
 }
 

@@ -5,13 +5,13 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <numbers>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bekker_wong/rolling_wheel.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
@@ -24,7 +24,6 @@ struct Point {
 };
 
 std::vector<Point> read_points() {
-  constexpr double deg = std::numbers::pi / 180;
   std::ifstream file(SOILBIN_POINTS);
   std::string line;
   std::getline(file, line);  // kind, radius, width, n, k_c, k_phi, c, phi [deg], K, c1, c2, load, slip, yaw [deg]
@@ -40,8 +39,8 @@ std::vector<Point> read_points() {
     };
     p.tire.radius = next(), p.tire.width = next();
     p.soil.exponent = next(), p.soil.k_c = next(), p.soil.k_phi = next(), p.soil.cohesion = next();
-    p.soil.friction_angle = next() * deg, p.soil.shear_modulus = next(), p.soil.c1 = next(), p.soil.c2 = next();
-    p.at.load = next(), p.at.slip = next(), p.at.yaw = next() * deg;
+    p.soil.friction_angle = next() * degree, p.soil.shear_modulus = next(), p.soil.c1 = next(), p.soil.c2 = next();
+    p.at.load = next(), p.at.slip = next(), p.at.yaw = next() * degree;
     points.push_back(p);
   }
   return points;

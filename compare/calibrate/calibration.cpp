@@ -158,7 +158,7 @@ Calibration calibrate(const VirtualTest& test, const CalibrationOptions& options
   return Work(test, options, store).calibrate();
 }
 
-std::string word_of(Stage stage) {
+std::string stage_name(Stage stage) {
   switch (stage) {
     case Stage::design:
       return "design";

@@ -86,6 +86,6 @@ struct Calibration {
 Calibration calibrate(const VirtualTest& test, const CalibrationOptions& options, ExperimentStore& store);
 
 /// "design", "candidates", "refinement".
-std::string word_of(Stage stage);
+std::string stage_name(Stage stage);
 
 }  // namespace soilbin::compare

@@ -51,7 +51,7 @@ Json analysis_json(const VirtualTest& test, const TargetAnalysis& analysis) {
 Json runs_json(const VirtualTest& test, const Calibration& calibration) {
   Json runs = Json::array();
   for (const CalibrationRun& run : calibration.runs) {
-    Json json{{"stage", word_of(run.stage)},       {"values", values_json(test, run.experiment.values)},
+    Json json{{"stage", stage_name(run.stage)},    {"values", values_json(test, run.experiment.values)},
               {"seed", run.experiment.seed},       {"results", results_json(test, run.experiment.results)},
               {"seconds", run.experiment.seconds}, {"from_store", run.from_store}};
     if (!run.experiment.error.empty()) json["error"] = run.experiment.error;

@@ -14,20 +14,18 @@ std::string with_unit(const std::string& text, const std::string& unit) {
   return unit == "-" ? text : text + " " + unit;
 }
 
-std::string in_words(const Estimate& value, const std::string& unit) {
+std::string value_with_unit(const Estimate& value, const std::string& unit) {
   return with_unit(number(value, per_unit(unit)), unit);
 }
-
-std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
 std::string misses(const VirtualTest& test, const Candidate& candidate) {
   std::string text;
   for (std::size_t t = 0; t < test.targets.size(); ++t) {
     const Target& target = test.targets[t];
-    text +=
-        fmt::format("{}{} {} for {} ({:+.1f} %)", t == 0 ? "" : ", ", target.name,
-                    in_words(candidate.predicted[t], target.unit), in_words({target.measured.value, 0}, target.unit),
-                    100 * (candidate.predicted[t].value / target.measured.value - 1));
+    text += fmt::format("{}{} {} for {} ({:+.1f} %)", t == 0 ? "" : ", ", target.name,
+                        value_with_unit(candidate.predicted[t], target.unit),
+                        value_with_unit({target.measured.value, 0}, target.unit),
+                        100 * (candidate.predicted[t].value / target.measured.value - 1));
   }
   return text;
 }
@@ -36,7 +34,7 @@ std::string values_in_words(const VirtualTest& test, const Eigen::VectorXd& valu
   std::string text;
   for (std::size_t j = 0; j < test.factors.size(); ++j)
     text += fmt::format("{}{} {}", j == 0 ? "" : ", ", test.factors[j].name,
-                        in_words({values[static_cast<Eigen::Index>(j)], 0}, test.factors[j].unit));
+                        value_with_unit({values[static_cast<Eigen::Index>(j)], 0}, test.factors[j].unit));
   return text;
 }
 
@@ -52,7 +50,7 @@ std::string order_sentence(const VirtualTest& test, const Calibration& calibrati
   for (const int j : analysis.ranges.order)
     order += fmt::format(
         "{}{} (R {})", order.empty() ? "" : " > ", test.factors[static_cast<std::size_t>(j)].name,
-        in_words({analysis.ranges.factors[static_cast<std::size_t>(j)].range, 0}, test.targets[target].unit));
+        value_with_unit({analysis.ranges.factors[static_cast<std::size_t>(j)].range, 0}, test.targets[target].unit));
   return fmt::format("On {}: {}.", test.targets[target].name, order);
 }
 
@@ -81,7 +79,8 @@ std::vector<std::string> calibration_sentences(const VirtualTest& test, const Ca
   for (std::size_t j = 0; j < test.factors.size(); ++j)
     if (calibration.told[j] < 0.2)
       said.push_back(fmt::format("These targets hardly determine {}: {} is as good as the bounds.",
-                                 test.factors[j].name, in_words(calibration.parameters[j], test.factors[j].unit)));
+                                 test.factors[j].name,
+                                 value_with_unit(calibration.parameters[j], test.factors[j].unit)));
   said.push_back(fmt::format("{} runs, {} made now.", calibration.runs.size(), fresh_runs(calibration)));
   return said;
 }
@@ -138,7 +137,7 @@ HtmlTable runs_table(const VirtualTest& test, const Calibration& calibration) {
   for (std::string& name : columns_of(test)) table.header.push_back(std::move(name));
   table.header.emplace_back("failure");
   for (const CalibrationRun& run : calibration.runs) {
-    std::vector<std::string> row{word_of(run.stage)};
+    std::vector<std::string> row{stage_name(run.stage)};
     add_cells(row, test, run.experiment.values, run.experiment.results);
     row.push_back(run.experiment.error);
     table.rows.push_back(std::move(row));
@@ -187,9 +186,10 @@ Soil calibrated_soil(Soil soil, ContactKind kind, const VirtualTest& test, const
   for (std::size_t j = 0; j < test.factors.size(); ++j) {
     const Factor& factor = test.factors[j];
     value_of(pair_of(grains, kind), factor.name) = calibration.best.values[static_cast<Eigen::Index>(j)];
-    grains.sources[key_of(kind) + "." + factor.name] = fmt::format(
-        "calibrated by soilbin calibrate ({}, {} runs): {}; the targets alone allow {}", options.design,
-        calibration.runs.size(), misses(test, calibration.best), in_words(calibration.parameters[j], factor.unit));
+    grains.sources[key_of(kind) + "." + factor.name] =
+        fmt::format("calibrated by soilbin calibrate ({}, {} runs): {}; the targets alone allow {}", options.design,
+                    calibration.runs.size(), misses(test, calibration.best),
+                    value_with_unit(calibration.parameters[j], factor.unit));
   }
   return soil;
 }

@@ -9,18 +9,17 @@
 #include <stdexcept>
 
 #include "bekker_wong/gsl.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-double mean_of(const std::vector<double>& values) {
+double average_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 double total_about_mean(const std::vector<double>& values) {
-  const double mean = mean_of(values);
+  const double mean = average_of(values);
   return std::accumulate(values.begin(), values.end(), 0.0,
                          [mean](double sum, double y) { return sum + (y - mean) * (y - mean); });
 }
@@ -89,7 +88,7 @@ RangeAnalysis range_analysis(const LevelTable& design, const std::vector<double>
 AnalysisOfVariance analysis_of_variance(const LevelTable& design, const std::vector<std::string>& factors,
                                         const std::vector<double>& responses, std::optional<double> noise_variance) {
   const RangeAnalysis ranges = range_analysis(design, responses);
-  const double mean = mean_of(responses), at_a_level = static_cast<double>(design.runs()) / design.levels;
+  const double mean = average_of(responses), at_a_level = static_cast<double>(design.runs()) / design.levels;
   AnalysisOfVariance analysis;
   analysis.total = total_about_mean(responses);
   analysis.left = {"left over", analysis.total, design.runs() - 1, 0.0, not_a_number, not_a_number, false};

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "compare/sweep/varying.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 const TractionResult* result_of(const Comparison& comparison, std::size_t side, std::size_t condition) {
   const SidePoint& point = comparison.sides[side].points[condition];

@@ -21,10 +21,10 @@ std::vector<Tally> tallies_of(const std::vector<Difference>& rows) {
       all.push_back({.side = d.side, .reference = d.reference, .channel = d.channel, .worst = i});
     Tally& t = all.back();
     ++t.values;
-    t.differ += d.finding == Finding::difference;
-    t.in_scatter += d.finding == Finding::within_scatter;
-    t.in_errors += d.finding == Finding::within_errors;
-    t.unknown += d.finding == Finding::not_judged;
+    t.differ += d.finding == DifferenceFinding::difference;
+    t.in_scatter += d.finding == DifferenceFinding::within_scatter;
+    t.in_errors += d.finding == DifferenceFinding::within_errors;
+    t.unknown += d.finding == DifferenceFinding::not_judged;
     t.bias += d.difference;
     t.rms += d.difference * d.difference;
     t.rms_share += d.share * d.share;

@@ -2,43 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
 
-std::string_view word(Finding finding) {
+std::string_view word(DifferenceFinding finding) {
   switch (finding) {
-    case Finding::difference:
+    case DifferenceFinding::difference:
       return "difference";
-    case Finding::within_scatter:
+    case DifferenceFinding::within_scatter:
       return "within_scatter";
-    case Finding::within_errors:
+    case DifferenceFinding::within_errors:
       return "within_errors";
-    case Finding::not_judged:
+    case DifferenceFinding::not_judged:
       return "not_judged";
   }
   return "";
 }
 
-std::string_view words(Finding finding) {
+std::string_view words(DifferenceFinding finding) {
   switch (finding) {
-    case Finding::difference:
+    case DifferenceFinding::difference:
       return "difference";
-    case Finding::within_scatter:
+    case DifferenceFinding::within_scatter:
       return "within the scatter";
-    case Finding::within_errors:
+    case DifferenceFinding::within_errors:
       return "within the errors";
-    case Finding::not_judged:
+    case DifferenceFinding::not_judged:
       return "not judged";
   }
   return "";
 }
 
-Finding finding_of(double difference, double std_error, double scatter) {
+DifferenceFinding finding_of(double difference, double std_error, double scatter) {
   const double size = std::abs(difference);
-  if (std_error == 0.0 && scatter == 0.0) return Finding::not_judged;
-  if (size <= scatter) return Finding::within_scatter;
-  return size <= counting_sigma * std_error ? Finding::within_errors : Finding::difference;
+  if (std_error == 0.0 && scatter == 0.0) return DifferenceFinding::not_judged;
+  if (size <= scatter) return DifferenceFinding::within_scatter;
+  return size <= counting_sigma * std_error ? DifferenceFinding::within_errors : DifferenceFinding::difference;
 }
 
 double scale_of(std::size_t channel, double load, double radius) {
@@ -76,7 +77,7 @@ Difference difference_at(const SidePoint& a, const SidePoint& b, std::size_t cha
   d.difference = d.value.value - d.reference_value.value;
   d.std_error = std::hypot(d.value.std_error, d.reference_value.std_error);
   d.share = d.difference / scale;
-  d.sigma = d.std_error > 0.0 ? d.difference / d.std_error : std::numeric_limits<double>::quiet_NaN();
+  d.sigma = d.std_error > 0.0 ? d.difference / d.std_error : not_a_number;
   d.finding = finding_of(d.difference, d.std_error, d.scatter);
   return d;
 }
@@ -84,8 +85,8 @@ Difference difference_at(const SidePoint& a, const SidePoint& b, std::size_t cha
 /// Two analytic models take the same soil values: their doubt moves both alike, and adding it would count it twice.
 void share_the_soil(Difference& d) {
   d.std_error = 0.0;
-  d.sigma = std::numeric_limits<double>::quiet_NaN();
-  d.finding = Finding::not_judged;
+  d.sigma = not_a_number;
+  d.finding = DifferenceFinding::not_judged;
 }
 
 }  // namespace

@@ -9,15 +9,15 @@
 namespace soilbin::compare {
 
 /// What can be said of a difference d with standard error u, where one run of the reference scatters by s.
-enum class Finding {
+enum class DifferenceFinding {
   difference,      ///< |d| > s and |d| > 2 u
   within_scatter,  ///< |d| <= s: smaller than what another run of the reference would move; not called a difference
   within_errors,   ///< s < |d| <= 2 u: the two sides' uncertainties cover it
   not_judged,      ///< neither side states any doubt, or both share theirs: a number without a verdict
 };
-std::string_view word(Finding finding);
+std::string_view word(DifferenceFinding finding);
 /// For people: "difference", "within the scatter", ...
-std::string_view words(Finding finding);
+std::string_view words(DifferenceFinding finding);
 
 /// Standard errors beyond which a difference counts; one row in twenty reaches it by chance.
 inline constexpr double counting_sigma = 2.0;
@@ -33,10 +33,10 @@ struct Difference {
   double std_error = 0.0;   ///< root of the sum of both standard errors' squares
   double share = 0.0;       ///< of the load W: forces over W, torque over W r, sinkage over r
   double sigma = 0.0;       ///< difference over its standard error; NaN where that is 0
-  Finding finding = Finding::not_judged;
+  DifferenceFinding finding = DifferenceFinding::not_judged;
 };
 
-Finding finding_of(double difference, double std_error, double scatter);
+DifferenceFinding finding_of(double difference, double std_error, double scatter);
 
 /// Standard errors add in squares, but for two analytic models, which share the soil's doubt: their rows have none and
 /// are not judged. Each channel that both points speak of and that is not zero on both sides throughout (no lateral

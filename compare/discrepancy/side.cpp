@@ -8,11 +8,10 @@
 
 #include "compare/sweep/alike.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// How far apart two conditions are, in units of what counts as near; above 1: not near.
 double apart(const OperatingCondition& a, const OperatingCondition& b, const Nearness& near) {

@@ -25,8 +25,6 @@ std::vector<std::size_t> rows_of(const Comparison& comparison, const Tally& tall
   return rows;
 }
 
-std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
-
 /// "3 of 28 conditions differ beyond errors and scatter, 20 lie within one run's scatter, ...".
 std::string counts(const Tally& t) {
   if (t.unknown == t.values)
@@ -68,8 +66,8 @@ Clause headline(const Comparison& comparison, const Tally& widest) {
   Clause clause{"in short", "", {}, {}};
   std::size_t judged = 0;
   for (std::size_t i = 0; i < comparison.differences.size(); ++i) {
-    judged += comparison.differences[i].finding != Finding::not_judged;
-    if (comparison.differences[i].finding == Finding::difference) clause.rows.push_back(i);
+    judged += comparison.differences[i].finding != DifferenceFinding::not_judged;
+    if (comparison.differences[i].finding == DifferenceFinding::difference) clause.rows.push_back(i);
   }
   if (judged > 0)
     clause.text =
@@ -118,9 +116,9 @@ std::vector<Clause> cause_clauses(const Comparison& comparison) {
 }
 
 Clause chance_clause(const Comparison& comparison) {
-  const auto counted =
-      static_cast<double>(std::count_if(comparison.differences.begin(), comparison.differences.end(),
-                                        [](const Difference& d) { return d.finding != Finding::not_judged; }));
+  const auto counted = static_cast<double>(
+      std::count_if(comparison.differences.begin(), comparison.differences.end(),
+                    [](const Difference& d) { return d.finding != DifferenceFinding::not_judged; }));
   return {"how sure",
           fmt::format("A row counts as a difference beyond two standard errors of both sides together and beyond the "
                       "scatter of one run. Of {:.0f} rows about {:.0f} would pass two standard errors by chance alone.",
@@ -174,7 +172,7 @@ std::vector<Clause> summary(const Comparison& comparison, const LoopAnswer* loop
     clauses.push_back({"what is missing", text, {}, {"the loop"}});
   }
   const bool judged = std::any_of(comparison.differences.begin(), comparison.differences.end(),
-                                  [](const Difference& d) { return d.finding != Finding::not_judged; });
+                                  [](const Difference& d) { return d.finding != DifferenceFinding::not_judged; });
   if (judged) clauses.push_back(chance_clause(comparison));
   for (Clause& clause : doubt_clauses(comparison)) clauses.push_back(std::move(clause));
   for (const std::string& gap : comparison.not_compared) clauses.push_back({"not compared", gap + ".", {}, {}});

@@ -16,9 +16,9 @@ using Eigen::VectorXd;
 constexpr double one_sided_95 = 1.645;
 
 /// A grid over the box: every combination of node numbers, the last factor fastest.
-class Grid {
+class FactorGrid {
  public:
-  Grid(const FailureQuestion& question, const std::vector<Role>& roles, int nodes) : question_(question) {
+  FactorGrid(const FailureQuestion& question, const std::vector<Role>& roles, int nodes) : question_(question) {
     for (const Role role : roles) counts_.push_back(role == Role::held ? 1 : nodes);
   }
 
@@ -58,7 +58,7 @@ bool inside(const std::vector<int>& node, const std::vector<int>& corner) {
 }
 
 /// The corner of the largest box without a node where the models may disagree; nothing where the lower corner is one.
-std::optional<std::vector<int>> largest_corner(const Grid& grid, const std::vector<Role>& roles,
+std::optional<std::vector<int>> largest_corner(const FactorGrid& grid, const std::vector<Role>& roles,
                                                const std::vector<std::vector<int>>& doubtful) {
   std::optional<std::vector<int>> best;
   double most = -1.0;
@@ -120,7 +120,7 @@ struct Box {
 };
 
 std::optional<Box> largest_box(const FailureQuestion& question, const FailureMap& map, const std::vector<Role>& roles,
-                               const Grid& grid) {
+                               const FactorGrid& grid) {
   std::vector<std::vector<int>> doubtful;
   std::vector<double> bounds;  // on |difference|, a node each
   for (std::size_t i = 0; i < grid.size(); ++i) {
@@ -147,7 +147,7 @@ bool was_run(const FailureMap& map, const VectorXd& values) {
 
 std::optional<AgreementClause> agreement(const FailureQuestion& question, FailureMap& map,
                                          const std::vector<Role>& roles, int nodes, int rounds) {
-  const Grid grid(question, roles, nodes);
+  const FactorGrid grid(question, roles, nodes);
   std::optional<Box> box = largest_box(question, map, roles, grid);
   for (int round = 0; round < rounds && box && !was_run(map, box->most_doubtful); ++round) {
     add_row(question, box->most_doubtful, map);

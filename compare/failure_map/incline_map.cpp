@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/model.hpp"
 #include "compare/design/space_filling.hpp"
 #include "compare/sweep/answers.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -111,7 +111,7 @@ FailureQuestion failure_question(const InclineMap& map, const VirtualTest& grain
 }
 
 double FreshCheck::sigma() const {
-  if (!found) return std::numeric_limits<double>::quiet_NaN();
+  if (!found) return not_a_number;
   return (found->value - predicted.value) / std::hypot(found->std_error, predicted.std_error);
 }
 
@@ -135,7 +135,7 @@ double rms_of(const std::vector<FreshCheck>& checks) {
   double squares = 0, count = 0;
   for (const FreshCheck& check : checks)
     if (check.found) squares += std::pow(check.found->value - check.predicted.value, 2), count += 1;
-  return count > 0 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
+  return count > 0 ? std::sqrt(squares / count) : not_a_number;
 }
 
 std::vector<Coordinates> compare_coordinates(const InclineMap& map, const FailureMap& rows) {

@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 /// "load 40 N, lug height 5 mm, angle 3 deg, slip 20 %".
-std::string in_words(const std::vector<Factor>& factors, const VectorXd& values) {
+std::string factors_in_words(const std::vector<Factor>& factors, const VectorXd& values) {
   std::string text;
   for (std::size_t j = 0; j < factors.size(); ++j) {
     const Factor& factor = factors[j];
@@ -25,7 +25,7 @@ std::string in_words(const std::vector<Factor>& factors, const VectorXd& values)
   return text;
 }
 
-std::string percent(const Estimate& share) { return number({100 * share.value, 100 * share.std_error}); }
+std::string in_percent(const Estimate& share) { return number({100 * share.value, 100 * share.std_error}); }
 
 const FailureRow* worst_of(const FailureMap& map) {
   const FailureRow* worst = nullptr;
@@ -49,8 +49,8 @@ std::string rows_sentence(const MapStory& story) {
   if (answered < story.rows.rows.size())
     text += fmt::format("; {} more have no answer of one of the models", story.rows.rows.size() - answered);
   if (const FailureRow* worst = worst_of(story.rows))
-    text += fmt::format("; farthest off is {} % of the load, at {}", percent(*worst->difference),
-                        in_words(story.question.factors, worst->values));
+    text += fmt::format("; farthest off is {} % of the load, at {}", in_percent(*worst->difference),
+                        factors_in_words(story.question.factors, worst->values));
   return text + ".";
 }
 
@@ -146,7 +146,7 @@ HtmlTable rows_table(const MapStory& story) {
       cells.push_back(number(row.values[static_cast<Index>(j)] * per_unit(story.question.factors[j].unit)));
     if (row.difference) {
       const double predicted = row.difference->value - story.rows.held_out.residual[k];
-      cells.insert(cells.end(), {percent(*row.difference), fmt::format("{:.1f}", 100 * predicted),
+      cells.insert(cells.end(), {in_percent(*row.difference), fmt::format("{:.1f}", 100 * predicted),
                                  row.beyond(story.question.tolerance) ? "yes" : "no"});
       ++k;
     } else {
@@ -173,8 +173,8 @@ HtmlTable checks_table(const MapStory& story) {
     std::vector<std::string> cells;
     for (std::size_t j = 0; j < story.question.factors.size(); ++j)
       cells.push_back(number(check.values[static_cast<Index>(j)] * per_unit(story.question.factors[j].unit)));
-    cells.push_back(percent(check.predicted));
-    cells.push_back(check.found ? percent(*check.found) : "no answer");
+    cells.push_back(in_percent(check.predicted));
+    cells.push_back(check.found ? in_percent(*check.found) : "no answer");
     cells.push_back(check.found ? fmt::format("{:.1f}", check.sigma()) : "-");
     table.rows.push_back(std::move(cells));
   }

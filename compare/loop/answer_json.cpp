@@ -1,8 +1,9 @@
 // LoopAnswer in the contract's form.
 #include <cmath>
-#include <numbers>
 
 #include "compare/loop/loop.hpp"
+#include "compare/report/json_fields.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 
@@ -10,20 +11,18 @@ using nlohmann::ordered_json;
 
 namespace {
 
-ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
-
 ordered_json effects_json(const std::vector<AcceptedEffect>& effects) {
   ordered_json list = ordered_json::array();
   for (const AcceptedEffect& effect : effects) {
     ordered_json parameters = ordered_json::object(), ci = ordered_json::object();
-    for (const auto& [name, value] : effect.choice.parameters) parameters[name] = number(value);
+    for (const auto& [name, value] : effect.choice.parameters) parameters[name] = finite(value);
     for (std::size_t i = 0; i < effect.fitted.size(); ++i)
-      ci[effect.fitted[i]] = {number(effect.ci95[i].first), number(effect.ci95[i].second)};
+      ci[effect.fitted[i]] = {finite(effect.ci95[i].first), finite(effect.ci95[i].second)};
     list.push_back({{"id", effect.choice.id},
                     {"form", effect.choice.form},
                     {"parameters", parameters},
                     {"ci95", ci},
-                    {"p_value", number(effect.p_value)},
+                    {"p_value", finite(effect.p_value)},
                     {"cosines", effect.cosines}});
   }
   return list;
@@ -33,10 +32,10 @@ ordered_json effects_json(const std::vector<AcceptedEffect>& effects) {
 ordered_json soil_json(const LoopAnswer& answer) {
   ordered_json soil = ordered_json::object();
   for (const SoilShift& s : answer.soil_shifts)
-    soil[s.name] = {{"value", number(s.with.value)},
-                    {"sd", number(s.with.std_error)},
-                    {"without", number(s.without.value)},
-                    {"bias", number(s.without.value - s.with.value)}};
+    soil[s.name] = {{"value", finite(s.with.value)},
+                    {"sd", finite(s.with.std_error)},
+                    {"without", finite(s.without.value)},
+                    {"bias", finite(s.without.value - s.with.value)}};
   return soil;
 }
 
@@ -48,35 +47,34 @@ ordered_json error_json(const LoopAnswer& answer) {
     error[name] = ordered_json::object();
     if (e.cells == 0) continue;
     error[name] = {{"unit", channel_units[static_cast<std::size_t>(c)]},
-                   {"before", number(e.before)},
-                   {"after", number(e.after)},
-                   {"noise_floor", number(e.noise_floor)},
+                   {"before", finite(e.before)},
+                   {"after", finite(e.after)},
+                   {"noise_floor", finite(e.noise_floor)},
                    {"kind", "held_out"}};
   }
   const ErrorPair& all = answer.validation.overall;
   error["overall"] = ordered_json::object();
   if (all.cells > 0)
     error["overall"] = {{"unit", "sigma"},
-                        {"before", number(all.before)},
-                        {"after", number(all.after)},
-                        {"gain", number(answer.validation.gain)},
-                        {"gain_std_error", number(answer.validation.gain_error)},
+                        {"before", finite(all.before)},
+                        {"after", finite(all.after)},
+                        {"gain", finite(answer.validation.gain)},
+                        {"gain_std_error", finite(answer.validation.gain_error)},
                         {"kind", "held_out"}};
   return error;
 }
 
 /// A condition by the names and units of the campaign's columns.
 ordered_json condition_json(const NextTest& next) {
-  constexpr double deg = 180 / std::numbers::pi;
   ordered_json at = ordered_json::object();
   for (const std::string& q : next.quantities) {
     if (q == "slip") at["slip"] = next.at.slip;
     if (q == "load") at["load_N"] = next.at.load;
     if (q == "speed") at["speed_m_s"] = next.at.speed;
     if (q == "pass") at["pass"] = next.at.pass;
-    if (q == "yaw") at["yaw_deg"] = next.at.yaw * deg;
-    if (q == "longitudinal_incline") at["longitudinal_incline_deg"] = next.at.longitudinal_incline * deg;
-    if (q == "transverse_incline") at["transverse_incline_deg"] = next.at.transverse_incline * deg;
+    if (q == "yaw") at["yaw_deg"] = next.at.yaw / degree;
+    if (q == "longitudinal_incline") at["longitudinal_incline_deg"] = next.at.longitudinal_incline / degree;
+    if (q == "transverse_incline") at["transverse_incline_deg"] = next.at.transverse_incline / degree;
     if (q == "position" && next.at.position) at["position_m"] = *next.at.position;
     if (q == "moisture" && next.at.moisture) at["moisture_percent"] = 100 * *next.at.moisture;
   }
@@ -102,7 +100,7 @@ ordered_json next_json(const LoopAnswer& answer) {
 ordered_json to_json(const LoopAnswer& answer) {
   ordered_json ambiguity = ordered_json::array();
   for (const Weighted& w : answer.ambiguity_set)
-    ambiguity.push_back({{"effects", w.ids}, {"weight", number(w.weight)}});
+    ambiguity.push_back({{"effects", w.ids}, {"weight", finite(w.weight)}});
   return {{"format", "soilbin-loop/1"},
           {"campaign", answer.campaign},
           {"verdict", word(answer.verdict)},
@@ -126,21 +124,21 @@ ordered_json details_json(const LoopAnswer& answer) {
     for (const Term& term : rival.terms) forms.push_back(term.form->id + "/" + term.form->form);
     sets.push_back({{"effects", w.ids},
                     {"forms", forms},
-                    {"weight", number(w.weight)},
-                    {"log_evidence", number(rival.log_evidence)},
-                    {"chi2", number(rival.fit.chi2)},
+                    {"weight", finite(w.weight)},
+                    {"log_evidence", finite(rival.log_evidence)},
+                    {"chi2", finite(rival.fit.chi2)},
                     {"parameters", rival.fit.theta.size()}});
   }
-  return {{"p_value", number(id.p_value)},
+  return {{"p_value", finite(id.p_value)},
           {"values", id.observations.cells.size()},
-          {"chi2_base", number(id.base.chi2)},
+          {"chi2_base", finite(id.base.chi2)},
           {"parameters_base", id.base.theta.size()},
-          {"log_evidence_base", number(id.base_log_evidence)},
-          {"unnamed_gain", number(id.unnamed_gain)},
-          {"residual_unnamed_gain", number(id.residual_unnamed_gain)},
-          {"lack_of_fit_p", {number(answer.before.p_value), number(answer.after.p_value)}},
-          {"choice_gain", {number(answer.choice_gain.mean), number(answer.choice_gain.std_error)}},
-          {"error_smooth_term", number(answer.validation.overall.smooth)},
+          {"log_evidence_base", finite(id.base_log_evidence)},
+          {"unnamed_gain", finite(id.unnamed_gain)},
+          {"residual_unnamed_gain", finite(id.residual_unnamed_gain)},
+          {"lack_of_fit_p", {finite(answer.before.p_value), finite(answer.after.p_value)}},
+          {"choice_gain", {finite(answer.choice_gain.mean), finite(answer.choice_gain.std_error)}},
+          {"error_smooth_term", finite(answer.validation.overall.smooth)},
           {"sets", sets},
           {"folds", answer.validation.chosen}};
 }

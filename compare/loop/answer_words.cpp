@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/channels.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 
@@ -35,7 +35,6 @@ std::string verdict_sentence(const LoopAnswer& answer) {
 namespace {
 
 std::string condition_words(const NextTest& next) {
-  constexpr double degree = std::numbers::pi / 180;
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   for (const std::string& q : next.quantities) {

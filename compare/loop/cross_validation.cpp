@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <random>
@@ -13,6 +12,7 @@
 
 #include "compare/loop/smooth_term.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
 
@@ -49,8 +49,7 @@ FoldResult run_fold(const Campaign& campaign, const Identification& whole, const
     better.emplace(campaign, training, id.rivals[*id.best].terms);
     result.chosen = id.rivals[*id.best].ids;
   }
-  VectorXd predicted =
-      VectorXd::Constant(static_cast<Index>(all.cells.size()), std::numeric_limits<double>::quiet_NaN());
+  VectorXd predicted = VectorXd::Constant(static_cast<Index>(all.cells.size()), not_a_number);
   std::vector<Index> of_cell;  // of each held-out cell, its index among all
   Index trained = 0, index = -1;
   for (const Cell& cell : all.cells) {

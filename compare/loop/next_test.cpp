@@ -29,7 +29,7 @@ void set_condition(OperatingCondition& at, const std::string& name, double value
 }
 
 /// A rival's predictor with its fit, and the covariance of its parameters.
-struct Candidate {
+struct Contender {
   std::set<std::string> ids;
   WheelPredictor predictor;
   VectorXd theta;
@@ -38,9 +38,9 @@ struct Candidate {
   double log_evidence = 0.0, allowed = 0.0;
 };
 
-Candidate candidate(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms, const Fit& fit,
+Contender contender(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms, const Fit& fit,
                     std::set<std::string> ids) {
-  Candidate c{std::move(ids), WheelPredictor(campaign, id.observations, terms), fit.theta, fit.column_parameter, {}};
+  Contender c{std::move(ids), WheelPredictor(campaign, id.observations, terms), fit.theta, fit.column_parameter, {}};
   MatrixXd gram = fit.columns.transpose() * fit.columns;
   gram.diagonal().array() += 1e-9;
   c.covariance = gram.ldlt().solve(MatrixXd::Identity(gram.rows(), gram.cols()));
@@ -55,7 +55,7 @@ Candidate candidate(const Campaign& campaign, const Identification& id, const st
 Vector4d as_vector(const bekker_wong::Reading& r) { return {r.drawbar_pull, r.torque, r.sinkage, r.lateral_force}; }
 
 /// Variance that each term's form may be wrong by: its contribution times the form's tolerance, channel by channel.
-Matrix4d form_variance(const Candidate& c, const OperatingCondition& at, const Vector4d& here) {
+Matrix4d form_variance(const Contender& c, const OperatingCondition& at, const Vector4d& here) {
   Matrix4d variance = Matrix4d::Zero();
   for (int t = 0; t < static_cast<int>(c.predictor.terms().size()); ++t) {
     VectorXd theta = c.theta;
@@ -69,7 +69,7 @@ Matrix4d form_variance(const Candidate& c, const OperatingCondition& at, const V
 
 /// Prediction and its covariance from the parameters' uncertainty, by one-sided differences of 0.1 sd, and from the
 /// tolerance of its forms.
-std::pair<Vector4d, Matrix4d> predict(const Candidate& c, const OperatingCondition& at) {
+std::pair<Vector4d, Matrix4d> predict(const Contender& c, const OperatingCondition& at) {
   const Vector4d here = as_vector(c.predictor.reading(c.theta, at));
   MatrixXd jacobian(4, static_cast<Index>(c.free.size()));
   for (std::size_t i = 0; i < c.free.size(); ++i) {
@@ -155,17 +155,17 @@ struct Prospect {
 /// The rivals with their weights, the best first.
 class Contest {
  public:
-  Contest(std::vector<Candidate> rivals, const NoiseFloor& noise) : rivals_(std::move(rivals)), noise_(noise) {
+  Contest(std::vector<Contender> rivals, const NoiseFloor& noise) : rivals_(std::move(rivals)), noise_(noise) {
     double top = -std::numeric_limits<double>::infinity(), total = 0.0;
-    for (const Candidate& c : rivals_) top = std::max(top, c.log_evidence);
-    for (const Candidate& c : rivals_) weights_.push_back(std::exp(c.log_evidence - top)), total += weights_.back();
+    for (const Contender& c : rivals_) top = std::max(top, c.log_evidence);
+    for (const Contender& c : rivals_) weights_.push_back(std::exp(c.log_evidence - top)), total += weights_.back();
     for (double& w : weights_) w /= total;
   }
 
   /// Nothing where a rival has no balance there, or can't be asked.
   std::optional<Prospect> at(const OperatingCondition& condition) const try {
     std::vector<std::pair<Vector4d, Matrix4d>> predictions;
-    for (const Candidate& c : rivals_) predictions.push_back(predict(c, condition));
+    for (const Contender& c : rivals_) predictions.push_back(predict(c, condition));
     Prospect p;
     double most = 0.0;
     for (std::size_t i = 0; i < rivals_.size(); ++i)
@@ -184,7 +184,7 @@ class Contest {
     return std::nullopt;
   }
 
-  const Candidate& rival(std::size_t i) const { return rivals_[i]; }
+  const Contender& rival(std::size_t i) const { return rivals_[i]; }
 
  private:
   /// Squared distance that puts j out where i is true.
@@ -193,7 +193,7 @@ class Contest {
     return 2 * std::max(least, rivals_[j].allowed - (rivals_[i].log_evidence - rivals_[j].log_evidence));
   }
 
-  std::vector<Candidate> rivals_;
+  std::vector<Contender> rivals_;
   std::vector<double> weights_;
   const NoiseFloor& noise_;
 };
@@ -240,10 +240,10 @@ Limits limits_of(const Observations& observations) {
 
 std::optional<NextTest> next_test(const Campaign& campaign, const Identification& id,
                                   const std::vector<Competitor>& competitors, const Limits& limits) {
-  std::vector<Candidate> rivals;
+  std::vector<Contender> rivals;
   const auto add = [&](const std::vector<Term>& terms, const Fit& fit, std::set<std::string> ids, double evidence,
                        double allowed) {
-    rivals.push_back(candidate(campaign, id, terms, fit, std::move(ids)));
+    rivals.push_back(contender(campaign, id, terms, fit, std::move(ids)));
     rivals.back().log_evidence = evidence, rivals.back().allowed = allowed;
   };
   for (const Competitor& c : competitors) {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "scenario/estimate.hpp"
+
 namespace soilbin::compare {
 
 using Eigen::Index;
@@ -266,7 +268,7 @@ NoiseEstimate estimate_noise(const Observations& observations, const NoiseData& 
   estimate.outlier_score.assign(observations.cells.size(), 0.0);
   const MatrixXd basis = smooth_basis(observations, 40);
   const Index rows = static_cast<Index>(observations.rows.size());
-  MatrixXd standard = MatrixXd::Constant(rows, channel_count, std::numeric_limits<double>::quiet_NaN());
+  MatrixXd standard = MatrixXd::Constant(rows, channel_count, not_a_number);
   for (int channel = 0; channel < channel_count; ++channel) {
     const ChannelCells cells = gather(observations, channel);
     if (cells.cell.size() < 3) continue;

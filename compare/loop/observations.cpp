@@ -1,10 +1,11 @@
 #include "compare/loop/observations.hpp"
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <tuple>
+
+#include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
 
@@ -80,7 +81,7 @@ Observations without_cells(const Observations& all, const std::vector<bool>& dro
 
 std::vector<Covariate> covariates(const Observations& observations) {
   using Getter = double (*)(const OperatingCondition&);
-  static constexpr double absent = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double absent = not_a_number;
   const std::pair<const char*, Getter> getters[] = {
       {"slip", [](const OperatingCondition& at) { return at.slip; }},
       {"load", [](const OperatingCondition& at) { return at.load; }},

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 
 using bekker_wong::EffectParameter;
-using bekker_wong::Reading;
 using bekker_wong::RolledWheel;
 using bekker_wong::RollingWheel;
 using bekker_wong::SoilValues;
@@ -26,13 +25,12 @@ struct SoilSlot {
   double lower, upper;
 };
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-constexpr double deg = std::numbers::pi / 180;
 constexpr std::array<SoilSlot, 8> soil_slots = {{
     {"exponent", &SoilValues::exponent, &SemiEmpiricalSoil::exponent, 0.05, 3.0},
     {"k_c", &SoilValues::k_c, &SemiEmpiricalSoil::k_c, -unbounded, unbounded},
     {"k_phi", &SoilValues::k_phi, &SemiEmpiricalSoil::k_phi, -unbounded, unbounded},
     {"cohesion", &SoilValues::cohesion, &SemiEmpiricalSoil::cohesion, 0.0, unbounded},
-    {"friction_angle", &SoilValues::friction_angle, &SemiEmpiricalSoil::friction_angle, 0.0, 65 * deg},
+    {"friction_angle", &SoilValues::friction_angle, &SemiEmpiricalSoil::friction_angle, 0.0, 65 * degree},
     {"shear_modulus", &SoilValues::shear_modulus, &SemiEmpiricalSoil::shear_modulus, 2e-4, unbounded},
     {"stress_angle_c1", &SoilValues::c1, &SemiEmpiricalSoil::stress_angle_c1, 0.0, 0.98},
     {"stress_angle_c2", &SoilValues::c2, &SemiEmpiricalSoil::stress_angle_c2, -0.5, 0.98},
@@ -56,14 +54,14 @@ Extent extent_of(const std::string& covariate, const Observations& observations,
   return count > 0 ? Extent{sum / count, 0.5 * (most - least)} : Extent{fallback, 0.0};
 }
 
-bool finite(const Reading& r) {
+bool all_finite(const bekker_wong::Reading& r) {
   return std::isfinite(r.drawbar_pull) && std::isfinite(r.torque) && std::isfinite(r.sinkage) &&
          std::isfinite(r.lateral_force);
 }
 
 }  // namespace
 
-double channel_of(const Reading& reading, int channel) {
+double channel_of(const bekker_wong::Reading& reading, int channel) {
   switch (channel) {
     case drawbar_pull:
       return reading.drawbar_pull;
@@ -171,7 +169,7 @@ bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& pred
     if (cell == cells.end() || cell->row != row) continue;
     memory.weakest = row;
     const RolledWheel rolled = wheel.roll(observations_->rows[static_cast<std::size_t>(row)]);
-    if (!finite(rolled.reading)) return false;
+    if (!all_finite(rolled.reading)) return false;
     angles[static_cast<std::size_t>(row)] = rolled.balance_angle;
     for (; cell != cells.end() && cell->row == row; ++cell)
       prediction[cell - cells.begin()] = channel_of(rolled.reading, cell->channel);
@@ -217,7 +215,7 @@ bool WheelPredictor::linearise(const Eigen::VectorXd& theta, Eigen::VectorXd& pr
     const double turn = 1e-6 * theta_1;
     const RolledWheel here = wheel.at_entry_angle(at, theta_1);
     const RolledWheel turned = wheel.at_entry_angle(at, theta_1 - turn);
-    if (!finite(here.reading)) return false;
+    if (!all_finite(here.reading)) return false;
     const double stiffness = (here.forces.vertical - turned.forces.vertical) / turn;
     for (std::size_t i = first; i < cell; ++i)
       prediction[static_cast<Eigen::Index>(i)] = channel_of(here.reading, cells[i].channel);
@@ -243,7 +241,7 @@ bool WheelPredictor::linearise(const Eigen::VectorXd& theta, Eigen::VectorXd& pr
   return false;
 }
 
-Reading WheelPredictor::reading(const Eigen::VectorXd& theta, const OperatingCondition& at) const {
+bekker_wong::Reading WheelPredictor::reading(const Eigen::VectorXd& theta, const OperatingCondition& at) const {
   return RollingWheel(campaign_->wheel, soil(theta), effects(theta), campaign_->bin).roll(at).reading;
 }
 

@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 constexpr double most_steps = 65535;
 
 /// The grid on which places are told.
-struct Grid {
+struct Raster {
   Point origin{};
   double step = 1.0;
 
@@ -32,7 +32,7 @@ struct Grid {
   }
 };
 
-Grid grid_of(const Replay& replay) {
+Raster raster_of(const Replay& replay) {
   constexpr double far = std::numeric_limits<double>::infinity();
   Point low{far, far, far}, high{-far, -far, -far};
   for (const ReplayFrame& frame : replay.frames)
@@ -86,7 +86,7 @@ std::uint16_t zigzag(std::uint16_t now, std::uint16_t before) {
                                     static_cast<std::uint16_t>(change < 0 ? 0xFFFF : 0));
 }
 
-void add_frames(const Replay& replay, const Grid& grid, const std::vector<std::size_t>& order, Payload& payload) {
+void add_frames(const Replay& replay, const Raster& grid, const std::vector<std::size_t>& order, Payload& payload) {
   std::array<std::vector<std::uint16_t>, 3> before;
   for (auto& axis : before) axis.assign(order.size(), 0);
   for (const ReplayFrame& frame : replay.frames)
@@ -101,7 +101,7 @@ void add_frames(const Replay& replay, const Grid& grid, const std::vector<std::s
     }
 }
 
-Json header_of(const Replay& replay, const Grid& grid) {
+Json header_of(const Replay& replay, const Raster& grid) {
   Json header = {{"format", replay_format}, {"title", replay.title}, {"facts", Json::array()}};
   for (const auto& [name, value] : replay.facts) header["facts"].push_back({name, value});
   header["grains"] = replay.radii.size();
@@ -128,7 +128,7 @@ std::string replay_bytes(const Replay& replay) {
     if (frame.grains.size() != replay.radii.size())
       throw InputError(fmt::format("a replay's frames must hold the same grains: {} and {}", frame.grains.size(),
                                    replay.radii.size()));
-  const Grid grid = grid_of(replay);
+  const Raster grid = raster_of(replay);
   const std::vector<std::size_t> order = order_by_place(replay.frames.front().grains);
   Payload payload;
   for (const std::size_t k : order) payload.single(replay.radii[k]);

@@ -4,32 +4,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "compare/report/curves.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/peaks.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-
-std::string percent(double share) { return fmt::format("{:.4g}", std::round(1000 * share) / 10); }
+std::string percent_to_tenths(double share) { return fmt::format("{:.4g}", std::round(1000 * share) / 10); }
 
 /// The cells of one curve, without its model.
 std::vector<std::string> peak_row(const Peak& peak) {
   std::vector<std::string> row = {peak.label.empty() ? "all" : peak.label};
   if (peak.unsolved > 0) row[0] += fmt::format(" ({} without a solution)", peak.unsolved);
   if (peak.pull != nullptr)
-    row.insert(row.end(), {number(peak.pull->drawbar_pull), percent(peak.pull->at.slip), number(peak.pull->torque),
-                           number(peak.pull->sinkage, 1000)});
+    row.insert(row.end(), {number(peak.pull->drawbar_pull), percent_to_tenths(peak.pull->at.slip),
+                           number(peak.pull->torque), number(peak.pull->sinkage, 1000)});
   else
     row.insert(row.end(), 4, "-");
-  row.push_back(peak.efficiency != nullptr ? percent(peak.efficiency->tractive_efficiency) : "-");
-  row.push_back(peak.efficiency != nullptr ? percent(peak.efficiency->at.slip) : "-");
+  row.push_back(peak.efficiency != nullptr ? percent_to_tenths(peak.efficiency->tractive_efficiency) : "-");
+  row.push_back(peak.efficiency != nullptr ? percent_to_tenths(peak.efficiency->at.slip) : "-");
   return row;
 }
 

@@ -10,7 +10,7 @@
 namespace soilbin::compare {
 namespace {
 
-const char* word_of(SideKind kind) {
+const char* word_of_kind(SideKind kind) {
   switch (kind) {
     case SideKind::analytic:
       return "analytic";
@@ -23,7 +23,7 @@ const char* word_of(SideKind kind) {
 }
 
 Json side_json(const Side& side, const std::vector<OperatingCondition>& conditions) {
-  Json json = {{"label", side.label}, {"kind", word_of(side.kind)}, {"points", Json::array()}};
+  Json json = {{"label", side.label}, {"kind", word_of_kind(side.kind)}, {"points", Json::array()}};
   for (std::size_t i = 0; i < side.points.size(); ++i) {
     const SidePoint& point = side.points[i];
     Json one = to_json(Answer{conditions[i], point.result, point.error});

@@ -46,15 +46,15 @@ void add_summary(Page& page, const Comparison& comparison, const ComparisonAbout
     sentences.push_back({clause.about, clause.text, evidence_of(comparison, clause)});
   if (sentences.empty()) sentences.push_back({"", "There is nothing to compare: a single side.", {}});
   page.backed_summary(sentences);
-  const auto count = [&](Finding finding) {
+  const auto count = [&](DifferenceFinding finding) {
     return std::to_string(std::count_if(comparison.differences.begin(), comparison.differences.end(),
                                         [&](const Difference& d) { return d.finding == finding; }));
   };
   page.figures_at_a_glance({{std::to_string(comparison.question.study.conditions.size()), "conditions"},
                             {std::to_string(comparison.differences.size()), "rows compared"},
-                            {count(Finding::difference), "differences"},
-                            {count(Finding::within_scatter), "within the scatter of a run"},
-                            {count(Finding::within_errors), "covered by the errors"}});
+                            {count(DifferenceFinding::difference), "differences"},
+                            {count(DifferenceFinding::within_scatter), "within the scatter of a run"},
+                            {count(DifferenceFinding::within_errors), "covered by the errors"}});
 }
 
 void add_curves(Page& page, const Comparison& comparison) {

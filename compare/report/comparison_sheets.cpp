@@ -5,21 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
-#include <numbers>
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/discrepancy/summary.hpp"
 #include "compare/report/curves.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/estimate.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double degree = std::numbers::pi / 180;
 
 using Reader = std::function<Estimate(const SidePoint&, std::size_t condition)>;
 
@@ -76,11 +73,6 @@ void add_plot(Sheet& sheet, const Comparison& comparison, const std::string& tit
     if (says_anything(series)) plot.series.push_back(std::move(series));
   }
   if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
-}
-
-std::string capital(std::string text) {
-  if (!text.empty()) text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-  return text;
 }
 
 Series stress_series(const Side& side, std::size_t index, const TractionResult& result, double StressSample::*stress) {
@@ -213,7 +205,7 @@ HeatMap heat_map_of(const Comparison& comparison, const Tally& tally) {
         100 * d.share, fmt::format("{:+.1f}", 100 * d.share),
         fmt::format("{}: {} ({:+.2f} %{}): {}", in_words(conditions[d.condition]), in_unit(d.channel, d.difference),
                     100 * d.share, sigma, words(d.finding)),
-        d.finding == Finding::difference};
+        d.finding == DifferenceFinding::difference};
   }
   return map;
 }

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
+#include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_bands = 3;  ///< curves of a panel beyond which bands only hide each other
 
 /// What a panel shows of a result.
@@ -34,11 +34,6 @@ std::vector<Shown> shown_of(const std::vector<ModelAnswers>& study) {
                    return Estimate{drives_and_pulls(r) ? r.tractive_efficiency : not_a_number, 0.0};
                  }});
   return all;
-}
-
-std::string capital(std::string text) {
-  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() = static_cast<char>(text.front() - 32);
-  return text;
 }
 
 Plot empty_plot(const Shown& shown) {

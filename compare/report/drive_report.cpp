@@ -4,26 +4,22 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <numbers>
 
 #include "bekker_wong/limits.hpp"
 #include "bekker_wong/model.hpp"
+#include "compare/report/drive_columns.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/result_json.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/estimate.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
 
 using bekker_wong::DriveSample;
 using bekker_wong::EnergyLedger;
-using Json = nlohmann::ordered_json;
-using Get = std::function<double(const DriveSample&)>;
-
-constexpr double degree = std::numbers::pi / 180;
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 double slip_of(const DriveSample& s) { return s.slip.value_or(not_a_number); }
 
@@ -45,7 +41,7 @@ std::optional<double> steepest_of(const Case& question) {
 
 struct Line {
   std::string label;
-  Get get;
+  std::function<double(const DriveSample&)> get;
 };
 
 Plot plot_of(const DrivePart& part, const std::string& title, const std::vector<Line>& lines) {
@@ -64,39 +60,19 @@ Plot plot_of(const DrivePart& part, const std::string& title, const std::vector<
   return plot;
 }
 
-struct Column {
-  const char* name;
-  Get get;
-};
-
-const std::vector<Column>& columns() {
-  static const std::vector<Column> all = {
-      {"time_s", [](const DriveSample& s) { return s.time; }},
-      {"travelled_m", [](const DriveSample& s) { return s.travelled; }},
-      {"speed_m_s", [](const DriveSample& s) { return s.speed; }},
-      {"rim_speed_m_s", [](const DriveSample& s) { return s.rim_speed; }},
-      {"slip", slip_of},
-      {"contact_slip", [](const DriveSample& s) { return s.contact_slip; }},
-      {"sinkage_m", [](const DriveSample& s) { return s.sinkage; }},
-      {"torque_Nm", [](const DriveSample& s) { return s.torque; }},
-      {"soil_force_N", [](const DriveSample& s) { return s.forward; }},
-      {"lateral_force_N", [](const DriveSample& s) { return s.lateral; }},
-      {"drawbar_N", [](const DriveSample& s) { return s.drawbar; }},
-      {"longitudinal_incline_deg", [](const DriveSample& s) { return s.longitudinal_incline / degree; }},
-      {"motor_J", [](const DriveSample& s) { return s.energy.motor; }},
-      {"kinetic_J", [](const DriveSample& s) { return s.energy.kinetic; }},
-      {"height_J", [](const DriveSample& s) { return s.energy.height; }},
-      {"drawbar_J", [](const DriveSample& s) { return s.energy.drawbar; }},
-      {"compaction_J", [](const DriveSample& s) { return s.energy.compaction; }},
-      {"shear_J", [](const DriveSample& s) { return s.energy.shear; }},
-      {"added_forces_J", [](const DriveSample& s) { return s.energy.added; }},
-      {"damping_J", [](const DriveSample& s) { return s.energy.damping; }},
-      {"unaccounted_J", [](const DriveSample& s) { return s.energy.unaccounted(); }},
-  };
+const DriveColumns<DriveSample>& sample_columns() {
+  using S = DriveSample;
+  static const DriveColumns<S> all =
+      drive_columns<S>({{"contact_slip", [](const S& s) { return s.contact_slip; }}},
+                       {
+                           {"compaction_J", [](const S& s) { return s.energy.compaction; }},
+                           {"shear_J", [](const S& s) { return s.energy.shear; }},
+                           {"added_forces_J", [](const S& s) { return s.energy.added; }},
+                           {"damping_J", [](const S& s) { return s.energy.damping; }},
+                           {"unaccounted_J", [](const S& s) { return s.energy.unaccounted(); }},
+                       });
   return all;
 }
-
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 }  // namespace
 
@@ -169,10 +145,7 @@ Json to_json(const DrivePart& part) {
                    {"end_time", record.end_time},
                    {"travelled", end.travelled},
                    {"steepest_steady_slope", part.steepest ? Json(*part.steepest) : Json(nullptr)}};
-  document["happenings"] = Json::array();
-  for (const DriveHappening& h : record.happenings)
-    document["happenings"].push_back(
-        {{"time", h.time}, {"travelled", h.travelled}, {"what", std::string(word_of(h.what))}});
+  document["happenings"] = happenings_json(record.happenings);
   document["energy"] = {{"motor", end.energy.motor},
                         {"kinetic", end.energy.kinetic},
                         {"height", end.energy.height},
@@ -182,28 +155,14 @@ Json to_json(const DrivePart& part) {
                         {"added_forces", end.energy.added},
                         {"damping", end.energy.damping},
                         {"unaccounted", end.energy.unaccounted()}};
-  document["samples"] = Json::object();
-  for (const Column& column : columns()) {
-    Json& values = document["samples"][column.name] = Json::array();
-    for (const DriveSample& sample : record.samples) values.push_back(finite(column.get(sample)));
-  }
+  document["samples"] = columns_json(sample_columns(), record.samples);
   return document;
 }
 
 std::string drive_csv(const DrivePart& part) {
-  std::string text;
-  for (const Column& column : columns()) text += (text.empty() ? "" : ",") + std::string(column.name);
-  for (const DriveSample& sample : part.record.samples) {
-    text += "\n";
-    bool first = true;
-    for (const Column& column : columns()) {
-      const double value = column.get(sample);
-      text += first ? "" : ",";
-      if (std::isfinite(value)) text += fmt::format("{}", value);
-      first = false;
-    }
-  }
-  return text + "\n";
+  std::string text = columns_csv(sample_columns()) + "\n";
+  for (const DriveSample& sample : part.record.samples) text += columns_csv(sample_columns(), sample) + "\n";
+  return text;
 }
 
 std::string drive_page(const DrivePart& part, const PageAbout& about) {

@@ -166,7 +166,7 @@ std::vector<std::string> in_words(const DriveSides& drive) {
   for (const DriveSide& side : drive.sides) sentences.push_back(sentence_of(side));
   std::string apart;
   for (const DriveDifference& row : drive.differences)
-    if (row.finding == Finding::difference)
+    if (row.finding == DifferenceFinding::difference)
       apart += fmt::format("{}{} by {} {}", apart.empty() ? "" : ", ", row.name,
                            number({row.difference, row.std_error}, row.per_si), row.unit);
   if (!apart.empty())

@@ -46,7 +46,7 @@ struct DriveDifference {
   Estimate analytic, grains;
   double difference = 0.0;  ///< analytic less grains
   double std_error = 0.0;   ///< root of the sum of both errors' squares
-  Finding finding = Finding::not_judged;
+  DifferenceFinding finding = DifferenceFinding::not_judged;
 };
 
 struct DriveSides {

@@ -3,46 +3,20 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <numbers>
 
+#include "compare/report/drive_columns.hpp"
 #include "compare/report/drive_sides.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "scenario/estimate.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-using Get = std::function<double(const DriveSideSample&)>;
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double degree = std::numbers::pi / 180;
-
-struct Column {
-  const char* name;
-  Get get;
-};
-
-const std::vector<Column>& columns() {
-  using S = DriveSideSample;
-  static const std::vector<Column> all = {
-      {"time_s", [](const S& s) { return s.time; }},
-      {"travelled_m", [](const S& s) { return s.travelled; }},
-      {"speed_m_s", [](const S& s) { return s.speed; }},
-      {"rim_speed_m_s", [](const S& s) { return s.rim_speed; }},
-      {"slip", [](const S& s) { return s.slip.value_or(not_a_number); }},
-      {"sinkage_m", [](const S& s) { return s.sinkage; }},
-      {"torque_Nm", [](const S& s) { return s.torque; }},
-      {"soil_force_N", [](const S& s) { return s.forward; }},
-      {"lateral_force_N", [](const S& s) { return s.lateral; }},
-      {"drawbar_N", [](const S& s) { return s.drawbar; }},
-      {"longitudinal_incline_deg", [](const S& s) { return s.longitudinal_incline / degree; }},
-      {"motor_J", [](const S& s) { return s.energy.motor; }},
-      {"kinetic_J", [](const S& s) { return s.energy.kinetic; }},
-      {"height_J", [](const S& s) { return s.energy.height; }},
-      {"drawbar_J", [](const S& s) { return s.energy.drawbar; }},
-      {"soil_J", [](const S& s) { return s.soil; }},
-  };
+const DriveColumns<DriveSideSample>& side_columns() {
+  static const DriveColumns<DriveSideSample> all =
+      drive_columns<DriveSideSample>({}, {{"soil_J", [](const DriveSideSample& s) { return s.soil; }}});
   return all;
 }
 
@@ -50,7 +24,7 @@ const std::vector<Column>& columns() {
 struct Panel {
   const char* title;
   double per_si;
-  Get get;
+  std::function<double(const DriveSideSample&)> get;
   Estimate dem::SteadyDrive::*steady = nullptr;
 };
 
@@ -86,7 +60,7 @@ Plot plot_of(const DriveSides& drive, const Panel& panel) {
   return plot;
 }
 
-Json to_json(const dem::SteadyDrive& steady) {
+Json steady_json(const dem::SteadyDrive& steady) {
   return {{"from", steady.from},
           {"to", steady.to},
           {"speed", estimate_json(steady.speed)},
@@ -99,21 +73,14 @@ Json to_json(const dem::SteadyDrive& steady) {
           {"drift", steady.drift}};
 }
 
-Json happenings_json(const std::vector<DriveHappening>& happenings) {
-  Json rows = Json::array();
-  for (const DriveHappening& h : happenings)
-    rows.push_back({{"time", h.time}, {"travelled", h.travelled}, {"what", std::string(word_of(h.what))}});
-  return rows;
-}
-
-Json to_json(const DriveSide& side) {
+Json side_json(const DriveSide& side) {
   const DriveSideSample& end = side.samples.back();
   Json row = {{"model", side.label},
               {"end", std::string(word_of(side.end))},
               {"end_time", side.end_time},
               {"travelled", end.travelled},
               {"happenings", happenings_json(side.happenings)}};
-  row["steady"] = side.steady ? to_json(*side.steady) : Json(nullptr);
+  row["steady"] = side.steady ? steady_json(*side.steady) : Json(nullptr);
   if (!side.not_steady.empty()) row["not_steady"] = side.not_steady;
   row["energy"] = {{"motor", end.energy.motor},
                    {"kinetic", end.energy.kinetic},
@@ -123,11 +90,7 @@ Json to_json(const DriveSide& side) {
                    {"unaccounted", end.energy.left() - end.soil}};
   row["soil_parts"] = Json::object();
   for (const auto& [name, joules] : side.soil_parts) row["soil_parts"][name] = joules;
-  row["samples"] = Json::object();
-  for (const Column& column : columns()) {
-    Json& values = row["samples"][column.name] = Json::array();
-    for (const DriveSideSample& sample : side.samples) values.push_back(finite(column.get(sample)));
-  }
+  row["samples"] = columns_json(side_columns(), side.samples);
   return row;
 }
 
@@ -194,7 +157,7 @@ Json to_json(const DriveSides& drive) {
                    {"tire", drive.question.scenario.tire.name},
                    {"soil", drive.question.scenario.soil.name}};
   document["sides"] = Json::array();
-  for (const DriveSide& side : drive.sides) document["sides"].push_back(to_json(side));
+  for (const DriveSide& side : drive.sides) document["sides"].push_back(side_json(side));
   document["differences"] = Json::array();
   for (const DriveDifference& row : drive.differences)
     document["differences"].push_back({{"of", row.name},
@@ -208,17 +171,11 @@ Json to_json(const DriveSides& drive) {
 }
 
 std::string drive_csv(const DriveSides& drive) {
-  std::string text = "model";
-  for (const Column& column : columns()) text += "," + std::string(column.name);
+  std::string text = "model," + columns_csv(side_columns()) + "\n";
   for (const DriveSide& side : drive.sides)
-    for (const DriveSideSample& sample : side.samples) {
-      text += "\n" + side.label;
-      for (const Column& column : columns()) {
-        const double value = column.get(sample);
-        text += std::isfinite(value) ? fmt::format(",{}", value) : ",";
-      }
-    }
-  return text + "\n";
+    for (const DriveSideSample& sample : side.samples)
+      text += side.label + "," + columns_csv(side_columns(), sample) + "\n";
+  return text;
 }
 
 std::string drive_page(const DriveSides& drive, const PageAbout& about) {

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -116,7 +115,7 @@ class ReadJson {
 
  private:
   static double as_number(const Json& value, const std::string& place) {
-    if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
+    if (value.is_null()) return not_a_number;
     if (!value.is_number()) refuse(place, "a number, or null");
     return value.get<double>();
   }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "scenario/unit.hpp"
@@ -28,6 +29,13 @@ std::string number(const Estimate& estimate, double per_unit) {
 double per_unit(const std::string& unit) {
   const Unit parsed = parse_unit(unit);
   return parsed.denominator / (parsed.numerator * std::pow(10.0, parsed.decimal));
+}
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+std::string capital(std::string text) {
+  if (!text.empty()) text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text;
 }
 
 std::string heading(const std::string& name, const std::string& unit) {

@@ -16,6 +16,12 @@ std::string number(const Estimate& estimate, double per_unit = 1.0);
 /// What a value in SI is multiplied by to be in a unit: 57.3 for "deg", 1 for "-". Throws as parse_unit.
 double per_unit(const std::string& unit);
 
+/// A share as "12.3 %".
+std::string percent(double share);
+
+/// "drawbar pull" as "Drawbar pull".
+std::string capital(std::string text);
+
 /// "friction_angle [deg]"; the name alone for a plain number ("-").
 std::string heading(const std::string& name, const std::string& unit);
 

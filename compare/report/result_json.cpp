@@ -3,18 +3,16 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/result_fields.hpp"
 #include "compare/sweep/channels.hpp"
 #include "scenario/mapping_writer.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// The visitor of OperatingCondition's description that writes its members in SI.
 class ConditionJson {

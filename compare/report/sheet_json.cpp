@@ -5,14 +5,11 @@
 #include <cmath>
 
 #include "compare/measured/csv.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/report/plot_panel.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// Six digits: what a screen can show, at a third of the bytes.
 double shortened(double value) { return std::isfinite(value) ? std::stod(fmt::format("{:.6g}", value)) : value; }
@@ -30,7 +27,7 @@ Json axis_json(const Axis& axis) {
   return json;
 }
 
-const char* word_of(Mark mark) {
+const char* word_of_mark(Mark mark) {
   switch (mark) {
     case Mark::line:
       return "line";
@@ -55,7 +52,7 @@ Json to_json(const Sheet& sheet) {
            {"x", numbers(series.x)},
            {"y", numbers(series.y)},
            {"error", numbers(series.error)},
-           {"mark", word_of(series.mark)},
+           {"mark", word_of_mark(series.mark)},
            {"color", fmt::format("{}{}", sheet.palette == Palette::named ? 'c' : 'q', color_of(sheet, series))},
            {"dash", series.dash}});
     json["plots"].push_back(std::move(one));

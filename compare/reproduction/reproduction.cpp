@@ -78,10 +78,10 @@ Interval interval_of(const Finding& finding, const std::vector<Curve>& curves, d
   return bootstrap(curves, statistic_of(finding), level, seed);
 }
 
-Verdict verdict_on(const Interval& interval, const Finding& finding) {
-  if (interval.lower >= finding.at_least && interval.upper <= finding.at_most) return Verdict::shown;
-  if (interval.upper < finding.at_least || interval.lower > finding.at_most) return Verdict::contradicted;
-  return Verdict::not_shown;
+FindingVerdict verdict_on(const Interval& interval, const Finding& finding) {
+  if (interval.lower >= finding.at_least && interval.upper <= finding.at_most) return FindingVerdict::shown;
+  if (interval.upper < finding.at_least || interval.lower > finding.at_most) return FindingVerdict::contradicted;
+  return FindingVerdict::not_shown;
 }
 
 }  // namespace

@@ -12,23 +12,23 @@
 
 namespace soilbin::compare {
 
-enum class Verdict {
+enum class FindingVerdict {
   shown,         ///< the whole interval lies in the claim
   not_shown,     ///< the interval lies across an end of the claim
   contradicted,  ///< no part of it lies in the claim
   no_data        ///< too few conditions have results
 };
 
-constexpr std::array<Word<Verdict>, 4> words_of(std::type_identity<Verdict>) {
-  return {{{"shown", Verdict::shown},
-           {"not shown", Verdict::not_shown},
-           {"contradicted", Verdict::contradicted},
-           {"no data", Verdict::no_data}}};
+constexpr std::array<Word<FindingVerdict>, 4> words_of(std::type_identity<FindingVerdict>) {
+  return {{{"shown", FindingVerdict::shown},
+           {"not shown", FindingVerdict::not_shown},
+           {"contradicted", FindingVerdict::contradicted},
+           {"no data", FindingVerdict::no_data}}};
 }
 
 /// One finding, as one model's answers have it.
 struct Evidence {
-  Verdict verdict = Verdict::no_data;
+  FindingVerdict verdict = FindingVerdict::no_data;
   std::optional<Interval> interval;         ///< of the statistic [SI]
   std::vector<OperatingCondition> missing;  ///< conditions of the study without a result that belong to it
 };

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "compare/report/json_fields.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/mapping_writer.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -34,7 +34,7 @@ AxisScale scale_of(FindingAxis axis) {
     case FindingAxis::slip:
       return {100, "%"};
     default:
-      return {180 / std::numbers::pi, "deg"};
+      return {1 / degree, "deg"};
   }
 }
 
@@ -48,7 +48,7 @@ std::string unit_of(const Finding& finding) {
   return is_place(finding.test) ? std::string(" ") + scale_of(finding.along).unit : "";
 }
 
-std::string in_words(const Where& where) {
+std::string where_in_words(const Where& where) {
   std::string words;
   for (const auto& [axis, range] : where) {
     const AxisScale scale = scale_of(axis);
@@ -64,7 +64,7 @@ std::string missing_in_words(const Evidence& evidence) {
   if (evidence.missing.empty()) return "";
   std::string words = fmt::format("{} without result: ", evidence.missing.size());
   const std::size_t shown = std::min<std::size_t>(evidence.missing.size(), 3);
-  for (std::size_t k = 0; k < shown; ++k) words += (k > 0 ? "; " : "") + compare::in_words(evidence.missing[k]);
+  for (std::size_t k = 0; k < shown; ++k) words += (k > 0 ? "; " : "") + in_words(evidence.missing[k]);
   return words + (shown < evidence.missing.size() ? "; ..." : "");
 }
 
@@ -81,8 +81,8 @@ std::string claim_in_words(const Finding& finding) {
   const std::string unit = unit_of(finding);
   std::string words =
       fmt::format("{} of {} along {}, {}", plain(word_of(finding.test)), plain(word_of(finding.quantity)),
-                  plain(word_of(finding.along)), in_words(finding.where));
-  if (finding.compares()) words += ", against " + in_words(finding.against);
+                  plain(word_of(finding.along)), where_in_words(finding.where));
+  if (finding.compares()) words += ", against " + where_in_words(finding.against);
   if (finding.step > 0) {
     const AxisScale axis = scale_of(finding.along);
     words += fmt::format(", per {:.4g} {}", axis.per_si * finding.step, axis.unit);
@@ -105,7 +105,7 @@ std::string interval_in_words(const Finding& finding, const Evidence& evidence) 
 
 std::string tally(const Reproduction& reproduction, std::size_t label) {
   std::string words;
-  for (const Word<Verdict>& verdict : words_of(std::type_identity<Verdict>{})) {
+  for (const Word<FindingVerdict>& verdict : words_of(std::type_identity<FindingVerdict>{})) {
     const auto count = std::count_if(reproduction.rows.begin(), reproduction.rows.end(),
                                      [&](const auto& row) { return row.evidence[label].verdict == verdict.value; });
     words += fmt::format("{}{} {}", words.empty() ? "" : ", ", count, verdict.text);

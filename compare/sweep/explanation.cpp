@@ -3,20 +3,21 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/model.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/quantity.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-using namespace soilbin::bekker_wong;
-
-constexpr double degree = std::numbers::pi / 180;
+using bekker_wong::EffectForm;
+using bekker_wong::EffectParameter;
+using bekker_wong::RolledWheel;
+using bekker_wong::SoilValues;
 
 /// Everything that the equations take.
 struct Facts {
@@ -30,8 +31,8 @@ struct Facts {
 Facts gather(const Scenario& scenario, const OperatingCondition& at) {
   if (!scenario.soil.semi_empirical)
     throw InputError("soil '" + scenario.soil.name + "' has no semi_empirical values, which bekker_wong needs");
-  const SoilValues soil = values_of(*scenario.soil.semi_empirical);
-  const RollingWheel wheel(scenario.tire, soil, make_effects(scenario.effects), scenario.bin);
+  const SoilValues soil = bekker_wong::values_of(*scenario.soil.semi_empirical);
+  const bekker_wong::RollingWheel wheel(scenario.tire, soil, bekker_wong::make_effects(scenario.effects), scenario.bin);
   Facts f{.scenario = scenario,
           .at = at,
           .soil = soil,
@@ -114,7 +115,7 @@ std::vector<Step> result_steps(const Facts& f, const TractionResult& result) {
 std::vector<Step> effect_steps(const Scenario& scenario) {
   std::vector<Step> steps;
   for (const EffectChoice& choice : scenario.effects) {
-    const EffectForm& form = find_form(choice);
+    const EffectForm& form = bekker_wong::find_form(choice);
     Step step{choice.id + " (" + form.form + ")", form.equation, "", 0.0, "", form.source};
     for (const EffectParameter& p : form.parameters) {
       const auto given = choice.parameters.find(p.name);
@@ -136,10 +137,10 @@ std::string pressure_remark(const Tire& tire, double critical) {
 }
 
 std::vector<Step> closed_forms(const Facts& f, const TractionResult& result) {
-  const double z0 = bekker_static_sinkage(f.soil, f.r, f.b, f.at.load), n = f.soil.exponent;
-  const double rolling = rolling_resistance(f.soil, f.r, f.b, f.at.load);
-  const double critical = critical_ground_pressure(f.soil, f.r, f.b, f.at.load);
-  const double eq5 = paper::sinkage(f.soil, f.r, f.b, f.at.load, f.at.slip, f.theta_m);
+  const double z0 = bekker_wong::bekker_static_sinkage(f.soil, f.r, f.b, f.at.load), n = f.soil.exponent;
+  const double rolling = bekker_wong::rolling_resistance(f.soil, f.r, f.b, f.at.load);
+  const double critical = bekker_wong::critical_ground_pressure(f.soil, f.r, f.b, f.at.load);
+  const double eq5 = bekker_wong::paper::sinkage(f.soil, f.r, f.b, f.at.load, f.at.slip, f.theta_m);
   const double thrust = f.soil.cohesion * f.r * f.b * f.theta_1 + f.normal_load * std::tan(f.soil.friction_angle);
   return {
       {"Bekker's static sinkage", "z_0 = [3 W/((3 - n) b k sqrt(D))]^(2/(2n + 1))",
@@ -170,7 +171,7 @@ void append(std::vector<Step>& all, std::vector<Step> more) {
 Explanation explain(const Scenario& scenario, const OperatingCondition& at) {
   const Facts facts = gather(scenario, at);
   Explanation explanation;
-  explanation.result = BekkerWong().evaluate(scenario, at);
+  explanation.result = bekker_wong::BekkerWong().evaluate(scenario, at);
   append(explanation.steps, contact_steps(facts));
   append(explanation.steps, stress_steps(facts));
   append(explanation.steps, result_steps(facts, explanation.result));

@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/model.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 using Warnings = std::vector<std::string>;
 
 /// "n = 0.12 is outside 0.3 .. 1.6, ..." where it is.

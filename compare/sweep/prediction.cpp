@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scenario/estimate.hpp"
+
 namespace soilbin::compare {
 namespace {
 
@@ -23,8 +25,8 @@ ChannelError error_of(const std::vector<PredictedRun>& runs, std::size_t channel
   const auto count = static_cast<double>(error.runs);
   error.rmse = std::sqrt(squares / count);
   error.bias = sum / count;
-  error.range = error.runs > 0 ? highest - lowest : std::numeric_limits<double>::quiet_NaN();
-  error.share_of_range = error.range > 0.0 ? error.rmse / error.range : std::numeric_limits<double>::quiet_NaN();
+  error.range = error.runs > 0 ? highest - lowest : not_a_number;
+  error.share_of_range = error.range > 0.0 ? error.rmse / error.range : not_a_number;
   return error;
 }
 

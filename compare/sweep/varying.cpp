@@ -5,16 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
+
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-
 /// A condition that can tell curves apart.
-struct Axis {
+struct ConditionAxis {
   std::string name;
   double (*get)(const OperatingCondition&);
   std::string (*label)(double);
@@ -22,15 +21,15 @@ struct Axis {
   bool follows_slip = false;          ///< may vary with slip alone, and then tells nothing apart
 };
 
-std::string force(double newton) {
+std::string newtons(double newton) {
   return newton >= 1000.0 ? fmt::format("{:.4g} kN", newton / 1000) : fmt::format("{:.4g} N", newton);
 }
 std::string angle(const char* name, double radian) { return fmt::format("{} {:.4g}°", name, radian / degree); }
 
-const std::vector<Axis>& axes() {
+const std::vector<ConditionAxis>& axes() {
   using C = OperatingCondition;
-  static const std::vector<Axis> all = {
-      {"load", [](const C& c) { return c.load; }, [](double x) { return force(x); }, 0.25, 0.0},
+  static const std::vector<ConditionAxis> all = {
+      {"load", [](const C& c) { return c.load; }, [](double x) { return newtons(x); }, 0.25, 0.0},
       {"longitudinal incline", [](const C& c) { return c.longitudinal_incline; },
        [](double x) { return angle("uphill", x); }, 0.0, 2 * degree},
       {"transverse incline", [](const C& c) { return c.transverse_incline; },
@@ -52,7 +51,7 @@ struct Levels {
   std::vector<double> value;
 };
 
-Levels levels(const Axis& axis, const std::vector<OperatingCondition>& conditions, Spread spread) {
+Levels levels(const ConditionAxis& axis, const std::vector<OperatingCondition>& conditions, Spread spread) {
   std::vector<std::size_t> order(conditions.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   const auto at = [&](std::size_t i) { return axis.get(conditions[i]); };
@@ -88,7 +87,7 @@ Curves curves_against_slip(const std::vector<OperatingCondition>& conditions, Sp
   Curves curves;
   std::vector<std::vector<std::size_t>> keys(conditions.size());
   std::vector<std::string> labels(conditions.size());
-  for (const Axis& axis : axes()) {
+  for (const ConditionAxis& axis : axes()) {
     const Levels found = levels(axis, conditions, spread);
     if (found.value.size() < 2 || (axis.follows_slip && !splits_a_slip(found, keys, conditions))) continue;
     curves.varying += (curves.varying.empty() ? "" : ", ") + axis.name;
@@ -109,9 +108,9 @@ Curves curves_against_slip(const std::vector<OperatingCondition>& conditions, Sp
 }
 
 std::string in_words(const OperatingCondition& at) {
-  std::string words = fmt::format("load {}, slip {:.4g} %", force(at.load), 100 * at.slip);
+  std::string words = fmt::format("load {}, slip {:.4g} %", newtons(at.load), 100 * at.slip);
   const OperatingCondition plain;
-  for (const Axis& axis : axes())
+  for (const ConditionAxis& axis : axes())
     if (axis.name != "load" && axis.name != "speed" && axis.get(at) != axis.get(plain))
       words += ", " + axis.label(axis.get(at));
   if (at.speed != plain.speed) words += fmt::format(", {:.4g} m/s", at.speed);

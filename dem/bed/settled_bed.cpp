@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "dem/bed/insertion.hpp"
 #include "dem/engine/time_step.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -88,7 +88,7 @@ void come_to_rest(Simulation& simulation, const RestTest& test, const WorkOption
       // Kinetic energy falls by orders of magnitude; how many are left is the
       // share left.
       const double orders = std::clamp(std::log10(now.kinetic / test.kinetic) / 7, 0.0, 1.0);
-      how.progress({"settling", done + share * (1 - orders), std::numeric_limits<double>::quiet_NaN()});
+      how.progress({"settling", done + share * (1 - orders), not_a_number});
     }
   }
   throw RunStopped(

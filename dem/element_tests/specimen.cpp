@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "scenario/errors.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::dem {
 
@@ -137,8 +137,7 @@ void SteppedWork::tell() const {
   if (!how_.progress) return;
   const double share = expected_ > 0 ? std::min(0.999, done_ / expected_) : 0;
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began_;
-  how_.progress(
-      {stage_, share, share > 0.01 ? spent.count() * (1 - share) / share : std::numeric_limits<double>::quiet_NaN()});
+  how_.progress({stage_, share, share > 0.01 ? spent.count() * (1 - share) / share : not_a_number});
 }
 
 }  // namespace soilbin::dem

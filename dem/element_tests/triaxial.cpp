@@ -28,10 +28,10 @@ void check(const TriaxialSettings& s) {
 double& component(Vec3& a, int axis) { return axis == 0 ? a.x : axis == 1 ? a.y : a.z; }
 
 /// A specimen between six walls: those of axis k are bodies 2 k (lower) and 2 k + 1 (upper).
-class Cell {
+class PressedSpecimen {
  public:
-  Cell(const SettledBed& bed, const TriaxialSettings& settings, double stress, const WorkOptions& how,
-       SteppedWork& work)
+  PressedSpecimen(const SettledBed& bed, const TriaxialSettings& settings, double stress, const WorkOptions& how,
+                  SteppedWork& work)
       : settings_(settings), soil_(bed.recipe.soil), stress_(stress), work_(work), simulation_(setup_for(bed, how)) {
     const double top = put_grains(simulation_, bed);
     add_walls({bed.recipe.size.length, bed.recipe.size.width, top});
@@ -57,14 +57,14 @@ class Cell {
   Simulation simulation_;
 };
 
-Setup Cell::setup_for(const SettledBed& bed, const WorkOptions& how) const {
+Setup PressedSpecimen::setup_for(const SettledBed& bed, const WorkOptions& how) const {
   Setup setup = specimen_setup(bed, how);
   add_wall_material(setup, soil_, 0);
   setup.numerics.ledger = settings_.ledger;
   return setup;
 }
 
-void Cell::add_walls(const Vec3& size) {
+void PressedSpecimen::add_walls(const Vec3& size) {
   static constexpr std::array<const char*, 6> names{"-x", "+x", "-y", "+y", "bottom", "top"};
   for (int wall = 0; wall < 6; ++wall) {
     Vec3 outward;
@@ -84,31 +84,31 @@ void Cell::add_walls(const Vec3& size) {
   }
 }
 
-double Cell::side(int axis) const {
+double PressedSpecimen::side(int axis) const {
   Vec3 across = simulation_.body(2 * axis + 1).position - simulation_.body(2 * axis).position;
   return component(across, axis);
 }
 
-double Cell::stress(int axis) const {
+double PressedSpecimen::stress(int axis) const {
   Vec3 low = simulation_.body(2 * axis).force, high = simulation_.body(2 * axis + 1).force;
   return (component(high, axis) - component(low, axis)) / (2 * area(axis));
 }
 
 /// One step, the servos aiming at the stress over the areas of now.
-void Cell::step() {
+void PressedSpecimen::step() {
   for (int wall = 0; wall < 6; ++wall)
     if (auto& servo = simulation_.body(wall).servo) servo->target = stress_ * area(wall / 2);
   work_.step(simulation_);
 }
 
-double Cell::work_of_walls() const {
+double PressedSpecimen::work_of_walls() const {
   double sum = 0;
   for (int wall = 0; wall < 6; ++wall) sum += simulation_.body(wall).work;
   return sum;
 }
 
 /// Until the mean stresses over 0.02 s are within 1 % three times in a row and no side changes by 1e-4 of itself.
-void Cell::consolidate(TriaxialRun& run) {
+void PressedSpecimen::consolidate(TriaxialRun& run) {
   work_.begin("consolidating");
   const auto steps = std::max<std::int64_t>(1, std::llround(0.02 / simulation_.setup().numerics.dt));
   const double begin = simulation_.time();
@@ -136,7 +136,7 @@ void Cell::consolidate(TriaxialRun& run) {
   run.void_ratio = 1 / solid_fraction(simulation_.state().grains, core, d / 12) - 1;
 }
 
-void Cell::compress(TriaxialRun& run) {
+void PressedSpecimen::compress(TriaxialRun& run) {
   work_.begin("compressing");
   const double dt = simulation_.setup().numerics.dt, height = side(2), volume = side(0) * side(1) * height;
   const double speed = shear_rate(settings_.inertial, stress_, soil_) * height;
@@ -168,7 +168,7 @@ void Cell::compress(TriaxialRun& run) {
   run.confining_error = std::max(std::abs(lateral[0] / stress_ - 1), std::abs(lateral[1] / stress_ - 1));
 }
 
-void Cell::summarise(TriaxialRun& run) const {
+void PressedSpecimen::summarise(TriaxialRun& run) const {
   std::vector<double> strain, sine;
   for (const TriaxialSample& sample : run.curve) {
     const double s3 = (sample.lateral_x + sample.lateral_y) / 2;
@@ -189,7 +189,7 @@ void Cell::summarise(TriaxialRun& run) const {
   run.dilation_angle = n >= 2 ? std::asin(std::clamp(-rate / (2 - rate), -1.0, 1.0)) : 0;
 }
 
-TriaxialRun Cell::run() {
+TriaxialRun PressedSpecimen::run() {
   TriaxialRun out;
   out.stress = stress_;
   consolidate(out);
@@ -224,9 +224,9 @@ TriaxialResult triaxial(const GranularSoil& soil, const TriaxialSettings& settin
   const double dt = settings.specimen.dt > 0 ? settings.specimen.dt : longest_step(soil);
   for (const double stress : settings.stresses)
     work.expect(settings.packings * (settings.strain / (shear_rate(settings.inertial, stress, soil) * dt) + 0.5 / dt));
-  result.runs =
-      on_packings(specimen_recipe(soil, size, settings.specimen), settings.packings, settings.stresses, how, beds,
-                  [&](const SettledBed& bed, double stress) { return Cell(bed, settings, stress, how, work).run(); });
+  result.runs = on_packings(
+      specimen_recipe(soil, size, settings.specimen), settings.packings, settings.stresses, how, beds,
+      [&](const SettledBed& bed, double stress) { return PressedSpecimen(bed, settings, stress, how, work).run(); });
   result.peak = line_of(result.runs, &TriaxialRun::peak);
   result.residual = line_of(result.runs, &TriaxialRun::residual);
   return result;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/engine/positive.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
@@ -13,7 +14,6 @@ namespace {
 Vec3 times(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 Vec3 over(const Vec3& a, const Vec3& b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
 
-bool positive(double a) { return a > 0 && std::isfinite(a); }
 bool is_unit(const Vec3& a) { return std::abs(squared(a) - 1) < 1e-6; }
 
 /// I w in the frame of the bin, and back.

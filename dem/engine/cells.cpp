@@ -14,7 +14,7 @@ namespace {
 double component(const Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 
 /// Cells along a side are no more than this, however far grains are apart.
-constexpr int most_cells = 1024;
+constexpr int most_cells_a_side = 1024;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ Cells::Cells(const Domain& domain, std::span<const Motion> grains, double reach)
       upper = std::min(upper, high);
     }
     const double side = std::max(upper - lower, 0.0);
-    count_[k] = static_cast<int>(std::clamp(std::floor(side / reach), 1.0, double(most_cells)));
+    count_[k] = static_cast<int>(std::clamp(std::floor(side / reach), 1.0, double(most_cells_a_side)));
     lower_[k] = lower;
     inverse_size_[k] = side > 0 ? count_[k] / side : 0;
   }

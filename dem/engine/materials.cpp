@@ -5,20 +5,21 @@
 #include <cmath>
 #include <numbers>
 
+#include "dem/engine/positive.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 void require(bool holds, const std::string& name, const char* what) {
   if (!holds) throw InputError(fmt::format("material {}: {}", name, what));
 }
 
 void check(const Material& m) {
-  require(m.density > 0 && std::isfinite(m.density), m.name, "the density must be above 0");
-  require(m.young > 0 && std::isfinite(m.young), m.name, "Young's modulus must be above 0");
+  require(positive(m.density), m.name, "the density must be above 0");
+  require(positive(m.young), m.name, "Young's modulus must be above 0");
   require(m.poisson > -1 && m.poisson <= 0.5, m.name, "Poisson's ratio must lie in (-1, 0.5]");
 }
 

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "dem/engine/periodic.hpp"
+#include "dem/engine/positive.hpp"
 #include "dem/engine/time_step.hpp"
 #include "scenario/errors.hpp"
 
@@ -17,8 +18,6 @@ namespace soilbin::dem {
 namespace {
 
 constexpr int row_of_constants = 16;
-
-bool positive(double a) { return a > 0 && std::isfinite(a); }
 
 void check(const Domain& domain) {
   const Vec3 side = domain.upper - domain.lower;

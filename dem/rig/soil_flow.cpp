@@ -1,8 +1,9 @@
 #include "dem/rig/soil_flow.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "scenario/estimate.hpp"
 
 namespace soilbin::dem {
 
@@ -33,7 +34,7 @@ void FlowMeter::add(const Grains& grains, const Vec3& axle) {
 
 SoilFlow FlowMeter::flow() const {
   SoilFlow flow = layout_;
-  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  const double nothing = not_a_number;
   const double room = moments_ * 2 * layout_.cell * layout_.cell * layout_.cell;
   for (std::size_t k = 0; k < volume_.size(); ++k) {
     flow.vx.push_back(volume_[k] > 0 ? vx_[k] / volume_[k] : nothing);

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "dem/rig/rut.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::dem {
 
@@ -73,7 +73,7 @@ void WheelInBin::tell(std::string_view stage, std::optional<double> share) {
   if (!how_.progress) return;
   const double far = share.value_or(done());
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began_;
-  how_.progress({stage, far, far > 0 ? spent.count() * (1 - far) / far : std::numeric_limits<double>::quiet_NaN()});
+  how_.progress({stage, far, far > 0 ? spent.count() * (1 - far) / far : not_a_number});
 }
 
 void WheelInBin::tilt() {

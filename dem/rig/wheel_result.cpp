@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "dem/rig/mean_value.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -105,8 +105,7 @@ void summarise(WheelRun& run, const Tire& tire, const OperatingCondition& at, co
   const double in_plane = at.slip_by == SlipBy::wheel_plane_speed ? speed * motion.heading.x : speed;
   if (rig.drive_torque) result.at.slip = slip_of(in_plane, rotation, tire.radius);
   const double drive = result.torque.value * rotation;
-  result.tractive_efficiency =
-      drive != 0 ? result.drawbar_pull.value * speed / drive : std::numeric_limits<double>::quiet_NaN();
+  result.tractive_efficiency = drive != 0 ? result.drawbar_pull.value * speed / drive : not_a_number;
   run.moment = {mean_of(steady, [](auto& s) { return s.moment.x; }),
                 mean_of(steady, [](auto& s) { return s.moment.y; }),
                 mean_of(steady, [](auto& s) { return s.moment.z; })};

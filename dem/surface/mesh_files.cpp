@@ -17,6 +17,7 @@
 #include <system_error>
 #include <vector>
 
+#include "dem/engine/positive.hpp"
 #include "dem/surface/mesh_checks.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
@@ -35,7 +36,7 @@ void put(std::string& bytes, const Vec3& p) {
 }
 
 void require_unit(const std::string& file, double unit) {
-  if (!(unit > 0 && std::isfinite(unit))) {
+  if (!positive(unit)) {
     refuse_mesh(file, fmt::format("its unit of length is {} m", unit), "it must be positive: 1e-3 for millimetres");
   }
 }

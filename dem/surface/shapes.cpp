@@ -7,20 +7,20 @@
 #include <functional>
 #include <numbers>
 
+#include "dem/engine/positive.hpp"
 #include "dem/surface/mesh_checks.hpp"
 
 namespace soilbin::dem {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 void require(const std::string& shape, bool met, const std::string& message, const std::string& hint) {
   if (!met) refuse_mesh(shape, message, hint);
 }
 
 void require_size(const std::string& shape, const std::string& what, double size) {
-  require(shape, size > 0 && std::isfinite(size), fmt::format("{} is {} m", what, size),
-          "it must be positive and finite");
+  require(shape, positive(size), fmt::format("{} is {} m", what, size), "it must be positive and finite");
 }
 
 /// How many parts of at most `edge` a length is cut into.

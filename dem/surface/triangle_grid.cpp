@@ -5,12 +5,13 @@
 #include <limits>
 #include <stdexcept>
 
+#include "dem/engine/positive.hpp"
 #include "dem/surface/closest_point.hpp"
 
 namespace soilbin::dem {
 namespace {
 
-constexpr double most_cells = 2e6;
+constexpr double most_cells_in_all = 2e6;
 
 struct Range {
   int low, high;
@@ -25,7 +26,7 @@ Range cells_of(double low, double high, int count) {
 }  // namespace
 
 TriangleGrid::TriangleGrid(const TriangleMesh& mesh, double reach) : mesh_(mesh), reach_(reach) {
-  if (!(reach > 0 && std::isfinite(reach))) throw std::invalid_argument("a grid's reach must be positive and finite");
+  if (!positive(reach)) throw std::invalid_argument("a grid's reach must be positive and finite");
   // A hair more than the reach: no triangle is lost to rounding.
   const double margin = reach * (1 + 1e-9) + mesh.rounding();
   const Vec3 size = mesh.bounds().high - mesh.bounds().low + Vec3{2 * margin, 2 * margin, 2 * margin};
@@ -34,7 +35,7 @@ TriangleGrid::TriangleGrid(const TriangleMesh& mesh, double reach) : mesh_(mesh)
     return std::ceil(size.x / cell) * std::ceil(size.y / cell) * std::ceil(size.z / cell);
   };
   cell_ = margin;
-  while (cells(cell_) > most_cells) cell_ *= 1.1;
+  while (cells(cell_) > most_cells_in_all) cell_ *= 1.1;
   per_metre_ = 1 / cell_;
   nx_ = static_cast<int>(std::ceil(size.x / cell_)), ny_ = static_cast<int>(std::ceil(size.y / cell_)),
   nz_ = static_cast<int>(std::ceil(size.z / cell_));

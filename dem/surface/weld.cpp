@@ -9,10 +9,10 @@
 namespace soilbin::dem {
 namespace {
 
-using Cell = std::array<std::int64_t, 3>;
+using CellIndex = std::array<std::int64_t, 3>;
 
-struct CellHash {
-  std::size_t operator()(const Cell& cell) const {
+struct CellIndexHash {
+  std::size_t operator()(const CellIndex& cell) const {
     std::uint64_t h = 0;
     for (const std::int64_t i : cell) h = (h ^ static_cast<std::uint64_t>(i)) * 0x9E3779B97F4A7C15u, h ^= h >> 29;
     return static_cast<std::size_t>(h);
@@ -29,7 +29,7 @@ class Kept {
   int stand_in(int v) {
     const Vec3& p = vertices_[v];
     const Vec3 margin{distance_, distance_, distance_};
-    const Cell from = cell_of(p - margin), to = cell_of(p + margin);
+    const CellIndex from = cell_of(p - margin), to = cell_of(p + margin);
     int found = v;
     for (auto i = from[0]; i <= to[0]; ++i) {
       for (auto j = from[1]; j <= to[1]; ++j) {
@@ -47,7 +47,7 @@ class Kept {
   }
 
  private:
-  Cell cell_of(const Vec3& p) const {
+  CellIndex cell_of(const Vec3& p) const {
     const Vec3 at = (p - low_) / cell_;
     return {std::llround(std::floor(at.x)), std::llround(std::floor(at.y)), std::llround(std::floor(at.z))};
   }
@@ -60,7 +60,7 @@ class Kept {
   Vec3 low_;
   double cell_, distance_;
   std::vector<int> next_;
-  std::unordered_map<Cell, int, CellHash> heads_;
+  std::unordered_map<CellIndex, int, CellIndexHash> heads_;
 };
 
 }  // namespace

@@ -9,11 +9,13 @@
 
 #include "dem/bed/insertion.hpp"
 #include "dem/surface/shapes.hpp"
+#include "dem/verification/cases.hpp"
 
 namespace soilbin::dem {
 namespace {
 
-constexpr double pi = std::numbers::pi, g = 9.81;
+using std::numbers::pi;
+using verification::g;
 
 Simulation empty(const BedMaterial& of, const Domain& domain, int threads) {
   Setup setup;

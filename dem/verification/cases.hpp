@@ -14,6 +14,14 @@
 
 namespace soilbin::dem {
 
+namespace verification {
+
+inline constexpr double g = 9.81;       ///< [m/s^2]
+inline constexpr int first_plane = -1;  ///< as the other one of a contact
+inline constexpr const char* closed_form = "closed form";
+
+}  // namespace verification
+
 struct VerificationRow {
   std::string name;
   double published = 0, ours = 0;

@@ -5,14 +5,15 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "dem/verification/cases.hpp"
 #include "dem/verification/impact.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::dem {
 namespace {
 
+using verification::first_plane;
 using verification::hertz_overlap;
 using verification::hertz_time;
 using verification::impact;
@@ -20,8 +21,6 @@ using verification::Impact;
 using verification::rigid;
 using verification::sphere_mass;
 
-constexpr double deg = std::numbers::pi / 180;
-constexpr int plane = -1;
 constexpr double steps_an_impact = 2000;
 constexpr const char* paper = "Chung and Ooi 2011";
 constexpr const char* curve = "Chung and Ooi 2011, curve";
@@ -56,7 +55,7 @@ Impact fire(const StartEngine& start, const Shot& shot) {
                           .material = sphere});
   const double mass = sphere_mass(shot.material.density, shot.radius);
   setup.dt = hertz_time(mass, shot.radius, reduced(shot), shot.speed) / steps_an_impact;
-  return impact(start, setup, plane, static_cast<long>(20 * steps_an_impact));
+  return impact(start, setup, first_plane, static_cast<long>(20 * steps_an_impact));
 }
 
 /// Two equal spheres that touch at t = 0, with opposite spins.
@@ -127,7 +126,7 @@ using Point = std::pair<double, double>;
 const Material aluminium_oxide{"aluminium oxide", 4000, 380e9, 0.23};
 
 Impact test_4_at(const StartEngine& start, double degrees) {
-  const double angle = degrees * deg;
+  const double angle = degrees * degree;
   return fire(start, {aluminium_oxide, contact_of(0.98, 0.092), 0.0025, 3.9 * std::cos(angle), 3.9 * std::sin(angle)});
 }
 
@@ -147,11 +146,11 @@ void curve_rows(Rows& rows, const std::string& name, const std::string& abscissa
 /// Restitution along the wall, spin, and the angle at which the contact patch leaves, over the angle of incidence.
 void test_4(Rows& rows, const StartEngine& start) {
   const double r = 0.0025, v = 3.9;
-  const auto along = [&](double x) { return test_4_at(start, x).velocity.x / (v * std::sin(x * deg)); };
+  const auto along = [&](double x) { return test_4_at(start, x).velocity.x / (v * std::sin(x * degree)); };
   const auto spin = [&](double x) { return -test_4_at(start, x).spin.y; };
   const auto patch = [&](double x) {
     const Impact out = test_4_at(start, x);
-    return std::atan2(out.velocity.x - r * out.spin.y, out.velocity.z) / deg;
+    return std::atan2(out.velocity.x - r * out.spin.y, out.velocity.z) / degree;
   };
   curve_rows(rows, "T4 restitution along the wall", "deg",
              {{5, .9481},
@@ -205,9 +204,9 @@ void test_4_sliding(Rows& rows, const StartEngine& start) {
   const double r = 0.0025, push = 0.092 * (1 + 0.98), v = 3.9;
   for (const double angle : {35.0, 50.0, 65.0, 80.0}) {
     const Impact out = test_4_at(start, angle);
-    const double along = 1 - push / std::tan(angle * deg), spin = 2.5 * push * v * std::cos(angle * deg) / r;
+    const double along = 1 - push / std::tan(angle * degree), spin = 2.5 * push * v * std::cos(angle * degree) / r;
     rows.push_back({fmt::format("T4 sliding, restitution along the wall, deg {}", angle), along,
-                    out.velocity.x / (v * std::sin(angle * deg)), 1e-3, "-", "rigid sphere that slides throughout"});
+                    out.velocity.x / (v * std::sin(angle * degree)), 1e-3, "-", "rigid sphere that slides throughout"});
     rows.push_back({fmt::format("T4 sliding, spin, deg {}", angle), -spin, -out.spin.y, 0.002 * spin, "rad/s",
                     "rigid sphere that slides throughout"});
   }

@@ -45,7 +45,7 @@ double hertz_overlap(double mass, double radius, double young, double speed) {
 
 double hertz_time(double mass, double radius, double young, double speed) {
   // 2 delta/v times the integral of dx/sqrt(1 - x^(5/2)) over 0 to 1
-  constexpr double pi = std::numbers::pi;
+  using std::numbers::pi;
   const double integral = std::sqrt(pi) * std::tgamma(0.4) * 0.4 / std::tgamma(0.9);
   return 2 * hertz_overlap(mass, radius, young, speed) / speed * integral;
 }

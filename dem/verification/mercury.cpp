@@ -7,7 +7,7 @@
 namespace soilbin::dem {
 namespace {
 
-constexpr double dt = 5e-7, r = 0.001;
+constexpr double dt = 5e-7, sphere_radius = 0.001;
 
 /// A sphere of the first material above a wall of the second; M1 and steel of the benchmark.
 VerificationSetup sphere_on(const Material& sphere, const Material& wall, double height, double speed) {
@@ -18,7 +18,7 @@ VerificationSetup sphere_on(const Material& sphere, const Material& wall, double
   setup.materials.add(sphere, contact);
   setup.materials.add(wall, contact);
   setup.planes.push_back({{}, {0, 0, 1}, 1});
-  setup.grains.push_back({{0, 0, height}, {0, 0, speed}, {}, r, 0});
+  setup.grains.push_back({{0, 0, height}, {0, 0, speed}, {}, sphere_radius, 0});
   setup.dt = dt;
   return setup;
 }
@@ -44,7 +44,7 @@ std::vector<VerificationRow> mercury_rows(const StartEngine& start) {
                     engine->velocity(0).z, 4e-3 / finer, "m/s", "restitution"});
   }
   // MercuryDPM's shear stiffness is 2/3 of ours (Di Maio and Di Renzo 2005), which moves the last two digits.
-  setup = sphere_on(steel, m1, r, 0);
+  setup = sphere_on(steel, m1, sphere_radius, 0);
   setup.gravity = {5, 0, -5};
   setup.laws.tangential_damping = 0;
   engine = start(setup);

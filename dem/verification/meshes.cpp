@@ -13,10 +13,13 @@
 namespace soilbin::dem {
 namespace {
 
+using std::numbers::pi;
+using verification::closed_form;
+using verification::g;
+
 using Rows = std::vector<VerificationRow>;
-constexpr double pi = std::numbers::pi, g = 9.81, r = 0.01, side = 0.6;
+constexpr double grain_radius = 0.01, side = 0.6;
 constexpr const char* as_plane = "the analytic plane, same engine";
-constexpr const char* closed = "closed form";
 
 struct Meshing {
   const char* name;
@@ -43,7 +46,7 @@ Body body_of(TriangleMesh mesh) {
   return body;
 }
 
-Body plane() {
+Body plane_body() {
   Body body;
   body.surfaces.push_back({Plane{}, 0});
   return body;
@@ -63,12 +66,12 @@ Simulation start(const Body& floor, const ContactLaws& laws = {}, double frictio
   return simulation;
 }
 
-double weight() { return 2500 * 4.0 / 3 * pi * r * r * r * g; }
+double weight() { return 2500 * 4.0 / 3 * pi * grain_radius * grain_radius * grain_radius * g; }
 
 /// Overlap that carries `force` between a grain and a surface of stone.
 double overlap_under(double force) {
   const double young = 1e8 / (2 * (1 - 0.25 * 0.25));
-  return std::pow(force / (4.0 / 3 * young * std::sqrt(r)), 2.0 / 3);
+  return std::pow(force / (4.0 / 3 * young * std::sqrt(grain_radius)), 2.0 / 3);
 }
 
 /// A way of moving over the plate, from x < 0 to x > 0. Along y = 0 lie edges and vertices of all meshings but the
@@ -81,7 +84,7 @@ struct Trial {
 };
 
 std::vector<Trial> trials() {
-  const double z = r - overlap_under(weight());
+  const double z = grain_radius - overlap_under(weight());
   return {{"slides, then rolls along edges", {-0.15, 0, z}, {1, 0, 0}, {}, RollingLaw::none, 0, 0.3},
           {"slides, then rolls across", {-0.15, -0.07, z}, {1, 0.4, 0}, {0, 0, 30}, RollingLaw::none, 0, 0.3},
           {"rolls to rest", {-0.05, -0.012, z}, {0.4, 0.1, 0}, {-10, 40, 0}, RollingLaw::elastic_plastic, 0.2, 0.4},
@@ -96,7 +99,7 @@ Simulation after(Body floor, const Trial& trial) {
   laws.rolling = trial.law;
   Simulation simulation = start(floor, laws, 0.4, trial.rolling);
   simulation.set_gravity(tilt({0, 0, -g}));
-  simulation.add_grain(tilt(trial.position), r, 0, tilt(trial.velocity), tilt(trial.spin));
+  simulation.add_grain(tilt(trial.position), grain_radius, 0, tilt(trial.velocity), tilt(trial.spin));
   simulation.run(std::lround(trial.time / simulation.setup().numerics.dt));
   return simulation;
 }
@@ -104,7 +107,7 @@ Simulation after(Body floor, const Trial& trial) {
 void plates(Rows& rows) {
   const auto ways = meshings();
   for (const Trial& trial : trials()) {
-    const GrainNow on_plane = after(plane(), trial).grain(0);
+    const GrainNow on_plane = after(plane_body(), trial).grain(0);
     const double start_speed = length(trial.velocity), path = 0.1;
     for (const Meshing& way : ways) {
       const GrainNow now = after(body_of(way.mesh), trial).grain(0);
@@ -114,20 +117,20 @@ void plates(Rows& rows) {
       };
       row("difference in place", on_plane.position, now.position, path, "m");
       row("difference in velocity", on_plane.velocity, now.velocity, start_speed, "m/s");
-      row("difference in spin", on_plane.spin, now.spin, start_speed / r, "rad/s");
+      row("difference in spin", on_plane.spin, now.spin, start_speed / grain_radius, "rad/s");
     }
   }
   const Vec3 places[] = {{0.1, 0.2, 0}, {0.05, 0, 0}, {0.1, 0.1, 0}};
   const char* on[] = {"a face", "an edge", "a vertex"};
   for (int k = 0; k < 3; ++k) {
     Simulation rests = start(body_of(plate(side, side, 6, 6)));
-    rests.add_grain(places[k] + Vec3{0, 0, r - overlap_under(weight())}, r, 0);
+    rests.add_grain(places[k] + Vec3{0, 0, grain_radius - overlap_under(weight())}, grain_radius, 0);
     rests.run(0);
     const auto contacts = rests.contacts();
     rows.push_back({fmt::format("rests on {}: force", on[k]), weight(), contacts.empty() ? 0 : contacts[0].force.z,
-                    1e-6 * weight(), "N", closed});
+                    1e-6 * weight(), "N", closed_form});
     rows.push_back(
-        {fmt::format("rests on {}: contacts", on[k]), 1, static_cast<double>(contacts.size()), 0, "", closed});
+        {fmt::format("rests on {}: contacts", on[k]), 1, static_cast<double>(contacts.size()), 0, "", closed_form});
   }
 }
 
@@ -151,7 +154,7 @@ TriangleMesh roof(double alpha, int cells) {
 
 /// Over a ridge the force turns with the line from the edge to the centre, not at once.
 void ridge(Rows& rows) {
-  const double alpha = 0.6, near = 0.98 * r;  // the centre goes round the ridge at this distance
+  const double alpha = 0.6, near = 0.98 * grain_radius;  // the centre goes round the ridge at this distance
   const Body body = body_of(roof(alpha, 5));
   double worst_direction = 0, worst_overlap = 0;
   for (int k = -400; k <= 400; ++k) {
@@ -161,7 +164,7 @@ void ridge(Rows& rows) {
     const Vec3 centre{near * std::sin(turned) + beyond * std::cos(turned), 0.013,
                       near * std::cos(turned) - beyond * std::sin(turned)};
     Simulation simulation = start(body, {}, 0);
-    simulation.add_grain(centre, r, 0);
+    simulation.add_grain(centre, grain_radius, 0);
     simulation.run(0);
     const auto contacts = simulation.contacts();
     if (contacts.size() != 1) {
@@ -170,10 +173,12 @@ void ridge(Rows& rows) {
     }
     const Vec3 direction = unit(contacts[0].force);
     worst_direction = std::max(worst_direction, length(direction - Vec3{std::sin(turned), 0, std::cos(turned)}));
-    worst_overlap = std::max(worst_overlap, std::abs(contacts[0].overlap - (r - near)));
+    worst_overlap = std::max(worst_overlap, std::abs(contacts[0].overlap - (grain_radius - near)));
   }
-  rows.push_back({"convex ridge: greatest error of the force's direction", 0, worst_direction, 1e-6, "rad", closed});
-  rows.push_back({"convex ridge: greatest error of the overlap", 0, worst_overlap, 1e-6 * r, "m", closed});
+  rows.push_back(
+      {"convex ridge: greatest error of the force's direction", 0, worst_direction, 1e-6, "rad", closed_form});
+  rows.push_back(
+      {"convex ridge: greatest error of the overlap", 0, worst_overlap, 1e-6 * grain_radius, "m", closed_form});
 }
 
 /// A grain comes to rest in a valley of two planes without friction, and in the corner of a box.
@@ -183,25 +188,26 @@ void corners(Rows& rows) {
   valley.rotation = {0, 0, 1, 0};  // half a turn about y
   Simulation simulation = start(valley, {}, 0);
   const double pressing = weight() / (2 * std::cos(alpha));
-  simulation.add_grain({0, 0.003, (r - overlap_under(pressing)) / std::cos(alpha)}, r, 0);
+  simulation.add_grain({0, 0.003, (grain_radius - overlap_under(pressing)) / std::cos(alpha)}, grain_radius, 0);
   simulation.run(0);
   auto contacts = simulation.contacts();
-  rows.push_back({"valley of two planes: contacts", 2, static_cast<double>(contacts.size()), 0, "", closed});
+  rows.push_back({"valley of two planes: contacts", 2, static_cast<double>(contacts.size()), 0, "", closed_form});
   for (const Contact& c : contacts)
-    rows.push_back({"valley of two planes: force of one", pressing, length(c.force), 1e-6 * pressing, "N", closed});
+    rows.push_back(
+        {"valley of two planes: force of one", pressing, length(c.force), 1e-6 * pressing, "N", closed_form});
 
   const double half = 0.05;
   TriangleMesh from = box({2 * half, 2 * half, 2 * half}, 0.03);
   Simulation in_box = start(body_of(TriangleMesh(from.vertices(), from.triangles())), {}, 0);  // a sheet: both sides
   in_box.set_gravity(g / std::sqrt(3.0) * Vec3{1, 1, -1});
-  const double at = half - (r - overlap_under(weight() / std::sqrt(3.0)));
-  in_box.add_grain({at, at, -at}, r, 0);
+  const double at = half - (grain_radius - overlap_under(weight() / std::sqrt(3.0)));
+  in_box.add_grain({at, at, -at}, grain_radius, 0);
   in_box.run(0);
   contacts = in_box.contacts();
-  rows.push_back({"corner of three planes: contacts", 3, static_cast<double>(contacts.size()), 0, "", closed});
+  rows.push_back({"corner of three planes: contacts", 3, static_cast<double>(contacts.size()), 0, "", closed_form});
   for (const Contact& c : contacts)
     rows.push_back({"corner of three planes: force of one", weight() / std::sqrt(3.0), length(c.force), 1e-6 * weight(),
-                    "N", closed});
+                    "N", closed_form});
 }
 
 /// A ball that rolls on a turntable goes round a circle at 2/7 of the table's rate, wherever it starts (Weckesser 1997,
@@ -211,10 +217,10 @@ void turntable(Rows& rows, const Meshing& way) {
   Body table = body_of(way.mesh);
   table.spin = {0, 0, rate};
   Simulation simulation = start(table, {}, 0.8);
-  const Vec3 from{0.05, -0.03, r - overlap_under(weight())};
+  const Vec3 from{0.05, -0.03, grain_radius - overlap_under(weight())};
   // Rolling: v + w x (-r z) is the table's velocity at the contact.
-  const Vec3 spin{(rate * from.x) / r, (v + rate * from.y) / r, 0};
-  simulation.add_grain(from, r, 0, {v, 0, 0}, spin);
+  const Vec3 spin{(rate * from.x) / grain_radius, (v + rate * from.y) / grain_radius, 0};
+  simulation.add_grain(from, grain_radius, 0, {v, 0, 0}, spin);
   const double turn = 2 * pi / (2.0 / 7 * rate), radius = v / (2.0 / 7 * rate);
   const auto half = std::lround(turn / 2 / simulation.setup().numerics.dt);
   simulation.run(half);
@@ -222,9 +228,9 @@ void turntable(Rows& rows, const Meshing& way) {
   simulation.run(half);
   const Vec3 back = simulation.grain(0).position;
   rows.push_back({fmt::format("turntable of {}: way across the circle", way.name), 2 * radius * 1e3,
-                  length(across - from) * 1e3, 2 * radius * 1e3 * 2e-3, "mm", closed});
+                  length(across - from) * 1e3, 2 * radius * 1e3 * 2e-3, "mm", closed_form});
   rows.push_back({fmt::format("turntable of {}: off the start after a circle", way.name), 0, length(back - from) * 1e3,
-                  2 * radius * 1e3 * 1e-2, "mm", closed});
+                  2 * radius * 1e3 * 1e-2, "mm", closed_form});
 }
 
 /// A grain in a drum is carried up to the slope whose tangent is its rolling friction: there the moment of the wall's
@@ -240,8 +246,9 @@ void drum(Rows& rows) {
   const double slope = std::atan(mu_r);
   // It swings about its place like a pendulum, undamped: begin there, and take the mean of whole swings.
   const Vec3 down{-std::sin(slope), 0, -std::cos(slope)};
-  simulation.add_grain((radius - r) * down + Vec3{0, 0.004, 0}, r, 0, {}, {0, body.spin.y * radius / r, 0});
-  const double swing = 2 * pi * std::sqrt(7.0 / 5 * (radius - r) * std::cos(slope) / g);
+  simulation.add_grain((radius - grain_radius) * down + Vec3{0, 0.004, 0}, grain_radius, 0, {},
+                       {0, body.spin.y * radius / grain_radius, 0});
+  const double swing = 2 * pi * std::sqrt(7.0 / 5 * (radius - grain_radius) * std::cos(slope) / g);
   const auto part = std::lround(swing / simulation.setup().numerics.dt / 500);
   Vec3 sum;
   for (int k = 0; k < 1000; ++k) {
@@ -249,8 +256,8 @@ void drum(Rows& rows) {
     sum += simulation.grain(0).position;
   }
   const double angle = std::atan2(std::abs(sum.x), -sum.z);
-  rows.push_back(
-      {"carried by a drum of 360 facets: angle", std::atan(mu_r) * 180 / pi, angle * 180 / pi, 0.5, "deg", closed});
+  rows.push_back({"carried by a drum of 360 facets: angle", std::atan(mu_r) * 180 / pi, angle * 180 / pi, 0.5, "deg",
+                  closed_form});
 }
 
 }  // namespace

@@ -8,20 +8,21 @@
 
 #include "dem/verification/cases.hpp"
 #include "dem/verification/impact.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::dem {
 namespace {
 
+using std::numbers::pi;
+using verification::closed_form;
+using verification::first_plane;
+using verification::g;
 using verification::hertz_time;
 using verification::impact;
 using verification::rigid;
 using verification::sphere_mass;
 
-constexpr double pi = std::numbers::pi, deg = pi / 180;
-constexpr int plane = -1;
-constexpr double g = 9.81;
 constexpr const char* lammps = "closed form, as in LAMMPS' unit tests of granular models";
-constexpr const char* closed = "closed form";
 
 using Rows = std::vector<VerificationRow>;
 
@@ -103,14 +104,14 @@ void slowing(Rows& rows, const StartEngine& start) {
     rows.push_back(
         {fmt::format("spins without friction, {}: spin in the end", name), 0, stands.spin.y, 0.01, "rad/s", lammps});
     const Motion rolls = after(start, undamped(0.8).setup(w * r, w), t);
-    rows.push_back(
-        {fmt::format("rolls, {}: speed", name), w * r - 5.0 / 7 * mu_r * g * t, rolls.velocity.x, 2e-4, "m/s", closed});
+    rows.push_back({fmt::format("rolls, {}: speed", name), w * r - 5.0 / 7 * mu_r * g * t, rolls.velocity.x, 2e-4,
+                    "m/s", closed_form});
   }
 }
 
 /// On a slope: rolls down, or stands where the rolling friction is above its tangent.
 void slope(Rows& rows, const StartEngine& start) {
-  const double alpha = 20 * deg, t = 0.1;
+  const double alpha = 20 * degree, t = 0.1;
   const auto down = [&](RollingLaw law, double mu_r) {
     Floor floor = floor_of(0.8, law, mu_r);
     floor.slope = alpha;
@@ -163,9 +164,9 @@ void no_gain(Rows& rows, const StartEngine& start) {
     setup.materials.add({"stone", 2500, 1e8, 0.25}, contact);
     setup.materials.add({"wall", 2500, rigid, 0.25}, contact);
     setup.planes.push_back({{}, {0, 0, 1}, 1});
-    setup.grains.push_back({{0, 0, r}, {v * std::sin(angle * deg), 0, -v * std::cos(angle * deg)}, {}, r, 0});
-    setup.dt = hertz_time(sphere_mass(2500, r), r, young, v * std::cos(angle * deg)) / 1000;
-    const auto out = impact(start, setup, plane, 20000);
+    setup.grains.push_back({{0, 0, r}, {v * std::sin(angle * degree), 0, -v * std::cos(angle * degree)}, {}, r, 0});
+    setup.dt = hertz_time(sphere_mass(2500, r), r, young, v * std::cos(angle * degree)) / 1000;
+    const auto out = impact(start, setup, first_plane, 20000);
     greatest = std::max(greatest, squared(out.velocity) + 0.4 * r * r * squared(out.spin) - v * v);
   }
   rows.push_back(
@@ -179,7 +180,7 @@ void swinging(Rows& rows, const StartEngine& start) {
   floor.contact.rolling_stiffness = 0.05;
   const double half = pi * std::sqrt(floor.inertia() / 0.05);
   rows.push_back({"torsion_spring: spin after half a period", -w, after(start, floor.setup(0, w), half).spin.y, 1e-5,
-                  "rad/s", closed});
+                  "rad/s", closed_form});
   floor = floor_of(0, RollingLaw::elastic_plastic, mu_r);
   floor.contact.rolling_damping = eta;
   const double stiffness = 2.25 * floor.weight() / floor.overlap() * std::pow(mu_r * floor.radius, 2);
@@ -188,7 +189,7 @@ void swinging(Rows& rows, const StartEngine& start) {
   const double swing = pi / (std::sqrt(stiffness / floor.inertia()) * damped);
   floor.dt = swing / 1000;
   rows.push_back({"elastic_plastic: spin after half a period", -w * std::exp(-pi * share / damped),
-                  after(start, floor.setup(0, w), swing).spin.y, 1e-5, "rad/s", closed});
+                  after(start, floor.setup(0, w), swing).spin.y, 1e-5, "rad/s", closed_form});
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ using compare::Campaign;
 using compare::Clause;
 using compare::Comparison;
 using compare::Difference;
-using compare::Finding;
+using compare::DifferenceFinding;
 using compare::RecordedRun;
 using compare::Side;
 using compare::SideKind;
@@ -35,11 +35,11 @@ void bind_sides(py::module_& module) {
 }
 
 void bind_differences(py::module_& module) {
-  py::enum_<Finding>(module, "Finding", "What can be said of a difference (docs/compare.md).")
-      .value("difference", Finding::difference)
-      .value("within_scatter", Finding::within_scatter)
-      .value("within_errors", Finding::within_errors)
-      .value("not_judged", Finding::not_judged);
+  py::enum_<DifferenceFinding>(module, "Finding", "What can be said of a difference (docs/compare.md).")
+      .value("difference", DifferenceFinding::difference)
+      .value("within_scatter", DifferenceFinding::within_scatter)
+      .value("within_errors", DifferenceFinding::within_errors)
+      .value("not_judged", DifferenceFinding::not_judged);
   using D = Difference;
   py::class_<D>(module, "Difference", "One side against another, one channel, one condition [SI].")
       .def_readonly("side", &D::side, "of Comparison.sides")

@@ -4,14 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "bekker_wong/effect.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong::bed {
 
-inline constexpr double deg = std::numbers::pi / 180;
 inline constexpr double radius = 0.25, width = 0.1;
 
 /// Wong's dry sand.
@@ -20,7 +19,7 @@ inline SoilValues sand() {
           .k_c = 990,
           .k_phi = 1.52843e6,
           .cohesion = 1040,
-          .friction_angle = 28 * deg,
+          .friction_angle = 28 * degree,
           .shear_modulus = 0.02,
           .c1 = 0.18,
           .c2 = 0.32,
@@ -34,10 +33,14 @@ inline OperatingCondition driven(double load = 800, double slip = 0.2) {
   return at;
 }
 
-inline RollingWheel wheel_on(const SoilValues& soil, const EffectList& effects = {}, std::optional<Bin> bin = {}) {
+inline Tire smooth_tire(double r = radius, double b = width) {
   Tire tire;
-  tire.radius = radius, tire.width = width;
-  return {tire, soil, effects, bin};
+  tire.radius = r, tire.width = b;
+  return tire;
+}
+
+inline RollingWheel wheel_on(const SoilValues& soil, const EffectList& effects = {}, std::optional<Bin> bin = {}) {
+  return {smooth_tire(), soil, effects, bin};
 }
 
 inline Reading roll(const SoilValues& soil, const EffectList& effects, const OperatingCondition& at,

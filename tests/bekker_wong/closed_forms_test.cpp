@@ -4,19 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "bekker_wong/rolling_wheel.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180;
-constexpr double r = 0.25, b = 0.2, entry = 30 * deg;
+constexpr double r = 0.25, b = 0.2, entry = 30 * degree;
 const double sinkage = r * (1 - std::cos(entry));
 
-Tire tire() {
+Tire wide_tire() {
   Tire t;
   t.radius = r, t.width = b;
   return t;
@@ -25,7 +24,7 @@ Tire tire() {
 RolledWheel at_entry(const SoilValues& soil, double slip, double yaw = 0.0, SlipBy by = SlipBy::wheel_plane_speed) {
   OperatingCondition at;
   at.load = 1000, at.slip = slip, at.yaw = yaw, at.slip_by = by;
-  return RollingWheel(tire(), soil).at_entry_angle(at, entry);
+  return RollingWheel(wide_tire(), soil).at_entry_angle(at, entry);
 }
 
 /// Neither friction nor cohesion, greatest stress under the axle: pressure alone.
@@ -69,7 +68,7 @@ TEST(ClosedForms, TorqueOfASpinningWheel) {
 
 // Dragged sideways with the wheel locked, the shear stress of a cohesive soil is c everywhere, across the wheel.
 TEST(ClosedForms, SideForceOfALockedWheelDraggedSideways) {
-  const WheelForces forces = at_entry(cohesive(0.02), -1.0, 90 * deg, SlipBy::travel_speed).forces;
+  const WheelForces forces = at_entry(cohesive(0.02), -1.0, 90 * degree, SlipBy::travel_speed).forces;
   const double expected = r * b * 5000 * entry;
   EXPECT_NEAR(forces.side, expected, 1e-12 * expected);
   EXPECT_NEAR(forces.torque, 0.0, 1e-12 * expected * r);
@@ -92,7 +91,7 @@ TEST(ClosedForms, BekkersSinkageIsTheShallowLimit) {
   OperatingCondition at;
   const auto ratio = [&](double load) {
     at.load = load;
-    return RollingWheel(tire(), soil).roll(at).sinkage / bekker_static_sinkage(soil, r, b, load);
+    return RollingWheel(wide_tire(), soil).roll(at).sinkage / bekker_static_sinkage(soil, r, b, load);
   };
   const double heavy = ratio(2000), light = ratio(2), lighter = ratio(0.002);
   EXPECT_LT(std::abs(light - lighter), std::abs(heavy - lighter));

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/transient/driving.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong::rover {
 
-inline constexpr double deg = std::numbers::pi / 180;
 inline constexpr double load = 64.68, mass = load / 9.80665;
 
 inline Soil dry_sand() {
@@ -19,7 +18,7 @@ inline Soil dry_sand() {
                                           .k_c = {990, 0},
                                           .k_phi = {1.52843e6, 0},
                                           .cohesion = {1040, 0},
-                                          .friction_angle = {28 * deg, 0},
+                                          .friction_angle = {28 * degree, 0},
                                           .shear_modulus = {0.02, 0},
                                           .stress_angle_c1 = {0.18, 0},
                                           .stress_angle_c2 = {0.32, 0},

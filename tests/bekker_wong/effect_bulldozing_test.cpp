@@ -1,6 +1,7 @@
 // bulldozing: the bow wave's resistance.
 #include "bekker_wong/bed_fixture.hpp"
 #include "bekker_wong/earth_pressure.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong::bed {
 namespace {
@@ -18,7 +19,7 @@ TEST(Bulldozing, ZeroAmplitudeIsTheBaseModel) {
 // phi = 30 deg: N_phi = 3; X = 30 deg, D1 = cot 30 + tan 60 = 2 sqrt 3, D2 = cot 30 + cot^2 30 tan 30 = 2 sqrt 3.
 // phi = 0: N_phi = 1, D1 = 2, D2 = 1, K_c = N_c = 1 + 3 pi/2, K_gamma = 8 + 1.
 TEST(Bulldozing, EarthPressuresInClosedForm) {
-  SoilValues soil{.cohesion = 1000, .friction_angle = 30 * deg, .density = 2000};
+  SoilValues soil{.cohesion = 1000, .friction_angle = 30 * degree, .density = 2000};
   const double d = 0.1, gamma = 2000 * 9.80665;
   EXPECT_NEAR(passive_force(soil, d, 500), 3 * gamma * d * d / 2 + 3 * 500 * d + 2 * 1000 * d * std::sqrt(3), 1e-10);
   EXPECT_NEAR(hegedus_force(soil, d), 2 * std::sqrt(3) * (1000 * d + std::sqrt(3) * gamma * d * d), 1e-10);
@@ -32,7 +33,7 @@ TEST(Bulldozing, EarthPressuresInClosedForm) {
 
 // Terzaghi's factors for general shear, by his table: phi = 30 deg N_c = 37.2, N_q = 22.5, so
 // K_c = (37.2 - 0.577) 0.75 = 27.5.
-TEST(Bulldozing, TerzaghisTable) { EXPECT_NEAR(bearing_factors(30 * deg).k_c, 27.5, 0.1); }
+TEST(Bulldozing, TerzaghisTable) { EXPECT_NEAR(bearing_factors(30 * degree).k_c, 27.5, 0.1); }
 
 // The resistance is the force of the rut's depth on the wheel's width. Clay, phi = 0, by Bekker:
 // b z (2 c K_c + gamma z K_gamma)/2 + gamma z^3 pi/6 + 2 c z^2.
@@ -77,12 +78,12 @@ TEST(Bulldozing, AdvancingWave) {
 // R cos^2(psi) from the pull and R cos(psi) sin(psi) from the force to the left. Sideways there is none.
 TEST(Bulldozing, AtYaw) {
   OperatingCondition at = driven(800, 0.3);
-  at.yaw = 25 * deg;
+  at.yaw = 25 * degree;
   const Reading b = base(at), r = with({"bulldozing", "rankine", {{"a", 1.0}}}, at);
   const double whole = width * passive_force(sand(), b.sinkage), c = std::cos(at.yaw), s = std::sin(at.yaw);
   EXPECT_NEAR(b.drawbar_pull - r.drawbar_pull, whole * c * c, 1e-9);
   EXPECT_NEAR(b.lateral_force - r.lateral_force, whole * c * s, 1e-9);
-  at.yaw = 90 * deg;
+  at.yaw = 90 * degree;
   at.slip_by = SlipBy::travel_speed;
   EXPECT_NEAR(with({"bulldozing", "rankine", {}}, at).drawbar_pull, base(at).drawbar_pull, 1e-9);
 }

@@ -1,12 +1,13 @@
 // cross_talk: what one channel takes from another, by hand.
 #include "bekker_wong/bed_fixture.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong::bed {
 namespace {
 
 OperatingCondition yawed() {
   OperatingCondition at = driven(800, 0.3);
-  at.yaw = 15 * deg;
+  at.yaw = 15 * degree;
   return at;
 }
 
@@ -44,11 +45,11 @@ TEST(CrossTalk, SideForceLeaksOnlyWhereThereIsOne) {
 
 // A turned cell keeps the length of the horizontal force.
 TEST(CrossTalk, TurnedCellKeepsTheForce) {
-  const Reading b = base(yawed()), e = with({"cross_talk", "turned_cell", {{"a", 10 * deg}}}, yawed());
+  const Reading b = base(yawed()), e = with({"cross_talk", "turned_cell", {{"a", 10 * degree}}}, yawed());
   EXPECT_NEAR(std::hypot(e.drawbar_pull, e.lateral_force), std::hypot(b.drawbar_pull, b.lateral_force), 1e-10);
   const double before = std::atan2(b.lateral_force, b.drawbar_pull);
   const double after = std::atan2(e.lateral_force, e.drawbar_pull);
-  EXPECT_NEAR(std::remainder(before - after, 360 * deg), 10 * deg, 1e-12);
+  EXPECT_NEAR(std::remainder(before - after, 360 * degree), 10 * degree, 1e-12);
 }
 
 // 2 mm at 1 kN: 1.6 mm at 800 N.

@@ -4,25 +4,25 @@
 namespace soilbin::bekker_wong::bed {
 namespace {
 
-const std::string id = "pressure_dependent_shear_modulus";
-const char* const forms[] = {"power", "linear", "constant_stiffness"};
+const std::string pressed_modulus = "pressure_dependent_shear_modulus";
+const char* const modulus_forms[] = {"power", "linear", "constant_stiffness"};
 
 ContactPatch patch(const EffectChoice& choice) { return wheel_on(sand(), make_effects({choice})).roll(driven()).patch; }
 
 double torque_ratio(const char* form, const OperatingCondition& at) {
-  return with({id, form, {}}, at).torque / base(at).torque;
+  return with({pressed_modulus, form, {}}, at).torque / base(at).torque;
 }
 
 TEST(PressureDependentShearModulus, ZeroAmplitudeIsTheBaseModel) {
-  expect_base_at_zero(id, driven());
-  expect_heard(id, driven());
+  expect_base_at_zero(pressed_modulus, driven());
+  expect_heard(pressed_modulus, driven());
 }
 
 // Where the shear test pressed with b p0, the declared K holds there: f(b) = 1.
 TEST(PressureDependentShearModulus, DeclaredModulusHoldsAtThePivot) {
   const double p0 = sand().pressure_modulus(width) * std::pow(0.15 * radius, sand().exponent);
-  const ContactPatch linear = patch({id, "linear", {{"a", 2.0}, {"b", 0.5}}});
-  const ContactPatch power = patch({id, "power", {{"m", 0.4}, {"b", 3.0}}});
+  const ContactPatch linear = patch({pressed_modulus, "linear", {{"a", 2.0}, {"b", 0.5}}});
+  const ContactPatch power = patch({pressed_modulus, "power", {{"m", 0.4}, {"b", 3.0}}});
   for (int i = 0; i < linear.count; ++i) {
     const double x = std::max(linear.sigma[i] / p0, 0.02), y = std::max(power.sigma[i] / p0, 0.02);
     EXPECT_NEAR(linear.modulus[i], 0.02 * (1 + 2 * x) / 2, 1e-12);
@@ -33,20 +33,20 @@ TEST(PressureDependentShearModulus, DeclaredModulusHoldsAtThePivot) {
 // K is softer than declared above p_0 and harder below it: at little slip the heavy wheel loses torque and pull, the
 // light wheel gains.
 TEST(PressureDependentShearModulus, HeavyWheelsLoseLightWheelsGain) {
-  for (const char* form : forms) {
+  for (const char* form : modulus_forms) {
     SCOPED_TRACE(form);
     EXPECT_LT(torque_ratio(form, driven(2000, 0.1)), 0.97);
     EXPECT_GT(torque_ratio(form, driven(100, 0.1)), 1.03);
-    EXPECT_LT(with({id, form, {}}, driven(2000, 0.1)).drawbar_pull, base(driven(2000, 0.1)).drawbar_pull);
-    EXPECT_GT(with({id, form, {}}, driven(100, 0.1)).drawbar_pull, base(driven(100, 0.1)).drawbar_pull);
+    EXPECT_LT(with({pressed_modulus, form, {}}, driven(2000, 0.1)).drawbar_pull, base(driven(2000, 0.1)).drawbar_pull);
+    EXPECT_GT(with({pressed_modulus, form, {}}, driven(100, 0.1)).drawbar_pull, base(driven(100, 0.1)).drawbar_pull);
   }
   // A falling K turns the signs round.
-  EXPECT_GT(with({id, "power", {{"m", -0.4}}}, driven(2000, 0.1)).torque, base(driven(2000, 0.1)).torque);
+  EXPECT_GT(with({pressed_modulus, "power", {{"m", -0.4}}}, driven(2000, 0.1)).torque, base(driven(2000, 0.1)).torque);
 }
 
 // The more slip, the less K matters; a locked wheel's shear knows no K at all.
 TEST(PressureDependentShearModulus, FadesWithSlip) {
-  for (const char* form : forms) {
+  for (const char* form : modulus_forms) {
     SCOPED_TRACE(form);
     double before = 1.0;
     for (const double slip : {0.05, 0.2, 0.5, 1.0}) {
@@ -55,7 +55,7 @@ TEST(PressureDependentShearModulus, FadesWithSlip) {
       before = change;
     }
     EXPECT_LT(before, 0.02);
-    expect_silent(id, driven(100, -1.0));
+    expect_silent(pressed_modulus, driven(100, -1.0));
   }
 }
 
@@ -64,8 +64,9 @@ TEST(PressureDependentShearModulus, IsWhatTheFormsSay) {
   const SoilValues soil = sand();
   const double p0 = soil.pressure_modulus(width) * std::pow(0.15 * radius, soil.exponent), k0 = soil.shear_modulus;
   const double friction = std::tan(soil.friction_angle);
-  const ContactPatch power = patch({id, "power", {{"m", 0.5}}}), linear = patch({id, "linear", {{"a", 2.0}}});
-  const ContactPatch stiff = patch({id, "constant_stiffness", {{"a", 1.0}}});
+  const ContactPatch power = patch({pressed_modulus, "power", {{"m", 0.5}}}),
+                     linear = patch({pressed_modulus, "linear", {{"a", 2.0}}});
+  const ContactPatch stiff = patch({pressed_modulus, "constant_stiffness", {{"a", 1.0}}});
   int seen = 0;
   for (int i = 0; i < power.count; ++i) {
     if (power.sigma[i] < 0.02 * p0 || linear.sigma[i] < 0.02 * p0 || stiff.sigma[i] < 0.02 * p0) continue;

@@ -1,5 +1,6 @@
 // rate_dependence: slow runs against fast ones.
 #include "bekker_wong/bed_fixture.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong::bed {
 namespace {
@@ -74,7 +75,7 @@ TEST(RateDependence, CohesionLogNeedsCohesionAndShearLogIsAFactor) {
 TEST(RateDependence, InertialResistanceGrowsWithTheSquareOfSpeed) {
   const EffectChoice effect{"rate_dependence", "inertial", {{"a", 2.0}}};
   OperatingCondition at = at_speed(1.5);
-  at.yaw = 20 * deg;
+  at.yaw = 20 * degree;
   const Reading b = base(at), e = with(effect, at);
   EXPECT_NEAR(b.drawbar_pull - e.drawbar_pull, 2 * 1600 * width * b.sinkage * 1.5 * 1.5, 1e-10);
   EXPECT_NEAR(e.lateral_force, b.lateral_force, 1e-10);

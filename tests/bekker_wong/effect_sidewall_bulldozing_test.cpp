@@ -1,43 +1,45 @@
 // sidewall_bulldozing: soil against the wheel's wall.
 #include "bekker_wong/bed_fixture.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong::bed {
 namespace {
 
-const std::string id = "sidewall_bulldozing";
-const char* const forms[] = {"ishigami", "passive_wedge", "side_area"};
+const std::string bulldozed = "sidewall_bulldozing";
+const char* const bulldozing_forms[] = {"ishigami", "passive_wedge", "side_area"};
 
 OperatingCondition yawed(double yaw_deg, double load = 800, double slip = 0.2) {
   OperatingCondition at = driven(load, slip);
-  at.yaw = yaw_deg * deg;
+  at.yaw = yaw_deg * degree;
   return at;
 }
 
 OperatingCondition across(double beta_deg, double load = 800) {
   OperatingCondition at = driven(load);
-  at.transverse_incline = beta_deg * deg;
+  at.transverse_incline = beta_deg * degree;
   return at;
 }
 
 double side_gain(const char* form, OperatingCondition at) {
   at.force_frame = ForceFrame::wheel;
-  return with({id, form, {}}, at).lateral_force - base(at).lateral_force;
+  return with({bulldozed, form, {}}, at).lateral_force - base(at).lateral_force;
 }
 
 TEST(SidewallBulldozing, ZeroAmplitudeIsTheBaseModel) {
-  expect_base_at_zero(id, yawed(20));
-  expect_base_at_zero(id, across(15));
-  expect_heard(id, yawed(20));
-  expect_heard(id, across(15));
-  expect_silent(id, driven());  // straight and level: nothing pushes sideways
+  expect_base_at_zero(bulldozed, yawed(20));
+  expect_base_at_zero(bulldozed, across(15));
+  expect_heard(bulldozed, yawed(20));
+  expect_heard(bulldozed, across(15));
+  expect_silent(bulldozed, driven());  // straight and level: nothing pushes sideways
 }
 
 // At positive yaw the wheel slides to its right, so the soil pushes it to the left: F_y rises, and the side force's
 // component along the travel takes pull. Torque and sinkage stay to the bit. The other yaw mirrors it.
 TEST(SidewallBulldozing, PushesAgainstTheSidewaysMotion) {
-  for (const char* form : forms) {
+  for (const char* form : bulldozing_forms) {
     SCOPED_TRACE(form);
-    const Reading r = with({id, form, {}}, yawed(20)), b = base(yawed(20)), l = with({id, form, {}}, yawed(-20));
+    const Reading r = with({bulldozed, form, {}}, yawed(20)), b = base(yawed(20)),
+                  l = with({bulldozed, form, {}}, yawed(-20));
     EXPECT_GT(r.lateral_force, b.lateral_force);
     EXPECT_LT(r.drawbar_pull, b.drawbar_pull);
     EXPECT_EQ(r.torque, b.torque);
@@ -49,7 +51,7 @@ TEST(SidewallBulldozing, PushesAgainstTheSidewaysMotion) {
 
 // More yaw calls up more, a deeper rut offers more wall, and at full slip the wheel doesn't move sideways at all.
 TEST(SidewallBulldozing, GrowsWithYawAndLoadAndFadesAtFullSlip) {
-  for (const char* form : forms) {
+  for (const char* form : bulldozing_forms) {
     SCOPED_TRACE(form);
     EXPECT_GT(side_gain(form, yawed(5)), 0.0);
     EXPECT_GT(side_gain(form, yawed(15)), side_gain(form, yawed(5)));
@@ -65,24 +67,25 @@ TEST(SidewallBulldozing, GrowsWithYawAndLoadAndFadesAtFullSlip) {
 // Left side up: the wheel leans to its right, soil pushes to the left. F_y, by convention the soil's force less the
 // load's share along the slope, comes closer to zero and never past it.
 TEST(SidewallBulldozing, HoldsOnACrossSlope) {
-  for (const char* form : forms) {
+  for (const char* form : bulldozing_forms) {
     SCOPED_TRACE(form);
     for (const double beta : {3.0, 12.0, 20.0}) {
       const double before = base(across(beta)).lateral_force;
-      const double after = with({id, form, {{"a", 1.0}}}, across(beta)).lateral_force;
+      const double after = with({bulldozed, form, {{"a", 1.0}}}, across(beta)).lateral_force;
       EXPECT_LT(before, 0.0);
       EXPECT_GT(after, before);
       EXPECT_LT(after, 0.0);
-      EXPECT_NEAR(with({id, form, {{"a", 1.0}}}, across(-beta)).lateral_force, -after, 1e-9);
+      EXPECT_NEAR(with({bulldozed, form, {{"a", 1.0}}}, across(-beta)).lateral_force, -after, 1e-9);
     }
     // A slight slope asks for little, and gets nearly all of it.
-    EXPECT_NEAR(with({id, form, {{"a", 1.0}}}, across(0.1)).lateral_force / base(across(0.1)).lateral_force, 0.0, 0.05);
+    EXPECT_NEAR(with({bulldozed, form, {{"a", 1.0}}}, across(0.1)).lateral_force / base(across(0.1)).lateral_force, 0.0,
+                0.05);
   }
 }
 
 /// A rough wall's row of the budget, in the wheel's axes.
 AddedForce rough_wall(double mu, const OperatingCondition& at) {
-  const EffectList effects = make_effects({{id, "rough_wedge", {{"a", 1.0}, {"mu", mu}}}});
+  const EffectList effects = make_effects({{bulldozed, "rough_wedge", {{"a", 1.0}, {"mu", mu}}}});
   return wheel_on(sand(), effects).roll(at).forces.added.rows()[0];
 }
 
@@ -90,8 +93,8 @@ AddedForce rough_wall(double mu, const OperatingCondition& at) {
 // the pressing, against the wall's motion. Dragged locked at yaw the whole wall moves forward: exactly mu N backward.
 // A spinning wheel's buried wall moves backward: forward thrust, paid by the motor.
 TEST(SidewallBulldozing, ARoughWallRubs) {
-  expect_same_bits(with({id, "rough_wedge", {{"a", 1.0}, {"mu", 0.0}}}, yawed(20)),
-                   with({id, "passive_wedge", {{"a", 1.0}}}, yawed(20)));
+  expect_same_bits(with({bulldozed, "rough_wedge", {{"a", 1.0}, {"mu", 0.0}}}, yawed(20)),
+                   with({bulldozed, "passive_wedge", {{"a", 1.0}}}, yawed(20)));
   const AddedForce dragged = rough_wall(0.3, yawed(30, 200, -1.0));
   EXPECT_NEAR(dragged.forward, -0.3 * dragged.lateral, 1e-12 * dragged.lateral);
   EXPECT_EQ(dragged.vertical, 0.0);
@@ -122,7 +125,7 @@ TEST(SidewallBulldozing, LockedSidewaysInClosedForm) {
   clay.friction_angle = 0, clay.density = 0, clay.cohesion = 3000;
   OperatingCondition at = yawed(90, 300, -1.0);
   at.slip_by = SlipBy::travel_speed;
-  const RolledWheel w = wheel_on(clay, make_effects({{id, "passive_wedge", {{"a", 1.0}}}})).roll(at);
+  const RolledWheel w = wheel_on(clay, make_effects({{bulldozed, "passive_wedge", {{"a", 1.0}}}})).roll(at);
   const double t = w.balance_angle, wall = radius * radius * (t - std::sin(t) * std::cos(t)) / 2;
   ASSERT_EQ(w.forces.added.rows().size(), 1u);
   EXPECT_NEAR(w.forces.added.rows()[0].lateral, 2 * 3000 * wall, 1e-7);

@@ -1,10 +1,11 @@
 // slip_sinkage: what slip digs away.
 #include "bekker_wong/bed_fixture.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong::bed {
 namespace {
 
-const char* const forms[] = {"lyasko", "ding", "linear", "loosening", "reece", "sliding"};
+const char* const digging_forms[] = {"lyasko", "ding", "linear", "loosening", "reece", "sliding"};
 
 TEST(SlipSinkage, ZeroAmplitudeIsTheBaseModel) {
   expect_base_at_zero("slip_sinkage", driven(800, 0.6));
@@ -44,7 +45,7 @@ TEST(SlipSinkage, WeakenedSoilIsTheBaseModelOnWeakerSoil) {
 // A deeper rut faces more soil: sinkage grows with slip, and at high slip drawbar pull bends down, so that its best
 // slip moves lower than the base model's.
 TEST(SlipSinkage, DigsAndBendsTheDrawbarPullDown) {
-  for (const char* form : forms) {
+  for (const char* form : digging_forms) {
     SCOPED_TRACE(form);
     const EffectChoice choice{"slip_sinkage", form, {}};
     double before = base(driven(500, 0.0)).sinkage, loss_before = -1e300;
@@ -67,9 +68,9 @@ double dug(OperatingCondition at) {
   return with(choice, at).sinkage - base(at).sinkage;
 }
 
-OperatingCondition yawed(double yaw_deg, double slip) {
+OperatingCondition slipping_at_yaw(double yaw_deg, double slip) {
   OperatingCondition at = driven(200, slip);
-  at.yaw = yaw_deg * deg;
+  at.yaw = yaw_deg * degree;
   return at;
 }
 
@@ -87,28 +88,28 @@ TEST(SlipSinkage, SlidingIsReecesLawInBothDirectionsWithAnEnd) {
 // A wheel whose rim turns as fast as it rolls in its plane, s = 1 - 1/cos(psi) by the speed of travel, slides across by
 // tan(psi) and not along. The mirrored yaw digs as deep.
 TEST(SlipSinkage, SlidesSidewaysByTheTangentOfYaw) {
-  const double slip = -(1 - std::cos(40 * deg));
-  EXPECT_NEAR(dug(yawed(40, slip)), toward(std::tan(40 * deg), 0.9 * radius), 1e-12);
-  EXPECT_NEAR(dug(yawed(-40, slip)), dug(yawed(40, slip)), 1e-14);
+  const double slip = -(1 - std::cos(40 * degree));
+  EXPECT_NEAR(dug(slipping_at_yaw(40, slip)), toward(std::tan(40 * degree), 0.9 * radius), 1e-12);
+  EXPECT_NEAR(dug(slipping_at_yaw(-40, slip)), dug(slipping_at_yaw(40, slip)), 1e-14);
   // Both at once add as the sides of a right angle do.
-  const double along = toward(1 / (0.5 * std::cos(40 * deg)) - 1, 0.3 * radius);
-  const double across = toward(std::tan(40 * deg), 0.9 * radius);
-  EXPECT_NEAR(dug(yawed(40, 0.5)), std::hypot(along, across), 1e-12);
+  const double along = toward(1 / (0.5 * std::cos(40 * degree)) - 1, 0.3 * radius);
+  const double across = toward(std::tan(40 * degree), 0.9 * radius);
+  EXPECT_NEAR(dug(slipping_at_yaw(40, 0.5)), std::hypot(along, across), 1e-12);
 }
 
 // Sideways it digs deeper the more yaw, and never past the end.
 TEST(SlipSinkage, DeeperWithYaw) {
-  double before = dug(yawed(0, 0.2));
+  double before = dug(slipping_at_yaw(0, 0.2));
   for (const double yaw : {10.0, 30.0, 60.0, 85.0}) {
-    EXPECT_GT(dug(yawed(yaw, 0.2)), before);
-    before = dug(yawed(yaw, 0.2));
+    EXPECT_GT(dug(slipping_at_yaw(yaw, 0.2)), before);
+    before = dug(slipping_at_yaw(yaw, 0.2));
   }
   EXPECT_LT(before, std::hypot(0.3, 0.9) * radius);
 }
 
 // Where the wheel settles, the stresses still carry the load.
 TEST(SlipSinkage, CarriesTheLoadWhereItSettles) {
-  for (const char* form : forms) {
+  for (const char* form : digging_forms) {
     const RollingWheel wheel = wheel_on(sand(), make_effects({{"slip_sinkage", form, {}}}));
     EXPECT_NEAR(wheel.roll(driven(500, 0.5)).forces.vertical, 500, 1e-9 * 500) << form;
   }

@@ -8,9 +8,9 @@
 namespace soilbin::bekker_wong::bed {
 namespace {
 
-const char* const forms[] = {"flat_section", "carcass_spring", "substitute_circle"};
+const char* const carcass_forms[] = {"flat_section", "carcass_spring", "substitute_circle"};
 
-Tire tire(std::optional<double> inflation = {}) {
+Tire soft_tire(std::optional<double> inflation = {}) {
   Tire t;
   t.radius = radius;
   t.width = width;
@@ -18,7 +18,7 @@ Tire tire(std::optional<double> inflation = {}) {
   return t;
 }
 
-RolledWheel rolled(const EffectChoice& choice, const OperatingCondition& at, const Tire& t = tire()) {
+RolledWheel rolled_on(const EffectChoice& choice, const OperatingCondition& at, const Tire& t = soft_tire()) {
   return RollingWheel(t, sand(), make_effects({choice})).roll(at);
 }
 
@@ -29,11 +29,11 @@ TEST(TireFlexibility, ZeroAmplitudeIsTheBaseModel) {
 
 // A longer contact carries the load at less depth: less sinkage, less compaction resistance, more pull.
 TEST(TireFlexibility, LongerShallowerContact) {
-  for (const char* form : forms) {
+  for (const char* form : carcass_forms) {
     SCOPED_TRACE(form);
     const EffectChoice choice{"tire_flexibility", form, {}};
     for (const double load : {300.0, 800.0, 2000.0}) {
-      const RolledWheel r = rolled(choice, driven(load)), b = RollingWheel(tire(), sand()).roll(driven(load));
+      const RolledWheel r = rolled_on(choice, driven(load)), b = RollingWheel(soft_tire(), sand()).roll(driven(load));
       EXPECT_LT(r.sinkage, b.sinkage);
       EXPECT_GT(r.forces.compaction, b.forces.compaction);
       EXPECT_GT(r.reading.drawbar_pull, b.reading.drawbar_pull);
@@ -44,7 +44,7 @@ TEST(TireFlexibility, LongerShallowerContact) {
 // The cap's mark: a light wheel stays rigid, a heavy one loses a growing share of its sinkage.
 TEST(TireFlexibility, FlatSectionSparesTheLightWheel) {
   const auto lost = [](double load) {
-    return 1 - rolled({"tire_flexibility", "flat_section", {}}, driven(load)).sinkage / base(driven(load)).sinkage;
+    return 1 - rolled_on({"tire_flexibility", "flat_section", {}}, driven(load)).sinkage / base(driven(load)).sinkage;
   };
   EXPECT_LT(lost(50), 1e-3);
   EXPECT_GT(lost(800), 10 * lost(200));
@@ -53,31 +53,31 @@ TEST(TireFlexibility, FlatSectionSparesTheLightWheel) {
 
 // Softer is softer: sinkage falls with the amplitude and rises with the inflation pressure.
 TEST(TireFlexibility, FollowsAmplitudeAndPressure) {
-  for (const char* form : forms) {
+  for (const char* form : carcass_forms) {
     SCOPED_TRACE(form);
     double before = base(driven()).sinkage;
     for (const double a : {0.2, 0.4, 0.8, 1.6}) {
-      const double z = rolled({"tire_flexibility", form, {{"a", a}}}, driven()).sinkage;
+      const double z = rolled_on({"tire_flexibility", form, {{"a", a}}}, driven()).sinkage;
       EXPECT_LT(z, before);
       before = z;
     }
     const EffectChoice choice{"tire_flexibility", form, {}};
-    const auto at_pressure = [&](double p) { return rolled(choice, driven(), tire(p)).sinkage; };
+    const auto at_pressure = [&](double p) { return rolled_on(choice, driven(), soft_tire(p)).sinkage; };
     EXPECT_LT(at_pressure(60e3), at_pressure(100e3));
     EXPECT_LT(at_pressure(100e3), at_pressure(300e3));
     // 100 kPa is what an undeclared pressure means.
-    EXPECT_EQ(at_pressure(100e3), rolled(choice, driven()).sinkage);
+    EXPECT_EQ(at_pressure(100e3), rolled_on(choice, driven()).sinkage);
   }
 }
 
 // The ground pressure caps the soil's: p_g/a = 40 kPa, reached nearly under a load that needs a long flat.
 TEST(TireFlexibility, FlatSectionCapsThePressure) {
-  const RolledWheel w = rolled({"tire_flexibility", "flat_section", {{"a", 2.5}}}, driven(1500));
+  const RolledWheel w = rolled_on({"tire_flexibility", "flat_section", {{"a", 2.5}}}, driven(1500));
   const auto sigma = w.patch.of(&ContactPatch::sigma);
   const double most = *std::max_element(sigma.begin(), sigma.end());
   EXPECT_LT(most, 40e3);
   EXPECT_GT(most, 38e3);
-  const auto rigid = RollingWheel(tire(), sand()).roll(driven(1500));
+  const auto rigid = RollingWheel(soft_tire(), sand()).roll(driven(1500));
   const auto unbounded = rigid.patch.of(&ContactPatch::sigma);
   EXPECT_GT(*std::max_element(unbounded.begin(), unbounded.end()), 60e3);
 }
@@ -86,7 +86,7 @@ TEST(TireFlexibility, FlatSectionCapsThePressure) {
 // deflection (r a^2/2) sigma/p_g. The contact ends where the circle rises from the rut.
 TEST(TireFlexibility, CarcassSpringInEquilibrium) {
   const double a = 0.4;
-  const RolledWheel w = rolled({"tire_flexibility", "carcass_spring", {{"a", a}}}, driven());
+  const RolledWheel w = rolled_on({"tire_flexibility", "carcass_spring", {{"a", a}}}, driven());
   const ContactAngles& angles = w.patch.angles;
   int front = 0;
   for (int i = 0; i < w.patch.count; ++i) {
@@ -129,7 +129,7 @@ std::array<double, 3> summed(const Law& law, double theta_1, double slip) {
 
 template <class Law>
 void expect_summed(const char* form, double a, const Law& law) {
-  const RollingWheel wheel(tire(), sand(), make_effects({{"tire_flexibility", form, {{"a", a}}}}));
+  const RollingWheel wheel(soft_tire(), sand(), make_effects({{"tire_flexibility", form, {{"a", a}}}}));
   for (const double theta_1 : {0.4, 0.8, 1.2}) {
     const RolledWheel w = wheel.at_entry_angle(driven(800, 0.3), theta_1);
     const std::array<double, 3> sum = summed(law, theta_1, 0.3);
@@ -159,7 +159,7 @@ TEST(TireFlexibility, PatchAgreesWithBruteForce) {
 // sqrt(2r f), z Bekker's static sinkage, f = r a^2/2 times W/(2 r b)/100 kPa.
 TEST(TireFlexibility, SubstituteCircleInClosedForm) {
   const double a = 0.5, load = 800;
-  const RolledWheel w = rolled({"tire_flexibility", "substitute_circle", {{"a", a}}}, driven(load));
+  const RolledWheel w = rolled_on({"tire_flexibility", "substitute_circle", {{"a", a}}}, driven(load));
   const double circle = w.sinkage / (1 - std::cos(w.balance_angle));
   const double z = bekker_static_sinkage(sand(), radius, width, load);
   const double f = 0.5 * radius * a * a * load / (2 * radius * width * 100e3);
@@ -168,9 +168,9 @@ TEST(TireFlexibility, SubstituteCircleInClosedForm) {
 
 // What the balance needs: the load carried rises with theta_1, without a jump where the flat sets in.
 TEST(TireFlexibility, LoadCarriedRisesSmoothlyWithDepth) {
-  for (const char* form : forms) {
+  for (const char* form : carcass_forms) {
     SCOPED_TRACE(form);
-    const RollingWheel wheel(tire(), sand(), make_effects({{"tire_flexibility", form, {}}}));
+    const RollingWheel wheel(soft_tire(), sand(), make_effects({{"tire_flexibility", form, {}}}));
     double before = 0.0;
     for (int i = 1; i <= 400; ++i) {
       const double carried = wheel.at_entry_angle(driven(), 0.003 * i).forces.vertical;
@@ -186,9 +186,9 @@ TEST(TireFlexibility, LoadCarriedRisesSmoothlyWithDepth) {
 // An inextensible belt on a lossless carcass: dj = ds - v/(r w) dx, torque = r b Int tau ds. So M - r (1 - s) F is what
 // the slipping of the soil and its compaction take: never negative.
 TEST(TireFlexibility, PowerInCoversPowerOut) {
-  for (const char* form : forms) {
+  for (const char* form : carcass_forms) {
     for (const double slip : {-0.3, 0.0, 0.1, 0.5, 1.0}) {
-      const Reading r = rolled({"tire_flexibility", form, {}}, driven(600, slip)).reading;
+      const Reading r = rolled_on({"tire_flexibility", form, {}}, driven(600, slip)).reading;
       const double ratio = slip >= 0 ? 1 - slip : 1 / (1 + slip);
       EXPECT_GT(r.torque, radius * ratio * r.drawbar_pull) << form << " " << slip;
     }
@@ -198,7 +198,7 @@ TEST(TireFlexibility, PowerInCoversPowerOut) {
 // On the flat the tread slides by s of its way: dj/dx = s. A hard cap makes the flat nearly plane there.
 TEST(TireFlexibility, FlatSlidesBySlip) {
   const double slip = 0.3;
-  const ContactPatch p = rolled({"tire_flexibility", "flat_section", {{"a", 6.0}}}, driven(600, slip)).patch;
+  const ContactPatch p = rolled_on({"tire_flexibility", "flat_section", {{"a", 6.0}}}, driven(600, slip)).patch;
   int ahead = -1, behind = -1;
   for (int i = 0; i < p.count; ++i) {
     if (p.theta[i] < 0.3 * p.angles.entry && ahead < 0) ahead = i;

@@ -12,11 +12,10 @@
 #include "bekker_wong/bed_fixture.hpp"
 #include "bekker_wong/model.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
-
-using bed::deg;
 
 struct Setting {
   const char* name;
@@ -45,7 +44,7 @@ const std::vector<Setting>& settings() {
         .k_c = 15600,
         .k_phi = 2.4e6,
         .cohesion = 250,
-        .friction_angle = 31.9 * deg,
+        .friction_angle = 31.9 * degree,
         .shear_modulus = 0.0115,
         .c1 = 0.35,
         .c2 = 0.1,
@@ -57,7 +56,7 @@ const std::vector<Setting>& settings() {
         .k_c = 13190,
         .k_phi = 692150,
         .cohesion = 4140,
-        .friction_angle = 13 * deg,
+        .friction_angle = 13 * degree,
         .shear_modulus = 0.015,
         .c1 = 0.3,
         .c2 = 0.2,
@@ -69,7 +68,7 @@ const std::vector<Setting>& settings() {
         .k_c = 4370,
         .k_phi = 196720,
         .cohesion = 1030,
-        .friction_angle = 19.7 * deg,
+        .friction_angle = 19.7 * degree,
         .shear_modulus = 0.04,
         .c1 = 0.2,
         .c2 = 0.3,
@@ -101,9 +100,9 @@ OperatingCondition condition(const Setting& setting, const Question& q) {
   at.load = q.load_share * setting.load;
   at.slip = q.slip;
   at.speed = 0.3;
-  at.yaw = q.yaw_deg * deg;
-  at.longitudinal_incline = q.alpha_deg * deg;
-  at.transverse_incline = q.beta_deg * deg;
+  at.yaw = q.yaw_deg * degree;
+  at.longitudinal_incline = q.alpha_deg * degree;
+  at.transverse_incline = q.beta_deg * degree;
   at.pass = q.pass;
   at.moisture = 0.09;
   at.position = 2.5;
@@ -243,9 +242,9 @@ TEST(Effects, AmplitudeZeroIsTheBaseModelToTheBit) {
 TEST(Effects, AmplitudeZeroIsTheBaseModelAtTheCorners) {
   const Setting& s = settings()[0];
   OperatingCondition locked = bed::driven(200, -1.0), stuck = bed::driven(200, 1.0), sideways = bed::driven(200, 0.3);
-  locked.yaw = 30 * deg;
-  stuck.yaw = -30 * deg;
-  sideways.yaw = 90 * deg;
+  locked.yaw = 30 * degree;
+  stuck.yaw = -30 * degree;
+  sideways.yaw = 90 * degree;
   sideways.slip_by = SlipBy::travel_speed;
   sideways.force_frame = ForceFrame::wheel;
   for (const OperatingCondition& at : {locked, stuck, sideways, bed::driven(1e-3, 0.2)}) {
@@ -281,7 +280,7 @@ TEST(Effects, NeverAnswerWithANumberThatIsNone) {
     OperatingCondition at = condition(s, questions[0]);
     at.load = s.load * share(1, 150);
     at.slip = share(-100, 100);
-    at.yaw = share(-100, 100) * 90 * deg;
+    at.yaw = share(-100, 100) * 90 * degree;
     at.slip_by = SlipBy::travel_speed;
     at.longitudinal_incline = share(-30, 30);
     at.transverse_incline = share(-30, 30);

@@ -4,18 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <thread>
 #include <vector>
 
 #include "bekker_wong/rolling_wheel.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 struct Wheel {
   Tire tire;
@@ -34,7 +32,7 @@ Wheel any_wheel(double lowest_slip, double highest_slip) {
   w.soil.k_phi = std::pow(10, between(3.5, 5.5)) / std::pow(0.1 * w.tire.radius, w.soil.exponent);
   w.soil.k_c = between(-0.3, 0.3) * w.soil.k_phi * w.tire.width;
   w.soil.cohesion = between(0, 2e4);
-  w.soil.friction_angle = between(0, 44) * deg;
+  w.soil.friction_angle = between(0, 44) * degree;
   w.soil.shear_modulus = std::pow(10, between(-3, -1));
   w.soil.c1 = between(0, 0.6), w.soil.c2 = between(0, 0.5);
   w.at.slip = between(lowest_slip, highest_slip);
@@ -104,7 +102,7 @@ TEST(Invariants, PullStaysWithinTheSoilsStrength) {
 TEST(Invariants, NoMorePowerComesOutThanGoesIn) {
   EXPECT_TRUE(rc::check([] {
     Wheel w = any_wheel(-0.99, 1);
-    w.at.yaw = between(-60, 60) * deg;
+    w.at.yaw = between(-60, 60) * degree;
     const auto rolled = roll(w);
     RC_PRE(rolled.has_value());
     const double in = rolled->reading.torque / w.tire.radius;
@@ -135,7 +133,7 @@ TEST(Invariants, UnitsDoNotMatter) {
 TEST(Invariants, YawToTheRightMirrorsYawToTheLeft) {
   EXPECT_TRUE(rc::check([] {
     Wheel w = any_wheel(-1, 1);
-    w.at.yaw = between(0, 89) * deg;
+    w.at.yaw = between(0, 89) * degree;
     const auto left = roll(w);
     RC_PRE(left.has_value());
     w.at.yaw = -w.at.yaw;
@@ -151,8 +149,8 @@ TEST(Invariants, YawToTheRightMirrorsYawToTheLeft) {
 TEST(Invariants, TheFrameTurnsTheForcesAndNothingElse) {
   EXPECT_TRUE(rc::check([] {
     Wheel w = any_wheel(-1, 1);
-    w.at.yaw = between(-89, 89) * deg;
-    w.at.longitudinal_incline = between(-15, 15) * deg, w.at.transverse_incline = between(-15, 15) * deg;
+    w.at.yaw = between(-89, 89) * degree;
+    w.at.longitudinal_incline = between(-15, 15) * degree, w.at.transverse_incline = between(-15, 15) * degree;
     const auto travel = roll(w);
     RC_PRE(travel.has_value());
     w.at.force_frame = ForceFrame::wheel;
@@ -175,7 +173,7 @@ TEST(Invariants, LimitsAreReachedWithoutAJump) {
     w.at.yaw = 1e-9;
     RC_ASSERT(std::abs(roll(w).value().reading.drawbar_pull - straight->reading.drawbar_pull) <
               1e-6 * scale_of(*straight));
-    w.at.yaw = between(-60, 60) * deg;
+    w.at.yaw = between(-60, 60) * degree;
     w.at.slip = -1.0;
     const auto locked = roll(w);
     RC_PRE(locked.has_value());
@@ -194,7 +192,7 @@ TEST(Invariants, ThreadsDoNotChangeABit) {
                         .k_c = 990,
                         .k_phi = 1.52843e6,
                         .cohesion = 1040,
-                        .friction_angle = 28 * deg,
+                        .friction_angle = 28 * degree,
                         .shear_modulus = 0.02,
                         .c1 = 0.18,
                         .c2 = 0.32};
@@ -203,7 +201,7 @@ TEST(Invariants, ThreadsDoNotChangeABit) {
     std::vector<double> numbers;
     for (int i = -20; i <= 20; ++i) {
       OperatingCondition at;
-      at.load = 700 + i, at.slip = i / 20.0, at.yaw = i * deg;
+      at.load = 700 + i, at.slip = i / 20.0, at.yaw = i * degree;
       const Reading r = wheel.roll(at).reading;
       numbers.insert(numbers.end(), {r.drawbar_pull, r.torque, r.sinkage, r.lateral_force});
     }

@@ -4,21 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "bekker_wong/bed_fixture.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180;
-
-Tire tire(double radius = 0.25, double width = 0.1) {
-  Tire t;
-  t.radius = radius, t.width = width;
-  return t;
-}
+using bed::smooth_tire;
 
 /// Wong's dry sand with an exponent of choice.
 SoilValues sand(double n = 1.1) {
@@ -26,20 +21,20 @@ SoilValues sand(double n = 1.1) {
           .k_c = 990,
           .k_phi = 1.52843e6,
           .cohesion = 1040,
-          .friction_angle = 28 * deg,
+          .friction_angle = 28 * degree,
           .shear_modulus = 0.02,
           .c1 = 0.18,
           .c2 = 0.32};
 }
 
-OperatingCondition condition(double slip, double load = 800) {
+OperatingCondition at_slip(double slip, double load = 800) {
   OperatingCondition at;
   at.load = load, at.slip = slip;
   return at;
 }
 
 RolledWheel roll(double slip, const SoilValues& soil = sand()) {
-  return RollingWheel(tire(), soil).roll(condition(slip));
+  return RollingWheel(smooth_tire(), soil).roll(at_slip(slip));
 }
 
 /// Normal stress by the conventions at an angle, from theta_1 and theta_m alone.
@@ -88,7 +83,7 @@ TEST(KnownBugs, NoAngleIsWithoutStress) {
   for (const double c1 : {0.0, 0.3, 1.0}) {
     SoilValues soil = sand();
     soil.c1 = c1, soil.c2 = 0.0;
-    const ContactPatch patch = RollingWheel(tire(), soil).roll(condition(0.2, 100)).patch;
+    const ContactPatch patch = RollingWheel(smooth_tire(), soil).roll(at_slip(0.2, 100)).patch;
     ASSERT_GT(patch.count, 0);
     for (int i = 0; i < patch.count; ++i) EXPECT_GT(patch.sigma[i], 0.0) << "c1 " << c1;
   }
@@ -114,7 +109,7 @@ TEST(KnownBugs, DrawbarPullAtZeroSlipIsNotZero) {
 
 // Zeros where the solve failed look like a wheel that neither sinks nor pulls. A failure is said, with numbers.
 TEST(KnownBugs, AFailedSolveIsNotAnsweredWithZeros) {
-  EXPECT_THROW(RollingWheel(tire(), sand()).roll(condition(0.2, 1e7)), NoSolution);
+  EXPECT_THROW(RollingWheel(smooth_tire(), sand()).roll(at_slip(0.2, 1e7)), NoSolution);
 }
 
 // A solver that starts on the wrong side, or stops early, returns a wheel that doesn't carry its load.
@@ -130,12 +125,12 @@ TEST(KnownBugs, TorqueIsTheMomentOfShearAboutTheAxle) {
   EXPECT_LT(roll(0.3, slippery).reading.drawbar_pull, 0.0);
 
   const RolledWheel level = roll(0.3);
-  OperatingCondition uphill = condition(0.3);
-  uphill.longitudinal_incline = 10 * deg;
-  uphill.load = 800 / std::cos(10 * deg);
-  const Reading climbing = RollingWheel(tire(), sand()).roll(uphill).reading;
+  OperatingCondition uphill = at_slip(0.3);
+  uphill.longitudinal_incline = 10 * degree;
+  uphill.load = 800 / std::cos(10 * degree);
+  const Reading climbing = RollingWheel(smooth_tire(), sand()).roll(uphill).reading;
   EXPECT_NEAR(climbing.torque, level.reading.torque, 1e-9);
-  EXPECT_NEAR(climbing.drawbar_pull, level.reading.drawbar_pull - 800 * std::tan(10 * deg), 1e-9);
+  EXPECT_NEAR(climbing.drawbar_pull, level.reading.drawbar_pull - 800 * std::tan(10 * degree), 1e-9);
 
   double moment = 0.0;
   for (int i = 0; i < level.patch.count; ++i) moment += level.patch.arc[i] * level.patch.tau_x[i] * 0.25 * 0.1;
@@ -146,7 +141,7 @@ TEST(KnownBugs, TorqueIsTheMomentOfShearAboutTheAxle) {
 TEST(KnownBugs, TheCrestStaysBehindTheEntry) {
   SoilValues soil = sand();
   soil.c1 = 0.9, soil.c2 = 0.5;
-  const ContactAngles angles = RollingWheel(tire(), soil).roll(condition(0.8, 100)).patch.angles;
+  const ContactAngles angles = RollingWheel(smooth_tire(), soil).roll(at_slip(0.8, 100)).patch.angles;
   EXPECT_NEAR(angles.max_stress, 0.98 * angles.entry, 1e-15);
 }
 
@@ -155,8 +150,8 @@ TEST(KnownBugs, TheCrestStaysBehindTheEntry) {
 TEST(KnownBugs, KcGoesWithTheWheelsWidth) {
   SoilValues soil = sand();
   soil.k_c = 150e3, soil.k_phi = 0, soil.cohesion = 0;
-  const Reading narrow = RollingWheel(tire(0.25, 0.1), soil).roll(condition(0.2)).reading;
-  const Reading wide = RollingWheel(tire(0.25, 0.2), soil).roll(condition(0.2)).reading;
+  const Reading narrow = RollingWheel(smooth_tire(0.25, 0.1), soil).roll(at_slip(0.2)).reading;
+  const Reading wide = RollingWheel(smooth_tire(0.25, 0.2), soil).roll(at_slip(0.2)).reading;
   EXPECT_NEAR(wide.sinkage, narrow.sinkage, 1e-12);
   EXPECT_NEAR(wide.drawbar_pull, narrow.drawbar_pull, 1e-9);
 }

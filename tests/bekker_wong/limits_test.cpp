@@ -4,21 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "bekker_wong/bed_fixture.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 using bed::wheel_on;
 
 TEST(Limits, TheSlipFoundGivesThePullAskedFor) {
   const RollingWheel wheel = wheel_on(bed::sand());
   OperatingCondition at = bed::driven(400);
-  for (const double slope : {-5 * deg, 0.0, 4 * deg}) {
+  for (const double slope : {-5 * degree, 0.0, 4 * degree}) {
     at.longitudinal_incline = slope;
     const auto slip = slip_for_pull(wheel, at, 20.0);
     ASSERT_TRUE(slip);
@@ -34,9 +32,9 @@ TEST(Limits, OnTheSteepestSlopeTheLargestPullIsNone) {
   ASSERT_TRUE(slope);
   at.longitudinal_incline = *slope;
   EXPECT_NEAR(largest_pull(wheel, at).drawbar_pull, 0.0, 1e-6);
-  at.longitudinal_incline = *slope + 0.01 * deg;
+  at.longitudinal_incline = *slope + 0.01 * degree;
   EXPECT_FALSE(slip_for_pull(wheel, at));
-  at.longitudinal_incline = *slope - 0.01 * deg;
+  at.longitudinal_incline = *slope - 0.01 * degree;
   EXPECT_TRUE(slip_for_pull(wheel, at));
 }
 
@@ -48,8 +46,8 @@ TEST(Limits, OnHardGroundTheSteepestSlopeIsTheFrictionAngle) {
   const RollingWheel wheel = wheel_on(hard);
   const auto slope = steepest_slope(wheel, bed::driven(100));
   ASSERT_TRUE(slope);
-  EXPECT_NEAR(*slope / deg, 28.0, 0.1);
-  EXPECT_NEAR(largest_pull(wheel, bed::driven(100)).drawbar_pull, 100 * std::tan(28 * deg), 0.3);
+  EXPECT_NEAR(*slope / degree, 28.0, 0.1);
+  EXPECT_NEAR(largest_pull(wheel, bed::driven(100)).drawbar_pull, 100 * std::tan(28 * degree), 0.3);
 }
 
 TEST(Limits, APeakInsideTheRangeIsFound) {  // the wheel digs itself in: pull rises, then falls

@@ -5,31 +5,31 @@
 
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "bekker_wong/gsl.hpp"
 #include "bekker_wong/model.hpp"
 #include "scenario/case.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180, load = 180.0;
+constexpr double load = 180.0;
 
-struct Point {
+struct ClimbedPoint {
   double slip = 0.0, slope = 0.0;
 };
 
-std::vector<Point> nasa_points() {
+std::vector<ClimbedPoint> nasa_points() {
   std::ifstream in(SOILBIN_SOURCE_DIR "/cases/measured/nasa/nasa-mgru3-2021-grc1-slip-slope.csv");
   std::string line;
   std::getline(in, line);
-  std::vector<Point> points;
-  Point p;
+  std::vector<ClimbedPoint> points;
+  ClimbedPoint p;
   char comma = 0;
-  while (in >> p.slip >> comma >> p.slope) points.push_back({p.slip / 100, p.slope * deg});
+  while (in >> p.slip >> comma >> p.slope) points.push_back({p.slip / 100, p.slope * degree});
   return points;
 }
 
@@ -45,16 +45,16 @@ Estimate climbed(double slip) {
     at.longitudinal_incline = slope;
     return fast.evaluate(s, at).drawbar_pull.value;
   };
-  const double slope = gsl::bracketed_root(pull, -40 * deg, 60 * deg, 1e-9, 1e-9, "the slope");
+  const double slope = gsl::bracketed_root(pull, -40 * degree, 60 * degree, 1e-9, 1e-9, "the slope");
   at.longitudinal_incline = slope;
   return {slope, full.evaluate(s, at).drawbar_pull.std_error / load};
 }
 
 TEST(NasaSlopes, FromTenPercentOfSlipOnTheSlopeIsWithinTheSoilsDoubt) {
-  const std::vector<Point> points = nasa_points();
+  const std::vector<ClimbedPoint> points = nasa_points();
   ASSERT_EQ(points.size(), 6U);
   double squares = 0.0;
-  for (const Point& p : points) {
+  for (const ClimbedPoint& p : points) {
     const Estimate model = climbed(p.slip);
     squares += std::pow(model.value - p.slope, 2);
     if (p.slip > 0.1)
@@ -62,7 +62,8 @@ TEST(NasaSlopes, FromTenPercentOfSlipOnTheSlopeIsWithinTheSoilsDoubt) {
     else  // a smooth wheel pulls too little at small slip: NASA's has grousers
       EXPECT_LT(model.value, p.slope) << 100 * p.slip << " %";
   }
-  EXPECT_LT(std::sqrt(squares / 6), 4.5 * deg);  // 3.8 deg; repeated points of the single wheel on GRC-3 differ by 2.2
+  EXPECT_LT(std::sqrt(squares / 6),
+            4.5 * degree);  // 3.8 deg; repeated points of the single wheel on GRC-3 differ by 2.2
 }
 
 }  // namespace

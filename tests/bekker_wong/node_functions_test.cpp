@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "scenario/estimate.hpp"
+
 namespace soilbin::bekker_wong {
 namespace {
 
@@ -43,8 +45,8 @@ TEST(NodeFunctions, ScaledPower) {
 }
 
 TEST(NodeFunctions, ScaledPowerAtItsEdges) {
-  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-  const std::vector<double> base = {0.0, -1.0, nan, infinity, 1.0};
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::vector<double> base = {0.0, -1.0, not_a_number, infinity, 1.0};
   std::vector<double> out(base.size());
   scaled_power(base, 0.7, 2.0, out);
   EXPECT_EQ(out[0], 0.0);
@@ -63,8 +65,7 @@ TEST(NodeFunctions, MobilisedShare) {
 }
 
 TEST(NodeFunctions, MobilisedShareAtItsEdges) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<double> j = {0.0, 1.0, nan}, modulus = {1.0, 1e-300, 1.0};
+  const std::vector<double> j = {0.0, 1.0, not_a_number}, modulus = {1.0, 1e-300, 1.0};
   std::vector<double> out(j.size());
   mobilised_share(j, modulus, out);
   EXPECT_EQ(out[0], 0.0);

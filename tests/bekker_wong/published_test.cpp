@@ -2,34 +2,22 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "bekker_wong/bed_fixture.hpp"
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/effect.hpp"
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/reference_wheel.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "scenario/case.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180;
-
-Tire wheel(double radius, double width) {
-  Tire tire;
-  tire.radius = radius;
-  tire.width = width;
-  return tire;
-}
-
-OperatingCondition driven(double load, double slip) {
-  OperatingCondition at;
-  at.load = load;
-  at.slip = slip;
-  return at;
-}
+using bed::driven;
+using bed::smooth_tire;
 
 // Two independent public codes agree on this point to all digits given.
 TEST(Published, LightWheelAtSixtyPercentSlip) {
@@ -37,11 +25,11 @@ TEST(Published, LightWheelAtSixtyPercentSlip) {
                         .k_c = 1.4e3,
                         .k_phi = 8.2e5,
                         .cohesion = 170,
-                        .friction_angle = 46 * deg,
+                        .friction_angle = 46 * degree,
                         .shear_modulus = 0.018,
                         .c1 = 0.4,
                         .c2 = 0.2};
-  const RolledWheel w = RollingWheel(wheel(0.1, 0.1), soil).roll(driven(40, 0.6));
+  const RolledWheel w = RollingWheel(smooth_tire(0.1, 0.1), soil).roll(driven(40, 0.6));
   EXPECT_NEAR(w.reading.sinkage, 17.789e-3, 0.5e-6);
   EXPECT_NEAR(w.reading.drawbar_pull, 11.7861, 5e-5);
   EXPECT_NEAR(w.reading.torque, 2.3489, 5e-5);
@@ -52,11 +40,11 @@ TEST(Published, Ishigami2007WithAndWithoutRebound) {
                         .k_c = 1370,
                         .k_phi = 8.14e5,
                         .cohesion = 800,
-                        .friction_angle = 37.2 * deg,
+                        .friction_angle = 37.2 * degree,
                         .shear_modulus = 0.036,
                         .c1 = 0.4,
                         .c2 = 0.15};
-  const Tire tire = wheel(0.09, 0.11);
+  const Tire tire = smooth_tire(0.09, 0.11);
   const RolledWheel flat = RollingWheel(tire, soil).roll(driven(64.68, 0.2));
   EXPECT_NEAR(flat.reading.sinkage, 23.7341e-3, 5e-8);
   EXPECT_NEAR(flat.reading.drawbar_pull, -9.11318, 5e-6);
@@ -73,11 +61,11 @@ TEST(Published, Azimi2013) {
                         .k_c = 0,
                         .k_phi = 4.1e5,
                         .cohesion = 234,
-                        .friction_angle = 30 * deg,
+                        .friction_angle = 30 * degree,
                         .shear_modulus = 0.013,
                         .c1 = 0.18,
                         .c2 = 0.32};
-  const RolledWheel w = RollingWheel(wheel(0.15, 0.1), soil).roll(driven(165, 0.2));
+  const RolledWheel w = RollingWheel(smooth_tire(0.15, 0.1), soil).roll(driven(165, 0.2));
   EXPECT_NEAR(w.reading.sinkage, 31.7033e-3, 5e-8);
   EXPECT_NEAR(w.reading.drawbar_pull, 15.6228, 5e-5);
   EXPECT_NEAR(w.reading.torque, 9.42284, 5e-6);
@@ -91,11 +79,11 @@ TEST(Published, WongReece1967CompactSand) {
                         .k_c = 0,
                         .k_phi = (20 * psi + 2.5 * psi / inch * b) / std::pow(b, n),
                         .cohesion = 0.1 * psi,
-                        .friction_angle = 33.3 * deg,
+                        .friction_angle = 33.3 * degree,
                         .shear_modulus = 1.5 * inch,
                         .c1 = 0.43,
                         .c2 = 0.32};
-  const RolledWheel w = RollingWheel(wheel(24.7 * inch, b), soil).roll(driven(2006 * pound, 0.221));
+  const RolledWheel w = RollingWheel(smooth_tire(24.7 * inch, b), soil).roll(driven(2006 * pound, 0.221));
   EXPECT_NEAR(w.reading.sinkage, 123.318e-3, 5e-7);
   EXPECT_NEAR(w.reading.drawbar_pull, 1292.51, 5e-3);
   EXPECT_NEAR(w.reading.torque, 2553.46, 5e-3);
@@ -122,7 +110,7 @@ TEST(Published, WongsSoilsAreTheCases) {
     EXPECT_DOUBLE_EQ(values.k_c, row.k_c * 1e3);
     EXPECT_DOUBLE_EQ(values.k_phi, row.k_phi * 1e3);
     EXPECT_DOUBLE_EQ(values.cohesion, row.c * 1e3);
-    EXPECT_DOUBLE_EQ(values.friction_angle, row.phi * deg);
+    EXPECT_DOUBLE_EQ(values.friction_angle, row.phi * degree);
   }
 }
 
@@ -134,12 +122,12 @@ TEST(Published, WongsSoilsAgreeWithTheReferenceWheel) {
                           .k_c = row.k_c * 1e3,
                           .k_phi = row.k_phi * 1e3,
                           .cohesion = row.c * 1e3,
-                          .friction_angle = row.phi * deg,
+                          .friction_angle = row.phi * degree,
                           .shear_modulus = 0.02,
                           .c1 = 0.18,
                           .c2 = 0.32};
-    const Reading found = RollingWheel(wheel(0.25, 0.1), soil).roll(driven(200, 0.2)).reading;
-    const reference::Answer expected = reference::Wheel(wheel(0.25, 0.1), soil, driven(200, 0.2)).roll();
+    const Reading found = RollingWheel(smooth_tire(0.25, 0.1), soil).roll(driven(200, 0.2)).reading;
+    const reference::Answer expected = reference::Wheel(smooth_tire(0.25, 0.1), soil, driven(200, 0.2)).roll();
     EXPECT_NEAR(found.sinkage, static_cast<double>(expected.sinkage), 1e-8 * found.sinkage);
     EXPECT_NEAR(found.drawbar_pull, static_cast<double>(expected.drawbar_pull), 1e-8 * 200);
     EXPECT_NEAR(found.torque, static_cast<double>(expected.torque), 1e-8 * found.torque);

@@ -14,11 +14,11 @@
 
 #include "bekker_wong/reference_wheel.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180;
 constexpr double tolerance = 1e-8;
 
 struct Point {
@@ -31,8 +31,8 @@ struct Point {
 std::ostream& operator<<(std::ostream& out, const Point& p) {
   const double k = p.soil.pressure_modulus(p.tire.width);
   return out << "r " << p.tire.radius << " b " << p.tire.width << " n " << p.soil.exponent << " k " << k << " c "
-             << p.soil.cohesion << " phi " << p.soil.friction_angle / deg << " K " << p.soil.shear_modulus << " c1 "
-             << p.soil.c1 << " c2 " << p.soil.c2 << " s " << p.at.slip << " yaw " << p.at.yaw / deg << " theta_1 "
+             << p.soil.cohesion << " phi " << p.soil.friction_angle / degree << " K " << p.soil.shear_modulus << " c1 "
+             << p.soil.c1 << " c2 " << p.soil.c2 << " s " << p.at.slip << " yaw " << p.at.yaw / degree << " theta_1 "
              << p.entry_angle;
 }
 
@@ -69,7 +69,7 @@ void draw_wheel_and_soil(Draw& draw, Point& p) {
   p.soil.k_c = cohesive_share * k * p.tire.width;
   p.soil.k_phi = (1 - cohesive_share) * k;
   p.soil.cohesion = draw.with_chance(0.2) ? 0.0 : draw.logarithmic(1.0, 5e4);
-  p.soil.friction_angle = draw.linear(0.0, 45.0) * deg;
+  p.soil.friction_angle = draw.linear(0.0, 45.0) * degree;
   p.soil.shear_modulus = draw.logarithmic(0.5e-3, 0.2);
   p.soil.c1 = draw.linear(0.0, 0.7);
   p.soil.c2 = draw.linear(0.0, 0.5);
@@ -87,14 +87,14 @@ void draw_condition(Draw& draw, Point& p) {
   const double direction = draw.share();
   if (direction >= 0.9) {
     p.at.slip_by = SlipBy::travel_speed;
-    p.at.yaw = draw.with_chance(0.5) ? draw.linear(-90, 90) * deg : 90 * deg;
+    p.at.yaw = draw.with_chance(0.5) ? draw.linear(-90, 90) * degree : 90 * degree;
   } else if (direction >= 0.8) {
-    p.at.yaw = (draw.with_chance(0.5) ? 1 : -1) * draw.tiny() * deg;
+    p.at.yaw = (draw.with_chance(0.5) ? 1 : -1) * draw.tiny() * degree;
   } else if (direction >= 0.4) {
-    p.at.yaw = draw.linear(-89, 89) * deg;
+    p.at.yaw = draw.linear(-89, 89) * degree;
   }
-  if (draw.with_chance(0.3)) p.at.longitudinal_incline = draw.linear(-30, 30) * deg;
-  if (draw.with_chance(0.3)) p.at.transverse_incline = draw.linear(-30, 30) * deg;
+  if (draw.with_chance(0.3)) p.at.longitudinal_incline = draw.linear(-30, 30) * degree;
+  if (draw.with_chance(0.3)) p.at.transverse_incline = draw.linear(-30, 30) * degree;
   p.entry_angle = std::acos(1 - draw.logarithmic(1e-3, 0.89));
 }
 
@@ -163,8 +163,8 @@ TEST(Reference, AgreesWhereTheShearCurveRisesBehindTheCrest) {
   Point p;
   p.tire.radius = 0.05, p.tire.width = 0.0172;
   p.soil = {
-      .exponent = 0.1, .k_phi = 4270, .friction_angle = 40.3 * deg, .shear_modulus = 0.5e-3, .c1 = 0.7, .c2 = 0.5};
-  p.at.slip = 1.0, p.at.yaw = -32 * deg;
+      .exponent = 0.1, .k_phi = 4270, .friction_angle = 40.3 * degree, .shear_modulus = 0.5e-3, .c1 = 0.7, .c2 = 0.5};
+  p.at.slip = 1.0, p.at.yaw = -32 * degree;
   p.entry_angle = 1.46;
   ASSERT_TRUE(give_load(p));
   expect_agreement(p);
@@ -173,8 +173,8 @@ TEST(Reference, AgreesWhereTheShearCurveRisesBehindTheCrest) {
 TEST(Reference, AgreesWhereShearNearlyTurnsBackUnderTheAxle) {
   Point p;
   p.tire.radius = 1.58, p.tire.width = 1.0;
-  p.soil = {.exponent = 0.1, .k_phi = 1.2e6, .cohesion = 770, .friction_angle = 20 * deg, .shear_modulus = 0.5e-3};
-  p.at.slip = -0.318, p.at.yaw = 0.00492 * deg;
+  p.soil = {.exponent = 0.1, .k_phi = 1.2e6, .cohesion = 770, .friction_angle = 20 * degree, .shear_modulus = 0.5e-3};
+  p.at.slip = -0.318, p.at.yaw = 0.00492 * degree;
   p.entry_angle = 1.46;
   ASSERT_TRUE(give_load(p));
   expect_agreement(p);

@@ -5,6 +5,7 @@
 #include "bekker_wong/drive_fixture.hpp"
 #include "bekker_wong/limits.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
@@ -18,8 +19,8 @@ TEST_P(SlowTransientEffects, EndInTheirStaticWheelOrAreRefused) {
   SCOPED_TRACE(form.id + " " + form.form);
   Scenario s = scenario();
   s.bin = Bin{.depth = 0.3, .width = 1.0};
-  Drive d = drive(-9 * deg, 0.0, 20.0);  // downhill, so that forms that cost much pull still get along
-  d.profile[0].yaw = 3 * deg;
+  Drive d = drive(-9 * degree, 0.0, 20.0);  // downhill, so that forms that cost much pull still get along
+  d.profile[0].yaw = 3 * degree;
   d.pass = 2;
   d.effects = {{form.id, form.form, {}}};
   if (!form.steady_only.empty()) {
@@ -30,7 +31,7 @@ TEST_P(SlowTransientEffects, EndInTheirStaticWheelOrAreRefused) {
   if (record.end == DriveEnd::stuck) {  // a form that resists so much that the static wheel gets along at no slip
     const RollingWheel wheel(s.tire, values_of(*s.soil.semi_empirical), make_effects(d.effects), s.bin);
     OperatingCondition at;
-    at.load = load, at.longitudinal_incline = -9 * deg, at.yaw = 3 * deg, at.pass = 2;
+    at.load = load, at.longitudinal_incline = -9 * degree, at.yaw = 3 * degree, at.pass = 2;
     EXPECT_LT(largest_pull(wheel, at).drawbar_pull, 0.0);
     return;
   }

@@ -9,6 +9,7 @@
 #include "bekker_wong/limits.hpp"
 #include "bekker_wong/transient/sensitivity.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
@@ -23,8 +24,8 @@ double steady_error(const Drive& d, int nodes) {
 }
 
 TEST(SlowTransient, SteadyStateIsTheStaticWheelUphillAndPulling) {
-  for (const Drive& d : {drive(), drive(3 * deg), drive(-6 * deg), drive(0.0, 3.0)}) {
-    SCOPED_TRACE(testing::Message() << d.profile[0].longitudinal_incline / deg << " deg, " << d.profile[0].drawbar
+  for (const Drive& d : {drive(), drive(3 * degree), drive(-6 * degree), drive(0.0, 3.0)}) {
+    SCOPED_TRACE(testing::Message() << d.profile[0].longitudinal_incline / degree << " deg, " << d.profile[0].drawbar
                                     << " N");
     const DriveRecord record = drive_wheel(scenario(), d, 20, fine);
     ASSERT_EQ(record.end, DriveEnd::time_is_up);
@@ -49,7 +50,7 @@ TEST(SlowTransient, SteadyErrorFallsWithTheCubeOfTheNodes) {
 TEST(Transient, EnergyAddsUpAtEveryTime) {
   Drive d = drive(0.0, 2.0, 6.0);
   Waypoint up;
-  up.at = 0.1, up.longitudinal_incline = 4 * deg, up.drawbar = 1.0;
+  up.at = 0.1, up.longitudinal_incline = 4 * degree, up.drawbar = 1.0;
   d.profile.push_back(up);
   for (const double tolerance : {1e-6, 1e-8}) {
     const DriveRecord record = drive_wheel(scenario(), d, 30, {.nodes = 32, .relative_tolerance = tolerance});
@@ -90,12 +91,12 @@ TEST(Transient, StartsFromRestWithoutAJump) {
 }
 
 TEST(Transient, HeldOnASlopeAWheelStaysUntilItIsDriven) {
-  Drive d = drive(8 * deg, 0.0, 3.0);
+  Drive d = drive(8 * degree, 0.0, 3.0);
   d.controller.ramp = 1e6;  // the setpoint never comes
   const DriveRecord record = drive_wheel(scenario(), d, 30);
   for (const DriveSample& s : record.samples) {
     EXPECT_NEAR(s.travelled, 0.0, 1e-6);
-    EXPECT_NEAR(s.forward, load * std::sin(8 * deg), 1e-4 * load);
+    EXPECT_NEAR(s.forward, load * std::sin(8 * degree), 1e-4 * load);
   }
 }
 
@@ -105,8 +106,8 @@ TEST(SlowTransient, ClimbsBelowTheSteepestSlopeAtTheStaticSlipAndSticksAbove) {
   OperatingCondition at;
   at.load = load;
   const double steepest = steepest_slope(wheel, at).value();
-  at.longitudinal_incline = steepest - 2 * deg;
-  const Drive below = drive(steepest - 2 * deg, 0.0, 25.0), above = drive(steepest + 0.5 * deg, 0.0, 60.0);
+  at.longitudinal_incline = steepest - 2 * degree;
+  const Drive below = drive(steepest - 2 * degree, 0.0, 25.0), above = drive(steepest + 0.5 * degree, 0.0, 60.0);
   const DriveRecord climbs = drive_wheel(s, below, 20);
   EXPECT_EQ(climbs.end, DriveEnd::time_is_up);
   EXPECT_NEAR(climbs.samples.back().slip.value(), slip_for_pull(wheel, at).value(), 2e-3);
@@ -116,7 +117,7 @@ TEST(SlowTransient, ClimbsBelowTheSteepestSlopeAtTheStaticSlipAndSticksAbove) {
 // The mean speed obeys its own little equation, dm/dt = (v - m)/(1 s) from the ramp's end on, and starts at 20 times
 // the speed that counts as stuck. Followed by hand through the recorded speeds it crosses where the root was found.
 TEST(Transient, StuckIsFoundWhereTheMeanSpeedSaysSo) {
-  const Drive d = drive(10 * deg, 0.0, 12.0);
+  const Drive d = drive(10 * degree, 0.0, 12.0);
   const DriveRecord record = drive_wheel(scenario(), d, 12000);
   ASSERT_EQ(record.end, DriveEnd::stuck);
   double mean = 20 * d.stuck_speed, crossed = 0.0;
@@ -175,7 +176,7 @@ TEST(Transient, OverASharpCrestAFastWheelLifts) {
     d.controller = {.rim_speed = rim, .ramp = 1.0};
     d.distance = 9.0;
     Waypoint crest, beyond;
-    crest.at = 8.0, beyond.at = 8.2, beyond.longitudinal_incline = -30 * deg;
+    crest.at = 8.0, beyond.at = 8.2, beyond.longitudinal_incline = -30 * degree;
     d.profile = {Waypoint{}, crest, beyond};
     const DriveRecord record = drive_wheel(scenario(), d, 1000);
     const auto happened = [&](DriveEvent what) {
@@ -185,7 +186,7 @@ TEST(Transient, OverASharpCrestAFastWheelLifts) {
     const auto at_crest = std::find_if(record.samples.begin(), record.samples.end(),
                                        [](const DriveSample& s) { return s.travelled >= 8.0; });
     ASSERT_NE(at_crest, record.samples.end());
-    const double pull_away = at_crest->speed * at_crest->speed * 30 * deg / 0.2;
+    const double pull_away = at_crest->speed * at_crest->speed * 30 * degree / 0.2;
     SCOPED_TRACE(testing::Message() << at_crest->speed << " m/s at the crest");
     EXPECT_EQ(pull_away > 1.5 * 9.81, rim > 2.0);
     EXPECT_EQ(happened(DriveEvent::lifts), pull_away > 9.81);
@@ -195,7 +196,7 @@ TEST(Transient, OverASharpCrestAFastWheelLifts) {
 
 TEST(Transient, YawAndCrossSlopeEndInTheStaticWheelToo) {
   Drive d = drive(0.0, 0.0, 12.0);
-  d.profile[0].yaw = 10 * deg, d.profile[0].transverse_incline = 5 * deg;
+  d.profile[0].yaw = 10 * degree, d.profile[0].transverse_incline = 5 * degree;
   const DriveRecord record = drive_wheel(scenario(), d, 20, {.nodes = 48, .relative_tolerance = 1e-8});
   const DriveSample& end = record.samples.back();
   const RolledWheel wheel = steady(scenario(), d, end);
@@ -207,7 +208,7 @@ TEST(Transient, YawAndCrossSlopeEndInTheStaticWheelToo) {
 TEST(Transient, ANewSoilUnderTheWheelIsTheStaticWheelThere) {
   Drive d = drive(0.0, 0.0, 15.0);
   Soil firm = dry_sand();
-  firm.semi_empirical->k_phi.value *= 3, firm.semi_empirical->friction_angle.value = 35 * deg;
+  firm.semi_empirical->k_phi.value *= 3, firm.semi_empirical->friction_angle.value = 35 * degree;
   Waypoint there;
   there.at = 0.15, there.soil = firm;
   d.profile.push_back(there);
@@ -222,7 +223,7 @@ TEST(Transient, ANewSoilUnderTheWheelIsTheStaticWheelThere) {
 
 // CVODES' forward sensitivities against whole drives with a soil value changed by 1 in 1000 up and down.
 TEST(SlowTransient, SensitivitiesOfTheWayAreThoseOfDifferences) {
-  const Drive d = drive(2 * deg, 0.0, 6.0);
+  const Drive d = drive(2 * degree, 0.0, 6.0);
   const DriveNumerics numerics{.nodes = 24, .relative_tolerance = 1e-8};
   const TravelSensitivity forward = travel_sensitivity(scenario(), d, numerics);
   const TravelSensitivity by_hand = travel_differences(scenario(), d, 1e-3, numerics);
@@ -235,11 +236,11 @@ TEST(SlowTransient, SensitivitiesOfTheWayAreThoseOfDifferences) {
 // adds to the static wheel's slip.
 TEST(SlowTransient, SensitivitiesGrowAsTheStaticWheelsSlipHasThem) {
   const DriveNumerics numerics{.nodes = 64, .relative_tolerance = 1e-8};
-  const Drive early = drive(2 * deg, 0.0, 10.0), late = drive(2 * deg, 0.0, 16.0);
+  const Drive early = drive(2 * degree, 0.0, 10.0), late = drive(2 * degree, 0.0, 16.0);
   const TravelSensitivity begin = travel_sensitivity(scenario(), early, numerics);
   const TravelSensitivity end = travel_sensitivity(scenario(), late, numerics);
   OperatingCondition at;
-  at.load = load, at.longitudinal_incline = 2 * deg, at.speed = 0.05;
+  at.load = load, at.longitudinal_incline = 2 * degree, at.speed = 0.05;
   const auto slip_with = [&](const SoilParameter& parameter, double factor) {
     Scenario s = scenario();
     ((*s.soil.semi_empirical).*parameter.value).value *= factor;
@@ -265,7 +266,7 @@ TEST(Transient, RefusesWhatItCannotAnswer) {
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), testing::HasSubstr("slip_sinkage (lyasko): it moves the wheel after the balance"));
   }
-  EXPECT_THROW(drive_wheel(scenario(), drive(40 * deg)), NoSolution) << "it slides down before it is driven";
+  EXPECT_THROW(drive_wheel(scenario(), drive(40 * degree)), NoSolution) << "it slides down before it is driven";
   Scenario bare = scenario();
   bare.soil.semi_empirical.reset();
   EXPECT_THROW(drive_wheel(bare, drive()), InputError);

@@ -36,6 +36,32 @@ TEST(SlowFailureMapCommand, LearnsFromTheStoredRuns) {
   EXPECT_THAT(text_of(page), HasSubstr("Cross-validated error of the map"));
 }
 
+// docs/failure-map.md on the paper's tire: by load and slip, hardly by slope; and five runs that the map had not seen.
+TEST(SlowFailureMapCommand, TellsWhereThePapersTireParts) {
+  const Outcome r = soilbin(
+      "failure-map paper-longitudinal --soil paper-sand-virtual --incline longitudinal --load 2kN..8kN --lug-height "
+      "0mm..30mm --angle 0deg..15deg --slip 5%..50% --boundary 20 --rounds 2 --check 5 --settling-friction 0 --json "
+      "--stored --store '" SOILBIN_SOURCE_DIR "/cases/failure_maps/paper-longitudinal.json'");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const nlohmann::json map = r.json();
+  EXPECT_LT(map["cross_validated_error"].get<double>(), 0.03);
+  const auto mean = [&](const std::string& name, double from, double to) {
+    double sum = 0.0, count = 0.0;
+    for (const auto& row : map["rows"])
+      if (const double at = row[name]; !row["difference"].is_null() && at >= from && at < to)
+        sum += row["difference"]["value"].get<double>(), count += 1;
+    return sum / count;
+  };
+  EXPECT_GT(mean("load", 6000, 8000) - mean("load", 2000, 4000), 0.08);
+  EXPECT_LT(mean("slip", 0.35, 0.5) - mean("slip", 0.05, 0.2), -0.02);
+  EXPECT_EQ(map["checks"].size(), 5U);
+  for (const auto& check : map["checks"]) {
+    const auto &predicted = check["predicted"], &found = check["found"];
+    EXPECT_LT(std::abs(predicted["value"].get<double>() - found["value"].get<double>()),
+              3 * std::hypot(predicted["std_error"].get<double>(), found["std_error"].get<double>()));
+  }
+}
+
 TEST(FailureMapCommand, NamesWhatIsWrong) {
   const auto error = [](const std::string& flags) {
     return soilbin("failure-map dem-lugs --lug-height 0mm..1mm --slip 0%..1% --stored " + flags).err;

@@ -4,16 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "scenario/case.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180;
-constexpr double n = 1.1, k_c = 990, k_phi = 1.53e6, c = 1040, phi = 28 * deg, K = 0.02;
+constexpr double n = 1.1, k_c = 990, k_phi = 1.53e6, c = 1040, phi = 28 * degree, K = 0.02;
 
 /// Plates of three radii on a soil whose modulus is `share` of the one above.
 PlateSet plates(double share = 1) {

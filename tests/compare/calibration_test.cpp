@@ -10,6 +10,7 @@
 #include <random>
 
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -17,8 +18,6 @@ namespace {
 using Eigen::VectorXd;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// A tilting board in one line: grains slide where friction gives way or roll where rolling friction does; restitution
 /// does nothing. Noise of 0.2 deg, told as such.

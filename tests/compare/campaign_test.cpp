@@ -5,10 +5,9 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include <numbers>
-
 #include "bekker_wong/effect_vocabulary.hpp"
 #include "scenario/library.hpp"
+#include "scenario/unit.hpp"
 #include "tests/scenario/fake_vocabulary.hpp"
 #include "tests/scenario/refusal.hpp"
 
@@ -20,8 +19,6 @@ using test::refusal;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-constexpr double deg = std::numbers::pi / 180;
 
 const std::string good_yaml = R"(format: soilbin-campaign/1
 name: c042
@@ -87,7 +84,7 @@ TEST(Campaign, IsReadInSi) {
   EXPECT_EQ(c.runs[0].at.load, 1000.0);
   EXPECT_EQ(c.runs[0].at.run, 1);
   EXPECT_EQ(c.runs[0].at.moisture, 0.0381);
-  EXPECT_DOUBLE_EQ(c.runs[0].at.yaw, 15 * deg);
+  EXPECT_DOUBLE_EQ(c.runs[0].at.yaw, 15 * degree);
   EXPECT_EQ(c.runs[0].at.force_frame, ForceFrame::wheel);
   EXPECT_EQ(c.runs[0].at.slip_by, SlipBy::travel_speed);
   EXPECT_EQ(c.runs[1].setpoint, "a");

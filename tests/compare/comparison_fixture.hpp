@@ -1,16 +1,14 @@
 // A comparison whose grains are made in the test: the base model's answers, moved by known amounts.
 #pragma once
 
-#include <numbers>
-
 #include "compare/discrepancy/comparison.hpp"
 #include "compare/sweep/answers.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 
 /// A 250 mm wheel on sand of known doubt, one load, these slips.
 inline Case sand_study(const std::vector<double>& slips) {
-  constexpr double degree = std::numbers::pi / 180;
   Case question;
   question.name = question.study.name = "made";
   question.scenario.tire.name = "wheel";

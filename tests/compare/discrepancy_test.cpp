@@ -15,13 +15,13 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-TEST(Finding, ADifferenceNeedsBothMoreThanTheScatterAndMoreThanTwoErrors) {
-  EXPECT_EQ(finding_of(10, 3, 5), Finding::difference);
-  EXPECT_EQ(finding_of(-10, 3, 5), Finding::difference);
-  EXPECT_EQ(finding_of(10, 3, 12), Finding::within_scatter);  // another run would move as much
-  EXPECT_EQ(finding_of(10, 6, 5), Finding::within_errors);
-  EXPECT_EQ(finding_of(0, 1, 0), Finding::within_scatter);
-  EXPECT_EQ(finding_of(10, 0, 0), Finding::not_judged);  // exact numbers: nothing to judge by
+TEST(DifferenceFinding, ADifferenceNeedsBothMoreThanTheScatterAndMoreThanTwoErrors) {
+  EXPECT_EQ(finding_of(10, 3, 5), DifferenceFinding::difference);
+  EXPECT_EQ(finding_of(-10, 3, 5), DifferenceFinding::difference);
+  EXPECT_EQ(finding_of(10, 3, 12), DifferenceFinding::within_scatter);  // another run would move as much
+  EXPECT_EQ(finding_of(10, 6, 5), DifferenceFinding::within_errors);
+  EXPECT_EQ(finding_of(0, 1, 0), DifferenceFinding::within_scatter);
+  EXPECT_EQ(finding_of(10, 0, 0), DifferenceFinding::not_judged);  // exact numbers: nothing to judge by
 }
 
 // Three runs of 90, 100 and 110 N: mean 100 N, spread 10 N, so the mean's error is 10/sqrt(3). Own errors of 1 N say
@@ -73,7 +73,7 @@ TEST_F(Pair, ErrorsOfBothSidesAddInSquares) {
   EXPECT_NEAR(d.std_error, std::hypot(soil, 40.0), 1e-9);
   EXPECT_NEAR(d.sigma, -300 / std::hypot(soil, 40.0), 1e-9);
   EXPECT_NEAR(d.share, -300 / 1000.0, 1e-12);
-  EXPECT_EQ(d.finding, Finding::difference);
+  EXPECT_EQ(d.finding, DifferenceFinding::difference);
 }
 
 TEST_F(Pair, LessThanTheScatterIsNoDifference) {
@@ -81,7 +81,7 @@ TEST_F(Pair, LessThanTheScatterIsNoDifference) {
   for (const Difference& d : comparison.differences)
     if (d.channel == 0) {
       EXPECT_NEAR(d.scatter, 100 / std::sqrt(2.0), 1e-9);
-      EXPECT_EQ(d.finding, Finding::within_scatter);
+      EXPECT_EQ(d.finding, DifferenceFinding::within_scatter);
     }
   EXPECT_EQ(comparison.tallies.front().differ, 0U);
 }
@@ -94,7 +94,7 @@ TEST_F(Pair, TwoAnalyticModelsShareTheSoilsDoubt) {
   const Comparison comparison = compare_sides(question, {base.choice, other.choice}, {side_of(base), side_of(other)});
   ASSERT_FALSE(comparison.differences.empty());
   for (const Difference& d : comparison.differences) {
-    EXPECT_EQ(d.finding, Finding::not_judged);
+    EXPECT_EQ(d.finding, DifferenceFinding::not_judged);
     EXPECT_EQ(d.std_error, 0.0);
     EXPECT_NEAR(d.difference, d.channel == 0 ? 50.0 : 0.0, 1e-9);
   }

@@ -4,18 +4,16 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "compare/design/space_filling.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
 
 using Eigen::VectorXd;
 using testing::HasSubstr;
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Difference = 0.02 + 0.10 (load/8 kN)^2 + 0.12 (angle/20 deg) + 0.10 lugs/20 mm, less 0.02 slip: 10 % is crossed,
 /// with no lugs, at (load/8 kN)^2 + 1.2 angle/20 deg = 0.8 (slip 0).

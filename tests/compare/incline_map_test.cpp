@@ -10,14 +10,13 @@
 #include "compare/comparison_fixture.hpp"
 #include "compare/failure_map/map_report.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
 
 using Eigen::VectorXd;
 using testing::HasSubstr;
-
-constexpr double degree = std::numbers::pi / 180;
 
 InclineMap slope_map() {
   InclineMap map;

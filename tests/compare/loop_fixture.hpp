@@ -13,12 +13,12 @@
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "compare/measured/campaign.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 
 /// A 250 mm wheel on dry sand, soil known to a few per cent, as in the contract's example.
 inline Campaign sand_campaign() {
-  constexpr double deg = 0.017453292519943295;
   Campaign c;
   c.name = "made";
   c.wheel.radius = 0.25;
@@ -27,7 +27,7 @@ inline Campaign sand_campaign() {
   c.soil.k_c = {990, 300};
   c.soil.k_phi = {1528e3, 150e3};
   c.soil.cohesion = {1040, 300};
-  c.soil.friction_angle = {28 * deg, 1.5 * deg};
+  c.soil.friction_angle = {28 * degree, 1.5 * degree};
   c.soil.shear_modulus = {0.020, 0.006};
   c.soil.stress_angle_c1 = {0.18, 0.08};
   c.soil.stress_angle_c2 = {0.32, 0.08};

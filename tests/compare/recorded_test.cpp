@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-OperatingCondition condition(double load, double slip) {
+OperatingCondition recorded_condition(double load, double slip) {
   OperatingCondition at;
   at.load = load, at.slip = slip, at.speed = 0.1, at.yaw = 0.1;
   return at;
@@ -24,7 +24,7 @@ OperatingCondition condition(double load, double slip) {
 /// A run with a different, awkward number in every member.
 RecordedRun made_run(double load, double slip, std::uint64_t packing, double pull = 1.0 / 3) {
   TractionResult r;
-  r.at = condition(load, slip);
+  r.at = recorded_condition(load, slip);
   r.drawbar_pull = {pull, 0.1}, r.torque = {2.0 / 7, 0.2}, r.sinkage = {1e-300, 1e-3}, r.lateral_force = {-0.7, 0.4};
   r.tractive_efficiency = std::nan(""), r.entry_angle = 0.61, r.max_stress_angle = 0.3, r.exit_angle = -0.11;
   r.budget = {{"shear_thrust", 0.9}, {"slope", -0.2}};
@@ -45,7 +45,7 @@ RecordedRun made_run(double load, double slip, std::uint64_t packing, double pul
 }
 
 RecordedRun failed_run(double load, std::uint64_t packing = 1) {
-  const OperatingCondition at = condition(load, 0.6);
+  const OperatingCondition at = recorded_condition(load, 0.6);
   return {.answer = {at, std::nullopt, "the wheel dug itself in"},
           .packing = packing,
           .source = "abc",
@@ -133,11 +133,11 @@ TEST(Record, RefusesOtherInputsAndNamesThem) {
 TEST(RecordedModel, AnswersWhatIsThereAndSaysWhatIsNot) {
   const RecordedModel model(made_record());
   EXPECT_EQ(model.name(), "dem");
-  const TractionResult mean = model.evaluate({}, condition(2000, 0.2));
+  const TractionResult mean = model.evaluate({}, recorded_condition(2000, 0.2));
   EXPECT_NEAR(mean.drawbar_pull.value, 2.0 / 3, 1e-15);
   EXPECT_EQ(mean.torque.value, 2.0 / 7);
-  EXPECT_EQ(ask(model, {}, condition(2000, 0.6)).error, "the wheel dug itself in");
-  EXPECT_THAT(ask(model, {}, condition(2000, 0.3)).error,
+  EXPECT_EQ(ask(model, {}, recorded_condition(2000, 0.6)).error, "the wheel dug itself in");
+  EXPECT_THAT(ask(model, {}, recorded_condition(2000, 0.3)).error,
               HasSubstr("not in the record: no run at load 2 kN, slip 30 %"));
 }
 
@@ -180,7 +180,8 @@ class SlowKeptRuns : public testing::Test {
 };
 
 TEST_F(SlowKeptRuns, ARerunSkipsWhatIsThere) {
-  const std::vector<OperatingCondition> conditions = {condition(1, 0.1), condition(1, 0.6), condition(2, 0.1)};
+  const std::vector<OperatingCondition> conditions = {recorded_condition(1, 0.1), recorded_condition(1, 0.6),
+                                                      recorded_condition(2, 0.1)};
   const auto study = [&](int packings) {
     std::vector<std::uint64_t> seeds;
     for (int k = 1; k <= packings; ++k) seeds.push_back(static_cast<std::uint64_t>(k));
@@ -205,7 +206,7 @@ TEST_F(SlowKeptRuns, WhatIsFinishedStaysWhereTheRestIsStopped) {
     return counted()(s, at, packing);
   };
   const RunOnPackings model("dem", {1}, kept_in(file(), empty_, stops));
-  EXPECT_THROW(sweep(model, {}, {condition(1, 0.1), condition(1, 0.2)}), Stop);
+  EXPECT_THROW(sweep(model, {}, {recorded_condition(1, 0.1), recorded_condition(1, 0.2)}), Stop);
   EXPECT_EQ(read_record(file()).runs.size(), 1U);
 }
 
@@ -220,8 +221,9 @@ TEST_F(SlowKeptRuns, AnotherQuestionIsRefusedBeforeItRuns) {
 
 TEST_F(SlowKeptRuns, TwoThatFillOneFileLoseNothing) {
   const RunOnce one = kept_in(file(), empty_, counted()), other = kept_in(file(), empty_, counted());
-  one({}, condition(1, 0.1), 1), other({}, condition(2, 0.1), 1), one({}, condition(1, 0.2), 1);
-  other({}, condition(1, 0.2), 1);
+  one({}, recorded_condition(1, 0.1), 1), other({}, recorded_condition(2, 0.1), 1),
+      one({}, recorded_condition(1, 0.2), 1);
+  other({}, recorded_condition(1, 0.2), 1);
   EXPECT_EQ(ran_, 3);
   EXPECT_EQ(read_record(file()).runs.size(), 3U);
 }

@@ -1,11 +1,10 @@
 #include <gmock/gmock.h>
 
-#include <limits>
-
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/plot.hpp"
 #include "compare/report/result_json.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -13,8 +12,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Series line(const std::string& label, std::vector<double> y) {
   Series series;
@@ -42,13 +39,14 @@ TEST(Numbers, ValueStopsAtTheErrorsPlace) {
   EXPECT_EQ(number({0.0123, 0.0004}, 1000), "12.30 ± 0.40");
   EXPECT_EQ(number({4.17863, 0.0}), "4.179");
   EXPECT_EQ(number(-0.0), "0");
-  EXPECT_EQ(number(nan), "-");
+  EXPECT_EQ(number(not_a_number), "-");
 }
 
 TEST(Svg, EscapesTextAndBreaksLinesAtGaps) {
-  const Sheet sheet{"a < b & c",
-                    {Plot{"pull [N]", {"slip [%]", {}, {}}, {}, {line("one & two", {1, 2, nan, 4, 5})}, false}},
-                    Palette::named};
+  const Sheet sheet{
+      "a < b & c",
+      {Plot{"pull [N]", {"slip [%]", {}, {}}, {}, {line("one & two", {1, 2, not_a_number, 4, 5})}, false}},
+      Palette::named};
   const std::string text = svg(sheet);
   EXPECT_THAT(text, HasSubstr("a &lt; b &amp; c"));
   EXPECT_THAT(text, HasSubstr("one &amp; two"));
@@ -61,7 +59,7 @@ TEST(Svg, EscapesTextAndBreaksLinesAtGaps) {
 TEST(Svg, SurvivesEmptyAndConstantSeries) {
   const Sheet sheet{"",
                     {Plot{}, Plot{"flat", {}, {}, {line("", {3, 3, 3})}, false},
-                     Plot{"nothing", {}, {}, {line("x", {nan, nan})}, true}},
+                     Plot{"nothing", {}, {}, {line("x", {not_a_number, not_a_number})}, true}},
                     Palette::ordered};
   EXPECT_THAT(svg(sheet), Not(HasSubstr("nan")));
   EXPECT_THAT(svg(sheet), Not(HasSubstr("inf")));
@@ -102,7 +100,7 @@ TEST(Page, EscapesAndClosesWhatItOpens) {
 
 TEST(ResultJson, NotANumberIsNullAndErrorsStand) {
   TractionResult result;
-  result.tractive_efficiency = nan;
+  result.tractive_efficiency = not_a_number;
   const auto solved = to_json(Answer{{}, result, ""});
   EXPECT_TRUE(solved["tractive_efficiency"].is_null());
   EXPECT_FALSE(solved.contains("error"));

@@ -138,28 +138,28 @@ std::vector<Answer> made_answers(const Truth& truth, double error, std::uint64_t
   return answers;
 }
 
-Verdict verdict(const std::string& id, const std::vector<Answer>& answers) {
+FindingVerdict verdict(const std::string& id, const std::vector<Answer>& answers) {
   const Findings all = findings();
   return test_finding(finding(all, id), answers, all.level, all.seed).verdict;
 }
 
 TEST(Findings, AreShownWhereTheyAreTrueAndKnownWell) {
   const auto line = made_answers([](double s) { return 100 + 50 * s; }, 0.2, 1);
-  EXPECT_EQ(verdict("rises", line), Verdict::shown);
-  EXPECT_EQ(verdict("linear", line), Verdict::shown);
-  EXPECT_EQ(verdict("alike", line), Verdict::shown);
-  EXPECT_EQ(verdict("small", line), Verdict::shown);
-  EXPECT_EQ(verdict("peaks", line), Verdict::contradicted);
+  EXPECT_EQ(verdict("rises", line), FindingVerdict::shown);
+  EXPECT_EQ(verdict("linear", line), FindingVerdict::shown);
+  EXPECT_EQ(verdict("alike", line), FindingVerdict::shown);
+  EXPECT_EQ(verdict("small", line), FindingVerdict::shown);
+  EXPECT_EQ(verdict("peaks", line), FindingVerdict::contradicted);
   const auto hill = made_answers([](double s) { return 100 - 500 * (s - 0.2) * (s - 0.2); }, 0.2, 1);
-  EXPECT_EQ(verdict("peaks", hill), Verdict::shown);
-  EXPECT_EQ(verdict("rises", hill), Verdict::contradicted);
-  EXPECT_EQ(verdict("linear", hill), Verdict::contradicted);
+  EXPECT_EQ(verdict("peaks", hill), FindingVerdict::shown);
+  EXPECT_EQ(verdict("rises", hill), FindingVerdict::contradicted);
+  EXPECT_EQ(verdict("linear", hill), FindingVerdict::contradicted);
 }
 
 TEST(Findings, AreNotShownWhereErrorsAreLarge) {
   const auto line = made_answers([](double s) { return 100 + 50 * s; }, 200, 5);
   for (const char* id : {"rises", "linear", "alike", "small", "peaks"})
-    EXPECT_EQ(verdict(id, line), Verdict::not_shown) << id;
+    EXPECT_EQ(verdict(id, line), FindingVerdict::not_shown) << id;
 }
 
 TEST(Findings, SayWhichConditionsAreMissing) {
@@ -168,13 +168,13 @@ TEST(Findings, SayWhichConditionsAreMissing) {
     if (answer.at.slip > 0.05) answer.result.reset();
   const Findings all = findings();
   const Evidence evidence = test_finding(finding(all, "rises"), answers, all.level, all.seed);
-  EXPECT_EQ(evidence.verdict, Verdict::no_data);
+  EXPECT_EQ(evidence.verdict, FindingVerdict::no_data);
   EXPECT_EQ(evidence.missing.size(), 12U);
   // One lost condition costs its slip, and no more.
   answers = made_answers([](double s) { return s; }, 0.001, 1);
   answers[3].result.reset();
   const Evidence nearly = test_finding(finding(all, "rises"), answers, all.level, all.seed);
-  EXPECT_EQ(nearly.verdict, Verdict::shown);
+  EXPECT_EQ(nearly.verdict, FindingVerdict::shown);
   ASSERT_EQ(nearly.missing.size(), 1U);
   EXPECT_EQ(nearly.missing[0].load, 1000);
 }
@@ -184,7 +184,7 @@ template <class Truth>
 double share_shown(const std::string& id, const Truth& truth, double error, int trials) {
   int shown = 0;
   for (int k = 0; k < trials; ++k)
-    shown += verdict(id, made_answers(truth, error, static_cast<std::uint64_t>(k) + 1)) == Verdict::shown;
+    shown += verdict(id, made_answers(truth, error, static_cast<std::uint64_t>(k) + 1)) == FindingVerdict::shown;
   return static_cast<double>(shown) / trials;
 }
 

@@ -10,13 +10,12 @@
 #include "compare/comparison_fixture.hpp"
 #include "compare/loop/loop.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr double degree = std::numbers::pi / 180;
 
 RecordedRun run_at(const OperatingCondition& at, double pull, std::uint64_t packing = 1) {
   RecordedRun run;
@@ -37,13 +36,13 @@ std::vector<RecordedRun> on_a_slope() {
   return {run_at(a, 10), run_at(b, 20), run_at(a, 12, 2)};
 }
 
-const Scenario& sand() {
+const Scenario& sand_scenario() {
   static const Scenario scenario = sand_study({}).scenario;
   return scenario;
 }
 
 TEST(ToldCampaign, HasARowForEachRunAndKnowsRerunsByTheirConditions) {
-  const ToldCampaign told = tell_campaign(sand(), on_a_slope(), {.name = "made"});
+  const ToldCampaign told = tell_campaign(sand_scenario(), on_a_slope(), {.name = "made"});
   ASSERT_EQ(told.campaign.runs.size(), 3U);
   ASSERT_EQ(told.runs.size(), 3U);
   std::multiset<double> pulls;
@@ -63,7 +62,7 @@ TEST(ToldCampaign, HasARowForEachRunAndKnowsRerunsByTheirConditions) {
 }
 
 TEST(ToldCampaign, LeavesOutWhatIsHidden) {
-  Scenario lugged = sand();
+  Scenario lugged = sand_scenario();
   lugged.tire.lugs = {.height = 0.01, .count = 12, .thickness = 0.005};
   lugged.bin = Bin{0.2, 0.5};
   const ToldCampaign told =
@@ -82,7 +81,7 @@ TEST(ToldCampaign, TheOrderIsDrawnFromTheSeed) {
     at.load = 1;
     for (int k = 0; k < 20; ++k) at.slip = 0.01 * k, runs.push_back(run_at(at, k));
     std::vector<double> pulls;
-    for (const auto& row : tell_campaign(sand(), runs, {.seed = seed}).campaign.runs)
+    for (const auto& row : tell_campaign(sand_scenario(), runs, {.seed = seed}).campaign.runs)
       pulls.push_back(*row.drawbar_pull);
     return pulls;
   };
@@ -94,15 +93,15 @@ TEST(ToldCampaign, TheOrderIsDrawnFromTheSeed) {
 TEST(ToldCampaign, TellsTheLateralForceWhereARunLeansOrIsYawed) {
   std::vector<RecordedRun> runs = on_a_slope();
   runs[1].answer.at.yaw = 0.1;
-  for (const auto& row : tell_campaign(sand(), runs, {}).campaign.runs)
+  for (const auto& row : tell_campaign(sand_scenario(), runs, {}).campaign.runs)
     EXPECT_EQ(row.lateral_force, -*row.drawbar_pull);
 }
 
 TEST(ToldCampaign, CountsWhatItLeavesOut) {
   std::vector<RecordedRun> runs = on_a_slope();
   runs[0].answer.result.reset(), runs[1].steady = false;
-  EXPECT_EQ(tell_campaign(sand(), runs, {}).without_result, 1U);
-  const ToldCampaign told = tell_campaign(sand(), runs, {.only_steady = true});
+  EXPECT_EQ(tell_campaign(sand_scenario(), runs, {}).without_result, 1U);
+  const ToldCampaign told = tell_campaign(sand_scenario(), runs, {.only_steady = true});
   EXPECT_EQ(told.not_steady, 1U);
   EXPECT_EQ(told.campaign.runs.size(), 1U);
 }
@@ -116,12 +115,12 @@ TEST(ToldCampaign, RefusesWhatItCannotTell) {
     }
     return "";
   };
-  EXPECT_THAT(refusal(sand(), {.hide = {"lug"}}), HasSubstr("did you mean 'lugs'?"));
-  EXPECT_THAT(refusal(sand(), {.hide = {"load"}}), HasSubstr("nothing to hide is called 'load'"));
-  Scenario grains = sand();
+  EXPECT_THAT(refusal(sand_scenario(), {.hide = {"lug"}}), HasSubstr("did you mean 'lugs'?"));
+  EXPECT_THAT(refusal(sand_scenario(), {.hide = {"load"}}), HasSubstr("nothing to hide is called 'load'"));
+  Scenario grains = sand_scenario();
   grains.soil.semi_empirical.reset();
   EXPECT_THAT(refusal(grains, {}), HasSubstr("soilbin bevameter"));
-  EXPECT_THROW(tell_campaign(sand(), {}, {}), InputError);
+  EXPECT_THROW(tell_campaign(sand_scenario(), {}, {}), InputError);
 }
 
 // A nature that is the base model on a bed that tilts by 4 deg, told as level: the loop names the tilt and its size.

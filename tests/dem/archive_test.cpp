@@ -14,6 +14,7 @@
 #include "dem/archive/restart.hpp"
 #include "dem/archive/sealed_file.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/estimate.hpp"
 #include "tests/dem/archive_scene.hpp"
 
 namespace soilbin::dem {
@@ -27,7 +28,7 @@ using test::write_bytes;
 using ::testing::HasSubstr;
 
 /// What a file is refused with; empty where it is taken.
-std::string refusal(const std::filesystem::path& path) {
+std::string file_refusal(const std::filesystem::path& path) {
   try {
     read_restart(path);
     return "";
@@ -153,8 +154,7 @@ TEST(Restart, KeepsNumbersThatAreNone) {
   Simulation simulation = scene(20);
   simulation.run(10);
   State state = simulation.state();
-  state.grains.motion[3].velocity = {std::numeric_limits<double>::quiet_NaN(), -0.0,
-                                     -std::numeric_limits<double>::infinity()};
+  state.grains.motion[3].velocity = {not_a_number, -0.0, -std::numeric_limits<double>::infinity()};
   state.grains.motion[4].position.x = 5e-324;
   const Folder folder;
   write_restart(folder / "run.h5", simulation.setup(), state);
@@ -262,23 +262,23 @@ TEST(Seal, FallsBackAndSaysSo) {
 TEST(Seal, RefusesWhatIsNone) {
   const Folder folder;
   const auto path = folder / "run.h5";
-  EXPECT_THAT(refusal(path), HasSubstr("No such file"));
-  EXPECT_THAT(refusal(folder.path()), HasSubstr("is a folder"));
+  EXPECT_THAT(file_refusal(path), HasSubstr("No such file"));
+  EXPECT_THAT(file_refusal(folder.path()), HasSubstr("is a folder"));
   write_bytes(path, "");
-  EXPECT_THAT(refusal(path), HasSubstr("is no soilbin restart"));
+  EXPECT_THAT(file_refusal(path), HasSubstr("is no soilbin restart"));
   write_bytes(path, "\x89HDF\r\n\x1a\n of another program");
-  EXPECT_THAT(refusal(path), HasSubstr("give a restart that soilbin wrote"));
+  EXPECT_THAT(file_refusal(path), HasSubstr("give a restart that soilbin wrote"));
   write_sealed(path, {"frame", 1}, "x", Keep::nothing);
-  EXPECT_THAT(refusal(path), HasSubstr("is a soilbin frame, not a restart"));
+  EXPECT_THAT(file_refusal(path), HasSubstr("is a soilbin frame, not a restart"));
   write_sealed(path, {"restart", 2}, "x", Keep::nothing);
-  EXPECT_THAT(refusal(path), HasSubstr("is of version 2, this soilbin reads version 1"));
+  EXPECT_THAT(file_refusal(path), HasSubstr("is of version 2, this soilbin reads version 1"));
   // A seal that fits, and no HDF5 under it; HDF5 of another program.
   write_sealed(path, {"restart", 1}, "no HDF5", Keep::nothing);
-  EXPECT_THAT(refusal(path), HasSubstr("run.h5: can't be read"));
+  EXPECT_THAT(file_refusal(path), HasSubstr("run.h5: can't be read"));
   hdf5::OutputFile other("other");
   other.root().create("particles");
   write_sealed(path, {"restart", 1}, other.finish(), Keep::nothing);
-  EXPECT_THAT(refusal(path), HasSubstr("/soilbin: can't be read"));
+  EXPECT_THAT(file_refusal(path), HasSubstr("/soilbin: can't be read"));
 }
 
 TEST(Seal, RefusesEveryTruncation) {
@@ -290,10 +290,10 @@ TEST(Seal, RefusesEveryTruncation) {
   std::mt19937 random(1);
   for (std::size_t length = 0; length < good.size(); length += 1 + random() % (length < 1000 ? 7 : 900)) {
     write_bytes(folder / "cut.h5", good.substr(0, length));
-    ASSERT_NE(refusal(folder / "cut.h5"), "") << length << " bytes of " << good.size();
+    ASSERT_NE(file_refusal(folder / "cut.h5"), "") << length << " bytes of " << good.size();
   }
   write_bytes(folder / "cut.h5", good + '\0');
-  EXPECT_NE(refusal(folder / "cut.h5"), "");
+  EXPECT_NE(file_refusal(folder / "cut.h5"), "");
 }
 
 TEST(Seal, RefusesEveryFlippedByte) {
@@ -302,7 +302,7 @@ TEST(Seal, RefusesEveryFlippedByte) {
   const Folder folder;
   write_restart(folder / "good.h5", simulation.setup(), simulation.state());
   const std::string good = read_bytes(folder / "good.h5");
-  ASSERT_EQ(refusal(folder / "good.h5"), "");
+  ASSERT_EQ(file_refusal(folder / "good.h5"), "");
   std::mt19937 random(2);
   const auto try_flips = [&](std::size_t at, std::size_t count) {
     std::string bad = good;
@@ -310,7 +310,7 @@ TEST(Seal, RefusesEveryFlippedByte) {
       bad[(at + k * random()) % bad.size()] ^= static_cast<char>(1 + random() % 255);
     if (bad == good) return;
     write_bytes(folder / "bad.h5", bad);
-    ASSERT_NE(refusal(folder / "bad.h5"), "") << count << " bytes from " << at;
+    ASSERT_NE(file_refusal(folder / "bad.h5"), "") << count << " bytes from " << at;
   };
   for (std::size_t at = 0; at < 512; at += at < 130 ? 1 : 5) try_flips(at, 1);  // the seal
   for (int k = 0; k < 400; ++k) try_flips(random() % good.size(), 1 + random() % 3);

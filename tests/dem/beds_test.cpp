@@ -5,14 +5,14 @@
 
 #include <cmath>
 
+#include "scenario/unit.hpp"
+
 namespace soilbin::dem {
 namespace {
 
-constexpr double deg = 3.14159265358979 / 180;
-
 /// Mean of three heaps: one differs from the next of its kind by 1.5 deg (sd of eight, with avalanches).
 double angle_of(const BedMaterial& sand) {
-  return (drained_angle(sand, 1) + drained_angle(sand, 2) + drained_angle(sand, 3)) / 3 / deg;
+  return (drained_angle(sand, 1) + drained_angle(sand, 2) + drained_angle(sand, 3)) / 3 / degree;
 }
 
 double angle_of(double sliding, double rolling, double young = 1e7) {
@@ -37,7 +37,7 @@ TEST(SlowCrater, IsAsDeepAsTheLawOfLooseSand) {
   // the tangent of the angle of repose, here the engine's own. Their grains were much smaller than the ball; ours are a
   // quarter of it across, so the prefactor is held to a fifth and the exponent to a tenth.
   BedMaterial sand;
-  const double mu = std::tan(angle_of(sand) * deg);
+  const double mu = std::tan(angle_of(sand) * degree);
   sand.radius = 0.006;
   const Craters out = craters(sand, mu, 0.05, 7800, {0.05, 0.1, 0.2, 0.4}, 1);
   for (const Drop& drop : out.drops) EXPECT_NEAR(drop.depth / drop.law, 1, 0.2) << drop.height;

@@ -13,7 +13,9 @@ using test::box_of_planes;
 using test::mesh_body;
 using test::soft_stone;
 
-constexpr double pi = std::numbers::pi, g = 9.81;
+using std::numbers::pi;
+
+constexpr double g = 9.81;
 
 Body cuboid(double mass, const Vec3& size) {
   Body body = mesh_body(box(size));

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "dem/rig/dem_model.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 #include "tests/dem/small_bed.hpp"
 
 namespace soilbin::dem {
@@ -16,8 +16,7 @@ namespace {
 
 using test::with_threads;
 
-constexpr double deg = std::numbers::pi / 180;
-constexpr double load = 20, mass = load / 9.80665;
+constexpr double load = 20, carried_mass = load / 9.80665;
 
 Tire small_wheel() {
   Tire tire;
@@ -80,7 +79,7 @@ TEST(SlowFreeDrive, OnCobblesTheTorqueMovesMassAndInertia) {
   for (const double share : {0.1, 1.0}) {
     Drive drive = even_drive(0, 0, t);
     drive.controller = {.torque = torque, .ramp = ramp};
-    drive.inertia = share * mass * r * r;
+    drive.inertia = share * carried_mass * r * r;
     Rig rig = small_rig();
     rig.meshing.edge = 0.003;
     const GrainDriveRecord record =
@@ -92,11 +91,11 @@ TEST(SlowFreeDrive, OnCobblesTheTorqueMovesMassAndInertia) {
     for (std::size_t k = 1; k < record.samples.size(); ++k)
       rolled += record.samples[k].rim_speed * (record.samples[k].time - record.samples[k - 1].time);
     const double impulse = torque / r * (t - ramp / 2);
-    EXPECT_NEAR(mass * (end.speed + share * end.rim_speed), impulse, 0.02 * impulse);
+    EXPECT_NEAR(carried_mass * (end.speed + share * end.rim_speed), impulse, 0.02 * impulse);
     const double creep = 1 - end.travelled / rolled;
     EXPECT_GT(creep, 0);
     EXPECT_LT(creep, 0.15) << "a tenth of the friction is asked for";
-    const double way = torque / r / (mass * (1 + share / (1 - creep))) *
+    const double way = torque / r / (carried_mass * (1 + share / (1 - creep))) *
                        ((t - ramp) * (t - ramp) / 2 + (t - ramp) * ramp / 2 + 0.15 * ramp * ramp);
     EXPECT_NEAR(end.travelled, way, 0.02 * way);
   }
@@ -116,7 +115,7 @@ class SlowFreeDriveOnGrains : public ::testing::Test {
 
 // Sums over samples of a millisecond, whose last one is the speed at the end to the change within a millisecond.
 TEST_F(SlowFreeDriveOnGrains, WhatPushesItBecomesMomentumAndHeight) {
-  const double slope = 4 * deg, drawbar = 1;
+  const double slope = 4 * degree, drawbar = 1;
   const GrainDriveRecord record = run(even_drive(slope, drawbar, 0.6), small_rig(), 600);
   const GrainDriveSample &first = record.samples.front(), &end = record.samples.back();
   double impulse = 0;
@@ -124,7 +123,7 @@ TEST_F(SlowFreeDriveOnGrains, WhatPushesItBecomesMomentumAndHeight) {
     impulse += (record.samples[k].forward - load * std::sin(slope) - drawbar) *
                (record.samples[k].time - record.samples[k - 1].time);
   EXPECT_GT(end.speed, 0.1);
-  EXPECT_NEAR(impulse, mass * (end.speed - first.speed), 0.01 * mass * end.speed);
+  EXPECT_NEAR(impulse, carried_mass * (end.speed - first.speed), 0.01 * carried_mass * end.speed);
   EXPECT_NEAR(end.energy.drawbar, drawbar * end.travelled, drawbar * end.speed * bed().setup.numerics.dt);
   const double lifted = end.travelled * std::sin(slope) - (end.sinkage - first.sinkage) * std::cos(slope);
   EXPECT_NEAR(end.energy.height, load * lifted, 0.01 * load * end.travelled * std::sin(slope));
@@ -134,7 +133,7 @@ TEST_F(SlowFreeDriveOnGrains, WhatPushesItBecomesMomentumAndHeight) {
 GrainDriveRecord told_drive(const SettledBed& bed, double duration, double dt) {
   Drive drive = even_drive(0, 1, duration);
   Waypoint up;
-  up.at = 0.25, up.longitudinal_incline = 8 * deg, up.drawbar = 1;
+  up.at = 0.25, up.longitudinal_incline = 8 * degree, up.drawbar = 1;
   drive.profile.push_back(up);
   Rig rig = small_rig();
   rig.ledger = true, rig.dt = dt;
@@ -178,7 +177,7 @@ TEST_F(SlowFreeDriveOnGrains, PullsWhatTheGuidedWheelPullsAtItsSlip) {
   OperatingCondition at;
   at.load = load, at.slip = free.slip.value, at.speed = free.speed.value;
   Rig rig = small_rig();
-  rig.mass = mass;
+  rig.mass = carried_mass;
   const WheelRun guided = run_wheel(bed(), small_wheel(), bed().recipe.soil.grain_tire, at, rig, with_threads(1));
   const Estimate& pull = guided.result.drawbar_pull;
   EXPECT_NEAR(pull.value, drawbar, 3 * std::hypot(pull.std_error, free.forward.std_error));
@@ -189,7 +188,7 @@ TEST_F(SlowFreeDriveOnGrains, PullsWhatTheGuidedWheelPullsAtItsSlip) {
 TEST_F(SlowFreeDriveOnGrains, IsStuckWhereTheSlopeIsTooSteep) {
   Drive drive = even_drive(0, 0, 30);
   Waypoint up;
-  up.at = 0.5, up.longitudinal_incline = 40 * deg;
+  up.at = 0.5, up.longitudinal_incline = 40 * degree;
   drive.profile.push_back(up);
   const GrainDriveRecord record = run(drive);
   EXPECT_TRUE(record.end == DriveEnd::stuck || record.end == DriveEnd::buried) << word_of(record.end);
@@ -197,14 +196,14 @@ TEST_F(SlowFreeDriveOnGrains, IsStuckWhereTheSlopeIsTooSteep) {
   EXPECT_EQ(end.time, record.end_time);
   EXPECT_GT(end.travelled, 0.05);
   EXPECT_LT(end.travelled, 0.5);
-  EXPECT_LT(end.longitudinal_incline, 40 * deg);
+  EXPECT_LT(end.longitudinal_incline, 40 * degree);
   EXPECT_GT(*end.slip, 0.9);
   EXPECT_FALSE(record.steady.has_value());
   EXPECT_THAT(record.not_steady, testing::HasSubstr(std::string(word_of(record.end))));
 }
 
 TEST_F(SlowFreeDriveOnGrains, ArrivesToTheStepAndHasTheSameBitsOnTwoThreads) {
-  Drive drive = even_drive(3 * deg, 0.5, 3);
+  Drive drive = even_drive(3 * degree, 0.5, 3);
   drive.distance = 0.03;
   const GrainDriveRecord one = run(drive), two = run(drive, small_rig(), 200, 2);
   ASSERT_EQ(one.end, DriveEnd::arrived);
@@ -238,8 +237,8 @@ TEST_F(SlowFreeDriveOnGrains, StopsWhenAskedAndSaysWhatItCannotHold) {
       Stopped);
   Rig patient = small_rig();
   patient.lowering = 0.5;
-  EXPECT_THROW(run(even_drive(50 * deg, 0, 1), patient), NoSolution) << "steeper than the grains' own slope";
-  Drive weak = even_drive(8 * deg, 0, 1);
+  EXPECT_THROW(run(even_drive(50 * degree, 0, 1), patient), NoSolution) << "steeper than the grains' own slope";
+  Drive weak = even_drive(8 * degree, 0, 1);
   weak.controller.highest_torque = 0.01;
   EXPECT_THROW(run(weak), NoSolution);
 }
@@ -251,10 +250,10 @@ TEST(FreeDrive, RefusesWhatTheBinCannotDo) {
   EXPECT_THROW(check_drive(drive), InputError);
   drive.pass = 1;
   Waypoint later;
-  later.at = 1, later.yaw = 5 * deg;
+  later.at = 1, later.yaw = 5 * degree;
   drive.profile.push_back(later);
   EXPECT_THROW(check_drive(drive), InputError);
-  drive.profile.front().yaw = 5 * deg;
+  drive.profile.front().yaw = 5 * degree;
   EXPECT_NO_THROW(check_drive(drive));
   drive.profile.back().soil = Soil{};
   EXPECT_THROW(check_drive(drive), InputError);

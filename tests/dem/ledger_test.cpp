@@ -16,8 +16,10 @@ namespace {
 
 using test::soft_stone;
 
-constexpr double pi = std::numbers::pi, r = 0.01, density = 2500;
-const double mass = density * 4 / 3 * pi * r * r * r;
+using std::numbers::pi;
+
+constexpr double r = 0.01, density = 2500;
+const double stone_mass = density * 4 / 3 * pi * r * r * r;
 
 Setup counted(const ContactLaws& laws, double dt, const Interaction& interaction = test::every_law()) {
   Setup setup = soft_stone(laws, interaction);
@@ -136,7 +138,7 @@ TEST(Ledger, TellsWhatAnAdhesiveContactKeepsWhenItBreaks) {
   const double expected = 7.09 * std::cbrt(std::pow(contact.cohesion, 5) * std::pow(radius, 4) / (young * young));
   const EnergyBalance now = simulation.energy();
   EXPECT_NEAR(now.ledger.adhesion, expected, 1e-3 * expected);
-  EXPECT_NEAR(now.kinetic, mass * 0.04 - expected, 1e-3 * mass * 0.04);
+  EXPECT_NEAR(now.kinetic, stone_mass * 0.04 - expected, 1e-3 * stone_mass * 0.04);
 }
 
 TEST(Ledger, TellsWhatAHeadOnImpactLoses) {
@@ -145,7 +147,7 @@ TEST(Ledger, TellsWhatAHeadOnImpactLoses) {
   simulation.add_grain({2 * r + 1e-4, 0, 0}, r, 0, {-1, 0, 0});
   simulation.run(3000);
   const EnergyBalance now = simulation.energy();
-  const double before = 2 * 0.5 * mass, e = 0.6;
+  const double before = 2 * 0.5 * stone_mass, e = 0.6;
   EXPECT_NEAR(now.kinetic, e * e * before, 2e-3 * before);
   EXPECT_NEAR(now.ledger.damping, (1 - e * e) * before, 2e-3 * before);
   EXPECT_NEAR(now.ledger.sliding, 0, 1e-30);
@@ -303,7 +305,7 @@ TEST(Ledger, CountsTheFallThroughAPeriodicBox) {
   simulation.set_gravity({0, 0, -9.81});
   simulation.add_grain({0.1, 0.1, 0.1}, r, 0);
   simulation.run(5000);
-  EXPECT_NEAR(simulation.energy().kinetic, 0.5 * mass * 4.905 * 4.905, 1e-9);
+  EXPECT_NEAR(simulation.energy().kinetic, 0.5 * stone_mass * 4.905 * 4.905, 1e-9);
   EXPECT_NEAR(simulation.energy().total(), 0, 1e-9);
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "dem/surface/touching_points.hpp"
 #include "dem/surface/triangle_mesh.hpp"
 
 namespace soilbin::dem::tests {
@@ -137,6 +138,13 @@ inline Soup cube() {
            {2, 7, 6},
            {3, 0, 4},
            {3, 4, 7}}};
+}
+
+/// Where a sphere touches the mesh.
+inline TouchingPoints touch(const TriangleMesh& mesh, const Vec3& c, double radius, double merge = 0.2) {
+  TouchingPoints out;
+  find_touching_points(mesh, all_triangles(mesh), c, radius, MergeAngle(merge), out);
+  return out;
 }
 
 }  // namespace soilbin::dem::tests

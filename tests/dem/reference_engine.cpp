@@ -8,7 +8,7 @@
 namespace soilbin::dem::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double damping_ratio(double restitution) {
   if (restitution <= 0) return 1;

@@ -7,6 +7,7 @@
 
 #include "dem/rig/dem_model.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 #include "tests/dem/small_bed.hpp"
 
 namespace soilbin::dem {
@@ -14,8 +15,6 @@ namespace {
 
 using std::numbers::pi;
 using test::with_threads;
-
-constexpr double deg = pi / 180;
 
 OperatingCondition condition(double load, double slip, double speed) {
   OperatingCondition at;
@@ -25,11 +24,11 @@ OperatingCondition condition(double load, double slip, double speed) {
 
 TEST(WheelMotion, InclinesTurnTheLoad) {
   OperatingCondition at = condition(100, 0, 1);
-  at.longitudinal_incline = 10 * deg, at.transverse_incline = 5 * deg;
+  at.longitudinal_incline = 10 * degree, at.transverse_incline = 5 * degree;
   const Vec3 load = wheel_motion(at, 0.5).load;
-  EXPECT_NEAR(load.x, -100 * std::sin(10 * deg), 1e-12);
-  EXPECT_NEAR(load.y, -100 * std::cos(10 * deg) * std::sin(5 * deg), 1e-12);
-  EXPECT_NEAR(load.z, -100 * std::cos(10 * deg) * std::cos(5 * deg), 1e-12);
+  EXPECT_NEAR(load.x, -100 * std::sin(10 * degree), 1e-12);
+  EXPECT_NEAR(load.y, -100 * std::cos(10 * degree) * std::sin(5 * degree), 1e-12);
+  EXPECT_NEAR(load.z, -100 * std::cos(10 * degree) * std::cos(5 * degree), 1e-12);
   EXPECT_NEAR(length(load), 100, 1e-12);
 }
 
@@ -43,11 +42,11 @@ TEST(WheelMotion, SlipGivesTheRotationAndBack) {
 
 TEST(WheelMotion, YawTurnsTheWheelToTheLeft) {
   OperatingCondition at = condition(1, 0.2, 1);
-  at.yaw = 15 * deg;
+  at.yaw = 15 * degree;
   const WheelMotion motion = wheel_motion(at, 0.5);
   EXPECT_GT(motion.heading.y, 0);
   EXPECT_NEAR(length(cross(motion.axle, motion.heading) - Vec3{0, 0, -1}), 0, 1e-15);
-  EXPECT_NEAR(motion.rotation, std::cos(15 * deg) / (0.5 * 0.8), 1e-12);
+  EXPECT_NEAR(motion.rotation, std::cos(15 * degree) / (0.5 * 0.8), 1e-12);
   at.slip_by = SlipBy::travel_speed;
   EXPECT_NEAR(wheel_motion(at, 0.5).rotation, 1 / (0.5 * 0.8), 1e-12);
   // The axes of the wheel and those of travel tell the same force.
@@ -153,9 +152,9 @@ TEST_F(SlowSmallWheel, RollsFreelyWithoutTorqueAtASmallNegativeSlip) {
 
 TEST_F(SlowSmallWheel, YawedToTheLeftIsPushedToTheLeft) {
   OperatingCondition at = condition(load, 0.2, 0.3);
-  at.yaw = 8 * deg;
+  at.yaw = 8 * degree;
   const double left = run(at, rough()).result.lateral_force.value;
-  at.yaw = -8 * deg;
+  at.yaw = -8 * degree;
   const double right = run(at, rough()).result.lateral_force.value;
   EXPECT_GT(left, 0.05 * load);
   EXPECT_LT(right, -0.05 * load);
@@ -163,10 +162,11 @@ TEST_F(SlowSmallWheel, YawedToTheLeftIsPushedToTheLeft) {
 
 TEST_F(SlowSmallWheel, UphillLosesTheLoadsShare) {
   OperatingCondition at = condition(load, 0.3, 0.3);
-  at.longitudinal_incline = 10 * deg;
+  at.longitudinal_incline = 10 * degree;
   const WheelRun up = run(at, rough());
-  EXPECT_NEAR(level().result.drawbar_pull.value - up.result.drawbar_pull.value, load * std::sin(10 * deg), 0.07 * load);
-  EXPECT_NEAR(up.power.climb, load * std::sin(10 * deg) * 0.3, 1e-9);
+  EXPECT_NEAR(level().result.drawbar_pull.value - up.result.drawbar_pull.value, load * std::sin(10 * degree),
+              0.07 * load);
+  EXPECT_NEAR(up.power.climb, load * std::sin(10 * degree) * 0.3, 1e-9);
 }
 
 TEST_F(SlowSmallWheel, GoesTheSecondTimeInItsOwnRut) {

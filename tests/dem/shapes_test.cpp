@@ -17,7 +17,7 @@
 namespace soilbin::dem {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Tire paper_tire(LugPattern pattern) {
   Tire tire;
@@ -39,7 +39,7 @@ double volume(const TriangleMesh& mesh) { return mass_properties(mesh).volume; }
 /// Half the strip of half-width s through a circle of radius r.
 double strip(double r, double s) { return s * std::sqrt(r * r - s * s) + r * r * std::asin(s / r); }
 
-std::string refusal(const std::function<void()>& make) {
+std::string shape_refusal(const std::function<void()>& make) {
   try {
     make();
   } catch (const InputError& error) {
@@ -219,21 +219,22 @@ TEST(Shapes, SmoothTiresAndOddOnes) {
 }
 
 TEST(Shapes, RefuseWhatCanNotBe) {
-  EXPECT_THAT(refusal([] { box({1, -1, 1}); }), testing::HasSubstr("box: its width is -1 m"));
-  EXPECT_THAT(refusal([] { box({1, 1, 1}, 1e-9); }), testing::HasSubstr("more than 100000 parts"));
-  EXPECT_THAT(refusal([] { box({1, 1, 1}, 0); }), testing::HasSubstr("target edge"));
-  EXPECT_THAT(refusal([] { plate(1, 1, 0, 3); }), testing::HasSubstr("0 x 3 cells"));
-  EXPECT_THAT(refusal([] { smooth_wheel(1, 1, 2); }), testing::HasSubstr("2 segments"));
-  EXPECT_THAT(refusal([] { smooth_wheel(std::nan(""), 1, 20); }), testing::HasSubstr("its radius is nan m"));
+  EXPECT_THAT(shape_refusal([] { box({1, -1, 1}); }), testing::HasSubstr("box: its width is -1 m"));
+  EXPECT_THAT(shape_refusal([] { box({1, 1, 1}, 1e-9); }), testing::HasSubstr("more than 100000 parts"));
+  EXPECT_THAT(shape_refusal([] { box({1, 1, 1}, 0); }), testing::HasSubstr("target edge"));
+  EXPECT_THAT(shape_refusal([] { plate(1, 1, 0, 3); }), testing::HasSubstr("0 x 3 cells"));
+  EXPECT_THAT(shape_refusal([] { smooth_wheel(1, 1, 2); }), testing::HasSubstr("2 segments"));
+  EXPECT_THAT(shape_refusal([] { smooth_wheel(std::nan(""), 1, 20); }), testing::HasSubstr("its radius is nan m"));
   Tire tire = paper_tire(LugPattern::straight);
   tire.lugs.count.reset();
-  EXPECT_THAT(refusal([&] { tire_surface(tire); }), testing::HasSubstr("paper: the number of lugs is not known"));
+  EXPECT_THAT(shape_refusal([&] { tire_surface(tire); }), testing::HasSubstr("paper: the number of lugs is not known"));
   tire = paper_tire(LugPattern::straight), tire.lugs.thickness.reset();
-  EXPECT_THAT(refusal([&] { tire_surface(tire); }), testing::HasSubstr("the thickness of the lugs is not known"));
+  EXPECT_THAT(shape_refusal([&] { tire_surface(tire); }), testing::HasSubstr("the thickness of the lugs is not known"));
   tire = paper_tire(LugPattern::straight), tire.lugs.thickness = 0.078;
-  EXPECT_THAT(refusal([&] { tire_surface(tire); }), testing::HasSubstr("leave no gap"));
+  EXPECT_THAT(shape_refusal([&] { tire_surface(tire); }), testing::HasSubstr("leave no gap"));
   tire = paper_tire(LugPattern::chevron);
-  EXPECT_THAT(refusal([&] { tire_surface(tire, {.chevron_angle = 1.5}); }), testing::HasSubstr("chevron angle of 1.5"));
+  EXPECT_THAT(shape_refusal([&] { tire_surface(tire, {.chevron_angle = 1.5}); }),
+              testing::HasSubstr("chevron angle of 1.5"));
 }
 
 }  // namespace

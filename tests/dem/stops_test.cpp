@@ -2,10 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "dem/engine/time_step.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/estimate.hpp"
 #include "tests/dem/worlds.hpp"
 
 namespace soilbin::dem {
@@ -15,7 +14,7 @@ using test::soft_stone;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr double r = 0.01, nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double ball_radius = 0.01;
 
 /// What an exception of this kind says.
 template <class Exception, class Act>
@@ -40,14 +39,14 @@ TEST(Stops, AtAnOverlapTooDeep) {
   auto setup = soft_stone();
   setup.numerics.deepest_overlap = 0.1;
   Simulation two(setup);
-  two.add_grain({0, 0, 0}, r, 0, {20, 0, 0});
-  two.add_grain({0.0205, 0, 0}, r, 0);
+  two.add_grain({0, 0, 0}, ball_radius, 0, {20, 0, 0});
+  two.add_grain({0.0205, 0, 0}, ball_radius, 0);
   EXPECT_THAT(message<RunStopped>([&] { two.run(1000); }),
               HasSubstr("grain 0 overlaps grain 1 by 0.128 of the smaller radius, more than 0.1, time 9e-05 s"));
   EXPECT_EQ(two.state().step, 9);
 
   Simulation floor = with_floor(setup);
-  floor.add_grain({0, 0, 0.0105}, r, 0, {0, 0, -20});
+  floor.add_grain({0, 0, 0.0105}, ball_radius, 0, {0, 0, -20});
   EXPECT_THAT(message<RunStopped>([&] { floor.run(1000); }), HasSubstr("grain 0 overlaps body 0"));
 }
 
@@ -55,36 +54,36 @@ TEST(Stops, WhereAGrainLeavesTheDomain) {
   auto setup = soft_stone();
   setup.domain = {{-1, -1, -1}, {1, 1, 1}};
   Simulation simulation(setup);
-  simulation.add_grain({0, 0, 0}, r, 0);
-  simulation.add_grain({0.9, 0, 0}, r, 0, {10, 0, 0});
+  simulation.add_grain({0, 0, 0}, ball_radius, 0);
+  simulation.add_grain({0.9, 0, 0}, ball_radius, 0, {10, 0, 0});
   EXPECT_THAT(message<RunStopped>([&] { simulation.run(2000); }),
               AllOf(HasSubstr("grain 1 left the domain at (1"), HasSubstr("time 0.01")));
 }
 
 TEST(Stops, AtWhatIsNotFinite) {
   Simulation simulation(soft_stone());
-  simulation.add_grain({0, 0, 0}, r, 0);
-  simulation.add_grain({0.1, 0, 0}, r, 0, {nan, 0, 0});
+  simulation.add_grain({0, 0, 0}, ball_radius, 0);
+  simulation.add_grain({0.1, 0, 0}, ball_radius, 0, {not_a_number, 0, 0});
   EXPECT_THAT(message<RunStopped>([&] { simulation.run(10); }),
               AllOf(HasSubstr("motion of grain 1 is not finite"), HasSubstr("time 1e-05")));
 
   Simulation with_body = with_floor(soft_stone());
-  with_body.add_grain({0, 0, 1}, r, 0);
+  with_body.add_grain({0, 0, 1}, ball_radius, 0);
   with_body.run(3);
   with_body.body(0).turning = Turning::free;
-  with_body.body(0).applied_torque = {nan, 0, 0};
+  with_body.body(0).applied_torque = {not_a_number, 0, 0};
   EXPECT_THAT(message<RunStopped>([&] { with_body.run(10); }), HasSubstr("motion of a body is not finite"));
 }
 
 TEST(TimeStep, IsRefusedBeyondTheSafeShare) {
   // T_R = pi r sqrt(rho/G)/(0.1631 nu + 0.8766), G = E/(2(1 + nu)) = 5e6/2.5.
-  const double rayleigh = 3.14159265 * r * std::sqrt(2500 / 2e6) / (0.1631 * 0.25 + 0.8766);
+  const double rayleigh = 3.14159265 * ball_radius * std::sqrt(2500 / 2e6) / (0.1631 * 0.25 + 0.8766);
   auto setup = soft_stone();
   const auto run = [&](double dt, bool force) {
     setup.numerics.dt = dt;
     setup.numerics.force_step = force;
     Simulation simulation(setup);
-    simulation.add_grain({0, 0, 0}, r, 0);
+    simulation.add_grain({0, 0, 0}, ball_radius, 0);
     simulation.run(1);
     EXPECT_NEAR(rayleigh_time(simulation.setup().materials, simulation.state().grains), rayleigh, 1e-6 * rayleigh);
   };
@@ -108,13 +107,13 @@ TEST(Setups, ThatMakeNoSenseAreRefused) {
   auto small = soft_stone();
   small.domain = {{0, 0, 0}, {0.05, 1, 1}, {true, false, false}};
   Simulation narrow(small);
-  narrow.add_grain({0.02, 0.5, 0.5}, r, 0);
+  narrow.add_grain({0.02, 0.5, 0.5}, ball_radius, 0);
   EXPECT_THAT(message<InputError>([&] { narrow.run(1); }), HasSubstr("periodic side of 0.05 m is shorter"));
   auto no_spring = soft_stone();
   no_spring.laws.normal = NormalLaw::hooke;
   no_spring.materials.set(0, 0, {});
   Simulation hooke(no_spring);
-  hooke.add_grain({}, r, 0);
+  hooke.add_grain({}, ball_radius, 0);
   EXPECT_THAT(message<InputError>([&] { hooke.run(1); }), HasSubstr("stone on stone has no normal stiffness"));
 }
 
@@ -123,9 +122,15 @@ TEST(Setups, GrainsThatMakeNoSenseAreRefused) {
   setup.domain = {{-1, -1, -1}, {1, 1, 1}};
   Simulation simulation(setup);
   EXPECT_THAT(message<InputError>([&] { simulation.add_grain({}, 0, 0); }), HasSubstr("radius must be above 0"));
-  EXPECT_THAT(message<InputError>([&] { simulation.add_grain({}, r, 1); }), HasSubstr("no material 1"));
-  EXPECT_THAT(message<InputError>([&] { simulation.add_grain({2, 0, 0}, r, 0); }), HasSubstr("outside the domain"));
-  EXPECT_THAT(message<InputError>([&] { simulation.add_grain({nan, 0, 0}, r, 0); }), HasSubstr("outside the domain"));
+  EXPECT_THAT(message<InputError>([&] { simulation.add_grain({}, ball_radius, 1); }), HasSubstr("no material 1"));
+  EXPECT_THAT(message<InputError>([&] {
+                simulation.add_grain({2, 0, 0}, ball_radius, 0);
+              }),
+              HasSubstr("outside the domain"));
+  EXPECT_THAT(message<InputError>([&] {
+                simulation.add_grain({not_a_number, 0, 0}, ball_radius, 0);
+              }),
+              HasSubstr("outside the domain"));
   EXPECT_EQ(simulation.state().grains.count(), 0u);
 }
 
@@ -138,7 +143,7 @@ TEST(Setups, BodiesThatMakeNoSenseAreRefused) {
     return message<InputError>([&] { simulation.add_body(body); });
   };
   EXPECT_THAT(refused([](Body& b) { b.mass = 0; }), HasSubstr("body plate: mass and inertia"));
-  EXPECT_THAT(refused([](Body& b) { b.inertia.y = nan; }), HasSubstr("mass and inertia"));
+  EXPECT_THAT(refused([](Body& b) { b.inertia.y = not_a_number; }), HasSubstr("mass and inertia"));
   EXPECT_THAT(refused([](Body& b) { b.surfaces[0].material = 3; }), HasSubstr("there is no material 3"));
   EXPECT_THAT(refused([](Body& b) {
                 b.surfaces[0].shape = Plane{{}, {0, 0, 2}};
@@ -159,7 +164,7 @@ TEST(Setups, ABodyNeedsNoGrains) {
   simulation.add_body(body);
   simulation.run(100);
   EXPECT_NEAR(simulation.body(0).position.x, 1e-3, 1e-15);
-  simulation.add_grain({0.6, 0, 0}, r, 0);
+  simulation.add_grain({0.6, 0, 0}, ball_radius, 0);
   simulation.run(10000);
   EXPECT_GT(simulation.grain(0).velocity.x, 0.9) << "pushed along";
 }
@@ -169,9 +174,9 @@ Simulation pressed() {
   auto setup = soft_stone({{NormalLaw::hertz, RollingLaw::elastic_plastic, CohesionLaw::none}, -1});
   Simulation simulation = with_floor(setup);
   simulation.set_gravity({2, 0, -9.81});
-  simulation.add_grain({0, 0, 0.0099}, r, 0);
-  simulation.add_grain({0.0199, 0, 0.0099}, r, 0, {-0.05, 0.05, 0}, {3, 1, 0});
-  simulation.add_grain({0.5, 0, 0.5}, r, 0);
+  simulation.add_grain({0, 0, 0.0099}, ball_radius, 0);
+  simulation.add_grain({0.0199, 0, 0.0099}, ball_radius, 0, {-0.05, 0.05, 0}, {3, 1, 0});
+  simulation.add_grain({0.5, 0, 0.5}, ball_radius, 0);
   simulation.run(100);
   return simulation;
 }
@@ -190,7 +195,7 @@ TEST(MidRun, RemovalAndInsertionLeaveOtherContactsAlone) {
   EXPECT_EQ(removed.remove_grains([](const GrainNow& grain) { return grain.position.z > 0.3; }), 1u);
   EXPECT_EQ(removed.state().grains.count(), 2u);
   EXPECT_THROW(removed.grain(2), std::out_of_range);
-  added.add_grain({-0.5, 0, 0.5}, r, 0);
+  added.add_grain({-0.5, 0, 0.5}, ball_radius, 0);
   Body far = test::mesh_body(box({0.1, 0.1, 0.1}));
   far.position = {-1, -1, 0};
   added.add_body(far);
@@ -203,8 +208,8 @@ TEST(MidRun, GrainsAddedTogetherTouchNobodyBeforeTheyAreThere) {
   // Their rows are those that filled up the list of pairs before.
   Simulation simulation = pressed();
   const std::size_t before = simulation.contacts().size();
-  simulation.add_grain({1, 0, 1}, r, 0);
-  simulation.add_grain({1.015, 0, 1}, r, 0);
+  simulation.add_grain({1, 0, 1}, ball_radius, 0);
+  simulation.add_grain({1.015, 0, 1}, ball_radius, 0);
   EXPECT_EQ(simulation.contacts().size(), before);
   simulation.run(0);
   EXPECT_EQ(simulation.contacts().size(), before + 1);
@@ -214,8 +219,8 @@ TEST(MidRun, ANewGrainThatIsRemovedOthersStartAsUsual) {
   // A grain thrown up: v(t) = v0 - g t, whole steps; a removal before the first step must not spoil that.
   Simulation simulation(soft_stone());
   simulation.set_gravity({0, 0, -10});
-  simulation.add_grain({0, 0, 0}, r, 0, {0, 0, 1});
-  simulation.add_grain({1, 0, 0}, r, 0);
+  simulation.add_grain({0, 0, 0}, ball_radius, 0, {0, 0, 1});
+  simulation.add_grain({1, 0, 0}, ball_radius, 0);
   simulation.remove_grains([](const GrainNow& grain) { return grain.position.x > 0.5; });
   EXPECT_NEAR(simulation.grain(0).velocity.z, 1, 1e-15);
   simulation.run(1000);
@@ -226,7 +231,7 @@ TEST(MidRun, ANewGrainThatIsRemovedOthersStartAsUsual) {
 TEST(MidRun, ANewTimeStepKeepsTheClockAndTheParabola) {
   Simulation simulation(soft_stone());
   simulation.set_gravity({0, 0, -10});
-  simulation.add_grain({0, 0, 0}, r, 0, {0, 0, 1});
+  simulation.add_grain({0, 0, 0}, ball_radius, 0, {0, 0, 1});
   simulation.run(1000);
   Numerics finer = simulation.setup().numerics;
   finer.dt = 2e-6;

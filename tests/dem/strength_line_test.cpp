@@ -4,21 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "dem/element_tests/mobilised.hpp"
 #include "dem/element_tests/specimen.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 #include "tests/dem/small_bed.hpp"
 
 namespace soilbin::dem {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180;
-
 TEST(StrengthLine, GivesBackCohesionAndFrictionAngle) {
-  const double c = 3630, phi = 30.72 * deg;
+  const double c = 3630, phi = 30.72 * degree;
   std::vector<StrengthPoint> points;
   for (const double sigma : {10e3, 20e3, 50e3}) points.push_back({sigma, {c + sigma * std::tan(phi), 100}});
   const StrengthLine line = fit_strength(points);
@@ -29,7 +27,7 @@ TEST(StrengthLine, GivesBackCohesionAndFrictionAngle) {
 
 TEST(StrengthLine, CirclesOfMohrGiveBackTheSame) {
   // s = (s1 + s3)/2, t = (s1 - s3)/2 of a soil that fails at s1 = s3 k + 2 c sqrt(k), k = tan^2(45 deg + phi/2).
-  const double c = 3630, phi = 30.72 * deg, k = std::pow(std::tan(45 * deg + phi / 2), 2);
+  const double c = 3630, phi = 30.72 * degree, k = std::pow(std::tan(45 * degree + phi / 2), 2);
   std::vector<StrengthPoint> points;
   for (const double s3 : {10e3, 20e3, 50e3}) {
     const double s1 = s3 * k + 2 * c * std::sqrt(k);

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
 #include "tests/dem/small_bed.hpp"
 
 namespace soilbin::dem {
@@ -14,9 +14,7 @@ namespace {
 
 using test::with_threads;
 
-constexpr double deg = std::numbers::pi / 180;
-
-TiltingBoardResult tilt(const ContactPair& on_board, int across, double rate = 4 * deg) {
+TiltingBoardResult tilt(const ContactPair& on_board, int across, double rate = 4 * degree) {
   GranularSoil soil = test::soft_soil();
   soil.grain_tire = on_board;
   TiltingBoardSettings settings;
@@ -41,9 +39,9 @@ double later(double angle, double way, double rate) {
 TEST(SlowTiltingBoard, SlidesAtTheFrictionAngleWhereRollingIsBlocked) {
   for (const double mu : {0.3, 0.6}) {
     const TiltingBoardResult told = tilt({.restitution = 0.3, .sliding_friction = mu, .rolling_friction = 1}, 5);
-    const double lag = later(std::atan(mu), 0.05 * told.mean_diameter, 4 * deg);
+    const double lag = later(std::atan(mu), 0.05 * told.mean_diameter, 4 * degree);
     EXPECT_TRUE(told.slid);
-    EXPECT_NEAR(told.onset / deg, (std::atan(mu) + lag) / deg, 0.3) << "lag " << lag / deg;
+    EXPECT_NEAR(told.onset / degree, (std::atan(mu) + lag) / degree, 0.3) << "lag " << lag / degree;
   }
 }
 
@@ -51,9 +49,9 @@ TEST(SlowTiltingBoard, ALoneGrainRollsWhereTheCoupleGivesWay) {
   const double mu_r = 0.3;
   const TiltingBoardResult told = tilt({.restitution = 0.3, .sliding_friction = 5, .rolling_friction = mu_r}, 1);
   // It rolls: 7/5 of the mass resists, so the lag is the cube root of that longer.
-  const double lag = std::cbrt(7.0 / 5) * later(std::atan(mu_r), 0.05 * told.mean_diameter, 4 * deg);
+  const double lag = std::cbrt(7.0 / 5) * later(std::atan(mu_r), 0.05 * told.mean_diameter, 4 * degree);
   EXPECT_TRUE(told.slid);
-  EXPECT_NEAR(told.onset / deg, (std::atan(mu_r) + lag) / deg, 0.5) << "lag " << lag / deg;
+  EXPECT_NEAR(told.onset / degree, (std::atan(mu_r) + lag) / degree, 0.5) << "lag " << lag / degree;
   // Its way is its turn.
   EXPECT_NEAR(told.curve.back().turn * 0.01 / told.curve.back().slide, 1, 0.3);
 }
@@ -62,7 +60,7 @@ TEST(SlowTiltingBoard, SaysThatItHeld) {
   GranularSoil soil = test::soft_soil();
   soil.grain_tire = {.restitution = 0.3, .sliding_friction = 5, .rolling_friction = 5};
   TiltingBoardSettings settings;
-  settings.across = 2, settings.rate = 20 * deg, settings.steepest = 40 * deg;
+  settings.across = 2, settings.rate = 20 * degree, settings.steepest = 40 * degree;
   settings.laws.rolling = RollingLaw::elastic_plastic;
   const TiltingBoardResult told = tilting_board(soil, settings, with_threads(1));
   EXPECT_FALSE(told.slid);

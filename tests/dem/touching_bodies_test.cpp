@@ -12,15 +12,10 @@ namespace soilbin::dem {
 namespace {
 
 using tests::Soup;
+using tests::touch;
 using tests::uniform;
 
-constexpr double pi = std::numbers::pi;
-
-TouchingPoints touch(const TriangleMesh& mesh, const Vec3& c, double radius, double merge = 0.2) {
-  TouchingPoints out;
-  find_touching_points(mesh, tests::all_triangles(mesh), c, radius, MergeAngle(merge), out);
-  return out;
-}
+using std::numbers::pi;
 
 TriangleMesh mesh_of(const Soup& soup, bool closed) { return {soup.vertices, soup.triangles, {.closed = closed}}; }
 

@@ -13,13 +13,8 @@ namespace soilbin::dem {
 namespace {
 
 using tests::Soup;
+using tests::touch;
 using tests::uniform;
-
-TouchingPoints touch(const TriangleMesh& mesh, const Vec3& c, double radius, double merge = 0.2) {
-  TouchingPoints out;
-  find_touching_points(mesh, tests::all_triangles(mesh), c, radius, MergeAngle(merge), out);
-  return out;
-}
 
 /// The plate [-1, 1]^2 is convex: its one closest point to c is c with each coordinate clamped.
 Vec3 foot_on_plate(const Vec3& c) { return {std::clamp(c.x, -1.0, 1.0), std::clamp(c.y, -1.0, 1.0), 0}; }

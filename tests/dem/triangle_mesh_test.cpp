@@ -5,13 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <set>
 
 #include "dem/plates_of_triangles.hpp"
 #include "dem/surface/mass_properties.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -19,7 +19,7 @@ namespace {
 using tests::Soup;
 
 /// What the mesh says to these triangles; empty if it takes them.
-std::string refusal(const Soup& soup, bool closed = false) {
+std::string mesh_refusal(const Soup& soup, bool closed = false) {
   try {
     TriangleMesh(soup.vertices, soup.triangles, {.closed = closed, .name = "part.stl"});
   } catch (const InputError& error) {
@@ -93,74 +93,74 @@ TEST(TriangleMesh, WeldsVerticesThatAreAlmostOneAndForgetsThoseOfNoTriangle) {
 }
 
 TEST(TriangleMesh, RefusesWhatIsNoSurfaceAndSaysWhere) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(refusal({{{0, 0, 0}}, {}}), says("no triangles"));
-  EXPECT_THAT(refusal({{{0, 0, 0}, {1, 0, 0}, {0, nan, 0}}, {{0, 1, 2}}}),
+  EXPECT_THAT(mesh_refusal({{{0, 0, 0}}, {}}), says("no triangles"));
+  EXPECT_THAT(mesh_refusal({{{0, 0, 0}, {1, 0, 0}, {0, not_a_number, 0}}, {{0, 1, 2}}}),
               says("vertex 2 at (0, nan, 0) m is not finite"));
-  EXPECT_THAT(refusal({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 3}}}),
+  EXPECT_THAT(mesh_refusal({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 3}}}),
               says("triangle 0 has vertex 3, but there are 3"));
-  EXPECT_THAT(refusal({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, -1}}}), says("triangle 0 has vertex -1"));
+  EXPECT_THAT(mesh_refusal({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, -1}}}), says("triangle 0 has vertex -1"));
 }
 
 TEST(TriangleMesh, RefusesTrianglesWithoutAreaAndTwins) {
-  EXPECT_THAT(refusal({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}}), says("triangle 0 at (0, 0, 0) m has no area"));
-  EXPECT_THAT(refusal({{{0, 0, 0}, {1, 0, 0}, {2, 1e-7, 0}}, {{0, 1, 2}}}), says("has no area"));
-  EXPECT_THAT(refusal({{{0, 0, 0}, {1, 0, 0}, {2, 1, 0}}, {{0, 1, 1}}}), says("has no area"));
-  EXPECT_THAT(refusal({{{5, 5, 5}, {5, 5, 5}, {5, 5, 5}}, {{0, 1, 2}}}), says("has no area"));
-  EXPECT_THAT(refusal({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {1, 2, 0}}}),
+  EXPECT_THAT(mesh_refusal({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}}),
+              says("triangle 0 at (0, 0, 0) m has no area"));
+  EXPECT_THAT(mesh_refusal({{{0, 0, 0}, {1, 0, 0}, {2, 1e-7, 0}}, {{0, 1, 2}}}), says("has no area"));
+  EXPECT_THAT(mesh_refusal({{{0, 0, 0}, {1, 0, 0}, {2, 1, 0}}, {{0, 1, 1}}}), says("has no area"));
+  EXPECT_THAT(mesh_refusal({{{5, 5, 5}, {5, 5, 5}, {5, 5, 5}}, {{0, 1, 2}}}), says("has no area"));
+  EXPECT_THAT(mesh_refusal({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {1, 2, 0}}}),
               says("triangles 0 and 1 are the same"));
-  EXPECT_THAT(refusal({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {1, 0, 2}}}),
+  EXPECT_THAT(mesh_refusal({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {1, 0, 2}}}),
               says("triangles 0 and 1 are the same"));
 }
 
 TEST(TriangleMesh, RefusesBranchesAndTwistedNeighbours) {
   const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
-  EXPECT_THAT(refusal({points, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}}),
+  EXPECT_THAT(mesh_refusal({points, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}}),
               says("the edge from (0, 0, 0) m to (1, 0, 0) m is shared by more than two triangles: 0, 1, 2"));
-  EXPECT_THAT(refusal({points, {{0, 1, 2}, {0, 1, 3}}}), says("triangles 0 and 1 face opposite sides"));
-  EXPECT_EQ(refusal({points, {{0, 1, 2}, {1, 0, 3}}}), "");
+  EXPECT_THAT(mesh_refusal({points, {{0, 1, 2}, {0, 1, 3}}}), says("triangles 0 and 1 face opposite sides"));
+  EXPECT_EQ(mesh_refusal({points, {{0, 1, 2}, {1, 0, 3}}}), "");
 }
 
 TEST(TriangleMesh, RefusesTJoints) {
   // Two halves of a plate, one of them cut at the middle of the common edge.
   const Soup cut{{{0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}, {0, 0, 0}}, {{0, 1, 2}, {0, 3, 4}, {4, 3, 1}}};
-  EXPECT_THAT(refusal(cut),
+  EXPECT_THAT(mesh_refusal(cut),
               says("a T-joint: the vertex at (0, 0, 0) m lies inside the edge from (0, -1, 0) m to (0, 1, 0) m"));
   // In the edge of two triangles that are joined well, by a third that only touches.
-  EXPECT_THAT(refusal({{{0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}, {0, 0.5, 0}, {0, 0, 1}, {0, 1, 1}},
-                       {{0, 1, 2}, {1, 0, 3}, {4, 5, 6}}}),
+  EXPECT_THAT(mesh_refusal({{{0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}, {0, 0.5, 0}, {0, 0, 1}, {0, 1, 1}},
+                            {{0, 1, 2}, {1, 0, 3}, {4, 5, 6}}}),
               says("a T-joint"));
   // The search finds the one bad vertex of a fine plate, wherever it is.
   std::mt19937_64 random(3);
   for (int round = 0; round < 20; ++round) {
     Soup soup = tests::random_plate(random, 200, 1e-3);
-    EXPECT_EQ(refusal(soup), "");
+    EXPECT_EQ(mesh_refusal(soup), "");
     const auto corners = soup.triangles[random() % soup.triangles.size()];
     const Vec3 &a = soup.vertices[corners[0]], &b = soup.vertices[corners[1]];
     const int n = static_cast<int>(soup.vertices.size());
     for (const Vec3& p : {0.3 * a + 0.7 * b, Vec3{0, 0, 3}, Vec3{0, 1, 3}}) soup.vertices.push_back(p);
     soup.triangles.push_back({n, n + 1, n + 2});
-    EXPECT_THAT(refusal(soup), says("a T-joint"));
+    EXPECT_THAT(mesh_refusal(soup), says("a T-joint"));
   }
 }
 
 TEST(TriangleMesh, RefusesAHoleAnInsideOutBodyAndTwoThatShareAVertex) {
   Soup open = tests::cube();
   open.triangles.pop_back();
-  EXPECT_EQ(refusal(open), "");
-  EXPECT_THAT(refusal(open, true), says("not closed: the edge from"));
+  EXPECT_EQ(mesh_refusal(open), "");
+  EXPECT_THAT(mesh_refusal(open, true), says("not closed: the edge from"));
   Soup inward = tests::cube();
   for (auto& t : inward.triangles) std::swap(t[1], t[2]);
-  EXPECT_EQ(refusal(inward), "");
-  EXPECT_THAT(refusal(inward, true), says("the triangles face inward: the volume is -8 m^3"));
+  EXPECT_EQ(mesh_refusal(inward), "");
+  EXPECT_THAT(mesh_refusal(inward, true), says("the triangles face inward: the volume is -8 m^3"));
   Soup two = tests::cube();
   for (int v = 0; v < 8; ++v) two.vertices.push_back(two.vertices[v] + Vec3{2, 2, 2});
   for (int t = 0; t < 12; ++t) {
     const auto c = two.triangles[t];
     two.triangles.push_back({c[0] + 8, c[1] + 8, c[2] + 8});
   }
-  EXPECT_EQ(refusal(two), "");
-  EXPECT_THAT(refusal(two, true), says("share only the vertex at (1, 1, 1) m"));
+  EXPECT_EQ(mesh_refusal(two), "");
+  EXPECT_THAT(mesh_refusal(two, true), says("share only the vertex at (1, 1, 1) m"));
 }
 
 // A box a x b x c has the principal moments V (b^2 + c^2)/12, ...; turned and shifted, I = R I0 R^T.

@@ -2,9 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "scenario/case.hpp"
+#include "scenario/unit.hpp"
 #include "tests/scenario/fake_vocabulary.hpp"
 #include "tests/scenario/refusal.hpp"
 
@@ -16,8 +15,6 @@ using test::refusal;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-constexpr double deg = std::numbers::pi / 180;
 
 const std::string good = R"(format: soilbin-case/1
 name: example
@@ -78,7 +75,7 @@ TEST(CaseReader, ReadsEveryPartInSi) {
   EXPECT_EQ(soil.sources.at("exponent"), "plates");
   EXPECT_EQ(soil.k_c.value, 990.0);
   EXPECT_EQ(soil.k_phi.std_error, 150e3);
-  EXPECT_DOUBLE_EQ(soil.friction_angle.value, 28 * deg);
+  EXPECT_DOUBLE_EQ(soil.friction_angle.value, 28 * degree);
   EXPECT_EQ(soil.stress_angle_c1.value, 0.18);
   EXPECT_EQ(soil.density, 1500.0) << "the default";
   EXPECT_EQ(c.scenario.bin->depth, 0.5);
@@ -95,7 +92,7 @@ TEST(CaseReader, ResolvesFormsAndParametersOfEffects) {
   ASSERT_EQ(effects.size(), 2u);
   EXPECT_EQ(effects[0].form, "lyasko");
   EXPECT_EQ(effects[0].parameters.at("a"), 1.0) << "the form's default";
-  EXPECT_DOUBLE_EQ(effects[1].parameters.at("angle"), 20 * deg);
+  EXPECT_DOUBLE_EQ(effects[1].parameters.at("angle"), 20 * degree);
 }
 
 TEST(CaseReader, AMisspeltKeyIsShownWithTheRightOne) {

@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "scenario/unit.hpp"
 #include "tests/scenario/refusal.hpp"
 
 namespace soilbin {
@@ -16,8 +17,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-constexpr double deg = std::numbers::pi / 180;
-
 std::vector<OperatingCondition> conditions(const std::string& text) {
   const SourceText source = make_source_text(text, "case.yaml");
   Tire tire;
@@ -25,7 +24,7 @@ std::vector<OperatingCondition> conditions(const std::string& text) {
   return read_conditions(parse_yaml(source), tire, Reading{&source, std::nullopt, nullptr, ""});
 }
 
-std::string refused(const std::string& text) {
+std::string refused_conditions(const std::string& text) {
   return refusal([&] { conditions(text); });
 }
 
@@ -50,7 +49,8 @@ TEST(ConditionAxes, RangesGiveRoundNumbers) {
   const auto falling = conditions("{load: 1 kN, slip: {from: 0.3, to: -0.3, step: -0.3}}");
   EXPECT_THAT(column(falling, &OperatingCondition::slip), ElementsAre(0.3, 0.0, -0.3));
   const auto by_count = conditions("{load: 1 kN, slip: 0, yaw: {from: 0 deg, to: 20 deg, count: 5}}");
-  EXPECT_THAT(column(by_count, &OperatingCondition::yaw), ElementsAre(0.0, 5 * deg, 10 * deg, 15 * deg, 20 * deg));
+  EXPECT_THAT(column(by_count, &OperatingCondition::yaw),
+              ElementsAre(0.0, 5 * degree, 10 * degree, 15 * degree, 20 * degree));
   const auto short_of = conditions("{load: 1 kN, slip: {from: 0, to: 0.5, step: 0.2}}");
   EXPECT_THAT(column(short_of, &OperatingCondition::slip), ElementsAre(0.0, 0.2, 0.4)) << "'to' need not be reached";
 }
@@ -58,7 +58,7 @@ TEST(ConditionAxes, RangesGiveRoundNumbers) {
 TEST(ConditionAxes, AListIsAUnion) {
   const auto both =
       conditions("- {load: 4 kN, slip: 0.2}\n- {load: 4 kN, slip: 0.2, longitudinal_incline: [5 deg, 10 deg]}\n");
-  EXPECT_THAT(column(both, &OperatingCondition::longitudinal_incline), ElementsAre(0.0, 5 * deg, 10 * deg));
+  EXPECT_THAT(column(both, &OperatingCondition::longitudinal_incline), ElementsAre(0.0, 5 * degree, 10 * degree));
 }
 
 TEST(ConditionAxes, RotationGivesTheSpeedOfTravel) {
@@ -81,23 +81,25 @@ TEST(ConditionAxes, WordsAndIntegersAreAxesToo) {
 }
 
 TEST(ConditionAxes, Refusals) {
-  EXPECT_THAT(refused("{load: 1 kN, slip: 0, speed: 1 m/s, rotation: 10 rpm}"), HasSubstr("exclude each other"));
-  EXPECT_THAT(refused("{load: 1 kN, slip: -1, rotation: 10 rpm}"), HasSubstr("is locked"));
-  EXPECT_THAT(refused("{load: 1 kN, slip: 0, yaw: 90 deg, rotation: 10 rpm}"), HasSubstr("yaw of 90 deg"));
-  EXPECT_THAT(refused("{load: 1 kN, slip: []}"), HasSubstr("the list of 'slip' is empty"));
-  EXPECT_THAT(refused("[]"), HasSubstr("the list of conditions is empty"));
-  EXPECT_THAT(refused("{load: 1 kN, slpi: 0}"), HasSubstr("unknown key 'slpi', did you mean 'slip'?"));
-  EXPECT_THAT(refused("{load: 1 kN, slip: {from: 0, to: 1}}"), HasSubstr("either 'step' or 'count'"));
-  EXPECT_THAT(refused("{load: 1 kN, slip: {from: 0, to: 1, step: 0.1, count: 3}}"),
+  EXPECT_THAT(refused_conditions("{load: 1 kN, slip: 0, speed: 1 m/s, rotation: 10 rpm}"),
+              HasSubstr("exclude each other"));
+  EXPECT_THAT(refused_conditions("{load: 1 kN, slip: -1, rotation: 10 rpm}"), HasSubstr("is locked"));
+  EXPECT_THAT(refused_conditions("{load: 1 kN, slip: 0, yaw: 90 deg, rotation: 10 rpm}"), HasSubstr("yaw of 90 deg"));
+  EXPECT_THAT(refused_conditions("{load: 1 kN, slip: []}"), HasSubstr("the list of 'slip' is empty"));
+  EXPECT_THAT(refused_conditions("[]"), HasSubstr("the list of conditions is empty"));
+  EXPECT_THAT(refused_conditions("{load: 1 kN, slpi: 0}"), HasSubstr("unknown key 'slpi', did you mean 'slip'?"));
+  EXPECT_THAT(refused_conditions("{load: 1 kN, slip: {from: 0, to: 1}}"), HasSubstr("either 'step' or 'count'"));
+  EXPECT_THAT(refused_conditions("{load: 1 kN, slip: {from: 0, to: 1, step: 0.1, count: 3}}"),
               HasSubstr("either 'step' or 'count'"));
-  EXPECT_THAT(refused("{load: 1 kN, slip: {from: 0, to: 1, step: -0.1}}"),
+  EXPECT_THAT(refused_conditions("{load: 1 kN, slip: {from: 0, to: 1, step: -0.1}}"),
               HasSubstr("doesn't lead from 'from' to 'to'"));
-  EXPECT_THAT(refused("{load: 1 kN, slip: {from: 0, to: 0, step: 0}}"), HasSubstr("doesn't lead"));
-  EXPECT_THAT(refused("{load: 1 kN, slip: {from: 0, to: 1, step: 1e-9}}"), HasSubstr("more than 10000 values"));
-  EXPECT_THAT(refused("{load: 1 kN, slip: {from: 0, to: 1, count: 1}}"), HasSubstr("must be at least 2"));
-  EXPECT_THAT(refused("{load: 1 kN, slip: [0, x]}"), StartsWith("case.yaml:1:24: expected a plain number"));
+  EXPECT_THAT(refused_conditions("{load: 1 kN, slip: {from: 0, to: 0, step: 0}}"), HasSubstr("doesn't lead"));
+  EXPECT_THAT(refused_conditions("{load: 1 kN, slip: {from: 0, to: 1, step: 1e-9}}"),
+              HasSubstr("more than 10000 values"));
+  EXPECT_THAT(refused_conditions("{load: 1 kN, slip: {from: 0, to: 1, count: 1}}"), HasSubstr("must be at least 2"));
+  EXPECT_THAT(refused_conditions("{load: 1 kN, slip: [0, x]}"), StartsWith("case.yaml:1:24: expected a plain number"));
   const std::string wide = "{from: 0, to: 1, count: 1000}";
-  EXPECT_THAT(refused("{load: {from: 1 N, to: 2 N, count: 1000}, slip: " + wide + "}"),
+  EXPECT_THAT(refused_conditions("{load: {from: 1 N, to: 2 N, count: 1000}, slip: " + wide + "}"),
               HasSubstr("more than 100000 conditions"));
 }
 

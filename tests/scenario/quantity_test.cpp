@@ -18,7 +18,7 @@ namespace {
 using test::refusal;
 using testing::HasSubstr;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double si(const std::string& text, const std::string& unit, std::optional<double> n = std::nullopt) {
   return read_quantity(text, {unit, any_value}, n);

@@ -15,7 +15,7 @@ using test::refusal;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-std::string refused(const std::string& text) {
+std::string refused_yaml(const std::string& text) {
   return refusal([&] { parse_yaml(make_source_text(text, "f.yaml")); });
 }
 
@@ -37,41 +37,41 @@ TEST(YamlNode, AByteOrderMarkAndCarriageReturnsAreWelcome) {
 }
 
 TEST(YamlNode, ColumnsCountCharactersNotBytes) {
-  EXPECT_EQ(refused("{\u00e4\u00f6\u00fc: 1, \u00e4\u00f6\u00fc: 2}\n"),
+  EXPECT_EQ(refused_yaml("{\u00e4\u00f6\u00fc: 1, \u00e4\u00f6\u00fc: 2}\n"),
             "f.yaml:1:10: key '\u00e4\u00f6\u00fc' appears twice in the same mapping\n"
             "  1 | {\u00e4\u00f6\u00fc: 1, \u00e4\u00f6\u00fc: 2}\n"
             "    |          ^");
 }
 
 TEST(YamlNode, RefusesWhatTheFormatsDoNotHave) {
-  EXPECT_THAT(refused("a: 1\nb: 2\na: 3\n"), StartsWith("f.yaml:3:1: key 'a' appears twice"));
-  EXPECT_THAT(refused("a: &x 1\n"), HasSubstr("anchors"));
-  EXPECT_THAT(refused("a: *x\n"), StartsWith("f.yaml:1:4: "));
-  EXPECT_THAT(refused("a: !!binary x\n"), HasSubstr("tags"));
-  EXPECT_THAT(refused("a: 1\n---\nb: 2\n"), HasSubstr("second document"));
-  EXPECT_THAT(refused("[1, 2]: 3\n"), HasSubstr("a key must be a word"));
-  EXPECT_THAT(refused("a: [1, 2\n"), HasSubstr("not well-formed YAML"));
-  EXPECT_THAT(refused("a: \"x\n"), StartsWith("f.yaml:1:4: a quote is opened here and never closed"));
-  EXPECT_THAT(refused(""), HasSubstr("empty"));
+  EXPECT_THAT(refused_yaml("a: 1\nb: 2\na: 3\n"), StartsWith("f.yaml:3:1: key 'a' appears twice"));
+  EXPECT_THAT(refused_yaml("a: &x 1\n"), HasSubstr("anchors"));
+  EXPECT_THAT(refused_yaml("a: *x\n"), StartsWith("f.yaml:1:4: "));
+  EXPECT_THAT(refused_yaml("a: !!binary x\n"), HasSubstr("tags"));
+  EXPECT_THAT(refused_yaml("a: 1\n---\nb: 2\n"), HasSubstr("second document"));
+  EXPECT_THAT(refused_yaml("[1, 2]: 3\n"), HasSubstr("a key must be a word"));
+  EXPECT_THAT(refused_yaml("a: [1, 2\n"), HasSubstr("not well-formed YAML"));
+  EXPECT_THAT(refused_yaml("a: \"x\n"), StartsWith("f.yaml:1:4: a quote is opened here and never closed"));
+  EXPECT_THAT(refused_yaml(""), HasSubstr("empty"));
 }
 
 TEST(YamlNode, RefusesBombs) {
-  EXPECT_THAT(refused("a: &a [x, x]\nb: &b [*a, *a]\nc: [*b, *b]\n"), HasSubstr("anchors"));
-  EXPECT_THAT(refused(std::string(100'000, '[')), HasSubstr("nested deeper than 24 levels"));
+  EXPECT_THAT(refused_yaml("a: &a [x, x]\nb: &b [*a, *a]\nc: [*b, *b]\n"), HasSubstr("anchors"));
+  EXPECT_THAT(refused_yaml(std::string(100'000, '[')), HasSubstr("nested deeper than 24 levels"));
   std::string blocks;
   for (int i = 0; i < 1000; ++i) blocks += "- ";
-  EXPECT_THAT(refused(blocks), HasSubstr("nested deeper"));
+  EXPECT_THAT(refused_yaml(blocks), HasSubstr("nested deeper"));
   std::string values = "[";
   for (int i = 0; i < 200'000; ++i) values += "1,";
-  EXPECT_THAT(refused(values + "]"), HasSubstr("more than 100000 values"));
-  EXPECT_THAT(refused("a: " + std::string(2'000'000, 'x')), HasSubstr("larger than"));
+  EXPECT_THAT(refused_yaml(values + "]"), HasSubstr("more than 100000 values"));
+  EXPECT_THAT(refused_yaml("a: " + std::string(2'000'000, 'x')), HasSubstr("larger than"));
 }
 
 TEST(YamlNode, RefusesWhatIsNoText) {
-  EXPECT_THAT(refused("a: \xff\n"), StartsWith("f.yaml:1:4: byte 0xff is no text"));
-  EXPECT_THAT(refused(std::string("a: \0x", 5)), HasSubstr("byte 0x00"));
-  EXPECT_THAT(refused("a: \xed\xa0\x80\n"), HasSubstr("byte 0xed")) << "a surrogate";
-  EXPECT_THAT(refused("a: \xc0\xaf\n"), HasSubstr("byte 0xc0")) << "an overlong slash";
+  EXPECT_THAT(refused_yaml("a: \xff\n"), StartsWith("f.yaml:1:4: byte 0xff is no text"));
+  EXPECT_THAT(refused_yaml(std::string("a: \0x", 5)), HasSubstr("byte 0x00"));
+  EXPECT_THAT(refused_yaml("a: \xed\xa0\x80\n"), HasSubstr("byte 0xed")) << "a surrogate";
+  EXPECT_THAT(refused_yaml("a: \xc0\xaf\n"), HasSubstr("byte 0xc0")) << "an overlong slash";
 }
 
 TEST(SourceText, RefusesWhatIsNoFile) {
@@ -82,7 +82,7 @@ TEST(SourceText, RefusesWhatIsNoFile) {
 }
 
 TEST(SourceText, ALongLineIsCutRoundThePlace) {
-  const std::string message = refused("a: " + std::string(5000, 'x') + " : y : z\n");
+  const std::string message = refused_yaml("a: " + std::string(5000, 'x') + " : y : z\n");
   EXPECT_LT(message.size(), 500u);
 }
 
