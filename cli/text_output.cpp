@@ -22,7 +22,6 @@ using compare::Curves;
 using compare::curves_against_slip;
 using compare::drives_and_pulls;
 using compare::HtmlTable;
-using compare::in_unit;
 using compare::ModelAnswers;
 using compare::PredictedRun;
 using compare::Prediction;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/estimate.hpp"
 

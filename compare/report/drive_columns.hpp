@@ -66,7 +66,10 @@ Json columns_json(const DriveColumns<Sample>& columns, const std::vector<Sample>
 template <class Sample>
 std::string columns_csv(const DriveColumns<Sample>& columns) {
   std::string text;
-  for (const DriveColumn<Sample>& column : columns) text += (text.empty() ? "" : ",") + std::string(column.name);
+  for (const DriveColumn<Sample>& column : columns) {
+    if (!text.empty()) text += ',';
+    text += column.name;
+  }
   return text;
 }
 
@@ -76,7 +79,8 @@ std::string columns_csv(const DriveColumns<Sample>& columns, const Sample& sampl
   std::string text;
   for (const DriveColumn<Sample>& column : columns) {
     const double value = column.get(sample);
-    text += (&column == columns.data() ? "" : ",") + (std::isfinite(value) ? fmt::format("{}", value) : std::string());
+    if (&column != columns.data()) text += ',';
+    if (std::isfinite(value)) text += fmt::format("{}", value);
   }
   return text;
 }
