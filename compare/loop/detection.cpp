@@ -6,6 +6,7 @@
 #include <random>
 
 #include "bekker_wong/gsl.hpp"
+#include "compare/loop/evidence.hpp"
 
 namespace soilbin::compare {
 
@@ -38,8 +39,7 @@ MatrixXd parabola(const std::vector<double>& u) {
     const double x = 2 * (u[static_cast<std::size_t>(i)] - *low) / (*high - *low) - 1;
     columns.row(i) << 1.0, x, x * x;
   }
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
-  return qr.householderQ() * MatrixXd::Identity(n, qr.rank());
+  return orthonormal(columns);
 }
 
 double explained(const MatrixXd& q, const VectorXd& r, double mean) {

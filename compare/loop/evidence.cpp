@@ -12,14 +12,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-Projector::Projector(const MatrixXd& columns) {
-  if (columns.cols() == 0) {
-    q_.resize(columns.rows(), 0);
-    return;
-  }
+MatrixXd orthonormal(const MatrixXd& columns) {
+  if (columns.cols() == 0) return MatrixXd(columns.rows(), 0);
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
-  q_ = qr.householderQ() * MatrixXd::Identity(columns.rows(), qr.rank());
+  return qr.householderQ() * MatrixXd::Identity(columns.rows(), qr.rank());
 }
+
+Projector::Projector(const MatrixXd& columns) : q_(orthonormal(columns)) {}
 
 MatrixXd form_columns(const Observations& observations, const Whitening& whitening, const VectorXd& contribution,
                       double tolerance) {

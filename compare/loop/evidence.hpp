@@ -9,6 +9,9 @@
 
 namespace soilbin::compare {
 
+/// Orthonormal columns that span these; fewer where some are combinations of others.
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
+
 /// One column orthonormal basis of the nuisance columns: P = I - Q Q^T.
 class Projector {
  public:
