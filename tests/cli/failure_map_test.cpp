@@ -40,7 +40,8 @@ TEST(SlowFailureMapCommand, LearnsFromTheStoredRuns) {
 TEST(SlowFailureMapCommand, TellsWhereThePapersTireParts) {
   const Outcome r = soilbin(
       "failure-map paper-longitudinal --soil paper-sand-virtual --incline longitudinal --load 2kN..8kN --lug-height "
-      "0mm..30mm --angle 0deg..15deg --slip 5%..50% --boundary 20 --rounds 2 --check 5 --settling-friction 0 --json "
+      "0mm..30mm --angle 0deg..15deg --slip 5%..50% --first 20 --boundary 20 --rounds 2 --check 5 --settling-friction "
+      "0 --json "
       "--stored --store '" SOILBIN_SOURCE_DIR "/cases/failure_maps/paper-longitudinal.json'");
   ASSERT_EQ(r.status, 0) << r.err;
   const nlohmann::json map = r.json();
