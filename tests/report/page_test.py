@@ -117,6 +117,8 @@ class ThePage(unittest.TestCase):
         self.assertGreater(self.js(shade), 200)
         self.js("soilbin.replayView.go(0)")
         self.js("document.querySelector('.replay button').click()")
+        early = "(v => { v.go(0); v.tick(v.before - 100); return v.at; })(soilbin.replayView)"
+        self.assertGreaterEqual(self.js(early), 0)  # a frame that began before the click
         self.assertTrue(self.browser.until("soilbin.replayView.at > 0.5", 60))
         self.assertTrue(self.browser.until("!soilbin.replayView.playing", 60))
         self.js("document.querySelector('.replay canvas').focus()")

@@ -99,7 +99,8 @@ soilbin.ReplayView = class {
   tick(now) {
     if (!this.playing) return;
     const {times} = this.replay.header, last = times.length - 1, k = Math.min(Math.floor(this.at), last - 1);
-    const passed = Math.min(0.2, (now - this.before) / 1000) * Number(this.pacing.value);
+    // A frame's time may lie before the click that came within it: then nothing has passed yet.
+    const passed = Math.max(0, Math.min(0.2, (now - this.before) / 1000)) * Number(this.pacing.value);
     this.before = now;
     const at = this.at + passed / (times[k + 1] - times[k]);
     this.go(Math.min(at, last));
