@@ -69,6 +69,10 @@ std::string listed_words(const std::vector<std::string>& words) {
 }  // namespace
 
 std::vector<std::string> what_next(const LoopAnswer& answer) {
+  if (answer.verdict == Verdict::unknown_effect)
+    return {
+        "No run is proposed: what is missing has no name and so predicts nothing. One condition varied alone, with "
+        "re-runs, would show its shape."};
   if (!answer.next && answer.ambiguity_set.size() > 1)
     return {"No condition within the limits would set these rivals apart in 50 runs."};
   if (!answer.next) return {};

@@ -20,7 +20,7 @@ std::string verdict_sentence(const LoopAnswer& answer);
 /// measure next. One string a sentence.
 std::vector<std::string> explanation(const LoopAnswer& answer);
 
-/// What to measure next, or that nothing within the limits would decide; empty where no question is open.
+/// What to measure next, or why no run is proposed; empty where no question is open.
 std::vector<std::string> what_next(const LoopAnswer& answer);
 
 /// Rivals, their weights and chi2; held-out errors before and after: as tables for a page or a terminal.
