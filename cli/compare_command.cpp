@@ -176,9 +176,7 @@ void add_compare(CLI::App& app, Session& session) {
       ->type_name("SOIL");
   command->add_option("--effect", asked->effects, "one more side: the analytic model with this effect; repeatable")
       ->type_name("ID[:FORM][,PARAMETER=VALUE]");
-  command->add_option("--report", asked->report, "write everything as one page")
-      ->type_name("FILE.html")
-      ->check(writable_file());
+  command->add_option("--report", asked->report, "write everything as one page")->type_name("FILE.html");
   command->add_option("--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data")
       ->type_name("DIR");
   command->add_option("--csv", asked->csv, "save every row")->type_name("FILE.csv")->check(writable_file());

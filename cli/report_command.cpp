@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "cli/commands.hpp"
-#include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/versions.hpp"
 #include "compare/report/analysis_page.hpp"
@@ -61,9 +60,7 @@ void add_report(CLI::App& app, Session& session) {
   const auto options = std::make_shared<ReportOptions>();
   command->add_option("studies", options->studies, "of the library, or case files")->type_name("STUDY...");
   command->add_option("--measured", options->campaigns, "campaigns to predict and compare")->type_name("CAMPAIGN...");
-  command->add_option("--output", options->output, "the page; by default report.html")
-      ->type_name("FILE.html")
-      ->check(writable_file());
+  command->add_option("--output", options->output, "the page; by default report.html")->type_name("FILE.html");
   command->add_option("--title", options->title, "of the page")->type_name("TEXT");
   command->footer("Example: soilbin report paper-straight --measured cmu-smooth --output report.html");
   command->callback([=, &session] { session.action = [=, &session] { return report(*options, session); }; });

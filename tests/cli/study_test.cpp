@@ -143,9 +143,10 @@ TEST(Run, AFileThatCannotBeWrittenIsAFailure) {
   EXPECT_THAT(r.err, HasSubstr("ppp.svg"));
 }
 
+// As the demo does it: the page's folder is made where there is none.
 TEST(Report, IsOnePageThatLoadsNothing) {
   const Scratch scratch;
-  const std::string file = (scratch / "page.html").string();
+  const std::string file = (scratch / "made" / "page.html").string();
   const Outcome r = soilbin("report paper-straight rover-slip --measured cmu-smooth --output '" + file + "'");
   ASSERT_EQ(r.status, 0) << r.err;
   const std::string page = text_of(file);
