@@ -41,7 +41,8 @@ compare::Limits read_limits(const std::vector<std::string>& texts) {
   compare::Limits limits;
   for (const std::string& text : texts) {
     const std::vector<std::string> parts = split(text, "=");
-    if (parts.size() != 2 || split(parts[1], "..").size() != 2)
+    const std::vector<std::string> texts_of_ends = split(parts.back(), "..");
+    if (parts.size() != 2 || texts_of_ends.size() != 2)
       throw InputError(fmt::format("--limit '{}': expected NAME=LOW..HIGH, such as load=50N..200N", clipped(text)));
     std::vector<std::string> names;
     for (const auto& [name, measure] : known) names.push_back(name);
@@ -51,7 +52,7 @@ compare::Limits read_limits(const std::vector<std::string>& texts) {
           fmt::format("--limit: unknown condition '{}'{}", clipped(parts[0]), did_you_mean(parts[0], names)));
     const Measure& measure = known[static_cast<std::size_t>(found - names.begin())].second;
     std::vector<double> ends;
-    for (const std::string& end : split(parts[1], ".."))
+    for (const std::string& end : texts_of_ends)
       ends.push_back(read_flag("--limit " + parts[0],
                                read_number(end) && measure.unit != "-" ? end + measure.unit : end, measure));
     if (!(ends[0] <= ends[1]))
