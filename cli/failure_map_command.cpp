@@ -94,7 +94,7 @@ void show_run(int done, int total) {
   show_progress_line(fmt::format("condition {} of {}", done + 1, total));
 }
 
-/// Where the models agree: without lugs at any slip, else also up to a slip; and with any lugs.
+/// Where the models agree: without lugs at any slip, else also up to a slip; with any lugs; and the largest box of all.
 std::vector<compare::AgreementClause> clauses_of(const compare::FailureQuestion& question, compare::FailureMap& rows,
                                                  int rounds) {
   using compare::Role;
@@ -106,6 +106,7 @@ std::vector<compare::AgreementClause> clauses_of(const compare::FailureQuestion&
   if (!tell({Role::limited, Role::held, Role::limited, Role::whole}))
     tell({Role::limited, Role::held, Role::limited, Role::limited});
   tell({Role::limited, Role::limited, Role::limited, Role::whole});
+  tell({Role::bounded, Role::bounded, Role::bounded, Role::bounded});
   return clauses;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "compare/failure_map/failure_map.hpp"
@@ -51,47 +52,103 @@ class FactorGrid {
   std::vector<int> counts_;
 };
 
-bool inside(const std::vector<int>& node, const std::vector<int>& corner) {
+/// Nodes from lower to upper, both within.
+struct NodeBox {
+  std::vector<int> lower, upper;
+};
+
+bool inside(const std::vector<int>& node, const NodeBox& box) {
   for (std::size_t j = 0; j < node.size(); ++j)
-    if (node[j] > corner[j]) return false;
+    if (node[j] < box.lower[j] || node[j] > box.upper[j]) return false;
   return true;
 }
 
-/// The corner of the largest box without a node where the models may disagree; nothing where the lower corner is one.
-std::optional<std::vector<int>> largest_corner(const FactorGrid& grid, const std::vector<Role>& roles,
-                                               const std::vector<std::vector<int>>& doubtful) {
-  std::optional<std::vector<int>> best;
-  double most = -1.0;
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    const std::vector<int> corner = grid.node(i);
-    double share = 1.0;
-    bool candidate = true;
-    for (std::size_t j = 0; j < roles.size(); ++j) {
-      if (roles[j] == Role::whole) candidate = candidate && corner[j] == grid.count(j) - 1;
-      if (roles[j] == Role::limited) share *= (corner[j] + 0.5) / grid.count(j);
-    }
-    if (!candidate || share <= most) continue;
-    const bool agrees = std::none_of(doubtful.begin(), doubtful.end(),
-                                     [&](const std::vector<int>& node) { return inside(node, corner); });
-    if (agrees) best = corner, most = share;
+/// How many nodes of a box are doubtful, in one look-up a corner.
+class DoubtfulCount {
+ public:
+  DoubtfulCount(const FactorGrid& grid, const std::vector<bool>& doubtful) : strides_(1, 1) {
+    const std::size_t factors = grid.node(0).size();
+    for (std::size_t j = factors; j-- > 1;)
+      strides_.insert(strides_.begin(), strides_.front() * static_cast<std::size_t>(grid.count(j)));
+    below_.assign(doubtful.begin(), doubtful.end());
+    for (std::size_t j = 0; j < factors; ++j)  // summed along one factor after the other
+      for (std::size_t i = 0; i < below_.size(); ++i)
+        if (i / strides_[j] % static_cast<std::size_t>(grid.count(j)) > 0) below_[i] += below_[i - strides_[j]];
   }
-  return best;
+
+  int in(const NodeBox& box) const {
+    int count = 0;
+    for (unsigned corner = 0; corner < 1U << strides_.size(); ++corner) {
+      std::size_t index = 0;
+      bool empty = false;
+      for (std::size_t j = 0; j < strides_.size(); ++j) {
+        const int node = corner >> j & 1U ? box.lower[j] - 1 : box.upper[j];
+        empty = empty || node < 0;
+        index += static_cast<std::size_t>(std::max(node, 0)) * strides_[j];
+      }
+      if (!empty) count += std::popcount(corner) % 2 == 0 ? below_[index] : -below_[index];
+    }
+    return count;
+  }
+
+ private:
+  std::vector<std::size_t> strides_;
+  std::vector<int> below_;  // doubtful nodes at or below a node in every factor
+};
+
+/// Tries every box that the roles allow, one factor after the other.
+struct BoxSearch {
+  const FactorGrid& grid;
+  const std::vector<Role>& roles;
+  const DoubtfulCount& doubtful;
+  NodeBox box = {};
+  std::optional<NodeBox> best = {};
+  double most = -1.0;
+
+  void extend(std::size_t factor, double share) {
+    if (share <= most) return;  // it can only shrink
+    if (factor == roles.size()) {
+      if (doubtful.in(box) == 0) best = box, most = share;
+      return;
+    }
+    const int last = grid.count(factor) - 1;
+    const Role role = roles[factor];
+    for (int lower = 0; lower <= (role == Role::bounded ? last : 0); ++lower)
+      for (int upper = role == Role::whole ? last : lower; upper <= last; ++upper) {
+        box.lower.push_back(lower), box.upper.push_back(upper);
+        const bool sought = role == Role::limited || role == Role::bounded;
+        extend(factor + 1, sought ? share * (upper - lower + 0.5) / grid.count(factor) : share);
+        box.lower.pop_back(), box.upper.pop_back();
+      }
+  }
+};
+
+/// "up to 4 kN", "from 3 kN", "from 3 to 4 kN"; empty where the box has the whole range.
+std::string range_of(const Factor& factor, double lower, double upper) {
+  const auto words = [&](double value) { return number(value * per_unit(factor.unit)); };
+  const std::string unit = factor.unit == "-" ? "" : " " + factor.unit;
+  const bool from = lower > factor.lower, to = upper < factor.upper;
+  if (from && to) return fmt::format("{} from {} to {}{}", factor.name, words(lower), words(upper), unit);
+  if (from) return fmt::format("{} from {}{}", factor.name, words(lower), unit);
+  return to ? fmt::format("{} up to {}{}", factor.name, words(upper), unit) : "";
 }
 
 std::string text_of(const FailureQuestion& question, const std::vector<Role>& roles, const AgreementClause& clause) {
-  std::string limits, held;
+  std::string limits, held, ranges;
   for (std::size_t j = 0; j < roles.size(); ++j) {
     const Factor& factor = question.factors[j];
     const auto words = [&](double value) {
       return number(value * per_unit(factor.unit)) + (factor.unit == "-" ? "" : " " + factor.unit);
     };
     if (roles[j] == Role::limited)
-      limits += fmt::format("{}{} {}", limits.empty() ? "" : " and ", factor.name, words(clause.upper[j]));
+      limits += fmt::format("{}{} {}", limits.empty() ? " up to " : " and ", factor.name, words(clause.upper[j]));
     if (roles[j] == Role::held) held += fmt::format(", at {} {}", factor.name, words(factor.lower));
+    if (roles[j] == Role::bounded)
+      if (const std::string range = range_of(factor, clause.lower[j], clause.upper[j]); !range.empty())
+        ranges += (ranges.empty() ? " with " : ", ") + range;
   }
-  return fmt::format(
-      "{}: within {:.3g} % of the load up to {}{}; of {} conditions run there, the farthest is {:.1f} % off",
-      question.name, 100 * question.tolerance, limits, held, clause.rows, 100 * clause.largest);
+  return fmt::format("{}: within {:.3g} % of the load{}{}{}; of {} conditions run there, the farthest is {:.1f} % off",
+                     question.name, 100 * question.tolerance, limits, held, ranges, clause.rows, 100 * clause.largest);
 }
 
 /// Counts the rows in the box and finds the one farthest off. A held factor counts up to a tenth of its range.
@@ -102,7 +159,8 @@ void back_up(const FailureQuestion& question, const FailureMap& map, const std::
     for (std::size_t j = 0; j < roles.size(); ++j) {
       const Factor& factor = question.factors[j];
       const double slack = roles[j] == Role::held ? 0.1 * (factor.upper - factor.lower) : 0.0;
-      in_box = in_box && row.values[static_cast<Index>(j)] <= clause.upper[j] + slack;
+      const double value = row.values[static_cast<Index>(j)];
+      in_box = in_box && value >= clause.lower[j] && value <= clause.upper[j] + slack;
     }
     if (!in_box) continue;
     ++clause.rows;
@@ -115,26 +173,31 @@ void back_up(const FailureQuestion& question, const FailureMap& map, const std::
 
 /// A box and the node in it that is likeliest to overturn it.
 struct Box {
-  std::vector<double> upper;
+  std::vector<double> lower, upper;
   VectorXd most_doubtful;
 };
 
 std::optional<Box> largest_box(const FailureQuestion& question, const FailureMap& map, const std::vector<Role>& roles,
                                const FactorGrid& grid) {
-  std::vector<std::vector<int>> doubtful;
+  std::vector<bool> doubtful;
   std::vector<double> bounds;  // on |difference|, a node each
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const Estimate there = map.at(question, grid.values(grid.node(i)));
     bounds.push_back(std::abs(there.value) + one_sided_95 * there.std_error);
-    if (bounds.back() > question.tolerance) doubtful.push_back(grid.node(i));
+    doubtful.push_back(bounds.back() > question.tolerance);
   }
-  const std::optional<std::vector<int>> corner = largest_corner(grid, roles, doubtful);
-  if (!corner) return std::nullopt;
+  const DoubtfulCount count(grid, doubtful);
+  BoxSearch search{grid, roles, count};
+  search.extend(0, 1.0);
+  if (!search.best) return std::nullopt;
   Box box;
-  for (std::size_t j = 0; j < roles.size(); ++j) box.upper.push_back(grid.value(j, (*corner)[j]));
+  for (std::size_t j = 0; j < roles.size(); ++j) {
+    box.lower.push_back(grid.value(j, search.best->lower[j]));
+    box.upper.push_back(grid.value(j, search.best->upper[j]));
+  }
   double most = -1.0;
   for (std::size_t i = 0; i < grid.size(); ++i)
-    if (inside(grid.node(i), *corner) && bounds[i] > most)
+    if (inside(grid.node(i), *search.best) && bounds[i] > most)
       most = bounds[i], box.most_doubtful = grid.values(grid.node(i));
   return box;
 }
@@ -155,7 +218,7 @@ std::optional<AgreementClause> agreement(const FailureQuestion& question, Failur
   }
   if (!box) return std::nullopt;
   AgreementClause clause;
-  clause.upper = box->upper;
+  clause.lower = box->lower, clause.upper = box->upper;
   back_up(question, map, roles, clause);
   if (clause.rows == 0) return std::nullopt;
   clause.text = text_of(question, roles, clause);

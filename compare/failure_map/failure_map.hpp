@@ -63,7 +63,7 @@ FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions
 /// The largest box of conditions in which the models agree, and what it rests on.
 struct AgreementClause {
   std::string text;                        ///< in plain words
-  std::vector<double> upper;               ///< of each factor; the lower end is the question's, or the held value [SI]
+  std::vector<double> lower, upper;        ///< of each factor [SI]
   int rows = 0;                            ///< that were run in the box
   double largest = 0.0;                    ///< |difference| among them, share of the load
   std::optional<Eigen::VectorXd> witness;  ///< the row with it
@@ -72,15 +72,16 @@ struct AgreementClause {
 /// How a clause speaks of a factor.
 enum class Role {
   limited,  ///< "up to ...": the box reaches from the lower bound to a limit that is sought
+  bounded,  ///< "from ... to ...": both ends are sought
   held,     ///< at its lower bound: "without lugs"
   whole,    ///< over all of its range, not mentioned
 };
 
-/// The box, from the lower corner, of the largest share of the limited factors' ranges within which |difference| stays
+/// The box of the largest share of the limited and bounded factors' ranges within which |difference| stays
 /// below the tolerance with one-sided confidence 95 % at every node of a grid of `nodes` a factor. roles: one a factor.
 /// The box's most doubtful node is run (and added to the map) and the box found again, until that node is a row that
-/// agrees, at most `rounds` times: so a clause rests on the row that was likeliest to overturn it. Nothing where the
-/// models may disagree in the lower corner, or where no row lies in the box in the end.
+/// agrees, at most `rounds` times: so a clause rests on the row that was likeliest to overturn it. Nothing where there
+/// is no such box (of limited factors: where the models may disagree in the lower corner), or no row lies in it.
 std::optional<AgreementClause> agreement(const FailureQuestion& question, FailureMap& map,
                                          const std::vector<Role>& roles, int nodes = 13, int rounds = 8);
 

@@ -72,7 +72,9 @@ const Setting settings_by_name[] = {
     {"lowering", [](DemSettings& s) -> double& { return s.rig.lowering; }, "time in which the load comes on [s]"},
     {"resting", [](DemSettings& s) -> double& { return s.rig.resting; }, "time under the load before the start [s]"},
     {"starting", [](DemSettings& s) -> double& { return s.rig.starting; }, "time in which the motion comes on [s]"},
-    {"dt", [](DemSettings& s) -> double& { return s.rig.dt; }, "[s]; 0: a fifth of the Rayleigh time"}};
+    {"dt", [](DemSettings& s) -> double& { return s.rig.dt; }, "[s]; 0: a fifth of the Rayleigh time"},
+    {"deepest_overlap", [](DemSettings& s) -> double& { return s.rig.deepest_overlap; },
+     "of the smaller radius that grains may overlap [-]"}};
 
 /// Where settled beds are kept, if anywhere.
 using Beds = std::optional<std::filesystem::path>;

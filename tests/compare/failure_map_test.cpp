@@ -74,6 +74,31 @@ TEST(SlowFailureMap, SaysNothingWhereModelsNeverAgree) {
   EXPECT_FALSE(agreement(q, map, without_lugs));
 }
 
+// Models that part at either end of the load and agree between 2.69 and 7.31 kN, whatever the lugs, the angle and the
+// slip: nothing to say from the lower corner, but a box with two ends.
+TEST(SlowFailureMap, ABoxWithTwoEndsWhereTheCornerDisagrees) {
+  FailureQuestion q = question();
+  q.difference = [](const VectorXd& v) -> std::optional<Estimate> {
+    return Estimate{0.3 * std::pow((v[0] - 5000) / 4000, 2), 0.002};
+  };
+  FailureMap map = map_failures(q, {.at_boundary = 6});
+  EXPECT_FALSE(agreement(q, map, without_lugs));
+  const auto clause = agreement(q, map, std::vector<Role>(4, Role::bounded), 9, 0);
+  ASSERT_TRUE(clause);
+  EXPECT_THAT(clause->text, HasSubstr("within 10 % of the load with load from "));
+  EXPECT_GE(clause->lower[0], 2690);
+  EXPECT_LE(clause->upper[0], 7310);
+  EXPECT_GT(clause->upper[0] - clause->lower[0], 0.7 * (7310 - 2690));  // nodes are 875 N apart
+  for (std::size_t j = 1; j < 4; ++j) {
+    EXPECT_EQ(clause->lower[j], q.factors[j].lower);
+    EXPECT_EQ(clause->upper[j], q.factors[j].upper);
+  }
+  for (const FailureRow& row : map.rows) {
+    const bool in_box = row.values[0] >= clause->lower[0] && row.values[0] <= clause->upper[0];
+    EXPECT_TRUE(!in_box || std::abs(row.difference->value) <= clause->largest);
+  }
+}
+
 TEST(FailureMap, ConditionsWithoutAnAnswerAreRowsAndTooManyAreRefused) {
   FailureQuestion q = question();
   q.difference = [](const VectorXd& v) -> std::optional<Estimate> {
