@@ -21,6 +21,24 @@ double rankine(const Rolling& r) { return r.outline.width * passive_force(r.soil
 /// A wave that stands only before a wheel that advances: the spinning wheel carries the soil away under itself.
 double advancing(const Rolling& r) { return rankine(r) * (1 - std::max(0.0, r.around.motion.slip)); }
 
+/// The bow wave stands across the wheel's plane; at yaw psi the wheel meets it with the share cos(psi) of its travel.
+double met(const Rolling& r) { return std::max(0.0, std::cos(r.around.at.yaw)); }
+
+/// Rankine's force at the depth h = r/5, by a power of z/h.
+class PowerOfSinkage final : public Effect {
+ public:
+  explicit PowerOfSinkage(const std::vector<double>& p) : amplitude_(p[0]), power_(p[1]) {}
+  void added_forces(ForceLedger& ledger, const Rolling& r) const override {
+    if (amplitude_ == 0.0 || !(r.sinkage > 0.0)) return;
+    const double depth = r.around.tire.radius / 5;
+    const double force = r.outline.width * passive_force(r.soil, depth) * std::pow(r.sinkage / depth, power_);
+    ledger.add({.name = "bulldozing", .forward = -amplitude_ * met(r) * force});
+  }
+
+ private:
+  double amplitude_, power_;
+};
+
 /// alpha = acos(1 - 2z/D), by its half angle: not 0 for any z > 0; l_0 = z tan^2(45 deg - phi/2). The last two terms
 /// are the wedge's ends, so they are not times b.
 double bekker(const Rolling& r) {
@@ -33,15 +51,13 @@ double bekker(const Rolling& r) {
          r.soil.cohesion * l0 * l0 * (1 + std::sqrt(flow_value(r.soil)));
 }
 
-/// The bow wave stands across the wheel's plane; at yaw psi the wheel meets it with the share cos(psi) of its travel.
 template <double (*Resistance)(const Rolling&)>
 class BowWave final : public Effect {
  public:
   explicit BowWave(const std::vector<double>& p) : amplitude_(p[0]) {}
   void added_forces(ForceLedger& ledger, const Rolling& r) const override {
     if (amplitude_ == 0.0 || !(r.sinkage > 0.0)) return;
-    const double share = std::max(0.0, std::cos(r.around.at.yaw));
-    ledger.add({.name = "bulldozing", .forward = -amplitude_ * share * Resistance(r)});
+    ledger.add({.name = "bulldozing", .forward = -amplitude_ * met(r) * Resistance(r)});
   }
 
  private:
@@ -79,6 +95,19 @@ std::vector<EffectForm> bulldozing_forms() {
        .source = "stated: the passive wedge, times the share of the travel that pushes it",
        .parameters = {{"a", "-", 1.0, 0.0, 20.0, meaning}},
        .make = maker<BowWave<advancing>>()},
+      {.id = id,
+       .form = "power",
+       .equation = "R = a b (gamma h^2 N_phi/2 + 2 c h sqrt(N_phi)) (z/h)^e, h = r/5",
+       .source = "stated: a passive force's growth with depth, 1 for cohesion, 2 for weight, 3 for a wedge's ends",
+       .parameters = {{"a", "-", 1.0, 0.0, 20.0, "multiplier of Rankine's resistance at a depth of r/5"},
+                      {.name = "e",
+                       .unit = "-",
+                       .fallback = 2.0,
+                       .lower = 1.0,
+                       .upper = 3.0,
+                       .meaning = "power of the sinkage",
+                       .spread = 0.5}},
+       .make = maker<PowerOfSinkage>()},
   };
 }
 

@@ -5,6 +5,7 @@
 // the load too, so the wheel sinks a little deeper. The forms differ in slip: the cap bites only where much strength is
 // called up, the series gradually, the reduced strength everywhere.
 #include <algorithm>
+#include <cmath>
 
 #include "bekker_wong/effects/forms.hpp"
 
@@ -48,6 +49,44 @@ class Series final : public Effect {
   double weakness_;
 };
 
+/// A wall that takes adhesion and friction apart, t = (1 - q a) c + (1 - a) sigma tan(phi), and that is reached with
+/// the power h: 1/m^h = 1/m_soil^h + 1/t^h - 1 in shares of the soil's strength. q = 1: h = 1 is the series, large h
+/// the cap.
+class Wall final : public Effect {
+ public:
+  explicit Wall(const std::vector<double>& p)
+      : friction_(1 - p[0]), adhesion_(std::max(0.0, 1 - p[0] * p[1])), power_(p[2]) {}
+  void mobilise(ContactPatch& patch, std::span<const double>, const SoilValues& soil,
+                const Surroundings&) const override {
+    if (friction_ == 1.0) return;
+    const double slope = std::tan(soil.friction_angle);
+    for (int i = 0; i < patch.count; ++i) {
+      const double soils = patch.strength[i], m = patch.mobilised[i];
+      if (!(soils > 0.0) || !(m > 0.0)) continue;
+      const double walls = adhesion_ * soil.cohesion + friction_ * std::max(0.0, patch.sigma[i]) * slope;
+      const double share = std::max(walls / soils, smallest_share);
+      patch.mobilised[i] = m / std::pow(1 + std::pow(m / share, power_) - std::pow(m, power_), 1 / power_);
+    }
+  }
+
+ private:
+  static constexpr double smallest_share = 1e-3;
+  double friction_, adhesion_, power_;
+};
+
+/// A film that shears at a stress of its own whatever presses on it, in series with the soil.
+class Film final : public Effect {
+ public:
+  explicit Film(const std::vector<double>& p) : compliance_(p[0]) {}
+  void mobilise(ContactPatch& patch, std::span<const double>, const SoilValues&, const Surroundings&) const override {
+    for (int i = 0; i < patch.count; ++i)
+      patch.mobilised[i] /= 1 + compliance_ * patch.mobilised[i] * patch.strength[i];
+  }
+
+ private:
+  double compliance_;
+};
+
 }  // namespace
 
 std::vector<EffectForm> interface_limit_forms() {
@@ -72,6 +111,33 @@ std::vector<EffectForm> interface_limit_forms() {
        .source = "stated: a gradual cap with the same limit",
        .parameters = {{"a", "-", 0.3, 0.0, 0.95, meaning}},
        .make = maker<Series>()},
+      {.id = id,
+       .form = "wall",
+       .equation = "1/tau^h = 1/tau_soil^h + 1/t^h - 1/t_soil^h, t = c_a + sigma tan(delta), "
+                   "t_soil = c + sigma tan(phi), tan(delta) = (1 - a) tan(phi), c_a = (1 - q a) c",
+       .source = "after Potyondy 1961, Geotechnique 11(4):339 (adhesion and wall friction fall apart); h stated",
+       .parameters = {{"a", "-", 0.3, 0.0, 0.95, "1 - tan(delta)/tan(phi): friction that the wall lacks"},
+                      {.name = "q",
+                       .unit = "-",
+                       .fallback = 1.5,
+                       .lower = 0.0,
+                       .upper = 10.0,
+                       .meaning = "adhesion that the wall lacks, over the friction that it lacks",
+                       .spread = 1.0},
+                      {.name = "h",
+                       .unit = "-",
+                       .fallback = 3.0,
+                       .lower = 1.0,
+                       .upper = 12.0,
+                       .meaning = "how late and sharply the limit is reached",
+                       .spread = 2.0}},
+       .make = maker<Wall>()},
+      {.id = id,
+       .form = "film",
+       .equation = "1/tau = 1/tau_soil + a",
+       .source = "stated: a wet or tacky surface that shears at 1/a whatever presses on it",
+       .parameters = {{"a", "1/kPa", 5e-5, 0.0, 5e-3, "the reciprocal of the film's shear strength"}},
+       .make = maker<Film>()},
   };
 }
 

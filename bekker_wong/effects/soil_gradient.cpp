@@ -13,6 +13,7 @@ using Shape = double (*)(double amplitude, double d);
 
 double grown_linearly(double a, double d) { return held_positive(1 + a * d); }
 double grown_exponentially(double a, double d) { return grown(a * d); }
+double bay(double a, double d) { return grown(a * d * d); }
 
 void scale_both(SoilValues& soil, double factor) {
   scale_stiffness(soil, factor);
@@ -65,6 +66,13 @@ std::vector<EffectForm> soil_gradient_forms() {
        .parameters = {{"a", "1/m", 0.05, -5.0, 5.0, "relative growth of stiffness and strength a metre"}, reference},
        .measurement = true,
        .make = maker<Gradient<scale_both, grown_linearly>>()},
+      {.id = id,
+       .form = "stiffness_bay",
+       .equation = "k times exp(a d^2)",
+       .source = source,
+       .parameters = {{"a", "1/m^2", 0.05, -5.0, 5.0, "growth of the stiffness away from x_ref"}, reference},
+       .measurement = true,
+       .make = maker<Gradient<scale_stiffness, bay>>()},
   };
 }
 

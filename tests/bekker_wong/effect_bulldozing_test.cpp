@@ -54,7 +54,7 @@ TEST(Bulldozing, ResistanceOfTheRutsDepth) {
 // The wave presses through the axle and not downward: torque and sinkage stay to the bit. Deeper ruts push more soil,
 // so resistance grows with load; with slip it changes only as the sinkage does.
 TEST(Bulldozing, TakesPullAloneAndGrowsWithLoad) {
-  for (const char* form : {"hegedus", "bekker", "rankine", "advancing"}) {
+  for (const char* form : {"hegedus", "bekker", "rankine", "advancing", "power"}) {
     SCOPED_TRACE(form);
     const Reading r = with({"bulldozing", form, {}}, driven()), b = base(driven());
     EXPECT_EQ(r.torque, b.torque);
@@ -72,6 +72,20 @@ TEST(Bulldozing, AdvancingWave) {
   EXPECT_NEAR(resistance("advancing", driven(400, -0.2)), resistance("rankine", driven(400, -0.2)), 1e-9);
   EXPECT_NEAR(resistance("advancing", driven(800, 0.4)), 0.6 * resistance("rankine", driven(800, 0.4)), 1e-9);
   EXPECT_NEAR(resistance("advancing", driven(500, 1.0)), 0.0, 1e-9);
+}
+
+// A power of the sinkage through Rankine's force at a depth of r/5: on clean sand (c = 0) e = 2 is Rankine's law.
+TEST(Bulldozing, PowerOfSinkage) {
+  SoilValues clean = sand();
+  clean.cohesion = 0;
+  const auto force = [&](double e, const OperatingCondition& at) {
+    const EffectList effect = make_effects({{"bulldozing", "power", {{"a", 1.0}, {"e", e}}}});
+    return roll(clean, {}, at).drawbar_pull - roll(clean, effect, at).drawbar_pull;
+  };
+  const OperatingCondition light = driven(300), heavy = driven(1200);
+  EXPECT_NEAR(force(2, heavy), resistance("rankine", heavy, clean), 1e-9);
+  const double deeper = roll(clean, {}, heavy).sinkage / roll(clean, {}, light).sinkage;
+  for (const double e : {1.0, 2.5}) EXPECT_NEAR(force(e, heavy) / force(e, light), std::pow(deeper, e), 1e-6);
 }
 
 // At yaw the wave is met with cos(psi) and turned into the frame of travel by cos(psi) and sin(psi): it takes

@@ -29,6 +29,17 @@ TEST(SoilGradient, StifferAlongTheBin) {
   }
 }
 
+// A bay: stiffer to both sides of its place, k exp(a d^2).
+TEST(SoilGradient, ABayIsAlikeToBothSides) {
+  const EffectChoice bay{"soil_gradient", "stiffness_bay", {{"a", 0.05}, {"x_ref", 1.0}}};
+  SoilValues stiffer = sand();
+  stiffer.k_c *= std::exp(0.2), stiffer.k_phi *= std::exp(0.2);
+  const Reading near = with(bay, at_position(-1.0)), far = with(bay, at_position(3.0)), k = roll(stiffer, {}, driven());
+  EXPECT_NEAR(near.sinkage, k.sinkage, 1e-12);
+  EXPECT_NEAR(far.sinkage, k.sinkage, 1e-12);
+  EXPECT_NEAR(far.drawbar_pull, k.drawbar_pull, 1e-9);
+}
+
 // Stronger toward the far end: more torque and more pull there.
 TEST(SoilGradient, StrongerAlongTheBin) {
   for (const char* form : {"strength", "stiffness_and_strength"}) {
