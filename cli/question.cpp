@@ -148,7 +148,7 @@ Case Question::ask(const Workplace& place) const {
   return question;
 }
 
-nlohmann::ordered_json estimate_json(const Case& question, const std::vector<compare::ModelAnswers>& study) {
+nlohmann::ordered_json answers_json(const Case& question, const std::vector<compare::ModelAnswers>& study) {
   return {{"format", "soilbin-estimate/1"},
           {"tire", question.scenario.tire.name},
           {"soil", question.scenario.soil.name},

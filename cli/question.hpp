@@ -55,6 +55,6 @@ class Question {
 };
 
 /// soilbin-estimate/1: what each model answers at each condition of the question, in SI.
-nlohmann::ordered_json estimate_json(const Case& question, const std::vector<compare::ModelAnswers>& study);
+nlohmann::ordered_json answers_json(const Case& question, const std::vector<compare::ModelAnswers>& study);
 
 }  // namespace soilbin::cli

@@ -130,7 +130,7 @@ Reply estimate_reply(const Setup& setup, const std::string& query) {
   const Asked asked = setup.ask(flags);
   const Case swept = swept_over(asked.question, slips);
   const Study point = compare::run_study(asked.question), curves = compare::run_study(swept, {}, make_curve_model);
-  Json document = estimate_json(asked.question, point);
+  Json document = answers_json(asked.question, point);
   document["command"] = command_line(asked.words);
   document["in_words"] = in_words(asked.question.scenario.tire) + " on " + asked.question.scenario.soil.name + ", " +
                          compare::in_words(asked.question.study.conditions.front());
