@@ -33,6 +33,7 @@ void add_compare(CLI::App& app, Session& session);
 void add_failure_map(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
 void add_reproduce(CLI::App& app, Session& session);
+void add_serve(CLI::App& app, Session& session);
 void add_check(CLI::App& app, Session& session);
 void add_init(CLI::App& app, Session& session);
 void add_list(CLI::App& app, Session& session);

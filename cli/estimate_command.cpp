@@ -40,10 +40,7 @@ int estimate(const Question& inputs, bool json, const Session& session) {
   const Case question = inputs.ask(session.place);
   const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
   if (json) {
-    fmt::print("{}", compare::json_text({{"format", "soilbin-estimate/1"},
-                                         {"tire", question.scenario.tire.name},
-                                         {"soil", question.scenario.soil.name},
-                                         {"rows", compare::rows_json(study)}}));
+    fmt::print("{}", compare::json_text(answers_json(question, study)));
   } else if (compare::any_result(study)) {
     print_text(question, study);
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/command_words.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
 #include "scenario/errors.hpp"
@@ -32,27 +33,13 @@ void add_commands(CLI::App& app, Session& session) {
   add_failure_map(app, session);
   add_report(app, session);
   add_reproduce(app, session);
+  add_serve(app, session);
   add_check(app, session);
   add_init(app, session);
   add_list(app, session);
   add_schema(app, session);
   add_verify(app, session);
   add_doctor(app, session);
-}
-
-/// The command as a person can type it again.
-std::string command_line(const std::vector<std::string>& words) {
-  std::string line = "soilbin";
-  for (const std::string& word : words) {
-    const bool bare = !word.empty() && word.find_first_not_of(
-                                           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                           "0123456789-_=+.,:/%@") == std::string::npos;
-    std::string quoted = word;
-    for (std::size_t at = quoted.find('\''); at != std::string::npos; at = quoted.find('\'', at + 4))
-      quoted.replace(at, 1, "'\\''");
-    line += bare ? " " + word : " '" + quoted + "'";
-  }
-  return line;
 }
 
 int refuse(const std::string& message) {
@@ -74,17 +61,7 @@ std::string misspelt(const CLI::App& app, const std::vector<std::string>& words)
   if (command == nullptr)
     return fmt::format("unknown command '{}'{}\n  hint: commands are {}", clipped(first), did_you_mean(first, commands),
                        listed(commands));
-  std::vector<std::string> flags;
-  for (const CLI::Option* option : command->get_options())
-    for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
-  for (const std::string& word : words) {
-    if (word == "--") break;
-    const std::string flag = word.substr(0, word.find('='));
-    if (!flag.starts_with("--") || std::find(flags.begin(), flags.end(), flag) != flags.end()) continue;
-    return fmt::format("'{}' has no option '{}'{}\n  hint: see soilbin {} --help", first, clipped(flag),
-                       did_you_mean(flag, flags), first);
-  }
-  return "";
+  return unknown_flag(*command, words);
 }
 
 int run(int argc, char** argv) {

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 
@@ -87,7 +88,7 @@ Question::Question(CLI::App& app, std::vector<std::string> needed) : needed_(std
   lugs_.add_to(app, "Tire and soil", "lug-");
   bin_.add_to(app, "Tire and soil", "bin-");
   condition_.add_to(app);
-  app.add_option("--effect", effects_, "switch an effect on; may be given again")
+  app.add_option("--effect", effects_, "switch an effect on; may be given again; none: the case's off")
       ->type_name("ID[:FORM][,PARAMETER=VALUE...]")
       ->allow_extra_args(false)
       ->group("Model");
@@ -137,12 +138,21 @@ Case Question::ask(const Workplace& place) const {
   }
   if (effects_.empty()) return question;
   ModelChoice choice{ModelKind::bekker_wong, {}, "bekker_wong"};
-  for (const std::string& text : effects_) {
+  const bool none = std::find(effects_.begin(), effects_.end(), "none") != effects_.end();
+  if (none && effects_.size() > 1) throw InputError("--effect none stands alone: it switches every effect off");
+  for (const std::string& text : none ? std::vector<std::string>{} : effects_) {
     choice.effects.push_back(parse_effect(text, place.effects, exponent_of(question.scenario.soil)));
     choice.label += " + " + choice.effects.back().id;
   }
   question.study.models = {choice};
   return question;
+}
+
+nlohmann::ordered_json answers_json(const Case& question, const std::vector<compare::ModelAnswers>& study) {
+  return {{"format", "soilbin-estimate/1"},
+          {"tire", question.scenario.tire.name},
+          {"soil", question.scenario.soil.name},
+          {"rows", compare::rows_json(study)}};
 }
 
 }  // namespace soilbin::cli

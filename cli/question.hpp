@@ -2,11 +2,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "cli/described_flags.hpp"
 #include "cli/workplace.hpp"
+#include "compare/sweep/answers.hpp"
 
 namespace soilbin::cli {
 
@@ -29,8 +31,8 @@ class ConditionFlags {
   DescribedFlags<OperatingCondition> flags_;
 };
 
-/// The inputs of `estimate` and `explain`: a case, or a tire, a soil and a condition given by flags; or both, the flags
-/// then going before what the case says.
+/// The inputs of `estimate`, `explain` and `serve`: a case, or a tire, a soil and a condition given by flags; or both,
+/// the flags then going before what the case says.
 class Question {
  public:
   /// `needed`: keys of the condition that must be given where no case is.
@@ -51,5 +53,8 @@ class Question {
   DescribedFlags<Bin> bin_;
   ConditionFlags condition_;
 };
+
+/// soilbin-estimate/1: what each model answers at each condition of the question, in SI.
+nlohmann::ordered_json answers_json(const Case& question, const std::vector<compare::ModelAnswers>& study);
 
 }  // namespace soilbin::cli

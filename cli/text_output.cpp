@@ -100,30 +100,37 @@ std::string in_words(const Tire& tire) {
   return words + ")";
 }
 
+std::vector<Reading> readings(const TractionResult& r) {
+  std::vector<Reading> all;
+  for (const ChannelView& channel : channel_views)
+    all.push_back(
+        {capital(std::string(channel.title)), number(r.*channel.predicted, channel.per_si), std::string(channel.unit)});
+  const bool pulls = drives_and_pulls(r);
+  all.push_back(
+      {"Tractive efficiency", pulls ? efficiency(r) : "none: the wheel has to be pushed or braked", pulls ? "%" : ""});
+  all.push_back(
+      {"Contact",
+       fmt::format("soil meets the wheel {:.1f}° before the axle, presses most at {:.1f}°, lets go at {:.1f}°",
+                   r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree + 0.0),
+       ""});
+  std::string sum;
+  for (const Contribution& part : r.budget) {
+    std::string name = part.name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    const std::string sign = sum.empty() ? (part.force < 0 ? "-" : "") : (part.force < 0 ? " - " : " + ");
+    sum += fmt::format("{}{} N ({})", sign, number(std::abs(part.force)), name);
+  }
+  all.push_back({"Drawbar pull is", sum, ""});
+  return all;
+}
+
 std::string answer_text(const ModelAnswers& model, const Answer& answer) {
   std::string text = fmt::format("{}: {}\n", model.choice.label, compare::in_words(answer.at));
   if (!answer.result) return text + "  no solution: " + answer.error + "\n";
-  const TractionResult& r = *answer.result;
-  const auto line = [&](const std::string& name, const std::string& value, std::string_view unit) {
-    text += fmt::format("  {:<21}{}{}{}\n", name, value, unit.empty() ? "" : " ", unit);
-  };
   text += "\n";
-  for (const ChannelView& channel : channel_views)
-    line(capital(std::string(channel.title)), number(r.*channel.predicted, channel.per_si), channel.unit);
-  line("Tractive efficiency", drives_and_pulls(r) ? efficiency(r) : "none: the wheel has to be pushed or braked",
-       drives_and_pulls(r) ? "%" : "");
-  text +=
-      fmt::format("  {:<21}soil meets the wheel {:.1f}° before the axle, presses most at {:.1f}°, lets go at {:.1f}°\n",
-                  "Contact", r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree + 0.0);
-  text += fmt::format("  {:<21}", "Drawbar pull is");
-  for (std::size_t i = 0; i < r.budget.size(); ++i) {
-    std::string name = r.budget[i].name;
-    std::replace(name.begin(), name.end(), '_', ' ');
-    const double force = r.budget[i].force;
-    const std::string sign = i == 0 ? (force < 0 ? "-" : "") : (force < 0 ? " - " : " + ");
-    text += fmt::format("{}{} N ({})", sign, number(std::abs(force)), name);
-  }
-  return text + "\n";
+  for (const Reading& reading : readings(*answer.result))
+    text += fmt::format("  {:<21}{}{}{}\n", reading.name, reading.value, reading.unit.empty() ? "" : " ", reading.unit);
+  return text;
 }
 
 std::string study_text(const std::vector<ModelAnswers>& study) {

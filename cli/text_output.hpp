@@ -32,6 +32,13 @@ using compare::number;
 /// "rover-wheel (r 90 mm, b 110 mm, smooth)".
 std::string in_words(const Tire& tire);
 
+/// A line of an answer: "Sinkage", "20.6 ± 1.0", "mm"; no unit where the value is a sentence.
+struct Reading {
+  std::string name, value, unit;
+};
+
+/// What an answer says: four results with standard errors, efficiency, angles, budget.
+std::vector<Reading> readings(const TractionResult& result);
 /// The whole of one answer: condition, four results with standard errors, efficiency, angles, budget.
 std::string answer_text(const compare::ModelAnswers& model, const compare::Answer& answer);
 /// One line an answer, the conditions that vary in the first columns.

@@ -75,19 +75,6 @@ void add_plot(Sheet& sheet, const Comparison& comparison, const std::string& tit
   if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
 }
 
-Series stress_series(const Side& side, std::size_t index, const TractionResult& result, double StressSample::*stress) {
-  constexpr std::size_t most = 128;
-  const std::size_t every = result.patch.size() / most + 1;
-  Series series;
-  series.label = side.label;
-  series.color = static_cast<int>(index);
-  for (std::size_t k = 0; k < result.patch.size(); k += every) {
-    series.x.push_back(result.patch[k].theta / degree);
-    series.y.push_back(result.patch[k].*stress / 1000);
-  }
-  return series;
-}
-
 }  // namespace
 
 Sheet overview_sheet(const Comparison& comparison) {
@@ -161,19 +148,11 @@ Sheet contact_sheet(const Comparison& comparison, std::size_t curve) {
 }
 
 Sheet stress_sheet(const Comparison& comparison, std::size_t condition) {
-  Sheet sheet{in_words(comparison.question.study.conditions[condition]), {}, Palette::named};
-  const std::pair<const char*, double StressSample::*> stresses[] = {{"Normal stress [kPa]", &StressSample::normal},
-                                                                     {"Shear stress [kPa]", &StressSample::shear}};
-  for (const auto& [title, stress] : stresses) {
-    Plot plot{title, {"angle from the vertical, entry side positive [deg]", {}, {}}, {}, {}, false};
-    for (std::size_t s = 0; s < comparison.sides.size(); ++s) {
-      const auto& result = comparison.sides[s].points[condition].result;
-      if (result && !result->patch.empty())
-        plot.series.push_back(stress_series(comparison.sides[s], s, *result, stress));
-    }
-    if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
-  }
-  return sheet;
+  std::vector<LabelledPatch> patches;
+  for (std::size_t s = 0; s < comparison.sides.size(); ++s)
+    if (const auto& result = comparison.sides[s].points[condition].result)
+      patches.push_back({comparison.sides[s].label, static_cast<int>(s), result->patch});
+  return patch_sheet(in_words(comparison.question.study.conditions[condition]), patches);
 }
 
 HeatMap heat_map_of(const Comparison& comparison, const Tally& tally) {

@@ -7,6 +7,7 @@
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/estimate.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -20,9 +21,9 @@ struct Shown {
   std::function<Estimate(const TractionResult&)> get;
 };
 
-std::vector<Shown> shown_of(const std::vector<ModelAnswers>& study) {
+std::vector<Shown> shown_of(const std::vector<ModelAnswers>& study, Panels panels) {
   std::vector<Shown> all;
-  bool side = false;
+  bool side = panels == Panels::all;
   for (const ModelAnswers& model : study)
     for (const Answer& answer : model.answers)
       side = side || (answer.result && answer.result->lateral_force.value != 0.0);
@@ -74,6 +75,19 @@ bool same_setpoint(const PredictedRun& a, const PredictedRun& b) {
   return std::abs(a.measured.at.slip - b.measured.at.slip) < 0.02;
 }
 
+Series stress_series(const LabelledPatch& from, double StressSample::*stress) {
+  constexpr std::size_t most = 128;
+  const std::size_t every = from.patch.size() / most + 1;
+  Series series;
+  series.label = from.label;
+  series.color = from.color;
+  for (std::size_t k = 0; k < from.patch.size(); k += every) {
+    series.x.push_back(from.patch[k].theta / degree);
+    series.y.push_back(from.patch[k].*stress / 1000);
+  }
+  return series;
+}
+
 /// Predictions of a curve as a line through the means of its setpoints.
 Series predicted_line(const std::vector<const PredictedRun*>& runs, const ChannelView& channel) {
   struct Mean {
@@ -100,13 +114,13 @@ Series predicted_line(const std::vector<const PredictedRun*>& runs, const Channe
 
 }  // namespace
 
-Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study) {
+Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, Panels panels) {
   Sheet sheet{question.study.name, {}, Palette::ordered};
   const Curves curves = curves_against_slip(question.study.conditions, Spread::exact);
   const bool alone = curves.labels.size() == 1;
   if (alone) sheet.palette = Palette::named;
   const bool bands = curves.labels.size() * study.size() <= most_bands;
-  for (const Shown& shown : shown_of(study)) {
+  for (const Shown& shown : shown_of(study, panels)) {
     Plot plot = empty_plot(shown);
     for (std::size_t m = 0; m < study.size(); ++m)
       for (std::size_t curve = 0; curve < curves.labels.size(); ++curve) {
@@ -117,6 +131,19 @@ Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study) 
         plot.series.push_back(std::move(series));
       }
     sheet.plots.push_back(std::move(plot));
+  }
+  return sheet;
+}
+
+Sheet patch_sheet(const std::string& title, const std::vector<LabelledPatch>& patches) {
+  Sheet sheet{title, {}, Palette::named};
+  const std::pair<const char*, double StressSample::*> stresses[] = {{"Normal stress [kPa]", &StressSample::normal},
+                                                                     {"Shear stress [kPa]", &StressSample::shear}};
+  for (const auto& [name, stress] : stresses) {
+    Plot plot{name, {"angle before the axle [deg]", {}, {}}, {}, {}, false};
+    for (const LabelledPatch& one : patches)
+      if (!one.patch.empty()) plot.series.push_back(stress_series(one, stress));
+    if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
   }
   return sheet;
 }

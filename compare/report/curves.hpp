@@ -7,9 +7,22 @@
 
 namespace soilbin::compare {
 
+/// Whether a panel stands there whose values are all zero.
+enum class Panels { telling, all };
+
 /// Drawbar pull, torque, sinkage, tractive efficiency (and the lateral force where there is one) against slip: a colour
 /// for each combination of the other conditions, a dash for each model; with up to three curves also error bands.
-Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study);
+Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, Panels panels = Panels::telling);
+
+/// Stresses under one wheel, of a side or a model.
+struct LabelledPatch {
+  std::string label;
+  int color = 0;
+  const std::vector<StressSample>& patch;
+};
+
+/// sigma and tau along the contact, a series for each patch that holds samples; no plots where none does.
+Sheet patch_sheet(const std::string& title, const std::vector<LabelledPatch>& patches);
 
 /// Each measured channel against slip: measured runs as points, predictions as lines through their setpoints' means.
 Sheet campaign_sheet(const Campaign& campaign, const Prediction& prediction);

@@ -74,6 +74,8 @@ class Page {
   void choices(const std::string& what, const std::vector<Choice>& parts, std::size_t first);
   /// From now on the page has scripts: figures become interactive where a library for it was found.
   void enliven(Libraries libraries) { libraries_ = std::move(libraries); }
+  /// A script of the caller's, after the page's own; needs `enliven`.
+  void script(const std::string& text) { extra_scripts_ += text; }
   /// A replay to look at in 3D; without scripts its title and facts alone.
   void replay(const ReplayFile& file, const std::string& caption);
   /// A folded part that a click opens: what `fill` adds to the page goes into it.
@@ -93,7 +95,7 @@ class Page {
   void close_fold();
   std::string scripts() const;
 
-  std::string title_, subtitle_, body_;
+  std::string title_, subtitle_, body_, extra_scripts_;
   std::vector<std::pair<std::string, std::string>> sections_;  ///< anchor, title
   std::vector<Sheet> sheets_;
   std::optional<Libraries> libraries_;

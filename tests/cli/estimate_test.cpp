@@ -100,6 +100,17 @@ TEST(Estimate, ACaseAnswersAllOrOneOfItsConditions) {
       << "the study's rotation stays";
 }
 
+TEST(Estimate, NoneSwitchesTheCasesEffectsOff) {
+  const std::string point = "estimate rover-slip --slip 20% --json ";  // its models: the base, and with slip sinkage
+  const auto both = soilbin(point).json()["rows"], base = soilbin(point + "--effect none").json()["rows"];
+  ASSERT_EQ(both.size(), 2U);
+  ASSERT_EQ(base.size(), 1U);
+  EXPECT_EQ(base[0], both[0]);
+  const Outcome mixed = soilbin(point + "--effect none --effect slip_sinkage");
+  EXPECT_EQ(mixed.status, 2);
+  EXPECT_NE(mixed.err.find("--effect none stands alone"), std::string::npos) << mixed.err;
+}
+
 TEST(Explain, TheBudgetAddsUpAndTheFaultOfEquationFiveIsNamed) {
   const std::string question = "explain " + wheel + "--slip 0.2 --effect bulldozing ";
   const Outcome text = soilbin(question);

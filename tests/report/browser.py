@@ -113,10 +113,11 @@ class Browser:
                 return answer["result"]
         raise TimeoutError(method)
 
-    def open(self, path):
+    def open(self, place):
+        """A file's path, or an address."""
         self.loaded = False
         self.errors, self.addresses = [], []
-        self.call("Page.navigate", url=f"file://{path}")
+        self.call("Page.navigate", url=str(place) if ":" in str(place) else f"file://{place}")
         end = time.monotonic() + 30
         while not self.loaded and time.monotonic() < end:
             self.message(1)

@@ -14,7 +14,7 @@ import browser
 import replay_of_many
 
 SOILBIN = sys.argv.pop(1)
-PICTURES = Path(sys.argv.pop(2)) if "--pictures" in sys.argv[1:2] and sys.argv.pop(1) else None
+PICTURES = Path(sys.argv.pop(1)) if "--pictures" in sys.argv[1:2] and sys.argv.pop(1) else None
 
 CASE = """format: soilbin-case/1
 name: cmu

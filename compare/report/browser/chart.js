@@ -34,6 +34,13 @@ soilbin.Chart = class {
     new ResizeObserver(() => this.draw()).observe(host);
   }
 
+  // Shows another plot in the same panel; zoom and reading stay.
+  replot(plot) {
+    this.plot = plot;
+    if (this.reading !== null) this.reading = Math.min(this.reading, this.places().length - 1);
+    this.draw();
+  }
+
   visible() { return this.plot.series.filter(series => !this.hidden.has(series.label)); }
 
   // Every x at which a visible series has a value, once.

@@ -1,0 +1,17 @@
+// The words of a command line: as a person can type them again, and which of them is misspelt.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace soilbin::cli {
+
+/// "soilbin WORD..." as a person can type it again: words that a shell would take apart are quoted.
+std::string command_line(const std::vector<std::string>& words);
+
+/// Names the first of the words that looks like a flag ("--...", up to "--") and is none of the command's, with the
+/// nearest right one and a hint; "" for none.
+std::string unknown_flag(const CLI::App& command, const std::vector<std::string>& words);
+
+}  // namespace soilbin::cli

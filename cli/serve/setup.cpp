@@ -1,0 +1,257 @@
+#include "cli/serve/setup.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "bekker_wong/effect.hpp"
+#include "cli/command_words.hpp"
+#include "cli/question.hpp"
+#include "cli/text_output.hpp"
+#include "scenario/mapping_writer.hpp"
+#include "scenario/source_text.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double usual_slip = 0.2;  ///< where a page starts, as near as the case allows
+
+/// People read shares in percent.
+std::string shown_unit(const std::string& unit) { return unit == "-" ? "%" : unit; }
+
+std::string without_blanks(std::string text) {
+  std::erase(text, ' ');
+  return text;
+}
+
+std::string key_of(const std::string& prefix, const char* key) { return flag_of(prefix, key).substr(2); }
+
+/// The visitor of a condition's description that spells each member that has a value as a flag.
+class ConditionAsFlags {
+ public:
+  using C = OperatingCondition;
+
+  explicit ConditionAsFlags(const C& at) : at_(at) {}
+  std::vector<Flag> flags;
+
+  void number(const char* key, double C::*member, const Measure& measure, Need, const char*) {
+    add(key, without_blanks(write_quantity(at_.*member, shown_unit(measure.unit))));
+  }
+  void number(const char* key, std::optional<double> C::*member, const Measure& measure, Need, const char*) {
+    if (at_.*member) add(key, without_blanks(write_quantity(*(at_.*member), measure.unit)));
+  }
+  void integer(const char* key, int C::*member, int, Need, const char*) { add(key, std::to_string(at_.*member)); }
+  void integer(const char* key, std::optional<int> C::*member, int, Need, const char*) {
+    if (at_.*member) add(key, std::to_string(*(at_.*member)));
+  }
+  template <class E>
+  void choice(const char* key, E C::*member, Need, const char*) {
+    add(key, std::string(word_of(at_.*member)));
+  }
+
+ private:
+  void add(const char* key, std::string text) { flags.emplace_back(key_of("", key), std::move(text)); }
+
+  const C& at_;
+};
+
+std::vector<Flag> as_flags(const OperatingCondition& at) {
+  ConditionAsFlags visitor(at);
+  describe(visitor, std::type_identity<OperatingCondition>{});
+  return visitor.flags;
+}
+
+/// 1, 2 or 5 times a power of ten, nearest to x (> 0) on a logarithmic scale.
+double round_number(double x) {
+  const double decade = std::pow(10.0, std::floor(std::log10(x)));
+  for (const auto& [digit, below] : {std::pair{1.0, 1.5}, {2.0, 3.5}, {5.0, 7.5}})
+    if (x < below * decade) return digit * decade;
+  return 10 * decade;
+}
+
+/// The visitor that makes a control of each number that always has a value. Where the description knows no limit a
+/// slider reaches a few times `start`; where the limit itself is not admissible, half way to it.
+template <class T>
+class NumbersOf {
+ public:
+  NumbersOf(Json& to, const T& from, std::string prefix, double start)
+      : to_(to), from_(from), prefix_(std::move(prefix)), start_(start) {}
+
+  void number(const char* key, double T::*member, const Measure& measure, Need, const char* meaning) {
+    constexpr double steps = 200;
+    const std::string unit = shown_unit(measure.unit), flag = key_of(prefix_, key);
+    const double per_si = compare::per_unit(unit), value = from_.*member * per_si;
+    const auto limit = [&](double end, bool open) {
+      return std::isfinite(end) ? std::round(end * per_si / (open ? 2.0 : 1.0))
+                                : round_number(3 * std::max(std::abs(value), start_ * per_si));
+    };
+    const double upper = limit(measure.range.upper, measure.range.upper_open);
+    double lower = limit(measure.range.lower, measure.range.lower_open);
+    const double step = round_number((upper - lower) / steps);
+    if (lower == 0.0 && measure.range.lower_open) lower = step;
+    std::string title = compare::capital(flag);
+    std::replace(title.begin(), title.end(), '-', ' ');
+    to_.push_back({{"key", flag},
+                   {"title", title},
+                   {"meaning", meaning},
+                   {"unit", unit},
+                   {"value", std::stod(write_quantity(from_.*member, unit))},
+                   {"lower", lower},
+                   {"upper", upper},
+                   {"step", step}});
+  }
+  template <class N>
+  void number(const char*, std::optional<N> T::*, const Measure&, Need, const char*) {}
+  template <class... Rest>
+  void integer(const Rest&...) {}
+  template <class... Rest>
+  void choice(const Rest&...) {}
+
+ private:
+  Json& to_;
+  const T& from_;
+  std::string prefix_;
+  double start_;
+};
+
+/// An effect as the flag --effect spells it; parameters at their defaults are left out.
+std::string effect_word(const EffectChoice& choice, const Soil& soil) {
+  const bekker_wong::EffectForm& form = bekker_wong::find_form(choice);
+  std::string word = form.id + ":" + form.form;
+  for (const bekker_wong::EffectParameter& parameter : form.parameters) {
+    const auto given = choice.parameters.find(parameter.name);
+    if (given == choice.parameters.end() || given->second == parameter.fallback) continue;
+    const double n = soil.semi_empirical ? soil.semi_empirical->exponent.value : 1.0;
+    word += "," + parameter.name + "=" + without_blanks(write_quantity(given->second, parameter.unit, n));
+  }
+  return word;
+}
+
+/// The catalogue, forms under their effects; "on": how the question spells an effect that it switches on, else null.
+Json effects_json(const Case& question) {
+  Json all = Json::array();
+  for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue()) {
+    if (all.empty() || all.back()["id"] != form.id)
+      all.push_back({{"id", form.id},
+                     {"of", form.measurement ? "measurement" : "wheel"},
+                     {"on", nullptr},
+                     {"forms", Json::array()}});
+    all.back()["forms"].push_back({{"form", form.form}, {"equation", form.equation}, {"source", form.source}});
+    for (const EffectChoice& choice : question.study.models.front().effects)
+      if (choice.id == form.id) all.back()["on"] = effect_word(choice, question.scenario.soil);
+  }
+  return all;
+}
+
+/// Soils of the library that the analytic model can take.
+Json soils_json(const Library& library) {
+  Json names = Json::array();
+  for (const std::string& name : library.names(Shelf::soils)) {
+    try {
+      if (find_soil(name, library).semi_empirical) names.push_back(name);
+    } catch (const InputError&) {  // told by `soilbin list soils`
+    }
+  }
+  return names;
+}
+
+void refuse_files(const std::vector<Flag>& query, const Library& library) {
+  for (const auto& [key, name] : query)
+    for (const Shelf shelf : {Shelf::soils, Shelf::tires})
+      if (key == (shelf == Shelf::soils ? "soil" : "tire") && !library.find(shelf, name)) {
+        const std::vector<std::string> names = library.names(shelf);
+        throw InputError(fmt::format("--{}: '{}' is none of the library's {}{}\n  hint: there are {}", key,
+                                     clipped(name), folder_of(shelf), did_you_mean(name, names), listed(names)));
+      }
+}
+
+/// The flags of one condition that tell it from the others.
+std::vector<Flag> telling(const OperatingCondition& one, const std::vector<OperatingCondition>& all) {
+  std::vector<Flag> same = as_flags(one), flags;
+  for (const OperatingCondition& at : all) {
+    const std::vector<Flag> other = as_flags(at);
+    const auto differs = std::stable_partition(same.begin(), same.end(), [&](const Flag& flag) {
+      return std::find(other.begin(), other.end(), flag) != other.end();
+    });
+    flags.insert(flags.end(), differs, same.end());
+    same.erase(differs, same.end());
+  }
+  return flags;
+}
+
+bool holds(const std::vector<Flag>& flags, const std::string& key) {
+  return std::any_of(flags.begin(), flags.end(), [&](const Flag& flag) { return flag.first == key; });
+}
+
+}  // namespace
+
+Setup::Setup(const Workplace& place, std::string case_name, std::vector<Flag> flags)
+    : place_(place), case_name_(std::move(case_name)), start_(std::move(flags)) {
+  const Case question = put_together({}).question;
+  const std::vector<OperatingCondition>& all = question.study.conditions;
+  const auto first = std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.slip - usual_slip) < std::abs(b.slip - usual_slip);
+  });
+  for (const Flag& flag : telling(*first, all))
+    if (!holds(start_, flag.first)) start_.push_back(flag);
+  const ModelChoice& model = question.study.models.front();
+  if (!holds(start_, "effect") && (question.study.models.size() > 1 || model.model != ModelKind::bekker_wong)) {
+    for (const EffectChoice& choice : model.effects)
+      start_.emplace_back("effect", effect_word(choice, question.scenario.soil));
+    if (model.effects.empty()) start_.emplace_back("effect", "none");
+  }
+  ask({});
+}
+
+Asked Setup::put_together(const std::vector<Flag>& query) const {
+  Asked asked;
+  asked.words = {"estimate"};
+  if (!case_name_.empty()) asked.words.push_back(case_name_);
+  for (const Flag& flag : start_)
+    if (!holds(query, flag.first)) asked.words.push_back("--" + flag.first + "=" + flag.second);
+  for (const Flag& flag : query) asked.words.push_back("--" + flag.first + "=" + flag.second);
+  CLI::App app("", asked.words.front());
+  app.set_help_flag("");
+  const Question question(app);
+  if (const std::string problem = unknown_flag(app, asked.words); !problem.empty()) throw InputError(problem);
+  try {
+    app.parse(std::vector<std::string>(asked.words.rbegin(), asked.words.rend() - 1));
+  } catch (const CLI::ParseError& error) {
+    throw InputError(fmt::format("{}\n  hint: see soilbin estimate --help", error.what()));
+  }
+  asked.question = question.ask(place_);
+  return asked;
+}
+
+Asked Setup::ask(const std::vector<Flag>& query) const {
+  refuse_files(query, place_.library);
+  Asked asked = put_together(query);
+  if (const std::size_t conditions = asked.question.study.conditions.size(); conditions != 1)
+    throw InputError(
+        fmt::format("{} conditions are left, where one is asked for\n  hint: give those that the case "
+                    "varies: load, slip, pass, moisture, ...",
+                    conditions));
+  return asked;
+}
+
+Json numbers_json(const Case& question) {
+  Json numbers = Json::array();
+  NumbersOf<OperatingCondition> of_condition(numbers, question.study.conditions.front(), "", 0.1);
+  describe(of_condition, std::type_identity<OperatingCondition>{});
+  NumbersOf<Lugs> of_lugs(numbers, question.scenario.tire.lugs, "lug-", 0.02 * question.scenario.tire.radius);
+  describe(of_lugs, std::type_identity<Lugs>{});
+  return numbers;
+}
+
+Json Setup::document() const {
+  const Case question = ask({}).question;
+  return {{"format", "soilbin-serve/1"},         {"tire", in_words(question.scenario.tire)},
+          {"soil", question.scenario.soil.name}, {"soils", soils_json(place_.library)},
+          {"numbers", numbers_json(question)},   {"effects", effects_json(question)}};
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,51 @@
+// What a served page starts from, and the questions that its queries turn it into. A query speaks the flags of
+// `soilbin estimate`, and is read by the same code.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/workplace.hpp"
+
+namespace soilbin::cli {
+
+/// A flag of `soilbin estimate` without its dashes, and its value: {"load", "80N"}.
+using Flag = std::pair<std::string, std::string>;
+
+/// A question of one condition, and the words that ask `soilbin` the same: {"estimate", "paper-straight",
+/// "--slip=20%"}.
+struct Asked {
+  Case question;
+  std::vector<std::string> words;
+};
+
+class Setup {
+ public:
+  /// Starts from a case (a name, a path, or "") and flags of `soilbin estimate`: at the first of its conditions whose
+  /// slip is nearest to 20 %, with the effects of its first model, on the analytic
+  /// one. Throws InputError as `soilbin estimate` does.
+  /// `place` must outlive this.
+  Setup(const Workplace& place, std::string case_name, std::vector<Flag> flags);
+
+  /// The start with the query's flags in place of its own. Throws InputError: an unknown flag, a value that is wrong, a
+  /// soil or tire that is not of the library (a query reads no file that it names), more than one condition.
+  Asked ask(const std::vector<Flag>& query) const;
+
+  /// soilbin-serve/1: the numbers that a page moves, soils and effects; where each starts, and its limits.
+  nlohmann::ordered_json document() const;
+
+ private:
+  Asked put_together(const std::vector<Flag>& query) const;
+
+  const Workplace& place_;
+  std::string case_name_;
+  std::vector<Flag> start_;  ///< flags that make a single condition of the case
+};
+
+/// Load, slip, speed, inclines, yaw and lug height of a question of one condition, each with key (its flag), title,
+/// meaning, unit, and in that unit its value and the limits and step of a slider.
+nlohmann::ordered_json numbers_json(const Case& question);
+
+}  // namespace soilbin::cli

@@ -1,0 +1,382 @@
+"""`soilbin serve`: what it answers over HTTP, and its page in a real browser.
+
+Usage: serve_test.py SOILBIN [--pictures DIR]     the page's tests are left out where no Chromium is installed
+"""
+import http.client
+import json
+import os
+import shlex
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+from urllib.parse import quote
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "report"))
+import browser  # noqa: E402
+
+SOILBIN = sys.argv.pop(1)
+PICTURES = Path(sys.argv.pop(1)) if "--pictures" in sys.argv[1:2] and sys.argv.pop(1) else None
+
+CASE = """format: soilbin-case/1
+name: two-models
+tire: {name: my wheel, radius: 110 mm, width: 100 mm, lugs: {height: 8 mm, count: 24}}
+soil: dry-sand
+study:
+  models:
+    - {model: bekker_wong, effects: [{id: exit_angle, form: proportional, parameters: {c3: 0.3}}]}
+    - bekker_wong
+  conditions: {load: [60 N, 80 N], slip: [0 %, 20 %], speed: 0.02 m/s}
+"""
+
+
+class Server:
+    """`soilbin serve WORDS` at a free port."""
+
+    def __init__(self, *words, **environment):
+        self.process = subprocess.Popen([SOILBIN, "serve", "--port", "0", *words], stdout=subprocess.PIPE, text=True,
+                                        stderr=subprocess.PIPE, env=os.environ | environment)
+        self.address = self.process.stdout.readline().strip()
+        assert self.address.startswith("http://127.0.0.1:"), self.process.communicate()
+        self.port = int(self.address.rstrip("/").rsplit(":", 1)[1])
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.stop()
+
+    def stop(self, how=signal.SIGINT):
+        if self.process.poll() is None:
+            self.process.send_signal(how)
+        out, err = self.process.communicate(timeout=20)
+        return self.process.returncode, out, err
+
+    def ask(self, target, method="GET", **headers):
+        """Status, headers and text of a target."""
+        line = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
+        line.request(method, target, headers=headers)
+        answer = line.getresponse()
+        text = answer.read().decode()
+        line.close()
+        return answer.status, answer.headers, text
+
+    def estimate(self, **flags):
+        """Status and document; a flag that is given as a list is given again and again."""
+        pairs = [(key, one) for key, value in flags.items() for one in (value if isinstance(value, list) else [value])]
+        status, _, text = self.ask("/estimate?" + "&".join(f"{k.replace('_', '-')}={quote(v)}" for k, v in pairs))
+        return status, json.loads(text)
+
+
+def soilbin(*words, **more):
+    return subprocess.run([SOILBIN, *words], capture_output=True, text=True, check=False, **more)
+
+
+class TheServer(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = Server("paper-straight", "--load", "4kN")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.stop()
+
+    def refused(self, status, words, **flags):
+        found, document = self.server.estimate(**flags)
+        self.assertEqual(found, status, document)
+        self.assertIn(words, f"{document['error']}\n{document['hint']}")
+        return document
+
+    def test_says_what_the_command_says_that_it_shows(self):
+        for flags in ({}, {"slip": "-15%", "yaw": "12.5 deg"}, {"soil": "sandy-loam", "lug_height": "20mm"},
+                      {"effect": ["slip_sinkage", "exit_angle"]},
+                      {"effect": "none", "transverse_incline": "5deg", "longitudinal_incline": "3deg"}):
+            status, served = self.server.estimate(**flags)
+            self.assertEqual(status, 200, served)
+            words = shlex.split(served["command"])
+            self.assertEqual(words[0], "soilbin")
+            told = json.loads(soilbin(*words[1:], "--json").stdout)
+            for key in ("format", "tire", "soil", "rows"):
+                self.assertEqual(served[key], told[key], key)
+
+    def test_the_curves_go_through_the_point(self):
+        _, served = self.server.estimate(slip="30%")
+        titles = [plot["title"].split(" [")[0] for plot in served["curves"]["plots"]]
+        self.assertEqual(titles, ["Drawbar pull", "Torque", "Sinkage", "Lateral force", "Tractive efficiency"])
+        for plot in served["curves"]["plots"]:
+            curve, point = plot["series"]
+            self.assertEqual((len(curve["x"]), len(point["x"])), (61, 1))
+            self.assertEqual(curve["y"][curve["x"].index(30)], point["y"][0])
+        self.assertEqual([p["title"] for p in served["stresses"]["plots"]], ["Normal stress [kPa]", "Shear stress [kPa]"])
+        _, wide = self.server.estimate(slips="-100%..100%")
+        self.assertEqual(wide["curves"]["plots"][0]["series"][0]["x"][0], -100)
+
+    def test_refuses_with_a_hint_as_the_command_does(self):
+        self.refused(400, "did you mean '--load'?", laod="80N")
+        self.refused(400, "a mass", load="80kg")
+        self.refused(400, "must be finite", load="nan")
+        self.refused(400, "must be -1 .. 1", slip="120%")
+        self.refused(400, "did you mean 'dry-sand'?", soil="dry-snad")
+        self.refused(400, "did you mean 'slip_sinkage'?", effect="slip_sinkag")
+        self.refused(400, "LOW..HIGH", slips="0%")
+        self.refused(400, "no option '--json'", json="true")
+        self.assertEqual(self.server.ask("/estimate?load")[0], 400)
+        self.assertEqual(self.server.ask("/estimate?load=")[0], 400)
+        self.assertEqual(self.server.ask("/estimate?load=80%N")[0], 400)
+        self.assertEqual(self.server.ask("/estimate?load=1N&load=2N")[0], 400)
+
+    def test_where_the_model_has_no_answer_it_says_so_and_gives_the_curves(self):
+        document = self.refused(422, "no solution", load="2000kN")
+        self.assertEqual(len(document["curves"]["plots"]), 5)
+        self.assertEqual(document["readings"], [])
+
+    def test_a_query_reads_no_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            secret = Path(folder) / "secret.yaml"
+            secret.write_text("password: 12345\n")
+            for key in ("soil", "tire"):
+                self.assertNotIn("12345", json.dumps(self.refused(400, f"none of the library's {key}s", **{key: str(secret)})))
+        self.assertEqual(self.server.ask("/../../README.md")[0], 404)
+
+    def test_other_pages_can_not_read_it(self):
+        self.assertEqual(self.server.ask("/case", Host="evil.example")[0], 403)
+        self.assertEqual(self.server.ask("/case", Host=f"localhost:{self.server.port}")[0], 200)
+        self.assertNotIn("Access-Control-Allow-Origin", self.server.ask("/case")[1])
+
+    def test_methods_paths_and_rubbish(self):
+        self.assertEqual(self.server.ask("/", "POST")[0], 405)
+        status, headers, text = self.server.ask("/case", "HEAD")
+        self.assertEqual((status, text), (200, ""))
+        self.assertGreater(int(headers["Content-Length"]), 1000)
+        status, _, text = self.server.ask("/nothing")
+        self.assertEqual(status, 404)
+        self.assertIn("/estimate", json.loads(text)["hint"])
+        with socket.create_connection(("127.0.0.1", self.server.port)) as line:
+            line.sendall(b"rubbish\r\n\r\n")
+            line.settimeout(10)
+            while line.recv(4096):
+                pass
+        self.assertEqual(self.server.ask("/case")[0], 200)
+
+    def test_a_connection_that_waits_holds_up_nobody(self):
+        with socket.create_connection(("127.0.0.1", self.server.port)):
+            self.assertEqual(self.server.ask("/case")[0], 200)
+
+    def test_the_page_holds_all_it_needs(self):
+        status, headers, text = self.server.ask("/")
+        self.assertEqual((status, headers["Content-Type"]), (200, "text/html; charset=utf-8"))
+        self.assertNotIn("src=", text.split("<script>")[0])
+        self.assertIn("d3", text)
+
+    def test_is_quick(self):
+        line = http.client.HTTPConnection("127.0.0.1", self.server.port, timeout=20)
+        times = []
+        for i in range(100):
+            began = time.perf_counter()
+            line.request("GET", f"/estimate?slip={i % 60}%25&effect=slip_sinkage&effect=exit_angle&yaw=10deg")
+            json.loads(line.getresponse().read())
+            times.append(1000 * (time.perf_counter() - began))
+        line.close()
+        times.sort()
+        print(f"{times[50]:.1f} ms a request (median of 100; 90 % within {times[90]:.1f} ms)")
+        self.assertLess(times[50], 100)  # generous: other work may share the machine
+
+
+class StartAndStop(unittest.TestCase):
+    def test_a_case_with_models_and_conditions_starts_at_one_of_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            case = Path(folder) / "my case.yaml"
+            case.write_text(CASE)
+            with Server(str(case)) as server:
+                start = json.loads(server.ask("/case")[2])
+                self.assertEqual({n["key"]: n["value"] for n in start["numbers"]},
+                                 {"load": 60, "slip": 20, "speed": 0.02, "longitudinal-incline": 0,
+                                  "transverse-incline": 0, "yaw": 0, "lug-height": 8})
+                self.assertIn("dry-sand", start["soils"])
+                on = {e["id"]: e["on"] for e in start["effects"] if e["on"]}
+                self.assertEqual(list(on), ["exit_angle"])
+                self.assertEqual("exit_angle:proportional,c3=0.3", on["exit_angle"])
+                status, served = server.estimate(slip="35%")
+                told = json.loads(soilbin(*shlex.split(served["command"])[1:], "--json").stdout)
+                self.assertEqual(served["rows"], told["rows"])
+                self.assertEqual([(r["load"], r["slip"], r["label"]) for r in told["rows"]],
+                                 [(60, 0.35, "bekker_wong + exit_angle")])
+
+    def test_a_case_of_grains_starts_the_analytic_wheel(self):
+        with Server("code-to-code-wheel") as server:
+            status, served = server.estimate()  # its sand has values for grains alone
+            self.assertEqual(status, 422)
+            self.assertIn("no semi_empirical values", served["error"])
+            status, served = server.estimate(soil="dry-sand")
+            self.assertEqual((status, served["rows"][0]["model"]), (200, "bekker_wong"))
+
+    def test_starts_from_flags_alone(self):
+        with Server("--soil", "dry-sand", "--tire", "rover-wheel", "--load", "65N", "--slip", "20%") as server:
+            _, served = server.estimate(load="70N")
+            self.assertEqual(served["rows"][0]["load"], 70)
+
+    def test_stops_cleanly(self):
+        for how in (signal.SIGINT, signal.SIGTERM):
+            server = Server()
+            with socket.create_connection(("127.0.0.1", server.port)):  # one that is still open
+                status, _, err = server.stop(how)
+            self.assertEqual((status, err), (0, ""))
+
+    def test_a_port_in_use_is_told(self):
+        with Server() as server:
+            second = soilbin("serve", "--port", str(server.port))
+            self.assertEqual(second.returncode, 2)
+            self.assertIn(f"port {server.port} can't be had", second.stderr)
+            self.assertIn("hint: --port 0", second.stderr)
+
+    def test_wrong_flags_are_told_before_anything_listens(self):
+        for words, told in ((["no-such-case"], "no study 'no-such-case'"), (["--port", "99999"], "port"),
+                            (["paper-straight", "--laod", "1N"], "did you mean '--load'?"),
+                            (["paper-straight", "--load", "80"], "expected a force"), (["--load", "80N"], "which soil?")):
+            run = soilbin("serve", *words)
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertIn(told, run.stderr)
+
+
+@unittest.skipUnless(browser.find(), "no Chromium")
+class ThePage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = Server("paper-straight", "--load", "4kN")
+        cls.browser = browser.Browser()
+        cls.open("")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.__exit__()
+        cls.server.stop()
+
+    @classmethod
+    def open(cls, behind):
+        cls.browser.open("about:blank")
+        cls.browser.open(cls.server.address + behind)
+        assert cls.browser.until("document.querySelectorAll('#curves .line').length === 5"), cls.browser.errors
+
+    def js(self, expression):
+        return self.browser.js(expression)
+
+    def move(self, key, value, control="range"):
+        """Sets a slider or box as a person does, and waits for the answer."""
+        self.js(f"(e => {{ e.value = {value}; e.dispatchEvent(new Event('input')); }})(soilbin.live.numbers.get('{key}')"
+                f".{'slider' if control == 'range' else 'box'})")
+        self.assertTrue(self.browser.until("!soilbin.live.asking"))
+
+    def pull(self):
+        return self.js("document.querySelector('#curves .line').getAttribute('d')")
+
+    def test_1_opens_without_errors_and_asks_for_nothing_elsewhere(self):
+        self.assertEqual(self.browser.errors, [])
+        self.assertEqual([a for a in self.browser.addresses if not a.startswith(self.server.address)], [])
+
+    def test_2_each_number_moves_the_curves(self):
+        for key, value in (("load", 6000), ("longitudinal-incline", 5), ("transverse-incline", 10), ("yaw", 20)):
+            before, readings = self.pull(), self.js("document.getElementById('now').textContent")
+            self.move(key, value)
+            self.assertNotEqual(self.pull(), before, key)
+            self.assertNotEqual(self.js("document.getElementById('now').textContent"), readings, key)
+        dot = "document.querySelector('#curves circle').getAttribute('cx')"
+        before = self.js(dot)
+        self.move("slip", 45)
+        self.assertNotEqual(self.js(dot), before)
+        self.assertEqual(self.js("soilbin.live.numbers.get('slip').box.value"), "45")
+        self.assertEqual(self.browser.errors, [])
+
+    def test_3_the_address_holds_the_setup(self):
+        self.move("slip", 33)
+        self.assertTrue(self.browser.until("location.hash.includes('slip=33')"))
+        command, hash_ = self.js("document.getElementById('command').textContent"), self.js("location.hash")
+        self.open(hash_)
+        self.assertTrue(self.browser.until(f"document.getElementById('command').textContent === {json.dumps(command)}"))
+        self.assertEqual(self.js("soilbin.live.numbers.get('slip').slider.value"), "33")
+        self.js("document.getElementById('reset').click()")
+        self.assertTrue(self.browser.until("soilbin.live.numbers.get('slip').box.value === '20'"))
+
+    def test_4_effects_go_on_and_off_by_keys(self):
+        before, box = self.pull(), "[...document.querySelectorAll('.effect label')].find(l => l.textContent === 'slip sinkage').firstChild"
+        self.js(f"{box}.focus()")
+        self.js(f"{box}.click()")
+        self.assertTrue(self.browser.until("document.getElementById('command').textContent.includes('--effect=slip_sinkage')"))
+        self.assertNotEqual(self.pull(), before)
+        self.assertGreater(len(self.js(f"{box}.closest('.effect').querySelector('small').textContent")), 5)
+        self.js(f"{box}.click()")
+        self.assertTrue(self.browser.until("document.getElementById('command').textContent.includes('--effect=none')"))
+        self.assertEqual(self.pull(), before)
+
+    def test_5_a_soil_of_the_library(self):
+        before = self.pull()
+        self.js("(s => { s.value = 'clayey-soil'; s.dispatchEvent(new Event('change')); })(document.querySelector('.chooser select'))")
+        self.assertTrue(self.browser.until("document.getElementById('chosen').textContent.includes('clayey-soil')"))
+        self.assertNotEqual(self.pull(), before)
+        self.js("document.getElementById('reset').click()")
+        self.assertTrue(self.browser.until("document.querySelector('.chooser select').value === ''"))
+
+    def test_6_what_is_refused_is_said_and_the_curves_stay(self):
+        self.assertTrue(self.browser.until("!soilbin.live.asking"))
+        before = self.pull()
+        self.move("slip", 150, "box")
+        self.assertTrue(self.browser.until("!document.getElementById('say').hidden"))
+        self.assertIn("out of range", self.js("document.getElementById('say').textContent"))
+        self.assertEqual(self.pull(), before)
+        self.move("slip", 20, "box")
+        self.assertTrue(self.browser.until("document.getElementById('say').hidden"))
+        self.browser.errors.clear()  # the browser itself notes each status 400
+
+    def test_7_kept_curves_stay_beside_the_new_ones(self):
+        self.js("document.getElementById('keep').click()")
+        self.move("load", 2000)
+        self.assertEqual(self.js("document.querySelectorAll('#curves .line').length"), 10)
+        self.js("document.getElementById('keep').click()")
+        self.assertEqual(self.js("document.querySelectorAll('#curves .line').length"), 5)
+
+    def test_8_names_for_ears(self):
+        self.assertEqual(self.js("[...document.querySelectorAll('input, select')].filter(e => !e.labels.length && "
+                                 "!e.getAttribute('aria-label')).length"), 0)
+        self.assertTrue(self.browser.until("document.getElementById('spoken').textContent.includes('Drawbar pull')"))
+
+    def test_9_fits_a_phone_a_desk_and_the_dark(self):
+        for width in (360, 1600):
+            self.browser.size(width, 800)
+            self.assertTrue(self.browser.until(f"document.documentElement.scrollWidth <= {width}"),
+                            f"wider than {width} px: {self.js('document.documentElement.scrollWidth')}")
+        colour = "getComputedStyle(document.body).backgroundColor"
+        light = self.js(colour)
+        self.browser.scheme("dark")
+        self.assertNotEqual(self.js(colour), light)
+        self.browser.scheme("light")
+        self.assertEqual(self.browser.errors, [])
+
+
+def take_pictures():
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    setup = "#slip=33%25&yaw=10deg&effect=slip_sinkage"
+    with Server("paper-straight", "--load", "4kN") as server:
+        for name, width, dark, behind in (("phone", 360, False, setup), ("phone-dark", 360, True, setup),
+                                          ("desk", 1600, False, setup), ("desk-dark", 1600, True, "#slip=150%25")):
+            with browser.Browser(width, 1000, dark) as one:
+                one.open(server.address + ("" if "150" in behind else behind))
+                one.until("document.querySelectorAll('#curves .line').length === 5")
+                if "150" in behind:
+                    one.js(f"location.hash = '{behind}'")
+                time.sleep(1)
+                if name == "phone":  # what stands still while a finger moves
+                    one.size(360, 740)
+                    one.js("document.querySelector('.number').scrollIntoView({block: 'center'})")
+                    one.picture(PICTURES / "phone-slider.png", whole=False)
+                    one.js("scrollTo(0, 0)")
+                one.picture(PICTURES / f"{name}.png")
+
+
+if __name__ == "__main__":
+    if PICTURES:
+        take_pictures()
+    else:
+        unittest.main(verbosity=2)
