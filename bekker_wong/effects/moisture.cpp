@@ -37,6 +37,11 @@ void grow_all(SoilValues& soil, double a, double d) {
   scale_strength(soil, grown(a * d));
 }
 
+void fall_from_optimum(SoilValues& soil, double a, double d) {
+  scale_stiffness(soil, grown(-a * d * d));
+  soil.cohesion *= grown(-a * d * d);
+}
+
 /// c = c_0 + a [q(w) - q(w_ref)], q = 1 - ((w - w_p)/w_p)^2: suction's cohesion is 0 when dry, 1 at w_p, 0 at 2 w_p.
 class Capillary final : public Effect {
  public:
@@ -95,6 +100,13 @@ std::vector<EffectForm> moisture_forms() {
        .source = "stated here: the whole soil changes alike",
        .parameters = {{"a", "-", -0.03, -1.0, 1.0, "logarithmic growth of all three a percentage point"}, reference},
        .make = maker<Wetted<grow_all>>()},
+      {.id = id,
+       .form = "optimum",
+       .equation = "k and c times exp(-a (w - w_o)^2), w in percentage points",
+       .source = "after Proctor 1933, Engineering News-Record 111 (a soil packs densest at an optimum water content)",
+       .parameters = {{"a", "-", 0.005, -1.0, 1.0, "logarithmic loss a squared percentage point from the optimum"},
+                      {"w_o", "%", 0.08, 0.0, 1.0, "optimum water content", "moisture", 1.0}},
+       .make = maker<Wetted<fall_from_optimum>>()},
   };
 }
 

@@ -70,7 +70,8 @@ std::vector<EffectForm> soil_gradient_forms() {
        .form = "stiffness_bay",
        .equation = "k times exp(a d^2)",
        .source = source,
-       .parameters = {{"a", "1/m^2", 0.05, -5.0, 5.0, "growth of the stiffness away from x_ref"}, reference},
+       .parameters = {{"a", "1/m^2", 0.05, -5.0, 5.0, "growth of the stiffness away from x_ref"},
+                      {"x_ref", "m", 0.0, -1e4, 1e4, "middle of the bay", "position", 1.0}},
        .measurement = true,
        .make = maker<Gradient<scale_stiffness, bay>>()},
   };

@@ -55,6 +55,18 @@ TEST(Moisture, CapillaryHasAPeak) {
   EXPECT_NEAR(torque(0.10), roll(soil, {}, wet(0.10)).torque, 1e-9);
 }
 
+// An optimum at 10 %: 8 % and 12 % are alike, stiffness and cohesion exp(-a 2^2) of what they are there.
+TEST(Moisture, OptimumIsAlikeToBothSides) {
+  const EffectChoice effect{"moisture", "optimum", {{"a", 0.05}, {"w_o", 0.10}}};
+  SoilValues soil = sand();
+  const double left = std::exp(-0.2);
+  soil.k_c *= left, soil.k_phi *= left, soil.cohesion *= left;
+  const Reading expected = roll(soil, {}, wet(0.08)), dry = with(effect, wet(0.08)), damp = with(effect, wet(0.12));
+  EXPECT_NEAR(dry.sinkage, expected.sinkage, 1e-12);
+  EXPECT_NEAR(dry.torque, expected.torque, 1e-9);
+  EXPECT_NEAR(damp.torque, expected.torque, 1e-9);
+}
+
 // Water that lubricates (a < 0 by default): less thrust, less torque on the wet side, more on the dry.
 TEST(Moisture, WetterIsWeaker) {
   for (const char* form : {"friction", "softening"}) {
