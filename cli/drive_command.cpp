@@ -2,14 +2,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/grain_drives.hpp"
 #include "cli/progress.hpp"
-#include "cli/replay_recorder.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
@@ -111,31 +110,6 @@ dem::DemSettings settings_for(const DriveOptions& options, const Drive& drive) {
   return settings;
 }
 
-/// Drives on grains; the notes tell of bed and cost.
-dem::GrainDriveRecord drive_on_grains(const DriveOptions& options, const Case& question,
-                                      std::vector<std::string>& notes) {
-  dem::DemSettings settings = settings_for(options, *question.drive);
-  ReplayRecorder replay;
-  if (!options.soil_bin.replay.empty())
-    settings.rig.onlooker.look = [&](const dem::Simulation& simulation, int wheel, double surface) {
-      replay.look(simulation, wheel, surface);
-    };
-  const auto began = std::chrono::steady_clock::now();
-  const dem::GrainDriveRecord record =
-      dem::DemModel(settings).drive(question.scenario, *question.drive, options.samples);
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
-  if (replay.has_frames())
-    replay.write(options.soil_bin.replay, question.name,
-                 {{"packing", std::to_string(settings.packing)}, {"sources", source_state()}});
-  const dem::BedSize& size = settings.size;
-  notes.push_back(
-      fmt::format("dem: {} grains in {:.4g} x {:.4g} x {:.4g} m, packing {}, settling friction {:.3g}; {} "
-                  "steps, {:.0f} s with the bed",
-                  record.grains, size.length, size.width, size.depth, settings.packing, settings.settling_friction,
-                  record.steps, spent.count()));
-  return record;
-}
-
 std::string sides_samples_text(const compare::DriveSides& drive) {
   TextTable table({"model", "time [s]", "travelled [m]", "slope [deg]", "speed [cm/s]", "slip [%]", "sinkage [mm]",
                    "torque [N m]", "soil force [N]"});
@@ -174,14 +148,17 @@ std::string sides_text(const compare::DriveSides& drive) {
 }
 
 int drive_with_grains(const DriveOptions& options, const Case& question, const Session& session) {
+  GrainDrives grains(settings_for(options, *question.drive), question, options.samples, 1, options.soil_bin.replay);
   std::vector<compare::DriveSide> sides;
   if (options.model == "both")
     sides.push_back(compare::analytic_side(compare::run_drive(question, options.samples, progress_in_time())));
-  std::vector<std::string> notes;
-  sides.push_back(compare::grain_side(drive_on_grains(options, question, notes)));
-  const compare::DriveSides drive = compare::side_by_side(question, std::move(sides), std::move(notes));
+  grains.run();
+  sides.insert(sides.end(), grains.sides().begin(), grains.sides().end());
+  const compare::DriveSides drive = compare::side_by_side(question, std::move(sides), grains.notes());
   save(options, drive, question.name, session);
   fmt::print("{}", options.json ? compare::json_text(compare::to_json(drive)) : sides_text(drive));
+  std::fflush(stdout);
+  grains.forget();
   return done;
 }
 

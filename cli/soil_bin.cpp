@@ -41,6 +41,11 @@ void show_dem_progress(const dem::Progress& progress) {
 
 namespace {
 
+void tell_beside_progress(const std::string& words) {
+  clear_progress_line();
+  fmt::print(stderr, "{}\n", words);
+}
+
 /// Runs conditions, with a model for each packing, so that a bed is taken once.
 class SoilBinRuns {
  public:
@@ -50,6 +55,7 @@ class SoilBinRuns {
                                                            double surface) {
         if (!recorder->done) recorder->frames.look(simulation, wheel, surface);
       };
+    if (!replay_.empty()) settings_.rig.onlooker.keeper = recorder_->frames.keeper();
     settings_.on_run = [told = told_](const dem::WheelRun& run) { *told = run; };
   }
 
@@ -57,6 +63,7 @@ class SoilBinRuns {
     const auto began = std::chrono::steady_clock::now();
     compare::RecordedRun run;
     run.answer.at = at, run.packing = packing, run.source = source_state();
+    *told_ = {};
     try {
       run.answer.result = model(packing).evaluate(scenario, at);
       run.steady = told_->steady, run.drift = told_->drift, run.power = told_->power;
@@ -67,7 +74,7 @@ class SoilBinRuns {
       run.answer.error = error.what();
     }
     keep_replay(at, packing);
-    run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    run.seconds = told_->earlier + std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return run;
   }
 
@@ -164,6 +171,8 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   settings.beds = folder_of_beds();
   settings.how.threads = flags.threads;
   settings.how.progress = show_dem_progress;
+  settings.checkpoints.restart = settings.beds;
+  settings.checkpoints.tell = tell_beside_progress;
   return settings;
 }
 

@@ -9,7 +9,9 @@ namespace soilbin::cli::test {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 constexpr const char* short_drive = R"(format: soilbin-case/1
 name: start
@@ -159,6 +161,48 @@ TEST(SlowDriveInGrains, BothModelsStandSideBySide) {
   EXPECT_THAT(text_of(page), AllOf(HasSubstr("Against time"), HasSubstr("Travelled [m]"),
                                    HasSubstr("Where nothing changes any more")));
   EXPECT_THAT(text_of(csv), AllOf(testing::StartsWith("model,time_s,travelled_m"), HasSubstr("\ndem,")));
+}
+
+/// Without what it took on the clock.
+nlohmann::json without_cost(nlohmann::json drive) {
+  drive.erase("notes");
+  return drive;
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename());
+  return names;
+}
+
+TEST(SlowDriveInGrains, ADriveThatIsInterruptedGoesOnByTheSameCommand) {
+  const Scratch scratch;
+  const std::string file = scratch.write("small.yaml", small_drive).string(), beds = (scratch / "beds").string(),
+                    replay = (scratch / "replay").string(),
+                    command = "drive '" + file + "' --model dem" + small_bin + "--json --replay '" + replay + "'";
+  ::setenv("SOILBIN_BEDS", beds.c_str(), 1);
+  const Outcome whole = soilbin(command);
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  const std::string seen = text_of(replay);
+  EXPECT_THAT(names_in(beds), ElementsAre(StartsWith("bed-"))) << "nothing is left of it";
+  constexpr int interrupted = 130;
+  int stops = 0;
+  Outcome again;
+  do {
+    again = soilbin(command, "timeout --preserve-status -s INT " + std::to_string(0.4 + 0.2 * stops) + " ");
+    if (stops > 0) {
+      EXPECT_THAT(again.err, HasSubstr("going on from " + beds + "/drive-"));
+    }
+    if (again.status == interrupted) {
+      EXPECT_THAT(again.err, HasSubstr("the same command goes on from there"));
+    }
+  } while (again.status == interrupted && ++stops < 50);
+  EXPECT_GE(stops, 1);
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(without_cost(again.json()), without_cost(whole.json()));
+  EXPECT_TRUE(text_of(replay) == seen) << "the replay has the part before each stop too";
+  EXPECT_THAT(names_in(beds), ElementsAre(StartsWith("bed-")));
+  ::unsetenv("SOILBIN_BEDS");
 }
 
 TEST(LimitsCommand, TheSlipOnASlopeIsTheSlipOfNoPullThere) {
