@@ -111,13 +111,21 @@ dem::DemSettings settings_for(const DriveOptions& options, const Drive& drive) {
 }
 
 std::string sides_samples_text(const compare::DriveSides& drive) {
+  const std::size_t rows_of_each = std::max<std::size_t>(3, shown_rows / std::max<std::size_t>(2, drive.sides.size()));
   TextTable table({"model", "time [s]", "travelled [m]", "slope [deg]", "speed [cm/s]", "slip [%]", "sinkage [mm]",
                    "torque [N m]", "soil force [N]"});
   for (const compare::DriveSide& side : drive.sides)
-    for (const compare::DriveSideSample& s : picked(side.samples, shown_rows / 2))
+    for (const compare::DriveSideSample& s : picked(side.samples, rows_of_each))
       table.add({side.label, number(s.time), number(s.travelled), number(s.longitudinal_incline / degree),
                  number(100 * s.speed), slip_text(s), number(1000 * s.sinkage), number(s.torque), number(s.forward)});
   return table.text();
+}
+
+std::string packings_text(const compare::DriveSides& drive) {
+  if (!drive.over_packings) return "";
+  compare::HtmlTable table = compare::packings_table(drive);
+  table.caption.clear();
+  return "\n" + as_text(table);
 }
 
 std::string differences_text(const compare::DriveSides& drive) {
@@ -142,13 +150,14 @@ std::string sides_text(const compare::DriveSides& drive) {
       text +=
           fmt::format("{}: at {} s and {} m {}.\n", side.label, number(h.time), number(h.travelled), word_of(h.what));
   for (const std::string& sentence : compare::in_words(drive)) text += sentence + "\n";
-  text += differences_text(drive) + work_text(drive) + "\n";
+  text += packings_text(drive) + differences_text(drive) + work_text(drive) + "\n";
   for (const std::string& note : drive.notes) text += note + "\n";
   return text;
 }
 
 int drive_with_grains(const DriveOptions& options, const Case& question, const Session& session) {
-  GrainDrives grains(settings_for(options, *question.drive), question, options.samples, 1, options.soil_bin.replay);
+  GrainDrives grains(settings_for(options, *question.drive), question, options.samples, options.soil_bin.packings,
+                     options.soil_bin.replay);
   std::vector<compare::DriveSide> sides;
   if (options.model == "both")
     sides.push_back(compare::analytic_side(compare::run_drive(question, options.samples, progress_in_time())));
@@ -195,6 +204,10 @@ void add_drive(CLI::App& app, Session& session) {
       ->check(CLI::Range(1, 1000000));
   command->add_flag("--json", options->json, "soilbin-drive/1, with grains soilbin-drive-sides/1; in SI");
   options->soil_bin.add_rig_to(*command);
+  command
+      ->add_option("--packings", options->soil_bin.packings,
+                   "dem: drives on so many packings, from --packing on, and their means; 1")
+      ->type_name("N");
   command->add_flag("--ledger", options->ledger,
                     "dem: tell what the grains did with their work too; takes up to twice as long");
   command->add_option("--replay", options->soil_bin.replay, "dem: keep the drive, to look at it in 3D")

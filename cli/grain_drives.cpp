@@ -67,7 +67,7 @@ void GrainDrives::drive(int k) {
   if (recorder_.has_frames())
     recorder_.write(replay_, question_.name, {{"packing", std::to_string(packing(k))}, {"sources", source_state()}});
   note(record, packing(k), record.earlier + spent.count());
-  sides_.push_back(compare::grain_side(record));
+  sides_.push_back(compare::grain_side(record, packings_ > 1 ? std::optional(packing(k)) : std::nullopt));
 }
 
 void GrainDrives::note(const dem::GrainDriveRecord& record, std::uint64_t packing, double seconds) {

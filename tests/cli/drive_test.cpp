@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cli/command.hpp"
 
@@ -167,6 +168,39 @@ TEST(SlowDriveInGrains, BothModelsStandSideBySide) {
 nlohmann::json without_cost(nlohmann::json drive) {
   drive.erase("notes");
   return drive;
+}
+
+TEST(SlowDriveInGrains, SeveralPackingsAreToldEachAndAsOne) {
+  const Scratch scratch;
+  const std::string file = scratch.write("small.yaml", small_drive).string(), page = (scratch / "p.html").string(),
+                    command = "drive '" + file + "' --model both --packings 2" + small_bin;
+  ::setenv("SOILBIN_BEDS", (scratch / "beds").string().c_str(), 1);
+  const Outcome r = soilbin(command + "--json"), said = soilbin(command + "--report '" + page + "'");
+  ::unsetenv("SOILBIN_BEDS");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const nlohmann::json drive = r.json();
+  ASSERT_EQ(drive["sides"].size(), 3U);
+  EXPECT_FALSE(drive["sides"][0].contains("packing"));
+  const nlohmann::json &one = drive["sides"][1], &two = drive["sides"][2], &mean = drive["over_packings"];
+  EXPECT_EQ(one["model"], "dem");
+  EXPECT_EQ(one["packing"], 1);
+  EXPECT_EQ(two["packing"], 2);
+  EXPECT_NE(one["samples"]["torque_Nm"], two["samples"]["torque_Nm"]);
+  EXPECT_EQ(mean["ends"], (nlohmann::json{one["end"], two["end"]}));
+  const double first = one["end_time"], second = two["end_time"];
+  EXPECT_NEAR(mean["end_time"]["value"].get<double>(), (first + second) / 2, 1e-12);
+  EXPECT_NEAR(mean["end_time"]["std_error"].get<double>(), std::abs(first - second) / 2, 1e-12);
+  ASSERT_FALSE(mean["steady"].is_null());
+  const auto slip = [](const nlohmann::json& side) { return side["steady"]["slip"]["value"].get<double>(); };
+  EXPECT_NEAR(slip(mean), (slip(one) + slip(two)) / 2, 1e-12);
+  EXPECT_GE(mean["steady"]["slip"]["std_error"].get<double>(), 0.999 * std::abs(slip(one) - slip(two)) / 2);
+  EXPECT_EQ(drive["differences"][1]["of"], "slip");
+  EXPECT_EQ(drive["differences"][1]["grains"], mean["steady"]["slip"]);
+  EXPECT_EQ(drive["notes"].size(), 2U);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_THAT(said.out, AllOf(HasSubstr("dem, mean of 2 packings: arrived on 2, after"), HasSubstr("dem packing 2"),
+                              HasSubstr("on each packing")));
+  EXPECT_THAT(text_of(page), HasSubstr("On each packing"));
 }
 
 std::vector<std::string> names_in(const fs::path& folder) {
