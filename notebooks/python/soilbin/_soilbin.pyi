@@ -1486,6 +1486,7 @@ class SoilBin:
           resting: time under the load before the start [s]
           starting: time in which the motion comes on [s]
           dt: [s]; 0: a fifth of the Rayleigh time
+          deepest_overlap: of the smaller radius that grains may overlap [-]
         """
     def run(self, scenario: Scenario, at: OperatingCondition, progress: Optional[Told] = ...) -> WheelRun:
         """One run. progress: called with (share done, stage). Raises InputError for a bed too small and for what grains
