@@ -8,11 +8,11 @@
 #include <tuple>
 
 #include "cli/commands.hpp"
-#include "cli/element_experiments.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
 #include "compare/calibrate/published_sets.hpp"
+#include "compare/experiments/element_experiments.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/report/result_json.hpp"
 #include "scenario/atomic_file.hpp"
@@ -51,28 +51,18 @@ std::pair<std::string, std::string> named(const std::string& flag, const std::st
 std::vector<Target> targets_of(const CalibrateOptions& asked, ContactKind kind, const Soil& soil) {
   std::vector<Target> targets;
   for (const std::string& text : asked.targets) {
-    const auto [name, value] = named("--target", text, target_names(kind));
-    const std::string unit = unit_of_target(name);
+    const auto [name, value] = named("--target", text, compare::target_names(kind));
+    const std::string unit = compare::unit_of_target(name);
     const std::vector<std::string> parts = split(value, ",");
     Target target{name, {read_flag("--target " + name, parts[0], {unit, above_zero}), 0.0}, unit};
     if (parts.size() > 1) target.measured.std_error = read_flag("--target " + name, parts[1], {unit, zero_or_more});
     targets.push_back(std::move(target));
   }
-  if (!targets.empty()) return targets;
-  if (kind == ContactKind::grain_tire)
-    throw InputError(
-        "what did the board measure?\n  hint: --target board_angle=31.47deg, or with its error "
-        "--target board_angle=31.47deg,0.5deg");
-  if (!soil.semi_empirical)
-    throw InputError("the soil tells no friction angle and cohesion to reach\n  hint: --target friction_angle=31deg");
-  if (soil.semi_empirical->friction_angle.value > 0)
-    targets.push_back({"friction_angle", soil.semi_empirical->friction_angle, "deg"});
-  if (soil.semi_empirical->cohesion.value > 0) targets.push_back({"cohesion", soil.semi_empirical->cohesion, "kPa"});
-  return targets;
+  return targets.empty() ? compare::targets_of(soil, kind) : targets;
 }
 
 std::vector<Factor> factors_of(const CalibrateOptions& asked, ContactKind kind) {
-  std::vector<Factor> factors = usual_factors(kind);
+  std::vector<Factor> factors = compare::usual_factors(kind);
   std::vector<std::string> names;
   for (const Factor& factor : factors) names.push_back(factor.name);
   for (const std::string& text : asked.bounds) {
@@ -118,27 +108,18 @@ class Shown {
 
 compare::VirtualTest test_of(const CalibrateOptions& asked, ContactKind kind, const Soil& soil,
                              const std::shared_ptr<Shown>& shown) {
-  ElementExperiment experiment{*soil.granular, factors_of(asked, kind), targets_of(asked, kind, soil), {}};
-  experiment.how.threads = asked.threads;
-  experiment.how.progress = [shown](const dem::Progress& progress) { shown->within_run(progress); };
-  const double settling = read_flag("--settling-friction", asked.settling_friction, {"-", fractions});
-  if (kind == ContactKind::grain_tire) {
-    dem::TiltingBoardSettings settings;
-    settings.across = asked.across;
-    // At the longest step the directional rolling couple lets grains creep down the board: onset at 16.7 deg instead of
-    // 22.8 (paper-sand, set (a) of the paper).
-    settings.dt = dem::longest_step(*soil.granular) / 4;
-    return tilting_board_test(experiment, settings, asked.packings > 0 ? asked.packings : 4);
-  }
-  dem::DirectShearSettings settings;
-  settings.packings = asked.packings > 0 ? asked.packings : 1;
-  settings.specimen.settling_friction = settling;
-  settings.stresses.clear();
+  compare::ContactQuestion question;
+  question.kind = kind, question.factors = factors_of(asked, kind), question.targets = targets_of(asked, kind, soil);
+  question.packings = asked.packings, question.across = asked.across;
+  question.settling_friction = read_flag("--settling-friction", asked.settling_friction, {"-", fractions});
+  question.stresses.clear();
   for (const std::string& stress : split(asked.stresses, ","))
-    settings.stresses.push_back(read_flag("--stresses", stress, {"kPa", above_zero}));
-  const std::vector<std::string> strengths{"peak", "residual"};
-  named("--strength", asked.strength, strengths);
-  return shear_box_test(experiment, settings, asked.strength == "peak" ? Strength::peak : Strength::residual);
+    question.stresses.push_back(read_flag("--stresses", stress, {"kPa", above_zero}));
+  named("--strength", asked.strength, {"peak", "residual"});
+  question.strength = asked.strength == "peak" ? compare::Strength::peak : compare::Strength::residual;
+  question.how.threads = asked.threads;
+  question.how.progress = [shown](const dem::Progress& progress) { shown->within_run(progress); };
+  return compare::contact_test(soil, question);
 }
 
 fs::path store_of(const CalibrateOptions& asked, const Soil& soil) {

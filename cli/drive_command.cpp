@@ -2,14 +2,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/grain_drives.hpp"
 #include "cli/progress.hpp"
-#include "cli/replay_recorder.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
@@ -111,39 +110,22 @@ dem::DemSettings settings_for(const DriveOptions& options, const Drive& drive) {
   return settings;
 }
 
-/// Drives on grains; the notes tell of bed and cost.
-dem::GrainDriveRecord drive_on_grains(const DriveOptions& options, const Case& question,
-                                      std::vector<std::string>& notes) {
-  dem::DemSettings settings = settings_for(options, *question.drive);
-  ReplayRecorder replay;
-  if (!options.soil_bin.replay.empty())
-    settings.rig.onlooker.look = [&](const dem::Simulation& simulation, int wheel, double surface) {
-      replay.look(simulation, wheel, surface);
-    };
-  const auto began = std::chrono::steady_clock::now();
-  const dem::GrainDriveRecord record =
-      dem::DemModel(settings).drive(question.scenario, *question.drive, options.samples);
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
-  if (replay.has_frames())
-    replay.write(options.soil_bin.replay, question.name,
-                 {{"packing", std::to_string(settings.packing)}, {"sources", source_state()}});
-  const dem::BedSize& size = settings.size;
-  notes.push_back(
-      fmt::format("dem: {} grains in {:.4g} x {:.4g} x {:.4g} m, packing {}, settling friction {:.3g}; {} "
-                  "steps, {:.0f} s with the bed",
-                  record.grains, size.length, size.width, size.depth, settings.packing, settings.settling_friction,
-                  record.steps, spent.count()));
-  return record;
-}
-
 std::string sides_samples_text(const compare::DriveSides& drive) {
+  const std::size_t rows_of_each = std::max<std::size_t>(3, shown_rows / std::max<std::size_t>(2, drive.sides.size()));
   TextTable table({"model", "time [s]", "travelled [m]", "slope [deg]", "speed [cm/s]", "slip [%]", "sinkage [mm]",
                    "torque [N m]", "soil force [N]"});
   for (const compare::DriveSide& side : drive.sides)
-    for (const compare::DriveSideSample& s : picked(side.samples, shown_rows / 2))
+    for (const compare::DriveSideSample& s : picked(side.samples, rows_of_each))
       table.add({side.label, number(s.time), number(s.travelled), number(s.longitudinal_incline / degree),
                  number(100 * s.speed), slip_text(s), number(1000 * s.sinkage), number(s.torque), number(s.forward)});
   return table.text();
+}
+
+std::string packings_text(const compare::DriveSides& drive) {
+  if (!drive.over_packings) return "";
+  compare::HtmlTable table = compare::packings_table(drive);
+  table.caption.clear();
+  return "\n" + as_text(table);
 }
 
 std::string differences_text(const compare::DriveSides& drive) {
@@ -168,20 +150,24 @@ std::string sides_text(const compare::DriveSides& drive) {
       text +=
           fmt::format("{}: at {} s and {} m {}.\n", side.label, number(h.time), number(h.travelled), word_of(h.what));
   for (const std::string& sentence : compare::in_words(drive)) text += sentence + "\n";
-  text += differences_text(drive) + work_text(drive) + "\n";
+  text += packings_text(drive) + differences_text(drive) + work_text(drive) + "\n";
   for (const std::string& note : drive.notes) text += note + "\n";
   return text;
 }
 
 int drive_with_grains(const DriveOptions& options, const Case& question, const Session& session) {
+  GrainDrives grains(settings_for(options, *question.drive), question, options.samples, options.soil_bin.packings,
+                     options.soil_bin.replay);
   std::vector<compare::DriveSide> sides;
   if (options.model == "both")
     sides.push_back(compare::analytic_side(compare::run_drive(question, options.samples, progress_in_time())));
-  std::vector<std::string> notes;
-  sides.push_back(compare::grain_side(drive_on_grains(options, question, notes)));
-  const compare::DriveSides drive = compare::side_by_side(question, std::move(sides), std::move(notes));
+  grains.run();
+  sides.insert(sides.end(), grains.sides().begin(), grains.sides().end());
+  const compare::DriveSides drive = compare::side_by_side(question, std::move(sides), grains.notes());
   save(options, drive, question.name, session);
   fmt::print("{}", options.json ? compare::json_text(compare::to_json(drive)) : sides_text(drive));
+  std::fflush(stdout);
+  grains.forget();
   return done;
 }
 
@@ -218,6 +204,10 @@ void add_drive(CLI::App& app, Session& session) {
       ->check(CLI::Range(1, 1000000));
   command->add_flag("--json", options->json, "soilbin-drive/1, with grains soilbin-drive-sides/1; in SI");
   options->soil_bin.add_rig_to(*command);
+  command
+      ->add_option("--packings", options->soil_bin.packings,
+                   "dem: drives on so many packings, from --packing on, and their means; 1")
+      ->type_name("N");
   command->add_flag("--ledger", options->ledger,
                     "dem: tell what the grains did with their work too; takes up to twice as long");
   command->add_option("--replay", options->soil_bin.replay, "dem: keep the drive, to look at it in 3D")

@@ -1,5 +1,6 @@
 #include "cli/replay_recorder.hpp"
 
+#include "dem/archive/note_text.hpp"
 #include "scenario/atomic_file.hpp"
 
 namespace soilbin::cli {
@@ -9,13 +10,43 @@ compare::Point point_of(const dem::Vec3& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
+template <class Notes>
+void ReplayRecorder::state(Notes& notes) {
+  auto& [title, facts, radii, tire, triangles, surface, frames] = replay_;  // title and facts come with write
+  notes(ids_, radii, tire, triangles, surface);
+  std::size_t count = frames.size();
+  notes(count);
+  frames.resize(count);
+  for (auto& [time, wheel, rotation, grains] : frames) notes(time, wheel, rotation, grains);
+  if constexpr (Notes::reads) find_places();
+}
+
+std::shared_ptr<dem::OnlookerKeeper> ReplayRecorder::keeper() {
+  return std::make_shared<dem::OnlookerKeeper>(
+      [this] {
+        dem::NoteWriter writer;
+        state(writer);
+        return writer.text();
+      },
+      [this](const std::string& seen) {
+        dem::NoteReader reader("replay", seen);
+        state(reader);
+      });
+}
+
+void ReplayRecorder::find_places() {
+  place_.clear();
+  for (std::size_t row = 0; row < ids_.size(); ++row) place_.emplace(ids_[row], row);
+}
+
 void ReplayRecorder::begin(const dem::Simulation& simulation, int wheel, double surface) {
   const dem::Grains& grains = simulation.state().grains;
   replay_.surface = surface;
   for (std::size_t row = 0; row < grains.count(); ++row) {
-    place_.emplace(grains.id[row], row);
+    ids_.push_back(grains.id[row]);
     replay_.radii.push_back(grains.motion[row].radius);
   }
+  find_places();
   for (const dem::Surface& part : simulation.body(wheel).surfaces) {
     const auto* mesh = std::get_if<dem::MeshSurface>(&part.shape);
     if (mesh == nullptr) continue;
@@ -48,7 +79,7 @@ void ReplayRecorder::write(const std::filesystem::path& file, const std::string&
   replay_.facts = std::move(facts);
   write_file_atomically(file, compare::replay_bytes(replay_));
   replay_ = {};
-  place_.clear();
+  ids_.clear(), place_.clear();
 }
 
 }  // namespace soilbin::cli

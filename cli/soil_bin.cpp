@@ -3,21 +3,19 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 
 #include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/replay_recorder.hpp"
 #include "cli/versions.hpp"
 #include "cli/workplace.hpp"
+#include "compare/experiments/soil_bin_runs.hpp"
 #include "compare/sweep/alike.hpp"
 #include "compare/sweep/channels.hpp"
 #include "compare/sweep/varying.hpp"
-#include "dem/rig/run_inputs.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/quantity.hpp"
 
@@ -41,68 +39,48 @@ void show_dem_progress(const dem::Progress& progress) {
 
 namespace {
 
-/// Runs conditions, with a model for each packing, so that a bed is taken once.
-class SoilBinRuns {
+void tell_beside_progress(const std::string& words) {
+  clear_progress_line();
+  fmt::print(stderr, "{}\n", words);
+}
+
+/// Runs conditions, and keeps a replay of the first run that is made.
+class WatchedRuns {
  public:
-  SoilBinRuns(dem::DemSettings settings, fs::path replay) : settings_(std::move(settings)), replay_(std::move(replay)) {
-    if (!replay_.empty())
-      settings_.rig.onlooker.look = [recorder = recorder_](const dem::Simulation& simulation, int wheel,
-                                                           double surface) {
-        if (!recorder->done) recorder->frames.look(simulation, wheel, surface);
-      };
-    settings_.on_run = [told = told_](const dem::WheelRun& run) { *told = run; };
-  }
+  WatchedRuns(dem::DemSettings settings, fs::path replay)
+      : replay_(std::move(replay)), runs_(watched(std::move(settings)), source_state()) {}
+  WatchedRuns(const WatchedRuns&) = delete;
+  WatchedRuns& operator=(const WatchedRuns&) = delete;
 
   compare::RecordedRun operator()(const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
-    const auto began = std::chrono::steady_clock::now();
-    compare::RecordedRun run;
-    run.answer.at = at, run.packing = packing, run.source = source_state();
-    try {
-      run.answer.result = model(packing).evaluate(scenario, at);
-      run.steady = told_->steady, run.drift = told_->drift, run.power = told_->power;
-      run.rut = told_->rut, run.flow = told_->flow;
-    } catch (const dem::RunStopped& stopped) {
-      run.answer.error = stopped.what();
-    } catch (const NoSolution& error) {
-      run.answer.error = error.what();
-    }
+    compare::RecordedRun run = runs_(scenario, at, packing);
     keep_replay(at, packing);
-    run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return run;
   }
 
  private:
-  /// Writes the replay of the first run that was made.
+  dem::DemSettings watched(dem::DemSettings settings) {
+    if (replay_.empty()) return settings;
+    settings.rig.onlooker.look = [this](const dem::Simulation& simulation, int wheel, double surface) {
+      if (!done_) recorder_.look(simulation, wheel, surface);
+    };
+    settings.rig.onlooker.keeper = recorder_.keeper();
+    return settings;
+  }
+
   void keep_replay(const OperatingCondition& at, std::uint64_t packing) {
-    if (replay_.empty() || recorder_->done || !recorder_->frames.has_frames()) return;
-    recorder_->done = true;
-    recorder_->frames.write(replay_, compare::in_words(at),
-                            {{"packing", std::to_string(packing)}, {"sources", source_state()}});
+    if (done_ || !recorder_.has_frames()) return;
+    done_ = true;
+    recorder_.write(replay_, compare::in_words(at),
+                    {{"packing", std::to_string(packing)}, {"sources", source_state()}});
     fmt::print(stderr, "wrote {}: soilbin compare --replay shows it\n", replay_.string());
   }
 
-  const dem::DemModel& model(std::uint64_t packing) {
-    const auto known = models_.find(packing);
-    if (known != models_.end()) return *known->second;
-    settings_.packing = packing;
-    return *models_.emplace(packing, std::make_unique<dem::DemModel>(settings_)).first->second;
-  }
-
-  struct Recorder {
-    ReplayRecorder frames;
-    bool done = false;
-  };
-
-  dem::DemSettings settings_;
   fs::path replay_;
-  std::shared_ptr<Recorder> recorder_ = std::make_shared<Recorder>();
-  std::shared_ptr<dem::WheelRun> told_ = std::make_shared<dem::WheelRun>();
-  std::map<std::uint64_t, std::unique_ptr<dem::DemModel>> models_;
+  ReplayRecorder recorder_;
+  bool done_ = false;
+  compare::SoilBinRuns runs_;
 };
-
-compare::Inputs inputs_of(const dem::DemSettings& settings, const Scenario& scenario) {
-  return dem::run_inputs(dem::DemModel(settings).recipe(scenario), scenario.tire, settings.rig);
-}
 
 /// A record's answers, with the runs behind them told to a log.
 class FromRecord : public Model {
@@ -122,7 +100,7 @@ class FromRecord : public Model {
 std::unique_ptr<const Model> from_record(const SoilBinFlags& flags, const Case& question, const RunLog& log) {
   compare::Record record = compare::read_record(flags.recorded);
   // Bed and rig are the record's; tire and grains must be the study's.
-  compare::refuse_other_inputs(record, inputs_of({}, question.scenario), flags.recorded,
+  compare::refuse_other_inputs(record, compare::inputs_of({}, question.scenario), flags.recorded,
                                {"tire.", "soil.", "bed.radius", "bed.density", "bed.young", "bed.poisson",
                                 "bed.restitution", "bed.sliding", "bed.rolling"});
   return std::make_unique<const FromRecord>(std::move(record), log);
@@ -164,6 +142,8 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   settings.beds = folder_of_beds();
   settings.how.threads = flags.threads;
   settings.how.progress = show_dem_progress;
+  settings.checkpoints.restart = settings.beds;
+  settings.checkpoints.tell = tell_beside_progress;
   return settings;
 }
 
@@ -219,13 +199,13 @@ compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, 
 
 compare::RunOnce run_with(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
                           const fs::path& file, const fs::path& replay) {
-  compare::RunOnce run = [runs = std::make_shared<SoilBinRuns>(settings, replay)](
+  compare::RunOnce run = [runs = std::make_shared<WatchedRuns>(settings, replay)](
                              const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
     return (*runs)(scenario, at, packing);
   };
   if (file.empty()) return run;
   compare::Record empty{
-      SOILBIN_VERSION, "dem", write_case(question, effects), inputs_of(settings, question.scenario), {}};
+      SOILBIN_VERSION, "dem", write_case(question, effects), compare::inputs_of(settings, question.scenario), {}};
   return compare::kept_in(file, std::move(empty), std::move(run));
 }
 

@@ -28,6 +28,7 @@ Told = Callable[[float, str], object]
 SAID_BETTER = {
     "samples": "dict[str, Array]", "nodes": "dict[str, Array]", "patch": "dict[str, Array]", "curve": "dict[str, Array]",
     "profile": "dict[str, Array]", "budget": "dict[str, float]", "held_out": "dict[str, dict[str, float]]",
+    "left_out": "dict[str, dict[str, Array]]",
 }
 
 

@@ -17,13 +17,9 @@ namespace {
 using Runs = std::vector<const RecordedRun*>;
 
 Estimate mean_channel(const Runs& runs, Estimate TractionResult::*channel) {
-  const double n = static_cast<double>(runs.size());
-  double sum = 0, own = 0;
-  for (const RecordedRun* run : runs) {
-    const Estimate& one = (*run->answer.result).*channel;
-    sum += one.value, own += one.std_error * one.std_error;
-  }
-  return {sum / n, std::max(scatter_between(runs, channel) / std::sqrt(n), std::sqrt(own) / n)};
+  std::vector<Estimate> told;
+  for (const RecordedRun* run : runs) told.push_back((*run->answer.result).*channel);
+  return mean_over_packings(told);
 }
 
 double mean_angle(const Runs& runs, double TractionResult::*angle) {
@@ -70,6 +66,17 @@ std::vector<Contribution> mean_budget(const Runs& runs) {
 }
 
 }  // namespace
+
+Estimate mean_over_packings(const std::vector<Estimate>& told) {
+  const double n = static_cast<double>(told.size());
+  double sum = 0, own = 0;
+  std::vector<double> values;
+  for (const Estimate& one : told) {
+    sum += one.value, own += one.std_error * one.std_error;
+    values.push_back(one.value);
+  }
+  return {sum / n, std::max(spread_of(values) / std::sqrt(n), std::sqrt(own) / n)};
+}
 
 double scatter_between(const Runs& runs, Estimate TractionResult::*channel) {
   std::vector<double> values;

@@ -15,9 +15,12 @@ using RunOnce = std::function<RecordedRun(const Scenario&, const OperatingCondit
 /// is begun with. Throws InputError where the file's inputs differ.
 RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run);
 
-/// Several packings' answers to one condition as one: means of the four results, of efficiency (weighted by the power
-/// put in), stresses and budget. The standard error is the scatter between packings over the root of their number or,
-/// where that is larger, what the runs' own errors give: with two or three packings the scatter is poorly known.
+/// Mean of what packings told, at least one. The standard error is the scatter between packings over the root of their
+/// number or, where that is larger, what their own errors give: with two or three packings the scatter is poorly known.
+Estimate mean_over_packings(const std::vector<Estimate>& told);
+
+/// Several packings' answers to one condition as one: mean_over_packings of the four results; means of efficiency
+/// (weighted by the power put in), stresses and budget.
 /// Throws NoSolution where a run has no result, and InputError for no runs.
 TractionResult mean_of_packings(const std::vector<const RecordedRun*>& runs);
 

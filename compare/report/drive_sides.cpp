@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "compare/recorded/recorded_model.hpp"
 #include "compare/report/number_text.hpp"
 
 namespace soilbin::compare {
@@ -90,12 +91,13 @@ DriveSideSample side_sample(const Sample& sample, double soil) {
   return out;
 }
 
-std::vector<DriveDifference> differences_of(const DriveSide& analytic, const DriveSide& grains) {
+using Steady = std::optional<dem::SteadyDrive>;
+
+std::vector<DriveDifference> differences_of(const Steady& analytic, const Steady& grains) {
   std::vector<DriveDifference> rows;
-  if (!analytic.steady || !grains.steady) return rows;
+  if (!analytic || !grains) return rows;
   for (const SteadyValue& value : steady_values) {
-    DriveDifference row{value.name, value.unit, value.per_si, (*analytic.steady).*value.value,
-                        (*grains.steady).*value.value};
+    DriveDifference row{value.name, value.unit, value.per_si, (*analytic).*value.value, (*grains).*value.value};
     row.difference = row.analytic.value - row.grains.value;
     row.std_error = std::hypot(row.analytic.std_error, row.grains.std_error);
     row.finding = finding_of(row.difference, row.std_error, row.grains.std_error);
@@ -104,15 +106,73 @@ std::vector<DriveDifference> differences_of(const DriveSide& analytic, const Dri
   return rows;
 }
 
+std::vector<const DriveSide*> grain_sides(const DriveSides& drive) {
+  std::vector<const DriveSide*> grains;
+  for (const DriveSide& side : drive.sides)
+    if (side.kind == SideKind::grains) grains.push_back(&side);
+  return grains;
+}
+
+template <class Value>
+Estimate over_packings_of(const std::vector<const DriveSide*>& grains, const Value& value) {
+  std::vector<Estimate> told;
+  for (const DriveSide* side : grains) told.push_back(value(*side));
+  return mean_over_packings(told);
+}
+
+Steady steady_over_packings(const std::vector<const DriveSide*>& grains) {
+  if (!std::all_of(grains.begin(), grains.end(), [](const DriveSide* side) { return side->steady.has_value(); }))
+    return std::nullopt;
+  dem::SteadyDrive mean = *grains.front()->steady;
+  for (const DriveSide* side : grains) {
+    const dem::SteadyDrive& one = *side->steady;
+    mean.from = std::min(mean.from, one.from), mean.to = std::max(mean.to, one.to);
+    mean.drift = std::max(mean.drift, one.drift), mean.steady = mean.steady && one.steady;
+  }
+  for (Estimate dem::SteadyDrive::*value :
+       {&dem::SteadyDrive::speed, &dem::SteadyDrive::rim_speed, &dem::SteadyDrive::slip, &dem::SteadyDrive::sinkage,
+        &dem::SteadyDrive::torque, &dem::SteadyDrive::forward})
+    mean.*value = over_packings_of(grains, [&](const DriveSide& side) { return (*side.steady).*value; });
+  return mean;
+}
+
+DriveOverPackings as_one(const std::vector<const DriveSide*>& grains) {
+  DriveOverPackings one;
+  for (const DriveSide* side : grains) one.ends.push_back(side->end);
+  one.end_time = over_packings_of(grains, [](const DriveSide& side) { return Estimate{side.end_time}; });
+  one.travelled =
+      over_packings_of(grains, [](const DriveSide& side) { return Estimate{side.samples.back().travelled}; });
+  one.steady = steady_over_packings(grains);
+  return one;
+}
+
+std::string steady_words(const dem::SteadyDrive& s) {
+  return fmt::format("; steady{} at a slip of {} %, {} mm deep, with {} N m",
+                     s.steady ? "" : " by its way and motor, but still drifting,", number(s.slip, 100),
+                     number(s.sinkage, 1000), number(s.torque));
+}
+
+/// "dem, mean of 3 packings: arrived on 2 and stuck on 1, ..."
+std::string sentence_of(const DriveOverPackings& one) {
+  std::string ends;
+  std::vector<DriveEnd> told;
+  for (const DriveEnd end : one.ends) {
+    if (std::find(told.begin(), told.end(), end) != told.end()) continue;
+    told.push_back(end);
+    ends += fmt::format("{}{} on {}", ends.empty() ? "" : ", ", word_of(end),
+                        std::count(one.ends.begin(), one.ends.end(), end));
+  }
+  std::string text = fmt::format("dem, mean of {} packings: {}, after {} s and {} m", one.ends.size(), ends,
+                                 number(one.end_time), number(one.travelled));
+  return text + (one.steady ? steady_words(*one.steady) : "; not all packings have a steady state") + ".";
+}
+
 std::string sentence_of(const DriveSide& side) {
   const DriveState& end = side.samples.back();
   std::string text =
       fmt::format("{}: {} after {:.4g} s and {:.4g} m", side.label, word_of(side.end), side.end_time, end.travelled);
   if (!side.steady) return text + fmt::format("; no steady state: {}.", side.not_steady);
-  const dem::SteadyDrive& s = *side.steady;
-  text += fmt::format("; steady{} at a slip of {} %, {} mm deep, with {} N m",
-                      s.steady ? "" : " by its way and motor, but still drifting,", number(s.slip, 100),
-                      number(s.sinkage, 1000), number(s.torque));
+  text += steady_words(*side.steady);
   return text + (side.not_steady.empty() ? "." : fmt::format(" ({}).", side.not_steady));
 }
 
@@ -120,7 +180,7 @@ std::string sentence_of(const DriveSide& side) {
 
 DriveSide analytic_side(const DrivePart& part) {
   const DriveRecord& record = part.record;
-  DriveSide side{SideKind::analytic, "bekker_wong", record.end, record.end_time, {}, record.happenings, {}, {}, {}};
+  DriveSide side{SideKind::analytic, "bekker_wong", {}, record.end, record.end_time, {}, record.happenings, {}, {}, {}};
   for (const bekker_wong::DriveSample& s : record.samples)
     side.samples.push_back(side_sample(s, s.energy.compaction + s.energy.shear + s.energy.added + s.energy.damping));
   const bekker_wong::EnergyLedger& end = record.samples.back().energy;
@@ -135,8 +195,9 @@ DriveSide analytic_side(const DrivePart& part) {
   return side;
 }
 
-DriveSide grain_side(const dem::GrainDriveRecord& record) {
-  DriveSide side{SideKind::grains, "dem", record.end, record.end_time, {}, record.happenings, {}, {}, {}};
+DriveSide grain_side(const dem::GrainDriveRecord& record, std::optional<std::uint64_t> packing) {
+  const std::string label = packing ? fmt::format("dem packing {}", *packing) : "dem";
+  DriveSide side{SideKind::grains, label, packing, record.end, record.end_time, {}, record.happenings, {}, {}, {}};
   for (const dem::GrainDriveSample& s : record.samples) side.samples.push_back(side_sample(s, s.energy.soil));
   const dem::GrainDriveEnergy& end = record.samples.back().energy;
   if (end.told)
@@ -151,19 +212,57 @@ DriveSide grain_side(const dem::GrainDriveRecord& record) {
 }
 
 DriveSides side_by_side(const Case& question, std::vector<DriveSide> sides, std::vector<std::string> notes) {
-  DriveSides drive{question, std::move(sides), {}, std::move(notes)};
-  const auto of = [&](SideKind kind) {
-    return std::find_if(drive.sides.begin(), drive.sides.end(), [&](const DriveSide& s) { return s.kind == kind; });
-  };
-  const auto analytic = of(SideKind::analytic), grains = of(SideKind::grains);
-  if (analytic != drive.sides.end() && grains != drive.sides.end())
-    drive.differences = differences_of(*analytic, *grains);
+  DriveSides drive{question, std::move(sides), {}, {}, std::move(notes)};
+  const std::vector<const DriveSide*> grains = grain_sides(drive);
+  if (grains.size() > 1) drive.over_packings = as_one(grains);
+  for (const DriveSide& side : drive.sides)
+    if (side.kind == SideKind::analytic) drive.differences = differences_of(side.steady, steady_of_grains(drive));
   return drive;
+}
+
+std::optional<dem::SteadyDrive> steady_of_grains(const DriveSides& drive) {
+  if (drive.over_packings) return drive.over_packings->steady;
+  const std::vector<const DriveSide*> grains = grain_sides(drive);
+  return grains.empty() ? std::nullopt : grains.front()->steady;
+}
+
+HtmlTable packings_table(const DriveSides& drive) {
+  HtmlTable table{
+      "± is one standard error; of the mean from the scatter of packings or, where it is larger, from their own",
+      {"on each packing"},
+      {},
+      {true}};
+  if (!drive.over_packings) return table;
+  const DriveOverPackings& mean = *drive.over_packings;
+  const std::vector<const DriveSide*> grains = grain_sides(drive);
+  const auto add = [&](const std::string& name, const auto& of, const std::string& last) {
+    std::vector<std::string> row{name};
+    for (const DriveSide* side : grains) row.push_back(of(*side));
+    row.push_back(last);
+    table.rows.push_back(std::move(row));
+  };
+  for (const DriveSide* side : grains) table.header.push_back(side->label);
+  table.header.emplace_back("mean");
+  table.text_columns.resize(table.header.size(), false);
+  add(
+      "end", [](const DriveSide& s) { return std::string(word_of(s.end)); }, "");
+  add(
+      "after [s]", [](const DriveSide& s) { return number(s.end_time); }, number(mean.end_time));
+  add(
+      "travelled [m]", [](const DriveSide& s) { return number(s.samples.back().travelled); }, number(mean.travelled));
+  for (const SteadyValue& value : steady_values) {
+    const auto told = [&](const Steady& steady) { return steady ? number((*steady).*value.value, value.per_si) : "-"; };
+    add(
+        fmt::format("{} [{}]", value.name, value.unit), [&](const DriveSide& s) { return told(s.steady); },
+        told(mean.steady));
+  }
+  return table;
 }
 
 std::vector<std::string> in_words(const DriveSides& drive) {
   std::vector<std::string> sentences;
   for (const DriveSide& side : drive.sides) sentences.push_back(sentence_of(side));
+  if (drive.over_packings) sentences.push_back(sentence_of(*drive.over_packings));
   std::string apart;
   for (const DriveDifference& row : drive.differences)
     if (row.finding == DifferenceFinding::difference)

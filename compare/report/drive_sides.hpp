@@ -2,6 +2,7 @@
 // what either side doesn't know.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -27,7 +28,8 @@ struct DriveSideSample : DriveState {
 /// What one model makes of a case's drive.
 struct DriveSide {
   SideKind kind = SideKind::analytic;
-  std::string label;  ///< the model's name
+  std::string label;                       ///< "bekker_wong", "dem"; of several packings "dem packing 2"
+  std::optional<std::uint64_t> packing{};  ///< of several: seed of the bed; absent: there is one
   DriveEnd end = DriveEnd::time_is_up;
   double end_time = 0.0;
   std::vector<DriveSideSample> samples;
@@ -36,6 +38,15 @@ struct DriveSide {
   /// Steady values; errors are the soil's doubt on the analytic side, block averages on that of grains.
   std::optional<dem::SteadyDrive> steady;
   std::string not_steady;  ///< why there are none
+};
+
+/// Several packings' drives as one: mean_over_packings of each value.
+struct DriveOverPackings {
+  std::vector<DriveEnd> ends;  ///< a packing each
+  Estimate end_time;           ///< [s]
+  Estimate travelled;          ///< [m]
+  std::optional<dem::SteadyDrive>
+      steady;  ///< where all packings have theirs; from the first to the last, drift the largest
 };
 
 /// A steady value of both sides [SI].
@@ -52,17 +63,23 @@ struct DriveDifference {
 struct DriveSides {
   Case question;
   std::vector<DriveSide> sides;
-  std::vector<DriveDifference> differences;  ///< where both sides are steady
-  std::vector<std::string> notes;            ///< what to know of the grains' run: bed, cost
+  std::vector<DriveDifference> differences;          ///< where both sides are steady
+  std::optional<DriveOverPackings> over_packings{};  ///< of the sides of grains, where they are several
+  std::vector<std::string> notes;                    ///< what to know of the grains' run: bed, cost
 };
 
 /// The analytic side. Its steady values are those of the end, with the soil's doubt as their errors: the drive is run
 /// again with each soil value a tenth of its standard deviation up and down.
 DriveSide analytic_side(const DrivePart& part);
-DriveSide grain_side(const dem::GrainDriveRecord& record);
+/// `packing`: where it is one of several.
+DriveSide grain_side(const dem::GrainDriveRecord& record, std::optional<std::uint64_t> packing = {});
 
-/// Puts sides together, with the differences where both an analytic side and one of grains are steady.
+/// Puts sides together, with the differences where both an analytic side and that of grains are steady: the one there
+/// is, or the mean over packings.
 DriveSides side_by_side(const Case& question, std::vector<DriveSide> sides, std::vector<std::string> notes);
+
+/// The steady values of the side of grains: the one there is, or the mean over packings.
+std::optional<dem::SteadyDrive> steady_of_grains(const DriveSides& drive);
 
 /// How each ended, one sentence a side; then what differs at the end that both reach steadily.
 std::vector<std::string> in_words(const DriveSides& drive);
@@ -76,11 +93,13 @@ std::vector<DriveWorkRow> work_rows(const DriveSides& drive);
 
 /// Steady values of both sides and how they differ; a row each.
 HtmlTable differences_table(const DriveSides& drive);
+/// What the summary tells, a column each packing and their mean; no rows where there is one packing.
+HtmlTable packings_table(const DriveSides& drive);
 /// work_rows, the whole of it last [J].
 HtmlTable work_table(const DriveSides& drive);
 
 /// Travelled way, speed, slip, sinkage, torque and work against time, a colour for each side; steady means of grains
-/// with their errors as bands.
+/// with their errors as bands; of several packings the mean's.
 Sheet drive_sheet(const DriveSides& drive);
 
 /// soilbin-drive-sides/1, in SI.

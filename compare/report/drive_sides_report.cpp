@@ -29,11 +29,11 @@ struct Panel {
 };
 
 /// The mean of grains over the time that it is a mean of, with its error.
-Series steady_line(const DriveSide& side, const Panel& panel, int color) {
-  const Estimate mean = (*side.steady).*panel.steady;
+Series steady_line(const dem::SteadyDrive& steady, const Panel& panel, int color) {
+  const Estimate mean = steady.*panel.steady;
   Series line;
-  line.label = side.label + ", steady";
-  line.x = {side.steady->from, side.steady->to};
+  line.label = "dem, steady";
+  line.x = {steady.from, steady.to};
   line.y.assign(2, panel.per_si * mean.value);
   line.error.assign(2, panel.per_si * mean.std_error);
   line.color = color, line.dash = 1;
@@ -45,18 +45,19 @@ Plot plot_of(const DriveSides& drive, const Panel& panel) {
   for (std::size_t i = 0; i < drive.sides.size(); ++i) {
     const DriveSide& side = drive.sides[i];
     Series series;
-    series.label = side.label;
-    series.color = static_cast<int>(i);
+    series.label = side.packing ? "dem" : side.label;  // packings are of one colour
+    series.color =
+        side.packing ? static_cast<int>(drive.sides.front().kind == SideKind::analytic) : static_cast<int>(i);
     for (const DriveSideSample& sample : side.samples) {
       series.x.push_back(sample.time);
       series.y.push_back(panel.per_si * panel.get(sample));
     }
     plot.series.push_back(std::move(series));
   }
-  constexpr int after_sides = 2;
-  for (const DriveSide& side : drive.sides)
-    if (panel.steady && side.steady && side.kind == SideKind::grains)
-      plot.series.push_back(steady_line(side, panel, after_sides));
+  if (const auto steady = steady_of_grains(drive); panel.steady && steady) {
+    constexpr int after_sides = 2;
+    plot.series.push_back(steady_line(*steady, panel, after_sides));
+  }
   return plot;
 }
 
@@ -75,11 +76,12 @@ Json steady_json(const dem::SteadyDrive& steady) {
 
 Json side_json(const DriveSide& side) {
   const DriveSideSample& end = side.samples.back();
-  Json row = {{"model", side.label},
-              {"end", std::string(word_of(side.end))},
-              {"end_time", side.end_time},
-              {"travelled", end.travelled},
-              {"happenings", happenings_json(side.happenings)}};
+  Json row = {{"model", side.packing ? "dem" : side.label}};
+  if (side.packing) row["packing"] = *side.packing;
+  row["end"] = std::string(word_of(side.end));
+  row["end_time"] = side.end_time;
+  row["travelled"] = end.travelled;
+  row["happenings"] = happenings_json(side.happenings);
   row["steady"] = side.steady ? steady_json(*side.steady) : Json(nullptr);
   if (!side.not_steady.empty()) row["not_steady"] = side.not_steady;
   row["energy"] = {{"motor", end.energy.motor},
@@ -92,6 +94,15 @@ Json side_json(const DriveSide& side) {
   for (const auto& [name, joules] : side.soil_parts) row["soil_parts"][name] = joules;
   row["samples"] = columns_json(side_columns(), side.samples);
   return row;
+}
+
+Json over_packings_json(const DriveOverPackings& one) {
+  Json ends = Json::array();
+  for (const DriveEnd end : one.ends) ends.push_back(std::string(word_of(end)));
+  return {{"ends", std::move(ends)},
+          {"end_time", estimate_json(one.end_time)},
+          {"travelled", estimate_json(one.travelled)},
+          {"steady", one.steady ? steady_json(*one.steady) : Json(nullptr)}};
 }
 
 HtmlTable happenings_table(const DriveSides& drive) {
@@ -108,11 +119,11 @@ HtmlTable happenings_table(const DriveSides& drive) {
 }  // namespace
 
 HtmlTable differences_table(const DriveSides& drive) {
-  HtmlTable table{
-      "± is one standard error: of the analytic wheel the soil's doubt, of grains block averages of one run",
-      {"steadily", "bekker_wong", "dem", "difference", ""},
-      {},
-      {true, false, false, false, true}};
+  HtmlTable table{fmt::format("± is one standard error: of the analytic wheel the soil's doubt, of grains {}",
+                              drive.over_packings ? "the scatter of packings" : "block averages of one run"),
+                  {"steadily", "bekker_wong", "dem", "difference", ""},
+                  {},
+                  {true, false, false, false, true}};
   for (const DriveDifference& row : drive.differences)
     table.rows.push_back({fmt::format("{} [{}]", row.name, row.unit), number(row.analytic, row.per_si),
                           number(row.grains, row.per_si), number({row.difference, row.std_error}, row.per_si),
@@ -158,6 +169,7 @@ Json to_json(const DriveSides& drive) {
                    {"soil", drive.question.scenario.soil.name}};
   document["sides"] = Json::array();
   for (const DriveSide& side : drive.sides) document["sides"].push_back(side_json(side));
+  if (drive.over_packings) document["over_packings"] = over_packings_json(*drive.over_packings);
   document["differences"] = Json::array();
   for (const DriveDifference& row : drive.differences)
     document["differences"].push_back({{"of", row.name},
@@ -191,6 +203,10 @@ std::string drive_page(const DriveSides& drive, const PageAbout& about) {
   if (!drive.differences.empty()) {
     page.section("Where nothing changes any more");
     page.table(differences_table(drive));
+  }
+  if (drive.over_packings) {
+    page.section("On each packing");
+    page.table(packings_table(drive));
   }
   page.section("Where the motor's work went");
   page.table(work_table(drive));

@@ -214,6 +214,14 @@ void Group::read(const std::string& name, Number number, const Shape& shape, voi
   });
 }
 
+std::vector<std::string> Group::names() const {
+  return reading(place(), [&] {
+    std::vector<std::string> names;
+    for (hsize_t k = 0; k < handle_->group.getNumObjs(); ++k) names.push_back(handle_->group.getObjnameByIdx(k));
+    return names;
+  });
+}
+
 void Group::set_numbers(const std::string& name, Number number, const Shape& shape, const void* data) const {
   writing(place(name), [&] {
     handle_->group.createAttribute(name, in_file(number), space_of(shape)).write(in_memory(number), data);

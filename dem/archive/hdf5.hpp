@@ -43,6 +43,8 @@ class Group {
   Shape shape(const std::string& name) const;
   /// Refuses a dataset of other numbers or another shape.
   void read(const std::string& name, Number number, const Shape& shape, void* data) const;
+  /// Of datasets and groups.
+  std::vector<std::string> names() const;
 
   /// Attributes of the group.
   void set_numbers(const std::string& name, Number number, const Shape& shape, const void* data) const;

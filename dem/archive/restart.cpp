@@ -134,6 +134,29 @@ std::vector<SurfaceContacts> by_slab(const FlatSurfaces& flat, const std::string
   return slabs;
 }
 
+// Notes: short texts are attributes; what doesn't fit into one, or isn't a text, is a dataset of bytes.
+
+void save_notes(const hdf5::Group& to, const Notes& notes) {
+  constexpr std::size_t longest = 32 << 10;  // an attribute has at most 64 KiB
+  for (const auto& [name, text] : notes)
+    if (text.size() <= longest && text.find('\0') == std::string::npos)
+      to.set_text(name, text);
+    else
+      to.write(name, hdf5::Number::u8, {text.size()}, text.data());
+}
+
+Notes load_notes(const hdf5::Group& from) {
+  Notes notes;
+  for (const std::string& name : from.text_names()) notes[name] = from.get_text(name);
+  for (const std::string& name : from.names()) {
+    const hdf5::Shape shape = from.shape(name);
+    std::string& text = notes[name];
+    text.resize(shape.empty() ? 1 : shape[0]);
+    from.read(name, hdf5::Number::u8, {text.size()}, text.data());
+  }
+  return notes;
+}
+
 // All of it.
 
 void save(const hdf5::Group& root, const Setup& setup, const State& state, const Notes& notes) {
@@ -153,8 +176,7 @@ void save(const hdf5::Group& root, const Setup& setup, const State& state, const
   const std::vector<SharedMesh> meshes = meshes_of(state.bodies);
   save_meshes(ours.inner("meshes"), meshes);
   save_bodies(ours.inner("bodies"), state.bodies, meshes);
-  const Saver of_notes = ours.inner("notes");
-  for (const auto& [name, text] : notes) of_notes.text(name, text);
+  save_notes(ours.inner("notes").group(), notes);
 }
 
 Grains load_grains(const hdf5::Group& root) {
@@ -184,8 +206,7 @@ Restart load(const hdf5::Group& root, const std::string& file) {
   describe_surfaces(ours.inner("surfaces"), surfaces);
   run.state.surfaces = by_slab(surfaces, file);
   load_bodies(ours.inner("bodies"), run.state.bodies, load_meshes(ours.inner("meshes")));
-  const hdf5::Group notes = root.open("soilbin").open("notes");
-  for (const std::string& name : notes.text_names()) run.notes[name] = notes.get_text(name);
+  run.notes = load_notes(root.open("soilbin").open("notes"));
   check_restart(run.setup, run.state, file);
   return run;
 }
@@ -210,6 +231,12 @@ Restart read_restart(const fs::path& path) {
 }
 
 bool has_restart(const fs::path& path) { return fs::exists(path) || fs::exists(previous_of(path)); }
+
+void remove_restart(const fs::path& path) {
+  if (path.empty()) return;
+  fs::remove(path);
+  fs::remove(previous_of(path));
+}
 
 LastGood read_last_good(const fs::path& path) {
   std::string why;

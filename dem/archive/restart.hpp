@@ -28,6 +28,9 @@ Restart read_restart(const std::filesystem::path& path);
 /// Whether there is a restart, or the one before it, good or not.
 bool has_restart(const std::filesystem::path& path);
 
+/// Removes both, where they are.
+void remove_restart(const std::filesystem::path& path);
+
 struct LastGood {
   Restart restart;
   std::filesystem::path from;

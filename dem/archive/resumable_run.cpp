@@ -2,43 +2,19 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
-
 namespace soilbin::dem {
 namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// Knows when the next restart is due, and writes it.
-class Checkpointer {
- public:
-  Checkpointer(const Checkpoints& checkpoints, const Driver& driver, std::int64_t step)
-      : checkpoints_(checkpoints), driver_(driver), step_(step) {}
-
-  bool is_due(std::int64_t step) const {
-    if (checkpoints_.steps > 0 && step - step_ >= checkpoints_.steps) return true;
-    return checkpoints_.seconds > 0 &&
-           std::chrono::duration<double>(Clock::now() - at_).count() >= checkpoints_.seconds;
-  }
-  void write(const fs::path& path, const Simulation& simulation) {
-    write_restart(path, simulation.setup(), simulation.state(), driver_.notes ? driver_.notes() : Notes{});
-    step_ = simulation.state().step;
-    at_ = Clock::now();
-  }
-
- private:
-  const Checkpoints& checkpoints_;
-  const Driver& driver_;
-  std::int64_t step_;  ///< of the last restart
-  Clock::time_point at_ = Clock::now();
-};
+Notes notes_of(const Driver& driver) { return driver.notes ? driver.notes() : Notes{}; }
 
 [[noreturn]] void keep_and_stop(Checkpointer& checkpointer, const fs::path& path, const Simulation& simulation,
-                                const RunStopped& reason) {
+                                const Driver& driver, const RunStopped& reason) {
   std::string where;
   try {
-    checkpointer.write(path, simulation);
+    checkpointer.write(path, simulation, notes_of(driver));
     where = fmt::format("its state is in {}", path.string());
   } catch (const std::runtime_error& error) {
     where = fmt::format("its state is lost: {}", error.what());
@@ -48,18 +24,30 @@ class Checkpointer {
 
 }  // namespace
 
-Start resume_or_start(const fs::path& restart, const std::function<Simulation()>& fresh) {
+bool Checkpointer::is_due(std::int64_t step) const {
+  if (checkpoints_.steps > 0 && step - step_ >= checkpoints_.steps) return true;
+  return checkpoints_.seconds > 0 && std::chrono::duration<double>(Clock::now() - at_).count() >= checkpoints_.seconds;
+}
+
+void Checkpointer::write(const fs::path& path, const Simulation& simulation, const Notes& notes) {
+  write_restart(path, simulation.setup(), simulation.state(), notes);
+  step_ = simulation.state().step;
+  at_ = Clock::now();
+}
+
+Start resume_or_start(const fs::path& restart, const std::function<Simulation()>& fresh, std::optional<int> threads) {
   if (!has_restart(restart)) return {fresh(), {}, ""};
   LastGood found = read_last_good(restart);
   std::string told = found.warning.empty() ? "" : found.warning + "\n";
   told += fmt::format("going on from {}, step {}", found.from.string(), found.restart.state.step);
+  if (threads) found.restart.setup.numerics.threads = *threads;
   return {Simulation(std::move(found.restart.setup), std::move(found.restart.state)), std::move(found.restart.notes),
           std::move(told)};
 }
 
 RunEnd run_resumably(Simulation& simulation, std::int64_t until, const Checkpoints& checkpoints,
                      const std::atomic<bool>& stop, const Driver& driver) {
-  Checkpointer checkpointer(checkpoints, driver, simulation.state().step);
+  Checkpointer checkpointer(checkpoints, simulation.state().step);
   const auto at_step = [&] {
     if (driver.at_step) driver.at_step(simulation);
   };
@@ -68,11 +56,11 @@ RunEnd run_resumably(Simulation& simulation, std::int64_t until, const Checkpoin
     try {
       simulation.run(1);
     } catch (const RunStopped& reason) {
-      keep_and_stop(checkpointer, checkpoints.restart.string() + ".stopped", simulation, reason);
+      keep_and_stop(checkpointer, checkpoints.restart.string() + ".stopped", simulation, driver, reason);
     }
     const std::int64_t step = simulation.state().step;
     const bool stopping = stop && step < until;
-    if (stopping || step >= until || checkpointer.is_due(step)) checkpointer.write(checkpoints.restart, simulation);
+    if (stopping || step >= until || checkpointer.is_due(step)) checkpointer.write(simulation, notes_of(driver));
     if (stopping) return RunEnd::interrupted;
     at_step();
   }

@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <cstdint>
 #include <optional>
 
 #include "dem/archive/restart.hpp"
+#include "dem/archive/sealed_file.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
@@ -56,11 +56,7 @@ std::string recipe_text(const BedRecipe& recipe) {
   return text;
 }
 
-std::string content_key(const BedRecipe& recipe) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : recipe_text(recipe)) hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x100000001b3;
-  return fmt::format("{:016x}", hash);
-}
+std::string content_key(const BedRecipe& recipe) { return fmt::format("{:016x}", fnv1a(recipe_text(recipe))); }
 
 std::shared_ptr<const SettledBed> BedStore::bed(const BedRecipe& recipe, const WorkOptions& how) {
   const std::lock_guard lock(guard_);

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "dem/rig/run_inputs.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
@@ -25,8 +26,10 @@ TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondi
     throw InputError("dem takes no effects, but '" + scenario.effects.front().id + "' is switched on");
   wheel_motion(at, scenario.tire.radius);  // refuses what can't be run before a bed is settled for it
   const auto bed = beds_.bed(recipe(scenario), settings_.how);
-  const WheelRun run =
-      run_wheel(*bed, scenario.tire, scenario.soil.granular->grain_tire, at, settings_.rig, settings_.how);
+  const ContactPair& contact = scenario.soil.granular->grain_tire;
+  const Checkpoints kept = checkpoints("run", inputs_text(bed->recipe, scenario.tire, contact, settings_.rig, at));
+  const WheelRun run = run_wheel(*bed, scenario.tire, contact, at, settings_.rig, settings_.how, kept);
+  remove_restart(kept.restart);
   if (settings_.on_run) settings_.on_run(run);
   if (settings_.only_steady && !run.steady)
     throw NoSolution(
@@ -40,7 +43,22 @@ GrainDriveRecord DemModel::drive(const Scenario& scenario, const Drive& drive, i
   check_drive(drive);
   const auto bed = beds_.bed(recipe(scenario), settings_.how);
   return drive_freely(*bed, scenario.tire, scenario.soil.granular->grain_tire, drive, settings_.rig, samples,
-                      settings_.how);
+                      settings_.how, checkpoints_of(scenario, drive, samples));
+}
+
+void DemModel::forget(const Scenario& scenario, const Drive& drive, int samples) const {
+  remove_restart(checkpoints_of(scenario, drive, samples).restart);
+}
+
+Checkpoints DemModel::checkpoints(const std::string& kind, const std::string& inputs) const {
+  Checkpoints file = settings_.checkpoints;
+  if (!file.restart.empty()) file.restart /= fmt::format("{}-{}.h5", kind, key_of(inputs));
+  return file;
+}
+
+Checkpoints DemModel::checkpoints_of(const Scenario& scenario, const Drive& drive, int samples) const {
+  const BedRecipe bed = recipe(scenario);
+  return checkpoints("drive", inputs_text(bed, scenario.tire, bed.soil.grain_tire, settings_.rig, drive, samples));
 }
 
 }  // namespace soilbin::dem

@@ -17,6 +17,9 @@ struct DemSettings {
   std::filesystem::path beds;    ///< folder that keeps beds; empty: none is kept on disk
   Rig rig;
   WorkOptions how;
+  /// How a run under way is kept, in files run-KEY.h5 and drive-KEY.h5 of the folder `restart`, by a hash of all that
+  /// it follows from; without a folder none is.
+  Checkpoints checkpoints{.restart = {}, .seconds = 60};
   bool only_steady = false;                     ///< NoSolution where a run didn't become steady, instead of its means
   std::function<void(const WheelRun&)> on_run;  ///< gets everything a run told, before evaluate returns
 };
@@ -28,17 +31,25 @@ class DemModel : public Model {
   std::string name() const override { return "dem"; }
   /// Sinkage, forces and torque are means over the steady part of one run, with the errors of its fluctuations; the
   /// scatter between packings comes on top. Throws InputError without granular values, for effects, and
-  /// what run_wheel throws. One call at a time: a run uses all the threads it is given.
+  /// what run_wheel throws. One call at a time: a run uses all the threads it is given. Where runs are kept, what is
+  /// there is gone on with; a finished run leaves nothing.
   TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override;
 
   /// A drive of the scenario's tire on a bed of its soil. Throws what drive_freely throws, and InputError without
-  /// granular values. The drive's effects belong to the analytic model and are not read.
+  /// granular values. The drive's effects belong to the analytic model and are not read. Where runs are kept the last
+  /// restart stays and answers the same call at once, until it is forgotten.
   GrainDriveRecord drive(const Scenario& scenario, const Drive& drive, int samples = 400) const;
+  /// Removes what is kept of a drive.
+  void forget(const Scenario& scenario, const Drive& drive, int samples = 400) const;
 
   /// The bed that a scenario's soil gets.
   BedRecipe recipe(const Scenario& scenario) const;
 
  private:
+  /// With the restart's file: `kind` and key.
+  Checkpoints checkpoints(const std::string& kind, const std::string& inputs) const;
+  Checkpoints checkpoints_of(const Scenario& scenario, const Drive& drive, int samples) const;
+
   DemSettings settings_;
   mutable BedStore beds_;
 };

@@ -53,6 +53,7 @@ struct GrainDriveRecord {
   double hold = 0;         ///< torque of the brake at rest [N m]
   std::size_t grains = 0;
   std::int64_t steps = 0;  ///< of the drive, without the stages before
+  double earlier = 0;      ///< on the clock on the wall, before it was gone on with [s]
 };
 
 }  // namespace soilbin::dem

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/rig/drive_parts.hpp"
+#include "dem/rig/run_inputs.hpp"
 #include "dem/rig/steady_drive.hpp"
 #include "dem/rig/wheel_in_bin.hpp"
 #include "scenario/drive_motor.hpp"
@@ -32,7 +34,7 @@ Rig rig_of(Rig rig, const Drive& drive, double radius) {
 class FreeDrive {
  public:
   FreeDrive(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact, const Drive& drive,
-            const Rig& rig, int samples, const WorkOptions& how)
+            const Rig& rig, int samples, const WorkOptions& how, const Checkpoints& checkpoints)
       : tire_(tire),
         drive_(drive),
         rig_(rig_of(rig, drive, tire.radius)),
@@ -40,19 +42,39 @@ class FreeDrive {
         gravity_(bed.recipe.gravity),
         way_(drive.profile, tire.radius),
         place_(way_.at(0)),
-        bin_(bed, tire, tire_contact, condition_at(place_, drive.load), rig_, how),
-        motor_(drive.controller, tire.radius, 0, 0) {}
+        bin_(bed, tire, tire_contact, condition_at(place_, drive.load), rig_, how, checkpoints,
+             inputs_text(bed.recipe, tire, tire_contact, rig, drive, samples)) {
+    bin_.run().keep("drive", *this);
+    if (rig_.onlooker.keeper) bin_.run().keep("onlooker", *rig_.onlooker.keeper);
+  }
 
   GrainDriveRecord run();
 
+  /// For StagedRun::keep. Motor, place and stance follow.
+  template <class Notes>
+  void state(Notes& notes) {
+    notes(record_.end, record_.end_time, record_.samples, record_.happenings, record_.hold, record_.steps);
+    notes(first_, energy_, interval_, beyond_, at_limit_, lifted_, turned_to_, turned_across_, time_, travelled_,
+          from_);
+    notes(mean_speed_, integral_, torque_, torque_sum_, first_work_, first_kinetic_, before_share_);
+    if constexpr (Notes::reads) motor_ = motor(), find_place();
+  }
+
  private:
+  void stages();
   void put_down();
-  void let_go(const Vec3& moment);
+  void let_go();
+  void tell_rest();
+  Motor motor() const;
+  void find_place();
+  std::int64_t end_of_interval() const;
+  void begin_sample();
+  void end_sample();
   void turn_gravity();
   void step();
   void account(const Vec3& velocity, double spin);
-  bool ended();
-  GrainDriveSample sample(std::int64_t steps);
+  bool goes_on() const;
+  void find_end();
   GrainDriveSample state_of(const WheelSample& mean, double torque) const;
   GrainDriveEnergy energy() const;
   void note_limit(std::int64_t steps);
@@ -71,11 +93,12 @@ class FreeDrive {
   Way way_;
   Place place_;
   WheelInBin bin_;
-  Motor motor_;
-  WheelStance stance_ = bin_.stance();
   GrainDriveRecord record_;
+  Motor motor_ = motor();
+  WheelStance stance_ = bin_.stance();
   EnergyBalance first_;  ///< at the start, where the grains' ledger is told
   WheelEnergy energy_;
+  int interval_ = 0;         ///< of the samples', that it is in
   std::int64_t beyond_ = 0;  ///< steps of this sample that the motor was at its limit
   bool at_limit_ = false, lifted_ = false;
   double turned_to_ = 0, turned_across_ = 0;  ///< inclines that gravity has [rad]
@@ -85,24 +108,24 @@ class FreeDrive {
 
 /// The wheel, braked, under its whole load.
 void FreeDrive::put_down() {
-  bin_.check_room();
-  const double before = bin_.tilting() + rig_.lowering + rig_.resting;
-  bin_.plan(static_cast<double>(bin_.steps_of(before + drive_.duration)));
   bin_.tilt();
   bin_.put_wheel();
-  bin_.wheel().free_translation = {true, false, true};
-  const Vec3 moment = bin_.lower({force().x, 0, force().z});
-  if (const double back = -bin_.travel(); back > drive_limits::roll_back * tire_.radius)
-    throw NoSolution(fmt::format(
-        "the soil can't hold the wheel at rest: braked, it slid back by {:.3g} m while it was loaded", back));
-  let_go(moment);
+  bin_.run().once([&] { bin_.wheel().free_translation = {true, false, true}; });
+  bin_.lower({force().x, 0, force().z});
+}
+
+Motor FreeDrive::motor() const {
+  return Motor(drive_.controller, tire_.radius, rig_.inertia + rig_.mass * tire_.radius * tire_.radius, record_.hold);
 }
 
 /// Off the brake; the motor takes its torque over.
-void FreeDrive::let_go(const Vec3& moment) {
+void FreeDrive::let_go() {
+  if (const double back = -bin_.travel(); back > drive_limits::roll_back * tire_.radius)
+    throw NoSolution(fmt::format(
+        "the soil can't hold the wheel at rest: braked, it slid back by {:.3g} m while it was loaded", back));
   Body& wheel = bin_.wheel();
-  record_.hold = -dot(moment, stance_.axle);
-  motor_ = Motor(drive_.controller, tire_.radius, rig_.inertia + rig_.mass * tire_.radius * tire_.radius, record_.hold);
+  record_.hold = -dot(bin_.moment_at_rest(), stance_.axle);
+  motor_ = motor();
   motor_.require_hold();
   wheel.turning = Turning::about_axis;
   from_ = wheel.position.x;
@@ -110,8 +133,17 @@ void FreeDrive::let_go(const Vec3& moment) {
   first_work_ = wheel.work, first_kinetic_ = free_energy(wheel, wheel.velocity, wheel.spin);
   if (rig_.ledger) first_ = bin_.simulation().energy();
   turned_to_ = place_.longitudinal_incline, turned_across_ = place_.transverse_incline;
-  before_share_ = bin_.done();
+  before_share_ = bin_.run().done();
   torque_ = record_.hold;
+}
+
+/// The first sample.
+void FreeDrive::tell_rest() {
+  WheelSample rest;
+  rest.force = bin_.wheel().force, rest.speed = bin_.wheel().velocity.x;
+  rest.sinkage = bin_.sinkage();
+  record_.samples.push_back(state_of(rest, record_.hold));
+  record_.samples.back().slip.reset();  // a braked wheel has none
 }
 
 /// Gravity follows the slope under the axle where that has changed.
@@ -134,9 +166,13 @@ void FreeDrive::step() {
   bin_.step();
   account(0.5 * (velocity + wheel.velocity), 0.5 * (turning + spin()));
   time_ += dt(), travelled_ = wheel.position.x - from_;
+  find_place();
+  ++record_.steps;
+}
+
+void FreeDrive::find_place() {
   place_ = way_.at(travelled_);
   stance_ = wheel_stance(condition_at(place_, drive_.load));
-  ++record_.steps;
 }
 
 /// Works and the mean speed, from the motion at the step's middle.
@@ -148,36 +184,41 @@ void FreeDrive::account(const Vec3& velocity, double spin) {
   if (time_ >= drive_.controller.ramp) mean_speed_ += dt() * (velocity.x - mean_speed_) / drive_limits::memory;
 }
 
-/// Whether the drive is over, and why.
-bool FreeDrive::ended() {
+/// Whether the drive is over now, and why.
+void FreeDrive::find_end() {
   const auto ends = [&](bool is, DriveEnd end) {
     if (is) record_.end = end;
     return is;
   };
-  return ends(drive_.distance && travelled_ >= *drive_.distance, DriveEnd::arrived) ||
-         ends(travelled_ >= bin_.way(), DriveEnd::bed_ends) ||
-         ends(mean_speed_ < drive_.stuck_speed, DriveEnd::stuck) ||
-         ends(bin_.sinkage() > drive_limits::deepest * tire_.radius, DriveEnd::buried) ||
-         ends(travelled_ < -drive_limits::roll_back * tire_.radius, DriveEnd::rolled_back);
+  ends(drive_.distance && travelled_ >= *drive_.distance, DriveEnd::arrived) ||
+      ends(travelled_ >= bin_.way(), DriveEnd::bed_ends) || ends(mean_speed_ < drive_.stuck_speed, DriveEnd::stuck) ||
+      ends(bin_.sinkage() > drive_limits::deepest * tire_.radius, DriveEnd::buried) ||
+      ends(travelled_ < -drive_limits::roll_back * tire_.radius, DriveEnd::rolled_back);
 }
 
-GrainDriveSample FreeDrive::sample(std::int64_t steps) {
-  bin_.tell("driving", share_done());
-  bin_.show();
+std::int64_t FreeDrive::end_of_interval() const { return bin_.steps_of(drive_.duration * interval_ / samples_); }
+
+bool FreeDrive::goes_on() const {
+  const std::int64_t all = bin_.steps_of(drive_.duration * samples_ / samples_);
+  return record_.end == DriveEnd::time_is_up && record_.steps < all;
+}
+
+/// Of the next interval that has steps.
+void FreeDrive::begin_sample() {
+  do ++interval_;
+  while (end_of_interval() <= record_.steps);
+  bin_.begin_sample(end_of_interval() - record_.steps);
   turn_gravity();
   beyond_ = 0, torque_sum_ = 0;
-  std::int64_t taken = 0;
-  bool over = false;
-  const WheelSample mean = bin_.sample(steps, [&] {
-    step();
-    ++taken;
-    over = ended();
-    return !over;
-  });
+}
+
+void FreeDrive::end_sample() {
+  const std::int64_t taken = bin_.sample().taken;
+  const WheelSample mean = bin_.end_sample();
   record_.end_time = time_;
   note_limit(taken);
   note_touch(mean);
-  return state_of(mean, torque_sum_ / static_cast<double>(taken));
+  record_.samples.push_back(state_of(mean, torque_sum_ / static_cast<double>(taken)));
 }
 
 GrainDriveSample FreeDrive::state_of(const WheelSample& mean, double torque) const {
@@ -234,23 +275,27 @@ double FreeDrive::share_done() const {
   return before_share_ + (1 - before_share_) * std::clamp(std::max(by_time, by_way), 0.0, 1.0);
 }
 
-GrainDriveRecord FreeDrive::run() {
+void FreeDrive::stages() {
   put_down();
-  WheelSample rest;
-  rest.force = bin_.wheel().force, rest.speed = bin_.wheel().velocity.x;
-  rest.sinkage = bin_.sinkage();
-  record_.samples.push_back(state_of(rest, record_.hold));
-  record_.samples.back().slip.reset();  // a braked wheel has none
-  std::int64_t taken = 0;
-  for (int i = 1; i <= samples_; ++i) {
-    const std::int64_t until = bin_.steps_of(drive_.duration * i / samples_);
-    if (until <= taken) continue;
-    record_.samples.push_back(sample(until - taken));
-    taken = until;
-    if (record_.end != DriveEnd::time_is_up) break;
-  }
-  bin_.tell("driving", 1.0);
+  bin_.run().once([&] { let_go(), tell_rest(); });
+  bin_.run().loop(
+      "driving", [&] { return goes_on(); },
+      [&] {
+        if (!bin_.is_sampling()) begin_sample();
+        step();
+        find_end();
+        if (bin_.is_full() || record_.end != DriveEnd::time_is_up) end_sample();
+      },
+      [&] { return share_done(); });
+}
+
+GrainDriveRecord FreeDrive::run() {
+  bin_.check_room();
+  const double before = bin_.tilting() + rig_.lowering + rig_.resting;
+  bin_.run().plan(static_cast<double>(bin_.steps_of(before + drive_.duration)));
+  bin_.run().through([&] { stages(); });
   record_.grains = bin_.simulation().state().grains.count();
+  record_.earlier = bin_.run().earlier();
   tell_steady(record_, drive_, rig_.steady_drift);
   return std::move(record_);
 }
@@ -276,9 +321,10 @@ double bed_length_for(const Drive& drive, const Rig& rig) {
 }
 
 GrainDriveRecord drive_freely(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact,
-                              const Drive& drive, const Rig& rig, int samples, const WorkOptions& how) {
+                              const Drive& drive, const Rig& rig, int samples, const WorkOptions& how,
+                              const Checkpoints& checkpoints) {
   check_drive(drive);
-  return FreeDrive(bed, tire, tire_contact, drive, rig, samples, how).run();
+  return FreeDrive(bed, tire, tire_contact, drive, rig, samples, how, checkpoints).run();
 }
 
 }  // namespace soilbin::dem

@@ -20,9 +20,10 @@ namespace soilbin::dem {
 ///
 /// Throws InputError for what the bin can't do (other soils on the way, a yaw that changes, later passes) and a bed too
 /// short or narrow; NoSolution where the grains or the motor can't hold the wheel at its start; RunStopped where a
-/// grain is lost; Stopped.
+/// grain is lost; Stopped. `checkpoints`: as for run_wheel.
 GrainDriveRecord drive_freely(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact,
-                              const Drive& drive, const Rig& rig = {}, int samples = 400, const WorkOptions& how = {});
+                              const Drive& drive, const Rig& rig = {}, int samples = 400, const WorkOptions& how = {},
+                              const Checkpoints& checkpoints = {});
 
 /// Throws InputError for a drive that the bin can't do, before a bed is made for it.
 void check_drive(const Drive& drive);

@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "dem/archive/sealed_file.hpp"
 #include "dem/bed/bed_store.hpp"
 #include "dem/rig/step_criteria.hpp"
 
@@ -45,6 +46,25 @@ void add_rig(Inputs& to, const Rig& rig) {
   if (rig.drive_torque) add(to, "rig.drive_torque", *rig.drive_torque);
 }
 
+/// To be raised when the same inputs give other bits, or a restart keeps something else.
+constexpr int version = 1;
+
+Inputs inputs_with_contact(BedRecipe recipe, const Tire& tire, const ContactPair& tire_contact, const Rig& rig) {
+  recipe.soil.grain_tire = tire_contact;
+  Inputs inputs = run_inputs(recipe, tire, rig);
+  inputs.emplace_back("program", fmt::format("soilbin {}, runs {}", SOILBIN_VERSION, version));
+  inputs.emplace_back("bed.packing", std::to_string(recipe.packing));
+  inputs.emplace_back("rig.ledger", rig.ledger ? "told" : "not told");
+  if (rig.onlooker.look) add(inputs, "rig.onlooker", rig.onlooker.every);
+  return inputs;
+}
+
+std::string text_of(const Inputs& inputs) {
+  std::string text;
+  for (const auto& [name, value] : inputs) text += name + " " + value + "\n";
+  return text;
+}
+
 }  // namespace
 
 Inputs run_inputs(const BedRecipe& recipe, const Tire& tire, const Rig& rig) {
@@ -59,5 +79,38 @@ Inputs run_inputs(const BedRecipe& recipe, const Tire& tire, const Rig& rig) {
   add(inputs, "rig.time_step", step_of(recipe, rig));
   return inputs;
 }
+
+std::string inputs_text(const BedRecipe& recipe, const Tire& tire, const ContactPair& tire_contact, const Rig& rig,
+                        const OperatingCondition& at) {
+  const auto& [load, slip, speed, longitudinal_incline, transverse_incline, yaw, pass, slip_by, force_frame, moisture,
+               position, run] = at;  // the last three are of campaigns
+  Inputs inputs = inputs_with_contact(recipe, tire, tire_contact, rig);
+  add(inputs, "at.load", load), add(inputs, "at.slip", slip), add(inputs, "at.speed", speed);
+  add(inputs, "at.longitudinal_incline", longitudinal_incline);
+  add(inputs, "at.transverse_incline", transverse_incline), add(inputs, "at.yaw", yaw), add(inputs, "at.pass", pass);
+  add(inputs, "at.slip_by", static_cast<int>(slip_by)), add(inputs, "at.force_frame", static_cast<int>(force_frame));
+  return text_of(inputs);
+}
+
+std::string inputs_text(const BedRecipe& recipe, const Tire& tire, const ContactPair& tire_contact, const Rig& rig,
+                        const Drive& drive, int samples) {
+  Inputs inputs = inputs_with_contact(recipe, tire, tire_contact, rig);
+  const auto& [load, mass, inertia, pass, duration, distance, damping, stuck_speed, controller, profile, effects] =
+      drive;  // damping and effects are the analytic wheel's
+  const auto& [rim_speed, torque, highest_torque, highest_rim_speed, ramp, response] = controller;
+  add(inputs, "drive.load", load), add(inputs, "drive.mass", mass_of(drive));
+  add(inputs, "drive.inertia", inertia_of(drive, tire.radius)), add(inputs, "drive.pass", pass);
+  add(inputs, "drive.duration", duration), add(inputs, "drive.distance", distance.value_or(0));
+  add(inputs, "drive.stuck_speed", stuck_speed), add(inputs, "motor.rim_speed", rim_speed.value_or(0));
+  add(inputs, "motor.torque", torque.value_or(0)), add(inputs, "motor.highest_torque", highest_torque.value_or(0));
+  add(inputs, "motor.highest_rim_speed", highest_rim_speed.value_or(0));
+  add(inputs, "motor.ramp", ramp), add(inputs, "motor.response", response), add(inputs, "drive.samples", samples);
+  for (const auto& [at, longitudinal_incline, transverse_incline, yaw, drawbar, soil] : profile)
+    inputs.emplace_back("drive.place",
+                        fmt::format("{} {} {} {} {}", at, longitudinal_incline, transverse_incline, yaw, drawbar));
+  return text_of(inputs);
+}
+
+std::string key_of(const std::string& text) { return fmt::format("{:016x}", fnv1a(text)); }
 
 }  // namespace soilbin::dem

@@ -18,10 +18,21 @@ class FlowMeter {
   /// The means so far.
   SoilFlow flow() const;
 
+  /// For StagedRun::keep: all but the cells' layout.
+  template <class Notes>
+  void state(Notes& notes) {
+    notes(moments_, volume_, vx_, vz_);
+  }
+
  private:
   SoilFlow layout_;
   std::vector<double> volume_, vx_, vz_;
   double moments_ = 0;
 };
+
+template <class Notes>
+void parts(Notes& notes, FlowMeter& meter) {
+  meter.state(notes);
+}
 
 }  // namespace soilbin::dem

@@ -8,34 +8,36 @@
 
 #include "dem/rig/rut.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/estimate.hpp"
 
 namespace soilbin::dem {
 
 WheelInBin::WheelInBin(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact,
-                       const OperatingCondition& at, const Rig& rig, const WorkOptions& how)
+                       const OperatingCondition& at, const Rig& rig, const WorkOptions& how,
+                       const Checkpoints& checkpoints, std::string inputs)
     : bed_(bed),
       tire_(tire),
       at_(at),
       rig_(rig),
-      how_(how),
       stance_(wheel_stance(at)),
-      simulation_(setup_for(tire_contact), bed.state) {}
+      run_(checkpoints, std::move(inputs), how,
+           [&] { return Simulation(setup_for(tire_contact, how.threads), bed.state); }) {
+  run_.keep("bin", *this);
+}
 
 double WheelInBin::tilting() const {
   return at_.longitudinal_incline != 0 || at_.transverse_incline != 0 ? rig_.tilting : 0;
 }
 
-std::int64_t WheelInBin::steps_of(double time) const { return std::llround(time / simulation_.setup().numerics.dt); }
+std::int64_t WheelInBin::steps_of(double time) const { return std::llround(time / simulation().setup().numerics.dt); }
 
-Setup WheelInBin::setup_for(const ContactPair& tire_contact) const {
+Setup WheelInBin::setup_for(const ContactPair& tire_contact, int threads) const {
   Setup setup = bed_.setup;
   const int tire = setup.materials.add({"tire", 1100, rig_.young, rig_.poisson});
   setup.materials.set(grain_material, tire, interaction_of(tire_contact));
   setup.laws = with_cohesion_of(tire_contact, setup.laws);
   if (rig_.dt > 0) setup.numerics.dt = rig_.dt;
   setup.numerics.skin = rig_.skin * bed_.recipe.soil.radius_max;
-  setup.numerics.threads = how_.threads;
+  setup.numerics.threads = threads;
   setup.numerics.deepest_overlap = rig_.deepest_overlap;
   setup.numerics.ledger = rig_.ledger;
   const double g = bed_.recipe.gravity, d = bed_.recipe.soil.radius_min + bed_.recipe.soil.radius_max;
@@ -63,37 +65,23 @@ double WheelInBin::way() const {
   return rig_.travel > 0 ? std::min(rig_.travel, room) : room;
 }
 
-void WheelInBin::step() {
-  simulation_.run(1);
-  ++steps_;
-}
-
-void WheelInBin::tell(std::string_view stage, std::optional<double> share) {
-  if (how_.stop.stop_requested()) throw Stopped();
-  if (!how_.progress) return;
-  const double far = share.value_or(done());
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began_;
-  how_.progress({stage, far, far > 0 ? spent.count() * (1 - far) / far : not_a_number});
-}
-
 void WheelInBin::tilt() {
   const std::int64_t steps = steps_of(tilting());
-  for (std::int64_t k = 0; k < steps; ++k) {
-    if (k % 100 == 0) tell("tilting");
+  run_.steps("tilting", steps, [&](std::int64_t k) {
     const double share = std::min(1.0, 1.5 * static_cast<double>(k + 1) / static_cast<double>(steps));
     OperatingCondition part = at_;
     part.longitudinal_incline *= share, part.transverse_incline *= share;
-    simulation_.set_gravity(-bed_.recipe.gravity * wheel_stance(part).up);
+    simulation().set_gravity(-bed_.recipe.gravity * wheel_stance(part).up);
     step();
-  }
+  });
 }
 
 double WheelInBin::free_height() const {
   const double rim = tire_.radius + tire_.lugs.height, y = bed_.recipe.size.width / 2;
   double z = 0;
-  for (std::size_t k = 0; k < simulation_.state().grains.count(); ++k) {
-    const Vec3 from = simulation_.state().grains.motion[k].position - Vec3{rig_.behind, y, 0};
-    const double x = dot(from, stance_.heading), apart = rim + simulation_.state().grains.motion[k].radius + wheel_gap;
+  for (std::size_t k = 0; k < simulation().state().grains.count(); ++k) {
+    const Vec3 from = simulation().state().grains.motion[k].position - Vec3{rig_.behind, y, 0};
+    const double x = dot(from, stance_.heading), apart = rim + simulation().state().grains.motion[k].radius + wheel_gap;
     if (std::abs(dot(from, stance_.axle)) > tire_.width || std::abs(x) >= apart) continue;
     z = std::max(z, from.z + std::sqrt(apart * apart - x * x));
   }
@@ -101,7 +89,11 @@ double WheelInBin::free_height() const {
 }
 
 void WheelInBin::put_wheel() {
-  const Grains& grains = simulation_.state().grains;
+  run_.once([&] { put_body(); });
+}
+
+void WheelInBin::put_body() {
+  const Grains& grains = simulation().state().grains;
   const double y = bed_.recipe.size.width / 2, radius = bed_.recipe.soil.radius_min;
   const Footprint track{rig_.behind, rig_.behind + way(), y - tire_.width / 2, y + tire_.width / 2};
   surface_ = surface_height(grains, track, radius / 4).mean();
@@ -110,7 +102,7 @@ void WheelInBin::put_wheel() {
   Body body;
   body.name = "wheel";
   body.surfaces.push_back({MeshSurface{std::make_shared<TriangleMesh>(tire_surface(tire_, rig_.meshing)), nullptr},
-                           static_cast<int>(simulation_.setup().materials.all.size()) - 1});
+                           static_cast<int>(simulation().setup().materials.all.size()) - 1});
   body.mass = rig_.mass > 0 ? rig_.mass : at_.load / bed_.recipe.gravity;
   const double inertia = rig_.inertia > 0 ? rig_.inertia : body.mass * tire_.radius * tire_.radius / 2;
   body.inertia = {inertia, inertia, inertia};
@@ -118,52 +110,59 @@ void WheelInBin::put_wheel() {
   body.axis = stance_.axle;
   body.rotation = rotation_by({0, 0, at_.yaw});
   body.position = {rig_.behind, y, free_height()};
-  wheel_ = simulation_.add_body(body);
+  wheel_ = simulation().add_body(body);
 }
 
-Vec3 WheelInBin::lower(const Vec3& force) {
+void WheelInBin::lower(const Vec3& force) {
   const std::int64_t ramp = steps_of(rig_.lowering), steps = ramp + steps_of(rig_.resting);
   const std::int64_t from = ramp + (steps - ramp) / 2;
-  Vec3 moment;
-  next_look_ = begin();
-  for (std::int64_t k = 0; k < steps; ++k) {
-    if (k % 100 == 0) tell("lowering");
+  run_.once([&] { next_look_ = begin(), moment_at_rest_ = {}; });
+  run_.steps("lowering", steps, [&](std::int64_t k) {
     const double share = k < ramp ? static_cast<double>(k + 1) / static_cast<double>(ramp) : 1.0;
     wheel().applied_force = share * force;
     step();
-    if (k >= from) moment += 1 / static_cast<double>(steps - from) * wheel().torque;
-  }
-  return moment;
+    if (k >= from) moment_at_rest_ += 1 / static_cast<double>(steps - from) * wheel().torque;
+  });
 }
 
-WheelSample WheelInBin::sample(std::int64_t steps, const std::function<bool()>& one_step) {
-  const double each = 1 / static_cast<double>(steps), work = wheel().work, before = simulation_.time();
-  WheelSample out;
-  std::int64_t taken = 0;
-  for (bool goes_on = true; goes_on && taken < steps; ++taken) {
-    goes_on = one_step();
-    const Body& now = wheel();
-    out.force += each * now.force;
-    out.moment += each * now.torque;
-    out.sinkage += each * sinkage();
-    out.speed += each * now.velocity.x;
-    out.heave += each * now.velocity.z;
-    out.rotation += each * dot(now.spin, stance_.axle);
-  }
-  if (taken < steps) {
-    const double more = static_cast<double>(steps) / static_cast<double>(taken);
+void WheelInBin::begin_sample(std::int64_t steps) {
+  show();
+  sample_ = {
+      .sum = {}, .steps = steps, .taken = 0, .begun = simulation().time(), .travel = travel(), .work = wheel().work};
+}
+
+void WheelInBin::step() {
+  run_.step();
+  if (!is_sampling()) return;
+  ++sample_.taken;
+  const double each = 1 / static_cast<double>(sample_.steps);
+  WheelSample& sum = sample_.sum;
+  const Body& now = wheel();
+  sum.force += each * now.force;
+  sum.moment += each * now.torque;
+  sum.sinkage += each * sinkage();
+  sum.speed += each * now.velocity.x;
+  sum.heave += each * now.velocity.z;
+  sum.rotation += each * dot(now.spin, stance_.axle);
+}
+
+WheelSample WheelInBin::end_sample() {
+  WheelSample out = sample_.sum;
+  if (!is_full()) {
+    const double more = static_cast<double>(sample_.steps) / static_cast<double>(sample_.taken);
     out.force = more * out.force, out.moment = more * out.moment;
     for (double* mean : {&out.sinkage, &out.speed, &out.heave, &out.rotation}) *mean *= more;
   }
-  out.time = simulation_.time();
+  out.time = simulation().time();
   out.travel = travel();
-  out.into_soil = (wheel().work - work) / (out.time - before);
+  out.into_soil = (wheel().work - sample_.work) / (out.time - sample_.begun);
+  sample_ = {};
   return out;
 }
 
 void WheelInBin::show() {
   if (!rig_.onlooker.look || wheel().position.x < next_look_) return;
-  rig_.onlooker.look(simulation_, wheel_, surface_);
+  rig_.onlooker.look(simulation(), wheel_, surface_);
   next_look_ += rig_.onlooker.every;
 }
 

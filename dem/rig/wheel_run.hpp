@@ -3,9 +3,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "dem/archive/resumable_run.hpp"
 #include "dem/bed/settled_bed.hpp"
 #include "dem/rig/tread_stress.hpp"
 #include "dem/rig/wheel_motion.hpp"
@@ -17,10 +20,25 @@
 
 namespace soilbin::dem {
 
+/// What an onlooker has seen so far, as bytes: to be found again where a run goes on.
+struct OnlookerKeeper {
+  std::function<std::string()> seen;
+  std::function<void(const std::string&)> remember;
+
+  /// For StagedRun::keep.
+  template <class Notes>
+  void state(Notes& notes) {
+    std::string bytes = Notes::reads ? "" : seen();
+    notes(bytes);
+    if constexpr (Notes::reads) remember(bytes);
+  }
+};
+
 /// Sees the grains and the wheel each time the axle has gone on by `every`, and at the start; changes nothing.
 struct Onlooker {
   double every = 0.02;  ///< [m]
   std::function<void(const Simulation& simulation, int wheel, double surface)> look;
+  std::shared_ptr<OnlookerKeeper> keeper;  ///< absent: a run that is gone on with is seen from there on
 };
 
 /// How the wheel is held, driven and read.
@@ -80,6 +98,7 @@ struct WheelRun {
   Vec3 moment;                       ///< mean, about the wheel's centre [N m]
   Rut rut;
   SoilFlow flow;
+  double earlier = 0;  ///< on the clock on the wall, before the run was gone on with [s]
 };
 
 /// Runs it. The start-up is cut off at the latest end_of_start_up of pull,
@@ -88,8 +107,12 @@ struct WheelRun {
 /// the same stretch at the same condition, each time lifted clear, taken back
 /// and lowered onto its rut; the last pass is told, its sinkage from the
 /// undisturbed surface. Throws InputError for a bed too short or narrow, RunStopped where a grain or the wheel is lost,
-/// NoSolution where the wheel digs itself in to the axle, Stopped.
+/// NoSolution where the wheel digs itself in to the axle, Stopped. With a path in
+/// `checkpoints` the run is kept now and then, at its end too, and goes on from
+/// there: with the same bits, where all arguments but how and checkpoints are
+/// the same; InputError where they aren't.
 WheelRun run_wheel(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact,
-                   const OperatingCondition& at, const Rig& rig = {}, const WorkOptions& how = {});
+                   const OperatingCondition& at, const Rig& rig = {}, const WorkOptions& how = {},
+                   const Checkpoints& checkpoints = {});
 
 }  // namespace soilbin::dem

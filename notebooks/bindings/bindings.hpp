@@ -35,11 +35,15 @@ void bind_measured(py::module_& module);
 void bind_loop(py::module_& module);
 void bind_comparison(py::module_& module);
 void bind_recorded(py::module_& module);
+void bind_calibration(py::module_& module);
 
 /// Where cases lie: $SOILBIN_CASES, the installation's, the source tree's.
 std::vector<std::filesystem::path> cases_folders();
 Library cases_library();
 const bekker_wong::CatalogueVocabulary& effect_vocabulary();
+
+/// State of the sources that the extension was built from, as the command tells it.
+std::string source_state();
 
 /// Long work, watched from Python. Called from the thread that gave up the interpreter's lock; a few times a second it
 /// takes the lock back, lets Python see to signals, and tells `told`, a callable of (share done, stage) or None. What

@@ -70,4 +70,5 @@ PYBIND11_MODULE(_soilbin, module) {
   bind_plate_tests(module);
   bind_loop(module);
   bind_comparison(module);
+  bind_calibration(module);
 }

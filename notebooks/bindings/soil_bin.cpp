@@ -1,6 +1,9 @@
 // dem/rig: the virtual soil bin.
-#include "dem/rig/dem_model.hpp"
-#include "dem/rig/run_inputs.hpp"
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "compare/experiments/soil_bin_runs.hpp"
 #include "notebooks/bindings/vectors.hpp"
 #include "scenario/case.hpp"
 #include "scenario/errors.hpp"
@@ -34,8 +37,33 @@ class SoilBin {
     return told;
   }
 
-  std::vector<std::pair<std::string, std::string>> inputs(const Scenario& scenario) const {
-    return dem::run_inputs(model_.recipe(scenario), scenario.tire, settings_.rig);
+  compare::Inputs inputs(const Scenario& scenario) const { return compare::inputs_of(settings_, scenario); }
+
+  /// Each condition of a case on each packing; what the file has isn't run again.
+  compare::Record record(const Case& question, const std::filesystem::path& file, int packings,
+                         const py::object& progress) const {
+    if (packings < 1) throw InputError("packings: 1 or more");
+    const std::size_t all = question.study.conditions.size() * static_cast<std::size_t>(packings);
+    if (all == 0) throw InputError("the case has no condition to run");
+    Watch watch(progress);
+    std::size_t done = 0;
+    DemSettings settings = settings_;
+    settings.how.progress = [&](const dem::Progress& p) {
+      watch((static_cast<double>(done) + std::min(p.done, 0.999)) / static_cast<double>(all),
+            fmt::format("run {} of {}, {}", done + 1, all, p.stage));
+    };
+    unlocked([&] {
+      const auto runs = std::make_shared<compare::SoilBinRuns>(settings, source_state());
+      const compare::RunOnce run = compare::kept_in(
+          file, {SOILBIN_VERSION, "dem", write_case(question, effect_vocabulary()), inputs(question.scenario), {}},
+          [runs](const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
+            return (*runs)(scenario, at, packing);
+          });
+      for (const OperatingCondition& at : question.study.conditions)
+        for (int k = 0; k < packings; ++k, ++done)
+          run(question.scenario, at, settings.packing + static_cast<std::uint64_t>(k));
+    });
+    return compare::read_record(file);
   }
 
  private:
@@ -88,13 +116,16 @@ DemSettings settings_of(const py::kwargs& numbers, std::uint64_t packing, const 
     if (!known) throw py::type_error("SoilBin has no setting '" + key.cast<std::string>() + "'");
   }
   if (threads < 0) throw InputError("threads: 0 (one a core) or more");
-  out.packing = packing, out.beds = beds.value_or(""), out.rig.ledger = ledger, out.how.threads = threads;
+  out.packing = packing, out.beds = beds.value_or(""), out.checkpoints.restart = out.beds;
+  out.rig.ledger = ledger, out.how.threads = threads;
   return out;
 }
 
 std::string settings_doc() {
   std::string doc =
-      "packing: seed of the bed. beds: folder that keeps settled beds; None: none is kept. ledger: tells "
+      "packing: seed of the bed. beds: folder that keeps settled beds, and runs that are stopped, which then go on; "
+      "None: "
+      "neither is kept. ledger: tells "
       "where the power goes. threads: 0, one a core; changes no bit. By keywords:";
   for (const Setting& setting : settings_by_name) doc += "\n  " + std::string(setting.name) + ": " + setting.doc;
   return doc;
@@ -178,6 +209,11 @@ void bind_soil_bin(py::module_& module) {
       .def("run", &SoilBin::run, py::arg("scenario"), py::arg("at"), py::arg("progress") = py::none(),
            "One run. progress: called with (share done, stage). Raises InputError for a bed too small and for what "
            "grains can't do (effects, a second pass), NoSolution where the wheel digs itself in, RunStopped.")
+      .def("record", &SoilBin::record, py::arg("case"), py::arg("file"), py::arg("packings") = 1,
+           py::arg("progress") = py::none(),
+           "Runs the conditions of a case's study, each on so many packings from the bin's on, and keeps each run in "
+           "the file as it is finished; what is there isn't run again. Gives the record. What grains can't answer is a "
+           "run with its error. Raises InputError for a file of other inputs, which it names.")
       .def("inputs", &SoilBin::inputs, py::arg("scenario"),
            "Everything that a run follows from beside condition and packing, as names and values.");
 }

@@ -54,10 +54,10 @@ class Scratch {
   fs::path path_;
 };
 
-/// Runs 'soilbin <arguments>', quoted as for a shell.
-inline Outcome soilbin(const std::string& arguments) {
+/// Runs 'soilbin <arguments>', quoted as for a shell; `before`: words before it.
+inline Outcome soilbin(const std::string& arguments, const std::string& before = "") {
   const Scratch scratch;
-  const std::string line = "'" SOILBIN_BINARY "' " + arguments + " >'" + (scratch / "out").string() + "' 2>'" +
+  const std::string line = before + "'" SOILBIN_BINARY "' " + arguments + " >'" + (scratch / "out").string() + "' 2>'" +
                            (scratch / "err").string() + "' </dev/null";
   const int raw = std::system(line.c_str());
   return {WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, text_of(scratch / "out"), text_of(scratch / "err")};

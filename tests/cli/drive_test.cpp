@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cli/command.hpp"
 
@@ -9,7 +10,9 @@ namespace soilbin::cli::test {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 constexpr const char* short_drive = R"(format: soilbin-case/1
 name: start
@@ -159,6 +162,81 @@ TEST(SlowDriveInGrains, BothModelsStandSideBySide) {
   EXPECT_THAT(text_of(page), AllOf(HasSubstr("Against time"), HasSubstr("Travelled [m]"),
                                    HasSubstr("Where nothing changes any more")));
   EXPECT_THAT(text_of(csv), AllOf(testing::StartsWith("model,time_s,travelled_m"), HasSubstr("\ndem,")));
+}
+
+/// Without what it took on the clock.
+nlohmann::json without_cost(nlohmann::json drive) {
+  drive.erase("notes");
+  return drive;
+}
+
+TEST(SlowDriveInGrains, SeveralPackingsAreToldEachAndAsOne) {
+  const Scratch scratch;
+  const std::string file = scratch.write("small.yaml", small_drive).string(), page = (scratch / "p.html").string(),
+                    command = "drive '" + file + "' --model both --packings 2" + small_bin;
+  ::setenv("SOILBIN_BEDS", (scratch / "beds").string().c_str(), 1);
+  const Outcome r = soilbin(command + "--json"), said = soilbin(command + "--report '" + page + "'");
+  ::unsetenv("SOILBIN_BEDS");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const nlohmann::json drive = r.json();
+  ASSERT_EQ(drive["sides"].size(), 3U);
+  EXPECT_FALSE(drive["sides"][0].contains("packing"));
+  const nlohmann::json &one = drive["sides"][1], &two = drive["sides"][2], &mean = drive["over_packings"];
+  EXPECT_EQ(one["model"], "dem");
+  EXPECT_EQ(one["packing"], 1);
+  EXPECT_EQ(two["packing"], 2);
+  EXPECT_NE(one["samples"]["torque_Nm"], two["samples"]["torque_Nm"]);
+  EXPECT_EQ(mean["ends"], (nlohmann::json{one["end"], two["end"]}));
+  const double first = one["end_time"], second = two["end_time"];
+  EXPECT_NEAR(mean["end_time"]["value"].get<double>(), (first + second) / 2, 1e-12);
+  EXPECT_NEAR(mean["end_time"]["std_error"].get<double>(), std::abs(first - second) / 2, 1e-12);
+  ASSERT_FALSE(mean["steady"].is_null());
+  const auto slip = [](const nlohmann::json& side) { return side["steady"]["slip"]["value"].get<double>(); };
+  EXPECT_NEAR(slip(mean), (slip(one) + slip(two)) / 2, 1e-12);
+  EXPECT_GE(mean["steady"]["slip"]["std_error"].get<double>(), 0.999 * std::abs(slip(one) - slip(two)) / 2);
+  EXPECT_EQ(drive["differences"][1]["of"], "slip");
+  EXPECT_EQ(drive["differences"][1]["grains"], mean["steady"]["slip"]);
+  EXPECT_EQ(drive["notes"].size(), 2U);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_THAT(said.out, AllOf(HasSubstr("dem, mean of 2 packings: arrived on 2, after"), HasSubstr("dem packing 2"),
+                              HasSubstr("on each packing")));
+  EXPECT_THAT(text_of(page), HasSubstr("On each packing"));
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename());
+  return names;
+}
+
+TEST(SlowDriveInGrains, ADriveThatIsInterruptedGoesOnByTheSameCommand) {
+  const Scratch scratch;
+  const std::string file = scratch.write("small.yaml", small_drive).string(), beds = (scratch / "beds").string(),
+                    replay = (scratch / "replay").string(),
+                    command = "drive '" + file + "' --model dem" + small_bin + "--json --replay '" + replay + "'";
+  ::setenv("SOILBIN_BEDS", beds.c_str(), 1);
+  const Outcome whole = soilbin(command);
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  const std::string seen = text_of(replay);
+  EXPECT_THAT(names_in(beds), ElementsAre(StartsWith("bed-"))) << "nothing is left of it";
+  constexpr int interrupted = 130;
+  int stops = 0;
+  Outcome again;
+  do {
+    again = soilbin(command, "timeout --preserve-status -s INT " + std::to_string(0.4 + 0.2 * stops) + " ");
+    if (stops > 0) {
+      EXPECT_THAT(again.err, HasSubstr("going on from " + beds + "/drive-"));
+    }
+    if (again.status == interrupted) {
+      EXPECT_THAT(again.err, HasSubstr("the same command goes on from there"));
+    }
+  } while (again.status == interrupted && ++stops < 50);
+  EXPECT_GE(stops, 1);
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(without_cost(again.json()), without_cost(whole.json()));
+  EXPECT_TRUE(text_of(replay) == seen) << "the replay has the part before each stop too";
+  EXPECT_THAT(names_in(beds), ElementsAre(StartsWith("bed-")));
+  ::unsetenv("SOILBIN_BEDS");
 }
 
 TEST(LimitsCommand, TheSlipOnASlopeIsTheSlipOfNoPullThere) {

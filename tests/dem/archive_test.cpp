@@ -51,6 +51,17 @@ TEST(Restart, GivesBackEveryBit) {
   EXPECT_EQ(mesh_of(1), mesh_of(2));
 }
 
+TEST(Restart, KeepsNotesOfAnyLengthAndAnyBytes) {
+  const Simulation simulation = scene(20);
+  const Folder folder;
+  const Notes notes{{"short", "a b"},
+                    {"long", std::string(1 << 20, 'x')},
+                    {"zeros", std::string("a\0b\0", 4)},
+                    {"zero", std::string(1, '\0')}};
+  write_restart(folder / "run.h5", simulation.setup(), simulation.state(), notes);
+  EXPECT_EQ(read_restart(folder / "run.h5").notes, notes);
+}
+
 TEST(Restart, GivesBackTheSetup) {
   const Simulation simulation = scene();
   const Folder folder;

@@ -5,9 +5,11 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
+from pathlib import Path
 
 COMMAND = sys.argv.pop(1)
 
@@ -282,6 +284,102 @@ class LongWork(unittest.TestCase):
         finally:
             done.set()
             other.join()
+
+
+class Calibrations(unittest.TestCase):
+    """Four grains across, two boards: seconds of work."""
+    ASKED = {"targets": {"board_angle": math.radians(31.47)}, "across": 4, "packings": 2, "threads": 1, "runs": 10,
+             "progress": None}
+
+    def test_stopped_it_goes_on_from_its_store_and_says_what_the_command_says(self):
+        with tempfile.TemporaryDirectory() as folder:
+            store = Path(folder) / "store.json"
+            told = []
+
+            def stop_in_the_third_run(share, stage):
+                told.append(share)
+                if "run 3 of" in stage:
+                    raise Stops()
+
+            with self.assertRaises(Stops):
+                compare.calibrate("paper-sand", "tire", store=store, **{**self.ASKED, "progress": stop_in_the_third_run})
+            self.assertTrue(all(0 <= share < 0.4 for share in told))
+            found = compare.calibrate("paper-sand", "tire", store=store, **self.ASKED)
+            self.assertEqual([run.from_store for run in found.runs[:4]], [True, True, False, False])
+            done = subprocess.run([COMMAND, "calibrate", "paper-sand", "--contact", "tire", "--target",
+                                   "board_angle=31.47deg", "--across", "4", "--packings", "2", "--threads", "1",
+                                   "--runs", "10", "--store", store, "--json"], capture_output=True, text=True)
+            said = json.loads(done.stdout)
+            self.assertTrue(all(run["from_store"] for run in said["runs"]))
+        frame = compare.calibration_frame(found)
+        self.assertEqual(len(frame), len(said["runs"]))
+        mine = json.loads(found.json())
+        for told in (mine, said):
+            del told["sentences"]  # they say how many runs were made now
+            for run in told["runs"]:
+                del run["from_store"]
+        self.assertEqual(mine, said)
+        rows = compare.variance_frame(found, "board_angle")
+        self.assertEqual(list(rows["source"][:3]), ["restitution", "sliding_friction", "rolling_friction"])
+        self.assertTrue((rows["range"][:3] >= 0).all())
+        test = found.left_out["board_angle"]
+        np.testing.assert_allclose(test["standardised"], test["residual"] / test["sd"])
+        soil = found.soil()
+        self.assertEqual(soil.granular.grain_tire.sliding_friction, found.best.values["sliding_friction"])
+
+    def test_what_makes_no_sense_is_refused(self):
+        for wrong in ({"contact": "tyre"}, {"contact": "tire"}, {"targets": {"angle": 0.5}}, {"keep": ["cohesive"]},
+                      {"vary": {"sliding_friction": (0.8, 0.2)}}, {"design": "L8"}, {"strength": "top"}):
+            with self.assertRaises(soilbin.InputError, msg=str(wrong)):
+                compare.calibrate("paper-sand", **{"progress": None, **wrong})
+        with self.assertRaises(soilbin.InputError):
+            compare.calibrate("dry-sand", targets={"friction_angle": 0.5}, progress=None)
+
+
+class Recording(unittest.TestCase):
+    def case(self):
+        grains = soilbin.GranularSoil(
+            radius_min=0.008, radius_max=0.012, grain_density=2500, youngs_modulus=5e6, poisson_ratio=0.2,
+            grain_grain=soilbin.ContactPair(restitution=0.4, sliding_friction=0.5, rolling_friction=0.1),
+            grain_tire=soilbin.ContactPair(restitution=0.4, sliding_friction=0.5, rolling_friction=0.1))
+        case = soilbin.find_case("rover-slip")
+        case.scenario.soil = case.scenario.soil.replace(granular=grains)
+        case.scenario.tire = soilbin.Tire(radius=0.1, width=0.08)
+        case.study.conditions = [soilbin.OperatingCondition(load=20.0, slip=slip, speed=0.3) for slip in (0.0, 0.2)]
+        return case
+
+    def test_runs_are_kept_stopped_gone_on_with_and_told_as_a_campaign(self):
+        case = self.case()
+        with tempfile.TemporaryDirectory() as folder:
+            bin = dem.SoilBin(beds=folder, threads=1, length=0.6, width=0.16, depth=0.06, behind=0.12, ahead=0.12,
+                              lowering=0.1, resting=0.05)
+            whole, file = (Path(folder) / name for name in ("whole.json", "record.json"))
+            dem.record_runs(case, whole, bin, packings=2, progress=None)
+
+            def stop_in_the_second(share, stage):
+                if stage == "run 2 of 4, driving":
+                    raise Stops()
+
+            with self.assertRaises(Stops):
+                dem.record_runs(case, file, bin, packings=2, progress=stop_in_the_second)
+            self.assertEqual(len(compare.read_record(file).runs), 1)
+            self.assertTrue(list(Path(folder).glob("run-*.h5")), "the run that was stopped is kept too")
+            record = dem.record_runs(case, file, bin, packings=2, progress=None)
+            self.assertFalse(list(Path(folder).glob("run-*.h5")))
+            mine, theirs = (compare.record_frame(r).drop(columns="seconds") for r in (record, whole))
+            self.assertTrue(mine.equals(theirs))
+            self.assertEqual(list(mine["packing"]), [1, 2, 1, 2])
+            other = dem.SoilBin(beds=folder, threads=1, length=0.7, width=0.16, depth=0.06)
+            with self.assertRaises(soilbin.InputError):
+                dem.record_runs(case, file, other, progress=None)
+            told = compare.tell_campaign([record], hide=["bin"], name="by-hand")
+            compare.write_campaign(told, Path(folder) / "by-hand")
+            back = compare.find_campaign(str(Path(folder) / "by-hand"))
+        self.assertEqual(len(back.runs), 4)
+        self.assertIsNone(back.bin)
+        self.assertEqual(sorted(compare.runs_frame(back)["torque"]), sorted(mine["torque"]))
+        with self.assertRaises(soilbin.InputError):
+            compare.tell_campaign(record, hide=["the truth"])
 
 
 class Loop(unittest.TestCase):

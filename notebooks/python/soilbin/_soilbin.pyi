@@ -1437,6 +1437,12 @@ class RecordedModel(Model):
     def record(self) -> Record: ...
     def __init__(self, record: Record) -> None: ...
 
+def tell_campaign(records: Sequence[Record], hide: Sequence[str] = ..., effects: Sequence[Union[EffectChoice, str]] = ..., soil: Optional[Soil] = ..., name: str = ..., only_steady: bool = ..., seed: int = ...) -> Campaign:
+    """Runs as a measured campaign: soilbin.compare.tell_campaign tells the arguments."""
+
+def write_campaign(campaign: Campaign, folder: Union[str, PathLike[str]]) -> None:
+    """Writes campaign.yaml and its data into a folder, made where it is missing; find_campaign reads it back."""
+
 def read_record(path: Union[str, PathLike[str]]) -> Record:
     """Reads a record. Raises InputError with file and place for everything that is none."""
 
@@ -1468,7 +1474,7 @@ class WheelRun:
 class SoilBin:
     """A virtual soil bin: a case's tire over a settled bed of its grains. Keeps its beds."""
     def __init__(self, packing: int = ..., beds: Optional[Union[str, PathLike[str]]] = ..., ledger: bool = ..., threads: int = ..., **parameters: float) -> None:
-        """packing: seed of the bed. beds: folder that keeps settled beds; None: none is kept. ledger: tells where the power goes. threads: 0, one a core; changes no bit. By keywords:
+        """packing: seed of the bed. beds: folder that keeps settled beds, and runs that are stopped, which then go on; None: neither is kept. ledger: tells where the power goes. threads: 0, one a core; changes no bit. By keywords:
           length: of the bed [m]
           width: of the bed [m]; a scenario's bin replaces it
           depth: of the bed [m]; a scenario's bin replaces it
@@ -1480,10 +1486,16 @@ class SoilBin:
           resting: time under the load before the start [s]
           starting: time in which the motion comes on [s]
           dt: [s]; 0: a fifth of the Rayleigh time
+          deepest_overlap: of the smaller radius that grains may overlap [-]
         """
     def run(self, scenario: Scenario, at: OperatingCondition, progress: Optional[Told] = ...) -> WheelRun:
         """One run. progress: called with (share done, stage). Raises InputError for a bed too small and for what grains
         can't do (effects, a second pass), NoSolution where the wheel digs itself in, RunStopped.
+        """
+    def record(self, case: Case, file: Union[str, PathLike[str]], packings: int = ..., progress: Optional[Told] = ...) -> Record:
+        """Runs the conditions of a case's study, each on so many packings from the bin's on, and keeps each run in the
+        file as it is finished; what is there isn't run again. Gives the record. What grains can't answer is a run
+        with its error. Raises InputError for a file of other inputs, which it names.
         """
     def inputs(self, scenario: Scenario) -> list[tuple[str, str]]:
         """Everything that a run follows from beside condition and packing, as names and values."""
@@ -1919,5 +1931,125 @@ class Comparison:
 def compare_case(case: Case, effects: Sequence[Union[EffectChoice, str]] = ..., runs: Sequence[RecordedRun] = ..., measured: Optional[Campaign] = ...) -> Comparison:
     """Sides of a study: its analytic models and the base model with each of `effects`; runs of grains, of a record; a
     campaign of the same wheel. Raises InputError where wheels or conditions don't meet.
+    """
+
+class CalibrationRun:
+    """One experiment of a calibration. SI."""
+    @property
+    def stage(self) -> str:
+        """'design', 'candidates' or 'refinement'"""
+    @property
+    def seed(self) -> int:
+        """of its packings"""
+    @property
+    def values(self) -> dict[str, float]:
+        """of the factors"""
+    @property
+    def results(self) -> dict[str, Estimate]:
+        """of the targets; empty where it failed"""
+    @property
+    def error(self) -> str:
+        """why it failed"""
+    @property
+    def seconds(self) -> float:
+        """that it took on the clock on the wall"""
+    @property
+    def from_store(self) -> bool:
+        """whether it had been made before"""
+
+class CalibrationCandidate:
+    """A point between the bounds, and what is known of it. SI."""
+    @property
+    def values(self) -> dict[str, float]:
+        """of the factors"""
+    @property
+    def predicted(self) -> dict[str, Estimate]:
+        """of the targets, by the surrogates of all runs"""
+    @property
+    def chi_square(self) -> float:
+        """sum over targets of (predicted - measured)^2/(both errors squared)"""
+    @property
+    def chance(self) -> float:
+        """that every target is met within the share asked for [-]"""
+    @property
+    def runs(self) -> int:
+        """made at this very point"""
+
+class VarianceRow:
+    """A factor in the analyses of an orthogonal design; or what none explains."""
+    @property
+    def source(self) -> str:
+        """the factor's name"""
+    @property
+    def range(self) -> float:
+        """R: largest level mean less smallest [SI]; NaN of what is left"""
+    @property
+    def level_means(self) -> list[float]:
+        """k_i: mean of the runs at each level [SI]"""
+    @property
+    def sum_of_squares(self) -> float:
+        """about the mean [SI, squared]"""
+    @property
+    def freedom(self) -> int:
+        """degrees of it"""
+    @property
+    def mean_square(self) -> float:
+        """[SI, squared]"""
+    @property
+    def f(self) -> float:
+        """mean square over the error's; NaN where it is the error"""
+    @property
+    def p_value(self) -> float:
+        """of so large an F by chance; NaN as f"""
+    @property
+    def pooled(self) -> bool:
+        """whether it was taken for error"""
+
+class Calibration:
+    """What a calibration found (docs/calibration.md). SI; by names of factors, targets."""
+    @property
+    def targets(self) -> dict[str, Estimate]:
+        """what was to be reached"""
+    @property
+    def factors(self) -> dict[str, tuple[float, float]]:
+        """lower and upper bound of what was varied"""
+    @property
+    def runs(self) -> list[CalibrationRun]:
+        """every experiment, in order"""
+    @property
+    def variance(self) -> dict[str, list[VarianceRow]]:
+        """of each target, the orthogonal design's range analysis and analysis of variance; empty where a run of the
+        design failed
+        """
+    @property
+    def left_out(self) -> dict[str, dict[str, Array]]:
+        """of each target, the surrogate at each run from all others, arrays: residual, sd [SI], standardised [-]
+        """
+    @property
+    def candidates(self) -> list[CalibrationCandidate]:
+        """run, and predicted near every target, the likeliest first"""
+    @property
+    def best(self) -> CalibrationCandidate:
+        """the one that is chosen"""
+    @property
+    def reached(self) -> bool:
+        """whether best's chance is at least the probability asked for"""
+    @property
+    def parameters(self) -> dict[str, Estimate]:
+        """of the factors, given the targets and a flat prior between the bounds"""
+    @property
+    def told(self) -> dict[str, float]:
+        """1 - sd of parameters over that of the flat prior; 0: the test says nothing of it [-]"""
+    @property
+    def sentences(self) -> list[str]:
+        """the verdict and what stands behind it, in plain words"""
+    def soil(self) -> Soil:
+        """The soil with best's values in the contact; its sources say where they come from."""
+    def json(self) -> str:
+        """soilbin-calibration/1"""
+
+def calibrate(soil: Soil, contact: str = ..., targets: Optional[dict[str, Union[Estimate, float]]] = ..., vary: dict[str, tuple[float, float]] = ..., keep: Sequence[str] = ..., design: str = ..., runs: int = ..., near: float = ..., within: float = ..., probability: float = ..., strength: str = ..., stresses: Sequence[float] = ..., settling_friction: float = ..., across: int = ..., packings: int = ..., seed: int = ..., threads: int = ..., store: Optional[Union[str, PathLike[str]]] = ..., progress: Optional[Told] = ...) -> Calibration:
+    """Contacts of grains from virtual tests: soilbin.compare.calibrate tells the arguments. Raises InputError for a
+    question that makes no sense, NoSolution where too many experiments fail to learn from the rest.
     """
 

@@ -1,7 +1,7 @@
 """Measured campaigns, predictions beside them, the loop, recorded runs, models side by side; as data frames."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Optional, Union
 
@@ -11,26 +11,31 @@ import pandas as pd
 from soilbin import _soilbin
 from soilbin._soilbin import (
     BekkerWong,
+    Calibration,
     Campaign,
     Case,
     Comparison,
     EffectChoice,
+    Estimate,
     LoopAnswer,
     Record,
     RecordedModel,
     RecordedRun,
     Scenario,
+    Soil,
     Verdict,
     find_campaign,
+    find_soil,
     read_record,
+    write_campaign,
 )
 from soilbin.progress import Progress, told_to
 from soilbin.questions import CHANNELS, condition_columns, result_columns, without_empty
 
 __all__ = [
-    "Campaign", "Comparison", "LoopAnswer", "Record", "RecordedModel", "RecordedRun", "Verdict", "compare_case",
-    "differences_frame", "error_frame", "find_campaign", "predict", "read_record", "record_frame", "run_loop",
-    "runs_frame",
+    "Calibration", "Campaign", "Comparison", "LoopAnswer", "Record", "RecordedModel", "RecordedRun", "Verdict",
+    "calibrate", "calibration_frame", "compare_case", "differences_frame", "error_frame", "find_campaign", "predict",
+    "read_record", "record_frame", "run_loop", "runs_frame", "tell_campaign", "variance_frame", "write_campaign",
 ]
 
 
@@ -103,6 +108,68 @@ def record_frame(record: Union[Record, str, Path]) -> pd.DataFrame:
                      **condition_columns(run.answer.at), **result_columns(run.answer.result),
                      "error": run.answer.error})
     return without_empty(pd.DataFrame(rows))
+
+
+def tell_campaign(records: Union[Record, str, Path, Sequence[Union[Record, str, Path]]], *, hide: Sequence[str] = (),
+                  effects: Sequence[Union[EffectChoice, str]] = (), soil: Optional[Soil] = None, name: str = "told",
+                  only_steady: bool = False, seed: int = 1) -> Campaign:
+    """Recorded runs of grains as a measured campaign, as `soilbin campaign` tells them (docs/campaigns.md).
+
+    hide: what the analyst is not told: conditions such as "longitudinal_incline", "lugs", "bin". effects: that his model
+    already has. soil: whose semi-empirical values he is told; absent: those of the first record's case. only_steady:
+    leaves out runs that did not become steady. seed: of the order of the rows. write_campaign keeps it in a folder.
+    Raises InputError for records of other inputs than the first one's, a soil without such values, an unknown word.
+    """
+    several: list[Union[Record, str, Path]] = []
+    several += [records] if isinstance(records, (Record, str, Path)) else records
+    known = [r if isinstance(r, Record) else read_record(Path(r)) for r in several]
+    return _soilbin.tell_campaign(known, list(hide), list(effects), soil, name, only_steady, seed)
+
+
+def calibrate(soil: Union[Soil, str], contact: str = "sand", *,
+              targets: Optional[Mapping[str, Union[Estimate, float]]] = None,
+              vary: Mapping[str, tuple[float, float]] = {}, keep: Sequence[str] = (), design: str = "L9",
+              runs: int = 30, near: float = 0.05, within: float = 0.03, probability: float = 0.9,
+              strength: str = "peak", stresses: Sequence[float] = (10e3, 20e3, 40e3), settling_friction: float = 1,
+              across: int = 16, packings: int = 0, seed: int = 1, threads: int = 0,
+              store: Union[str, Path, None] = None, progress: Progress = "shown") -> Calibration:
+    """Contacts of a soil's grains from virtual element tests (docs/calibration.md).
+
+    contact: "sand", grains on grains by the shear box, or "tire", grains on the tire by the tilting board. targets: what
+    was measured, Estimates in SI: friction_angle [rad] and cohesion [Pa] of sand (absent: the soil's own), board_angle
+    [rad] of a tire. vary: other bounds of a contact's numbers [SI]; keep: numbers that aren't varied. design: "L9", "L16"
+    or "L25". runs: experiments at most. near: share of a target within which candidates lie; within, probability: it ends
+    where each target is met within this share with this probability; all in 0 .. 1. strength: "peak" or "residual";
+    stresses [Pa], settling_friction 0 .. 1: of the shear box. across: grains along a side of the board. packings: samples
+    an experiment; 0: shear box 1, board 4. seed: of packings and search. store: a file that keeps finished experiments,
+    so that stopped work goes on; None: none. Raises InputError for a question that makes no sense, NoSolution where too
+    many experiments fail to learn from the rest.
+    """
+    known = find_soil(soil) if isinstance(soil, str) else soil
+    asked = None if targets is None else dict(targets)
+    return _soilbin.calibrate(known, contact, asked, dict(vary), list(keep), design, runs, near, within, probability,
+                              strength, list(stresses), settling_friction, across, packings, seed, threads, store,
+                              told_to(progress))
+
+
+def calibration_frame(calibration: Calibration) -> pd.DataFrame:
+    """A calibration's experiments, a row each: stage, seed, factors, targets and their _std_error, error, seconds. SI."""
+    rows = []
+    for run in calibration.runs:
+        row: dict[str, Any] = {"stage": run.stage, "seed": run.seed, **run.values}
+        for name in calibration.targets:
+            got = run.results.get(name)
+            row[name] = np.nan if got is None else got.value
+            row[name + "_std_error"] = np.nan if got is None else got.std_error
+        rows.append({**row, "error": run.error, "seconds": run.seconds, "from_store": run.from_store})
+    return pd.DataFrame(rows)
+
+
+def variance_frame(calibration: Calibration, target: str) -> pd.DataFrame:
+    """The orthogonal design's analyses of one target, a row a factor: range R of the level means [SI], analysis of
+    variance with f and p_value. Raises KeyError for an unknown target and where a run of the design failed."""
+    columns = ("source", "range", "sum_of_squares", "freedom", "mean_square", "f", "p_value", "pooled")
+    return pd.DataFrame([{name: getattr(row, name) for name in columns} for row in calibration.variance[target]])
 
 
 def compare_case(case: Union[Case, str], effects: Sequence[Union[EffectChoice, str]] = (),

@@ -2,6 +2,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
+from typing import Optional, Union
 
 import pandas as pd
 
@@ -9,6 +11,7 @@ from soilbin import _soilbin
 from soilbin._soilbin import (
     AngleOfReposeResult,
     AnnulusRun,
+    Case,
     CohesionLaw,
     DirectShearResult,
     GranularSoil,
@@ -17,6 +20,7 @@ from soilbin._soilbin import (
     NormalLaw,
     OperatingCondition,
     PlateRun,
+    Record,
     RollingLaw,
     Scenario,
     Simulation,
@@ -25,14 +29,15 @@ from soilbin._soilbin import (
     TiltingBoardResult,
     TriaxialResult,
     WheelRun,
+    find_case,
 )
 from soilbin.progress import Progress, told_to
 
 __all__ = [
     "AngleOfReposeResult", "AnnulusRun", "CohesionLaw", "DirectShearResult", "GranularSoil", "Interaction", "Material",
     "NormalLaw", "PlateRun", "RollingLaw", "Simulation", "SoilBin", "StrengthLine", "TiltingBoardResult",
-    "TriaxialResult", "WheelRun", "angle_of_repose", "annular_shear", "direct_shear", "plate_sinkage", "run_wheel",
-    "samples_frame", "tilting_board", "triaxial",
+    "TriaxialResult", "WheelRun", "angle_of_repose", "annular_shear", "direct_shear", "plate_sinkage", "record_runs",
+    "run_wheel", "samples_frame", "tilting_board", "triaxial",
 ]
 
 
@@ -118,6 +123,19 @@ def run_wheel(bin: SoilBin, scenario: Scenario, at: OperatingCondition, progress
     wheel digs itself in, RunStopped.
     """
     return bin.run(scenario, at, told_to(progress))
+
+
+def record_runs(case: Union[Case, str], file: Union[str, Path], bin: Optional[SoilBin] = None, *, packings: int = 1,
+                progress: Progress = "shown") -> Record:
+    """Runs the conditions of a case's study in the virtual soil bin and keeps them in a file (docs/recorded.md).
+
+    Each run is added as it is finished, and what the file has isn't run again: stopped work goes on by the same call, in
+    the middle of a run too where `bin` has a folder for beds. bin: bed, rig, threads; absent: the usual ones. packings:
+    runs of each condition, on beds of the seeds from the bin's on. What grains can't answer is a run with its error.
+    `soilbin run --recorded` and compare.record_frame answer from the file. Raises InputError for a file of other inputs.
+    """
+    question = find_case(case) if isinstance(case, str) else case
+    return (bin or SoilBin()).record(question, Path(file), packings, told_to(progress))
 
 
 def samples_frame(run: WheelRun) -> pd.DataFrame:

@@ -1,0 +1,62 @@
+// Element tests of the grain engine as virtual tests of a calibration.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "compare/calibrate/calibration_words.hpp"
+#include "dem/element_tests/direct_shear.hpp"
+#include "dem/element_tests/tilting_board.hpp"
+#include "scenario/soil.hpp"
+
+namespace soilbin::compare {
+
+/// Which strength of the shear box counts.
+enum class Strength { peak, residual };
+
+/// What both tests need to know.
+struct ElementExperiment {
+  GranularSoil soil;            ///< what isn't varied
+  std::vector<Factor> factors;  ///< named as a contact's numbers
+  std::vector<Target> targets;
+  dem::WorkOptions how;
+};
+
+/// Sand on sand: direct shear under several stresses; knows the targets friction_angle and cohesion. A seed gives
+/// packings of its own.
+VirtualTest shear_box_test(const ElementExperiment& experiment, const dem::DirectShearSettings& settings,
+                           Strength strength);
+
+/// Tire on sand: the tilting board; knows the target board_angle. Mean and standard error over `packings` boards, at
+/// least two.
+VirtualTest tilting_board_test(const ElementExperiment& experiment, const dem::TiltingBoardSettings& settings,
+                               int packings);
+
+/// What a person asks when he calibrates a contact.
+struct ContactQuestion {
+  ContactKind kind = ContactKind::grain_grain;
+  std::vector<Factor> factors;
+  std::vector<Target> targets;
+  int packings = 0;                                ///< samples an experiment; 0: shear box 1, board 4
+  Strength strength = Strength::peak;              ///< of the shear box
+  std::vector<double> stresses{10e3, 20e3, 40e3};  ///< of the shear box [Pa]
+  double settling_friction = 1;                    ///< of the shear box, 0 .. 1
+  int across = 16;                                 ///< grains along a side of the board
+  dem::WorkOptions how;
+};
+
+/// Sand on sand by the shear box, sand on tire by the tilting board. Throws InputError for a soil without grains and
+/// for settings that make no sense.
+VirtualTest contact_test(const Soil& soil, const ContactQuestion& question);
+
+/// The targets that a soil itself tells of a contact: phi and c for sand on sand. Throws InputError where it tells
+/// none.
+std::vector<Target> targets_of(const Soil& soil, ContactKind kind);
+
+/// Names of the targets that a contact's test knows, their units, and usual bounds of what is varied.
+std::vector<std::string> target_names(ContactKind kind);
+std::string unit_of_target(const std::string& name);
+std::vector<Factor> usual_factors(ContactKind kind);
+
+}  // namespace soilbin::compare

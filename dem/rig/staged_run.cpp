@@ -1,0 +1,142 @@
+#include "dem/rig/staged_run.hpp"
+
+#include <algorithm>
+
+#include "scenario/errors.hpp"
+#include "scenario/estimate.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* inputs_note = "inputs";
+constexpr const char* where_note = "stages";
+constexpr std::int64_t between_words = 100;  // steps
+
+fs::path lock_of(const Checkpoints& checkpoints) { return checkpoints.restart.string() + ".lock"; }
+
+/// Nothing is kept by two at once: where another one is at it, the checkpoints lose their path.
+std::unique_ptr<const FileLock> lock_or_none(Checkpoints& checkpoints) {
+  if (checkpoints.restart.empty()) return nullptr;
+  if (checkpoints.restart.has_parent_path()) fs::create_directories(checkpoints.restart.parent_path());
+  auto lock = std::make_unique<const FileLock>(lock_of(checkpoints), FileLock::Wait::no);
+  if (lock->is_held()) return lock;
+  if (checkpoints.tell) checkpoints.tell("another process is at the same run: this one can't be gone on with");
+  checkpoints.restart.clear();
+  return nullptr;
+}
+
+/// The run that lies there, if it is the one that is asked for.
+Start begin(const Checkpoints& checkpoints, const std::string& inputs, int threads,
+            const std::function<Simulation()>& fresh) {
+  if (checkpoints.restart.empty()) return {fresh(), {}, ""};
+  Start start = resume_or_start(checkpoints.restart, fresh, threads);
+  if (!start.told.empty() && start.notes[inputs_note] != inputs)
+    throw InputError({checkpoints.restart.string(), 0, 0}, "is the restart of another run", "",
+                     "remove it to start anew");
+  return start;
+}
+
+}  // namespace
+
+StagedRun::StagedRun(const Checkpoints& checkpoints, std::string inputs, const WorkOptions& how,
+                     const std::function<Simulation()>& fresh)
+    : checkpoints_(checkpoints),
+      lock_(lock_or_none(checkpoints_)),
+      inputs_(std::move(inputs)),
+      how_(how),
+      start_(begin(checkpoints_, inputs_, how.threads, fresh)),
+      checkpointer_(checkpoints_, start_.simulation.state().step) {
+  if (!is_kept()) return;
+  keep(where_note, *this);
+  if (!start_.told.empty() && checkpoints_.tell) checkpoints_.tell(start_.told);
+}
+
+StagedRun::~StagedRun() {
+  if (!lock_) return;
+  std::error_code gone_already;
+  std::filesystem::remove(lock_of(checkpoints_), gone_already);
+}
+
+Notes StagedRun::notes() {
+  const double before = std::exchange(earlier_, seconds());
+  Notes notes{{inputs_note, inputs_}};
+  for (const Kept& part : kept_) notes[part.name] = part.text();
+  earlier_ = before;
+  return notes;
+}
+
+double StagedRun::seconds() const {
+  return earlier_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+}
+
+double StagedRun::done() const { return std::min(1.0, static_cast<double>(steps_) / all_steps_); }
+
+void StagedRun::through(const std::function<void()>& stages) {
+  const auto without_restart = [&] {
+    remove_restart(checkpoints_.restart);
+    throw;
+  };
+  try {
+    stages();
+  } catch (const NoSolution&) {
+    without_restart();
+  } catch (const InputError&) {
+    without_restart();
+  } catch (const RunStopped&) {
+    without_restart();
+  }
+  const bool was_through = reached_ > stage_;
+  reached_ = stage_ + 1, taken_ = 0;
+  if (is_kept() && !was_through) checkpointer_.write(simulation(), notes());
+  tell("done", 1);
+}
+
+/// Whether the next stage is still to be done, or to be gone on with.
+bool StagedRun::enters() {
+  ++stage_;
+  if (stage_ > reached_) reached_ = stage_, taken_ = 0;
+  return stage_ == reached_;
+}
+
+void StagedRun::once(const std::function<void()>& what) {
+  if (enters()) what();
+}
+
+void StagedRun::steps(std::string_view stage, std::int64_t steps, const std::function<void(std::int64_t)>& each) {
+  loop(
+      stage, [&] { return taken_ < steps; }, [&] { each(taken_); });
+}
+
+void StagedRun::loop(std::string_view stage, const std::function<bool()>& goes_on, const std::function<void()>& each,
+                     const std::function<double()>& share) {
+  if (!enters()) return;
+  for (; goes_on(); ++taken_) {
+    if (taken_ % between_words == 0) {
+      tell(stage, share ? share() : done());
+      if (is_kept() && checkpointer_.is_due(simulation().state().step)) checkpointer_.write(simulation(), notes());
+    }
+    each();
+  }
+}
+
+void StagedRun::step() {
+  simulation().run(1);
+  ++steps_;
+}
+
+/// Whatever stops the work here leaves its state.
+void StagedRun::tell(std::string_view stage, double share) {
+  try {
+    if (how_.stop.stop_requested()) throw Stopped();
+    if (how_.progress) how_.progress({stage, share, share > 0 ? seconds() * (1 - share) / share : not_a_number});
+  } catch (...) {
+    if (is_kept()) checkpointer_.write(simulation(), notes());
+    if (is_kept() && checkpoints_.tell)
+      checkpoints_.tell(fmt::format("kept at {:.0f} %: the same command goes on from there", 100 * share));
+    throw;
+  }
+}
+
+}  // namespace soilbin::dem

@@ -1,0 +1,26 @@
+// That only one process at a time does something with a file or in a folder.
+#pragma once
+
+#include <filesystem>
+
+namespace soilbin {
+
+/// Held until it goes away, or the process does, however that ends (flock).
+class FileLock {
+ public:
+  enum class Wait { until_free, no };
+
+  /// On a folder, or on a file that is made where it isn't there. Throws std::runtime_error with the system's reason
+  /// where there can be no lock.
+  FileLock(const std::filesystem::path& place, Wait wait);
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+  ~FileLock();
+  /// False where another one holds it and it wasn't waited for.
+  bool is_held() const { return descriptor_ >= 0; }
+
+ private:
+  int descriptor_ = -1;
+};
+
+}  // namespace soilbin
