@@ -38,10 +38,11 @@ def row(soilbin, name, truth):
 
 def main():
     soilbin = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "build/release/soilbin")
-    for suffix, told in (("", "base model"), ("-control", "base model and what the control showed")):
+    for prefix, suffix, told in (("dem-", "", "base model"), ("dem-", "-control", "base model and what the control showed"),
+                                 ("dem-deep-", "", "the second scale: base model and what its control showed")):
         print(f"\n{told}\n\n| campaign | runs | verdict | best set | hidden one in the sets | before | after |")
         print("|---|---|---|---|---|---|---|")
-        outcomes = [row(soilbin, name + suffix, truth) for name, truth in TRUTH.items()]
+        outcomes = [row(soilbin, name.replace("dem-", prefix) + suffix, truth) for name, truth in TRUTH.items()]
         held = [holds for holds, _ in outcomes if holds is not None]
         fell = [f for _, f in outcomes if f is not None]
         print(f"\nin the sets: {sum(held)} of {len(held)}; held-out error falls: {sum(fell)} of {len(fell)} accepted")
