@@ -42,6 +42,9 @@ constexpr double unexplained_share = 0.15;  // of the base model's excess chi2 t
 constexpr double first_test_level = 0.02;   // of lack of fit where no effect is named
 constexpr double unnamed_alone = 2.0;       // ln evidence over the base model where no effect is named
 constexpr double unnamed_after = 1.0;       // ln evidence beyond the best named effects
+constexpr double alone_share = 0.9;         // of the sets' weight: then one effect stands alone, and what it leaves is
+constexpr double alone_test_level = 0.03;   // likelier to be its form's; the same two thresholds in that case
+constexpr double alone_unnamed_after = 3.0;
 
 std::vector<std::string> not_testable(const Campaign& campaign, const Identification& id) {
   std::map<std::string, bool> testable;
@@ -111,6 +114,12 @@ double unexplained(const Identification& id) {
   const double excess = id.base.chi2 - cells;
   if (!(excess > 0)) return 0.0;
   return std::max(0.0, id.rivals[*id.best].fit.chi2 - cells) / excess;
+}
+
+/// Whether a single effect is the best set, and no other set comes near it.
+bool stands_alone(const Identification& id) {
+  const Weighted best = ambiguity(id, competitors(id)).front();
+  return best.ids.size() == 1 && best.weight >= alone_share;
 }
 
 AcceptedEffect accepted(const WheelPredictor& predictor, const Rival& rival, int term) {
@@ -212,8 +221,10 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
   const double left = unexplained(id);
   answer.after =
       lack_of_fit(id.rivals[*id.best].fit, id.noise, static_cast<Eigen::Index>(id.observations.cells.size()));
-  const bool lacking = answer.after.p_value < second_test_level && left > unexplained_share;
-  if (lacking || id.residual_unnamed_gain > unnamed_after) {
+  const bool alone = stands_alone(id);
+  const bool lacking =
+      answer.after.p_value < (alone ? alone_test_level : second_test_level) && left > unexplained_share;
+  if (lacking || id.residual_unnamed_gain > (alone ? alone_unnamed_after : unnamed_after)) {
     answer.verdict = Verdict::unknown_effect;
     answer.reason =
         lacking
