@@ -38,8 +38,9 @@ void grow_all(SoilValues& soil, double a, double d) {
 }
 
 void fall_from_optimum(SoilValues& soil, double a, double d) {
-  scale_stiffness(soil, grown(-a * d * d));
-  soil.cohesion *= grown(-a * d * d);
+  const double left = grown(-a * d * d);
+  scale_stiffness(soil, left);
+  soil.cohesion *= left;
 }
 
 /// c = c_0 + a [q(w) - q(w_ref)], q = 1 - ((w - w_p)/w_p)^2: suction's cohesion is 0 when dry, 1 at w_p, 0 at 2 w_p.

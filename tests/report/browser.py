@@ -156,3 +156,16 @@ class Browser:
     def pdf(self, path):
         with open(path, "wb") as out:
             out.write(base64.b64decode(self.call("Page.printToPDF", printBackground=True)["data"]))
+
+
+def assert_fits_a_phone_a_desk_and_the_dark(test, one):
+    """The open page is no wider than 360 and 1600 px, and has another ground where dark is asked for."""
+    for width in (360, 1600):
+        one.size(width, 800)
+        test.assertTrue(one.until(f"document.documentElement.scrollWidth <= {width}"),
+                        f"wider than {width} px: {one.js('document.documentElement.scrollWidth')}")
+    colour = "getComputedStyle(document.body).backgroundColor"
+    light = one.js(colour)
+    one.scheme("dark")
+    test.assertNotEqual(one.js(colour), light)
+    one.scheme("light")

@@ -137,15 +137,7 @@ class ThePage(unittest.TestCase):
                 self.assertAlmostEqual(header["origin"][axis] + header["step"] * shown[3 * k + axis], true, delta=header["step"])
 
     def test_8_fits_a_phone_a_desk_and_the_dark(self):
-        for width in (360, 1600):
-            self.browser.size(width, 800)
-            self.assertTrue(self.browser.until(f"document.documentElement.scrollWidth <= {width}"),
-                            f"wider than {width} px: {self.js('document.documentElement.scrollWidth')}")
-        colour = "getComputedStyle(document.body).backgroundColor"
-        light = self.js(colour)
-        self.browser.scheme("dark")
-        self.assertNotEqual(self.js(colour), light)
-        self.browser.scheme("light")
+        browser.assert_fits_a_phone_a_desk_and_the_dark(self, self.browser)
 
     def test_9_without_the_libraries_it_says_so_and_shows_drawings(self):
         self.browser.open(self.plain)

@@ -343,15 +343,7 @@ class ThePage(unittest.TestCase):
         self.assertTrue(self.browser.until("document.getElementById('spoken').textContent.includes('Drawbar pull')"))
 
     def test_9_fits_a_phone_a_desk_and_the_dark(self):
-        for width in (360, 1600):
-            self.browser.size(width, 800)
-            self.assertTrue(self.browser.until(f"document.documentElement.scrollWidth <= {width}"),
-                            f"wider than {width} px: {self.js('document.documentElement.scrollWidth')}")
-        colour = "getComputedStyle(document.body).backgroundColor"
-        light = self.js(colour)
-        self.browser.scheme("dark")
-        self.assertNotEqual(self.js(colour), light)
-        self.browser.scheme("light")
+        browser.assert_fits_a_phone_a_desk_and_the_dark(self, self.browser)
         self.assertEqual(self.browser.errors, [])
 
 
