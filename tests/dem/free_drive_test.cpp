@@ -14,15 +14,10 @@
 namespace soilbin::dem {
 namespace {
 
+using test::small_wheel;
 using test::with_threads;
 
 constexpr double load = 20, carried_mass = load / 9.80665;
-
-Tire small_wheel() {
-  Tire tire;
-  tire.name = "small", tire.radius = 0.1, tire.width = 0.08;
-  return tire;
-}
 
 Rig small_rig() {
   Rig rig;

@@ -18,18 +18,13 @@ namespace soilbin::dem {
 namespace {
 
 using test::Folder;
+using test::small_wheel;
 using test::with_threads;
 using ::testing::HasSubstr;
 
 const SettledBed& bed() {
   static const SettledBed bed = settle_bed(test::small_recipe({0.8, 0.16, 0.06}), with_threads(1));
   return bed;
-}
-
-Tire small_wheel() {
-  Tire tire;
-  tire.name = "small", tire.radius = 0.1, tire.width = 0.08;
-  return tire;
 }
 
 Rig small_rig() {

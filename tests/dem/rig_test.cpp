@@ -93,11 +93,7 @@ class SlowSmallWheel : public ::testing::Test {
     static const SettledBed bed = settle_bed(test::small_recipe({0.5, 0.16, 0.08}), with_threads(1));
     return bed;
   }
-  static Tire wheel() {
-    Tire tire;
-    tire.name = "small", tire.radius = 0.1, tire.width = 0.08;
-    return tire;
-  }
+  static Tire wheel() { return test::small_wheel(); }
   static Rig rig() {
     Rig rig;
     rig.behind = 0.1, rig.ahead = 0.12, rig.travel = 0.25;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dem/bed/settled_bed.hpp"
+#include "scenario/tire.hpp"
 
 namespace soilbin::dem::test {
 
@@ -25,6 +26,13 @@ inline WorkOptions with_threads(int threads) {
   WorkOptions how;
   how.threads = threads;
   return how;
+}
+
+/// A smooth wheel for these beds.
+inline Tire small_wheel() {
+  Tire tire;
+  tire.name = "small", tire.radius = 0.1, tire.width = 0.08;
+  return tire;
 }
 
 }  // namespace soilbin::dem::test
