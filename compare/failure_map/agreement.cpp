@@ -123,26 +123,28 @@ struct BoxSearch {
   }
 };
 
-/// "up to 4 kN", "from 3 kN", "from 3 to 4 kN"; empty where the box has the whole range.
+std::string bare(const Factor& factor, double value) { return number(value * per_unit(factor.unit)); }
+
+std::string with_unit(const Factor& factor, double value) {
+  return bare(factor, value) + (factor.unit == "-" ? "" : " " + factor.unit);
+}
+
+/// "load up to 4 kN", "load from 3 kN", "load from 3 to 4 kN"; empty where the box has the whole range.
 std::string range_of(const Factor& factor, double lower, double upper) {
-  const auto words = [&](double value) { return number(value * per_unit(factor.unit)); };
-  const std::string unit = factor.unit == "-" ? "" : " " + factor.unit;
   const bool from = lower > factor.lower, to = upper < factor.upper;
-  if (from && to) return fmt::format("{} from {} to {}{}", factor.name, words(lower), words(upper), unit);
-  if (from) return fmt::format("{} from {}{}", factor.name, words(lower), unit);
-  return to ? fmt::format("{} up to {}{}", factor.name, words(upper), unit) : "";
+  if (from && to) return fmt::format("{} from {} to {}", factor.name, bare(factor, lower), with_unit(factor, upper));
+  if (from) return fmt::format("{} from {}", factor.name, with_unit(factor, lower));
+  return to ? fmt::format("{} up to {}", factor.name, with_unit(factor, upper)) : "";
 }
 
 std::string text_of(const FailureQuestion& question, const std::vector<Role>& roles, const AgreementClause& clause) {
   std::string limits, held, ranges;
   for (std::size_t j = 0; j < roles.size(); ++j) {
     const Factor& factor = question.factors[j];
-    const auto words = [&](double value) {
-      return number(value * per_unit(factor.unit)) + (factor.unit == "-" ? "" : " " + factor.unit);
-    };
     if (roles[j] == Role::limited)
-      limits += fmt::format("{}{} {}", limits.empty() ? " up to " : " and ", factor.name, words(clause.upper[j]));
-    if (roles[j] == Role::held) held += fmt::format(", at {} {}", factor.name, words(factor.lower));
+      limits +=
+          fmt::format("{}{} {}", limits.empty() ? " up to " : " and ", factor.name, with_unit(factor, clause.upper[j]));
+    if (roles[j] == Role::held) held += fmt::format(", at {} {}", factor.name, with_unit(factor, factor.lower));
     if (roles[j] == Role::bounded)
       if (const std::string range = range_of(factor, clause.lower[j], clause.upper[j]); !range.empty())
         ranges += (ranges.empty() ? " with " : ", ") + range;
