@@ -7,6 +7,7 @@
 //
 // The amplitude is the share of the lug height that acts. Where the tire declares no lugs the height it multiplies is
 // 5 % of the radius, and 24 lugs where it declares no count, so that an undeclared lug has a trace as well.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -99,6 +100,35 @@ class Blade final : public Effect {
   double share_;
 };
 
+/// The faces push straight back, as a track's do: called up by the way that the tread slides from the entry on, under
+/// the soil that lies on each. Nothing at no slip, a drag where braked.
+class LevelBlade final : public Effect {
+ public:
+  explicit LevelBlade(const std::vector<double>& p) : share_(p[0]) {}
+  void added_forces(ForceLedger& ledger, const Rolling& r) const override {
+    const Kinematics& motion = r.around.motion;
+    const double slide = motion.locked ? -motion.forward : 1 - motion.forward;  // of the tread, over its way rolled
+    if (share_ == 0.0 || slide == 0.0) return;
+    const double h = share_ * height(r.around.tire), radius = r.outline.radius;
+    const double lugs_per_metre = r.outline.width / spacing(r.around.tire), weight = specific_weight(r.soil);
+    const double entry_cosine = std::cos(r.patch.angles.entry);
+    const WallResistance face = passive_wall(r.soil);
+    AddedForce force{.name = "lug_thrust"};
+    for (int i = 0; i < r.patch.count; ++i) {
+      const double cosine = std::cos(r.patch.theta[i]), above = std::max(0.0, radius * (cosine - entry_cosine));
+      const double way = std::abs(slide) * radius * r.patch.since_entry[i] / r.patch.modulus[i];
+      const double push = std::copysign(lugs_per_metre * r.patch.arc[i] * face(h, weight * above), slide) *
+                          (motion.locked ? 1.0 : -std::expm1(-way));
+      force.forward += push;
+      force.torque += push * cosine * (r.patch.arm[i] + 0.5 * h);
+    }
+    ledger.add(force);
+  }
+
+ private:
+  double share_;
+};
+
 }  // namespace
 
 std::vector<EffectForm> lug_thrust_forms() {
@@ -137,6 +167,14 @@ std::vector<EffectForm> lug_thrust_forms() {
        .source = "after Bekker 1956, Theory of Land Locomotion (passive pressure without surcharge)",
        .parameters = {{"a", "-", 1.0, 0.0, 10.0, meaning}},
        .make = maker<Blade<false>>()},
+      {.id = id,
+       .form = "level_blade",
+       .equation =
+           "F = b (gamma h^2 N_phi/2 + gamma d h N_phi + 2 c h sqrt(N_phi)) a lug at the depth d, straight back, "
+           "times 1 - exp(-|s| x/K), x = r (theta_1 - theta), h = a h_lug",
+       .source = "after Wong, Theory of Ground Vehicles, ch. 2 (passive earth pressure on a grouser), taken level",
+       .parameters = {{"a", "-", 0.5, 0.0, 10.0, meaning}},
+       .make = maker<LevelBlade>()},
   };
 }
 

@@ -34,10 +34,18 @@ double downhill_share(const Surroundings& around) {
   return around.at.load * std::cos(around.at.longitudinal_incline) * std::sin(around.at.transverse_incline);
 }
 
+/// Load over the contact's level area [Pa].
+double mean_ground_pressure(const Rolling& r) {
+  double length = 0.0;
+  for (int i = 0; i < r.patch.count; ++i) length += r.patch.arc[i] * r.patch.normal_cosine[i];
+  return r.around.normal_load / (r.outline.width * length);
+}
+
 /// Resistances by metre of arc.
 struct Ishigami {
   explicit Ishigami(const Rolling& r) : soil(hegedus_wall(r.soil)), radius(r.outline.radius) {}
   double operator()(const Edge& e) const { return soil(e.depth) * (1 - e.depth * e.cosine / radius); }
+  static constexpr double acts_at = 1.0 / 3;  ///< share of the depth above the rim
   WallResistance soil;
   double radius;
 };
@@ -45,7 +53,16 @@ struct Ishigami {
 struct Wedge {
   explicit Wedge(const Rolling& r) : soil(passive_wall(r.soil)) {}
   double operator()(const Edge& e) const { return soil(e.depth) * e.cosine; }
+  static constexpr double acts_at = 1.0 / 3;
   WallResistance soil;
+};
+
+/// The mean ground pressure on all of the buried wall.
+struct GroundPressure {
+  explicit GroundPressure(const Rolling& r) : pressure(mean_ground_pressure(r)) {}
+  double operator()(const Edge& e) const { return pressure * e.depth * e.cosine; }
+  static constexpr double acts_at = 0.5;
+  double pressure;
 };
 
 /// j_y/K, or its limit where the wheel is locked.
@@ -56,10 +73,10 @@ double sideways_travel(const Rolling& r, int i) {
 }
 
 /// What soil that presses on the wall with `pressing` [N] at node i does to a wall that slides along it with the
-/// coefficient of friction mu; adds to `sum`. Passive pressure grows with depth: it acts a third of h above the rim.
-void rub(AddedForce& sum, double mu, double pressing, const Edge& e, const Rolling& r, int i) {
+/// coefficient of friction mu; adds to `sum`. acts_at: how far above the rim, as a share of the depth.
+void rub(AddedForce& sum, double mu, double pressing, double acts_at, const Edge& e, const Rolling& r, int i) {
   const double sine = std::copysign(std::sqrt(1 - e.cosine * e.cosine), r.patch.theta[i]);
-  const double arm = r.outline.radius - e.depth / 3;
+  const double arm = r.outline.radius - acts_at * e.depth;
   const double turns = r.around.motion.locked ? 0.0 : arm / r.outline.radius;
   const double back = turns * e.cosine - r.around.motion.forward, down = turns * sine;  // of the wall over the soil
   const double speed = std::sqrt(back * back + down * down);
@@ -90,7 +107,7 @@ class Wall final : public Effect {
       const double q = sideways_travel(r, static_cast<int>(i)) + downhill / whole;
       const double force = amplitude_ * resisting[i] * std::copysign(-std::expm1(-std::abs(q)), q);
       sum.lateral += force;
-      if (friction_ > 0.0) rub(sum, friction_, std::abs(force), edges[i], r, static_cast<int>(i));
+      if (friction_ > 0.0) rub(sum, friction_, std::abs(force), Resistance::acts_at, edges[i], r, static_cast<int>(i));
     }
     ledger.add(sum);
   }
@@ -109,13 +126,12 @@ class SideArea final : public Effect {
     const double downhill = downhill_share(r.around);
     if (amplitude_ == 0.0 || (motion.lateral == 0.0 && downhill == 0.0)) return;
     const double entry_cosine = std::cos(r.patch.angles.entry);
-    double area = 0.0, length = 0.0;
+    double area = 0.0;
     for (int i = 0; i < r.patch.count; ++i) {
       const Edge e = edge(r, i, entry_cosine);
       area += r.patch.arc[i] * e.cosine * e.depth;
-      length += r.patch.arc[i] * r.patch.normal_cosine[i];
     }
-    const double whole = area * r.around.normal_load / (r.outline.width * length);
+    const double whole = area * mean_ground_pressure(r);
     if (!(whole > 0.0)) return;
     const double sine = motion.locked ? motion.lateral : motion.lateral / std::hypot(1.0, motion.lateral);
     const double leaning = std::copysign(-std::expm1(-std::abs(downhill) / whole), downhill);
@@ -153,6 +169,14 @@ std::vector<EffectForm> sidewall_bulldozing_forms() {
        .parameters = {{"a", "-", 3.0, 0.0, 40.0, "multiplier of the passive force"},
                       {"mu", "-", 0.3, 0.0, 1.0, "friction of the soil on the wall", {}, 0.1}},
        .make = maker<Wall<Wedge>>()},
+      {.id = id,
+       .form = "rough_area",
+       .equation = "F = a (W/A) Int h (1 - exp(-|q|)) r cos theta d theta; the wall rubs on that soil with mu, against "
+                   "its motion in the wheel's plane, half of h above the rim",
+       .source = "stated: a share of the mean ground pressure on the buried wall, with Coulomb's friction",
+       .parameters = {{"a", "-", 0.5, 0.0, 20.0, "side pressure over mean ground pressure"},
+                      {"mu", "-", 0.3, 0.0, 1.0, "friction of the soil on the wall", {}, 0.1}},
+       .make = maker<Wall<GroundPressure>>()},
       {.id = id,
        .form = "side_area",
        .equation = "F = a A_side (W/A) sin(psi_s), tan(psi_s) = v_y/(r w)",

@@ -35,9 +35,12 @@ std::vector<const Signature*> contenders(const std::vector<Signature>& signature
   return chosen;
 }
 
-double reach_of(const Signature& s) {
+/// The form's parameters where the trace puts them.
+std::vector<double> reach_of(const Signature& s) {
+  std::vector<double> values = s.term.defaults;
   const bekker_wong::EffectParameter& p = s.term.form->parameters.front();
-  return std::clamp(s.amplitude, p.lower, p.upper);
+  values.front() = std::clamp(s.amplitude, p.lower, p.upper);
+  return values;
 }
 
 /// Two forms of different effects and what they gain together in chi2 of the linear problem.
@@ -88,7 +91,7 @@ std::optional<Rival> refit_pair(const Campaign& campaign, const Identification& 
   if (alone)
     start.known = alone->fit.theta, start.chi2 = alone->fit.chi2, start.promised -= id.base.chi2 - alone->fit.chi2;
   else
-    start.amplitudes[0] = reach_of(*first);
+    start.traced[0] = reach_of(*first);
   return refit(
       campaign, id,
       {make_term(*first->term.form, id.observations, true), make_term(*second->term.form, id.observations, true)},
@@ -227,12 +230,11 @@ void other_forms(const Campaign& campaign, Identification& id, const Rival& from
       terms[m] = make_term(*s.term.form, id.observations, true);
       if (!fitted.insert(forms_of(terms)).second) continue;
       options.pulse();
-      std::map<int, double> amplitudes;
+      std::map<int, std::vector<double>> traced;
       for (int t = 0; t < static_cast<int>(terms.size()); ++t)
-        amplitudes[t] = from.fit.theta[predictor.amplitude_index(t)];
-      amplitudes[static_cast<int>(m)] = reach_of(s);
-      if (auto rival =
-              refit(campaign, id, terms, {id.base.theta, id.base.chi2, amplitudes, id.base.chi2 - from.fit.chi2}))
+        traced[t] = predictor.term_values(static_cast<std::size_t>(t), from.fit.theta);
+      traced[static_cast<int>(m)] = reach_of(s);
+      if (auto rival = refit(campaign, id, terms, {id.base.theta, id.base.chi2, traced, id.base.chi2 - from.fit.chi2}))
         id.rivals.push_back(std::move(*rival));
     }
 }

@@ -57,6 +57,18 @@ VectorXd start_from(const WheelPredictor& predictor, const VectorXd& known) {
   return start;
 }
 
+/// Starts a term at these values of its form's parameters, with a share of the amplitude.
+void put(VectorXd& start, const WheelPredictor& predictor, int term, const std::vector<double>& values, double share) {
+  const Term& t = predictor.terms()[static_cast<std::size_t>(term)];
+  const Index first = predictor.amplitude_index(term);
+  for (std::size_t k = 0; k < t.free.size(); ++k) {
+    const auto i = static_cast<std::size_t>(t.free[k]);
+    const bekker_wong::EffectParameter& p = t.form->parameters[i];
+    const double least = k == 0 ? p.lower + 1e-3 * (p.upper - p.lower) : p.lower;
+    start[first + static_cast<Index>(k)] = std::clamp(k == 0 ? share * values[i] : values[i], least, p.upper);
+  }
+}
+
 }  // namespace
 
 LinearProblem problem_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit) {
@@ -76,14 +88,10 @@ std::optional<Rival> refit(const Campaign& campaign, const Identification& id, c
   for (const double share : {1.0, 0.3, 0.0}) {
     if (best && best->fit.chi2 < from.chi2 - (share > 0.0 ? 0.5 * from.promised : 0.0)) break;
     VectorXd start = start_from(predictor, from.known);
-    for (const auto& [term, amplitude] : from.amplitudes) {
-      const bekker_wong::EffectParameter& p = terms[static_cast<std::size_t>(term)].form->parameters.front();
-      start[predictor.amplitude_index(term)] =
-          std::clamp(share * amplitude, p.lower + 1e-3 * (p.upper - p.lower), p.upper);
-    }
+    for (const auto& [term, values] : from.traced) put(start, predictor, term, values, share);
     VectorXd prediction;
     for (int halving = 0; halving < 6 && !predictor.predict(start, prediction); ++halving)
-      for (const auto& [term, amplitude] : from.amplitudes) start[predictor.amplitude_index(term)] *= 0.5;
+      for (const auto& [term, values] : from.traced) start[predictor.amplitude_index(term)] *= 0.5;
     auto found = fit(predictor, id.observations.values(), *id.whitening, start);
     if (!found || (best && found->chi2 >= best->fit.chi2)) continue;
     best = Rival{.ids = {}, .terms = terms, .fit = std::move(*found), .log_evidence = 0.0};

@@ -17,10 +17,10 @@ double evidence_of(const Identification& id, const WheelPredictor& predictor, co
 
 /// Where a fit starts.
 struct RivalStart {
-  Eigen::VectorXd known;             ///< values of the soil, and of the first terms; the others start at their defaults
-  double chi2 = 0.0;                 ///< that these leave
-  std::map<int, double> amplitudes;  ///< of terms, where the trace puts them
-  double promised = 0.0;             ///< what the trace promises to take off chi2
+  Eigen::VectorXd known;  ///< values of the soil, and of the first terms; the others start at their defaults
+  double chi2 = 0.0;      ///< that these leave
+  std::map<int, std::vector<double>> traced;  ///< a term's parameters, amplitude first, where the trace puts them [SI]
+  double promised = 0.0;                      ///< what the trace promises to take off chi2
 };
 
 /// Fits the terms in full; again from smaller amplitudes where that gained less than half of what was promised, and

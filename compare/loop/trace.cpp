@@ -67,11 +67,25 @@ bool named_already(const TracedModel& model, const std::string& id) {
          std::any_of(declared.begin(), declared.end(), [&](const EffectChoice& c) { return c.id == id; });
 }
 
-/// Two secants of a form: one near 0, one where it moves the cells by about `target` sd off the soil's values.
-void add_signatures(const TracedModel& model, const Projector& off, const bekker_wong::EffectForm& form,
+/// A form as its reference values may lie: at the observations' mean, and by a standard deviation to either side.
+/// About its mean a drift leaves little that an instrument zeroed before the first run would show.
+std::vector<Term> placed(const bekker_wong::EffectForm& form, const Observations& observations) {
+  std::vector<Term> terms = {make_term(form, observations, false)};
+  for (std::size_t i = 1; i < form.parameters.size(); ++i)
+    for (const double side : {-1.0, 1.0}) {
+      if (form.parameters[i].centred_on.empty() || !(terms.front().spread[i] > 0.0)) continue;
+      Term term = terms.front();
+      term.defaults[i] =
+          std::clamp(term.defaults[i] + side * term.spread[i], form.parameters[i].lower, form.parameters[i].upper);
+      terms.push_back(std::move(term));
+    }
+  return terms;
+}
+
+/// Two secants of a term: one near 0, one where it moves the cells by about `target` sd off the soil's values.
+void add_signatures(const TracedModel& model, const Projector& off, const Term& term,
                     std::vector<Signature>& signatures) {
-  const Term term = make_term(form, model.observations, false);
-  const bekker_wong::EffectParameter& p = form.parameters.front();
+  const bekker_wong::EffectParameter& p = term.form->parameters.front();
   constexpr double near = 0.05, target = 10.0;
   const double typical = p.fallback != 0.0 ? p.fallback : 0.1 * p.upper;
   VectorXd change;
@@ -93,7 +107,8 @@ std::vector<Signature> trace(const TracedModel& model) {
   const Projector off(model.problem.nuisance);
   std::vector<Signature> signatures;
   for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue())
-    if (!named_already(model, form.id)) add_signatures(model, off, form, signatures);
+    if (!named_already(model, form.id))
+      for (const Term& term : placed(form, model.observations)) add_signatures(model, off, term, signatures);
   return signatures;
 }
 

@@ -104,6 +104,32 @@ TEST(LugThrust, FreeBladesInClosedForm) {
               1e-8);
 }
 
+// A track's lugs push by the way that they slide: not at all where the wheel doesn't slip, backward where it is braked.
+// They push level, so they carry no load: the sinkage stays to the bit.
+TEST(LugThrust, LevelBladesPushBySlip) {
+  expect_same_bits(with({"lug_thrust", "level_blade", {}}, driven(800, 0.0)), base(driven(800, 0.0)));
+  EXPECT_LT(gain("level_blade", driven(800, -0.3)), 0.0);
+  EXPECT_LT(gain("level_blade", driven(800, 0.05)), gain("level_blade", driven(800, 0.3)));
+  EXPECT_EQ(with({"lug_thrust", "level_blade", {}}, driven()).sinkage, base(driven()).sinkage);
+}
+
+// Closed form at K -> 0: b/S Int (gamma h^2 N_phi/2 + gamma d h N_phi + 2 c h sqrt(N_phi)) r d theta over 0 .. theta_1,
+// d = r (cos theta - cos theta_1), turning the axle at (r + h/2) cos theta.
+TEST(LugThrust, LevelBladesInClosedForm) {
+  SoilValues soil = sand();
+  soil.shear_modulus = 1e-12, soil.cohesion = 2000;
+  const EffectList effects = make_effects({{"lug_thrust", "level_blade", {{"a", 1.0}}}});
+  const RolledWheel w = RollingWheel(smooth(), soil, effects).roll(driven(800, 0.5));
+  const double h = 0.05 * radius, t = w.balance_angle, n = flow_value(soil), gamma = specific_weight(soil);
+  const double flat = 0.5 * gamma * h * h * n + 2 * soil.cohesion * h * std::sqrt(n), deep = gamma * h * n * radius;
+  const double density = 24 * width / (2 * std::numbers::pi);
+  ASSERT_EQ(w.forces.added.rows().size(), 1u);
+  const AddedForce& row = w.forces.added.rows()[0];
+  EXPECT_NEAR(row.forward, density * (flat * t + deep * (std::sin(t) - t * std::cos(t))), 1e-7);
+  const double turning = flat * std::sin(t) + deep * 0.5 * (t - std::sin(t) * std::cos(t));
+  EXPECT_NEAR(row.torque, density * (radius + h / 2) * turning, 1e-7);
+}
+
 // Declared lugs count: the height replaces 5 % of the radius, twice the lugs are twice the blades.
 TEST(LugThrust, TakesWhatTheTireDeclares) {
   const EffectList effects = make_effects({{"lug_thrust", "free_blade", {}}});

@@ -83,39 +83,57 @@ TEST(SidewallBulldozing, HoldsOnACrossSlope) {
   }
 }
 
+const char* const rough_forms[] = {"rough_wedge", "rough_area"};
+
 /// A rough wall's row of the budget, in the wheel's axes.
-AddedForce rough_wall(double mu, const OperatingCondition& at) {
-  const EffectList effects = make_effects({{bulldozed, "rough_wedge", {{"a", 1.0}, {"mu", mu}}}});
+AddedForce rough_wall(const char* form, double mu, const OperatingCondition& at) {
+  const EffectList effects = make_effects({{bulldozed, form, {{"a", 1.0}, {"mu", mu}}}});
   return wheel_on(sand(), effects).roll(at).forces.added.rows()[0];
 }
 
-// The wall rubs on the soil that it presses: without friction it is the wedge to the bit, with it a force of mu times
-// the pressing, against the wall's motion. Dragged locked at yaw the whole wall moves forward: exactly mu N backward.
-// A spinning wheel's buried wall moves backward: forward thrust, paid by the motor.
+// The wall rubs on the soil that it presses: without friction the wedge is the smooth one to the bit, with it a force
+// of mu times the pressing, against the wall's motion. Dragged locked at yaw the whole wall moves forward: exactly mu N
+// backward. A spinning wheel's buried wall moves backward: forward thrust, paid by the motor.
 TEST(SidewallBulldozing, ARoughWallRubs) {
   expect_same_bits(with({bulldozed, "rough_wedge", {{"a", 1.0}, {"mu", 0.0}}}, yawed(20)),
                    with({bulldozed, "passive_wedge", {{"a", 1.0}}}, yawed(20)));
-  const AddedForce dragged = rough_wall(0.3, yawed(30, 200, -1.0));
-  EXPECT_NEAR(dragged.forward, -0.3 * dragged.lateral, 1e-12 * dragged.lateral);
-  EXPECT_EQ(dragged.vertical, 0.0);
-  EXPECT_LT(dragged.torque, 0.0);  // the soil turns it on
-  const AddedForce spun = rough_wall(0.3, yawed(30, 400, 0.7));
-  EXPECT_GT(spun.forward, 0.0);
-  EXPECT_GT(spun.torque, 0.0);
-  EXPECT_LE(std::hypot(spun.forward, spun.vertical), 0.3 * spun.lateral * (1 + 1e-12));
-  const AddedForce left = rough_wall(0.3, yawed(-30, 400, 0.7));
-  EXPECT_NEAR(left.lateral, -spun.lateral, 1e-9);
-  EXPECT_NEAR(left.forward, spun.forward, 1e-9);
+  for (const char* form : rough_forms) {
+    SCOPED_TRACE(form);
+    const AddedForce dragged = rough_wall(form, 0.3, yawed(30, 200, -1.0));
+    EXPECT_NEAR(dragged.forward, -0.3 * dragged.lateral, 1e-12 * dragged.lateral);
+    EXPECT_EQ(dragged.vertical, 0.0);
+    EXPECT_LT(dragged.torque, 0.0);  // the soil turns it on
+    const AddedForce spun = rough_wall(form, 0.3, yawed(30, 400, 0.7));
+    EXPECT_GT(spun.forward, 0.0);
+    EXPECT_GT(spun.torque, 0.0);
+    EXPECT_LE(std::hypot(spun.forward, spun.vertical), 0.3 * spun.lateral * (1 + 1e-12));
+    const AddedForce left = rough_wall(form, 0.3, yawed(-30, 400, 0.7));
+    EXPECT_NEAR(left.lateral, -spun.lateral, 1e-9);
+    EXPECT_NEAR(left.forward, spun.forward, 1e-9);
+  }
 }
 
 // What the wall rubs away is no more than what the motor gives to it: M w >= F v in its plane.
 TEST(SidewallBulldozing, FrictionTakesPower) {
-  for (const double slip : {-0.8, -0.3, 0.0, 0.3, 0.8}) {
-    const OperatingCondition at = yawed(25, 300, slip);
-    const AddedForce f = rough_wall(0.5, at);
-    const Kinematics motion = kinematics(at);
-    EXPECT_GT(f.torque / radius - f.forward * motion.forward, 0.0) << slip;
-  }
+  for (const char* form : rough_forms)
+    for (const double slip : {-0.8, -0.3, 0.0, 0.3, 0.8}) {
+      const OperatingCondition at = yawed(25, 300, slip);
+      const AddedForce f = rough_wall(form, 0.5, at);
+      const Kinematics motion = kinematics(at);
+      EXPECT_GT(f.torque / radius - f.forward * motion.forward, 0.0) << form << " at slip " << slip;
+    }
+}
+
+// Dragged sideways and locked, all of the wall's buried half segment r^2 (theta_1 - sin theta_1 cos theta_1)/2 takes
+// the mean ground pressure W/(b r sin theta_1).
+TEST(SidewallBulldozing, ARoughAreaInClosedForm) {
+  OperatingCondition at = yawed(90, 300, -1.0);
+  at.slip_by = SlipBy::travel_speed;
+  const EffectList effects = make_effects({{bulldozed, "rough_area", {{"a", 1.0}, {"mu", 0.0}}}});
+  const RolledWheel w = wheel_on(sand(), effects).roll(at);
+  const double t = w.balance_angle, wall = radius * radius * (t - std::sin(t) * std::cos(t)) / 2;
+  ASSERT_EQ(w.forces.added.rows().size(), 1u);
+  EXPECT_NEAR(w.forces.added.rows()[0].lateral, 300 / (width * radius * std::sin(t)) * wall, 1e-7);
 }
 
 // Closed form: sideways and locked all of the wall's resistance is called up. In weightless clay (phi = 0, gamma = 0)

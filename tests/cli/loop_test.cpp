@@ -11,7 +11,7 @@ using testing::Ge;
 using testing::HasSubstr;
 using testing::Le;
 
-TEST(LoopCommand, NamesTheLessonsEffectInWordsAndLeavesItsFiles) {
+TEST(SlowLoopCommand, NamesTheLessonsEffectInWordsAndLeavesItsFiles) {
   const Scratch scratch;
   const std::string page = (scratch / "loop.html").string(), model = (scratch / "fitted.yaml").string();
   const Outcome outcome = soilbin("loop made-lesson --report '" + page + "' --save-model '" + model + "'");
@@ -44,7 +44,7 @@ TEST(LoopCommand, RefusesALimitThatIsNone) {
 }
 
 // A range with units or in the campaign's own; what has no limit keeps to the campaign's range.
-TEST(LoopCommand, AsksForARunWithinTheLimits) {
+TEST(SlowLoopCommand, AsksForARunWithinTheLimits) {
   const Outcome outcome =
       soilbin("loop made-lesson --folds 2 --json --limit slip=0.1..0.2 --limit yaw=-2..3 --limit load=0.3kN..400N");
   ASSERT_EQ(outcome.status, 0) << outcome.err;

@@ -106,6 +106,27 @@ TEST(Trace, DirectionsAreOffTheSoilsColumns) {
   EXPECT_GT(seen, 40);
 }
 
+// A torque cell zeroed before the first run that warms up as the root of time. About the mean run, a drift's trace is
+// far from that and an offset's nearer; counted from the first run the drift's is the nearest of all.
+TEST(Trace, SeesADriftFromTheFirstRun) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 9);
+  const double runs = static_cast<double>(campaign.runs.size());
+  for (compare::Run& run : campaign.runs) *run.torque -= 25 * std::sqrt(*run.at.run / runs);
+  const Identification id = identify(campaign, observe(campaign), {.simulations = 200});
+  const auto strongest = [&](const std::string& effect, auto&& counts) {
+    double most = 0.0;
+    for (const Signature& s : id.signatures)
+      if (s.term.form->id == effect && s.projected_norm > 0 && counts(s)) most = std::max(most, s.strength());
+    return most;
+  };
+  const auto any = [](const Signature&) { return true; };
+  const auto about_the_mean = [&](const Signature& s) { return s.term.defaults[1] == 0.5 * (runs + 1); };
+  const auto from_the_first = [](const Signature& s) { return s.term.defaults[1] == 1.0; };
+  EXPECT_LT(strongest("drift", about_the_mean), strongest("sensor_offset", any));
+  EXPECT_GT(strongest("drift", from_the_first), strongest("sensor_offset", any));
+}
+
 // Under no effect the family-wise p is uniform: of 200 simulated residuals about 5 % fall below 0.05.
 TEST(FamilyWiseP, IsUniformWithoutEffects) {
   Campaign campaign = sand_campaign();

@@ -62,7 +62,7 @@ TEST(Loop, SaysWhatCannotBeToldApart) {
   EXPECT_TRUE(in_ambiguity_set(answer, {"sensor_offset"}));
 }
 
-TEST(Loop, NamesTwoEffects) {
+TEST(SlowLoop, NamesTwoEffects) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {{"multipass", "stiffer", {{"a", 0.8}}}, {"sensor_offset", "drawbar_pull", {{"a", 40.0}}}},
           fine_noise, 24);
@@ -76,7 +76,7 @@ TEST(Loop, NamesTwoEffects) {
 
 // A torque sensor zeroed before the first run creeps from there: half a line about the mean run and half an offset, but
 // one effect.
-TEST(Loop, CountsADriftFromWhicheverRun) {
+TEST(SlowLoop, CountsADriftFromWhicheverRun) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {{"drift", "torque", {{"a", 0.5}, {"run_ref", 1.0}}}}, fine_noise, 29);
   const LoopAnswer answer = run_loop(campaign, quick());
@@ -138,7 +138,7 @@ TEST(Loop, SaysUnknownWhereTheCatalogueHasNoName) {
 }
 
 // A cell that reads too little the more it is pulled: a gain and an offset mimic the most of it, but not the bend.
-TEST(Loop, SaysUnknownWhereAnInstrumentIsBent) {
+TEST(SlowLoop, SaysUnknownWhereAnInstrumentIsBent) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {}, fine_noise, 31);
   double most = 0.0;
@@ -151,7 +151,7 @@ TEST(Loop, SaysUnknownWhereAnInstrumentIsBent) {
 
 // Slip sinkage and, beside it, waves that no effect makes: the verdict stays unknown and names nothing, but the saved
 // model carries what predicts better than nothing.
-TEST(Loop, LetsNamedEffectsStandInForAnUnknownOne) {
+TEST(SlowLoop, LetsNamedEffectsStandInForAnUnknownOne) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {{"slip_sinkage", "lyasko", {{"a", 1.0}}}}, fine_noise, 25);
   for (compare::Run& run : campaign.runs)
@@ -167,7 +167,7 @@ TEST(Loop, LetsNamedEffectsStandInForAnUnknownOne) {
 
 // Where no model comes near the noise a set of effects still loses nothing by one more: of nested fits the larger
 // leaves no more (the two lugs' wheels of the library end there).
-TEST(Loop, ALargerSetOfEffectsLeavesNoMore) {
+TEST(SlowLoop, ALargerSetOfEffectsLeavesNoMore) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {{"slip_sinkage", "lyasko", {{"a", 1.2}}}, {"bulldozing", "", {}}}, fine_noise, 31);
   const LoopAnswer answer = run_loop(campaign, quick());
@@ -215,7 +215,7 @@ TEST(Loop, SaysWhenThereIsTooLittle) {
 }
 
 // Same bits whatever the number of threads.
-TEST(Loop, DoesNotDependOnThreads) {
+TEST(SlowLoop, DoesNotDependOnThreads) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {{"bulldozing", "", {}}}, fine_noise, 29);
   LoopOptions one = quick(), four = quick();
@@ -225,7 +225,7 @@ TEST(Loop, DoesNotDependOnThreads) {
 }
 
 // The model that the loop writes predicts what the loop's fit predicted.
-TEST(Loop, ResolvedModelReproducesTheFit) {
+TEST(SlowLoop, ResolvedModelReproducesTheFit) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {{"slip_sinkage", "lyasko", {{"a", 0.5}}}}, fine_noise, 30);
   const LoopAnswer answer = run_loop(campaign, quick());
