@@ -23,6 +23,7 @@ main{max-width:1640px}
 .effect{display:flex;flex-wrap:wrap;gap:2px 8px;align-items:center;font-size:.92rem;min-height:30px}
 .effect label{display:flex;gap:8px;align-items:center;cursor:pointer}
 .effect select{min-height:26px;padding:0 .4em;max-width:100%}
+.effect .parameters{flex-basis:100%;padding-left:26px}
 .effect small{flex-basis:100%;color:var(--quiet);overflow-wrap:anywhere;padding-left:26px}
 .chooser{font-size:.92rem}.chooser select{width:100%}
 #say p{margin:.3em 0}

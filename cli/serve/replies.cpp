@@ -11,6 +11,7 @@
 #include "cli/command_words.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/question.hpp"
+#include "cli/serve/controls.hpp"
 #include "cli/serve/live_page.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/curves.hpp"
@@ -136,6 +137,7 @@ Reply estimate_reply(const Setup& setup, const std::string& query) {
                          compare::in_words(asked.question.study.conditions.front());
   document["readings"] = readings_json(point);
   document["numbers"] = numbers_json(asked.question);
+  document["effects"] = effect_values_json(asked.question);
   document["curves"] = curves_json(asked.question, point, swept, curves);
   document["stresses"] = stresses_json(point);
   const bool solved = compare::any_result(point);

@@ -44,8 +44,4 @@ class Setup {
   std::vector<Flag> start_;  ///< flags that make a single condition of the case
 };
 
-/// Load, slip, speed, inclines, yaw and lug height of a question of one condition, each with key (its flag), title,
-/// meaning, unit, and in that unit its value and the limits and step of a slider.
-nlohmann::ordered_json numbers_json(const Case& question);
-
 }  // namespace soilbin::cli

@@ -115,6 +115,20 @@ class TheServer(unittest.TestCase):
         _, wide = self.server.estimate(slips="-100%..100%")
         self.assertEqual(wide["curves"]["plots"][0]["series"][0]["x"][0], -100)
 
+    def test_an_effects_parameters_have_limits_and_stand_where_the_query_puts_them(self):
+        start = json.loads(self.server.ask("/case")[2])
+        for effect in start["effects"]:
+            for form in effect["forms"]:
+                self.assertGreater(len(form["parameters"]), 0, form["form"])
+                for p in form["parameters"]:
+                    self.assertLessEqual(p["lower"], p["value"], (form["form"], p))
+                    self.assertGreater(p["upper"], p["value"], (form["form"], p))
+                    self.assertGreater(p["step"], 0)
+        _, served = self.server.estimate(effect=["slip_sinkage:sliding,h=2cm", "exit_angle:fixed"])
+        values = {e["id"]: (e["form"], {p["key"]: p["value"] for p in e["parameters"]}) for e in served["effects"]}
+        self.assertEqual(values["slip_sinkage"], ("sliding", {"h": 20, "d": 0.3, "d_b": 0.4}))
+        self.assertEqual(values["exit_angle"][0], "fixed")
+
     def test_refuses_with_a_hint_as_the_command_does(self):
         self.refused(400, "did you mean '--load'?", laod="80N")
         self.refused(400, "a mass", load="80kg")
@@ -310,6 +324,21 @@ class ThePage(unittest.TestCase):
         self.js(f"{box}.click()")
         self.assertTrue(self.browser.until("document.getElementById('command').textContent.includes('--effect=none')"))
         self.assertEqual(self.pull(), before)
+
+    def test_4_an_effects_parameter_moves_the_curves(self):
+        control = "soilbin.live.start.effects.find(e => e.id === 'slip_sinkage').controls.get('a')"
+        self.js("soilbin.live.go('effect=slip_sinkage')")
+        self.assertTrue(self.browser.until("!soilbin.live.asking"))
+        before = self.pull()
+        self.js(f"(e => {{ e.value = 0.4; e.dispatchEvent(new Event('input')); }})({control}.slider)")
+        self.assertTrue(self.browser.until("document.getElementById('command').textContent.includes('slip_sinkage:lyasko,a=0.4')"))
+        self.assertNotEqual(self.pull(), before)
+        self.js("soilbin.live.go('effect=slip_sinkage:lyasko,a=0.7')")
+        self.assertTrue(self.browser.until(f"{control}.box.value === '0.7'"))
+        self.js("soilbin.live.go('effect=slip_sinkage:reece')")
+        self.assertTrue(self.browser.until(f"{control.replace(chr(39) + 'a', chr(39) + 'h')}.box.value === '10'"))
+        self.js("document.getElementById('reset').click()")
+        self.assertTrue(self.browser.until("!soilbin.live.asking && !document.querySelector('.parameters .number')"))
 
     def test_5_a_soil_of_the_library(self):
         before = self.pull()

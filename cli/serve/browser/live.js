@@ -60,41 +60,71 @@ soilbin.Live = class {
     this.showLists();
   }
 
-  // A slider and a box for one number; the box takes what the slider can't reach.
   addNumber(number) {
-    const {make} = soilbin, id = `number-${number.key}`, {lower, upper, step, unit, title, meaning} = number;
+    const control = this.control(`number-${number.key}`, number, text => this.set(number.key, text, number.value + number.unit));
+    this.numbers.set(number.key, control);
+    return control.element;
+  }
+
+  // A slider and a box for one number; the box takes what the slider can't reach.
+  control(id, {lower, upper, step, unit, title, meaning, value}, changed) {
+    const {make} = soilbin;
     const slider = make('input', {type: 'range', min: lower, max: upper, step, title: meaning});
     const box = make('input', {type: 'number', id, step: 'any', title: meaning});
-    slider.setAttribute('aria-label', title);
+    slider.setAttribute('aria-label', meaning.length < 40 ? meaning : title);
     const moved = (from, to) => {
       if (from.value === '') return;
       to.value = from.value;
       slider.setAttribute('aria-valuetext', `${from.value} ${unit}`);
-      this.set(number.key, from.value + unit, number.value + unit);
+      changed(from.value + unit);
     };
     slider.addEventListener('input', () => moved(slider, box));
     box.addEventListener('input', () => moved(box, slider));
-    this.numbers.set(number.key, {slider, box, unit});
-    this.showNumber(this.numbers.get(number.key), number.value);
-    return make('div', {className: 'number'}, make('label', {htmlFor: id, textContent: title, title: meaning}), box,
-                make('span', {textContent: unit}), slider);
+    const element = make('div', {className: 'number'}, make('label', {htmlFor: id, textContent: title, title: meaning}), box,
+                         make('span', {textContent: unit}), slider);
+    const control = {slider, box, unit, element};
+    this.showNumber(control, value);
+    return control;
   }
 
   addEffect(effect) {
     const {make} = soilbin, box = make('input', {type: 'checkbox'}), forms = make('select'), note = make('small');
+    const parameters = make('div', {className: 'parameters'});
     for (const {form} of effect.forms) forms.add(new Option(form, form));
     forms.setAttribute('aria-label', `Form of ${effect.id}`);
     box.addEventListener('change', () => this.switchEffect(effect, box.checked ? effect.on || effect.id : null));
     forms.addEventListener('change', () => this.switchEffect(effect, `${effect.id}:${forms.value}`));
     effect.show = word => {
-      const form = word && word.split(',')[0].split(':')[1] || effect.forms[0].form;
+      const name = word && word.split(',')[0].split(':')[1] || effect.forms[0].form;
+      const form = effect.forms.find(f => f.form === name) || {parameters: []};
       box.checked = Boolean(word);
-      forms.value = form;
+      forms.value = name;
       forms.hidden = !word || effect.forms.length < 2;
-      note.textContent = word ? (effect.forms.find(f => f.form === form) || {}).equation || '' : '';
+      note.textContent = word && form.equation || '';
+      this.showParameters(effect, parameters, word ? form : {parameters: []});
     };
     const name = effect.id.replaceAll('_', ' ') + (effect.of === 'measurement' ? ' (of the measurement)' : '');
-    return make('div', {className: 'effect'}, make('label', {}, box, name), forms, note);
+    return make('div', {className: 'effect'}, make('label', {}, box, name), forms, note, parameters);
+  }
+
+  // Controls for a form's parameters; they stay while the form does, so that a slider that is being moved isn't replaced.
+  showParameters(effect, host, form) {
+    if (host.dataset.form === String(form.form)) return;
+    host.dataset.form = form.form;
+    effect.controls = new Map(form.parameters.map(p => {
+      const spell = text => this.switchEffect(effect, this.spelled(effect, form, p.key, text));
+      return [p.key, this.control(`${effect.id}-${p.key}`, p, spell)];
+    }));
+    host.replaceChildren(...[...effect.controls.values()].map(control => control.element));
+  }
+
+  // 'slip_sinkage:lyasko,a=0.5': what is at its default is left out.
+  spelled(effect, form, key, text) {
+    const spelled = form.parameters.map(p => {
+      const {box, unit} = effect.controls.get(p.key);
+      return [p, p.key === key ? text : box.value + unit];
+    }).filter(([p, value]) => value !== p.value + p.unit);
+    return [`${effect.id}:${form.form}`, ...spelled.map(([p, value]) => `${p.key}=${value}`)].join();
   }
 
   startEffects() { return this.start.effects.filter(e => e.on).map(e => e.on); }
@@ -164,6 +194,10 @@ soilbin.Live = class {
     soilbin.part('command').textContent = answer.command;
     this.showReadings(answer.readings);
     for (const {key, value} of answer.numbers) this.showNumber(this.numbers.get(key), value);
+    for (const {id, parameters} of answer.effects) {
+      const {controls} = this.start.effects.find(effect => effect.id === id);
+      for (const {key, value} of parameters) if (controls.has(key)) this.showNumber(controls.get(key), value);
+    }
     this.answer = answer;
     this.draw();
   }

@@ -1,0 +1,35 @@
+// What a served page can move: conditions, lugs, effects and their parameters, each with where it stands and its
+// limits.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "scenario/case.hpp"
+
+namespace soilbin::cli {
+
+/// A key of a description as a flag without its dashes: "lug-height".
+std::string key_of(const std::string& prefix, const char* key);
+
+/// People read shares in percent: "%" for "-".
+std::string shown_unit(const std::string& unit);
+
+/// "4 kN" as "4kN".
+std::string without_blanks(std::string text);
+
+/// An effect as the flag --effect spells it; parameters at their defaults are left out.
+std::string effect_word(const EffectChoice& choice, const Soil& soil);
+
+/// Load, slip, speed, inclines, yaw and lug height of a question of one condition, each with key (its flag), title,
+/// meaning, unit, and in that unit its value and the limits and step of a slider.
+nlohmann::ordered_json numbers_json(const Case& question);
+
+/// The catalogue, forms under their effects, each with its parameters as numbers_json has its numbers, at their
+/// defaults; "on": how the question spells an effect that it switches on, else null.
+nlohmann::ordered_json effects_json(const Case& question);
+
+/// The effects that the question switches on: id, form, and each parameter's key and value in the unit of effects_json.
+nlohmann::ordered_json effect_values_json(const Case& question);
+
+}  // namespace soilbin::cli
