@@ -2,7 +2,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "cli/text_output.hpp"
 #include "compare/report/result_json.hpp"
 #include "dem/verification/fast_engine.hpp"
+#include "dem/verification/incline.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -40,8 +43,9 @@ void print_table(const std::vector<VerificationRow>& rows) {
   fmt::print("{}", table.text());
 }
 
-int verify(bool json, const std::string& containing) {
-  std::vector<VerificationRow> rows = dem::verification_rows(dem::start_fast_engine);
+int verify(bool json, std::optional<std::uint64_t> incline, const std::string& containing) {
+  std::vector<VerificationRow> rows =
+      incline ? dem::incline_rows(*incline) : dem::verification_rows(dem::start_fast_engine);
   std::erase_if(rows, [&](const VerificationRow& row) { return row.name.find(containing) == std::string::npos; });
   const auto passed = std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.pass(); });
   if (json) {
@@ -59,9 +63,12 @@ void add_verify(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("verify", "the discrete element engine against published numbers");
   const auto containing = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
+  const auto incline = std::make_shared<std::optional<std::uint64_t>>();
+  command->add_option("--incline", *incline, "instead: layers on a rough incline, of this seed (a quarter of an hour)")
+      ->type_name("SEED");
   command->add_option("--case", *containing, "only cases whose name contains this")->type_name("TEXT");
   command->add_flag("--json", *json, "soilbin-verify/1, for programs");
-  command->callback([=, &session] { session.action = [=] { return verify(*json, *containing); }; });
+  command->callback([=, &session] { session.action = [=] { return verify(*json, *incline, *containing); }; });
 }
 
 }  // namespace soilbin::cli

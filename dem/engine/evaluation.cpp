@@ -150,7 +150,7 @@ bool Simulation::is_new(std::size_t row) const {
 
 Simulation::Kick Simulation::kick(std::size_t row, const Load& load, double time) const {
   const Motion& grain = state_.grains.motion[row];
-  return {time * (grain.inverse_mass * load.force + (grain.inverse_mass > 0 ? 1.0 : 0.0) * state_.gravity),
+  return {time * (grain.inverse_mass * load.force + (grain.held() ? 0.0 : 1.0) * state_.gravity),
           (time * state_.grains.spin[row].inverse_inertia) * load.torque};
 }
 
@@ -201,7 +201,7 @@ EnergyBalance Simulation::energy() const {
   const std::vector<Load> all = loads();
   for (std::size_t k = 0; k < s.grains.count(); ++k) {
     const Motion& grain = s.grains.motion[k];
-    if (grain.inverse_mass == 0 || is_new(k)) continue;
+    if (grain.held() || is_new(k)) continue;
     const GrainNow now = motion_at(k, all[k]);
     out.kinetic +=
         0.5 * (squared(now.velocity) / grain.inverse_mass + squared(now.spin) / s.grains.spin[k].inverse_inertia);

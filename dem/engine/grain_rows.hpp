@@ -11,6 +11,7 @@ struct alignas(64) Motion {
   double radius = 0;        ///< [m]
   Vec3 velocity;            ///< at the half step before the position's time [m/s]
   double inverse_mass = 0;  ///< [1/kg]; 0: nothing moves it
+  bool held() const { return inverse_mass == 0; }
 };
 
 /// The rest of what contacts read. 32 bytes.

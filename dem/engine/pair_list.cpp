@@ -19,7 +19,7 @@ std::vector<Pair> pairs_of_slab(const Cells& cells, int slab, const Grains& grai
     const Motion &a = grains.motion[i], &b = grains.motion[j];
     const double d2 = squared(periods.shortest(a.position - b.position));
     const double sum = a.radius + b.radius;
-    if (d2 >= (sum + skin) * (sum + skin)) return;
+    if (d2 >= (sum + skin) * (sum + skin) || (a.held() && b.held())) return;
     (d2 < sum * sum ? touch : near).push_back({i, j});
   };
   const std::size_t begin = slab * cells.cells_of_slab();

@@ -50,7 +50,8 @@ void Simulation::search(std::span<const std::uint8_t> gone) {
     at.x = wrapped(at.x, setup_.domain.lower.x, periods.length.x);
     at.y = wrapped(at.y, setup_.domain.lower.y, periods.length.y);
     at.z = wrapped(at.z, setup_.domain.lower.z, periods.length.z);
-    if (setup_.numerics.ledger) s.ledger.added += dot(s.gravity, from - at) / s.grains.motion[k].inverse_mass;
+    if (setup_.numerics.ledger && !s.grains.motion[k].held())
+      s.ledger.added += dot(s.gravity, from - at) / s.grains.motion[k].inverse_mass;
     if ((gone.empty() || !gone[k]) && !setup_.domain.contains(at)) stop_for_loss(k);
   }
   const KeptContacts kept(s.pairs, s.grains);
@@ -74,6 +75,7 @@ void Simulation::search(std::span<const std::uint8_t> gone) {
     SurfaceContacts& here = s.surfaces[slab];
     here.near = find_near(s.bodies, s.grains, s.slab_rows[slab], s.slab_rows[slab + 1], reach_ + adhesion_reach_);
     for (std::uint32_t row = s.slab_rows[slab]; row < s.slab_rows[slab + 1]; ++row) {
+      if (s.grains.motion[row].held()) continue;
       const auto [begin, end] =
           std::equal_range(on_surfaces.begin(), on_surfaces.end(), std::pair(s.grains.id[row], SurfaceContact{}),
                            [](const auto& a, const auto& b) { return a.first < b.first; });

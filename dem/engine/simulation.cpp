@@ -96,17 +96,6 @@ int Simulation::add_body(Body body) {
   return static_cast<int>(state_.bodies.size()) - 1;
 }
 
-std::size_t Simulation::remove_grains(const std::function<bool(const GrainNow&)>& gone) {
-  settle_changes();
-  std::vector<std::uint8_t> marked;
-  for (const GrainNow& grain : grains()) marked.push_back(gone(grain));
-  const auto count = static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1));
-  if (count == 0) return 0;
-  wake_all();
-  accounted([&] { search(marked); });
-  return count;
-}
-
 void Simulation::check_step() const {
   const Numerics& n = setup_.numerics;
   if (state_.grains.count() == 0 || n.force_step) return;
@@ -297,7 +286,7 @@ void Simulation::motion_stage(int slab) {
     Load& load = s.grains.load[k];
     if (setup_.numerics.ledger) count_kick(slab, k);
     const double share = dt * grain.inverse_mass;
-    grain.velocity += share * load.force + (grain.inverse_mass > 0 ? dt : 0.0) * s.gravity;
+    grain.velocity += share * load.force + (grain.held() ? 0.0 : dt) * s.gravity;
     grain.position += dt * grain.velocity;
     spin.rate += (dt * spin.inverse_inertia) * load.torque;
     load = {};

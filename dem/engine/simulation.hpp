@@ -113,6 +113,10 @@ class Simulation {
                     const Vec3& spin = {});
   /// Removes grains for which `gone` holds; gives how many. Contacts of others keep their memory.
   std::size_t remove_grains(const std::function<bool(const GrainNow&)>& gone);
+  /// Holds grains for which `which` holds, from now on: they stay where they are, without velocity or spin, and neither
+  /// another grain that is held nor a surface presses on them. To a free grain they are of infinite mass. Gives how
+  /// many are newly held. For a rough base: settle a bed, hold a slice of it, remove the rest.
+  std::size_t hold_grains(const std::function<bool(const GrainNow&)>& which);
   /// Gives the body's index. Throws InputError for an unknown material or a mass or inertia that isn't positive.
   int add_body(Body body);
   /// To change what drives it between steps.

@@ -62,11 +62,13 @@ const SurfaceContact* remembered(std::span<const SurfaceContact> before, std::sp
 std::vector<NearSurface> find_near(std::span<const Body> bodies, const Grains& grains, std::uint32_t first,
                                    std::uint32_t last, double margin) {
   std::vector<NearSurface> near;
-  for (std::uint32_t grain = first; grain < last; ++grain)
+  for (std::uint32_t grain = first; grain < last; ++grain) {
+    if (grains.motion[grain].held()) continue;
     for (std::size_t b = 0; b < bodies.size(); ++b)
       for (std::size_t s = 0; s < bodies[b].surfaces.size(); ++s)
         if (is_near(bodies[b], bodies[b].surfaces[s], grains.motion[grain], margin))
           near.push_back({grain, static_cast<std::uint16_t>(b), static_cast<std::uint16_t>(s)});
+  }
   return near;
 }
 

@@ -61,7 +61,7 @@ struct SurfaceTouch {
   double overlap;
 };
 
-/// Grains of rows [first, last) that come within `margin` of a surface.
+/// Grains of rows [first, last) that come within `margin` of a surface; those that are held touch none.
 std::vector<NearSurface> find_near(std::span<const Body> bodies, const Grains& grains, std::uint32_t first,
                                    std::uint32_t last, double margin);
 

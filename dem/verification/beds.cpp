@@ -102,7 +102,20 @@ TriangleMesh ball(double radius, int times) {
   return {v, t, {.closed = true, .name = "ball"}};
 }
 
-/// How deep a ball comes to rest that falls on a bed.
+/// Lowest height [m] of the middle of a ball at (x, y) that touches no grain from above, in a box much wider than it.
+double touching_height(const Simulation& bed, const Vec3& middle, double radius) {
+  double lowest = radius;
+  for (const Motion& grain : bed.state().grains.motion) {
+    const double reach = radius + grain.radius;
+    const double dx = grain.position.x - middle.x, dy = grain.position.y - middle.y;
+    const double left = reach * reach - dx * dx - dy * dy;
+    if (grain.radius > 0 && left > 0) lowest = std::max(lowest, grain.position.z + std::sqrt(left));
+  }
+  return lowest;
+}
+
+/// How deep a ball comes to rest that falls on a bed. It starts where it touches the first grain, which is not the
+/// bed's mean level: put there, it would overlap grains that stand out, and they would throw it back.
 double depth_of_fall(Simulation bed, double level, const Vec3& middle, double diameter, double density, double height) {
   Body sphere;
   sphere.name = "ball";
@@ -113,8 +126,9 @@ double depth_of_fall(Simulation bed, double level, const Vec3& middle, double di
   sphere.free_translation = {true, true, true};
   sphere.turning = Turning::free;
   sphere.weighs = true;
-  sphere.position = {middle.x, middle.y, level + diameter / 2};
-  sphere.velocity = {0, 0, -std::sqrt(2 * g * height)};
+  sphere.position = {middle.x, middle.y, touching_height(bed, middle, diameter / 2)};
+  const double fallen = height - (sphere.position.z - diameter / 2 - level);
+  sphere.velocity = {0, 0, -std::sqrt(2 * g * std::max(fallen, 0.0))};
   const int index = bed.add_body(sphere);
   const auto part = static_cast<std::int64_t>(2e-3 / bed.setup().numerics.dt);
   double lowest = level;

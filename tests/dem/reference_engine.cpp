@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -78,10 +79,13 @@ int ReferenceEngine::add(const ReferencePlane& plane) {
 
 double ReferenceEngine::mass(int i) const {
   const auto& g = grains_[i];
+  if (g.held) return std::numeric_limits<double>::infinity();
   return materials_.all[g.material].density * 4.0 / 3 * pi * g.radius * g.radius * g.radius;
 }
 
 double ReferenceEngine::inertia(int i) const { return 0.4 * mass(i) * grains_[i].radius * grains_[i].radius; }
+
+Vec3 ReferenceEngine::gravity_on(int i) const { return grains_[i].held ? Vec3{} : gravity; }
 
 /// Forces at t = 0 from x(0) and v(0); then half a kick back.
 void ReferenceEngine::begin() {
@@ -89,7 +93,7 @@ void ReferenceEngine::begin() {
   begun_ = true;
   find_forces();
   for (int i = 0; i < size(); ++i) {
-    grains_[i].v -= dt_ / 2 * (forces_[i] / mass(i) + gravity);
+    grains_[i].v -= dt_ / 2 * (forces_[i] / mass(i) + gravity_on(i));
     grains_[i].w -= dt_ / 2 * (torques_[i] / inertia(i));
   }
   histories_.clear();
@@ -100,7 +104,7 @@ void ReferenceEngine::step(long count) {
   begin();
   for (; count > 0; --count) {
     for (int i = 0; i < size(); ++i) {
-      grains_[i].v += dt_ * (forces_[i] / mass(i) + gravity);
+      grains_[i].v += dt_ * (forces_[i] / mass(i) + gravity_on(i));
       grains_[i].w += dt_ * (torques_[i] / inertia(i));
       grains_[i].x += dt_ * grains_[i].v;
     }
@@ -112,7 +116,7 @@ void ReferenceEngine::step(long count) {
 
 Vec3 ReferenceEngine::velocity(int i) {
   begin();
-  return grains_[i].v + dt_ / 2 * (forces_[i] / mass(i) + gravity);
+  return grains_[i].v + dt_ / 2 * (forces_[i] / mass(i) + gravity_on(i));
 }
 
 Vec3 ReferenceEngine::spin(int i) {
@@ -127,7 +131,8 @@ const std::vector<ReferenceContact>& ReferenceEngine::contacts() {
 
 double ReferenceEngine::kinetic_energy() {
   double sum = 0;
-  for (int i = 0; i < size(); ++i) sum += mass(i) * squared(velocity(i)) / 2 + inertia(i) * squared(spin(i)) / 2;
+  for (int i = 0; i < size(); ++i)
+    if (!grains_[i].held) sum += mass(i) * squared(velocity(i)) / 2 + inertia(i) * squared(spin(i)) / 2;
   return sum;
 }
 
@@ -139,11 +144,12 @@ void ReferenceEngine::find_forces() {
   for (int i = 0; i < size(); ++i) {
     const auto& g = grains_[i];
     for (int j = i + 1; j < size(); ++j) {
+      if (g.held && grains_[j].held) continue;
       Vec3 d = g.x - grains_[j].x;
       d = {nearest(d.x, box.x), nearest(d.y, box.y), nearest(d.z, box.z)};
       touch(i, j, unit(d), g.radius + grains_[j].radius - length(d), next);
     }
-    for (int p = 0; p < static_cast<int>(planes_.size()); ++p) {
+    for (int p = 0; p < static_cast<int>(planes_.size()) && !g.held; ++p) {
       const Vec3& n = planes_[p].normal;
       touch(i, -1 - p, n, g.radius - dot(g.x - planes_[p].point, n), next);
     }
@@ -171,9 +177,9 @@ ReferenceEngine::Pair ReferenceEngine::stars(int i, int j, const Vec3& n, double
   const auto& h = grains_[j];
   const double arm2 = h.radius - overlap / 2, mj = mass(j), ij = inertia(j), jj = 1.4 * mj * h.radius * h.radius;
   p.radius = g.radius * h.radius / (g.radius + h.radius);
-  p.mass = mi * mj / (mi + mj);
-  p.inertia = ii * ij / (ii + ij);
-  p.rolling_inertia = ji * jj / (ji + jj);
+  p.mass = 1 / (1 / mi + 1 / mj);  // an infinite one drops out
+  p.inertia = 1 / (1 / ii + 1 / ij);
+  p.rolling_inertia = 1 / (1 / ji + 1 / jj);
   p.velocity = g.v - h.v - cross(arm * g.w + arm2 * h.w, n);
   p.rotation = g.w - h.w;
   return p;

@@ -15,6 +15,7 @@ struct ReferenceGrain {
   Vec3 x, v, w;  ///< [m], [m/s], [rad/s]; once the run has begun, v and w are those of half a step ago
   double radius = 0;
   int material = 0;
+  bool held = false;  ///< of infinite mass, at rest; v and w must be 0
 };
 
 /// Solid behind, free in front of `point`, where `normal` (of length 1) looks.
@@ -48,7 +49,7 @@ class ReferenceEngine {
 
   double time() const { return static_cast<double>(steps_) * dt_; }
   int size() const { return static_cast<int>(grains_.size()); }
-  double mass(int i) const;
+  double mass(int i) const;  ///< infinite where it is held
   double inertia(int i) const;
   Vec3 position(int i) const { return grains_[i].x; }
   Vec3 velocity(int i);  ///< v(t), of the step
@@ -71,6 +72,7 @@ class ReferenceEngine {
 
   void begin();
   void find_forces();
+  Vec3 gravity_on(int i) const;  ///< none where it is held
   Pair stars(int i, int j, const Vec3& n, double overlap) const;
   void touch(int i, int j, const Vec3& n, double overlap, std::map<std::pair<int, int>, History>& next);
   void apply(ReferenceContact& contact, const Pair& pair, History& history) const;
