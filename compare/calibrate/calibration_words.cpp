@@ -180,10 +180,10 @@ namespace {
 std::string decided_by(const Calibration& calibration) {
   if (!calibration.decision || !calibration.decision->decided()) return "";
   const Decision& decision = *calibration.decision;
-  const int tied = decision.tied();
-  return fmt::format("; of {} candidates {} by the soil bin on {}", decision.trials.size(),
-                     tied > 1 ? fmt::format("the likeliest of {} that are not told apart", tied) : "chosen",
-                     decision.campaign);
+  if (const int tied = decision.tied(); tied > 1)
+    return fmt::format("; the likeliest of {} candidates that the soil bin doesn't tell apart on {}", tied,
+                       decision.campaign);
+  return fmt::format("; of {} candidates the nearest to {} in the soil bin", decision.trials.size(), decision.campaign);
 }
 
 }  // namespace
