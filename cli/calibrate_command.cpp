@@ -8,9 +8,11 @@
 #include <tuple>
 
 #include "cli/commands.hpp"
+#include "cli/decision_flags.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
+#include "compare/calibrate/decision_words.hpp"
 #include "compare/calibrate/published_sets.hpp"
 #include "compare/experiments/element_experiments.hpp"
 #include "compare/measured/csv.hpp"
@@ -30,7 +32,9 @@ using compare::Target;
 struct CalibrateOptions {
   std::string soil, contact = "sand", store, output, beside, near = "5%", within = "3%", probability = "90%";
   std::string strength = "peak", settling_friction = "1", stresses = "10kPa,20kPa,40kPa";
+  std::string rolling;
   std::vector<std::string> targets, bounds, kept;
+  DecisionFlags decision;
   compare::CalibrationOptions options;
   int packings = 0, threads = 0, across = 16;
   bool json = false, runs = false;
@@ -84,27 +88,50 @@ std::vector<Factor> factors_of(const CalibrateOptions& asked, ContactKind kind) 
 class Shown {
  public:
   void next(const compare::CalibrationProgress& progress) {
-    if (interrupt_asked()) throw Interrupted();
-    at_ = progress;
-    print("", 0.0);
+    text_ = fmt::format("{}: run {} of at most {}", stage_name(progress.stage), progress.done + 1, progress.at_most);
+    if (progress.stage == compare::Stage::refinement)
+      text_ += fmt::format(", best chance {:.0f} %", 100 * progress.chance);
+    begin("at most ", progress.seconds_a_run, progress.at_most - progress.done);
+  }
+  void next(const compare::TrialProgress& progress) {
+    text_ = fmt::format("soil bin: candidate {} of {}, run {} of {}", compare::candidate_name(progress.candidate),
+                        progress.candidates, progress.done + 1, progress.at_all);
+    begin("", progress.seconds_a_run, progress.at_all - progress.done);
   }
   void within_run(const dem::Progress& progress) const {
     if (interrupt_asked()) throw Interrupted();
-    print(std::string(progress.stage), progress.done);
+    print(fmt::format(", {} {:.0f} %", progress.stage, 100 * progress.done), progress.done);
   }
 
  private:
+  void begin(const char* bound, double seconds_a_run, int runs_left) {
+    if (interrupt_asked()) throw Interrupted();
+    bound_ = bound, seconds_a_run_ = seconds_a_run, runs_left_ = runs_left;
+    print("", 0.0);
+  }
   void print(const std::string& doing, double share) const {
-    std::string line = fmt::format("{}: run {} of at most {}", stage_name(at_.stage), at_.done + 1, at_.at_most);
-    if (!doing.empty()) line += fmt::format(", {} {:.0f} %", doing, 100 * share);
-    if (at_.stage == compare::Stage::refinement) line += fmt::format(", best chance {:.0f} %", 100 * at_.chance);
-    if (at_.seconds_a_run > 0)
-      line += fmt::format(", at most {:.0f} s left", at_.seconds_a_run * (at_.at_most - at_.done - share));
+    std::string line = text_ + doing;
+    if (seconds_a_run_ > 0) line += fmt::format(", {}{:.0f} s left", bound_, seconds_a_run_ * (runs_left_ - share));
     show_progress_line(line);
   }
 
-  compare::CalibrationProgress at_;
+  std::string text_, bound_;
+  double seconds_a_run_ = 0.0;
+  int runs_left_ = 0;
 };
+
+/// The soil with the rolling resistance that is asked for, as if it were its own.
+Soil soil_of(const CalibrateOptions& asked, const Workplace& place) {
+  Soil soil = find_soil(asked.soil, place.library);
+  if (!soil.granular)
+    throw InputError(fmt::format("soil '{}' has no grains\n  hint: it needs a section 'granular'", soil.name));
+  if (asked.rolling.empty()) return soil;
+  named("--rolling", asked.rolling, {"directional", "elastic_plastic"});
+  soil.granular->rolling_resistance =
+      asked.rolling == "directional" ? RollingResistance::directional : RollingResistance::elastic_plastic;
+  soil.granular->grain_grain.rolling_stiffness = soil.granular->grain_tire.rolling_stiffness = 0.0;
+  return soil;
+}
 
 compare::VirtualTest test_of(const CalibrateOptions& asked, ContactKind kind, const Soil& soil,
                              const std::shared_ptr<Shown>& shown) {
@@ -130,6 +157,11 @@ fs::path store_of(const CalibrateOptions& asked, const Soil& soil) {
   return cache / "experiments" / fmt::format("{}-{}.json", soil.name, asked.contact);
 }
 
+/// Where the soil bin's runs are kept: a folder beside the store, named after it.
+fs::path records_beside(const fs::path& store) {
+  return store.empty() ? store : store.parent_path() / (store.stem().string() + "-runs");
+}
+
 void print(const CalibrateOptions& asked, const compare::VirtualTest& test, const compare::Calibration& calibration) {
   for (const std::string& sentence : compare::calibration_sentences(test, asked.options, calibration))
     fmt::print("{}\n", sentence);
@@ -152,33 +184,31 @@ int set_beside(const CalibrateOptions& asked, const compare::VirtualTest& test, 
   return done;
 }
 
-int calibrate(CalibrateOptions asked, const Session& session) {
-  const Soil soil = find_soil(asked.soil, session.place.library);
-  if (!soil.granular)
-    throw InputError(fmt::format("soil '{}' has no grains\n  hint: it needs a section 'granular'", soil.name));
-  named("--contact", asked.contact, {"sand", "tire"});
-  const ContactKind kind = asked.contact == "sand" ? ContactKind::grain_grain : ContactKind::grain_tire;
+void read_shares(CalibrateOptions& asked) {
   asked.options.near = read_flag("--near", asked.near, {"-", {.lower = 0, .upper = 1, .lower_open = true}});
   asked.options.within = read_flag("--within", asked.within, {"-", {.lower = 0, .upper = 1, .lower_open = true}});
   asked.options.probability = read_flag("--probability", asked.probability,
                                         {"-", {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true}});
-  const auto shown = std::make_shared<Shown>();
-  asked.options.progress = [shown](const compare::CalibrationProgress& progress) { shown->next(progress); };
-  const compare::VirtualTest test = test_of(asked, kind, soil, shown);
-  const fs::path file = store_of(asked, soil);
-  compare::ExperimentStore store(file);
-  compare::Calibration calibration;
-  try {
-    if (!asked.beside.empty()) return set_beside(asked, test, store, shown);
-    calibration = compare::calibrate(test, asked.options, store);
-  } catch (const Interrupted&) {
-    clear_progress_line();
-    if (!file.empty())
-      fmt::print(stderr, "{} finished experiments are in {}; the same command goes on from there", store.size(),
-                 file.string());
-    throw;
-  }
-  clear_progress_line();
+}
+
+/// Lets the soil bin decide, where that is asked for; refuses what it couldn't run before any work is done.
+void add_decision(CalibrateOptions& asked, const Soil& soil, const compare::VirtualTest& test, ContactKind kind,
+                  fs::path records, const Workplace& place, const std::shared_ptr<Shown>& shown) {
+  if (!asked.decision.given()) return;
+  asked.decision.bin.settling_friction = asked.settling_friction, asked.decision.bin.threads = asked.threads;
+  compare::TrialQuestion question = asked.decision.question(place);
+  question.soil = soil, question.kind = kind, question.factors = test.factors;
+  compare::TrialSettings settings = asked.decision.settings(asked.options.seed, std::move(records));
+  settings.bin.how.progress = [shown](const dem::Progress& progress) { shown->within_run(progress); };
+  settings.progress = [shown](const compare::TrialProgress& progress) { shown->next(progress); };
+  compare::check(question, settings);
+  asked.options.decide = [=, &place](const std::vector<compare::Candidate>& candidates) {
+    return compare::decide_in_soil_bin(question, settings, candidates, place.effects);
+  };
+}
+
+int tell(const CalibrateOptions& asked, const Soil& soil, ContactKind kind, const compare::VirtualTest& test,
+         const compare::Calibration& calibration) {
   if (!asked.output.empty())
     write_file_atomically(asked.output,
                           write_soil(compare::calibrated_soil(soil, kind, test, asked.options, calibration)));
@@ -187,6 +217,32 @@ int calibrate(CalibrateOptions asked, const Session& session) {
   else
     print(asked, test, calibration);
   return calibration.reached ? done : failed;
+}
+
+int calibrate(CalibrateOptions asked, const Session& session) {
+  const Soil soil = soil_of(asked, session.place);
+  named("--contact", asked.contact, {"sand", "tire"});
+  const ContactKind kind = asked.contact == "sand" ? ContactKind::grain_grain : ContactKind::grain_tire;
+  read_shares(asked);
+  const auto shown = std::make_shared<Shown>();
+  asked.options.progress = [shown](const compare::CalibrationProgress& progress) { shown->next(progress); };
+  const compare::VirtualTest test = test_of(asked, kind, soil, shown);
+  const fs::path file = store_of(asked, soil);
+  add_decision(asked, soil, test, kind, records_beside(file), session.place, shown);
+  compare::ExperimentStore store(file);
+  compare::Calibration calibration;
+  try {
+    if (!asked.beside.empty()) return set_beside(asked, test, store, shown);
+    calibration = compare::calibrate(test, asked.options, store);
+  } catch (const Interrupted&) {
+    clear_progress_line();
+    if (!file.empty())
+      fmt::print(stderr, "{} finished experiments are in {}{}; the same command goes on from there", store.size(),
+                 file.string(), asked.decision.given() ? ", runs of the soil bin beside it" : "");
+    throw;
+  }
+  clear_progress_line();
+  return tell(asked, soil, kind, test, calibration);
 }
 
 void add_options(CLI::App& command, CalibrateOptions& asked) {
@@ -204,8 +260,13 @@ void add_options(CLI::App& command, CalibrateOptions& asked) {
   command.add_option("--probability", asked.probability, "... with this probability, 90 %")->type_name("SHARE");
   command.add_option("--strength", asked.strength, "of the shear box: peak or residual")->type_name("peak|residual");
   command.add_option("--stresses", asked.stresses, "of the shear box, 10kPa,20kPa,40kPa")->type_name("P,P,...");
-  command.add_option("--settling-friction", asked.settling_friction, "share of friction while the sample settles, 1")
+  command
+      .add_option("--settling-friction", asked.settling_friction,
+                  "share of friction while the sheared sample, or the soil bin's bed, settles; 1")
       ->type_name("SHARE");
+  command
+      .add_option("--rolling", asked.rolling, "law of rolling resistance: directional, elastic_plastic; the soil's own")
+      ->type_name("LAW");
   command.add_option("--across", asked.across, "grains along a side of the board, 16")->type_name("N");
   command.add_option("--packings", asked.packings, "samples an experiment: shear box 1, board 4")->type_name("N");
   command.add_option("--seed", asked.options.seed, "of packings and search, 1")
@@ -220,6 +281,8 @@ void add_options(CLI::App& command, CalibrateOptions& asked) {
       ->check(writable_file());
   command.add_option("--beside", asked.beside, "only run the sets of this table and show them beside its results")
       ->type_name("FILE.csv");
+  asked.decision.add_to(command);
+  command.get_option("--beside")->excludes("--decide");
   command.add_flag("--show-runs", asked.runs, "the table of all experiments");
   command.add_flag("--json", asked.json, "soilbin-calibration/1, in SI");
 }
@@ -232,7 +295,8 @@ void add_calibrate(CLI::App& app, Session& session) {
   add_options(*command, *asked);
   command->footer(
       "Finished experiments are kept: after Ctrl-C the same command goes on. Exit status 1: targets not reached.\n"
-      "Example: soilbin calibrate paper-sand --contact tire --target board_angle=31.47deg --output calibrated.yaml");
+      "Example: soilbin calibrate paper-sand --contact tire --target board_angle=31.47deg --output calibrated.yaml\n"
+      "         soilbin calibrate paper-sand --contact tire --target board_angle=31.47deg --decide CAMPAIGN");
   command->callback([=, &session] { session.action = [=, &session] { return calibrate(*asked, session); }; });
 }
 

@@ -147,7 +147,7 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   return settings;
 }
 
-void SoilBinFlags::add_rig_to(CLI::App& command) {
+void SoilBinFlags::add_measures_to(CLI::App& command) {
   command.add_option("--bed-length", length, "dem: length of the bed, 2.5 m")->type_name("LENGTH");
   command.add_option("--bed-width", width, "dem: its width, 0.8 m")->type_name("LENGTH");
   command.add_option("--bed-depth", depth, "dem: its depth, 0.3 m")->type_name("LENGTH");
@@ -165,6 +165,10 @@ void SoilBinFlags::add_rig_to(CLI::App& command) {
       ->type_name("SHARE");
   command.add_option("--deepest-overlap", deepest_overlap, "dem: of the smaller radius that grains may overlap, 0.5")
       ->type_name("SHARE");
+}
+
+void SoilBinFlags::add_rig_to(CLI::App& command) {
+  add_measures_to(command);
   command.add_option("--packing", packing, "dem: seed of the bed, 1")->type_name("SEED");
   command
       .add_option("--settling-friction", settling_friction,
@@ -173,9 +177,13 @@ void SoilBinFlags::add_rig_to(CLI::App& command) {
   command.add_option("--threads", threads, "dem: 0, one a core")->type_name("N");
 }
 
+void SoilBinFlags::add_starting_to(CLI::App& command) {
+  command.add_option("--starting", starting, "dem: time in which speed and rotation come on, 0.2 s")->type_name("TIME");
+}
+
 void SoilBinFlags::add_to(CLI::App& command) {
   add_rig_to(command);
-  command.add_option("--starting", starting, "dem: time in which speed and rotation come on, 0.2 s")->type_name("TIME");
+  add_starting_to(command);
   command.add_option("--packings", packings, "dem: runs on so many packings, from --packing on, and their mean; 1")
       ->type_name("N");
   command.add_option("--record", record, "dem: keep each run in this file, and go on with what is there")
@@ -204,9 +212,7 @@ compare::RunOnce run_with(const dem::DemSettings& settings, const Case& question
     return (*runs)(scenario, at, packing);
   };
   if (file.empty()) return run;
-  compare::Record empty{
-      SOILBIN_VERSION, "dem", write_case(question, effects), compare::inputs_of(settings, question.scenario), {}};
-  return compare::kept_in(file, std::move(empty), std::move(run));
+  return compare::kept_runs(file, settings, question, effects, SOILBIN_VERSION, std::move(run));
 }
 
 std::optional<dem::StepCriteria> step_of(const SoilBinFlags& flags, const Case& question) {

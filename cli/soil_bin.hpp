@@ -33,6 +33,9 @@ struct SoilBinFlags {
   int packing = 1, packings = 1, threads = 0;
 
   void add_to(CLI::App& command);
+  /// Lengths, times and numerics of bed and rig alone: for who has flags of his own for the rest.
+  void add_measures_to(CLI::App& command);
+  void add_starting_to(CLI::App& command);
   /// Bed, rig and threads alone: for who keeps no records.
   void add_rig_to(CLI::App& command);
 };

@@ -125,11 +125,10 @@ class Work {
 
   void choose() {
     if (!options_.decide || answer_.candidates.empty()) return;
-    const std::vector<double> errors = options_.decide(answer_.candidates);
-    if (errors.size() != answer_.candidates.size())
-      throw std::invalid_argument("whoever decides between candidates gives an error for each");
-    const auto least = std::min_element(errors.begin(), errors.end());
-    answer_.best = answer_.candidates[static_cast<std::size_t>(least - errors.begin())];
+    answer_.decision = options_.decide(answer_.candidates);
+    if (answer_.decision->trials.size() != answer_.candidates.size())
+      throw std::invalid_argument("whoever decides between candidates tries each");
+    if (answer_.decision->decided()) answer_.best = answer_.candidates[answer_.decision->chosen];
   }
 
   const VirtualTest& test_;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/calibrate/decision.hpp"
 #include "compare/calibrate/experiment_store.hpp"
 #include "compare/design/gaussian_process.hpp"
 #include "compare/design/level_effects.hpp"
@@ -55,9 +56,9 @@ struct CalibrationOptions {
   std::uint64_t seed = 1;     ///< of the packings' first, the cloud and the surrogates
   int cloud = 4096;           ///< points of the box that are looked at
   std::function<void(const CalibrationProgress&)> progress{};
-  /// The errors that another experiment, such as the soil bin, finds for the candidates, one each, any unit; the
-  /// smallest is chosen. Absent: the likeliest candidate.
-  std::function<std::vector<double>(const std::vector<Candidate>&)> decide{};
+  /// What another experiment, such as the soil bin, decides between the candidates: decide_in_soil_bin. Absent: the
+  /// likeliest point that was run.
+  std::function<Decision(const std::vector<Candidate>&)> decide{};
 };
 
 /// What the design says about one target.
@@ -73,7 +74,8 @@ struct Calibration {
   std::vector<LeaveOneOut> held_out;     ///< a target each: the final surrogate's own test
   std::vector<double> extra_sd;          ///< a target each: scatter that the runs' own errors don't tell [SI]
   std::vector<Candidate> candidates;     ///< run, and still predicted near every target; the likeliest first
-  Candidate best;                        ///< chosen: by `decide`, else the likeliest point that was run
+  std::optional<Decision> decision;      ///< between the candidates, where there are any and `decide` is given
+  Candidate best;                        ///< chosen: by the decision, else the likeliest point that was run
   bool reached = false;                  ///< whether best.chance is at least the probability asked for
   std::vector<Estimate> parameters;      ///< of the factors, given the targets and a flat prior in the box [SI]
   std::vector<double> told;          ///< 1 - sd of `parameters` over that of the flat prior: 0, the test says nothing

@@ -1,5 +1,6 @@
 // A calibration as JSON.
 #include "compare/calibrate/calibration_words.hpp"
+#include "compare/calibrate/decision_words.hpp"
 #include "compare/report/json_fields.hpp"
 
 namespace soilbin::compare {
@@ -79,20 +80,22 @@ Json to_json(const VirtualTest& test, const CalibrationOptions& options, const C
     targets.push_back(std::move(target));
   }
   for (const Candidate& candidate : calibration.candidates) candidates.push_back(json_of(test, candidate));
-  return {{"format", "soilbin-calibration/1"},
-          {"test", test.identity},
-          {"design", options.design},
-          {"near", options.near},
-          {"within", options.within},
-          {"probability", options.probability},
-          {"seed", options.seed},
-          {"reached", calibration.reached},
-          {"best", json_of(test, calibration.best)},
-          {"factors", factors},
-          {"targets", targets},
-          {"candidates", candidates},
-          {"runs", runs_json(test, calibration)},
-          {"sentences", calibration_sentences(test, options, calibration)}};
+  Json json{{"format", "soilbin-calibration/1"},
+            {"test", test.identity},
+            {"design", options.design},
+            {"near", options.near},
+            {"within", options.within},
+            {"probability", options.probability},
+            {"seed", options.seed},
+            {"reached", calibration.reached},
+            {"best", json_of(test, calibration.best)},
+            {"factors", factors},
+            {"targets", targets},
+            {"candidates", candidates},
+            {"runs", runs_json(test, calibration)},
+            {"sentences", calibration_sentences(test, options, calibration)}};
+  if (calibration.decision) json["decision"] = to_json(*calibration.decision);
+  return json;
 }
 
 }  // namespace soilbin::compare

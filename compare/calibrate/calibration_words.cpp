@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "compare/calibrate/decision_words.hpp"
 #include "compare/report/number_text.hpp"
 
 namespace soilbin::compare {
@@ -54,6 +55,13 @@ std::string order_sentence(const VirtualTest& test, const Calibration& calibrati
   return fmt::format("On {}: {}.", test.targets[target].name, order);
 }
 
+std::vector<std::string> sentences_on_decision(const CalibrationOptions& options, const Calibration& calibration) {
+  if (calibration.decision) return decision_sentences(*calibration.decision);
+  if (!options.decide) return {};
+  return {fmt::format("No point that was run lies within {} of the targets: the soil bin had nothing to decide.",
+                      percent(options.near))};
+}
+
 }  // namespace
 
 std::vector<std::string> calibration_sentences(const VirtualTest& test, const CalibrationOptions& options,
@@ -67,6 +75,7 @@ std::vector<std::string> calibration_sentences(const VirtualTest& test, const Ca
                                percent(options.within), chance));
   said.push_back("Chosen: " + values_in_words(test, calibration.best.values) + ".");
   said.push_back("It gives " + misses(test, calibration.best) + ".");
+  for (std::string& sentence : sentences_on_decision(options, calibration)) said.push_back(std::move(sentence));
   if (calibration.smallest_chi_square > 9)
     said.push_back(
         fmt::format("Nowhere between the bounds are the targets met (chi square at least {:.1f}): widen them.",
@@ -146,25 +155,38 @@ HtmlTable runs_table(const VirtualTest& test, const Calibration& calibration) {
 }
 
 HtmlTable candidates_table(const VirtualTest& test, const Calibration& calibration) {
-  HtmlTable table{"Candidates",
-                  {
-                      "",
-                  },
-                  {},
-                  {}};
+  HtmlTable table{"Candidates", {""}, {}, {}};
   for (std::string& name : columns_of(test)) table.header.push_back(std::move(name));
   for (const char* name : {"runs", "chi square", "chance"}) table.header.emplace_back(name);
-  char letter = 'a';
-  for (const Candidate& candidate : calibration.candidates) {
-    std::vector<std::string> row{fmt::format("({})", letter++)};
+  if (calibration.decision)
+    for (std::string& name : decision_columns(*calibration.decision)) table.header.push_back(std::move(name));
+  for (std::size_t k = 0; k < calibration.candidates.size(); ++k) {
+    const Candidate& candidate = calibration.candidates[k];
+    std::vector<std::string> row{candidate_name(k)};
     add_cells(row, test, candidate.values, candidate.predicted);
     row.push_back(std::to_string(candidate.runs));
     row.push_back(number(candidate.chi_square));
     row.push_back(percent(candidate.chance));
+    if (calibration.decision)
+      for (std::string& cell : decision_cells(*calibration.decision, k)) row.push_back(std::move(cell));
     table.rows.push_back(std::move(row));
   }
   return table;
 }
+
+namespace {
+
+/// What of a value's source is the decision's.
+std::string decided_by(const Calibration& calibration) {
+  if (!calibration.decision || !calibration.decision->decided()) return "";
+  const Decision& decision = *calibration.decision;
+  if (const int tied = decision.tied(); tied > 1)
+    return fmt::format("; the likeliest of {} candidates that the soil bin doesn't tell apart on {}", tied,
+                       decision.campaign);
+  return fmt::format("; of {} candidates the nearest to {} in the soil bin", decision.trials.size(), decision.campaign);
+}
+
+}  // namespace
 
 std::string key_of(ContactKind kind) { return kind == ContactKind::grain_grain ? "grain_grain" : "grain_tire"; }
 
@@ -180,16 +202,22 @@ double& value_of(ContactPair& pair, const std::string& name) {
   throw std::invalid_argument("a contact has no number '" + name + "'");
 }
 
+void put_values(GranularSoil& soil, ContactKind kind, const std::vector<Factor>& factors,
+                const Eigen::VectorXd& values) {
+  for (std::size_t j = 0; j < factors.size(); ++j)
+    value_of(pair_of(soil, kind), factors[j].name) = values[static_cast<Eigen::Index>(j)];
+}
+
 Soil calibrated_soil(Soil soil, ContactKind kind, const VirtualTest& test, const CalibrationOptions& options,
                      const Calibration& calibration) {
   GranularSoil& grains = soil.granular.value();
+  put_values(grains, kind, test.factors, calibration.best.values);
   for (std::size_t j = 0; j < test.factors.size(); ++j) {
     const Factor& factor = test.factors[j];
-    value_of(pair_of(grains, kind), factor.name) = calibration.best.values[static_cast<Eigen::Index>(j)];
     grains.sources[key_of(kind) + "." + factor.name] =
-        fmt::format("calibrated by soilbin calibrate ({}, {} runs): {}; the targets alone allow {}", options.design,
+        fmt::format("calibrated by soilbin calibrate ({}, {} runs): {}; the targets alone allow {}{}", options.design,
                     calibration.runs.size(), misses(test, calibration.best),
-                    value_with_unit(calibration.parameters[j], factor.unit));
+                    value_with_unit(calibration.parameters[j], factor.unit), decided_by(calibration));
   }
   return soil;
 }

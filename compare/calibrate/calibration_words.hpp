@@ -34,6 +34,10 @@ ContactPair& pair_of(GranularSoil& soil, ContactKind kind);
 /// A contact's number by its name: "sliding_friction". Throws std::invalid_argument for an unknown one.
 double& value_of(ContactPair& pair, const std::string& name);
 
+/// Puts values of factors, which are named as a contact's numbers, into that contact.
+void put_values(GranularSoil& soil, ContactKind kind, const std::vector<Factor>& factors,
+                const Eigen::VectorXd& values);
+
 /// The soil with the calibrated values in this contact; each names, as its source, the test, what it reached, and how
 /// well the targets determine the value. Factors are named as the contact's numbers.
 Soil calibrated_soil(Soil soil, ContactKind kind, const VirtualTest& test, const CalibrationOptions& options,

@@ -46,8 +46,8 @@ struct ContactQuestion {
   dem::WorkOptions how;
 };
 
-/// Sand on sand by the shear box, sand on tire by the tilting board. Throws InputError for a soil without grains and
-/// for settings that make no sense.
+/// Sand on sand by the shear box, sand on tire by the tilting board, with the soil's own rolling resistance. Throws
+/// InputError for a soil without grains and for settings that make no sense.
 VirtualTest contact_test(const Soil& soil, const ContactQuestion& question);
 
 /// The targets that a soil itself tells of a contact: phi and c for sand on sand. Throws InputError where it tells

@@ -37,6 +37,12 @@ const dem::DemModel& SoilBinRuns::model(std::uint64_t packing) {
   return *models_.emplace(packing, std::make_unique<dem::DemModel>(settings_)).first->second;
 }
 
+RunOnce kept_runs(const std::filesystem::path& file, const dem::DemSettings& settings, const Case& question,
+                  const EffectVocabulary& effects, std::string version, RunOnce run) {
+  Record empty{std::move(version), "dem", write_case(question, effects), inputs_of(settings, question.scenario), {}};
+  return kept_in(file, std::move(empty), std::move(run));
+}
+
 Inputs inputs_of(const dem::DemSettings& settings, const Scenario& scenario) {
   return dem::run_inputs(dem::DemModel(settings).recipe(scenario), scenario.tire, settings.rig);
 }

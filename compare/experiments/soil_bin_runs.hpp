@@ -1,6 +1,7 @@
 // Runs of the virtual soil bin for a record.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -26,6 +27,10 @@ class SoilBinRuns {
   std::shared_ptr<dem::WheelRun> told_ = std::make_shared<dem::WheelRun>();
   std::map<std::uint64_t, std::unique_ptr<dem::DemModel>> models_;
 };
+
+/// The runs of a case, kept in a file (kept_in) that is begun by `version` of soilbin.
+RunOnce kept_runs(const std::filesystem::path& file, const dem::DemSettings& settings, const Case& question,
+                  const EffectVocabulary& effects, std::string version, RunOnce run);
 
 /// What a run follows from beside condition and packing.
 Inputs inputs_of(const dem::DemSettings& settings, const Scenario& scenario);

@@ -290,7 +290,7 @@ void FreeDrive::stages() {
 }
 
 GrainDriveRecord FreeDrive::run() {
-  bin_.check_room();
+  bin_.way();  // refuses a bed too short or narrow
   const double before = bin_.tilting() + rig_.lowering + rig_.resting;
   bin_.run().plan(static_cast<double>(bin_.steps_of(before + drive_.duration)));
   bin_.run().through([&] { stages(); });

@@ -45,24 +45,21 @@ Setup WheelInBin::setup_for(const ContactPair& tire_contact, int threads) const 
   return setup;
 }
 
-void WheelInBin::check_room() const {
-  const BedSize& size = bed_.recipe.size;
-  if (way() <= 0)
+double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig) {
+  const double room = size.length - rig.behind - rig.ahead;
+  const double way = rig.travel > 0 ? std::min(rig.travel, room) : room;
+  if (way <= 0)
     throw InputError(
         fmt::format("a bed of {:.4g} m leaves the wheel no way: "
                     "{:.4g} m behind and {:.4g} m ahead are kept"
                     "\n  hint: a longer bed",
-                    size.length, rig_.behind, rig_.ahead));
-  if (size.width < 1.4999 * tire_.width)  // 150 mm is 1.5 times 100 mm, whatever rounding says
+                    size.length, rig.behind, rig.ahead));
+  if (size.width < 1.4999 * tire.width)  // 150 mm is 1.5 times 100 mm, whatever rounding says
     throw InputError(
         fmt::format("a bed {:.4g} m wide is too narrow for a tire "
                     "of {:.4g} m: at least 1.5 times its width",
-                    size.width, tire_.width));
-}
-
-double WheelInBin::way() const {
-  const double room = bed_.recipe.size.length - rig_.behind - rig_.ahead;
-  return rig_.travel > 0 ? std::min(rig_.travel, room) : room;
+                    size.width, tire.width));
+  return way;
 }
 
 void WheelInBin::tilt() {

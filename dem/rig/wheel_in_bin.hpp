@@ -50,6 +50,9 @@ void parts(Notes& notes, SampleUnderWay& s) {
   notes(s.sum, s.steps, s.taken, s.begun, s.travel, s.work);
 }
 
+/// That the axle may go [m]. Throws InputError for a bed too short or narrow.
+double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig);
+
 /// The stages before a wheel is driven, its steps and its samples. Bed, tire, rig and options must outlive it. Of the
 /// condition load, inclines and yaw are read. `inputs`: what the whole run follows from (StagedRun).
 class WheelInBin {
@@ -57,10 +60,8 @@ class WheelInBin {
   WheelInBin(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact, const OperatingCondition& at,
              const Rig& rig, const WorkOptions& how, const Checkpoints& checkpoints, std::string inputs);
 
-  /// Throws InputError for a bed too short or narrow.
-  void check_room() const;
-  /// That the axle may go [m].
-  double way() const;
+  /// way_in_bin of this bed, tire and rig.
+  double way() const { return way_in_bin(bed_.recipe.size, tire_, rig_); }
   /// Time in which gravity turns; 0 on level ground [s].
   double tilting() const;
   std::int64_t steps_of(double time) const;

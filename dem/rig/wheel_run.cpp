@@ -169,9 +169,9 @@ void Ride::stages() {
 }
 
 WheelRun Ride::run() {
-  bin_.check_room();
+  const double way = bin_.way();
   const double before = rig_.lowering + rig_.resting + rig_.starting;
-  const double driven = (bin_.way() - motion_.speed * rig_.starting / 2) / motion_.speed;
+  const double driven = (way - motion_.speed * rig_.starting / 2) / motion_.speed;
   run_in_stages().plan(static_cast<double>(bin_.steps_of(bin_.tilting() + at_.pass * (before + driven))));
   run_in_stages().through([&] { stages(); });
   WheelRun run;

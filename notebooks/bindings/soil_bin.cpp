@@ -54,11 +54,11 @@ class SoilBin {
     };
     unlocked([&] {
       const auto runs = std::make_shared<compare::SoilBinRuns>(settings, source_state());
-      const compare::RunOnce run = compare::kept_in(
-          file, {SOILBIN_VERSION, "dem", write_case(question, effect_vocabulary()), inputs(question.scenario), {}},
-          [runs](const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
-            return (*runs)(scenario, at, packing);
-          });
+      const compare::RunOnce run =
+          compare::kept_runs(file, settings, question, effect_vocabulary(), SOILBIN_VERSION,
+                             [runs](const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
+                               return (*runs)(scenario, at, packing);
+                             });
       for (const OperatingCondition& at : question.study.conditions)
         for (int k = 0; k < packings; ++k, ++done)
           run(question.scenario, at, settings.packing + static_cast<std::uint64_t>(k));

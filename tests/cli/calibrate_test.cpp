@@ -6,6 +6,7 @@
 namespace soilbin::cli::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 TEST(CalibrateCommand, RefusesWhatMakesNoSenseWithAHint) {
@@ -26,6 +27,15 @@ TEST(CalibrateCommand, RefusesWhatMakesNoSenseWithAHint) {
       {"calibrate paper-sand --runs 5", "less than the 9 of the design L9"},
       {"calibrate paper-sand --probability 100%", "--probability"},
       {"calibrate paper-sand --strength top", "'top' is none of peak, residual"},
+      {"calibrate paper-sand --rolling elastic_plastik", "did you mean 'elastic_plastic'"},
+      {"calibrate paper-sand --decide dem-nul", "did you mean 'dem-null'"},
+      {"calibrate paper-sand --decide dem-null --decide-at slop=1%..2%", "did you mean 'slip'"},
+      {"calibrate paper-sand --decide dem-null --decide-at slip=20%", "expected LOW..HIGH"},
+      {"calibrate paper-sand --decide dem-null --decide-at slip=70%..80%", "it has load 70 N, slip 20 %"},
+      {"calibrate paper-sand --decide dem-null --bed-length 0.6m", "leaves the wheel no way"},
+      {"calibrate paper-sand --decide cmu-grousered --bed-width 0.1m", "cmu-grousered: its wheel: "},
+      {"calibrate paper-sand --bed-length 3m", "--decide"},
+      {"calibrate paper-sand --decide dem-null --beside sets.csv", "--beside"},
   };
   for (const auto& [arguments, says] : wrong) {
     const Scratch scratch;
@@ -44,9 +54,11 @@ TEST(CalibrateCommand, NamesAStoreThatIsNone) {
   EXPECT_THAT(outcome.err, HasSubstr("store.json"));
 }
 
-/// Four grains across, two boards: seconds of work.
+/// Four grains across, two boards, the law that takes the longer step: seconds of work.
 const char* const small_board =
-    "calibrate paper-sand --contact tire --target board_angle=31.47deg --across 4 --packings 2 --threads 1 ";
+    "calibrate paper-sand --contact tire --target board_angle=31.47deg --rolling elastic_plastic --across 4 --packings "
+    "2 "
+    "--threads 1 ";
 
 TEST(SlowCalibrateCommand, FindsAContactKeepsItsRunsAndWritesASoil) {
   const Scratch scratch;
@@ -66,6 +78,56 @@ TEST(SlowCalibrateCommand, FindsAContactKeepsItsRunsAndWritesASoil) {
   // The soil is one that other commands take, with the values found.
   const Outcome taken = soilbin("check '" + (scratch / "soil.yaml").string() + "'");
   EXPECT_EQ(taken.status, 0) << taken.err;
+}
+
+/// Twenty-odd grains along a bed, a wheel of ten of them: a second a run.
+const char* const toy_soil =
+    "format: soilbin-soil/1\nname: toy\ngranular:\n  radius_min: 8 mm\n  radius_max: 12 mm\n  grain_density: 2500 "
+    "kg/m^3\n"
+    "  youngs_modulus: 3 MPa\n  poisson_ratio: 0.2\n  rolling_resistance: elastic_plastic\n"
+    "  grain_grain: {restitution: 0.4, sliding_friction: 0.5, rolling_friction: 0.1}\n"
+    "  grain_tire: {restitution: 0.4, sliding_friction: 0.5, rolling_friction: 0.5}\n";
+const char* const toy_campaign =
+    "format: soilbin-campaign/1\nname: toy-bin\nwheel: {radius: 80 mm, width: 60 mm}\nsoil:\n"
+    "  exponent: {value: 1, sd: 0}\n  k_c: {value: 0 kN/m^2, sd: 0 kN/m^2}\n  k_phi: {value: 1000 kN/m^3, sd: 0 "
+    "kN/m^3}\n"
+    "  cohesion: {value: 0 kPa, sd: 0 kPa}\n  friction_angle: {value: 28 deg, sd: 0 deg}\n"
+    "  shear_modulus: {value: 10 mm, sd: 0 mm}\n  stress_angle_c1: {value: 0.2, sd: 0}\n"
+    "  stress_angle_c2: {value: 0.3, sd: 0}\n  density: 1500 kg/m^3\nbin: {depth: 50 mm, width: 100 mm}\ndata: "
+    "runs.csv\n";
+
+TEST(SlowCalibrateCommand, LetsTheSoilBinDecideAndKeepsItsRuns) {
+  const Scratch scratch;
+  scratch.write("soil.yaml", toy_soil), scratch.write("campaign/campaign.yaml", toy_campaign);
+  scratch.write("campaign/runs.csv",
+                "setpoint,load_N,slip,speed_m_s,drawbar_pull_N,torque_Nm\nA,20,0.3,0.4,2,0.5\nA,20,0.3,0.4,3,0.6\n"
+                "B,20,0.6,0.4,3,0.7\n");
+  const auto at = [&](const char* name) { return "'" + (scratch / name).string() + "' "; };
+  const std::string asked = "calibrate " + at("soil.yaml") + "--contact tire --target board_angle=25deg --near 20% " +
+                            "--across 3 --packings 2 --runs 10 --threads 1 --store " + at("store.json") + "--decide " +
+                            at("campaign") +
+                            "--decide-at slip=25%..35% --bed-length 0.35m --behind 0.1m --ahead 0.1m " +
+                            "--lowering 0.1s --resting 0.02s --starting 0.05s --output " + at("out.yaml");
+  const std::string beds = "SOILBIN_BEDS=" + at("beds");
+  const Outcome first = soilbin(asked + "--json", beds);
+  ASSERT_TRUE(first.status == 0 || first.status == 1) << first.err;
+  const nlohmann::json found = first.json(), decision = found.at("decision");
+  const std::size_t candidates = found.at("candidates").size();
+  ASSERT_GE(candidates, 1U);
+  EXPECT_EQ(decision.at("campaign"), "toy-bin");
+  EXPECT_EQ(decision.at("setpoints").size(), 1U);
+  EXPECT_EQ(decision.at("setpoints").at(0).at("runs"), 2);
+  EXPECT_EQ(decision.at("trials").size(), candidates);
+  EXPECT_EQ(decision.at("runs"), candidates);
+  EXPECT_EQ(found.at("best"), found.at("candidates").at(decision.at("chosen").get<std::size_t>()));
+  EXPECT_THAT(text_of(scratch / "out.yaml"), AllOf(HasSubstr("soil bin"), HasSubstr("toy-bin")));
+  // Again: from what was kept, and told in words.
+  const Outcome again = soilbin(asked + "--json", beds);
+  EXPECT_EQ(again.json().at("decision"), decision);
+  const Outcome words = soilbin(asked, beds);
+  EXPECT_THAT(words.out, HasSubstr("is nearest to toy-bin"));
+  EXPECT_THAT(words.out, HasSubstr("torque off [% W r]"));
+  EXPECT_THAT(words.out, HasSubstr("chosen"));
 }
 
 TEST(SlowCalibrateCommand, PutsPublishedSetsBesideOurs) {

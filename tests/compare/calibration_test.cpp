@@ -199,14 +199,31 @@ TEST(Calibration, AnotherExperimentDecides) {
   CalibrationOptions options;
   options.decide = [&](const std::vector<Candidate>& candidates) {
     asked = candidates.size();
-    std::vector<double> errors;
-    for (const Candidate& candidate : candidates) errors.push_back(std::abs(candidate.values[0] - 0.45));
-    return errors;
+    Decision decision;
+    for (const Candidate& candidate : candidates) {
+      decision.trials.emplace_back().error = {std::abs(candidate.values[0] - 0.45), 0};
+      if (decision.trials.back().error->value < decision.trials[decision.chosen].error->value)
+        decision.chosen = decision.trials.size() - 1;
+    }
+    return decision;
   };
   const Calibration found = calibrate(board(), options, store);
   EXPECT_EQ(asked, found.candidates.size());
   for (const Candidate& other : found.candidates)
     EXPECT_LE(std::abs(found.best.values[0] - 0.45), std::abs(other.values[0] - 0.45));
+}
+
+TEST(Calibration, WhereNothingIsDecidedTheLikeliestStays) {
+  ExperimentStore store;
+  CalibrationOptions options;
+  options.decide = [](const std::vector<Candidate>& candidates) {
+    Decision decision;
+    decision.trials.resize(candidates.size());  // none has an error
+    decision.chosen = candidates.size() - 1;
+    return decision;
+  };
+  const Calibration found = calibrate(board(), options, store), undecided = calibrate(board(), {}, store);
+  EXPECT_EQ(found.best.values, undecided.best.values);
 }
 
 TEST(Calibration, WhatMakesNoSenseIsRefused) {

@@ -1,0 +1,120 @@
+#include "cli/decision_flags.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "cli/flag_values.hpp"
+#include "cli/versions.hpp"
+#include "compare/sweep/varying.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+using compare::Setpoint;
+
+/// A member of the condition that setpoints can be picked by.
+struct Axis {
+  std::string name;
+  double OperatingCondition::*member;
+  Measure measure;
+};
+
+/// The visitor of OperatingCondition's description that gathers its numbers.
+struct Axes {
+  std::vector<Axis> all;
+
+  void number(const char* key, double OperatingCondition::*member, const Measure& measure, Need, const char*) {
+    all.push_back({key, member, measure});
+  }
+  void number(const char*, std::optional<double> OperatingCondition::*, const Measure&, Need, const char*) {}
+  template <class N>
+  void integer(const char*, N OperatingCondition::*, int, Need, const char*) {}
+  template <class E>
+  void choice(const char*, E OperatingCondition::*, Need, const char*) {}
+};
+
+Axis axis_called(const std::string& name) {
+  Axes axes;
+  describe(axes, std::type_identity<OperatingCondition>{});
+  std::vector<std::string> right;
+  for (const Axis& axis : axes.all) {
+    if (axis.name == name) return axis;
+    right.push_back(axis.name);
+  }
+  throw InputError(
+      fmt::format("--decide-at: '{}' is none of {}{}", clipped(name), listed(right), did_you_mean(name, right)));
+}
+
+std::string conditions_of(const std::vector<Setpoint>& setpoints) {
+  constexpr std::size_t shown = 8;
+  std::string text;
+  for (std::size_t k = 0; k < setpoints.size() && k < shown; ++k)
+    text += (k == 0 ? "" : "; ") + compare::in_words(setpoints[k].at);
+  return setpoints.size() > shown ? text + "; ..." : text;
+}
+
+std::vector<Setpoint> picked(const std::vector<std::string>& texts, const compare::Campaign& campaign) {
+  const std::vector<Setpoint> all = compare::setpoints_of(campaign);
+  std::vector<Setpoint> kept = all;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    const Axis axis = axis_called(text.substr(0, equals));
+    const std::string range = equals == std::string::npos ? "" : text.substr(equals + 1);
+    const auto [lower, upper] = read_range("--decide-at " + axis.name, range, axis.measure);
+    kept = compare::between(kept, axis.member, lower, upper);
+  }
+  if (kept.empty())
+    throw InputError(
+        fmt::format("--decide-at: {} has no setpoint there\n  hint: it has {}", campaign.name, conditions_of(all)));
+  return kept;
+}
+
+}  // namespace
+
+void DecisionFlags::add_to(CLI::App& command) {
+  const char* group = "Decided by the soil bin";
+  CLI::Option* decide =
+      command.add_option("--decide", campaign, "let the soil bin choose the candidate nearest to this campaign")
+          ->type_name("CAMPAIGN")
+          ->group(group);
+  command.add_option("--decide-at", at, "only at its setpoints between these; repeatable")
+      ->type_name("NAME=LOW..HIGH")
+      ->needs(decide)
+      ->group(group);
+  command.add_option("--bed-packings", packings, "beds on which each candidate runs, from --seed on; 1")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber)
+      ->needs(decide)
+      ->group(group);
+  const std::vector<CLI::Option*> before = command.get_options();
+  bin.add_measures_to(command);
+  bin.add_starting_to(command);
+  for (CLI::Option* option : command.get_options())
+    if (std::find(before.begin(), before.end(), option) == before.end()) option->needs(decide)->group(group);
+}
+
+compare::TrialQuestion DecisionFlags::question(const Workplace& place) const {
+  compare::TrialQuestion question;
+  question.campaign = find_campaign(place, campaign);
+  question.setpoints = picked(at, question.campaign);
+  if (question.campaign.bin) {
+    set_where_given("--bed-depth", bin.depth, {"m", above_zero}, question.campaign.bin->depth);
+    set_where_given("--bed-width", bin.width, {"m", above_zero}, question.campaign.bin->width);
+  }
+  return question;
+}
+
+compare::TrialSettings DecisionFlags::settings(std::uint64_t seed, std::filesystem::path records) const {
+  compare::TrialSettings settings;
+  settings.bin = settings_of(bin);
+  settings.bin.packing = seed;
+  settings.packings = packings;
+  settings.records = std::move(records);
+  settings.version = SOILBIN_VERSION, settings.source = source_state();
+  return settings;
+}
+
+}  // namespace soilbin::cli

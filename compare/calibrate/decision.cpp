@@ -1,0 +1,233 @@
+#include "compare/calibrate/decision.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "compare/loop/observations.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+constexpr double apart_by = 2.0;  // standard errors
+
+/// Mean and squares about it, of one channel at one setpoint.
+struct Cells {
+  int count = 0;
+  double mean = 0.0, squares = 0.0;
+  void add(double value) {
+    const double off = value - mean;
+    mean += off / ++count;
+    squares += off * (value - mean);
+  }
+};
+
+struct Gathered {
+  OperatingCondition sum;
+  int runs = 0;
+  OfChannels<Cells> cells;
+};
+
+/// Rows of a campaign by setpoint. What is set once a setpoint is the first row's; what a rig only aims at is averaged.
+std::vector<Gathered> gather(const Campaign& campaign) {
+  const Observations all = observe(campaign);
+  std::vector<Gathered> gathered(static_cast<std::size_t>(all.conditions));
+  for (std::size_t row = 0; row < all.rows.size(); ++row) {
+    Gathered& into = gathered[static_cast<std::size_t>(all.condition[row])];
+    OperatingCondition at = all.rows[row];
+    if (into.runs++ > 0) {
+      at = into.sum;
+      for (double OperatingCondition::*aimed :
+           {&OperatingCondition::load, &OperatingCondition::slip, &OperatingCondition::speed})
+        at.*aimed += all.rows[row].*aimed;
+    }
+    into.sum = at;
+  }
+  for (const Cell& cell : all.cells)
+    gathered[static_cast<std::size_t>(all.condition[static_cast<std::size_t>(cell.row)])]
+        .cells[static_cast<std::size_t>(cell.channel)]
+        .add(cell.value);
+  return gathered;
+}
+
+/// Standard deviation of a channel within setpoints that were run again; 0 without any.
+double rerun_sd(const std::vector<Gathered>& gathered, std::size_t channel) {
+  double squares = 0.0, freedom = 0.0;
+  for (const Gathered& one : gathered)
+    squares += one.cells[channel].squares, freedom += std::max(0, one.cells[channel].count - 1);
+  return freedom > 0 ? std::sqrt(squares / freedom) : 0.0;
+}
+
+/// What a channel is told in shares of.
+double whole_of(std::size_t channel, double load, double radius) {
+  switch (static_cast<Channel>(channel)) {
+    case Channel::torque:
+      return load * radius;
+    case Channel::sinkage:
+      return radius;
+    case Channel::drawbar_pull:
+    case Channel::lateral_force:
+      break;
+  }
+  return load;
+}
+
+/// simulated - measured as a share of the load, with both errors and its weight in E^2.
+struct Miss {
+  double off = 0.0, simulated_sd = 0.0, measured_sd = 0.0, weight = 0.0;
+};
+/// Of a candidate: a setpoint each, a channel each; without weight where there is nothing to compare.
+using Misses = std::vector<OfChannels<Miss>>;
+
+Misses misses_of(const std::vector<Setpoint>& setpoints, const std::vector<Answer>& answers, double radius) {
+  OfChannels<int> count{};
+  for (const Setpoint& setpoint : setpoints)
+    for (std::size_t c = 0; c < count.size(); ++c) count[c] += setpoint.measured[c].has_value();
+  const auto channels = std::count_if(count.begin(), count.end(), [](int n) { return n > 0; });
+  Misses misses(setpoints.size());
+  for (std::size_t s = 0; s < setpoints.size(); ++s)
+    for (std::size_t c = 0; c < count.size(); ++c) {
+      if (!setpoints[s].measured[c]) continue;
+      const Estimate measured = *setpoints[s].measured[c];
+      const Estimate simulated = (*answers[s].result).*channel_views[c].predicted;
+      const double whole = whole_of(c, setpoints[s].at.load, radius);
+      misses[s][c] = {(simulated.value - measured.value) / whole, simulated.std_error / whole,
+                      measured.std_error / whole, 1.0 / static_cast<double>(channels * count[c])};
+    }
+  return misses;
+}
+
+double squares_of(const Misses& misses) {
+  double sum = 0.0;
+  for (const auto& setpoint : misses)
+    for (const Miss& miss : setpoint) sum += miss.weight * miss.off * miss.off;
+  return sum;
+}
+
+/// Sum over setpoints of (sum over channels of 2 w |off| sd)^2: the channels of one run err together.
+template <class Term>
+double variance_of(std::size_t setpoints, const Term& term) {
+  double variance = 0.0;
+  for (std::size_t s = 0; s < setpoints; ++s) {
+    double sum = 0.0;
+    for (std::size_t c = 0; c < channel_views.size(); ++c) sum += 2 * term(s, c);
+    variance += sum * sum;
+  }
+  return variance;
+}
+
+/// sqrt(E^2) and its error, d(E^2)/(2 E).
+Estimate root_of(double squares, double variance) {
+  const double root = std::sqrt(squares);
+  return {root, root > 0 ? std::sqrt(variance) / (2 * root) : 0.0};
+}
+
+double weight_in(const Misses& misses, std::size_t channel) {
+  double sum = 0.0;
+  for (const auto& setpoint : misses) sum += setpoint[channel].weight;
+  return sum;
+}
+
+void tell_errors(const Misses& misses, Trial& trial) {
+  const auto own = [&](std::size_t s, std::size_t c) {
+    const Miss& miss = misses[s][c];
+    return miss.weight * std::abs(miss.off) * std::hypot(miss.simulated_sd, miss.measured_sd);
+  };
+  trial.error = root_of(squares_of(misses), variance_of(misses.size(), own));
+  for (std::size_t channel = 0; channel < channel_views.size(); ++channel) {
+    const double weight = weight_in(misses, channel);
+    if (!(weight > 0)) continue;
+    double squares = 0.0;
+    for (const auto& setpoint : misses)
+      squares += setpoint[channel].weight / weight * setpoint[channel].off * setpoint[channel].off;
+    trial.errors[channel] = root_of(squares, variance_of(misses.size(), [&](std::size_t s, std::size_t c) {
+                                      return c == channel ? own(s, c) / weight : 0.0;
+                                    }));
+  }
+}
+
+bool told_apart(const Misses& farther, const Misses& nearest) {
+  const std::size_t n = farther.size();
+  const double variance = variance_of(n,
+                                      [&](std::size_t s, std::size_t c) {
+                                        const Miss& k = farther[s][c];
+                                        return k.weight * std::abs(k.off) * k.simulated_sd;
+                                      }) +
+                          variance_of(n,
+                                      [&](std::size_t s, std::size_t c) {
+                                        const Miss& b = nearest[s][c];
+                                        return b.weight * std::abs(b.off) * b.simulated_sd;
+                                      }) +
+                          variance_of(n, [&](std::size_t s, std::size_t c) {
+                            const Miss& k = farther[s][c];
+                            return k.weight * std::abs(k.off - nearest[s][c].off) * k.measured_sd;
+                          });
+  return squares_of(farther) - squares_of(nearest) > apart_by * std::sqrt(variance);
+}
+
+bool all_answered(const std::vector<Answer>& answers) {
+  return std::all_of(answers.begin(), answers.end(), [](const Answer& one) { return one.result.has_value(); });
+}
+
+}  // namespace
+
+std::vector<Setpoint> setpoints_of(const Campaign& campaign) {
+  const std::vector<Gathered> gathered = gather(campaign);
+  std::vector<Setpoint> setpoints;
+  for (const Gathered& one : gathered) {
+    Setpoint setpoint{one.sum, one.runs, {}};
+    setpoint.at.load /= one.runs, setpoint.at.slip /= one.runs, setpoint.at.speed /= one.runs;
+    setpoint.at.moisture.reset(), setpoint.at.position.reset(), setpoint.at.run.reset();
+    bool any = false;
+    for (std::size_t c = 0; c < channel_views.size(); ++c)
+      if (const Cells& cells = one.cells[c]; cells.count > 0)
+        setpoint.measured[c] = {cells.mean, rerun_sd(gathered, c) / std::sqrt(cells.count)}, any = true;
+    if (any) setpoints.push_back(setpoint);
+  }
+  return setpoints;
+}
+
+std::vector<Setpoint> between(const std::vector<Setpoint>& setpoints, double OperatingCondition::*member, double lower,
+                              double upper) {
+  std::vector<Setpoint> kept;
+  for (const Setpoint& setpoint : setpoints)
+    if (setpoint.at.*member >= lower && setpoint.at.*member <= upper) kept.push_back(setpoint);
+  return kept;
+}
+
+bool Decision::decided() const {
+  return std::any_of(trials.begin(), trials.end(), [](const Trial& trial) { return trial.error.has_value(); });
+}
+
+int Decision::tied() const {
+  return static_cast<int>(
+      std::count_if(trials.begin(), trials.end(), [](const Trial& trial) { return trial.error && !trial.apart; }));
+}
+
+Decision decide(std::string campaign, std::vector<Setpoint> setpoints, std::vector<std::vector<Answer>> answers,
+                double radius) {
+  Decision decision{std::move(campaign), std::move(setpoints), {}};
+  std::vector<Misses> misses;
+  for (std::vector<Answer>& row : answers) {
+    if (row.size() != decision.setpoints.size())
+      throw std::invalid_argument("whoever decides between candidates gives an answer for each setpoint");
+    Trial& trial = decision.trials.emplace_back(Trial{std::move(row), {}, {}});
+    misses.emplace_back();
+    if (!all_answered(trial.answers)) continue;
+    misses.back() = misses_of(decision.setpoints, trial.answers, radius);
+    tell_errors(misses.back(), trial);
+  }
+  if (!decision.decided()) return decision;
+  const auto error = [&](std::size_t k) { return decision.trials[k].error; };
+  for (std::size_t k = 0; k < misses.size(); ++k)
+    if (error(k) && (!error(decision.nearest) || error(k)->value < error(decision.nearest)->value))
+      decision.nearest = k;
+  for (std::size_t k = 0; k < misses.size(); ++k)
+    if (error(k)) decision.trials[k].apart = told_apart(misses[k], misses[decision.nearest]);
+  decision.chosen = decision.nearest;
+  for (std::size_t k = misses.size(); k-- > 0;)
+    if (error(k) && !decision.trials[k].apart) decision.chosen = k;
+  return decision;
+}
+
+}  // namespace soilbin::compare
