@@ -169,7 +169,7 @@ void extend(const Campaign& campaign, Identification& id, std::size_t index, con
   const double p = family_wise_p(signatures, strongest(signatures), id.noise.typical_freedom(), options.simulations / 2,
                                  options.seed + 17 * from.terms.size());
   if (p > options.level) return;
-  for (const Signature* s : contenders(signatures, options.refits / 3)) {
+  for (const Signature* s : contenders(signatures, options.refits / 2)) {
     options.pulse();
     std::vector<Term> terms = from.terms;
     terms.push_back(make_term(*s->term.form, id.observations, true));
@@ -231,8 +231,10 @@ void other_forms(const Campaign& campaign, Identification& id, const Rival& from
       if (!fitted.insert(forms_of(terms)).second) continue;
       options.pulse();
       std::map<int, std::vector<double>> traced;
-      for (int t = 0; t < static_cast<int>(terms.size()); ++t)
-        traced[t] = predictor.term_values(static_cast<std::size_t>(t), from.fit.theta);
+      for (int t = 0; t < static_cast<int>(terms.size()); ++t) {
+        traced[t] = terms[static_cast<std::size_t>(t)].defaults;  // shapes that suited the other form may be far off
+        traced[t].front() = from.fit.theta[predictor.amplitude_index(t)];
+      }
       traced[static_cast<int>(m)] = reach_of(s);
       if (auto rival = refit(campaign, id, terms, {id.base.theta, id.base.chi2, traced, id.base.chi2 - from.fit.chi2}))
         id.rivals.push_back(std::move(*rival));

@@ -72,11 +72,10 @@ class WheelPredictor {
   /// The choices that theta stands for, for a resolved model.
   std::vector<EffectChoice> choices(const Eigen::VectorXd& theta) const;
   bekker_wong::SoilValues soil(const Eigen::VectorXd& theta) const;
-  /// All parameters of a term's form at theta [SI].
-  std::vector<double> term_values(std::size_t term, const Eigen::VectorXd& theta) const;
 
  private:
   bekker_wong::EffectList effects(const Eigen::VectorXd& theta) const;
+  std::vector<double> term_values(std::size_t term, const Eigen::VectorXd& theta) const;
 
   const Campaign* campaign_;
   const Observations* observations_;
