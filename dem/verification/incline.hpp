@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include "dem/engine/simulation.hpp"
 #include "dem/verification/cases.hpp"
