@@ -35,6 +35,13 @@ std::string kind_of(Shelf shelf) {
   return "";
 }
 
+/// What to do with a name that is asked for on the wrong shelf.
+std::string where_it_goes(Shelf shelf, const std::string& name, const std::string& there) {
+  if (shelf == Shelf::tires || shelf == Shelf::soils)
+    return fmt::format("--{} {} takes it; {}", kind_of(shelf), name, there);
+  return there;
+}
+
 void add_where_present(const fs::path& folder, std::vector<fs::path>& folders) {
   std::error_code error;
   if (fs::is_directory(folder, error)) folders.push_back(folder);
@@ -61,10 +68,13 @@ fs::path find_file(const Library& library, Shelf shelf, const std::string& name)
   std::error_code error;
   if (fs::exists(name, error)) return name;
   const std::vector<std::string> names = library.names(shelf);
-  throw InputError(
-      fmt::format("no {} '{}' in the library, and no such file{}\n  hint: {}", kind_of(shelf), clipped(name),
-                  did_you_mean(name, names),
-                  names.empty() ? "the library is empty; see soilbin doctor" : "there are " + listed(names)));
+  const std::string there = names.empty() ? "the library is empty; see soilbin doctor" : "there are " + listed(names);
+  for (const Shelf other : {Shelf::tires, Shelf::soils, Shelf::studies, Shelf::measured})
+    if (other != shelf && library.find(other, name))
+      throw InputError(fmt::format("no {} '{}' in the library: that is a {}\n  hint: {}", kind_of(shelf), name,
+                                   kind_of(other), where_it_goes(other, name, there)));
+  throw InputError(fmt::format("no {} '{}' in the library, and no such file{}\n  hint: {}", kind_of(shelf),
+                               clipped(name), did_you_mean(name, names), there));
 }
 
 std::string_view folder_of(Shelf shelf) {

@@ -9,7 +9,7 @@
 namespace soilbin::dem {
 namespace {
 
-constexpr double r = 0.01;
+constexpr double grain_radius = 0.01;
 
 bool all(const GrainNow&) { return true; }
 
@@ -20,7 +20,8 @@ Simulation rough_base(Setup setup) {
   floor.surfaces.push_back({Plane{}, 0});
   simulation.add_body(floor);
   for (int k = 0; k < 27; ++k)
-    simulation.add_grain({0.019 * (k % 3), 0.019 * (k / 3 % 3), 0.009 + 0.019 * (k / 9)}, r, 0, {1, 2, 3}, {4, 5, 6});
+    simulation.add_grain({0.019 * (k % 3), 0.019 * (k / 3 % 3), 0.009 + 0.019 * (k / 9)}, grain_radius, 0, {1, 2, 3},
+                         {4, 5, 6});
   simulation.hold_grains(all);
   for (test::Grain grain : test::cloud(64, 4, 1)) {
     grain.position.z += 0.08;
@@ -34,9 +35,9 @@ TEST(HeldGrain, ThrowsABallBackLikeAnythingOfInfiniteMass) {
   dem::Setup setup = test::soft_stone({{.normal = NormalLaw::hooke}}, {.restitution = 0.6, .normal_stiffness = 2e4});
   setup.numerics.dt = 1e-7;
   Simulation simulation(setup);
-  simulation.add_grain({}, r, 0);
+  simulation.add_grain({}, grain_radius, 0);
   EXPECT_EQ(simulation.hold_grains(all), 1u);
-  const GrainId ball = simulation.add_grain({2 * r, 0, 0}, r, 0, {-1, 0, 0});
+  const GrainId ball = simulation.add_grain({2 * grain_radius, 0, 0}, grain_radius, 0, {-1, 0, 0});
   // Of mass m alone: pi sqrt(m/k (1 - beta^2)) = 2.25e-3 s long for m = 0.01047 kg, and e of its speed afterwards.
   simulation.run(25000);
   EXPECT_NEAR(simulation.grain(ball).velocity.x, 0.6, 1e-3);

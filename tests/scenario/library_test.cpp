@@ -44,6 +44,10 @@ TEST(Library, FindsTheFileBehindANameOrAPath) {
   EXPECT_EQ(find_file(library(), Shelf::studies, "mine/case.yaml"), "mine/case.yaml") << "a path is taken as it is";
   EXPECT_THAT(test::refusal([] { find_file(library(), Shelf::measured, "cmu-smoth"); }),
               HasSubstr("no campaign 'cmu-smoth' in the library, and no such file, did you mean 'cmu-smooth'?"));
+  EXPECT_THAT(test::refusal([] { find_file(library(), Shelf::studies, "rover-wheel"); }),
+              HasSubstr("no study 'rover-wheel' in the library: that is a tire\n  hint: --tire rover-wheel takes it"));
+  EXPECT_THAT(test::refusal([] { find_file(library(), Shelf::measured, "rover-climb"); }),
+              HasSubstr("no campaign 'rover-climb' in the library: that is a study\n  hint: there are cmu-"));
 }
 
 TEST(Library, SearchesTheUsersFoldersFirst) {
