@@ -27,7 +27,7 @@ dem::DemSettings small_bin() {
 }
 
 /// Grains that don't roll on the tire, so that its sliding friction counts.
-Soil sand() {
+Soil trial_sand() {
   Soil soil;
   soil.name = "soft", soil.granular = dem::test::soft_soil();
   soil.granular->grain_tire.rolling_friction = 1;
@@ -36,7 +36,7 @@ Soil sand() {
 
 TrialQuestion unanswered() {
   TrialQuestion question;
-  question.soil = sand();
+  question.soil = trial_sand();
   question.factors = {{"sliding_friction", 0, 1, "-"}};
   question.campaign.name = "nature";
   question.campaign.wheel = dem::test::small_wheel();
