@@ -5,15 +5,30 @@
 
 #include <chrono>
 #include <csignal>
+#include <ctime>
 
 namespace soilbin::cli {
 namespace {
 
 volatile std::sig_atomic_t stop_asked = 0;
+long long asked_at = 0;  // [ms], of the first signal; touched by the handler alone
 
+long long now_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);  // may be called from a handler
+  return 1000LL * now.tv_sec + now.tv_nsec / 1'000'000;
+}
+
+/// The first signal asks for a clean stop; another one a second later ends at once. Sooner it is the same one again, as
+/// `timeout` sends it: to the command, and to its group.
 void remember(int signal) {
-  stop_asked = 1;
-  std::signal(signal, SIG_DFL);
+  if (stop_asked == 0) {
+    stop_asked = 1;
+    asked_at = now_ms();
+  } else if (now_ms() - asked_at > 1000) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
 }
 
 }  // namespace
