@@ -13,7 +13,7 @@ struct Interrupted : std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-/// From now on Ctrl-C is remembered; a second one ends the program at once.
+/// From now on Ctrl-C is remembered; another one, a second later or more, ends the program at once.
 void catch_interrupts();
 /// Whether it was pressed.
 bool interrupt_asked();
