@@ -7,11 +7,11 @@
 //
 // The amplitude is the share of the lug height that acts. Where the tire declares no lugs the height it multiplies is
 // 5 % of the radius, and 24 lugs where it declares no count, so that an undeclared lug has a trace as well.
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "bekker_wong/earth_pressure.hpp"
+#include "bekker_wong/effects/edge.hpp"
 #include "bekker_wong/effects/forms.hpp"
 
 namespace soilbin::bekker_wong {
@@ -115,12 +115,12 @@ class LevelBlade final : public Effect {
     const WallResistance face = passive_wall(r.soil);
     AddedForce force{.name = "lug_thrust"};
     for (int i = 0; i < r.patch.count; ++i) {
-      const double cosine = std::cos(r.patch.theta[i]), above = std::max(0.0, radius * (cosine - entry_cosine));
+      const Edge e = edge(r, i, entry_cosine);
       const double way = std::abs(slide) * radius * r.patch.since_entry[i] / r.patch.modulus[i];
-      const double push = std::copysign(lugs_per_metre * r.patch.arc[i] * face(h, weight * above), slide) *
+      const double push = std::copysign(lugs_per_metre * r.patch.arc[i] * face(h, weight * e.depth), slide) *
                           (motion.locked ? 1.0 : -std::expm1(-way));
       force.forward += push;
-      force.torque += push * cosine * (r.patch.arm[i] + 0.5 * h);
+      force.torque += push * e.cosine * (r.patch.arm[i] + 0.5 * h);
     }
     ledger.add(force);
   }

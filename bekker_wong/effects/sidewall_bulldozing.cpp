@@ -13,21 +13,11 @@
 #include <limits>
 
 #include "bekker_wong/earth_pressure.hpp"
+#include "bekker_wong/effects/edge.hpp"
 #include "bekker_wong/effects/forms.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
-
-/// The wall's edge at a node of the tread.
-struct Edge {
-  double cosine;  ///< of theta
-  double depth;   ///< under the surface [m]
-};
-
-Edge edge(const Rolling& r, int i, double entry_cosine) {
-  const double cosine = std::cos(r.patch.theta[i]);
-  return {cosine, std::max(0.0, r.outline.radius * (cosine - entry_cosine))};
-}
 
 /// Share of the load along the cross slope, positive where the soil must hold the wheel from the right [N].
 double downhill_share(const Surroundings& around) {

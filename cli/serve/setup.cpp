@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bekker_wong/effect.hpp"
 #include "cli/command_words.hpp"
 #include "cli/question.hpp"
 #include "cli/serve/controls.hpp"
 #include "cli/text_output.hpp"
 #include "scenario/mapping_writer.hpp"
+#include "scenario/quantity.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
