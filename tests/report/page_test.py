@@ -102,6 +102,17 @@ class ThePage(unittest.TestCase):
         self.assertEqual(self.js("document.activeElement.dataset.column"), "1")
         self.assertEqual(self.js("document.querySelector('.reading').textContent"), self.js("document.activeElement.dataset.tip"))
 
+    def test_4b_a_mouse_that_lies_still_takes_nothing_from_the_keys(self):
+        focus = "document.querySelector('.heat .cell').focus()"
+        self.js(focus)
+        x, y = self.js("(r => [r.x + r.width / 2, r.y + r.height / 2])(document.querySelector('.heat .cell[data-column=\"2\"]').getBoundingClientRect())")
+        self.browser.mouse("mouseMoved", x, y)
+        pointed = self.js("document.querySelector('.heat .cell[data-column=\"2\"]').dataset.tip")
+        self.assertTrue(self.browser.until(f"document.querySelector('.reading').textContent === {pointed!r}"))
+        self.browser.key("ArrowRight")
+        self.browser.mouse("mouseMoved", x, y)  # as the browser tells it where the page scrolls under the mouse
+        self.assertEqual(self.js("document.querySelector('.reading').textContent"), self.js("document.activeElement.dataset.tip"))
+
     def test_5_choosing_a_condition_shows_that_one_alone(self):
         box = "[...document.querySelectorAll('.choices')].find(b => b.dataset.what === 'Condition')"
         self.js(f"(s => {{ s.value = 3; s.dispatchEvent(new Event('change')); }})({box}.querySelector('select'))")

@@ -14,6 +14,16 @@ soilbin.formatNumber = function (value) {
 
 soilbin.dashes = [null, '7 4', '1 4', '8 4 1 4'];
 
+// Whether a hand moved the mouse: where the page scrolls under a mouse that lies still, it is told to move too, and what
+// the keys read would be lost.
+soilbin.pointed = false;
+soilbin.pointer = {x: NaN, y: NaN};
+document.addEventListener('mousemove', event => {
+  const {clientX: x, clientY: y} = event;
+  soilbin.pointed = x !== soilbin.pointer.x || y !== soilbin.pointer.y;
+  soilbin.pointer = {x, y};
+}, true);
+
 // One panel: a plot of the sheet in the element `host`. Hidden labels are those in the set `hidden`.
 soilbin.Chart = class {
   constructor(host, plot, hidden) {
@@ -144,7 +154,7 @@ soilbin.Chart = class {
       this.show();
     };
     const leave = () => { this.reading = null; this.show(); };
-    this.svg.on('mousemove', at).on('touchstart.reading', at).on('mouseleave', leave).on('blur', leave);
+    this.svg.on('mousemove', () => soilbin.pointed && at()).on('touchstart.reading', at).on('mouseleave', leave).on('blur', leave);
     this.svg.on('keydown', () => {
       const {key} = d3.event, last = this.places().length - 1;
       const steps = {ArrowLeft: -1, ArrowRight: 1};

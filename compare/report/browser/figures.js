@@ -93,7 +93,7 @@ soilbin.enlivenHeatMap = function (svg) {
   cells.forEach((cell, i) => {
     cell.setAttribute('tabindex', i === 0 ? 0 : -1);
     const tell = () => { said.textContent = cell.dataset.tip; };
-    cell.addEventListener('mouseenter', tell);
+    cell.addEventListener('mousemove', () => { if (soilbin.pointed) tell(); });
     cell.addEventListener('focus', tell);
     cell.addEventListener('keydown', event => {
       const step = steps[event.key];
