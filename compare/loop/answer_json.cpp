@@ -95,6 +95,15 @@ ordered_json next_json(const LoopAnswer& answer) {
           {"beyond", answer.next->beyond}};
 }
 
+/// What stands out where the base model may be off by itself.
+ordered_json inadequacy_json(const LoopAnswer& answer) {
+  if (!answer.inadequate) return nullptr;
+  const Identification& id = answer.inadequate->identification;
+  ordered_json effects = ordered_json::array();
+  if (id.best) effects = id.rivals[*id.best].ids;
+  return {{"effects", effects}, {"p_value", finite(id.p_value)}, {"size", finite(answer.inadequate->size)}};
+}
+
 }  // namespace
 
 ordered_json to_json(const LoopAnswer& answer) {
@@ -112,7 +121,8 @@ ordered_json to_json(const LoopAnswer& answer) {
           {"next_test", next_json(answer)},
           {"soil", soil_json(answer)},
           {"outliers", answer.outliers},
-          {"stand_in", effects_json(answer.stand_in)}};
+          {"stand_in", effects_json(answer.stand_in)},
+          {"beside_inadequacy", inadequacy_json(answer)}};
 }
 
 ordered_json details_json(const LoopAnswer& answer) {

@@ -60,6 +60,28 @@ std::string effect_sentence(const AcceptedEffect& effect) {
   return fmt::format("{} in the form '{}', {} (SI).", effect.choice.id, effect.choice.form, parameters);
 }
 
+/// The sets with their weights; those of next to none are only counted.
+std::string ambiguity_words(const std::vector<Weighted>& sets) {
+  constexpr double little = 0.005;
+  std::string text;
+  std::size_t unsaid = 0;
+  for (const Weighted& w : sets)
+    if (w.weight < little && &w != &sets.front())
+      ++unsaid;
+    else
+      text += fmt::format("{}{} ({:.0f} %)", text.empty() ? "" : ", ", joined(w.ids), 100 * w.weight);
+  if (unsaid > 0) text += fmt::format(", and {} more set{} of less than a per cent", unsaid, unsaid == 1 ? "" : "s");
+  return text;
+}
+
+/// What stands out where the base model may be off by itself.
+std::string inadequacy_sentence(const Identification& beside) {
+  const std::string premise = "Where the base model itself may be off by any smooth function of load and slip, ";
+  if (!beside.best) return premise + "no named effect stands out.";
+  return fmt::format("{}{} stands out most (p = {:.2g}).", premise, joined(beside.rivals[*beside.best].ids),
+                     beside.p_value);
+}
+
 std::string listed_words(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& w : words) text += (text.empty() ? "" : ", ") + w;
@@ -95,11 +117,9 @@ std::vector<std::string> explanation(const LoopAnswer& answer) {
   for (const AcceptedEffect& effect : answer.stand_in)
     sentences.push_back("In its place, without explaining it, the saved model takes " + effect_sentence(effect));
   if (answer.ambiguity_set.size() > 1) {
-    std::string rivals;
-    for (const Weighted& w : answer.ambiguity_set)
-      rivals += fmt::format("{}{} ({:.0f} %)", rivals.empty() ? "" : ", ", joined(w.ids), 100 * w.weight);
-    sentences.push_back("These data can't tell apart: " + rivals + ".");
+    sentences.push_back("These data can't tell apart: " + ambiguity_words(answer.ambiguity_set) + ".");
   }
+  if (answer.inadequate) sentences.push_back(inadequacy_sentence(answer.inadequate->identification));
   const ErrorPair& all = answer.validation.overall;
   if (all.cells > 0)
     sentences.push_back(fmt::format(

@@ -93,6 +93,18 @@ double foreign_log_evidence(const Fit& fit, Index cells) {
   return -0.5 * n * std::log(fit.chi2) - 0.5 * k * std::log(n);
 }
 
+MatrixXd in_every_channel(const Observations& observations, const NoiseFloor& noise, const Whitening& whitening,
+                          const VectorXd& prediction, const MatrixXd& functions) {
+  const Index cells = prediction.size(), width = functions.cols();
+  MatrixXd columns = MatrixXd::Zero(cells, channel_count * width);
+  for (Index i = 0; i < cells; ++i) {
+    const Cell& cell = observations.cells[static_cast<std::size_t>(i)];
+    const double sd = noise.channels[static_cast<std::size_t>(cell.channel)].sd(prediction[i]);
+    columns.row(i).segment(cell.channel * width, width) = sd * functions.row(cell.row);
+  }
+  return whitening(columns);
+}
+
 namespace {
 
 /// Waves of one to `most` periods over a covariate's range.
@@ -120,19 +132,6 @@ std::vector<MatrixXd> row_families(const Observations& observations) {
     if (c.name == "slip" || c.name == "load" || c.name == "position" || c.name == "run")
       families.push_back(waves(c.values, std::clamp(static_cast<int>(rows) / 10, 1, 5)));
   return families;
-}
-
-/// One function of the rows in one channel as a whitened column of the cells.
-MatrixXd in_every_channel(const Observations& observations, const NoiseFloor& noise, const Whitening& whitening,
-                          const VectorXd& prediction, const MatrixXd& functions) {
-  const Index cells = prediction.size(), width = functions.cols();
-  MatrixXd columns = MatrixXd::Zero(cells, channel_count * width);
-  for (Index i = 0; i < cells; ++i) {
-    const Cell& cell = observations.cells[static_cast<std::size_t>(i)];
-    const double sd = noise.channels[static_cast<std::size_t>(cell.channel)].sd(prediction[i]);
-    columns.row(i).segment(cell.channel * width, width) = sd * functions.row(cell.row);
-  }
-  return whitening(columns);
 }
 
 /// Each channel's prediction in the run before, standardised: what a lagging instrument or bed would carry over.
@@ -211,23 +210,27 @@ std::vector<MatrixXd> unnamed_families(const Observations& observations, const N
   return families;
 }
 
-double unnamed_gain(const LinearProblem& problem, const std::vector<MatrixXd>& families) {
+UnnamedTerm::UnnamedTerm(const LinearProblem& problem, const MatrixXd& columns) {
   const Projector off(problem.nuisance);
-  const VectorXd r = off.vector(problem.residual);
+  MatrixXd full = MatrixXd::Zero(problem.residual.size(), columns.cols());
+  full.topRows(columns.rows()) = columns;
+  const MatrixXd kept = off(full);
+  gram_ = kept.transpose() * kept;
+  seen_ = kept.transpose() * problem.residual;
+}
+
+double UnnamedTerm::gain(double size) const {
+  MatrixXd m = size * size * gram_;
+  m.diagonal().array() += 1.0;
+  const Eigen::LLT<MatrixXd> llt(m);
+  return 0.5 * size * size * llt.matrixL().solve(seen_).squaredNorm() - llt.matrixLLT().diagonal().array().log().sum();
+}
+
+double unnamed_gain(const LinearProblem& problem, const std::vector<MatrixXd>& families) {
   std::vector<double> gains;
   for (const MatrixXd& columns : families) {
-    MatrixXd full = MatrixXd::Zero(problem.residual.size(), columns.cols());
-    full.topRows(columns.rows()) = columns;
-    const MatrixXd b = off(full);
-    const MatrixXd gram = b.transpose() * b;
-    const VectorXd seen = b.transpose() * r;
-    for (const double size : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) {
-      MatrixXd m = size * size * gram;
-      m.diagonal().array() += 1.0;
-      const Eigen::LLT<MatrixXd> llt(m);
-      gains.push_back(0.5 * size * size * llt.matrixL().solve(seen).squaredNorm() -
-                      llt.matrixLLT().diagonal().array().log().sum());
-    }
+    const UnnamedTerm term(problem, columns);
+    for (const double size : term_sizes) gains.push_back(term.gain(size));
   }
   const double top = *std::max_element(gains.begin(), gains.end());
   double sum = 0.0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,25 @@ double foreign_log_evidence(const Fit& fit, Eigen::Index cells);
 /// in time; what the run before left behind), each in every channel, whitened to about 1 sd a cell.
 std::vector<Eigen::MatrixXd> unnamed_families(const Observations& observations, const NoiseFloor& noise,
                                               const Whitening& whitening, const Eigen::VectorXd& prediction);
+
+/// Functions of the rows as whitened columns of the cells: each in every channel, of 1 sd of its noise a cell.
+Eigen::MatrixXd in_every_channel(const Observations& observations, const NoiseFloor& noise, const Whitening& whitening,
+                                 const Eigen::VectorXd& prediction, const Eigen::MatrixXd& functions);
+
+/// Sizes that an unnamed term is tried at: sd of its columns' weights.
+inline constexpr std::array<double, 6> term_sizes = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0};
+
+/// A term of whitened columns over the cells, off what the problem's columns absorb.
+class UnnamedTerm {
+ public:
+  UnnamedTerm(const LinearProblem& problem, const Eigen::MatrixXd& columns);
+  /// ln evidence that it adds to the problem, its weights normal about 0 with this sd.
+  double gain(double size) const;
+
+ private:
+  Eigen::MatrixXd gram_;
+  Eigen::VectorXd seen_;
+};
 
 /// ln evidence that an unnamed term adds to the problem: the mean over families and sizes, so that it is a Bayes factor
 /// whose price is paid (reached by chance with probability at most its inverse).

@@ -259,9 +259,7 @@ void complete_pairs(const Campaign& campaign, Identification& id, const Identify
 
 }  // namespace
 
-Identification identify(const Campaign& campaign, const Observations& observations, const IdentifyOptions& options) {
-  Identification id;
-  settle_base(campaign, observations, options, id);
+void name_effects(const Campaign& campaign, const IdentifyOptions& options, Identification& id) {
   const WheelPredictor base(campaign, id.observations);
   const LinearProblem problem = problem_of(id, base, id.base);
   id.base_log_evidence = log_evidence(problem, 0);
@@ -278,7 +276,7 @@ Identification identify(const Campaign& campaign, const Observations& observatio
   }
   if (id.p_value > options.level || id.rivals.empty()) {
     if (!id.rivals.empty()) weigh(id);
-    return id;
+    return;
   }
   for (const SignaturePair& pair : strongest_pairs(id.signatures, options.refits / 2)) {
     options.pulse();
@@ -292,6 +290,12 @@ Identification identify(const Campaign& campaign, const Observations& observatio
       extend(campaign, id, *best, options);
   weigh(id);
   prefer(campaign, id, id.weights.front().best_rival);
+}
+
+Identification identify(const Campaign& campaign, const Observations& observations, const IdentifyOptions& options) {
+  Identification id;
+  settle_base(campaign, observations, options, id);
+  name_effects(campaign, options, id);
   return id;
 }
 

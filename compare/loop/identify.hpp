@@ -73,6 +73,9 @@ double p_beside_others(const Campaign& campaign, const Identification& id, const
 /// largest |cosine| over their forms, by id. 1: nothing tells them apart.
 std::map<std::string, double> cosines(const Identification& id, const std::string& effect);
 
+/// From a base fit whose noise is settled to names: traces, rivals, weights and what the test accepts.
+void name_effects(const Campaign& campaign, const IdentifyOptions& options, Identification& id);
+
 /// Throws NoSolution where no soil near the declared one carries the wheel in every run.
 Identification identify(const Campaign& campaign, const Observations& observations, const IdentifyOptions& options);
 

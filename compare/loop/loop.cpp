@@ -30,11 +30,6 @@ constexpr int choice_folds = 10;
 constexpr double least_noise_freedom = 5.0;  // a channel; below it a residual can't be told from noise
 
 /// Thresholds of the verdict, set once on the tuning sets of bench/loop (docs/loop.md), never on those reported.
-constexpr double ambiguity_base = 4.0;      // ln evidence by which a set may stand behind the best one
-constexpr double ambiguity_growth = 0.03;   // and more for each ln evidence that the best one gains
-constexpr double ambiguity_cells = 200.0;   // measured values below which both grow, as their root,
-constexpr double ambiguity_most = 2.0;      // at most twofold
-constexpr double superset_allowed = 2.0;    // the same for sets that hold the best one and more
 constexpr double odds_enough = 3.0;         // ln 20 to 1 over the base model, price paid
 constexpr double second_test_level = 0.1;   // of lack of fit after the best named effects: the noise was estimated
                                             // beside a smooth function, so that it seldom falls under 0.3 by chance
@@ -59,53 +54,14 @@ std::vector<std::string> not_testable(const Campaign& campaign, const Identifica
   return hidden;
 }
 
-std::vector<Weighted>::const_iterator set_of(const Identification& id, const std::set<std::string>& ids) {
-  return std::find_if(id.weights.begin(), id.weights.end(), [&](const Weighted& w) { return w.ids == ids; });
-}
-
 /// Conditions left out are predicted better by a standard error; or better at all, where the odds are twenty to one:
 /// with a dozen conditions a standard error is more than a real effect reaches.
 bool confirmed(const LoopAnswer& answer) {
   const Identification& id = answer.details;
   if (!id.best) return false;
   const PredictiveGain& gain = answer.choice_gain;
-  const double odds = set_of(id, id.rivals[*id.best].ids)->log_evidence - id.base_log_evidence;
+  const double odds = weighed(id, id.rivals[*id.best].ids).log_evidence - id.base_log_evidence;
   return gain.mean > gain.std_error || (gain.mean > 0 && odds > odds_enough);
-}
-
-/// How far each set may stand behind the best one and still not be told from it [ln evidence]. It grows with what the
-/// best one explains: the more there is to explain, the more a form that nature does not share costs. It is wider on
-/// small designs, where a few values decide, and narrower for sets that hold the best one and more.
-double allowed_behind(const Identification& id, const Weighted& best, const std::set<std::string>& ids) {
-  if (ids.size() > best.ids.size() && std::includes(ids.begin(), ids.end(), best.ids.begin(), best.ids.end()))
-    return superset_allowed;
-  const double cells = static_cast<double>(id.observations.cells.size());
-  return std::clamp(std::sqrt(ambiguity_cells / cells), 1.0, ambiguity_most) *
-         (ambiguity_base + ambiguity_growth * std::max(0.0, best.log_evidence - id.base_log_evidence));
-}
-
-/// The sets that the data can't tell from the best, as indices of id.weights, best first.
-std::vector<Competitor> competitors(const Identification& id) {
-  const std::set<std::string>& best = id.rivals[*id.best].ids;
-  const auto own = set_of(id, best);
-  std::vector<Competitor> all = {{static_cast<std::size_t>(own - id.weights.begin()), allowed_behind(id, *own, best)}};
-  for (std::size_t i = 0; i < id.weights.size(); ++i) {
-    const Weighted& w = id.weights[i];
-    if (w.ids == best || !(w.weight > 0)) continue;
-    const double allowed = allowed_behind(id, *own, w.ids);
-    if (own->log_evidence - w.log_evidence <= allowed) all.push_back({i, allowed});
-  }
-  return all;
-}
-
-/// The same as the answer lists them, with weights that sum to 1.
-std::vector<Weighted> ambiguity(const Identification& id, const std::vector<Competitor>& all) {
-  std::vector<Weighted> set;
-  for (const Competitor& c : all) set.push_back(id.weights[c.weighted]);
-  double total = 0.0;
-  for (const Weighted& w : set) total += w.weight;
-  for (Weighted& w : set) w.weight /= total;
-  return set;
 }
 
 /// Share of the base model's excess over the noise that the best named rival leaves.
@@ -118,7 +74,7 @@ double unexplained(const Identification& id) {
 
 /// Whether a single effect is the best set, and no other set comes near it.
 bool stands_alone(const Identification& id) {
-  const Weighted best = ambiguity(id, competitors(id)).front();
+  const Weighted best = listed(id, competitors(id)).front();
   return best.ids.size() == 1 && best.weight >= alone_share;
 }
 
@@ -301,13 +257,23 @@ bool describe_base(const Campaign& campaign, LoopAnswer& answer) {
   return true;
 }
 
+/// The named sets that come nearest to an unknown effect, also where the base model's own form may be off: then effects
+/// can stand out that nothing but a change with load and slip, taken for another effect, had hidden.
+void read_again(const Campaign& campaign, LoopAnswer& answer, const IdentifyOptions& options) {
+  const Identification& first = answer.details;
+  if (first.best) answer.ambiguity_set = listed(first, competitors(first));
+  answer.inadequate = read_beside_inadequacy(campaign, first, options);
+  if (!answer.inadequate || !answer.inadequate->identification.best) return;
+  const Identification& second = answer.inadequate->identification;
+  const std::vector<Competitor> all = competitors(second);
+  answer.ambiguity_set = joined(answer.ambiguity_set, listed(second, all), all.front().allowed);
+}
+
 /// The competing sets and the run that would best set them apart.
 void compare_rivals(const Campaign& campaign, LoopAnswer& answer, const Limits& limits) {
   const Identification& id = answer.details;
-  if (!id.best || (answer.verdict != Verdict::effect_found && answer.verdict != Verdict::unknown_effect)) return;
   const std::vector<Competitor> all = competitors(id);
-  answer.ambiguity_set = ambiguity(id, all);
-  if (answer.verdict != Verdict::effect_found) return;
+  answer.ambiguity_set = listed(id, all);
   Limits reach = limits;  // what is given comes before what the campaign spans
   reach.merge(limits_of(id.observations));
   answer.next = next_test(campaign, id, all, reach);
@@ -345,7 +311,9 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
         [&](std::size_t done, std::size_t folds) { say(chosen + (all_steps - 1 - chosen) * done / folds); });
   decide(campaign, answer);
   describe_effects(campaign, answer, options.identify);
-  compare_rivals(campaign, answer, options.limits);
+  whole.pulse = [&] { say(all_steps - 1); };
+  if (answer.verdict == Verdict::unknown_effect) read_again(campaign, answer, whole);
+  if (answer.verdict == Verdict::effect_found) compare_rivals(campaign, answer, options.limits);
   say(all_steps);
   return answer;
 }

@@ -9,6 +9,7 @@
 
 #include "compare/loop/cross_validation.hpp"
 #include "compare/loop/detection.hpp"
+#include "compare/loop/inadequacy.hpp"
 #include "compare/loop/next_test.hpp"
 
 namespace soilbin::compare {
@@ -49,6 +50,9 @@ struct LoopAnswer {
   /// for it in the model that is saved, and explain nothing.
   std::vector<AcceptedEffect> stand_in;
   std::vector<Weighted> ambiguity_set;  ///< best first; empty unless effects compete
+  /// Of an unknown effect: the data read once more with a base model that may be off by itself. Its sets are among the
+  /// ambiguity set.
+  std::optional<InadequateReading> inadequate;
   std::vector<std::string> not_testable;
   std::optional<NextTest> next;
   PredictiveGain choice_gain;  ///< of the best rival over the base model

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/loop/identify.hpp"
+#include "compare/loop/ambiguity.hpp"
 
 namespace soilbin::compare {
 
@@ -25,12 +25,6 @@ struct NextTest {
   std::vector<std::set<std::string>> separates;  ///< the best rival, and the one that these runs bear most upon
   int runs = 0;           ///< until that one is expected to be out of the set, if the best is true
   double distance = 0.0;  ///< squared distance of the two predictions a run, in sd
-};
-
-/// A set of effects that competes.
-struct Competitor {
-  std::size_t weighted = 0;  ///< index of id.weights
-  double allowed = 0.0;      ///< ln evidence by which it may stand behind and still competes
 };
 
 /// The condition within limits that is expected to put most rivals out: sum over rivals i, by their weight, of what one

@@ -54,6 +54,7 @@ MatrixXd Whitening::operator()(const MatrixXd& columns) const {
     const Index n = b.inverse_factor.rows();
     white.middleRows(b.first, n).noalias() = b.inverse_factor * columns.middleRows(b.first, n);
   }
+  if (term_factor_.size() > 0) return term_factor_.triangularView<Eigen::Lower>() * white;
   return white;
 }
 
@@ -63,7 +64,17 @@ VectorXd Whitening::operator()(const VectorXd& column) const {
     const Index n = b.inverse_factor.rows();
     white.segment(b.first, n).noalias() = b.inverse_factor * column.segment(b.first, n);
   }
+  if (term_factor_.size() > 0) return term_factor_.triangularView<Eigen::Lower>() * white;
   return white;
+}
+
+Whitening Whitening::beside(const MatrixXd& columns) const {
+  const Index n = columns.rows();
+  MatrixXd covariance = columns * columns.transpose();
+  covariance.diagonal().array() += 1.0;
+  Whitening joined = *this;
+  joined.term_factor_ = covariance.llt().matrixL().solve(MatrixXd::Identity(n, n));
+  return joined;
 }
 
 namespace {

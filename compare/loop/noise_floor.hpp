@@ -33,6 +33,8 @@ class Whitening {
   Whitening(const Observations& observations, const NoiseFloor& noise, const Eigen::VectorXd& prediction);
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& columns) const;
   Eigen::VectorXd operator()(const Eigen::VectorXd& column) const;
+  /// The same where a term of whitened columns, each of a weight with a unit normal prior, counts as noise too.
+  Whitening beside(const Eigen::MatrixXd& columns) const;
 
  private:
   struct Block {
@@ -40,6 +42,7 @@ class Whitening {
     Eigen::MatrixXd inverse_factor;
   };
   std::vector<Block> blocks_;
+  Eigen::MatrixXd term_factor_;  ///< L^-1, L L' = 1 + U U' of a term's columns U; empty: no term
 };
 
 /// Smooth functions of the covariates over the rows, each of mean 0 and mean square 1, the plainest first: linear

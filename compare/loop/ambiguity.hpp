@@ -1,0 +1,35 @@
+// Which sets of effects the data can't tell apart.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "compare/loop/identify.hpp"
+
+namespace soilbin::compare {
+
+/// A set of effects that competes.
+struct Competitor {
+  std::size_t weighted = 0;  ///< index of Identification::weights
+  double allowed = 0.0;      ///< ln evidence by which it may stand behind and still competes
+};
+
+/// A set's weight by its effects; it must have been weighed.
+const Weighted& weighed(const Identification& id, const std::set<std::string>& ids);
+
+/// The sets that the data can't tell from the best one (Identification::best, which must be there), itself first. How
+/// far behind a set may stand grows with what the best one explains: the more there is to explain, the more a form
+/// that nature does not share costs. It is wider on small designs, where a few values decide, and narrower for sets
+/// that hold the best one and more.
+std::vector<Competitor> competitors(const Identification& id);
+
+/// The same as an answer lists them, with weights that sum to 1.
+std::vector<Weighted> listed(const Identification& id, const std::vector<Competitor>& all);
+
+/// The list of a reading, and that of a second one of the same data where this does not stand farther behind than
+/// `allowed` [ln evidence], as one, by their evidence, best first. The first one's sets stay: what the second takes for
+/// a change of the base model may be an effect after all.
+std::vector<Weighted> joined(const std::vector<Weighted>& first, const std::vector<Weighted>& second, double allowed);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,82 @@
+#include "compare/loop/inadequacy.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "compare/loop/rival_fit.hpp"
+
+namespace soilbin::compare {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MatrixXd inadequacy_columns(const Identification& id) {
+  constexpr int most = 9;  // up to the third order in slip, the second in load, and their products
+  Observations own = id.observations;
+  for (OperatingCondition& at : own.rows) {
+    OperatingCondition bare;
+    bare.load = at.load, bare.slip = at.slip;
+    at = bare;
+  }
+  const MatrixXd smooth = smooth_basis(own, most);
+  MatrixXd functions(smooth.rows(), smooth.cols() + 1);
+  functions << VectorXd::Ones(smooth.rows()), smooth;
+  return in_every_channel(id.observations, id.noise, *id.whitening, id.base.prediction, functions);
+}
+
+namespace {
+
+/// The size at which the columns, together with whichever set of effects suits them, explain the data best.
+double best_size(const Campaign& campaign, const Identification& id, const MatrixXd& columns) {
+  double best = term_sizes.front(), most = -std::numeric_limits<double>::infinity();
+  const auto weigh = [&](double log_evidence, const std::vector<Term>& terms, const Fit& fit) {
+    const WheelPredictor predictor(campaign, id.observations, terms);
+    const UnnamedTerm term(problem_of(id, predictor, fit), columns);
+    for (const double size : term_sizes)
+      if (const double sum = log_evidence + term.gain(size); sum > most) most = sum, best = size;
+  };
+  weigh(id.base_log_evidence, {}, id.base);
+  for (const Weighted& w : id.weights)
+    weigh(w.log_evidence, id.rivals[w.best_rival].terms, id.rivals[w.best_rival].fit);
+  return best;
+}
+
+/// ln of the factor by which a normal density narrows when columns of unit normal weights join its unit covariance.
+double half_log_determinant(const MatrixXd& columns) {
+  MatrixXd gram = columns.transpose() * columns;
+  gram.diagonal().array() += 1.0;
+  return gram.llt().matrixLLT().diagonal().array().log().sum();
+}
+
+void lower_evidence(Identification& id, double by) {
+  id.base_log_evidence -= by;
+  for (Rival& rival : id.rivals) rival.log_evidence -= by;
+  for (Weighted& w : id.weights) w.log_evidence -= by;
+}
+
+}  // namespace
+
+std::optional<InadequateReading> read_beside_inadequacy(const Campaign& campaign, const Identification& first,
+                                                        const IdentifyOptions& options) {
+  if (first.foreign) return std::nullopt;
+  MatrixXd columns = inadequacy_columns(first);
+  InadequateReading reading;
+  reading.size = best_size(campaign, first, columns);
+  columns *= reading.size;
+  Identification& id = reading.identification;
+  id.observations = first.observations;
+  id.outlier = first.outlier;
+  id.noise = first.noise;
+  id.whitening = std::make_shared<Whitening>(first.whitening->beside(columns));
+  const WheelPredictor base(campaign, id.observations);
+  auto found = fit(base, id.observations.values(), *id.whitening, first.base.theta);
+  if (!found) return std::nullopt;
+  id.base = std::move(*found);
+  name_effects(campaign, options, id);
+  if (id.foreign) return std::nullopt;
+  lower_evidence(id, half_log_determinant(columns) + std::log(static_cast<double>(term_sizes.size())));
+  return reading;
+}
+
+}  // namespace soilbin::compare
