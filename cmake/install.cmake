@@ -1,5 +1,6 @@
 # What `cmake --install` lays down: the command, the libraries with their headers, the cases, the docs, and a CMake
-# package, so that find_package(soilbin) gives soilbin::scenario, soilbin::bekker_wong, soilbin::dem and soilbin::compare.
+# package, so that find_package(soilbin) gives soilbin::scenario, soilbin::bekker_wong, soilbin::dem, soilbin::compare and
+# soilbin::experiments (compare/experiments).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -15,9 +16,11 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPO
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 
 install(TARGETS soilbin_options EXPORT soilbin)
+foreach(library IN LISTS floors ITEMS experiments)
+  set_target_properties(soilbin_${library} PROPERTIES EXPORT_NAME ${library})
+  install(TARGETS soilbin_${library} EXPORT soilbin ARCHIVE COMPONENT development)
+endforeach()
 foreach(floor IN LISTS floors)
-  set_target_properties(soilbin_${floor} PROPERTIES EXPORT_NAME ${floor})
-  install(TARGETS soilbin_${floor} EXPORT soilbin ARCHIVE COMPONENT development)
   # Headers are included as in the project itself, "scenario/tire.hpp", from a folder of soilbin's own.
   install(DIRECTORY ${floor} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/soilbin COMPONENT development
     FILES_MATCHING PATTERN "*.hpp")

@@ -24,6 +24,7 @@ endif()
 run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
 run(${SCRATCH}/build/analytic)
 run(${SCRATCH}/build/grains)
+run(${SCRATCH}/build/experiment)
 run(${SCRATCH}/build/measured ${prefix}/share/soilbin/cases/measured/cmu-smooth)
 
 if(WITH_COMMAND)
