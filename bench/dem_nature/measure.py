@@ -39,7 +39,8 @@ def row(soilbin, name, truth):
 def main():
     soilbin = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "build/release/soilbin")
     for prefix, suffix, told in (("dem-", "", "base model"), ("dem-", "-control", "base model and what the control showed"),
-                                 ("dem-deep-", "", "the second scale: base model and what its control showed")):
+                                 ("dem-deep-", "", "the second scale: base model and what its control showed"),
+                                 ("dem-fine-", "", "the third scale: base model and what its control showed")):
         print(f"\n{told}\n\n| campaign | runs | verdict | best set | hidden one in the sets | before | after |")
         print("|---|---|---|---|---|---|---|")
         outcomes = [row(soilbin, name.replace("dem-", prefix) + suffix, truth) for name, truth in TRUTH.items()]
