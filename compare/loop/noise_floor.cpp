@@ -54,7 +54,7 @@ MatrixXd Whitening::operator()(const MatrixXd& columns) const {
     const Index n = b.inverse_factor.rows();
     white.middleRows(b.first, n).noalias() = b.inverse_factor * columns.middleRows(b.first, n);
   }
-  if (term_factor_.size() > 0) return term_factor_.triangularView<Eigen::Lower>() * white;
+  if (term_basis_.size() > 0) white += term_basis_ * (term_change_ * (term_basis_.transpose() * white));
   return white;
 }
 
@@ -64,16 +64,17 @@ VectorXd Whitening::operator()(const VectorXd& column) const {
     const Index n = b.inverse_factor.rows();
     white.segment(b.first, n).noalias() = b.inverse_factor * column.segment(b.first, n);
   }
-  if (term_factor_.size() > 0) return term_factor_.triangularView<Eigen::Lower>() * white;
+  if (term_basis_.size() > 0) white += term_basis_ * (term_change_ * (term_basis_.transpose() * white));
   return white;
 }
 
 Whitening Whitening::beside(const MatrixXd& columns) const {
-  const Index n = columns.rows();
-  MatrixXd covariance = columns * columns.transpose();
-  covariance.diagonal().array() += 1.0;
+  const Index wide = std::min(columns.rows(), columns.cols());
   Whitening joined = *this;
-  joined.term_factor_ = covariance.llt().matrixL().solve(MatrixXd::Identity(n, n));
+  joined.term_basis_ =
+      Eigen::HouseholderQR<MatrixXd>(columns).householderQ() * MatrixXd::Identity(columns.rows(), wide);
+  const MatrixXd r = joined.term_basis_.transpose() * columns, one = MatrixXd::Identity(wide, wide);
+  joined.term_change_ = MatrixXd(one + r * r.transpose()).llt().matrixL().solve(one) - one;
   return joined;
 }
 

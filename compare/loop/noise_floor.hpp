@@ -42,7 +42,8 @@ class Whitening {
     Eigen::MatrixXd inverse_factor;
   };
   std::vector<Block> blocks_;
-  Eigen::MatrixXd term_factor_;  ///< L^-1, L L' = 1 + U U' of a term's columns U; empty: no term
+  /// Beside a term of columns U = Q R: then v becomes v + Q (L^-1 - 1) Q' v, L L' = 1 + R R'. Empty: no term.
+  Eigen::MatrixXd term_basis_, term_change_;
 };
 
 /// Smooth functions of the covariates over the rows, each of mean 0 and mean square 1, the plainest first: linear
