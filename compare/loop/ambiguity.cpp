@@ -10,8 +10,8 @@ namespace soilbin::compare {
 namespace {
 
 // Set once on the tuning sets of bench/loop (docs/loop.md), never on those reported.
-constexpr double base = 4.0;              // ln evidence by which a set may stand behind the best one
-constexpr double growth = 0.03;           // and more for each ln evidence that the best one gains
+constexpr double allowed_base = 4.0;      // ln evidence by which a set may stand behind the best one
+constexpr double allowed_growth = 0.03;   // and more for each ln evidence that the best one gains
 constexpr double few_cells = 200.0;       // measured values below which both grow, as their root,
 constexpr double most_growth = 2.0;       // at most twofold
 constexpr double superset_allowed = 2.0;  // the same for sets that hold the best one and more
@@ -21,7 +21,7 @@ double allowed_behind(const Identification& id, const Weighted& best, const std:
     return superset_allowed;
   const double cells = static_cast<double>(id.observations.cells.size());
   return std::clamp(std::sqrt(few_cells / cells), 1.0, most_growth) *
-         (base + growth * std::max(0.0, best.log_evidence - id.base_log_evidence));
+         (allowed_base + allowed_growth * std::max(0.0, best.log_evidence - id.base_log_evidence));
 }
 
 double strongest(const std::vector<Weighted>& sets) {
@@ -59,14 +59,14 @@ std::vector<Competitor> competitors(const Identification& id) {
   return all;
 }
 
-std::vector<Weighted> listed(const Identification& id, const std::vector<Competitor>& all) {
+std::vector<Weighted> weighted_sets(const Identification& id, const std::vector<Competitor>& all) {
   std::vector<Weighted> sets;
   for (const Competitor& c : all) sets.push_back(id.weights[c.weighted]);
   share_out(sets);
   return sets;
 }
 
-std::vector<Weighted> joined(const std::vector<Weighted>& first, const std::vector<Weighted>& second, double allowed) {
+std::vector<Weighted> merged(const std::vector<Weighted>& first, const std::vector<Weighted>& second, double allowed) {
   const double top = std::max(strongest(first), strongest(second));
   std::map<std::set<std::string>, double> weight;
   const auto join = [&](const std::vector<Weighted>& sets) {

@@ -74,7 +74,7 @@ double unexplained(const Identification& id) {
 
 /// Whether a single effect is the best set, and no other set comes near it.
 bool stands_alone(const Identification& id) {
-  const Weighted best = listed(id, competitors(id)).front();
+  const Weighted best = weighted_sets(id, competitors(id)).front();
   return best.ids.size() == 1 && best.weight >= alone_share;
 }
 
@@ -261,19 +261,19 @@ bool describe_base(const Campaign& campaign, LoopAnswer& answer) {
 /// can stand out that nothing but a change with load and slip, taken for another effect, had hidden.
 void read_again(const Campaign& campaign, LoopAnswer& answer, const IdentifyOptions& options) {
   const Identification& first = answer.details;
-  if (first.best) answer.ambiguity_set = listed(first, competitors(first));
+  if (first.best) answer.ambiguity_set = weighted_sets(first, competitors(first));
   answer.inadequate = read_beside_inadequacy(campaign, first, options);
   if (!answer.inadequate || !answer.inadequate->identification.best) return;
   const Identification& second = answer.inadequate->identification;
   const std::vector<Competitor> all = competitors(second);
-  answer.ambiguity_set = joined(answer.ambiguity_set, listed(second, all), all.front().allowed);
+  answer.ambiguity_set = merged(answer.ambiguity_set, weighted_sets(second, all), all.front().allowed);
 }
 
 /// The competing sets and the run that would best set them apart.
 void compare_rivals(const Campaign& campaign, LoopAnswer& answer, const Limits& limits) {
   const Identification& id = answer.details;
   const std::vector<Competitor> all = competitors(id);
-  answer.ambiguity_set = listed(id, all);
+  answer.ambiguity_set = weighted_sets(id, all);
   Limits reach = limits;  // what is given comes before what the campaign spans
   reach.merge(limits_of(id.observations));
   answer.next = next_test(campaign, id, all, reach);
