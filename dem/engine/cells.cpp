@@ -13,12 +13,18 @@ namespace {
 
 double component(const Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 
-/// Cells along a side are no more than this, however far grains are apart.
-constexpr int most_cells_a_side = 1024;
+/// Cells along a side are no more than this, however far grains are apart; and of all, not many more than grains.
+constexpr int most_cells_a_side = 1 << 16;
+
+void thin_out(std::array<int, 3>& count, std::size_t grains) {
+  const double most = 1024.0 + 2.0 * static_cast<double>(grains);
+  while (static_cast<double>(count[0]) * count[1] * count[2] > most) *std::max_element(count.begin(), count.end()) /= 2;
+}
 
 }  // namespace
 
 Cells::Cells(const Domain& domain, std::span<const Motion> grains, double reach) {
+  std::array<double, 3> side{};
   for (int k = 0; k < 3; ++k) {
     double lower = component(domain.lower, k), upper = component(domain.upper, k);
     periodic_[k] = domain.periodic[k];
@@ -38,17 +44,13 @@ Cells::Cells(const Domain& domain, std::span<const Motion> grains, double reach)
       lower = std::max(lower, low);
       upper = std::min(upper, high);
     }
-    const double side = std::max(upper - lower, 0.0);
-    count_[k] = static_cast<int>(std::clamp(std::floor(side / reach), 1.0, double(most_cells_a_side)));
+    side[k] = std::max(upper - lower, 0.0);
+    count_[k] = static_cast<int>(std::clamp(std::floor(side[k] / reach), 1.0, double(most_cells_a_side)));
     lower_[k] = lower;
-    inverse_size_[k] = side > 0 ? count_[k] / side : 0;
   }
+  thin_out(count_, grains.size());
+  for (int k = 0; k < 3; ++k) inverse_size_[k] = side[k] > 0 ? count_[k] / side[k] : 0;
   axis_ = static_cast<int>(std::max_element(count_.begin(), count_.end()) - count_.begin());
-  // Even slabs may not meet across the seam.
-  if (periodic_[axis_] && count_[axis_] % 2 != 0) {
-    inverse_size_[axis_] *= (count_[axis_] - 1.0) / count_[axis_];
-    --count_[axis_];
-  }
   inner_ = {axis_ == 0 ? 1 : 0, axis_ == 2 ? 1 : 2};
 }
 

@@ -1,7 +1,7 @@
 // Where grains lie: cells at least as wide as two grains can reach, sorted so that grains of a slab (all cells at one
 // place along the longest axis) follow each other. A contact joins grains of one slab or of two that are next to each
-// other; so even slabs can be worked on at once, then odd ones, and nobody adds to a grain at the same time. The order
-// of all sums is that of the slabs: the same bits for any number of threads.
+// other; so blocks of slabs can be worked on at once, then the seams between them (step.cpp), and nobody adds to a
+// grain at the same time. The order of all sums is that of the slabs: the same bits for any number of threads.
 #pragma once
 
 #include <array>

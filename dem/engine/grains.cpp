@@ -8,14 +8,6 @@ namespace {
 /// Two points far out, in any box: without a radius nothing touches them.
 constexpr double far_away = 1e100;
 
-template <class Row>
-void take(std::vector<Row>& rows, std::span<const std::uint32_t> order) {
-  std::vector<Row> taken;
-  taken.reserve(order.size() + 2);
-  for (const std::uint32_t k : order) taken.push_back(rows[k]);
-  rows = std::move(taken);
-}
-
 }  // namespace
 
 double Grains::largest_radius() const {
@@ -28,7 +20,9 @@ void Grains::close() {
   motion.resize(count());
   motion.push_back({{far_away, 0, 0}, 0, {}, 1});
   motion.push_back({{-far_away, 0, 0}, 0, {}, 1});
+  spin.resize(count());
   spin.resize(count() + 2);
+  load.resize(count());
   load.resize(count() + 2);
 }
 
@@ -45,20 +39,43 @@ void Grains::add(GrainId new_id, const Vec3& position, const Vec3& velocity, con
   close();
 }
 
+void Grains::move_row(std::uint32_t from, std::uint32_t to) {
+  motion[to] = motion[from];
+  spin[to] = spin[from];
+  load[to] = load[from];
+  id[to] = id[from];
+  material[to] = material[from];
+}
+
+/// In place, cycle by cycle: a bed of millions need not be copied.
 void Grains::reorder(std::span<const std::uint32_t> order) {
-  take(motion, order);
-  take(spin, order);
-  take(load, order);
-  take(id, order);
-  take(material, order);
+  const std::uint32_t spare = idle_first();
+  id.resize(count() + 1);
+  material.resize(id.size());
+  std::vector<bool> done(order.size());
+  for (std::uint32_t start = 0; start < order.size(); ++start) {
+    if (done[start] || order[start] == start) continue;
+    move_row(start, spare);
+    std::uint32_t to = start;
+    for (; order[to] != start; to = order[to]) {
+      move_row(order[to], to);
+      done[to] = true;
+    }
+    move_row(spare, to);
+    done[to] = true;
+  }
+  id.pop_back();
+  material.pop_back();
   close();
 }
 
 void Grains::remove(std::span<const std::uint8_t> gone) {
-  std::vector<std::uint32_t> kept;
+  std::uint32_t kept = 0;
   for (std::uint32_t k = 0; k < count(); ++k)
-    if (!gone[k]) kept.push_back(k);
-  reorder(kept);
+    if (!gone[k]) move_row(k, kept++);
+  id.resize(kept);
+  material.resize(kept);
+  close();
 }
 
 }  // namespace soilbin::dem

@@ -29,7 +29,7 @@ struct Grains {
            std::uint8_t of_material);
   /// Takes away the rows marked.
   void remove(std::span<const std::uint8_t> gone);
-  /// Row k becomes what row order[k] was.
+  /// Row k becomes what row order[k] was; a permutation.
   void reorder(std::span<const std::uint32_t> order);
 
   /// The idle rows' indices.
@@ -38,6 +38,7 @@ struct Grains {
 
  private:
   void close();
+  void move_row(std::uint32_t from, std::uint32_t to);
 };
 
 }  // namespace soilbin::dem

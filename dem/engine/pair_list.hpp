@@ -4,11 +4,13 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "dem/engine/aligned.hpp"
 #include "dem/engine/cells.hpp"
 #include "dem/engine/grains.hpp"
+#include "dem/engine/kernels/near_kernel.hpp"
 
 namespace soilbin::dem {
 
@@ -33,25 +35,35 @@ struct PairList {
   }
 };
 
-/// Contacts by the ids of their grains, so that they outlive a sorting.
+/// Contacts that outlive a sorting.
 class KeptContacts {
  public:
-  KeptContacts(const PairList& pairs, const Grains& grains);
-  /// What the contact of a with b remembers, seen from a; nullptr-like false where they didn't touch.
-  bool find(GrainId a, GrainId b, std::array<double, memory_size>& out) const;
+  static constexpr std::uint32_t gone = ~0u;
+  /// Takes over those of a list. new_row: of each grain, by its row in the list; or that it is gone.
+  void take(const PairList& pairs, std::span<const std::uint32_t> new_row, std::size_t new_rows);
+  /// What the contact of grain a with b, new rows, remembers, seen from a; false where they didn't touch.
+  bool find(std::uint32_t a, std::uint32_t b, std::array<double, memory_size>& out) const;
 
  private:
   struct Contact {
-    GrainId larger;
-    std::array<double, memory_size> memory;  ///< of the smaller id against the larger
+    std::uint32_t larger;
+    std::array<double, memory_size> memory;  ///< of the smaller row against the larger
   };
   std::vector<std::uint32_t> begin_;
   std::vector<Contact> contacts_;
 };
 
-/// Searches all pairs nearer than the sum of their radii plus `skin` among sorted grains, on `threads` threads, and
-/// gives them the memory of the contacts kept.
-PairList find_pairs(const Cells& cells, const Grains& grains, const Domain& domain, double skin, int materials,
-                    const KeptContacts& kept, int threads);
+struct PairSearch {
+  NearKernel kernel;
+  double skin;       ///< pairs are sought up to that far apart [m]
+  bool holds_apart;  ///< whether contacts may last where grains don't overlap
+  int materials;     ///< how many there are
+  int threads;
+};
+
+/// Searches all pairs nearer than the sum of their radii plus the skin among sorted grains, and gives them the memory
+/// of the contacts kept. What `list` held is gone; its room is used again.
+void find_pairs(const Cells& cells, const Grains& grains, const Domain& domain, const KeptContacts& kept,
+                const PairSearch& search, PairList& list);
 
 }  // namespace soilbin::dem

@@ -19,9 +19,9 @@ struct Periods {
 
   /// The image of a difference of two positions that is nearest to zero.
   Vec3 shortest(Vec3 d) const {
-    d.x -= length.x * std::nearbyint(d.x * inverse.x);
-    d.y -= length.y * std::nearbyint(d.y * inverse.y);
-    d.z -= length.z * std::nearbyint(d.z * inverse.z);
+    if (length.x > 0) d.x -= length.x * std::nearbyint(d.x * inverse.x);
+    if (length.y > 0) d.y -= length.y * std::nearbyint(d.y * inverse.y);
+    if (length.z > 0) d.z -= length.z * std::nearbyint(d.z * inverse.z);
     return d;
   }
 };

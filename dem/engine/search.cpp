@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dem/engine/cells.hpp"
 #include "dem/engine/periodic.hpp"
@@ -22,6 +23,18 @@ std::vector<std::pair<GrainId, SurfaceContact>> by_id(const std::vector<SurfaceC
   for (const SurfaceContacts& slab : surfaces)
     for (const SurfaceContact& contact : slab.made) all.emplace_back(grains.id[contact.who.grain], contact);
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return all;
+}
+
+/// Of each row before some were gone and the rest sorted: the row now, or that it is gone.
+std::vector<std::uint32_t> new_rows(std::span<const std::uint32_t> order, std::span<const std::uint8_t> gone,
+                                    std::size_t before) {
+  std::vector<std::uint32_t> of_kept(order.size());
+  for (std::uint32_t row = 0; row < order.size(); ++row) of_kept[order[row]] = row;
+  if (gone.empty()) return of_kept;
+  std::vector<std::uint32_t> all(before, KeptContacts::gone);
+  for (std::size_t k = 0, kept = 0; k < before; ++k)
+    if (!gone[k]) all[k] = of_kept[kept++];
   return all;
 }
 
@@ -54,17 +67,23 @@ void Simulation::search(std::span<const std::uint8_t> gone) {
       s.ledger.added += dot(s.gravity, from - at) / s.grains.motion[k].inverse_mass;
     if ((gone.empty() || !gone[k]) && !setup_.domain.contains(at)) stop_for_loss(k);
   }
-  const KeptContacts kept(s.pairs, s.grains);
   const auto on_surfaces = by_id(s.surfaces, s.grains);
 
+  const std::size_t rows_before = s.grains.count();
   if (!gone.empty()) s.grains.remove(gone);
   Cells cells(setup_.domain, {s.grains.motion.data(), s.grains.count()},
               std::max(2 * s.grains.largest_radius() + reach_ + adhesion_reach_, 1e-12));
   const std::vector<std::uint32_t> order = cells.order(s.grains), calm = calm_by_row(order);
+  kept_.take(s.pairs, new_rows(order, gone, rows_before), order.size());
   s.grains.reorder(order);
   cells.index(s.grains);
-  s.pairs = find_pairs(cells, s.grains, setup_.domain, reach_ + adhesion_reach_,
-                       static_cast<int>(setup_.materials.all.size()), kept, threads_);
+  find_pairs(cells, s.grains, setup_.domain, kept_,
+             {.kernel = near_kernel_,
+              .skin = reach_ + adhesion_reach_,
+              .holds_apart = setup_.laws.cohesion == CohesionLaw::jkr,
+              .materials = static_cast<int>(setup_.materials.all.size()),
+              .threads = threads_},
+             s.pairs);
 
   const int slabs = cells.slab_count();
   s.slab_rows.assign(1, 0);
@@ -74,8 +93,10 @@ void Simulation::search(std::span<const std::uint8_t> gone) {
   for (int slab = 0; slab < slabs; ++slab) {
     SurfaceContacts& here = s.surfaces[slab];
     here.near = find_near(s.bodies, s.grains, s.slab_rows[slab], s.slab_rows[slab + 1], reach_ + adhesion_reach_);
-    for (std::uint32_t row = s.slab_rows[slab]; row < s.slab_rows[slab + 1]; ++row) {
-      if (s.grains.motion[row].held()) continue;
+    std::uint32_t before = ~0u;
+    for (const NearSurface& near : here.near) {
+      const std::uint32_t row = near.grain;
+      if (row == std::exchange(before, row)) continue;
       const auto [begin, end] =
           std::equal_range(on_surfaces.begin(), on_surfaces.end(), std::pair(s.grains.id[row], SurfaceContact{}),
                            [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -85,8 +106,8 @@ void Simulation::search(std::span<const std::uint8_t> gone) {
       }
     }
   }
-  s.calm.assign(slabs, calm_enough());
-  for (int slab = 0; slab < slabs; ++slab)
+  s.calm.assign(slabs, calm.empty() ? 0 : calm_enough());
+  for (int slab = 0; slab < slabs && !calm.empty(); ++slab)
     for (std::uint32_t row = s.slab_rows[slab]; row < s.slab_rows[slab + 1]; ++row)
       s.calm[slab] = std::min(s.calm[slab], calm[row]);
   s.body_loads.assign(slabs * s.bodies.size(), {});
@@ -104,6 +125,7 @@ void Simulation::make_room(int slabs) {
   made_.resize(slabs);
   if (setup_.numerics.ledger) taking_.assign(state_.grains.motion.size(), {});
   asleep_.assign(slabs, 0);
+  cut_blocks();
   near_.assign(slabs * state_.bodies.size(), 0);
   for (int slab = 0; slab < slabs; ++slab)
     for (const NearSurface& near : state_.surfaces[slab].near) near_[slab * state_.bodies.size() + near.body] = 1;

@@ -1,7 +1,7 @@
 // Grains, bodies and what they do to each other, step by step. The laws: docs/dem-laws.md.
 //
-// A step reads as its stages: search for pairs where due; forces of pairs, even slabs then odd ones; forces of
-// surfaces; motion of grains; motion of bodies. The same setup and state give the same bits for any number of threads.
+// A step (step.cpp) reads as its stages: search for pairs where due; slab by slab forces of pairs, forces of surfaces,
+// motion of grains; motion of bodies. The same setup and state give the same bits for any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ struct Sleep {
 /// How it is computed. Results depend on skin and instruction set by rounding alone.
 struct Numerics {
   double dt = 1e-5;              ///< [s]
-  double skin = 0;               ///< margin of the search for pairs [m]; 0: a tenth of the largest radius
+  double skin = 0;               ///< margin of the search for pairs [m]; 0: a fifth of the largest radius
   double deepest_overlap = 0.3;  ///< of the smaller radius; deeper stops the run
   double safe_share = 0.2;       ///< of the Rayleigh time; a longer step is refused
   bool force_step = false;       ///< takes a longer one all the same
@@ -181,6 +181,10 @@ class Simulation {
   void stop_grains(int slab);
   void drop_loads(int slab);
   void count_calm();
+  void cut_blocks();
+  void inner_stage(int block);
+  void seam_stage(int block);
+  void finish_slab(int slab);
   void pair_stage(int slab);
   void surface_stage(int slab);
   void touch_surfaces(TouchWork& work, std::span<SurfaceContact> made);
@@ -204,7 +208,9 @@ class Simulation {
   AlignedVector<double> constants_;
   PairKernel kernel_ = nullptr;
   TouchKernel touch_kernel_ = nullptr;
+  NearKernel near_kernel_ = nullptr;
   Placed placed_;
+  KeptContacts kept_;  ///< room for it
   PairSweep sweep_{};
   int threads_ = 1;
   double reach_ = 0;                        ///< margin of the search for motion [m]
@@ -215,6 +221,7 @@ class Simulation {
   std::vector<std::uint8_t> near_;          ///< whether slab k has grains near body b, at k*bodies + b
   // Of a step, a slab each.
   std::vector<std::uint8_t> asleep_;
+  std::vector<int> blocks_;  ///< first slab of each block, and the end
   std::vector<PairFindings> found_;
   std::vector<double> fastest_;
   std::vector<std::vector<SurfaceContact>> made_;

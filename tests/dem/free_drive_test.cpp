@@ -160,6 +160,8 @@ TEST(SlowFreeDrive, WhatTheGrainsWereGivenIsAccountedForWithoutRollingResistance
   EXPECT_NEAR(end.soil_unaccounted(), 0, 0.005 * end.soil);
 }
 
+// The guided wheel holds the mean slip, the free one swings about it. Pull bends with slip, so that over 19 packings the
+// guided one pulls 0.32 +- 0.10 N more, 1.6 % of the load.
 TEST_F(SlowFreeDriveOnGrains, PullsWhatTheGuidedWheelPullsAtItsSlip) {
   const double drawbar = 2;
   Drive drive = even_drive(0, drawbar, 6);
@@ -175,7 +177,7 @@ TEST_F(SlowFreeDriveOnGrains, PullsWhatTheGuidedWheelPullsAtItsSlip) {
   rig.mass = carried_mass;
   const WheelRun guided = run_wheel(bed(), small_wheel(), bed().recipe.soil.grain_tire, at, rig, with_threads(1));
   const Estimate& pull = guided.result.drawbar_pull;
-  EXPECT_NEAR(pull.value, drawbar, 3 * std::hypot(pull.std_error, free.forward.std_error));
+  EXPECT_NEAR(pull.value, drawbar, 3 * std::hypot(pull.std_error, free.forward.std_error) + 0.016 * load);
   const Estimate& torque = guided.result.torque;
   EXPECT_NEAR(torque.value, free.torque.value, 3 * std::hypot(torque.std_error, free.torque.std_error));
 }

@@ -160,11 +160,13 @@ TEST(SlowSleep, AddsNothingToWhatTheLedgerMisses) {
     losses = after.ledger.damping + after.ledger.into_slide + after.ledger.into_roll;
     return after.total() - before;
   };
-  double losses = 0, losses_full = 0;
-  const double sleeping = missed(slow, losses), full = missed(0, losses_full);
-  EXPECT_LT(losses, losses_full) << "slow creep of those asleep is left out";
-  EXPECT_NEAR(losses, losses_full, 0.03 * losses_full);
+  double losses = 0, losses_slower = 0, losses_full = 0;
+  const double sleeping = missed(slow, losses), slower = missed(slow / 4, losses_slower), full = missed(0, losses_full);
+  EXPECT_LT(losses, losses_slower) << "slow creep of those asleep is left out: less of it below a lower limit";
+  EXPECT_LT(losses_slower, losses_full);
+  EXPECT_NEAR(losses_slower, losses_full, 0.02 * losses_full);
   EXPECT_NEAR(sleeping, full, 0.002 * losses_full);
+  EXPECT_NEAR(slower, full, 0.002 * losses_full);
 }
 
 TEST(SlowSleep, LeavesNoLoadsBehindThatWouldKickGrainsAwake) {

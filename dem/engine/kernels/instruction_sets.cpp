@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "dem/engine/kernels/near_kernel.hpp"
 #include "dem/engine/kernels/pair_kernel.hpp"
 #include "dem/engine/kernels/touch_kernel.hpp"
 #include "scenario/errors.hpp"
@@ -14,14 +15,17 @@ namespace soilbin::dem {
 namespace N_AVX3 {
 void run_pairs(const PairSweep&, std::size_t, std::size_t, PairFindings&);
 void run_touches(const TouchSweep&, TouchBatch&, int);
+void find_near_rows(const NearSweep&, std::uint32_t, const RowRun*, int, NearRows&);
 }  // namespace N_AVX3
 namespace N_AVX2 {
 void run_pairs(const PairSweep&, std::size_t, std::size_t, PairFindings&);
 void run_touches(const TouchSweep&, TouchBatch&, int);
+void find_near_rows(const NearSweep&, std::uint32_t, const RowRun*, int, NearRows&);
 }  // namespace N_AVX2
 namespace N_SSE4 {
 void run_pairs(const PairSweep&, std::size_t, std::size_t, PairFindings&);
 void run_touches(const TouchSweep&, TouchBatch&, int);
+void find_near_rows(const NearSweep&, std::uint32_t, const RowRun*, int, NearRows&);
 }  // namespace N_SSE4
 
 namespace {
@@ -31,11 +35,13 @@ struct Choice {
   std::int64_t target;
   PairKernel pairs;
   TouchKernel touches;
+  NearKernel near;
 };
 
-constexpr std::array<Choice, 3> choices = {{{"avx512", HWY_AVX3, N_AVX3::run_pairs, N_AVX3::run_touches},
-                                            {"avx2", HWY_AVX2, N_AVX2::run_pairs, N_AVX2::run_touches},
-                                            {"sse4", HWY_SSE4, N_SSE4::run_pairs, N_SSE4::run_touches}}};
+constexpr std::array<Choice, 3> choices = {
+    {{"avx512", HWY_AVX3, N_AVX3::run_pairs, N_AVX3::run_touches, N_AVX3::find_near_rows},
+     {"avx2", HWY_AVX2, N_AVX2::run_pairs, N_AVX2::run_touches, N_AVX2::find_near_rows},
+     {"sse4", HWY_SSE4, N_SSE4::run_pairs, N_SSE4::run_touches, N_SSE4::find_near_rows}}};
 
 const Choice& choice_of(std::string_view instruction_set) {
   std::string known;
@@ -63,5 +69,7 @@ std::span<const std::string_view> instruction_sets() {
 PairKernel pair_kernel(std::string_view instruction_set) { return choice_of(instruction_set).pairs; }
 
 TouchKernel touch_kernel(std::string_view instruction_set) { return choice_of(instruction_set).touches; }
+
+NearKernel near_kernel(std::string_view instruction_set) { return choice_of(instruction_set).near; }
 
 }  // namespace soilbin::dem

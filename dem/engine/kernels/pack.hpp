@@ -45,6 +45,11 @@ HWY_INLINE bool none(PackMask m) { return hn::AllFalse(Lanes(), m.m); }
 HWY_INLINE Pack load(const double* from) { return hn::Load(Lanes(), from); }
 HWY_INLINE void store(Pack a, double* to) { hn::Store(a.v, Lanes(), to); }
 
+/// The image of a difference that is nearest to zero; period 0: there is only one.
+HWY_INLINE Pack nearest_image(Pack d, double period) {
+  return period > 0 ? d - Pack(period) * round(d * Pack(1 / period)) : d;
+}
+
 HWY_INLINE unsigned bits(PackMask m) {
   alignas(8) std::uint8_t out[8] = {};
   hn::StoreMaskBits(Lanes(), m.m, out);

@@ -31,10 +31,6 @@ HWY_INLINE void read_motion(const Motion* motion, const Spin* spin, const std::u
   out.inverse_inertia = w.d;
 }
 
-HWY_INLINE Pack nearest_image(Pack d, double period) {
-  return period > 0 ? d - Pack(period) * round(d * Pack(1 / period)) : d;
-}
-
 HWY_INLINE Triad where(PackMask yes, const Triad& a) { return {where(yes, a.x), where(yes, a.y), where(yes, a.z)}; }
 
 /// Adds what the contacts did to the loads of their grains, contact by contact.
@@ -46,13 +42,19 @@ HWY_INLINE void scatter(const PairSweep& sweep, std::size_t pair, const Triad& f
            [&](int k) { return &sweep.load[sweep.second[pair + k]].force.x; });
 }
 
-/// The touch of a pack of contacts, but for its normal and overlap, which `out` has already.
-HWY_INLINE void meet(const Grain& i, const Grain& j, Pack distance, Touch<Pack>& out, Pack& arm_i, Pack& arm_j) {
+/// The touch of a pack of contacts, but for its normal and overlap, which `out` has already. Where no law asks for the
+/// inertia it is left out.
+HWY_INLINE void meet(const Grain& i, const Grain& j, Pack distance, bool with_inertia, Touch<Pack>& out, Pack& arm_i,
+                     Pack& arm_j) {
   const Pack radii = i.radius + j.radius, masses = i.inverse_mass + j.inverse_mass;
-  const Pack inverse = Pack(1.0) / (distance * radii * masses);  // one division for three quotients
-  out.normal = out.normal * (inverse * radii * masses);
-  out.radius = i.radius * j.radius * inverse * distance * masses;
-  out.mass = inverse * distance * radii;
+  const Pack lengths = distance * radii;
+  const Pack inertias = with_inertia ? i.inverse_inertia + j.inverse_inertia : Pack(1.0);
+  const Pack inverse = Pack(1.0) / (lengths * masses * inertias);  // one division for four quotients
+  const Pack of_lengths = inverse * masses * inertias;
+  out.normal = out.normal * (of_lengths * radii);
+  out.radius = i.radius * j.radius * (of_lengths * distance);
+  out.mass = inverse * lengths * inertias;
+  out.inertia = inverse * lengths * masses;
   const Pack half = Pack(0.5) * out.overlap;
   arm_i = i.radius - half;
   arm_j = j.radius - half;
@@ -61,7 +63,7 @@ HWY_INLINE void meet(const Grain& i, const Grain& j, Pack distance, Touch<Pack>&
 }
 
 /// Where losses are counted: adds them up, and adds the parts of the loads that make them.
-HWY_INLINE void count(const PairSweep& sweep, std::size_t pair, PackMask touching, const Touch<Pack>& touch,
+HWY_INLINE void count(const PairSweep& sweep, bool rolls, std::size_t pair, PackMask touching, const Touch<Pack>& touch,
                       const Response<Pack>& does, const Losses<Pack>& losses, PairFindings& found) {
   const Pack all[] = {losses.damping, losses.shear_damping, losses.sliding, losses.into_slide, losses.into_roll};
   for (int k = 0; k < 5; ++k) found.losses[k] = add_up(found.losses[k], where(touching, all[k]));
@@ -70,7 +72,7 @@ HWY_INLINE void count(const PairSweep& sweep, std::size_t pair, PackMask touchin
   add_rows(forces, [&](int k) { return &sweep.taking[sweep.first[pair + k]].dashpot.x; });
   add_rows({-forces.a, -forces.b, -forces.c, -forces.d, -forces.e, -forces.f},
            [&](int k) { return &sweep.taking[sweep.second[pair + k]].dashpot.x; });
-  if (sweep.laws.rolling == RollingLaw::none) return;
+  if (!rolls) return;
   const Triad couple = where(touching, does.couple);
   const Pack zero(0.0);
   add_rows({couple.x, couple.y, couple.z, zero, zero, zero},
@@ -98,25 +100,31 @@ struct Place {
       : pair(first), batch(first / 8), within(first % 8), mask((lanes == 8 ? 0xffu : (1u << lanes) - 1) << within) {}
 };
 
+/// What a sweep is asked for: where these are known to the compiler, the rest of the laws is no part of the loop.
+struct Asked {
+  LawFlags laws;
+  bool losses;
+};
+
 /// Laws and scattering, for contacts that touch.
-HWY_INLINE void respond(const PairSweep& sweep, const LawConstants<Pack>& constants, const Place& at, PackMask touching,
-                        Pack distance, Grain& i, Grain& j, Touch<Pack>& touch, PairFindings& found) {
+HWY_INLINE void respond(const PairSweep& sweep, const Asked& asked, const LawConstants<Pack>& constants,
+                        const Place& at, PackMask touching, Pack distance, Grain& i, Grain& j, Touch<Pack>& touch,
+                        PairFindings& found) {
   read_motion(sweep.motion, sweep.spin, sweep.first + at.pair, i);
   read_motion(sweep.motion, sweep.spin, sweep.second + at.pair, j);
+  const RollingLaw rolling = asked.laws.rolling;
+  const bool with_inertia = rolling == RollingLaw::directional || rolling == RollingLaw::elastic_plastic;
   Pack arm_i, arm_j;
-  meet(i, j, distance, touch, arm_i, arm_j);
-  touch.inertia = Pack(0.0);
-  if (sweep.laws.rolling == RollingLaw::directional || sweep.laws.rolling == RollingLaw::elastic_plastic)
-    touch.inertia = Pack(1.0) / (i.inverse_inertia + j.inverse_inertia);
+  meet(i, j, distance, with_inertia, touch, arm_i, arm_j);
 
   double* memory = sweep.memory + at.batch * 48 + at.within;
   Memory<Pack> kept = recall(memory);
   Losses<Pack> losses;
   const Response<Pack> does =
-      contact_response(sweep.laws, constants, touch, kept, sweep.dt, sweep.taking ? &losses : nullptr);
-  if (sweep.taking) count(sweep, at.pair, touching, touch, does, losses, found);
+      contact_response(asked.laws, constants, touch, kept, sweep.dt, asked.losses ? &losses : nullptr);
+  if (asked.losses) count(sweep, rolling != RollingLaw::none, at.pair, touching, touch, does, losses, found);
   keep(kept.slide, touching, memory);
-  if (sweep.laws.rolling != RollingLaw::none) keep(kept.roll, touching, memory + 24);
+  if (law::keeps_roll(rolling)) keep(kept.roll, touching, memory + 24);
 
   const Triad lever = cross(touch.normal, does.tangential);
   scatter(sweep, at.pair, where(touching, does.force), where(touching, does.couple - arm_i * lever),
@@ -124,7 +132,8 @@ HWY_INLINE void respond(const PairSweep& sweep, const LawConstants<Pack>& consta
 }
 
 /// One pack of contacts. `one` holds the constants where all contacts are of one kind.
-HWY_INLINE void work_on(const PairSweep& sweep, const LawConstants<Pack>* one, const Place& at, PairFindings& found) {
+HWY_INLINE void work_on(const PairSweep& sweep, const Asked& asked, const LawConstants<Pack>* one, const Place& at,
+                        PairFindings& found) {
   Grain i, j;
   read_place(sweep.motion, sweep.first + at.pair, i);
   read_place(sweep.motion, sweep.second + at.pair, j);
@@ -142,12 +151,12 @@ HWY_INLINE void work_on(const PairSweep& sweep, const LawConstants<Pack>* one, c
   const LawConstants<Pack> constants = one ? *one : constants_of(sweep.constants, sweep.kind + at.pair);
   const Pack distance = sqrt(distance2);
   touch.overlap = sum - distance;
-  if (sweep.laws.cohesion == CohesionLaw::jkr)
+  if (asked.laws.cohesion == CohesionLaw::jkr)
     touching =
         touching | (mask_of(before >> at.within) & still_adheres(constants, touch.overlap, i.radius * j.radius / sum));
   made = static_cast<std::uint8_t>((made & ~at.mask) | bits(touching) << at.within);
   if (!none(Pack(sweep.deepest) * min(i.radius, j.radius) < where(touching, touch.overlap))) found.too_deep = true;
-  respond(sweep, constants, at, touching, distance, i, j, touch, found);
+  respond(sweep, asked, constants, at, touching, distance, i, j, touch, found);
 }
 
 /// So many contacts ahead the rows of second grains are called for: those of big beds lie in memory, and no hardware
@@ -163,15 +172,39 @@ HWY_INLINE void fetch_rows(const PairSweep& sweep, std::uint32_t grain) {
   __builtin_prefetch(&sweep.taking[grain].couple, 1);
 }
 
-}  // namespace
-
-void run_pairs(const PairSweep& sweep, std::size_t begin, std::size_t end, PairFindings& found) {
+HWY_INLINE void run_asked(const PairSweep& sweep, const Asked& asked, std::size_t begin, std::size_t end,
+                          PairFindings& found) {
   const LawConstants<Pack> one = broadcast(sweep.constants);
   const std::size_t last = 8 * end;
   for (std::size_t pair = 8 * begin; pair < last; pair += lanes) {
-    if (const std::size_t soon = pair + rows_ahead; soon + lanes <= last)
+    if (const std::size_t soon = pair + rows_ahead; soon + lanes <= last && sweep.touching[soon / 8])
       for (int k = 0; k < lanes; ++k) fetch_rows(sweep, sweep.second[soon + k]);
-    work_on(sweep, sweep.kinds == 1 ? &one : nullptr, Place(pair), found);
+    work_on(sweep, asked, sweep.kinds == 1 ? &one : nullptr, Place(pair), found);
+  }
+}
+
+/// Hertz without cohesion, losses not counted: what long runs are made of.
+template <RollingLaw rolling>
+void run_plain(const PairSweep& sweep, std::size_t begin, std::size_t end, PairFindings& found) {
+  run_asked(sweep, {{NormalLaw::hertz, rolling, CohesionLaw::none}, false}, begin, end, found);
+}
+
+}  // namespace
+
+void run_pairs(const PairSweep& sweep, std::size_t begin, std::size_t end, PairFindings& found) {
+  if (sweep.laws.normal != NormalLaw::hertz || sweep.laws.cohesion != CohesionLaw::none || sweep.taking)
+    return run_asked(sweep, {sweep.laws, sweep.taking != nullptr}, begin, end, found);
+  switch (sweep.laws.rolling) {
+    case RollingLaw::none:
+      return run_plain<RollingLaw::none>(sweep, begin, end, found);
+    case RollingLaw::directional:
+      return run_plain<RollingLaw::directional>(sweep, begin, end, found);
+    case RollingLaw::elastic_plastic:
+      return run_plain<RollingLaw::elastic_plastic>(sweep, begin, end, found);
+    case RollingLaw::spring_slider:
+      return run_plain<RollingLaw::spring_slider>(sweep, begin, end, found);
+    case RollingLaw::torsion_spring:
+      return run_plain<RollingLaw::torsion_spring>(sweep, begin, end, found);
   }
 }
 

@@ -51,27 +51,56 @@ struct Losses {
 
 namespace law {
 
+/// Squares of lengths that are divided by are at least this, so that two of them can share a division.
+inline constexpr double least_square = 1e-140;
+inline constexpr double least = 1e-70;
+
+template <class Real>
+struct Inverses {
+  Real first, second;
+};
+
+/// 1/a and 1/b for one division, the slowest of operations.
+template <class Real>
+[[gnu::always_inline]] inline Inverses<Real> inverses(Real a, Real b) {
+  const Real both = Real(1.0) / (a * b);
+  return {b * both, a * both};
+}
+
+template <class Real>
+[[gnu::always_inline]] inline Real size2(const Triple<Real>& a) {
+  return max(dot(a, a), Real(least_square));
+}
+
 /// Turns a remembered tangent vector into the plane normal to n; its length is kept to fourth order.
 template <class Real>
-[[gnu::always_inline]] inline Triple<Real> turned(const Triple<Real>& kept, const Triple<Real>& n) {
+[[gnu::always_inline]] inline Triple<Real> turned(const Triple<Real>& kept, const Triple<Real>& n, Real inverse_size2) {
   const Real s = dot(kept, n);
-  const Real share = Real(0.5) * s * s / max(dot(kept, kept), Real(1e-280));
-  return (kept - s * n) * (Real(1.0) + share);
+  return (kept - s * n) * (Real(1.0) + Real(0.5) * s * s * inverse_size2);
 }
 
 /// Spring and dashpot side by side, behind a slider: steps 2 and 3 of the page's history.
 template <class Real>
-[[gnu::always_inline]] inline Triple<Real> slider(Triple<Real>& kept, const Triple<Real>& rate, Real stiffness,
-                                                  Real damping, Real limit, double dt) {
-  const Triple<Real> trial = kept + rate * Real(dt);
-  const Triple<Real> pull = -(trial * stiffness + rate * damping);
-  const Real size = sqrt(max(dot(pull, pull), Real(1e-280)));
-  const Real resistance = max(stiffness + damping * Real(1 / dt), Real(1e-140));
-  const Real inverse = Real(1.0) / (size * resistance);  // one division for both
-  const Real scale = min(limit * resistance * inverse, Real(1.0));
-  kept = trial + pull * ((Real(1.0) - scale) * size * inverse);
-  return pull * scale;
-}
+struct Slider {
+  Triple<Real> trial, pull;
+  Real size;        ///< of the pull
+  Real resistance;  ///< against being moved on in this step
+
+  [[gnu::always_inline]] Slider(const Triple<Real>& kept, const Triple<Real>& rate, Real stiffness, Real damping,
+                                double dt)
+      : trial(kept + rate * Real(dt)),
+        pull(-(trial * stiffness + rate * damping)),
+        size(sqrt(size2(pull))),
+        resistance(max(stiffness + damping * Real(1 / dt), Real(least))) {}
+
+  [[gnu::always_inline]] Real divisor() const { return size * resistance; }
+  /// The pull within its limit, and what is kept then; `inverse` of the divisor.
+  [[gnu::always_inline]] Triple<Real> limited(Real limit, Real inverse, Triple<Real>& kept) const {
+    const Real scale = min(limit * resistance * inverse, Real(1.0));
+    kept = trial + pull * ((Real(1.0) - scale) * size * inverse);
+    return pull * scale;
+  }
+};
 
 /// Contact radius of JKR: the larger root of delta = a^2/R - sqrt(2 pi w a/E). With u = sqrt(a):
 /// u^4/R - b u = delta; Newton from above, where the curve is convex and rising, so it comes down to the root.
@@ -123,32 +152,42 @@ template <class Real>
   return out;
 }
 
-/// The couple of rolling resistance on i.
+/// Whether a law of rolling remembers a rotation.
+[[gnu::always_inline]] inline bool keeps_roll(RollingLaw rolling) {
+  return rolling != RollingLaw::none && rolling != RollingLaw::directional;
+}
+
+/// Tangential force by `slide`, limited by friction, and the couple of rolling resistance on i.
 template <class Real>
-[[gnu::always_inline]] inline Triple<Real> rolling(const LawFlags& laws, const LawConstants<Real>& c,
-                                                   const Touch<Real>& at, Real stiffness, Real pressing,
-                                                   Triple<Real>& kept, double dt) {
-  const Real limit = c.rolling * at.radius * pressing;
-  if (laws.rolling == RollingLaw::directional) {
-    const Real rate = sqrt(max(dot(at.rotation, at.rotation), Real(1e-280)));
-    return at.rotation * (-min(limit / rate, at.inertia * Real(1 / dt)));
-  }
+[[gnu::always_inline]] inline void resist(const LawFlags& laws, const LawConstants<Real>& c, const Touch<Real>& at,
+                                          Real stiffness, const Slider<Real>& slide, Memory<Real>& memory, double dt,
+                                          Response<Real>& out) {
+  const Real friction = c.sliding * out.pressing, limit = c.rolling * at.radius * out.pressing;
   const Triple<Real> rate = at.rotation - dot(at.rotation, at.normal) * at.normal;
-  kept = turned(kept, at.normal);
-  if (laws.rolling == RollingLaw::spring_slider) {
-    const Real r2 = at.radius * at.radius;
-    return slider(kept, rate, c.roll_stiffness * r2, c.roll_damping * r2, limit, dt);
+  if (laws.rolling == RollingLaw::directional) {
+    const Real speed = sqrt(size2(at.rotation));
+    const Inverses<Real> inverse = inverses(slide.divisor(), speed);
+    out.tangential = slide.limited(friction, inverse.first, memory.slide);
+    out.couple = at.rotation * (-min(limit * inverse.second, at.inertia * Real(1 / dt)));
+  } else if (laws.rolling == RollingLaw::spring_slider || laws.rolling == RollingLaw::elastic_plastic) {
+    const bool viscous = laws.rolling == RollingLaw::elastic_plastic;
+    const Real reach = viscous ? c.rolling * at.radius : at.radius;
+    const Real k = (viscous ? Real(2.25) * stiffness : c.roll_stiffness) * reach * reach;
+    const Slider<Real> roll(memory.roll, rate, k, viscous ? Real(0.0) : c.roll_damping * reach * reach, dt);
+    const Inverses<Real> inverse = inverses(slide.divisor(), roll.divisor());
+    out.tangential = slide.limited(friction, inverse.first, memory.slide);
+    out.couple = roll.limited(limit, inverse.second, memory.roll);
+    if (!viscous) return;
+    const auto below = dot(out.couple, out.couple) < limit * limit * Real(1 - 1e-12);
+    const Real dashpot = Real(2.0) * c.roll_damping * sqrt(Real(3.5) * at.inertia * k);
+    out.couple = out.couple - rate * select(below, dashpot, Real(0.0));
+  } else {
+    out.tangential = slide.limited(friction, Real(1.0) / slide.divisor(), memory.slide);
+    out.couple = Triple<Real>{Real(0.0), Real(0.0), Real(0.0)};
+    if (laws.rolling != RollingLaw::torsion_spring) return;
+    memory.roll = memory.roll + rate * Real(dt);
+    out.couple = memory.roll * (-c.roll_stiffness);
   }
-  if (laws.rolling == RollingLaw::torsion_spring) {
-    kept = kept + rate * Real(dt);
-    return kept * (-c.roll_stiffness);
-  }
-  const Real reach = c.rolling * at.radius;
-  const Real k = Real(2.25) * stiffness * reach * reach;
-  const Triple<Real> spring = slider(kept, rate, k, Real(0.0), limit, dt);
-  const auto below = dot(spring, spring) < limit * limit * Real(1 - 1e-12);
-  const Real viscous = Real(2.0) * c.roll_damping * sqrt(Real(3.5) * at.inertia * k);
-  return spring - rate * select(below, viscous, Real(0.0));
 }
 
 }  // namespace law
@@ -170,13 +209,17 @@ template <class Real>
   if (laws.cohesion == CohesionLaw::jkr) out.pressing = out.pressing + c.pull_off * at.radius;
   out.pressing = max(out.pressing, Real(0.0));
 
-  memory.slide = law::turned(memory.slide, n);
+  if (law::keeps_roll(laws.rolling)) {
+    const law::Inverses<Real> inverse = law::inverses(law::size2(memory.slide), law::size2(memory.roll));
+    memory.slide = law::turned(memory.slide, n, inverse.first);
+    memory.roll = law::turned(memory.roll, n, inverse.second);
+  } else {
+    memory.slide = law::turned(memory.slide, n, Real(1.0) / law::size2(memory.slide));
+  }
   const Triple<Real> before = memory.slide;
-  out.tangential = law::slider(memory.slide, along, normal.shear, normal.shear_damping, c.sliding * out.pressing, dt);
+  const law::Slider<Real> slide(memory.slide, along, normal.shear, normal.shear_damping, dt);
+  law::resist(laws, c, at, normal.stiffness, slide, memory, dt, out);
   out.force = push * n + out.tangential;
-  out.couple = Triple<Real>{Real(0.0), Real(0.0), Real(0.0)};
-  if (laws.rolling != RollingLaw::none)
-    out.couple = law::rolling(laws, c, at, normal.stiffness, out.pressing, memory.roll, dt);
   if (losses) {
     const Triple<Real> stretched = (memory.slide - before) * Real(1 / dt);
     losses->dashpot = -normal.damping * approach;
