@@ -88,20 +88,46 @@ std::string listed_words(const std::vector<std::string>& words) {
   return text;
 }
 
+/// The dependence that is surest in what the best named effects leave, or in what the base model leaves.
+const Dependence* surest_dependence(const LoopAnswer& answer) {
+  const auto& all = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
+  const auto surer = [](const Dependence& a, const Dependence& b) {
+    return std::pair(a.p_value, -a.share) < std::pair(b.p_value, -b.share);
+  };
+  const auto surest = std::min_element(all.begin(), all.end(), surer);
+  return surest == all.end() ? nullptr : &*surest;
+}
+
+/// What has no name predicts nothing; but where it shows can be said.
+std::string to_show_its_shape(const LoopAnswer& answer) {
+  constexpr double sure = 0.05;
+  const std::string lack = "What is missing has no name and so predicts nothing; ";
+  const Dependence* on = surest_dependence(answer);
+  if (!on || on->p_value > sure) return lack + "one condition varied alone, with re-runs, would show its shape.";
+  std::string variable = on->variable;
+  std::replace(variable.begin(), variable.end(), '_', ' ');
+  const std::string how = variable == "run" ? "repeat one setpoint through the whole campaign"
+                                            : fmt::format("vary the {} alone, with re-runs", variable);
+  return fmt::format("{}to see its shape, {}: on that the {} that is left depends most (p = {:.2g}).", lack, how,
+                     channel_views[static_cast<std::size_t>(on->channel)].title, on->p_value);
+}
+
 }  // namespace
 
 std::vector<std::string> what_next(const LoopAnswer& answer) {
-  if (answer.verdict == Verdict::unknown_effect)
-    return {
-        "No run is proposed: what is missing has no name and so predicts nothing. One condition varied alone, with "
-        "re-runs, would show its shape."};
-  if (!answer.next && answer.ambiguity_set.size() > 1)
-    return {"No condition within the limits would set these rivals apart in 50 runs."};
-  if (!answer.next) return {};
+  const bool unknown = answer.verdict == Verdict::unknown_effect;
+  std::vector<std::string> sentences;
+  if (unknown) sentences.push_back(to_show_its_shape(answer));
+  if (!answer.next) {
+    if (!unknown && answer.ambiguity_set.size() > 1)
+      sentences.push_back("No condition within the limits would set these rivals apart in 50 runs.");
+    return sentences;
+  }
   const NextTest& next = *answer.next;
-  std::vector<std::string> sentences = {
-      fmt::format("Measure next: {}. It sets {} apart from {}; {} run{} should decide.", condition_words(next),
-                  joined(next.separates.front()), joined(next.separates.back()), next.runs, next.runs == 1 ? "" : "s")};
+  sentences.push_back(fmt::format("Measure next{}: {}. It sets {} apart from {}; {} run{} should decide.",
+                                  unknown ? ", as far as named effects go" : "", condition_words(next),
+                                  joined(next.separates.front()), joined(next.separates.back()), next.runs,
+                                  next.runs == 1 ? "" : "s"));
   if (next.beyond.empty()) return sentences;
   std::vector<std::string> names = next.beyond;
   for (std::string& name : names) std::replace(name.begin(), name.end(), '_', ' ');

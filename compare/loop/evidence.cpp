@@ -23,19 +23,19 @@ Projector::Projector(const MatrixXd& columns) : q_(orthonormal(columns)) {}
 MatrixXd form_columns(const Observations& observations, const Whitening& whitening, const VectorXd& contribution,
                       double tolerance) {
   constexpr int smooth_columns = 6;
-  const MatrixXd basis = smooth_basis(observations, smooth_columns);
+  const MatrixXd basis = with_constant(smooth_basis(observations, smooth_columns));
   const Index cells = contribution.size();
-  MatrixXd columns = MatrixXd::Zero(cells, channel_count * (basis.cols() + 1));
+  MatrixXd columns = MatrixXd::Zero(cells, channel_count * basis.cols());
   Index used = 0;
   for (int channel = 0; channel < channel_count; ++channel)
-    for (Index b = -1; b < basis.cols(); ++b) {
+    for (Index b = 0; b < basis.cols(); ++b) {
       for (Index i = 0; i < cells; ++i) {
         const Cell& cell = observations.cells[static_cast<std::size_t>(i)];
-        if (cell.channel == channel) columns(i, used) = contribution[i] * (b < 0 ? 1.0 : basis(cell.row, b));
+        if (cell.channel == channel) columns(i, used) = contribution[i] * basis(cell.row, b);
       }
       if (columns.col(used).squaredNorm() > 0) ++used;
     }
-  const double each = tolerance / std::sqrt(static_cast<double>(basis.cols() + 1));
+  const double each = tolerance / std::sqrt(static_cast<double>(basis.cols()));
   return each * whitening(MatrixXd(columns.leftCols(used)));
 }
 
@@ -124,10 +124,7 @@ MatrixXd waves(const VectorXd& values, int most) {
 std::vector<MatrixXd> row_families(const Observations& observations) {
   const Index rows = static_cast<Index>(observations.rows.size());
   const int most = std::clamp(static_cast<int>(rows) / 4, 2, 14);
-  const MatrixXd smooth = smooth_basis(observations, most);
-  MatrixXd with_offset(rows, smooth.cols() + 1);
-  with_offset << VectorXd::Ones(rows), smooth;
-  std::vector<MatrixXd> families = {with_offset};
+  std::vector<MatrixXd> families = {with_constant(smooth_basis(observations, most))};
   for (const Covariate& c : covariates(observations))
     if (c.name == "slip" || c.name == "load" || c.name == "position" || c.name == "run")
       families.push_back(waves(c.values, std::clamp(static_cast<int>(rows) / 10, 1, 5)));

@@ -19,9 +19,7 @@ MatrixXd inadequacy_columns(const Identification& id) {
     bare.load = at.load, bare.slip = at.slip;
     at = bare;
   }
-  const MatrixXd smooth = smooth_basis(own, most);
-  MatrixXd functions(smooth.rows(), smooth.cols() + 1);
-  functions << VectorXd::Ones(smooth.rows()), smooth;
+  const MatrixXd functions = with_constant(smooth_basis(own, most));
   return in_every_channel(id.observations, id.noise, *id.whitening, id.base.prediction, functions);
 }
 

@@ -257,26 +257,29 @@ bool describe_base(const Campaign& campaign, LoopAnswer& answer) {
   return true;
 }
 
-/// The named sets that come nearest to an unknown effect, also where the base model's own form may be off: then effects
-/// can stand out that nothing but a change with load and slip, taken for another effect, had hidden.
-void read_again(const Campaign& campaign, LoopAnswer& answer, const IdentifyOptions& options) {
-  const Identification& first = answer.details;
-  if (first.best) answer.ambiguity_set = weighted_sets(first, competitors(first));
-  answer.inadequate = read_beside_inadequacy(campaign, first, options);
-  if (!answer.inadequate || !answer.inadequate->identification.best) return;
-  const Identification& second = answer.inadequate->identification;
-  const std::vector<Competitor> all = competitors(second);
-  answer.ambiguity_set = merged(answer.ambiguity_set, weighted_sets(second, all), all.front().allowed);
-}
-
-/// The competing sets and the run that would best set them apart.
-void compare_rivals(const Campaign& campaign, LoopAnswer& answer, const Limits& limits) {
-  const Identification& id = answer.details;
-  const std::vector<Competitor> all = competitors(id);
-  answer.ambiguity_set = weighted_sets(id, all);
+/// The run that would best set the competing sets of a reading apart.
+std::optional<NextTest> proposed(const Campaign& campaign, const Identification& id, const Limits& limits) {
   Limits reach = limits;  // what is given comes before what the campaign spans
   reach.merge(limits_of(id.observations));
-  answer.next = next_test(campaign, id, all, reach);
+  return next_test(campaign, id, competitors(id), reach);
+}
+
+/// The named sets that come nearest to an unknown effect, also where the base model's own form may be off: then effects
+/// can stand out that nothing but a change with load and slip, taken for another effect, had hidden. The next test is
+/// asked of the reading that explains the data better.
+void read_again(const Campaign& campaign, LoopAnswer& answer, const Limits& limits, const IdentifyOptions& options) {
+  const Identification& first = answer.details;
+  const Identification* ahead = first.best ? &first : nullptr;
+  if (ahead) answer.ambiguity_set = weighted_sets(first, competitors(first));
+  answer.inadequate = read_beside_inadequacy(campaign, first, options);
+  if (answer.inadequate && answer.inadequate->identification.best) {
+    const Identification& second = answer.inadequate->identification;
+    const std::vector<Competitor> all = competitors(second);
+    answer.ambiguity_set = merged(answer.ambiguity_set, weighted_sets(second, all), all.front().allowed);
+    const auto explains = [](const Identification& id) { return weighed(id, id.rivals[*id.best].ids).log_evidence; };
+    if (!ahead || explains(second) > explains(first)) ahead = &second;
+  }
+  if (ahead) answer.next = proposed(campaign, *ahead, limits);
 }
 
 /// The choice within a fold: fewer simulations, its outliers set aside by the whole.
@@ -312,8 +315,11 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   decide(campaign, answer);
   describe_effects(campaign, answer, options.identify);
   whole.pulse = [&] { say(all_steps - 1); };
-  if (answer.verdict == Verdict::unknown_effect) read_again(campaign, answer, whole);
-  if (answer.verdict == Verdict::effect_found) compare_rivals(campaign, answer, options.limits);
+  if (answer.verdict == Verdict::unknown_effect) read_again(campaign, answer, options.limits, whole);
+  if (answer.verdict == Verdict::effect_found) {
+    answer.ambiguity_set = weighted_sets(answer.details, competitors(answer.details));
+    answer.next = proposed(campaign, answer.details, options.limits);
+  }
   say(all_steps);
   return answer;
 }

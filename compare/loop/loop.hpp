@@ -54,8 +54,8 @@ struct LoopAnswer {
   /// ambiguity set.
   std::optional<InadequateReading> inadequate;
   std::vector<std::string> not_testable;
-  std::optional<NextTest> next;
-  PredictiveGain choice_gain;  ///< of the best rival over the base model
+  std::optional<NextTest> next;  ///< also of an unknown effect: between the named sets that come nearest
+  PredictiveGain choice_gain;    ///< of the best rival over the base model
   CrossValidation validation;
   LackOfFit before, after;
   std::vector<Dependence> dependences_before, dependences_after;

@@ -48,8 +48,9 @@ Whitening::Whitening(const Observations& observations, const NoiseFloor& noise, 
   }
 }
 
-MatrixXd Whitening::operator()(const MatrixXd& columns) const {
-  MatrixXd white(columns.rows(), columns.cols());
+template <class Columns>
+Columns Whitening::whitened(const Columns& columns) const {
+  Columns white(columns.rows(), columns.cols());
   for (const Block& b : blocks_) {
     const Index n = b.inverse_factor.rows();
     white.middleRows(b.first, n).noalias() = b.inverse_factor * columns.middleRows(b.first, n);
@@ -58,15 +59,9 @@ MatrixXd Whitening::operator()(const MatrixXd& columns) const {
   return white;
 }
 
-VectorXd Whitening::operator()(const VectorXd& column) const {
-  VectorXd white(column.size());
-  for (const Block& b : blocks_) {
-    const Index n = b.inverse_factor.rows();
-    white.segment(b.first, n).noalias() = b.inverse_factor * column.segment(b.first, n);
-  }
-  if (term_basis_.size() > 0) white += term_basis_ * (term_change_ * (term_basis_.transpose() * white));
-  return white;
-}
+MatrixXd Whitening::operator()(const MatrixXd& columns) const { return whitened(columns); }
+
+VectorXd Whitening::operator()(const VectorXd& column) const { return whitened(column); }
 
 Whitening Whitening::beside(const MatrixXd& columns) const {
   const Index wide = std::min(columns.rows(), columns.cols());
@@ -114,6 +109,12 @@ VectorXd to_unit_interval(const VectorXd& values) {
 }
 
 }  // namespace
+
+MatrixXd with_constant(const MatrixXd& functions) {
+  MatrixXd all(functions.rows(), functions.cols() + 1);
+  all << VectorXd::Ones(functions.rows()), functions;
+  return all;
+}
 
 MatrixXd smooth_basis(const Observations& observations, int max_columns) {
   BasisBuilder basis(static_cast<Index>(observations.rows.size()), max_columns);

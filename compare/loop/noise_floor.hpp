@@ -41,6 +41,9 @@ class Whitening {
     Eigen::Index first;
     Eigen::MatrixXd inverse_factor;
   };
+  template <class Columns>
+  Columns whitened(const Columns& columns) const;
+
   std::vector<Block> blocks_;
   /// Beside a term of columns U = Q R: then v becomes v + Q (L^-1 - 1) Q' v, L L' = 1 + R R'. Empty: no term.
   Eigen::MatrixXd term_basis_, term_change_;
@@ -49,6 +52,9 @@ class Whitening {
 /// Smooth functions of the covariates over the rows, each of mean 0 and mean square 1, the plainest first: linear
 /// terms, powers of slip, products with slip and load, squares. At most max_columns.
 Eigen::MatrixXd smooth_basis(const Observations& observations, int max_columns);
+
+/// A column of ones, then the columns given.
+Eigen::MatrixXd with_constant(const Eigen::MatrixXd& functions);
 
 /// What a noise estimate starts from: the cells' residuals about the declared soil's linearised prediction,
 /// e = y - f + J (theta - prior), their predictions, and the soil's columns in units of the priors' sd.

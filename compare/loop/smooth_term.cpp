@@ -35,9 +35,7 @@ VectorXd ridge(const MatrixXd& columns, const VectorXd& residual) {
 VectorXd smooth_term(const Observations& all, const std::vector<bool>& kept, const VectorXd& prediction,
                      const NoiseFloor& noise) {
   const int most = std::clamp(static_cast<int>(all.rows.size()) / 4, 2, 14);
-  const MatrixXd smooth = smooth_basis(all, most);
-  MatrixXd basis(smooth.rows(), smooth.cols() + 1);
-  basis << VectorXd::Ones(smooth.rows()), smooth;
+  const MatrixXd basis = with_constant(smooth_basis(all, most));
   VectorXd term = VectorXd::Zero(prediction.size());
   for (int channel = 0; channel < channel_count; ++channel) {
     std::vector<Index> training;

@@ -16,6 +16,7 @@ double component(const Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.
 /// Cells along a side are no more than this, however far grains are apart; and of all, not many more than grains.
 constexpr int most_cells_a_side = 1 << 16;
 
+/// Sides of ten cells and less are left: a periodic one must keep four.
 void thin_out(std::array<int, 3>& count, std::size_t grains) {
   const double most = 1024.0 + 2.0 * static_cast<double>(grains);
   while (static_cast<double>(count[0]) * count[1] * count[2] > most) *std::max_element(count.begin(), count.end()) /= 2;

@@ -133,8 +133,9 @@ TEST(Loop, SaysUnknownWhereTheCatalogueHasNoName) {
   const LoopAnswer answer = run_loop(campaign, quick());
   EXPECT_EQ(answer.verdict, Verdict::unknown_effect) << answer.reason;
   EXPECT_TRUE(answer.effects.empty());
-  ASSERT_EQ(what_next(answer).size(), 1u);
-  EXPECT_NE(what_next(answer).front().find("No run is proposed"), std::string::npos);
+  const std::string first = what_next(answer).front();
+  EXPECT_NE(first.find("vary the slip alone, with re-runs"), std::string::npos) << first;
+  EXPECT_NE(first.find("the torque that is left depends most"), std::string::npos) << first;
 }
 
 // A cell that reads too little the more it is pulled: a gain and an offset mimic the most of it, but not the bend.

@@ -160,8 +160,8 @@ TEST(SlowFreeDrive, WhatTheGrainsWereGivenIsAccountedForWithoutRollingResistance
   EXPECT_NEAR(end.soil_unaccounted(), 0, 0.005 * end.soil);
 }
 
-// The guided wheel holds the mean slip, the free one swings about it. Pull bends with slip, so that over 19 packings the
-// guided one pulls 0.32 +- 0.10 N more, 1.6 % of the load.
+// The guided wheel holds the mean slip, the free one swings about it. Pull bends with slip, so that over 19 packings
+// the guided one pulls 0.32 +- 0.10 N more, 1.6 % of the load.
 TEST_F(SlowFreeDriveOnGrains, PullsWhatTheGuidedWheelPullsAtItsSlip) {
   const double drawbar = 2;
   Drive drive = even_drive(0, drawbar, 6);
