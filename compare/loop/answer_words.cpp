@@ -88,6 +88,12 @@ std::string listed_words(const std::vector<std::string>& words) {
   return text;
 }
 
+/// A name as people write it: "cross_slope" becomes "cross slope".
+std::string spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 /// The dependence that is surest in what the best named effects leave, or in what the base model leaves.
 const Dependence* surest_dependence(const LoopAnswer& answer) {
   const auto& all = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
@@ -104,10 +110,8 @@ std::string to_show_its_shape(const LoopAnswer& answer) {
   const std::string lack = "What is missing has no name and so predicts nothing; ";
   const Dependence* on = surest_dependence(answer);
   if (!on || on->p_value > sure) return lack + "one condition varied alone, with re-runs, would show its shape.";
-  std::string variable = on->variable;
-  std::replace(variable.begin(), variable.end(), '_', ' ');
-  const std::string how = variable == "run" ? "repeat one setpoint through the whole campaign"
-                                            : fmt::format("vary the {} alone, with re-runs", variable);
+  const std::string how = on->variable == "run" ? "repeat one setpoint through the whole campaign"
+                                                : fmt::format("vary the {} alone, with re-runs", spaced(on->variable));
   return fmt::format("{}to see its shape, {}: on that the {} that is left depends most (p = {:.2g}).", lack, how,
                      channel_views[static_cast<std::size_t>(on->channel)].title, on->p_value);
 }
@@ -130,7 +134,7 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
                                   next.runs == 1 ? "" : "s"));
   if (next.beyond.empty()) return sentences;
   std::vector<std::string> names = next.beyond;
-  for (std::string& name : names) std::replace(name.begin(), name.end(), '_', ' ');
+  for (std::string& name : names) name = spaced(name);
   sentences.push_back(fmt::format(
       "That is beyond what was run (in {}), where rivals part best. What the rig can't reach: --limit {}=LOW..HIGH.",
       listed_words(names), next.beyond.front()));

@@ -16,14 +16,31 @@ double wrapped(double at, double lower, double length) {
   return length > 0 ? at - length * std::floor((at - lower) / length) : at;
 }
 
-/// Contacts of all slabs by grain id, in order, to hand them out again once grains are sorted.
-std::vector<std::pair<GrainId, SurfaceContact>> by_id(const std::vector<SurfaceContacts>& surfaces,
-                                                      const Grains& grains) {
-  std::vector<std::pair<GrainId, SurfaceContact>> all;
+/// Contacts with surfaces by grain id, in order.
+using KeptOnSurfaces = std::vector<std::pair<GrainId, SurfaceContact>>;
+
+/// Those of all slabs, to hand them out again once grains are sorted.
+KeptOnSurfaces by_id(const std::vector<SurfaceContacts>& surfaces, const Grains& grains) {
+  KeptOnSurfaces all;
   for (const SurfaceContacts& slab : surfaces)
     for (const SurfaceContact& contact : slab.made) all.emplace_back(grains.id[contact.who.grain], contact);
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   return all;
+}
+
+/// Gives the grains that are near a surface their contacts back.
+void hand_out(const KeptOnSurfaces& kept, const Grains& grains, SurfaceContacts& slab) {
+  std::uint32_t before = ~0u;
+  for (const NearSurface& near : slab.near) {
+    const std::uint32_t row = near.grain;
+    if (row == std::exchange(before, row)) continue;
+    const auto [begin, end] = std::equal_range(kept.begin(), kept.end(), std::pair(grains.id[row], SurfaceContact{}),
+                                               [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (auto it = begin; it != end; ++it) {
+      slab.made.push_back(it->second);
+      slab.made.back().who.grain = row;
+    }
+  }
 }
 
 /// Of each row before some were gone and the rest sorted: the row now, or that it is gone.
@@ -67,7 +84,7 @@ void Simulation::search(std::span<const std::uint8_t> gone) {
       s.ledger.added += dot(s.gravity, from - at) / s.grains.motion[k].inverse_mass;
     if ((gone.empty() || !gone[k]) && !setup_.domain.contains(at)) stop_for_loss(k);
   }
-  const auto on_surfaces = by_id(s.surfaces, s.grains);
+  const KeptOnSurfaces kept_on_surfaces = by_id(s.surfaces, s.grains);
 
   const std::size_t rows_before = s.grains.count();
   if (!gone.empty()) s.grains.remove(gone);
@@ -93,21 +110,10 @@ void Simulation::search(std::span<const std::uint8_t> gone) {
   for (int slab = 0; slab < slabs; ++slab) {
     SurfaceContacts& here = s.surfaces[slab];
     here.near = find_near(s.bodies, s.grains, s.slab_rows[slab], s.slab_rows[slab + 1], reach_ + adhesion_reach_);
-    std::uint32_t before = ~0u;
-    for (const NearSurface& near : here.near) {
-      const std::uint32_t row = near.grain;
-      if (row == std::exchange(before, row)) continue;
-      const auto [begin, end] =
-          std::equal_range(on_surfaces.begin(), on_surfaces.end(), std::pair(s.grains.id[row], SurfaceContact{}),
-                           [](const auto& a, const auto& b) { return a.first < b.first; });
-      for (auto it = begin; it != end; ++it) {
-        here.made.push_back(it->second);
-        here.made.back().who.grain = row;
-      }
-    }
+    hand_out(kept_on_surfaces, s.grains, here);
   }
-  s.calm.assign(slabs, calm.empty() ? 0 : calm_enough());
-  for (int slab = 0; slab < slabs && !calm.empty(); ++slab)
+  s.calm.assign(slabs, calm_enough());
+  for (int slab = 0; slab < slabs; ++slab)
     for (std::uint32_t row = s.slab_rows[slab]; row < s.slab_rows[slab + 1]; ++row)
       s.calm[slab] = std::min(s.calm[slab], calm[row]);
   s.body_loads.assign(slabs * s.bodies.size(), {});

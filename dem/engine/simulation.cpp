@@ -4,12 +4,10 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <numbers>
 
-#include "dem/engine/periodic.hpp"
 #include "dem/engine/positive.hpp"
 #include "dem/engine/time_step.hpp"
 #include "scenario/errors.hpp"

@@ -39,10 +39,8 @@ bool Simulation::is_driven(int slab) const {
 }
 
 /// How calm the slab of each grain was, for the rows of an order that sorts them anew. Nobody is calm after a change.
-/// Empty where nobody may sleep.
 std::vector<std::uint32_t> Simulation::calm_by_row(std::span<const std::uint32_t> order) const {
   const State& s = state_;
-  if (setup_.numerics.sleep.speed == 0) return {};
   std::vector<std::uint32_t> before(order.size()), after(order.size());
   if (!s.slab_rows.empty() && s.slab_rows.back() == order.size() && s.calm.size() + 1 == s.slab_rows.size())
     for (std::size_t slab = 0; slab < s.calm.size(); ++slab)

@@ -159,8 +159,8 @@ HWY_INLINE void work_on(const PairSweep& sweep, const Asked& asked, const LawCon
   respond(sweep, asked, constants, at, touching, distance, i, j, touch, found);
 }
 
-/// So many contacts ahead the rows of second grains are called for: those of big beds lie in memory, and no hardware
-/// foresees them. Rows of first grains follow each other.
+/// So many contacts ahead the rows of second grains that touch are called for: those of big beds lie in memory, and no
+/// hardware foresees them. Rows of first grains follow each other.
 constexpr std::size_t rows_ahead = 32;
 
 HWY_INLINE void fetch_rows(const PairSweep& sweep, std::uint32_t grain) {
