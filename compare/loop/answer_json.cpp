@@ -1,9 +1,9 @@
 // LoopAnswer in the contract's form.
 #include <cmath>
 
+#include "compare/loop/condition_views.hpp"
 #include "compare/loop/loop.hpp"
 #include "compare/report/json_fields.hpp"
-#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 
@@ -14,14 +14,17 @@ namespace {
 ordered_json effects_json(const std::vector<AcceptedEffect>& effects) {
   ordered_json list = ordered_json::array();
   for (const AcceptedEffect& effect : effects) {
-    ordered_json parameters = ordered_json::object(), ci = ordered_json::object();
+    ordered_json parameters = ordered_json::object(), ci = ordered_json::object(), bound = ordered_json::array();
     for (const auto& [name, value] : effect.choice.parameters) parameters[name] = finite(value);
     for (std::size_t i = 0; i < effect.fitted.size(); ++i)
       ci[effect.fitted[i]] = {finite(effect.ci95[i].first), finite(effect.ci95[i].second)};
+    for (std::size_t i = 0; i < effect.fitted.size(); ++i)
+      if (effect.at_bound[i]) bound.push_back(effect.fitted[i]);
     list.push_back({{"id", effect.choice.id},
                     {"form", effect.choice.form},
                     {"parameters", parameters},
                     {"ci95", ci},
+                    {"at_bound", bound},
                     {"p_value", finite(effect.p_value)},
                     {"cosines", effect.cosines}});
   }
@@ -67,16 +70,11 @@ ordered_json error_json(const LoopAnswer& answer) {
 /// A condition by the names and units of the campaign's columns.
 ordered_json condition_json(const NextTest& next) {
   ordered_json at = ordered_json::object();
-  for (const std::string& q : next.quantities) {
-    if (q == "slip") at["slip"] = next.at.slip;
-    if (q == "load") at["load_N"] = next.at.load;
-    if (q == "speed") at["speed_m_s"] = next.at.speed;
-    if (q == "pass") at["pass"] = next.at.pass;
-    if (q == "yaw") at["yaw_deg"] = next.at.yaw / degree;
-    if (q == "longitudinal_incline") at["longitudinal_incline_deg"] = next.at.longitudinal_incline / degree;
-    if (q == "transverse_incline") at["transverse_incline_deg"] = next.at.transverse_incline / degree;
-    if (q == "position" && next.at.position) at["position_m"] = *next.at.position;
-    if (q == "moisture" && next.at.moisture) at["moisture_percent"] = 100 * *next.at.moisture;
+  for (const std::string& name : next.quantities) {
+    const ConditionView& view = condition_view(name);
+    const double value = view.column_per_si * view.get(next.at);
+    if (std::isfinite(value))
+      at[view.column] = view.unit.empty() ? ordered_json(std::lround(value)) : ordered_json(value);
   }
   return at;
 }
@@ -146,6 +144,9 @@ ordered_json details_json(const LoopAnswer& answer) {
           {"log_evidence_base", finite(id.base_log_evidence)},
           {"unnamed_gain", finite(id.unnamed_gain)},
           {"residual_unnamed_gain", finite(id.residual_unnamed_gain)},
+          {"reruns",
+           {{finite(answer.reruns_before.p_value), finite(answer.reruns_before.excess)},
+            {finite(answer.reruns_after.p_value), finite(answer.reruns_after.excess)}}},
           {"lack_of_fit_p", {finite(answer.before.p_value), finite(answer.after.p_value)}},
           {"choice_gain", {finite(answer.choice_gain.mean), finite(answer.choice_gain.std_error)}},
           {"error_smooth_term", finite(answer.validation.overall.smooth)},

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/loop/condition_views.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/channels.hpp"
-#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 
@@ -36,17 +36,12 @@ namespace {
 
 std::string condition_words(const NextTest& next) {
   std::string text;
-  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-  for (const std::string& q : next.quantities) {
-    if (q == "slip") add(fmt::format("slip {} %", number(100 * next.at.slip)));
-    if (q == "load") add(fmt::format("load {} N", number(next.at.load)));
-    if (q == "speed") add(fmt::format("speed {} m/s", number(next.at.speed)));
-    if (q == "pass") add(fmt::format("pass {}", next.at.pass));
-    if (q == "yaw") add(fmt::format("yaw {} deg", number(next.at.yaw / degree)));
-    if (q == "longitudinal_incline") add(fmt::format("uphill {} deg", number(next.at.longitudinal_incline / degree)));
-    if (q == "transverse_incline") add(fmt::format("cross slope {} deg", number(next.at.transverse_incline / degree)));
-    if (q == "position" && next.at.position) add(fmt::format("position {} m", number(*next.at.position)));
-    if (q == "moisture" && next.at.moisture) add(fmt::format("moisture {} %", number(100 * *next.at.moisture)));
+  for (const std::string& name : next.quantities) {
+    const ConditionView& view = condition_view(name);
+    const double value = view.get(next.at);
+    if (!std::isfinite(value)) continue;
+    text += fmt::format("{}{} {}{}{}", text.empty() ? "" : ", ", view.title, number(view.per_si * value),
+                        view.unit.empty() ? "" : " ", view.unit);
   }
   return text;
 }
@@ -54,9 +49,10 @@ std::string condition_words(const NextTest& next) {
 std::string effect_sentence(const AcceptedEffect& effect) {
   std::string parameters;
   for (std::size_t i = 0; i < effect.fitted.size(); ++i)
-    parameters += fmt::format("{}{} = {} (95 %: {} .. {})", i == 0 ? "" : ", ", effect.fitted[i],
-                              number(effect.choice.parameters.at(effect.fitted[i])), number(effect.ci95[i].first),
-                              number(effect.ci95[i].second));
+    parameters +=
+        fmt::format("{}{} = {} ({}95 %: {} .. {})", i == 0 ? "" : ", ", effect.fitted[i],
+                    number(effect.choice.parameters.at(effect.fitted[i])), effect.at_bound[i] ? "at its bound; " : "",
+                    number(effect.ci95[i].first), number(effect.ci95[i].second));
   return fmt::format("{} in the form '{}', {} (SI).", effect.choice.id, effect.choice.form, parameters);
 }
 
@@ -125,13 +121,22 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
   if (!answer.next) {
     if (!unknown && answer.ambiguity_set.size() > 1)
       sentences.push_back("No condition within the limits would set these rivals apart in 50 runs.");
+    if (answer.verdict == Verdict::effect_found && answer.ambiguity_set.size() == 1)
+      sentences.push_back(
+          "One name is left, and no condition within the limits would set it further apart in one run.");
     return sentences;
   }
   const NextTest& next = *answer.next;
-  sentences.push_back(fmt::format("Measure next{}: {}. It sets {} apart from {}; {} run{} should decide.",
-                                  unknown ? ", as far as named effects go" : "", condition_words(next),
-                                  joined(next.separates.front()), joined(next.separates.back()), next.runs,
-                                  next.runs == 1 ? "" : "s"));
+  const std::string ahead = joined(next.separates.front()), behind = joined(next.separates.back());
+  if (answer.ambiguity_set.size() == 1 && !unknown)
+    sentences.push_back(
+        fmt::format("One name is left. To be surer still: {}. There {} parts most from {}, which stands next (by "
+                    "{:.1f} sd of one run).",
+                    condition_words(next), ahead, behind, std::sqrt(next.distance)));
+  else
+    sentences.push_back(fmt::format("Measure next{}: {}. It sets {} apart from {}; {} run{} should decide.",
+                                    unknown ? ", as far as named effects go" : "", condition_words(next), ahead, behind,
+                                    next.runs, next.runs == 1 ? "" : "s"));
   if (next.beyond.empty()) return sentences;
   std::vector<std::string> names = next.beyond;
   for (std::string& name : names) name = spaced(name);
@@ -172,7 +177,10 @@ std::vector<std::string> explanation(const LoopAnswer& answer) {
 
 HtmlTable rivals_table(const LoopAnswer& answer) {
   HtmlTable table{
-      "Rivals, each fitted in full", {"effects", "form", "share of evidence [%]", "chi2", "values"}, {}, {true, true}};
+      answer.inadequate ? "Rivals, each fitted in full, the base model taken as exact" : "Rivals, each fitted in full",
+      {"effects", "form", "share of evidence [%]", "chi2", "values"},
+      {},
+      {true, true}};
   constexpr std::size_t most = 8;
   for (const Weighted& w : answer.details.weights) {
     if (table.rows.size() == most) break;

@@ -30,16 +30,21 @@ NoiseFloor first_guess(const Observations& observations) {
   return guess;
 }
 
+/// The soil's columns, and those of the terms' parameters that may move: an amplitude has no prior, and may be anything
+/// within ten of its standard errors.
 NoiseData noise_data(const WheelPredictor& predictor, const Observations& observations, const Fit& fit) {
+  constexpr double wide = 10.0;
+  const VectorXd errors = standard_errors(fit, predictor);
   NoiseData data;
   data.prediction = fit.prediction;
-  const Index soil = predictor.soil_parameters();
-  data.soil_columns.resize(fit.prediction.size(), soil);
-  VectorXd shift(soil);
-  for (Index p = 0; p < soil; ++p) {
+  data.soil_columns = Eigen::MatrixXd::Zero(fit.prediction.size(), fit.theta.size());
+  VectorXd shift = VectorXd::Zero(fit.theta.size());
+  for (Index p = 0; p < fit.theta.size(); ++p) {
     const FreeParameter& parameter = predictor.parameters()[static_cast<std::size_t>(p)];
-    data.soil_columns.col(p) = fit.jacobian.col(p) * parameter.prior_sd;
-    shift[p] = (fit.theta[p] - parameter.prior) / parameter.prior_sd;
+    const bool stated = std::isfinite(parameter.prior_sd);
+    if (p >= predictor.soil_parameters() && errors[p] == 0.0) continue;  // held by a bound of its form
+    data.soil_columns.col(p) = fit.jacobian.col(p) * (stated ? parameter.prior_sd : wide * errors[p]);
+    if (stated) shift[p] = (fit.theta[p] - parameter.prior) / parameter.prior_sd;
   }
   data.residual = observations.values() - fit.prediction + data.soil_columns * shift;
   return data;
@@ -86,6 +91,11 @@ void settle_base(const Campaign& campaign, const Observations& given, const Iden
       if (!drop[i]) remaining[to++] = id.base.prediction[static_cast<Index>(i)];
     id.base.prediction = remaining;
   }
+}
+
+NoiseFloor noise_beside(const Campaign& campaign, const Identification& id, const Rival& rival) {
+  const WheelPredictor predictor(campaign, id.observations, rival.terms);
+  return estimate_noise(id.observations, noise_data(predictor, id.observations, rival.fit)).floor;
 }
 
 }  // namespace soilbin::compare

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "compare/loop/evidence.hpp"
 
 namespace soilbin::compare {
 
@@ -182,6 +185,14 @@ VectorXd standard_errors(const Fit& fit, const WheelPredictor& predictor) {
                 predictor.parameters()[static_cast<std::size_t>(p)].scale;
   }
   return errors;
+}
+
+double held_error(const Fit& fit, const WheelPredictor& predictor, const Whitening& whitening, Index parameter) {
+  const FreeParameter& p = predictor.parameters()[static_cast<std::size_t>(parameter)];
+  VectorXd column = VectorXd::Zero(fit.columns.rows());
+  column.head(fit.jacobian.rows()) = whitening(VectorXd(fit.jacobian.col(parameter)));
+  const double told = Projector(fit.columns).vector(column).squaredNorm() + 1 / (p.prior_sd * p.prior_sd);
+  return told > 0 ? 1 / std::sqrt(told) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace soilbin::compare

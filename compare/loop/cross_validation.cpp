@@ -35,8 +35,8 @@ struct FoldResult {
   int unpredicted = 0;
 };
 
-FoldResult run_fold(const Campaign& campaign, const Identification& whole, const IdentifyOptions& options,
-                    const std::vector<int>& fold, int left_out) {
+FoldResult run_fold(const Campaign& campaign, const Identification& whole, const NoiseFloor& noise,
+                    const IdentifyOptions& options, const std::vector<int>& fold, int left_out) {
   const Observations& all = whole.observations;
   std::vector<bool> keep(fold.size());
   for (std::size_t c = 0; c < fold.size(); ++c) keep[c] = fold[c] != left_out;
@@ -63,7 +63,7 @@ FoldResult run_fold(const Campaign& campaign, const Identification& whole, const
       HeldOut held{.row = cell.row, .channel = cell.channel, .measured = cell.value};
       held.before = channel_of(base.reading(id.base.theta, at), cell.channel);
       held.after = better ? channel_of(better->reading(id.rivals[*id.best].fit.theta, at), cell.channel) : held.before;
-      held.sd = whole.noise.channels[static_cast<std::size_t>(cell.channel)].sd(cell.value);
+      held.sd = noise.channels[static_cast<std::size_t>(cell.channel)].sd(cell.value);
       predicted[index] = held.before;
       of_cell.push_back(index);
       result.cells.push_back(held);
@@ -80,8 +80,8 @@ FoldResult run_fold(const Campaign& campaign, const Identification& whole, const
 
 /// Every fold, some at once. The first exception of any stops them all and is thrown.
 std::vector<std::optional<FoldResult>> run_folds(const Campaign& campaign, const Identification& whole,
-                                                 const IdentifyOptions& options, int folds, int threads,
-                                                 const Progress& progress) {
+                                                 const NoiseFloor& noise, const IdentifyOptions& options, int folds,
+                                                 int threads, const Progress& progress) {
   const std::vector<int> fold = deal(whole.observations.conditions, folds, options.seed);
   std::vector<std::optional<FoldResult>> results(static_cast<std::size_t>(folds));
   std::atomic<int> next{0}, done{0};
@@ -92,7 +92,7 @@ std::vector<std::optional<FoldResult>> run_folds(const Campaign& campaign, const
     IdentifyOptions own = options;
     own.pulse = pulse;
     for (int f = next++; f < folds && !stopped; f = next++, ++done) try {
-        results[static_cast<std::size_t>(f)] = run_fold(campaign, whole, own, fold, f);
+        results[static_cast<std::size_t>(f)] = run_fold(campaign, whole, noise, own, fold, f);
       } catch (const NoSolution&) {  // this fold's conditions can't be fitted alone: its cells stay unpredicted
       } catch (const Stopped&) {
       } catch (...) {
@@ -220,9 +220,9 @@ PredictiveGain predictive_gain(const Campaign& campaign, const Identification& w
   return {mean, error, static_cast<int>(gain.size())};
 }
 
-CrossValidation cross_validate(const Campaign& campaign, const Identification& whole, const IdentifyOptions& options,
-                               int folds, int threads, const Progress& progress) {
-  const auto results = run_folds(campaign, whole, options, folds, threads, progress);
+CrossValidation cross_validate(const Campaign& campaign, const Identification& whole, const NoiseFloor& noise,
+                               const IdentifyOptions& options, int folds, int threads, const Progress& progress) {
+  const auto results = run_folds(campaign, whole, noise, options, folds, threads, progress);
   CrossValidation cv;
   for (const auto& result : results) {
     if (!result) continue;

@@ -50,9 +50,10 @@ PredictiveGain predictive_gain(const Campaign& campaign, const Identification& w
                                std::uint64_t seed);
 
 /// Folds are made of whole conditions, dealt by a seeded shuffle. Steps from the noise estimate to the choice of the
-/// effect are redone in each. threads: folds at once; the answer does not depend on it. progress: folds done, called
-/// again and again from the calling thread alone; what it throws stops all of them.
-CrossValidation cross_validate(const Campaign& campaign, const Identification& whole, const IdentifyOptions& options,
-                               int folds, int threads, const Progress& progress = {});
+/// effect are redone in each. noise: of the cells left out, in whose sd errors are told. threads: folds at once; the
+/// answer does not depend on it. progress: folds done, called again and again from the calling thread alone; what it
+/// throws stops all of them.
+CrossValidation cross_validate(const Campaign& campaign, const Identification& whole, const NoiseFloor& noise,
+                               const IdentifyOptions& options, int folds, int threads, const Progress& progress = {});
 
 }  // namespace soilbin::compare

@@ -18,6 +18,16 @@ struct LackOfFit {
 };
 LackOfFit lack_of_fit(const Fit& fit, const NoiseFloor& noise, Eigen::Index cells);
 
+/// The same against re-runs alone, channel by channel: the scatter of the setpoints' mean residuals over that within
+/// setpoints (pure error; Draper and Smith, ch. 2), the setpoint farthest off left out, for it may be an outlier. It
+/// needs no estimate of the noise but how it grows with the signal, so it also sees what no smooth function of the
+/// conditions follows and would pass for noise.
+struct RerunTest {
+  double p_value = 1.0;  ///< least of the channels', times their number; 1 where no channel has re-runs enough
+  double excess = 0.0;   ///< squares of setpoints' means beyond what the re-runs explain, in theirs, over the channels
+};
+RerunTest rerun_test(const Observations& observations, const NoiseFloor& noise, const Fit& fit);
+
 /// Does a channel's residual depend on a variable? Share of its variance that a parabola in the variable explains,
 /// with its p-value from permutations of whole conditions.
 struct Dependence {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "compare/loop/base_fit.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -35,6 +36,8 @@ constexpr double second_test_level = 0.1;   // of lack of fit after the best nam
                                             // beside a smooth function, so that it seldom falls under 0.3 by chance
 constexpr double unexplained_share = 0.15;  // of the base model's excess chi2 that a form 40 % off would leave
 constexpr double first_test_level = 0.02;   // of lack of fit where no effect is named
+constexpr double rerun_level = 0.005;       // of the same against re-runs alone, of the channel where it is least
+constexpr double rerun_share = 0.5;         // of the base model's excess over the re-runs that is left then
 constexpr double unnamed_alone = 2.0;       // ln evidence over the base model where no effect is named
 constexpr double unnamed_after = 1.0;       // ln evidence beyond the best named effects
 constexpr double alone_share = 0.9;         // of the sets' weight: then one effect stands alone, and what it leaves is
@@ -78,9 +81,9 @@ bool stands_alone(const Identification& id) {
   return best.ids.size() == 1 && best.weight >= alone_share;
 }
 
-AcceptedEffect accepted(const WheelPredictor& predictor, const Rival& rival, int term) {
+AcceptedEffect accepted(const WheelPredictor& predictor, const Whitening& whitening, const Rival& rival, int term) {
   constexpr double two_sided = 1.96;
-  const Eigen::VectorXd errors = standard_errors(rival.fit, predictor);
+  Eigen::VectorXd errors = standard_errors(rival.fit, predictor);
   const Term& t = rival.terms[static_cast<std::size_t>(term)];
   AcceptedEffect effect;
   const auto all = predictor.choices(rival.fit.theta);
@@ -88,6 +91,9 @@ AcceptedEffect accepted(const WheelPredictor& predictor, const Rival& rival, int
   for (std::size_t k = 0; k < t.free.size(); ++k) {
     const Eigen::Index i = predictor.amplitude_index(term) + static_cast<Eigen::Index>(k);
     const FreeParameter& bounds = predictor.parameters()[static_cast<std::size_t>(i)];
+    const bool held = errors[i] == 0.0;
+    if (held) errors[i] = held_error(rival.fit, predictor, whitening, i);
+    effect.at_bound.push_back(held);
     effect.fitted.push_back(t.form->parameters[static_cast<std::size_t>(t.free[k])].name);
     effect.ci95.emplace_back(std::max(bounds.lower, rival.fit.theta[i] - two_sided * errors[i]),
                              std::min(bounds.upper, rival.fit.theta[i] + two_sided * errors[i]));
@@ -137,15 +143,19 @@ void describe_effects(const Campaign& campaign, LoopAnswer& answer, const Identi
 /// Where no effect is accepted: whether the residual is real all the same. Then the verdict is `unknown_effect`.
 bool unnamed_residual(LoopAnswer& answer) {
   const Identification& id = answer.details;
-  const bool patterned = id.unnamed_gain > unnamed_alone;
-  if (!patterned && answer.before.p_value > first_test_level) return false;
+  const bool patterned = id.unnamed_gain > unnamed_alone, beyond_noise = answer.before.p_value <= first_test_level;
+  if (!patterned && !beyond_noise && answer.reruns_before.p_value > rerun_level) return false;
   answer.verdict = Verdict::unknown_effect;
   answer.reason = fmt::format("no effect of the catalogue is accepted (p = {:.3g}), but ", id.p_value);
-  answer.reason += patterned ? fmt::format(
-                                   "a function of the conditions that none of them makes explains the residual "
-                                   "e^{:.1f} times better than noise",
-                                   id.unnamed_gain)
-                             : fmt::format("the residual is more than noise (p = {:.2g})", answer.before.p_value);
+  if (patterned)
+    answer.reason += fmt::format(
+        "a function of the conditions that none of them makes explains the residual e^{:.1f} times better than noise",
+        id.unnamed_gain);
+  else if (beyond_noise)
+    answer.reason += fmt::format("the residual is more than noise (p = {:.2g})", answer.before.p_value);
+  else
+    answer.reason += fmt::format("the setpoints are off by more than their re-runs differ (p = {:.2g})",
+                                 answer.reruns_before.p_value);
   return true;
 }
 
@@ -155,12 +165,35 @@ std::vector<AcceptedEffect> take_best(const Campaign& campaign, LoopAnswer& answ
   const Rival& best = id.rivals[*id.best];
   const WheelPredictor predictor(campaign, id.observations, best.terms);
   std::vector<AcceptedEffect> effects;
-  for (int t = 0; t < static_cast<int>(best.terms.size()); ++t) effects.push_back(accepted(predictor, best, t));
+  for (int t = 0; t < static_cast<int>(best.terms.size()); ++t)
+    effects.push_back(accepted(predictor, *id.whitening, best, t));
   answer.soil = fitted_soil(campaign, predictor, best.fit);
   answer.soil_shifts = soil_shifts(id, predictor);
   answer.dependences_after = dependences(
       id.observations, best.fit.residual.head(static_cast<Eigen::Index>(id.observations.cells.size())), 999, 11);
   return effects;
+}
+
+/// Why what the best named effects leave is the work of another one; nothing where it may be noise or their form's.
+std::optional<std::string> more_than_named(const LoopAnswer& answer) {
+  const Identification& id = answer.details;
+  const double left = unexplained(id);
+  const bool alone = stands_alone(id);
+  if (answer.after.p_value < (alone ? alone_test_level : second_test_level) && left > unexplained_share)
+    return fmt::format("but the best set of named effects leaves {:.0f} % of it", 100 * left);
+  if (id.residual_unnamed_gain > (alone ? alone_unnamed_after : unnamed_after))
+    return fmt::format(
+        "and after the best set of named effects a function of the conditions that none of them makes explains "
+        "e^{:.0f} "
+        "times more than chance would",
+        id.residual_unnamed_gain);
+  if (answer.reruns_after.p_value < rerun_level &&
+      answer.reruns_after.excess > rerun_share * answer.reruns_before.excess)
+    return fmt::format(
+        "and after the best set of named effects the setpoints are still off by more than their re-runs differ "
+        "(p = {:.2g})",
+        answer.reruns_after.p_value);
+  return std::nullopt;
 }
 
 void decide(const Campaign& campaign, LoopAnswer& answer) {
@@ -174,22 +207,12 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
         fmt::format("the strongest of all effects reaches p = {:.3g} among the whole catalogue", id.p_value);
     return;
   }
-  const double left = unexplained(id);
   answer.after =
       lack_of_fit(id.rivals[*id.best].fit, id.noise, static_cast<Eigen::Index>(id.observations.cells.size()));
-  const bool alone = stands_alone(id);
-  const bool lacking =
-      answer.after.p_value < (alone ? alone_test_level : second_test_level) && left > unexplained_share;
-  if (lacking || id.residual_unnamed_gain > (alone ? alone_unnamed_after : unnamed_after)) {
+  answer.reruns_after = rerun_test(id.observations, id.noise, id.rivals[*id.best].fit);
+  if (const auto more = more_than_named(answer)) {
     answer.verdict = Verdict::unknown_effect;
-    answer.reason =
-        lacking
-            ? fmt::format("the residual is real (p = {:.2g}), but the best set of named effects leaves {:.0f} % of it",
-                          id.p_value, 100 * left)
-            : fmt::format(
-                  "the residual is real (p = {:.2g}), and after the best set of named effects a function of "
-                  "the conditions that none of them makes explains e^{:.0f} times more than chance would",
-                  id.p_value, id.residual_unnamed_gain);
+    answer.reason = fmt::format("the residual is real (p = {:.2g}), {}", id.p_value, *more);
     if (improves) answer.stand_in = take_best(campaign, answer);
     return;
   }
@@ -222,6 +245,7 @@ void confirm(const Campaign& campaign, LoopAnswer& answer, std::uint64_t seed) {
   }
   const Rival& best = id.rivals[*id.best];
   answer.choice_gain = predictive_gain(campaign, id, best.terms, best.fit, {}, id.base, choice_folds, seed);
+  if (confirmed(answer)) answer.noise = noise_beside(campaign, id, best);
 }
 
 bool too_small(const Campaign& campaign, const Observations& observations, std::string& reason) {
@@ -239,10 +263,12 @@ constexpr std::size_t all_steps = 100, identified = 30, chosen = 40;
 /// What the data allow before any effect is judged; false where they are too few, with the reason.
 bool describe_base(const Campaign& campaign, LoopAnswer& answer) {
   const Identification& id = answer.details;
+  answer.noise = id.noise;
   answer.outliers = static_cast<int>(std::count(id.outlier.begin(), id.outlier.end(), true));
   answer.not_testable = not_testable(campaign, id);
   const Eigen::Index cells = static_cast<Eigen::Index>(id.observations.cells.size());
   answer.before = lack_of_fit(id.base, id.noise, cells);
+  answer.reruns_before = rerun_test(id.observations, id.noise, id.base);
   answer.dependences_before = dependences(id.observations, id.base.residual.head(cells), 999, 7);
   answer.soil = fitted_soil(campaign, WheelPredictor(campaign, id.observations), id.base);
   if (id.noise.typical_freedom() < least_noise_freedom) {
@@ -310,7 +336,7 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   const IdentifyOptions inner = of_a_fold(options.identify);
   if (options.validate)
     answer.validation = cross_validate(
-        campaign, answer.details, inner, options.folds, options.threads,
+        campaign, answer.details, answer.noise, inner, options.folds, options.threads,
         [&](std::size_t done, std::size_t folds) { say(chosen + (all_steps - 1 - chosen) * done / folds); });
   decide(campaign, answer);
   describe_effects(campaign, answer, options.identify);

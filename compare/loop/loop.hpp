@@ -30,7 +30,8 @@ struct LoopOptions {
 struct AcceptedEffect {
   EffectChoice choice;                          ///< with fitted parameters [SI]
   std::vector<std::string> fitted;              ///< names of the parameters that were fitted
-  std::vector<std::pair<double, double>> ci95;  ///< of each fitted parameter
+  std::vector<std::pair<double, double>> ci95;  ///< of each fitted parameter, cut off at its bounds
+  std::vector<bool> at_bound;                   ///< of each: the fit ended at a bound, where its form ends
   double p_value = 1.0;                         ///< family-wise, beside the other accepted effects
   std::map<std::string, double> cosines;        ///< of its trace with each other effect's: what separates them
 };
@@ -58,8 +59,10 @@ struct LoopAnswer {
   PredictiveGain choice_gain;    ///< of the best rival over the base model
   CrossValidation validation;
   LackOfFit before, after;
+  RerunTest reruns_before, reruns_after;
   std::vector<Dependence> dependences_before, dependences_after;
   Identification details;
+  NoiseFloor noise;                    ///< beside the best named effects where there are any: what errors are told in
   std::vector<SoilShift> soil_shifts;  ///< of the free values, where effects are accepted
   SemiEmpiricalSoil soil;  ///< refitted with the accepted effects or those that stand in, with standard errors
   int outliers = 0;        ///< cells set aside

@@ -7,30 +7,39 @@
 #include <map>
 
 #include "compare/loop/answer_words.hpp"
+#include "compare/loop/condition_views.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/report/soil_views.hpp"
 #include "compare/sweep/channels.hpp"
 
 namespace soilbin::compare {
 namespace {
 
 /// (measured - predicted)/sd of each cell.
-Eigen::VectorXd standardised(const Identification& id, const Eigen::VectorXd& prediction) {
+Eigen::VectorXd standardised(const LoopAnswer& answer, const Eigen::VectorXd& prediction) {
+  const Identification& id = answer.details;
   Eigen::VectorXd r = id.observations.values() - prediction;
   for (Eigen::Index i = 0; i < r.size(); ++i) {
     const Cell& cell = id.observations.cells[static_cast<std::size_t>(i)];
-    r[i] /= id.noise.channels[static_cast<std::size_t>(cell.channel)].sd(prediction[i]);
+    r[i] /= answer.noise.channels[static_cast<std::size_t>(cell.channel)].sd(prediction[i]);
   }
   return r;
+}
+
+std::string axis_title(const Covariate& x) {
+  const ConditionView& view = condition_view(x.name);
+  return view.unit.empty() ? std::string(view.title) : fmt::format("{} [{}]", view.title, view.unit);
 }
 
 /// Cells of a channel over a covariate.
 Series over(const Observations& observations, const Eigen::VectorXd& y, const Covariate& x, int channel,
             const std::string& label, int color, Mark mark) {
   Series series{.label = label, .x = {}, .y = {}, .error = {}, .mark = mark, .color = color};
+  const double per_si = condition_view(x.name).per_si;
   std::vector<std::pair<double, double>> points;
   for (std::size_t i = 0; i < observations.cells.size(); ++i)
     if (observations.cells[i].channel == channel)
-      points.emplace_back(x.values[observations.cells[i].row], y[static_cast<Eigen::Index>(i)]);
+      points.emplace_back(per_si * x.values[observations.cells[i].row], y[static_cast<Eigen::Index>(i)]);
   std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [at, value] : points) series.x.push_back(at), series.y.push_back(value);
   return series;
@@ -43,11 +52,11 @@ bool has_cells(const Observations& observations, int channel) {
 
 Sheet residual_sheet(const Identification& id, const Covariate& x, const Eigen::VectorXd& before,
                      const Eigen::VectorXd* after) {
-  Sheet sheet{"Residuals against " + x.name, {}, Palette::named};
+  Sheet sheet{fmt::format("Residuals against {}", condition_view(x.name).title), {}, Palette::named};
   for (int channel = 0; channel < channel_count; ++channel) {
     if (!has_cells(id.observations, channel)) continue;
     Plot plot{std::string(channel_views[static_cast<std::size_t>(channel)].title),
-              {x.name + " [SI]", {}, {}},
+              {axis_title(x), {}, {}},
               {"residual [sd of the noise]", {}, {}},
               {}};
     plot.series.push_back(over(id.observations, before, x, channel, "before", 0, Mark::points));
@@ -58,11 +67,12 @@ Sheet residual_sheet(const Identification& id, const Covariate& x, const Eigen::
 }
 
 /// What the accepted effects change in the prediction, soil refitted, in sd of the noise.
-Eigen::VectorXd signature_of_best(const Identification& id) {
+Eigen::VectorXd signature_of_best(const LoopAnswer& answer) {
+  const Identification& id = answer.details;
   Eigen::VectorXd change = id.rivals[*id.best].fit.prediction - id.base.prediction;
   for (Eigen::Index i = 0; i < change.size(); ++i) {
     const Cell& cell = id.observations.cells[static_cast<std::size_t>(i)];
-    change[i] /= id.noise.channels[static_cast<std::size_t>(cell.channel)].sd(id.base.prediction[i]);
+    change[i] /= answer.noise.channels[static_cast<std::size_t>(cell.channel)].sd(id.base.prediction[i]);
   }
   return change;
 }
@@ -87,7 +97,7 @@ Sheet signature_sheet(const Identification& id, const Eigen::VectorXd& before, c
   for (int channel = 0; channel < channel_count; ++channel) {
     if (!has_cells(id.observations, channel)) continue;
     Plot plot{std::string(channel_views[static_cast<std::size_t>(channel)].title),
-              {x.name + " [SI]", {}, {}},
+              {axis_title(x), {}, {}},
               {"[sd of the noise]", {}, {}},
               {}};
     plot.series.push_back(over(id.observations, before, x, channel, "residual of the base model", 0, Mark::points));
@@ -105,7 +115,7 @@ HtmlTable dependence_table(const LoopAnswer& answer) {
   for (std::size_t i = 0; i < answer.dependences_before.size(); ++i) {
     const Dependence& b = answer.dependences_before[i];
     std::vector<std::string> row = {std::string(channel_views[static_cast<std::size_t>(b.channel)].title),
-                                    b.variable,
+                                    std::string(condition_view(b.variable).title),
                                     number(100 * b.share),
                                     number(b.p_value),
                                     "-",
@@ -123,7 +133,7 @@ HtmlTable noise_table(const LoopAnswer& answer) {
   HtmlTable table{
       "Noise: sqrt(a^2 + b^2 f^2)", {"channel", "a", "b [%]", "degrees of freedom", "sd within re-runs"}, {}, {}};
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
-    const ChannelNoise& n = answer.details.noise.channels[c];
+    const ChannelNoise& n = answer.noise.channels[c];
     if (!n.measured) continue;
     const ChannelView& view = channel_views[c];
     table.rows.push_back({std::string(view.title), fmt::format("{} {}", number(n.floor * view.per_si), view.unit),
@@ -173,12 +183,15 @@ HtmlTable likeness_table(const LoopAnswer& answer) {
 }
 
 HtmlTable soil_table(const LoopAnswer& answer) {
-  HtmlTable table{"The soil's values [SI], and the bias that leaving the effects out puts into them",
-                  {"value", "with", "without", "bias"},
+  HtmlTable table{"The soil's values, and the bias that leaving the effects out puts into them",
+                  {"value", "with", "without", "bias", "unit"},
                   {},
-                  {}};
+                  {true, false, false, false, true}};
   for (const SoilShift& s : answer.soil_shifts)
-    table.rows.push_back({s.name, number(s.with), number(s.without), number(s.without.value - s.with.value)});
+    for (const SoilView& view : soil_views)
+      if (view.name == s.name)
+        table.rows.push_back({std::string(view.title), number(s.with, view.per_si), number(s.without, view.per_si),
+                              number(view.per_si * (s.without.value - s.with.value)), std::string(view.unit)});
   return table;
 }
 
@@ -191,17 +204,17 @@ std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const 
   page.summary(summary);
   if (answer.verdict != Verdict::not_enough_data || !answer.details.weights.empty()) {
     const Identification& id = answer.details;
-    const Eigen::VectorXd before = standardised(id, id.base.prediction);
+    const Eigen::VectorXd before = standardised(answer, id.base.prediction);
     std::optional<Eigen::VectorXd> after;
     if (!answer.effects.empty() || !answer.stand_in.empty())
-      after = standardised(id, id.rivals[*id.best].fit.prediction);
+      after = standardised(answer, id.rivals[*id.best].fit.prediction);
     page.section("Error before and after");
     page.table(error_table(answer));
     const std::vector<Covariate> variables = covariates(id.observations);
     if (after && !variables.empty()) {
       page.section(answer.effects.empty() ? "What stands in for the effect, over the residual"
                                           : "The effect over the residual");
-      const Eigen::VectorXd change = signature_of_best(id);
+      const Eigen::VectorXd change = signature_of_best(answer);
       page.figure(signature_sheet(id, before, change, telling_variable(id, change, variables)),
                   "Points: what the base model, refitted, leaves; and what the effect changes in the prediction.");
     }

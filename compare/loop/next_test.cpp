@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/loop/condition_views.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -15,18 +16,6 @@ using Eigen::Vector4d;
 using Eigen::VectorXd;
 
 namespace {
-
-void set_condition(OperatingCondition& at, const std::string& name, double value) {
-  if (name == "slip") at.slip = value;
-  if (name == "load") at.load = value;
-  if (name == "speed") at.speed = value;
-  if (name == "pass") at.pass = static_cast<int>(std::lround(value));
-  if (name == "yaw") at.yaw = value;
-  if (name == "longitudinal_incline") at.longitudinal_incline = value;
-  if (name == "transverse_incline") at.transverse_incline = value;
-  if (name == "position") at.position = value;
-  if (name == "moisture") at.moisture = value;
-}
 
 /// A rival's predictor with its fit, and the covariance of its parameters.
 struct Contender {
@@ -105,6 +94,13 @@ double squared_distance(const std::pair<Vector4d, Matrix4d>& a, const std::pair<
   return gap.dot(spread.ldlt().solve(gap));
 }
 
+/// The set that stands next behind the best one and doesn't hold it; nullptr where none was refitted.
+const Weighted* next_standing(const Identification& id, const Weighted& best) {
+  for (const Weighted& w : id.weights)
+    if (w.weight > 0 && !std::includes(w.ids.begin(), w.ids.end(), best.ids.begin(), best.ids.end())) return &w;
+  return nullptr;
+}
+
 /// What the campaign spans, by name.
 Limits ranges_of(const Observations& observations) {
   Limits ranges;
@@ -137,7 +133,7 @@ std::vector<OperatingCondition> grid(const Observations& observations, const Lim
       for (int k = 0; k < used; ++k) {
         OperatingCondition at = p;
         const double share = used > 1 ? static_cast<double>(k) / (used - 1) : 0.5;
-        set_condition(at, name, range.first + share * (range.second - range.first));
+        condition_view(name).set(at, range.first + share * (range.second - range.first));
         more.push_back(at);
       }
     points = std::move(more);
@@ -173,8 +169,8 @@ class Contest {
         const double d = squared_distance(predictions[i], predictions[j], noise_);
         p.worth += weights_[i] * std::min(1.0, d / needed(i, j)) + weights_[j] * std::min(1.0, d / needed(j, i));
         if (j > 0) continue;
-        const double bears =
-            std::min(1.0, d / needed(0, i)) + 1e-6 * weights_[i];  // of several that it decides, the likeliest
+        constexpr double any = 0.1;  // what a rival counts for, however unlikely
+        const double bears = std::min(1.0, d / needed(0, i)) * (any + weights_[i]);
         if (bears > most) most = bears, p.against = i, p.distance = d, p.runs = std::ceil(needed(0, i) / d);
       }
     return p.distance > 0 ? std::optional(p) : std::nullopt;
@@ -220,7 +216,7 @@ void refine(Search& search, const Limits& limits) {
     const OperatingCondition from = search.best()->first;
     for (int k = 0; k < levels; ++k) {
       OperatingCondition at = from;
-      set_condition(at, name, range.first + (range.second - range.first) * k / (levels - 1));
+      condition_view(name).set(at, range.first + (range.second - range.first) * k / (levels - 1));
       search.ask(at);
     }
   }
@@ -250,13 +246,23 @@ std::optional<NextTest> next_test(const Campaign& campaign, const Identification
     const Weighted& w = id.weights[c.weighted];
     add(id.rivals[w.best_rival].terms, id.rivals[w.best_rival].fit, w.ids, w.log_evidence, c.allowed);
   }
-  if (rivals.size() < 2) add({}, id.base, {}, id.base_log_evidence, competitors.front().allowed);
+  const bool decided = rivals.size() < 2;
+  if (decided) {
+    const Competitor& alone = competitors.front();
+    if (const Weighted* next = next_standing(id, id.weights[alone.weighted]))
+      add(id.rivals[next->best_rival].terms, id.rivals[next->best_rival].fit, next->ids, next->log_evidence,
+          alone.allowed);
+    else
+      add({}, id.base, {}, id.base_log_evidence, alone.allowed);
+  }
   const Contest contest(std::move(rivals), id.noise);
   Search search(contest);
   for (const OperatingCondition& at : grid(id.observations, limits)) search.ask(at);
   refine(search, limits);
   if (!search.best() || search.best()->second.runs > 50) return std::nullopt;
   const auto& [at, told] = *search.best();
+  constexpr double plain = 2.25;  // squared distance: 1.5 sd of one run
+  if (decided && told.distance < plain) return std::nullopt;
   NextTest next{.at = at,
                 .quantities = {},
                 .beyond = beyond(id.observations, at),

@@ -20,8 +20,8 @@ Limits limits_of(const Observations& observations);
 
 struct NextTest {
   OperatingCondition at;
-  std::vector<std::string> quantities;           ///< names of the conditions that matter: those that limits hold
-  std::vector<std::string> beyond;               ///< those of them that lie outside what the campaign has run
+  std::vector<std::string> quantities;  ///< names (ConditionView) of the conditions that matter: those that limits hold
+  std::vector<std::string> beyond;      ///< those of them that lie outside what the campaign has run
   std::vector<std::set<std::string>> separates;  ///< the best rival, and the one that these runs bear most upon
   int runs = 0;           ///< until that one is expected to be out of the set, if the best is true
   double distance = 0.0;  ///< squared distance of the two predictions a run, in sd
@@ -32,8 +32,9 @@ struct NextTest {
 /// predictions over noise plus the predictions' own uncertainty and the tolerance of their forms (Buzzi-Ferraris and
 /// Forzatti 1983, Chem. Eng. Sci. 38:225); a run adds d/2 to the ln evidence between them, and j is out where it stands
 /// further behind than allowed. On a grid, then one condition after the other on a finer one.
-/// competitors: the best one first. A single one competes against the base model. Nothing where no condition within
-/// limits sets them apart in 50 runs.
+/// competitors: the best one first. A single one is decided: it is set against the set that stands next behind it (the
+/// base model where there is none), to be surer still, where they part by one and a half standard deviations of one
+/// run. Nothing where no condition within limits sets them apart in 50 runs.
 std::optional<NextTest> next_test(const Campaign& campaign, const Identification& id,
                                   const std::vector<Competitor>& competitors, const Limits& limits);
 

@@ -57,7 +57,8 @@ Eigen::MatrixXd smooth_basis(const Observations& observations, int max_columns);
 Eigen::MatrixXd with_constant(const Eigen::MatrixXd& functions);
 
 /// What a noise estimate starts from: the cells' residuals about the declared soil's linearised prediction,
-/// e = y - f + J (theta - prior), their predictions, and the soil's columns in units of the priors' sd.
+/// e = y - f + J (theta - prior), their predictions, and the columns of the soil's values (and
+/// of what else is fitted) in units of the priors' sd.
 struct NoiseData {
   Eigen::VectorXd residual;
   Eigen::VectorXd prediction;

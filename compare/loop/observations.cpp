@@ -1,10 +1,13 @@
 #include "compare/loop/observations.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <tuple>
 
+#include "compare/loop/condition_views.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
@@ -80,30 +83,24 @@ Observations without_cells(const Observations& all, const std::vector<bool>& dro
 }
 
 std::vector<Covariate> covariates(const Observations& observations) {
-  using Getter = double (*)(const OperatingCondition&);
-  static constexpr double absent = not_a_number;
-  const std::pair<const char*, Getter> getters[] = {
-      {"slip", [](const OperatingCondition& at) { return at.slip; }},
-      {"load", [](const OperatingCondition& at) { return at.load; }},
-      {"pass", [](const OperatingCondition& at) { return static_cast<double>(at.pass); }},
-      {"yaw", [](const OperatingCondition& at) { return at.yaw; }},
-      {"longitudinal_incline", [](const OperatingCondition& at) { return at.longitudinal_incline; }},
-      {"transverse_incline", [](const OperatingCondition& at) { return at.transverse_incline; }},
-      {"speed", [](const OperatingCondition& at) { return at.speed; }},
-      {"position", [](const OperatingCondition& at) { return at.position.value_or(absent); }},
-      {"moisture", [](const OperatingCondition& at) { return at.moisture.value_or(absent); }},
-      {"run", [](const OperatingCondition& at) { return at.run ? static_cast<double>(*at.run) : absent; }},
-  };
   std::vector<Covariate> varying;
-  for (const auto& [name, get] : getters) {
+  for (const ConditionView& view : condition_views) {
     Eigen::VectorXd values(static_cast<Eigen::Index>(observations.rows.size()));
-    for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = get(observations.rows[static_cast<std::size_t>(i)]);
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+      values[i] = view.get(observations.rows[static_cast<std::size_t>(i)]);
     if (values.size() == 0 || !values.allFinite()) continue;
     const double spread = values.maxCoeff() - values.minCoeff();
     const double scale = values.cwiseAbs().maxCoeff();
-    if (spread > 1e-3 * scale) varying.push_back({name, std::move(values)});
+    if (spread > 1e-3 * scale) varying.push_back({std::string(view.name), std::move(values)});
   }
   return varying;
+}
+
+const ConditionView& condition_view(std::string_view name) {
+  const auto found = std::find_if(condition_views.begin(), condition_views.end(),
+                                  [&](const ConditionView& view) { return view.name == name; });
+  if (found == condition_views.end()) throw std::out_of_range("a condition of no such name: " + std::string(name));
+  return *found;
 }
 
 }  // namespace soilbin::compare

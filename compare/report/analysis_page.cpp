@@ -9,6 +9,7 @@
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/peaks.hpp"
+#include "compare/report/soil_views.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/unit.hpp"
 
@@ -96,18 +97,10 @@ HtmlTable soil_table(const std::string& name, const SemiEmpiricalSoil& soil, con
                   {"value", "", "unit", "source"},
                   {},
                   {true, false, true, true}};
-  const auto add = [&](const char* label, const char* key, const Estimate& value, double per_unit, const char* unit) {
-    table.rows.push_back({label, number(value, per_unit), unit, source_of(soil.sources, key)});
-  };
-  add("n", "exponent", soil.exponent, 1, "-");
-  add("k_c", "k_c", soil.k_c, 1e-3, "kN/m^(n+1)");
-  add("k_phi", "k_phi", soil.k_phi, 1e-3, "kN/m^(n+2)");
-  add("cohesion c", "cohesion", soil.cohesion, 1e-3, "kPa");
-  add("friction angle", "friction_angle", soil.friction_angle, 1 / degree, "deg");
-  add("shear modulus K", "shear_modulus", soil.shear_modulus, 1e3, "mm");
-  add("c1", "stress_angle_c1", soil.stress_angle_c1, 1, "-");
-  add("c2", "stress_angle_c2", soil.stress_angle_c2, 1, "-");
-  add("density", "density", {soil.density, 0.0}, 1, "kg/m^3");
+  for (const SoilView& view : soil_views)
+    table.rows.push_back({std::string(view.title), number(soil.*view.value, view.per_si), std::string(view.unit),
+                          source_of(soil.sources, std::string(view.name))});
+  table.rows.push_back({"density", number(soil.density), "kg/m^3", source_of(soil.sources, "density")});
   return table;
 }
 

@@ -29,7 +29,8 @@ void bind_parts(py::module_& module) {
   py::class_<AcceptedEffect>(module, "AcceptedEffect", "An effect that the loop accepts, in the form that fits best.")
       .def_readonly("choice", &AcceptedEffect::choice, "with fitted parameters [SI]")
       .def_readonly("fitted", &AcceptedEffect::fitted, "names of the parameters that were fitted")
-      .def_readonly("ci95", &AcceptedEffect::ci95, "of each fitted parameter")
+      .def_readonly("ci95", &AcceptedEffect::ci95, "of each fitted parameter, cut off at its bounds")
+      .def_readonly("at_bound", &AcceptedEffect::at_bound, "of each: the fit ended at a bound")
       .def_readonly("p_value", &AcceptedEffect::p_value, "family-wise, beside the other accepted effects")
       .def_readonly("cosines", &AcceptedEffect::cosines, "of its trace with each other effect's");
   py::class_<Weighted>(module, "Weighted", "A set of effects with its share of the evidence.")

@@ -17,7 +17,7 @@ TEST(SlowLoopCommand, NamesTheLessonsEffectInWordsAndLeavesItsFiles) {
   const Outcome outcome = soilbin("loop made-lesson --report '" + page + "' --save-model '" + model + "'");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("The model lacks multipass"));
-  EXPECT_THAT(outcome.out, HasSubstr("Measure next"));
+  EXPECT_THAT(outcome.out, HasSubstr("One name is left"));
   EXPECT_THAT(text_of(page), HasSubstr("<svg"));
   const Outcome predicted = soilbin("predict made-lesson --model '" + model + "'");
   EXPECT_EQ(predicted.status, 0) << predicted.err;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "compare/loop/base_fit.hpp"
+#include "compare/loop/condition_views.hpp"
 #include "compare/loop/detection.hpp"
 #include "compare/loop/identify.hpp"
 #include "compare/loop_fixture.hpp"
@@ -75,6 +77,45 @@ TEST(Fit, StopsAtBounds) {
   EXPECT_GE(id.base.theta[3], 0.0);
 }
 
+// What a bound holds has the error that it would have if it could move: that of the inverse Gram matrix with its
+// column.
+TEST(Fit, TellsTheErrorOfWhatABoundHolds) {
+  constexpr int cohesion = 3;
+  Campaign campaign = sand_campaign();
+  Identification id;
+  for (std::uint64_t seed = 1; seed < 10 && (id.base.theta.size() == 0 || id.base.theta[cohesion] > 0.0); ++seed) {
+    campaign.soil.cohesion = {0.0, 300};
+    measure(campaign, sweep(), {}, fine_noise, seed, 0.0);  // noise pulls half of them below 0
+    campaign.soil.cohesion = {10.0, 300};
+    id = Identification();
+    settle_base(campaign, observe(campaign), {}, id);
+  }
+  const WheelPredictor predictor(campaign, id.observations);
+  ASSERT_EQ(standard_errors(id.base, predictor)[cohesion], 0.0);
+  VectorXd column = VectorXd::Zero(id.base.columns.rows());
+  column.head(id.base.jacobian.rows()) = (*id.whitening)(VectorXd(id.base.jacobian.col(cohesion)));
+  MatrixXd all(column.size() + 1, id.base.columns.cols() + 1);  // and the row of its own prior
+  all << id.base.columns, column, Eigen::RowVectorXd::Zero(id.base.columns.cols()), 1.0 / 300;
+  const double variance = (all.transpose() * all).inverse().diagonal().tail(1)[0];
+  EXPECT_NEAR(held_error(id.base, predictor, *id.whitening, cohesion), std::sqrt(variance), 1e-6 * std::sqrt(variance));
+}
+
+// Every condition reads what was set, and nothing else moved.
+TEST(ConditionViews, ReadWhatTheySet) {
+  for (const ConditionView& view : condition_views) {
+    OperatingCondition at;
+    view.set(at, 3.0);
+    EXPECT_EQ(view.get(at), 3.0) << view.name;
+    EXPECT_EQ(&condition_view(view.name), &view);
+    for (const ConditionView& other : condition_views)
+      if (&other != &view) {
+        const double untouched = other.get(OperatingCondition{}), now = other.get(at);
+        EXPECT_TRUE(now == untouched || (std::isnan(now) && std::isnan(untouched))) << view.name << ", " << other.name;
+      }
+  }
+  EXPECT_THROW(condition_view("weather"), std::out_of_range);
+}
+
 // The floor that is found is the floor that was put in, to the precision that 40 freedoms give (11 %; 3 sd allowed).
 TEST(NoiseFloor, IsTheNoisePutIn) {
   Campaign campaign = sand_campaign();
@@ -87,6 +128,44 @@ TEST(NoiseFloor, IsTheNoisePutIn) {
     EXPECT_NEAR(std::log(typical / fine_noise[static_cast<std::size_t>(c)]), 0.0, 0.35)
         << channel_names[static_cast<std::size_t>(c)];
   }
+}
+
+Identification settled(const Campaign& campaign) {
+  Identification id;
+  settle_base(campaign, observe(campaign), {}, id);
+  return id;
+}
+
+RerunTest against_reruns(const Identification& id) { return rerun_test(id.observations, id.noise, id.base); }
+
+// Without anything missing it is reached by chance as seldom as it says (or seldomer: the setpoint farthest off is left
+// out, and the channels' least counts times their number). 3 standard errors of 120 campaigns allowed.
+TEST(SlowRerunTest, KeepsItsLevel) {
+  constexpr int campaigns = 120;
+  int under_five = 0;
+  for (int k = 0; k < campaigns; ++k) {
+    Campaign campaign = sand_campaign();
+    measure(campaign, sweep(), {}, fine_noise, static_cast<std::uint64_t>(100 + k));
+    if (against_reruns(settled(campaign)).p_value < 0.05) ++under_five;
+  }
+  EXPECT_LE(under_five, 0.05 * campaigns + 3 * std::sqrt(0.05 * 0.95 * campaigns));
+}
+
+// Setpoints that are off by chance, but alike in both of their runs, pass for noise beside any smooth function: the
+// lack of fit against that noise says nothing, the re-runs do. A single setpoint that is off is not enough: an outlier.
+TEST(RerunTest, SeesWhatNoSmoothFunctionFollows) {
+  const auto made = [](auto moved) {
+    Campaign campaign = sand_campaign();
+    measure(campaign, sweep(), {}, fine_noise, 8);
+    for (compare::Run& run : campaign.runs) *run.torque += moved(std::stoi(run.setpoint->substr(1)));
+    return settled(campaign);
+  };
+  const Identification scattered = made([](int s) { return 4 * fine_noise[1] * ((s * s + s / 3) % 3 - 1.0); });
+  const Identification one_off = made([](int s) { return s == 9 ? 4 * fine_noise[1] : 0.0; });
+  const Eigen::Index cells = static_cast<Eigen::Index>(scattered.observations.cells.size());
+  EXPECT_LT(against_reruns(scattered).p_value, 1e-4);
+  EXPECT_GT(lack_of_fit(scattered.base, scattered.noise, cells).p_value, 10 * against_reruns(scattered).p_value);
+  EXPECT_GT(against_reruns(one_off).p_value, 0.05);
 }
 
 // A signature's direction has nothing left that the soil could do, and unit length.

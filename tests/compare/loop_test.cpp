@@ -52,6 +52,46 @@ TEST(Loop, NamesSlipSinkageAndItsSize) {
     }
 }
 
+// Errors are told in the noise beside the effect: what was put in, to the precision that 40 freedoms give (11 %; 3 sd
+// allowed), however badly smooth functions beside the base model follow a large effect.
+TEST(SlowLoop, TellsErrorsInTheNoiseBesideTheEffect) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {{"multipass", "stiffer", {{"a", 1.5}}}}, fine_noise, 33);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
+  const Eigen::VectorXd& f = answer.details.rivals[*answer.details.best].fit.prediction;
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(
+        std::log(answer.noise.channels[static_cast<std::size_t>(c)].sd(f[c]) / fine_noise[static_cast<std::size_t>(c)]),
+        0.0, 0.35)
+        << channel_names[static_cast<std::size_t>(c)];
+}
+
+TEST(SlowLoop, SetsTheOneNameThatIsLeftAgainstTheNextOne) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {{"drift", "torque", {{"a", 0.5}}}}, fine_noise, 33);
+  const LoopAnswer answer = run_loop(campaign, quick());
+  ASSERT_EQ(answer.ambiguity_set.size(), 1u);
+  ASSERT_TRUE(answer.next);
+  const std::set<std::string> behind = answer.next->separates.back();
+  EXPECT_FALSE(behind.empty());
+  EXPECT_EQ(behind.count("drift"), 0u);
+  EXPECT_EQ(what_next(answer).front().rfind("One name is left.", 0), 0u) << what_next(answer).front();
+}
+
+// Each setpoint's torque off by its own amount, the same in both of its runs: re-runs say that this is no noise.
+TEST(Loop, SaysUnknownWhereSetpointsAreOffByMoreThanTheirRerunsDiffer) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 8);
+  for (compare::Run& run : campaign.runs) {
+    const int s = std::stoi(run.setpoint->substr(1));
+    *run.torque += 4 * fine_noise[1] * ((s * s + s / 3) % 3 - 1.0);
+  }
+  const LoopAnswer answer = run_loop(campaign, quick());
+  EXPECT_EQ(answer.verdict, Verdict::unknown_effect) << answer.reason;
+  EXPECT_LT(answer.reruns_before.p_value, 1e-4);
+}
+
 // A constant torque of the bearings and a torque sensor's offset are one and the same in these data: both are named.
 TEST(Loop, SaysWhatCannotBeToldApart) {
   Campaign campaign = sand_campaign();

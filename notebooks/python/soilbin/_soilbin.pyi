@@ -1755,7 +1755,10 @@ class AcceptedEffect:
         """names of the parameters that were fitted"""
     @property
     def ci95(self) -> list[tuple[float, float]]:
-        """of each fitted parameter"""
+        """of each fitted parameter, cut off at its bounds"""
+    @property
+    def at_bound(self) -> list[bool]:
+        """of each: the fit ended at a bound"""
     @property
     def p_value(self) -> float:
         """family-wise, beside the other accepted effects"""

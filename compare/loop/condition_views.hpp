@@ -1,0 +1,67 @@
+// The conditions that a campaign can vary: their names in files and for people, their units, and where they stand.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "scenario/estimate.hpp"
+#include "scenario/operating_condition.hpp"
+#include "scenario/unit.hpp"
+
+namespace soilbin::compare {
+
+/// One condition of a run.
+struct ConditionView {
+  std::string_view name;                     ///< in answers and limits: "longitudinal_incline"
+  std::string_view title;                    ///< for people: "uphill"
+  std::string_view unit;                     ///< in which people read it: "deg"; empty: a plain number
+  double per_si;                             ///< units per SI unit
+  std::string_view column;                   ///< of a campaign's runs: "longitudinal_incline_deg"
+  double column_per_si;                      ///< the column's units per SI unit
+  double (*get)(const OperatingCondition&);  ///< [SI]; not a number where it isn't told
+  void (*set)(OperatingCondition&, double);  ///< [SI]
+};
+
+namespace condition_members {
+
+template <double OperatingCondition::*member>
+constexpr auto get = [](const OperatingCondition& at) { return at.*member; };
+template <double OperatingCondition::*member>
+constexpr auto set = [](OperatingCondition& at, double value) { at.*member = value; };
+template <std::optional<double> OperatingCondition::*member>
+constexpr auto get_told = [](const OperatingCondition& at) { return (at.*member).value_or(not_a_number); };
+template <std::optional<double> OperatingCondition::*member>
+constexpr auto set_told = [](OperatingCondition& at, double value) { at.*member = value; };
+
+}  // namespace condition_members
+
+/// Those that a rig sets, then the order of the runs.
+inline constexpr std::array<ConditionView, 10> condition_views = [] {
+  using C = OperatingCondition;
+  namespace m = condition_members;
+  return std::array<ConditionView, 10>{{
+      {"slip", "slip", "%", 100.0, "slip", 1.0, m::get<&C::slip>, m::set<&C::slip>},
+      {"load", "load", "N", 1.0, "load_N", 1.0, m::get<&C::load>, m::set<&C::load>},
+      {"pass", "pass", "", 1.0, "pass", 1.0, [](const C& at) { return static_cast<double>(at.pass); },
+       [](C& at, double value) { at.pass = static_cast<int>(std::lround(value)); }},
+      {"yaw", "yaw", "deg", 1 / degree, "yaw_deg", 1 / degree, m::get<&C::yaw>, m::set<&C::yaw>},
+      {"longitudinal_incline", "uphill", "deg", 1 / degree, "longitudinal_incline_deg", 1 / degree,
+       m::get<&C::longitudinal_incline>, m::set<&C::longitudinal_incline>},
+      {"transverse_incline", "cross slope", "deg", 1 / degree, "transverse_incline_deg", 1 / degree,
+       m::get<&C::transverse_incline>, m::set<&C::transverse_incline>},
+      {"speed", "speed", "m/s", 1.0, "speed_m_s", 1.0, m::get<&C::speed>, m::set<&C::speed>},
+      {"position", "position", "m", 1.0, "position_m", 1.0, m::get_told<&C::position>, m::set_told<&C::position>},
+      {"moisture", "moisture", "%", 100.0, "moisture_percent", 100.0, m::get_told<&C::moisture>,
+       m::set_told<&C::moisture>},
+      {"run", "run", "", 1.0, "run", 1.0,
+       [](const C& at) { return at.run ? static_cast<double>(*at.run) : not_a_number; },
+       [](C& at, double value) { at.run = static_cast<int>(std::lround(value)); }},
+  }};
+}();
+
+/// Throws std::out_of_range for a name that is none of them.
+const ConditionView& condition_view(std::string_view name);
+
+}  // namespace soilbin::compare
