@@ -90,7 +90,7 @@ int explain(const Question& inputs, bool json, const Session& session) {
     throw InputError(fmt::format("{} conditions are too many to explain; pick one with --load, --slip, ...",
                                  question.study.conditions.size()));
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  if (!json) fmt::print("{} on {}\n\n", in_words(question.scenario.tire), question.scenario.soil.name);
+  if (!json) fmt::print("{} on {}\n\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil));
   bool first = true;
   for (const ModelChoice& choice : question.study.models) {
     if (choice.model != ModelKind::bekker_wong) compare::make_model(choice.model);
