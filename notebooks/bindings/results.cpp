@@ -108,7 +108,8 @@ void bind_explanation(py::module_& module) {
   module.def(
       "doubts", [](const Case& question) { return compare::doubts(question); }, py::arg("case"),
       "What is possible in a case, but hardly meant: sentences.");
-  module.def("in_words", &compare::in_words, py::arg("at"), "A condition in words, without what is at its default.");
+  module.def("in_words", py::overload_cast<const OperatingCondition&>(&compare::in_words), py::arg("at"),
+             "A condition in words, without what is at its default.");
 }
 
 }  // namespace
