@@ -115,7 +115,10 @@ void add_campaign(CLI::App& app, Session& session) {
   command->add_option("records", asked->records, "made by soilbin run --model dem --record FILE")
       ->type_name("RECORD.json")
       ->required();
-  command->add_option("--output", asked->output, "folder of the campaign")->type_name("DIR")->required();
+  command->add_option("--output", asked->output, "folder of the campaign")
+      ->type_name("DIR")
+      ->check(writable_folder())
+      ->required();
   command->add_option("--hide", asked->hide, "what the analyst is not told: " + listed(compare::things_to_hide()))
       ->type_name("WHAT")
       ->delimiter(',')

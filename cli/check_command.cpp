@@ -8,6 +8,7 @@
 #include "cli/text_output.hpp"
 #include "compare/report/result_json.hpp"
 #include "compare/sweep/plausibility.hpp"
+#include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/yaml_node.hpp"
@@ -66,7 +67,7 @@ Verdict judge(const fs::path& file, const Workplace& place) {
     asks = fmt::format("{} models at {} conditions", question.study.models.size(), question.study.conditions.size());
   if (question.drive) asks += (asks.empty() ? "" : ", ") + std::string("a drive");
   return {fmt::format("case '{}': {} on {}, {}", question.name, in_words(question.scenario.tire),
-                      question.scenario.soil.name, asks),
+                      compare::in_words(question.scenario.soil), asks),
           compare::doubts(question)};
 }
 

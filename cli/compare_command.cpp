@@ -16,6 +16,7 @@
 #include "compare/report/comparison_page.hpp"
 #include "compare/report/comparison_tables.hpp"
 #include "compare/report/result_json.hpp"
+#include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -42,8 +43,9 @@ std::vector<ModelChoice> analytic_choices(const Case& question, const CompareOpt
   const double n = question.scenario.soil.semi_empirical ? question.scenario.soil.semi_empirical->exponent.value : 1.0;
   for (const std::string& text : asked.effects) {
     const EffectChoice effect = parse_effect(text, session.place.effects, n);
-    choices.push_back({ModelKind::bekker_wong, {effect}, "bekker_wong + " + effect.id});
+    choices.push_back({ModelKind::bekker_wong, {effect}, ""});
   }
+  label_models(choices);
   return choices;
 }
 
@@ -104,7 +106,7 @@ void run_loop_on(const compare::Comparison& comparison, const CompareOptions& as
 
 void print_text(const compare::Comparison& comparison, const compare::ComparisonAbout& about) {
   fmt::print("{}: {} on {}\n\n", comparison.question.study.name, in_words(comparison.question.scenario.tire),
-             comparison.question.scenario.soil.name);
+             compare::in_words(comparison.question.scenario.soil));
   for (const compare::Clause& clause : compare::summary(comparison, about.loop ? &*about.loop : nullptr))
     fmt::print("{}{}\n", clause.about.empty() ? "" : clause.about + ": ", clause.text);
   compare::HtmlTable table = compare::tally_table(comparison);
@@ -132,7 +134,7 @@ int compare_models(CompareOptions asked, const Session& session) {
   if (!asked.soil_bin.recorded.empty())
     asked.soil_bin.recorded = find_record(session.place, asked.study, asked.soil_bin.recorded);
   Case question = find_case(session.place, asked.study);
-  question.study.conditions = asked.conditions.pick(question.study.conditions);
+  asked.conditions.pick(question.study, question.scenario.tire);
   compare::ComparisonAbout about;
   if (!asked.soil.empty()) {
     question.scenario.soil.semi_empirical = find_soil(asked.soil, session.place.library).semi_empirical;
@@ -178,7 +180,8 @@ void add_compare(CLI::App& app, Session& session) {
       ->type_name("ID[:FORM][,PARAMETER=VALUE]");
   command->add_option("--report", asked->report, "write everything as one page")->type_name("FILE.html");
   command->add_option("--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(writable_folder());
   command->add_option("--csv", asked->csv, "save every row")->type_name("FILE.csv")->check(writable_file());
   command->add_option("--replay", asked->replay, "a replay of grains to put into the page")->type_name("FILE");
   command->add_option("--title", asked->title, "of the page")->type_name("TEXT");

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "cli/flag_values.hpp"
 #include "scenario/description.hpp"
@@ -37,9 +38,17 @@ class DescribedFlags {
     return std::any_of(texts_.begin(), texts_.end(), [](const auto& entry) { return !entry.second.empty(); });
   }
 
-  /// Sets the members whose flags were given. Throws InputError that names the flag.
-  void apply(T& into) const {
-    Setter setter{*this, into};
+  /// The keys whose flags were given.
+  std::vector<std::string> given_keys() const {
+    std::vector<std::string> keys;
+    for (const auto& [key, text] : texts_)
+      if (!text.empty()) keys.push_back(key);
+    return keys;
+  }
+
+  /// Sets the members whose flags were given; `only`: that of this key alone. Throws InputError that names the flag.
+  void apply(T& into, const std::string& only = "") const {
+    Setter setter{*this, into, only};
     describe(setter, std::type_identity<T>{});
   }
 
@@ -75,8 +84,10 @@ class DescribedFlags {
   struct Setter {
     const DescribedFlags& flags;
     T& into;
+    const std::string& only;
 
     const std::string* text_of(const char* key) const {
+      if (!only.empty() && only != key) return nullptr;
       const std::string& text = flags.texts_.at(key);
       return text.empty() ? nullptr : &text;
     }

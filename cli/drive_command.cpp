@@ -15,6 +15,7 @@
 #include "compare/report/drive_report.hpp"
 #include "compare/report/drive_sides.hpp"
 #include "compare/report/result_json.hpp"
+#include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -87,7 +88,7 @@ std::string energy_text(const bekker_wong::EnergyLedger& energy) {
 
 std::string drive_text(const compare::DrivePart& part) {
   std::string text = fmt::format("{}: {} on {}\n\n{}\n", part.question.name, in_words(part.question.scenario.tire),
-                                 part.question.scenario.soil.name, samples_text(part.record));
+                                 compare::in_words(part.question.scenario.soil), samples_text(part.record));
   for (const DriveHappening& h : part.record.happenings)
     text += fmt::format("At {} s and {} m {}.\n", number(h.time), number(h.travelled), word_of(h.what));
   for (const std::string& sentence : compare::in_words(part)) text += sentence + "\n";
@@ -144,7 +145,7 @@ std::string work_text(const compare::DriveSides& drive) {
 
 std::string sides_text(const compare::DriveSides& drive) {
   std::string text = fmt::format("{}: {} on {}\n\n{}\n", drive.question.name, in_words(drive.question.scenario.tire),
-                                 drive.question.scenario.soil.name, sides_samples_text(drive));
+                                 compare::in_words(drive.question.scenario.soil), sides_samples_text(drive));
   for (const compare::DriveSide& side : drive.sides)
     for (const DriveHappening& h : side.happenings)
       text +=

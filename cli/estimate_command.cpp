@@ -8,6 +8,8 @@
 #include "cli/question.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/result_json.hpp"
+#include "compare/sweep/plausibility.hpp"
+#include "compare/sweep/varying.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -27,7 +29,7 @@ std::string doubt_in_words(const Soil& soil) {
 }
 
 void print_text(const Case& question, const std::vector<compare::ModelAnswers>& study) {
-  fmt::print("{} on {}\n\n", in_words(question.scenario.tire), question.scenario.soil.name);
+  fmt::print("{} on {}\n\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil));
   if (question.study.conditions.size() > 1) {
     fmt::print("{}", study_text(study));
   } else {
@@ -38,7 +40,10 @@ void print_text(const Case& question, const std::vector<compare::ModelAnswers>& 
 
 int estimate(const Question& inputs, bool json, const Session& session) {
   const Case question = inputs.ask(session.place);
+  require_semi_empirical(question, session.place.library);
   const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
+  print_warnings(compare::doubts(question.scenario.tire, study));
+  print_warnings(inputs.without_effect(question));
   if (json) {
     fmt::print("{}", compare::json_text(answers_json(question, study)));
   } else if (compare::any_result(study)) {

@@ -9,6 +9,7 @@
 #include "cli/text_output.hpp"
 #include "compare/report/result_json.hpp"
 #include "compare/sweep/explanation.hpp"
+#include "compare/sweep/plausibility.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 
@@ -90,8 +91,9 @@ int explain(const Question& inputs, bool json, const Session& session) {
     throw InputError(fmt::format("{} conditions are too many to explain; pick one with --load, --slip, ...",
                                  question.study.conditions.size()));
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  if (!json) fmt::print("{} on {}\n\n", in_words(question.scenario.tire), question.scenario.soil.name);
+  if (!json) fmt::print("{} on {}\n\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil));
   bool first = true;
+  std::vector<compare::ModelAnswers> told;
   for (const ModelChoice& choice : question.study.models) {
     if (choice.model != ModelKind::bekker_wong) compare::make_model(choice.model);
     Scenario scenario = question.scenario;
@@ -103,8 +105,11 @@ int explain(const Question& inputs, bool json, const Session& session) {
       else
         fmt::print("{}", first ? "" : "\n"), print_text(choice, explanation, at);
       first = false;
+      told.push_back({choice, {{at, explanation.result, ""}}});
     }
   }
+  print_warnings(compare::doubts(question.scenario.tire, told));
+  print_warnings(inputs.without_effect(question));
   if (json)
     fmt::print("{}", compare::json_text({{"format", "soilbin-explain/1"},
                                          {"tire", question.scenario.tire.name},

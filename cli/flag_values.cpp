@@ -53,4 +53,21 @@ CLI::Validator writable_file() {
   return {[problem](std::string& name) { return problem(name); }, ""};
 }
 
+CLI::Validator writable_folder() {
+  const auto problem = [](const std::string& name) -> std::string {
+    namespace fs = std::filesystem;
+    std::error_code none;
+    for (fs::path path(name); !path.empty(); path = path.parent_path()) {
+      if (fs::is_directory(path, none)) return "";
+      if (fs::exists(path, none))
+        return fmt::format(
+            "'{}' is a file, where a folder is to be made\n  hint: name a new folder, or one that is there",
+            clipped(path.string()));
+      if (path == path.parent_path()) break;
+    }
+    return "";
+  };
+  return {[problem](std::string& name) { return problem(name); }, ""};
+}
+
 }  // namespace soilbin::cli

@@ -26,4 +26,7 @@ std::pair<double, double> read_range(const std::string& flag, const std::string&
 /// For flags that name a file to write: refuses, before any work is done, what can't become one.
 CLI::Validator writable_file();
 
+/// The same for a folder that is made where it is missing.
+CLI::Validator writable_folder();
+
 }  // namespace soilbin::cli

@@ -2,6 +2,7 @@
 // each.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <set>
@@ -9,9 +10,12 @@
 #include "bekker_wong/limits.hpp"
 #include "bekker_wong/model.hpp"
 #include "cli/commands.hpp"
+#include "cli/described_flags.hpp"
 #include "cli/question.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/result_json.hpp"
+#include "compare/sweep/alike.hpp"
+#include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 
@@ -23,6 +27,11 @@ struct SlopeRow {
   double slope = 0.0;          ///< [rad]
   std::optional<double> slip;  ///< at which it travels without a load behind it
   bekker_wong::PullPeak best;
+
+  bool operator==(const SlopeRow& other) const {
+    return slope == other.slope && slip == other.slip && best.slip == other.best.slip &&
+           best.drawbar_pull == other.best.drawbar_pull;
+  }
 };
 
 /// One model at one load.
@@ -32,6 +41,7 @@ struct LimitsAnswer {
   std::optional<double> steepest;  ///< [rad]
   std::vector<SlopeRow> slopes;
   std::string error;
+  bool at_every_speed = false;  ///< of the question's: the same answer
 };
 
 /// Slopes from level ground to the steepest one, at whole degrees that make about ten rows.
@@ -47,7 +57,7 @@ std::vector<double> slopes_up_to(double steepest) {
 }
 
 LimitsAnswer limits_of(const Scenario& scenario, const ModelChoice& model, const OperatingCondition& at) {
-  LimitsAnswer answer{model, at, {}, {}, ""};
+  LimitsAnswer answer{model, at, {}, {}, "", false};
   if (model.model != ModelKind::bekker_wong) throw InputError("limits asks the model bekker_wong alone");
   const bekker_wong::RollingWheel wheel(scenario.tire, bekker_wong::values_of(*scenario.soil.semi_empirical),
                                         bekker_wong::make_effects(model.effects), scenario.bin);
@@ -58,13 +68,23 @@ LimitsAnswer limits_of(const Scenario& scenario, const ModelChoice& model, const
     for (const double slope : slopes_up_to(answer.steepest.value_or(0.0))) {
       there.longitudinal_incline = slope;
       SlopeRow row{slope, bekker_wong::slip_for_pull(wheel, there), bekker_wong::largest_pull(wheel, there)};
-      if (slope == answer.steepest) row.slip = row.best.slip;
+      if (row.slip && std::abs(*row.slip) < 1e-9) row.slip = 0.0;  // closer than the root is found
+      if (slope == answer.steepest)
+        row.slip = row.best.slip, row.best.drawbar_pull = 0.0;  // that is what steepest means
       answer.slopes.push_back(row);
     }
   } catch (const NoSolution& error) {
     answer.error = error.what();
   }
   return answer;
+}
+
+/// Whether two answers differ in nothing but the speed at which they were asked: most models hear nothing of it.
+bool same_but_speed(const LimitsAnswer& a, const LimitsAnswer& b) {
+  OperatingCondition at = b.at;
+  at.speed = a.at.speed;
+  return a.model.label == b.model.label && compare::alike(a.at, at) && a.error == b.error && a.steepest == b.steepest &&
+         a.slopes == b.slopes;
 }
 
 /// The conditions of a question, slip left aside, each once.
@@ -95,6 +115,8 @@ nlohmann::ordered_json limits_json(const LimitsAnswer& answer) {
   nlohmann::ordered_json row = {{"label", answer.model.label}};
   row.update(compare::to_json(answer.at));
   row.erase("slip");
+  row.erase("longitudinal_incline");
+  if (answer.at_every_speed) row.erase("speed");
   if (!answer.error.empty()) {
     row["error"] = answer.error;
     return row;
@@ -113,13 +135,25 @@ nlohmann::ordered_json limits_json(const LimitsAnswer& answer) {
 }
 
 int limits(const Question& inputs, bool json, const Session& session) {
+  for (const char* key : {"slip", "longitudinal_incline"})
+    if (inputs.given(key))
+      throw InputError(
+          fmt::format("{} is what limits looks for: leave it out\n  hint: soilbin estimate answers at a slip "
+                      "and on a slope that are given",
+                      flag_of("", key)));
   const Case question = inputs.ask(session.place);
-  if (!question.scenario.soil.semi_empirical)
-    throw InputError("soil '" + question.scenario.soil.name + "' has no semi_empirical values");
+  require_semi_empirical(question, session.place.library);
   std::vector<LimitsAnswer> answers;
   for (const ModelChoice& model : question.study.models)
-    for (const OperatingCondition& at : without_slip(question.study.conditions))
-      answers.push_back(limits_of(question.scenario, model, at));
+    for (const OperatingCondition& at : without_slip(question.study.conditions)) {
+      LimitsAnswer answer = limits_of(question.scenario, model, at);
+      const auto known = std::find_if(answers.begin(), answers.end(),
+                                      [&](const LimitsAnswer& other) { return same_but_speed(other, answer); });
+      if (known == answers.end())
+        answers.push_back(std::move(answer));
+      else
+        known->at_every_speed = true;
+    }
   if (json) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const LimitsAnswer& answer : answers) rows.push_back(limits_json(answer));
@@ -128,11 +162,12 @@ int limits(const Question& inputs, bool json, const Session& session) {
                                          {"soil", question.scenario.soil.name},
                                          {"rows", rows}}));
   } else {
-    fmt::print("{} on {}\n", in_words(question.scenario.tire), question.scenario.soil.name);
+    fmt::print("{} on {}\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil));
     for (const LimitsAnswer& answer : answers) fmt::print("\n{}", limits_text(answer));
   }
   for (const LimitsAnswer& answer : answers)
     if (answer.error.empty()) return done;
+  fmt::print(stderr, "soilbin: no solution: {}\n", answers.front().error);
   return failed;
 }
 
@@ -143,7 +178,9 @@ void add_limits(CLI::App& app, Session& session) {
   const auto inputs = std::make_shared<Question>(*command, std::vector<std::string>{"load"});
   const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "soilbin-limits/1, in SI");
-  command->footer("Example: soilbin limits --tire rover-wheel --soil dry-sand --load 64.68N");
+  command->footer(
+      "A load that has no solution is told in its place; the status is 1 where none has one.\n"
+      "Example: soilbin limits --tire rover-wheel --soil dry-sand --load 64.68N");
   command->callback([=, &session] { session.action = [=, &session] { return limits(*inputs, *json, session); }; });
 }
 

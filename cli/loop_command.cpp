@@ -11,6 +11,7 @@
 #include "cli/text_output.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/report/result_json.hpp"
+#include "compare/sweep/plausibility.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/description.hpp"
 #include "scenario/errors.hpp"
@@ -62,6 +63,12 @@ compare::Limits read_limits(const std::vector<std::string>& texts) {
   return limits;
 }
 
+/// For people: a limit that was given isn't asked for again.
+compare::LoopAnswer without_given_limits(compare::LoopAnswer answer, const compare::Limits& given) {
+  if (answer.next) std::erase_if(answer.next->beyond, [&](const std::string& name) { return given.contains(name); });
+  return answer;
+}
+
 void print_answer(const compare::LoopAnswer& answer, bool only_next) {
   if (!only_next) {
     fmt::print("{}: {}\n\n", answer.campaign, compare::verdict_sentence(answer));
@@ -77,6 +84,7 @@ void print_answer(const compare::LoopAnswer& answer, bool only_next) {
 
 int loop(const LoopOptions& asked, const Session& session) {
   const compare::Campaign campaign = find_campaign(session.place, asked.campaign);
+  print_warnings(compare::doubts(campaign));
   compare::LoopOptions options;
   options.folds = asked.folds;
   options.identify.seed = asked.seed;
@@ -95,7 +103,7 @@ int loop(const LoopOptions& asked, const Session& session) {
     if (asked.details) document["details"] = compare::details_json(answer);
     fmt::print("{}", compare::json_text(document));
   } else {
-    print_answer(answer, asked.next);
+    print_answer(without_given_limits(answer, options.limits), asked.next);
   }
   return done;
 }

@@ -9,6 +9,7 @@
 #include "cli/text_output.hpp"
 #include "compare/report/curves.hpp"
 #include "compare/report/result_json.hpp"
+#include "compare/sweep/plausibility.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
@@ -35,6 +36,7 @@ Scenario scenario_for(const PredictOptions& options, const compare::Campaign& ca
 
 int predict(const PredictOptions& options, const Session& session) {
   const compare::Campaign campaign = find_campaign(session.place, options.campaign);
+  print_warnings(compare::doubts(campaign));
   const Scenario scenario = scenario_for(options, campaign, session.place);
   const auto model = compare::make_model(ModelKind::bekker_wong);
   const compare::Prediction prediction = compare::predict(*model, scenario, campaign, shown_progress());

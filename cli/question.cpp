@@ -8,6 +8,8 @@
 
 #include "compare/report/result_json.hpp"
 #include "compare/sweep/alike.hpp"
+#include "compare/sweep/plausibility.hpp"
+#include "scenario/condition_axes.hpp"
 #include "scenario/mapping_writer.hpp"
 
 namespace soilbin::cli {
@@ -45,6 +47,27 @@ void set_parameter(const std::string& text, const EffectFormWords& form, double 
                                choice.form, clipped(name), did_you_mean(name, names), listed(names)));
 }
 
+/// A condition, and the rotation [rad/s] from which it got its speed, if any.
+struct AskedCondition {
+  OperatingCondition at;
+  std::optional<double> rotation;
+};
+
+std::vector<AskedCondition> with_rotations(const Study& study) {
+  std::vector<AskedCondition> all;
+  for (const OperatingCondition& at : study.conditions)
+    all.push_back({at, all.size() < study.rotations.size() ? study.rotations[all.size()] : std::nullopt});
+  return all;
+}
+
+double implied_speed(const AskedCondition& one, const Tire& tire) {
+  try {
+    return speed_at_rotation(one.at, *one.rotation, tire);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}\n  hint: the study gives 'rotation'; give --speed too", error.what()));
+  }
+}
+
 double exponent_of(const Soil& soil) { return soil.semi_empirical ? soil.semi_empirical->exponent.value : 1.0; }
 
 }  // namespace
@@ -67,17 +90,27 @@ EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocab
   return choice;
 }
 
-std::vector<OperatingCondition> ConditionFlags::pick(const std::vector<OperatingCondition>& conditions) const {
-  if (!flags_.any_given()) return conditions;
-  std::vector<OperatingCondition> kept, changed;
-  std::set<std::string> seen;
-  for (const OperatingCondition& at : conditions) {
-    OperatingCondition asked = at;
-    flags_.apply(asked);
-    if (compare::alike(asked, at)) kept.push_back(at);
-    if (seen.insert(compare::to_json(asked).dump()).second) changed.push_back(asked);
+void ConditionFlags::pick(Study& study, const Tire& tire) const {
+  std::vector<AskedCondition> asked = with_rotations(study);
+  bool overridden = false;
+  for (const std::string& key : flags_.given_keys()) {
+    std::vector<AskedCondition> agreeing, changed = asked;
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      flags_.apply(changed[i].at, key);
+      if (key == "speed") asked[i].rotation.reset(), changed[i].rotation.reset();
+      if (compare::alike(changed[i].at, asked[i].at)) agreeing.push_back(asked[i]);
+    }
+    overridden = overridden || agreeing.empty();
+    asked = agreeing.empty() ? changed : agreeing;
   }
-  return kept.empty() ? changed : kept;
+  study.conditions.clear(), study.rotations.clear();
+  std::set<std::string> seen;
+  for (AskedCondition& one : asked) {
+    if (one.rotation) one.at.speed = implied_speed(one, tire);
+    if (overridden && !seen.insert(compare::to_json(one.at).dump()).second) continue;
+    study.conditions.push_back(one.at);
+    study.rotations.push_back(one.rotation);
+  }
 }
 
 Question::Question(CLI::App& app, std::vector<std::string> needed) : needed_(std::move(needed)) {
@@ -128,7 +161,7 @@ Case Question::ask(const Workplace& place) const {
   if (!case_name_.empty()) {
     override_tire(question.scenario.tire, place);
     if (!soil_.empty()) question.scenario.soil = find_soil(soil_, place.library);
-    question.study.conditions = condition_.pick(question.study.conditions);
+    condition_.pick(question.study, question.scenario.tire);
   }
   if (bin_.any_given()) {
     if (!question.scenario.bin) question.scenario.bin.emplace();
@@ -137,22 +170,63 @@ Case Question::ask(const Workplace& place) const {
       throw InputError("a bin needs both --bin-depth and --bin-width");
   }
   if (effects_.empty()) return question;
-  ModelChoice choice{ModelKind::bekker_wong, {}, "bekker_wong"};
+  ModelChoice choice;
   const bool none = std::find(effects_.begin(), effects_.end(), "none") != effects_.end();
   if (none && effects_.size() > 1) throw InputError("--effect none stands alone: it switches every effect off");
   for (const std::string& text : none ? std::vector<std::string>{} : effects_) {
-    choice.effects.push_back(parse_effect(text, place.effects, exponent_of(question.scenario.soil)));
-    choice.label += " + " + choice.effects.back().id;
+    EffectChoice effect = parse_effect(text, place.effects, exponent_of(question.scenario.soil));
+    for (const EffectChoice& known : choice.effects)
+      if (known.id == effect.id)
+        throw InputError(
+            fmt::format("--effect: '{}' is given twice ({} and {}): its forms tell the same physics\n"
+                        "  hint: give one form; a case file can set models with different forms side by "
+                        "side",
+                        effect.id, known.form, effect.form));
+    choice.effects.push_back(std::move(effect));
   }
   question.study.models = {choice};
+  label_models(question.study.models);
   return question;
 }
 
+std::vector<std::string> Question::without_effect(const Case& question) const {
+  std::vector<std::string> words;
+  for (const compare::Unheard& one : compare::unheard(question)) {
+    const bool asked = one.key == "lugs"     ? lugs_.any_given()
+                       : one.key == "effect" ? !effects_.empty()
+                                             : condition_.given(one.key);
+    if (asked) words.push_back(one.words);
+  }
+  return words;
+}
+
 nlohmann::ordered_json answers_json(const Case& question, const std::vector<compare::ModelAnswers>& study) {
-  return {{"format", "soilbin-estimate/1"},
-          {"tire", question.scenario.tire.name},
-          {"soil", question.scenario.soil.name},
-          {"rows", compare::rows_json(study)}};
+  nlohmann::ordered_json document = {{"format", "soilbin-estimate/1"},
+                                     {"tire", question.scenario.tire.name},
+                                     {"soil", question.scenario.soil.name},
+                                     {"rows", compare::rows_json(study)}};
+  tell_doubts(document, question, study);
+  return document;
+}
+
+void require_semi_empirical(const Case& question, const Library& library) {
+  const std::vector<ModelChoice>& models = question.study.models;
+  if (question.scenario.soil.semi_empirical || std::none_of(models.begin(), models.end(), [](const ModelChoice& m) {
+        return m.model == ModelKind::bekker_wong;
+      }))
+    return;
+  std::vector<std::string> right;
+  for (const std::string& name : library.names(Shelf::soils))
+    if (find_soil(name, library).semi_empirical) right.push_back(name);
+  throw InputError(
+      fmt::format("soil '{}' has no semi_empirical values, which bekker_wong needs\n  hint: these have: {}",
+                  clipped(question.scenario.soil.name), listed(right)));
+}
+
+void tell_doubts(nlohmann::ordered_json& document, const Case& question,
+                 const std::vector<compare::ModelAnswers>& study) {
+  const std::vector<std::string> warnings = compare::doubts(question.scenario.tire, study);
+  if (!warnings.empty()) document["warnings"] = warnings;
 }
 
 }  // namespace soilbin::cli

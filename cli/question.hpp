@@ -23,9 +23,11 @@ class ConditionFlags {
   bool given(const std::string& key) const { return flags_.given(key); }
   void apply(OperatingCondition& at) const { flags_.apply(at); }
 
-  /// Keeps the conditions that agree with the flags given; where none does, sets the flags in all of them (and keeps
-  /// each distinct one once).
-  std::vector<OperatingCondition> pick(const std::vector<OperatingCondition>& conditions) const;
+  /// Flag by flag: keeps the study's conditions that agree with it; where none does, sets it in all that are left. A
+  /// condition that got its speed from a rotation keeps the rotation: its speed follows slip, yaw and `tire`, unless
+  /// the speed itself is given. Conditions that overriding makes equal are kept once. Throws InputError that names the
+  /// flag, or says why there is no such speed.
+  void pick(Study& study, const Tire& tire) const;
 
  private:
   DescribedFlags<OperatingCondition> flags_;
@@ -41,6 +43,12 @@ class Question {
   /// Throws InputError that names the flag that is missing or wrong.
   Case ask(const Workplace& place) const;
 
+  /// Whether a condition was given by a flag.
+  bool given(const std::string& key) const { return condition_.given(key); }
+
+  /// What was given by a flag and changes no digit of the answer to `question`, which ask() gave: a line each.
+  std::vector<std::string> without_effect(const Case& question) const;
+
  private:
   Case from_flags(const Workplace& place) const;
   void override_tire(Tire& tire, const Workplace& place) const;
@@ -54,7 +62,14 @@ class Question {
   ConditionFlags condition_;
 };
 
-/// soilbin-estimate/1: what each model answers at each condition of the question, in SI.
+/// Throws InputError where the analytic model is asked on a soil that has values for grains alone.
+void require_semi_empirical(const Case& question, const Library& library);
+
+/// Adds "warnings" where the answers lie beyond what the model is meant for (compare::doubts).
+void tell_doubts(nlohmann::ordered_json& document, const Case& question,
+                 const std::vector<compare::ModelAnswers>& study);
+
+/// soilbin-estimate/1: what each model answers at each condition of the question, in SI; with tell_doubts.
 nlohmann::ordered_json answers_json(const Case& question, const std::vector<compare::ModelAnswers>& study);
 
 }  // namespace soilbin::cli

@@ -13,6 +13,8 @@
 #include "cli/text_output.hpp"
 #include "compare/report/curves.hpp"
 #include "compare/report/result_json.hpp"
+#include "compare/sweep/plausibility.hpp"
+#include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
 
 namespace soilbin::cli {
@@ -57,6 +59,7 @@ nlohmann::ordered_json document_of(const Case& question, const std::vector<compa
                                      {"tire", question.scenario.tire.name},
                                      {"soil", question.scenario.soil.name},
                                      {"rows", compare::rows_json(study)}};
+  tell_doubts(document, question, study);
   if (step) document["dem"] = to_json(*step);
   return document;
 }
@@ -93,20 +96,21 @@ int run(RunOptions options, const Session& session) {
   keep_model(question, options.model);
   if (!options.soil_bin.recorded.empty() && options.model.empty()) add_dem(question);
   if (options.converge) {
-    question.study.conditions = options.conditions.pick(question.study.conditions);
+    options.conditions.pick(question.study, question.scenario.tire);
     return converge(options.soil_bin, question, session.place.effects, options.json);
   }
   const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
   const compare::MakeModel make = models_with(options.soil_bin, question, session.place.effects, log);
-  question.study.conditions = options.conditions.pick(question.study.conditions);
+  options.conditions.pick(question.study, question.scenario.tire);
   const std::optional<dem::StepCriteria> step = step_of(options.soil_bin, question);
   const std::vector<compare::ModelAnswers> study = answers_to(question, make, options, log);
   save(options, question, study, step, session.place);
+  print_warnings(compare::doubts(question.scenario.tire, study));
   if (options.json) {
     fmt::print("{}", compare::json_text(document_of(question, study, step)));
   } else {
     fmt::print("{}: {} on {}\n{}\n{}", question.study.name, in_words(question.scenario.tire),
-               question.scenario.soil.name, step ? in_words(*step) : "", study_text(study));
+               compare::in_words(question.scenario.soil), step ? in_words(*step) : "", study_text(study));
     if (const std::string notes = notes_on(*log); !notes.empty()) fmt::print("\n{}", notes);
   }
   if (compare::any_result(study)) return done;
@@ -125,7 +129,9 @@ void add_run(CLI::App& app, Session& session) {
       ->type_name("FILE.svg")
       ->check(writable_file());
   command->add_option("--csv", options->csv, "save the table")->type_name("FILE.csv")->check(writable_file());
-  command->add_option("--output", options->output, "save the resolved case and the results")->type_name("DIR");
+  command->add_option("--output", options->output, "save the resolved case and the results")
+      ->type_name("DIR")
+      ->check(writable_folder());
   command->add_flag("--json", options->json, "the results as JSON, in SI");
   command->add_flag("--converge", options->converge,
                     "dem: one condition, again with each numerical choice halved or doubled");
@@ -135,7 +141,8 @@ void add_run(CLI::App& app, Session& session) {
       ->type_name("FILE")
       ->check(writable_file());
   command->footer(
-      "A condition flag keeps the study's conditions that agree with it; where none does, it overrides them.\n"
+      "Each condition flag keeps the study's conditions that agree with it; where none does, it overrides them. Where\n"
+      "the study gives 'rotation' it stays, and the speed follows.\n"
       "Example: soilbin run paper-straight --load 4kN --plot pull.svg");
   command->callback([=, &session] { session.action = [=, &session] { return run(*options, session); }; });
 }

@@ -87,6 +87,10 @@ std::string as_text(const HtmlTable& table) {
   return table.caption.empty() ? text.text() : fmt::format("{}\n{}", table.caption, text.text());
 }
 
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
 std::string in_words(const Tire& tire) {
   std::string words = fmt::format("{} (r {:.4g} mm, b {:.4g} mm, ", tire.name.empty() ? "a wheel" : tire.name,
                                   1000 * tire.radius, 1000 * tire.width);

@@ -29,6 +29,9 @@ std::string as_text(const compare::HtmlTable& table);
 
 using compare::number;
 
+/// Each on a line of its own to stderr, as `soilbin check` tells them: "warning: ...".
+void print_warnings(const std::vector<std::string>& warnings);
+
 /// "rover-wheel (r 90 mm, b 110 mm, smooth)".
 std::string in_words(const Tire& tire);
 

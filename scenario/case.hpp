@@ -37,6 +37,9 @@ struct Study {
   std::string name;
   std::vector<ModelChoice> models;
   std::vector<OperatingCondition> conditions;
+  /// Of each condition: the speed of rotation [rad/s] from which it got its speed, none where the file gives the speed.
+  /// Who changes a condition's slip can so keep its rotation. Empty where no file was read; write_case leaves it out.
+  std::vector<std::optional<double>> rotations = {};
 };
 
 /// A whole question: a study, a drive or both. `scenario.effects` is empty: effects belong to the study's models and to
@@ -62,6 +65,10 @@ inline std::string contradiction(const Case& c) { return c.name.empty() ? "the n
 inline constexpr const char* case_format = "soilbin-case/1";
 inline constexpr const char* tire_format = "soilbin-tire/1";
 inline constexpr const char* soil_format = "soilbin-soil/1";
+
+/// Labels the models that have no label: "bekker_wong + slip_sinkage + exit_angle". An id that stands in several forms
+/// among the models is told with its form, "slip_sinkage:ding", so that no two forms look alike.
+void label_models(std::vector<ModelChoice>& models);
 
 /// Reads a case file. A tire or soil that it names is looked up beside the file, then in the library.
 /// Throws InputError with file, line, column, excerpt and hint for everything that is not a valid case.

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "scenario/case.hpp"
@@ -86,10 +87,12 @@ T read_part(const YamlNode& node, const Library& library, const Reading& reading
   reading.refuse(node, not_found<T>(name, library), names_hint<T>(library));
 }
 
-std::string default_label(const ModelChoice& choice) {
-  std::string label(choice.model == ModelKind::dem ? "dem" : "bekker_wong");
-  for (const EffectChoice& effect : choice.effects) label += " + " + effect.id;
-  return label;
+/// Whether some of the models show this effect in another form.
+bool in_other_forms(const EffectChoice& effect, const std::vector<ModelChoice>& models) {
+  return std::any_of(models.begin(), models.end(), [&](const ModelChoice& model) {
+    return std::any_of(model.effects.begin(), model.effects.end(),
+                       [&](const EffectChoice& other) { return other.id == effect.id && other.form != effect.form; });
+  });
 }
 
 void check_soil_for(const ModelChoice& choice, const Soil& soil, const YamlNode& node, const Reading& reading) {
@@ -119,7 +122,6 @@ ModelChoice read_model(const YamlNode& node, const Soil& soil, const EffectVocab
       choice.label = read_text(*label, reading);
   }
   check_soil_for(choice, soil, node, reading);
-  if (choice.label.empty()) choice.label = default_label(choice);
   return choice;
 }
 
@@ -128,13 +130,15 @@ std::vector<ModelChoice> read_models(const YamlNode* list, const YamlNode& study
   if (list == nullptr) {
     ModelChoice base;
     check_soil_for(base, soil, study, reading);
-    base.label = default_label(base);
-    return {base};
+    std::vector<ModelChoice> alone = {base};
+    label_models(alone);
+    return alone;
   }
   if (!list->is_sequence()) reading.refuse(*list, "expected a list of models, not " + list->kind_name());
   if (list->items.empty()) reading.refuse(*list, "the list of models is empty");
   std::vector<ModelChoice> models;
   for (const YamlNode& node : list->items) models.push_back(read_model(node, soil, effects, reading));
+  label_models(models);
   return models;
 }
 
@@ -148,9 +152,11 @@ Study read_study(const YamlNode& node, const Case& about, const EffectVocabulary
     study.name = read_text(*name, reading);
   study.models =
       read_models(value_of(node, "models", Need::optional, "list of models", reading), node, soil, effects, reading);
-  study.conditions = read_conditions(
+  ConditionGrid grid = read_conditions(
       *value_of(node, "conditions", Need::required, "load, slip, ...: a value, a list or a range each", reading),
       about.scenario.tire, reading);
+  study.conditions = std::move(grid.conditions);
+  study.rotations = std::move(grid.rotations);
   return study;
 }
 
@@ -173,6 +179,15 @@ Drive read_drive(const YamlNode& node, const Soil& soil, const Library& library,
 }
 
 }  // namespace
+
+void label_models(std::vector<ModelChoice>& models) {
+  for (ModelChoice& choice : models) {
+    if (!choice.label.empty()) continue;
+    choice.label = word_of(choice.model);
+    for (const EffectChoice& effect : choice.effects)
+      choice.label += " + " + effect.id + (in_other_forms(effect, models) ? ":" + effect.form : "");
+  }
+}
 
 Case parse_case(const SourceText& source, const Library& library, const EffectVocabulary& effects) {
   const YamlNode document = parse_yaml(source);

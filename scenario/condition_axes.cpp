@@ -174,23 +174,16 @@ class AxisReader {
   std::vector<Axis> axes_;
 };
 
-/// The speed of travel that slip and rotation imply (docs/conventions.md): by the speed in the wheel's plane or, where
-/// the condition says so, by the whole speed of travel.
+/// speed_at_rotation, refused at its place in the file.
 double implied_speed(const Point& point, const Tire& tire, const YamlNode& mapping, const Reading& reading) {
-  const OperatingCondition& at = point.at;
-  if (at.slip <= -1.0)
-    reading.refuse(mapping, "a wheel at slip -1 is locked: it has no speed of rotation", "give 'speed' instead");
-  const double rim = tire.radius * *point.rotation;
-  const double along = at.slip >= 0.0 ? rim * (1.0 - at.slip) : rim / (1.0 + at.slip);
-  if (at.slip_by == SlipBy::travel_speed) return along;
-  constexpr double smallest_cosine = 1e-9;
-  if (std::cos(at.yaw) < smallest_cosine)
-    reading.refuse(mapping, "at a yaw of 90 deg slip in the wheel's plane doesn't tell the speed of travel",
-                   "give 'speed' instead of 'rotation'");
-  return along / std::cos(at.yaw);
+  try {
+    return speed_at_rotation(point.at, *point.rotation, tire);
+  } catch (const InputError& error) {
+    reading.refuse(mapping, error.what(), "give 'speed' instead of 'rotation'");
+  }
 }
 
-std::vector<OperatingCondition> read_grid(const YamlNode& mapping, const Tire& tire, const Reading& reading) {
+ConditionGrid read_grid(const YamlNode& mapping, const Tire& tire, const Reading& reading) {
   std::vector<std::string> keys = keys_of<OperatingCondition>();
   keys.emplace_back("rotation");
   expect_keys(mapping, keys, reading);
@@ -209,27 +202,40 @@ std::vector<OperatingCondition> read_grid(const YamlNode& mapping, const Tire& t
       for (const Setter& set : axis.values) set(product.emplace_back(point));
     points = std::move(product);
   }
-  std::vector<OperatingCondition> conditions;
+  ConditionGrid grid;
   for (Point& point : points) {
     if (point.rotation) point.at.speed = implied_speed(point, tire, mapping, reading);
-    conditions.push_back(point.at);
+    grid.conditions.push_back(point.at);
+    grid.rotations.push_back(point.rotation);
   }
-  return conditions;
+  return grid;
 }
 
 }  // namespace
 
-std::vector<OperatingCondition> read_conditions(const YamlNode& node, const Tire& tire, const Reading& reading) {
+ConditionGrid read_conditions(const YamlNode& node, const Tire& tire, const Reading& reading) {
   if (!node.is_sequence()) return read_grid(node, tire, reading);
   if (node.items.empty()) reading.refuse(node, "the list of conditions is empty");
-  std::vector<OperatingCondition> all;
+  ConditionGrid all;
   for (const YamlNode& item : node.items) {
-    const std::vector<OperatingCondition> some = read_grid(item, tire, reading);
-    if (all.size() + some.size() > most_conditions)
+    const ConditionGrid some = read_grid(item, tire, reading);
+    if (all.conditions.size() + some.conditions.size() > most_conditions)
       reading.refuse(item, fmt::format("more than {} conditions", most_conditions));
-    all.insert(all.end(), some.begin(), some.end());
+    all.conditions.insert(all.conditions.end(), some.conditions.begin(), some.conditions.end());
+    all.rotations.insert(all.rotations.end(), some.rotations.begin(), some.rotations.end());
   }
   return all;
+}
+
+double speed_at_rotation(const OperatingCondition& at, double rotation, const Tire& tire) {
+  if (at.slip <= -1.0) throw InputError("a wheel at slip -1 is locked: it has no speed of rotation");
+  const double rim = tire.radius * rotation;
+  const double along = at.slip >= 0.0 ? rim * (1.0 - at.slip) : rim / (1.0 + at.slip);
+  if (at.slip_by == SlipBy::travel_speed) return along;
+  constexpr double smallest_cosine = 1e-9;
+  if (std::cos(at.yaw) < smallest_cosine)
+    throw InputError("at a yaw of 90 deg slip in the wheel's plane doesn't tell the speed of travel");
+  return along / std::cos(at.yaw);
 }
 
 }  // namespace soilbin

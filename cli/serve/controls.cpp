@@ -7,6 +7,7 @@
 #include "cli/described_flags.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/sweep/plausibility.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::cli {
@@ -91,6 +92,48 @@ Json parameters_json(const bekker_wong::EffectForm& form) {
   return all;
 }
 
+/// A value of the condition that most questions leave out, and that only some effects hear of.
+struct Heard {
+  const char* key;
+  const char* meaning;
+  const char* unit;
+  double start;  ///< in that unit: where the effects' defaults have the soil as declared
+  double lower, upper, step;
+};
+
+constexpr Heard heard_values[] = {{"pass", "1: undisturbed soil", "", 1, 1, 10, 1},
+                                  {"moisture", "water content by mass", "%", 8, 0, 30, 0.5},
+                                  {"position", "mean distance along the bin", "m", 0, -10, 10, 0.1},
+                                  {"run", "order in which the runs were made", "", 1, 0, 100, 1}};
+
+double given_value(const OperatingCondition& at, const Heard& heard) {
+  const std::string key = heard.key;
+  if (key == "pass") return at.pass;
+  if (key == "run") return at.run ? *at.run : heard.start;
+  const std::optional<double>& value = key == "moisture" ? at.moisture : at.position;
+  return value ? read_in(*value, heard.unit) : heard.start;
+}
+
+Json hearing_ids(const std::string& key) {
+  Json ids = Json::array();
+  for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue())
+    if (compare::hears_of(form, key) && (ids.empty() || ids.back() != form.id)) ids.push_back(form.id);
+  return ids;
+}
+
+void add_heard_values(Json& numbers, const OperatingCondition& at) {
+  for (const Heard& heard : heard_values)
+    numbers.push_back({{"key", heard.key},
+                       {"title", compare::capital(heard.key)},
+                       {"meaning", heard.meaning},
+                       {"unit", heard.unit},
+                       {"value", given_value(at, heard)},
+                       {"lower", heard.lower},
+                       {"upper", heard.upper},
+                       {"step", heard.step},
+                       {"effects", hearing_ids(heard.key)}});
+}
+
 }  // namespace
 
 std::string shown_unit(const std::string& unit) { return unit == "-" ? "%" : unit; }
@@ -138,6 +181,7 @@ Json numbers_json(const Case& question) {
   describe(of_condition, std::type_identity<OperatingCondition>{});
   NumbersOf<Lugs> of_lugs(numbers, question.scenario.tire.lugs, "lug-", 0.02 * question.scenario.tire.radius);
   describe(of_lugs, std::type_identity<Lugs>{});
+  add_heard_values(numbers, question.study.conditions.front());
   return numbers;
 }
 

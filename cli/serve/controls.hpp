@@ -22,7 +22,8 @@ std::string without_blanks(std::string text);
 std::string effect_word(const EffectChoice& choice, const Soil& soil);
 
 /// Load, slip, speed, inclines, yaw and lug height of a question of one condition, each with key (its flag), title,
-/// meaning, unit, and in that unit its value and the limits and step of a slider.
+/// meaning, unit, and in that unit its value and the limits and step of a slider. Then pass, moisture, position and
+/// run, each with the "effects" that hear of it: a page shows it with them.
 nlohmann::ordered_json numbers_json(const Case& question);
 
 /// The catalogue, forms under their effects, each with its parameters as numbers_json has its numbers, at their

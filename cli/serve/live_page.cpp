@@ -19,6 +19,7 @@ main{max-width:1640px}
 .number input[type=range]{grid-column:1/-1;width:100%;margin:2px 0 6px;min-height:26px}
 .number input[type=number]{font:inherit;color:inherit;background:var(--ground);border:1px solid var(--edge);
   border-radius:6px;padding:.15em .4em;width:100%;text-align:right}
+.number[hidden]{display:none}
 .number span{color:var(--quiet)}
 .effect{display:flex;flex-wrap:wrap;gap:2px 8px;align-items:center;font-size:.92rem;min-height:30px}
 .effect label{display:flex;gap:8px;align-items:center;cursor:pointer}

@@ -133,7 +133,8 @@ Reply estimate_reply(const Setup& setup, const std::string& query) {
   const Study point = compare::run_study(asked.question), curves = compare::run_study(swept, {}, make_curve_model);
   Json document = answers_json(asked.question, point);
   document["command"] = command_line(asked.words);
-  document["in_words"] = in_words(asked.question.scenario.tire) + " on " + asked.question.scenario.soil.name + ", " +
+  document["in_words"] = in_words(asked.question.scenario.tire) + " on " +
+                         compare::in_words(asked.question.scenario.soil) + ", " +
                          compare::in_words(asked.question.study.conditions.front());
   document["readings"] = readings_json(point);
   document["numbers"] = numbers_json(asked.question);

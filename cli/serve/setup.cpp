@@ -5,11 +5,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cli/command_words.hpp"
 #include "cli/question.hpp"
 #include "cli/serve/controls.hpp"
 #include "cli/text_output.hpp"
+#include "compare/sweep/varying.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/quantity.hpp"
 #include "scenario/source_text.hpp"
@@ -105,8 +107,10 @@ Setup::Setup(const Workplace& place, std::string case_name, std::vector<Flag> fl
   const auto first = std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
     return std::abs(a.slip - usual_slip) < std::abs(b.slip - usual_slip);
   });
+  const std::vector<std::optional<double>>& rotations = question.study.rotations;
+  const bool turns = !rotations.empty() && rotations[static_cast<std::size_t>(first - all.begin())].has_value();
   for (const Flag& flag : telling(*first, all))
-    if (!holds(start_, flag.first)) start_.push_back(flag);
+    if (!holds(start_, flag.first) && !(turns && flag.first == "speed")) start_.push_back(flag);  // its speed follows
   const ModelChoice& model = question.study.models.front();
   if (!holds(start_, "effect") && (question.study.models.size() > 1 || model.model != ModelKind::bekker_wong)) {
     for (const EffectChoice& choice : model.effects)
@@ -149,9 +153,12 @@ Asked Setup::ask(const std::vector<Flag>& query) const {
 
 Json Setup::document() const {
   const Case question = ask({}).question;
-  return {{"format", "soilbin-serve/1"},         {"tire", in_words(question.scenario.tire)},
-          {"soil", question.scenario.soil.name}, {"soils", soils_json(place_.library)},
-          {"numbers", numbers_json(question)},   {"effects", effects_json(question)}};
+  return {{"format", "soilbin-serve/1"},
+          {"tire", in_words(question.scenario.tire)},
+          {"soil", compare::in_words(question.scenario.soil)},
+          {"soils", soils_json(place_.library)},
+          {"numbers", numbers_json(question)},
+          {"effects", effects_json(question)}};
 }
 
 }  // namespace soilbin::cli

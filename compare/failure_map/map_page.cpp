@@ -6,6 +6,7 @@
 #include "compare/failure_map/map_report.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/sweep/varying.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -78,7 +79,7 @@ HeatMap heat_map_of(const MapStory& story, double lug_height, double slip) {
 
 std::string failure_map_page(const MapStory& story, const PageAbout& about, const std::string& resolved_case) {
   Page page(about.title, fmt::format("{} on {}: where the analytic model and the grains part",
-                                     story.map.scenario.tire.name, story.map.scenario.soil.name));
+                                     story.map.scenario.tire.name, in_words(story.map.scenario.soil)));
   std::vector<std::pair<std::string, std::string>> sentences;
   for (const std::string& sentence : map_summary(story)) sentences.emplace_back("", sentence);
   page.summary(sentences);

@@ -39,7 +39,10 @@ Json run_json(const RecordedRun& run) {
   WriteJson visitor(row);
   run_fields(visitor, run);
   row.update(to_json(run.answer));
-  if (run.answer.result) told_fields(visitor, run);
+  if (!run.answer.result) return row;
+  // The bare ratio, also where it is no efficiency: the mean of several packings weights every run's.
+  row["tractive_efficiency"] = finite(run.answer.result->tractive_efficiency);
+  told_fields(visitor, run);
   return row;
 }
 

@@ -116,7 +116,7 @@ void add_study(Page& page, const StudyPart& part) {
   if (!part.question.description.empty()) page.paragraph(part.question.description + ".");
   const Sheet sheet = study_sheet(part.question, part.study);
   page.figure(sheet, fmt::format("{} on {}. Efficiency is drawn where the wheel both drives and pulls.{}",
-                                 part.question.scenario.tire.name, part.question.scenario.soil.name,
+                                 part.question.scenario.tire.name, in_words(part.question.scenario.soil),
                                  part.study.size() > 1 ? " Dashed: the model with its effect." : ""));
   page.table(peak_table(part));
   page.folded("All conditions as a table", [&] { page.table(answers_table(part)); });
@@ -144,7 +144,7 @@ void add_provenance(Page& page, const std::vector<StudyPart>& studies, const std
     const Scenario& scenario = part.question.scenario;
     if (once(tire_words(scenario.tire))) page.paragraph(tire_words(scenario.tire));
     if (scenario.soil.semi_empirical && once("soil " + scenario.soil.name))
-      page.table(soil_table(scenario.soil.name, *scenario.soil.semi_empirical, scenario.soil.source));
+      page.table(soil_table(in_words(scenario.soil), *scenario.soil.semi_empirical, scenario.soil.source));
   }
   for (const CampaignPart& part : campaigns) {
     Tire wheel = part.campaign.wheel;

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <cctype>
 #include <cmath>
 #include <functional>
 
@@ -11,6 +12,7 @@
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/result_json.hpp"
+#include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 #include "scenario/unit.hpp"
@@ -44,12 +46,15 @@ struct Line {
   std::function<double(const DriveSample&)> get;
 };
 
+/// A label tells its panel ("speed: rim"), since the sheet's panels share one legend.
 Plot plot_of(const DrivePart& part, const std::string& title, const std::vector<Line>& lines) {
+  std::string panel = title.substr(0, title.find(" ["));
+  panel.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(panel.front())));
   Plot plot{title, {"time [s]", {}, {}}, {}, {}, false};
   int color = 0;
   for (const Line& line : lines) {
     Series series;
-    series.label = line.label;
+    series.label = line.label.empty() ? "" : panel + ": " + line.label;
     series.color = color++;
     for (const DriveSample& sample : part.record.samples) {
       series.x.push_back(sample.time);
@@ -98,7 +103,7 @@ std::vector<std::string> in_words(const DrivePart& part) {
                                     100 * *end.slip, 1000 * end.sinkage, end.torque));
   if (part.steepest)
     sentences.push_back(fmt::format("Steadily it climbs {:.3g} deg of {} at most.", *part.steepest / degree,
-                                    part.question.scenario.soil.name));
+                                    in_words(part.question.scenario.soil)));
   return sentences;
 }
 

@@ -139,7 +139,7 @@ std::string csv_row(const std::string& model, const Answer& answer) {
   const TractionResult& r = *answer.result;
   for (const ChannelView& channel : channel_views)
     row += fmt::format(",{},{}", (r.*channel.predicted).value, (r.*channel.predicted).std_error);
-  row += std::isfinite(r.tractive_efficiency) ? fmt::format(",{}", r.tractive_efficiency) : std::string(",");
+  row += drives_and_pulls(r) ? fmt::format(",{}", told_efficiency(r)) : std::string(",");
   return row + fmt::format(",{},{},{},\n", r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree);
 }
 
@@ -156,6 +156,7 @@ Json to_json(const Answer& answer) {
   if (answer.result) {
     WriteJson visitor(row);
     result_fields(visitor, *answer.result);
+    row["tractive_efficiency"] = finite(told_efficiency(*answer.result));
   } else {
     row["error"] = answer.error;
   }

@@ -3,10 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/model.hpp"
+#include "bekker_wong/rolling_wheel.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/unit.hpp"
@@ -36,6 +38,16 @@ void add_wheel_doubts(const Tire& tire, const SemiEmpiricalSoil& soil, Warnings&
     warnings.push_back("k_c/b + k_phi is not positive for this width: the soil carries nothing");
 }
 
+/// What to say of a wheel that an effect settles deeper than the base model balances one; "" where it doesn't.
+std::string too_deep(const Tire& tire, const Answer& answer) {
+  if (!answer.result) return "";
+  const double share = answer.result->sinkage.value / tire.radius;
+  if (!(share > bekker_wong::max_sinkage_share)) return "";
+  return fmt::format(
+      "the wheel settles to {:.0f} % of its radius at {}: the stresses are not meant for more than {:.0f} %",
+      100 * share, in_words(answer.at), 100 * bekker_wong::max_sinkage_share);
+}
+
 /// The wheel at one condition of the base model.
 void add_condition_doubts(const Scenario& scenario, const Answer& answer, Warnings& warnings) {
   const std::string at = " at " + in_words(answer.at);
@@ -47,7 +59,9 @@ void add_condition_doubts(const Scenario& scenario, const Answer& answer, Warnin
   if (pressure < 500.0 || pressure > 2e6)
     warnings.push_back(fmt::format("mean ground pressure {:.3g} kPa{}: wheels on soil press with 0.5 .. 2000 kPa",
                                    pressure / 1000, at));
-  if (r.sinkage.value > 0.5 * tire.radius)
+  if (const std::string deep = too_deep(tire, answer); !deep.empty())
+    warnings.push_back(deep);
+  else if (r.sinkage.value > 0.5 * tire.radius)
     warnings.push_back(
         fmt::format("the wheel sinks {:.0f} % of its radius{}: the model's rigid outline is a stretch there",
                     100 * r.sinkage.value / tire.radius, at));
@@ -73,15 +87,15 @@ void add_condition_doubts(const Scenario& scenario, const Answer& answer, Warnin
   }
 }
 
-/// The same kind of warning at many conditions is said once, with the number of the others.
+}  // namespace
+
+/// The same kind of warning is one that differs in numbers alone, up to the condition or the line that it tells.
 Warnings once_each(const Warnings& warnings) {
   Warnings shown;
   std::vector<std::pair<std::string, std::size_t>> kinds;
   for (const std::string& warning : warnings) {
-    std::string kind = warning;
-    kind.erase(std::remove_if(kind.begin(), kind.end(), [](unsigned char c) { return std::isdigit(c) || c == '.'; }),
-               kind.end());
-    kind = kind.substr(0, kind.find(" at load"));
+    std::string kind = warning.substr(0, warning.find(" at load"));
+    std::erase_if(kind, [](unsigned char c) { return std::isdigit(c) || c == '.' || c == '-'; });
     const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.first == kind; });
     if (known != kinds.end()) {
       ++known->second;
@@ -90,15 +104,29 @@ Warnings once_each(const Warnings& warnings) {
     kinds.emplace_back(kind, 0);
     shown.push_back(warning);
   }
-  for (std::size_t i = 0; i < shown.size(); ++i)
-    if (kinds[i].second > 0) shown[i] += fmt::format(" (and at {} other conditions)", kinds[i].second);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const std::size_t others = kinds[i].second;
+    if (others == 0) continue;
+    const std::string what = shown[i].starts_with("line ") ? "line" : "condition";
+    shown[i] += fmt::format(" (and at {} other {}{})", others, what, others > 1 ? "s" : "");
+  }
   return shown;
 }
 
-}  // namespace
+Warnings doubts(const Tire& tire, const std::vector<ModelAnswers>& study) {
+  Warnings warnings;
+  for (const ModelAnswers& model : study) {
+    if (model.choice.model != ModelKind::bekker_wong) continue;
+    for (const Answer& answer : model.answers)
+      if (std::string deep = too_deep(tire, answer); !deep.empty()) warnings.push_back(std::move(deep));
+  }
+  return once_each(warnings);
+}
 
 Warnings doubts(const SemiEmpiricalSoil& soil) {
   Warnings warnings;
+  if (!(soil.k_c.value > 0.0) && !(soil.k_phi.value > 0.0))
+    warnings.emplace_back("neither k_c nor k_phi is positive: this soil carries nothing, at any width of wheel");
   const double phi = soil.friction_angle.value / degree, c = soil.cohesion.value / 1000;
   expect(warnings, "n", soil.exponent.value, 0.3, 1.8, "", "plate tests give 0.5 .. 1.6");
   expect(warnings, "c", c, 0, 100, "kPa", "soft soils have 0 .. 70 kPa");
@@ -123,7 +151,7 @@ Warnings doubts(const SemiEmpiricalSoil& soil) {
   return warnings;
 }
 
-Warnings doubts(const Case& question) {
+Warnings doubts_but_unheard(const Case& question) {
   if (!question.scenario.soil.semi_empirical) return {};
   const SemiEmpiricalSoil& soil = *question.scenario.soil.semi_empirical;
   Warnings warnings = doubts(soil), at_conditions;
@@ -140,21 +168,9 @@ Warnings doubts(const Case& question) {
   return warnings;
 }
 
-Warnings doubts(const Campaign& campaign) {
-  Warnings warnings = doubts(campaign.soil), at_conditions;
-  add_wheel_doubts(campaign.wheel, campaign.soil, warnings);
-  const Scenario scenario = scenario_of(campaign);
-  const bekker_wong::BekkerWong model({.errors = false, .patch = false});
-  for (const Run& run : campaign.runs) {
-    add_condition_doubts(scenario, ask(model, scenario, run.at), at_conditions);
-    if (run.sinkage && std::abs(*run.sinkage) > 2 * campaign.wheel.radius)
-      warnings.push_back(fmt::format("line {}: a measured sinkage of {:.4g} mm is more than the wheel's diameter",
-                                     run.csv_line, 1000 * *run.sinkage));
-    if (run.drawbar_pull && std::abs(*run.drawbar_pull) > 3 * run.at.load)
-      warnings.push_back(fmt::format("line {}: a drawbar pull of {:.4g} N is more than three times the load",
-                                     run.csv_line, *run.drawbar_pull));
-  }
-  for (std::string& warning : once_each(at_conditions)) warnings.push_back(std::move(warning));
+Warnings doubts(const Case& question) {
+  Warnings warnings = doubts_but_unheard(question);
+  for (Unheard& one : unheard(question)) warnings.push_back(std::move(one.words));
   return warnings;
 }
 

@@ -107,6 +107,8 @@ Curves curves_against_slip(const std::vector<OperatingCondition>& conditions, Sp
   return curves;
 }
 
+std::string in_words(const Soil& soil) { return soil.name.empty() ? "a soil of its own (unnamed)" : soil.name; }
+
 std::string in_words(const OperatingCondition& at) {
   std::string words = fmt::format("load {}, slip {:.4g} %", newtons(at.load), 100 * at.slip);
   const OperatingCondition plain;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scenario/operating_condition.hpp"
+#include "scenario/soil.hpp"
 
 namespace soilbin::compare {
 
@@ -21,6 +22,9 @@ struct Curves {
 /// Sorts by load, inclines, yaw, pass and, where they tell conditions of one slip apart, speed and moisture.
 /// Measured loads count as one where neighbours lie within 25 %, angles within 2 deg.
 Curves curves_against_slip(const std::vector<OperatingCondition>& conditions, Spread spread);
+
+/// The soil's name, or what to call one that a case describes and doesn't name.
+std::string in_words(const Soil& soil);
 
 /// The condition in words, with what is not at its default: "load 80 N, slip 20 %, yaw 5 deg".
 std::string in_words(const OperatingCondition& at);

@@ -36,7 +36,8 @@ void bind_result(py::module_& module) {
       .def_readonly("torque", &R::torque, "M [N m]; positive drives")
       .def_readonly("sinkage", &R::sinkage, "z [m]")
       .def_readonly("lateral_force", &R::lateral_force, "F_y [N], to the left of travel")
-      .def_readonly("tractive_efficiency", &R::tractive_efficiency, "F_DP v/(M w) [-]; NaN where M w is 0")
+      .def_property_readonly("tractive_efficiency", &compare::told_efficiency,
+                             "F_DP v/(M w) [-]; NaN unless the wheel is driven and pulls (M > 0, F_DP >= 0)")
       .def_readonly("entry_angle", &R::entry_angle, "theta_1 [rad]")
       .def_readonly("max_stress_angle", &R::max_stress_angle, "theta_m [rad]")
       .def_readonly("exit_angle", &R::exit_angle, "theta_2 [rad]; negative behind the axle")
@@ -107,7 +108,8 @@ void bind_explanation(py::module_& module) {
   module.def(
       "doubts", [](const Case& question) { return compare::doubts(question); }, py::arg("case"),
       "What is possible in a case, but hardly meant: sentences.");
-  module.def("in_words", &compare::in_words, py::arg("at"), "A condition in words, without what is at its default.");
+  module.def("in_words", py::overload_cast<const OperatingCondition&>(&compare::in_words), py::arg("at"),
+             "A condition in words, without what is at its default.");
 }
 
 }  // namespace

@@ -57,6 +57,17 @@ TEST(Predict, TheErrorTableIsThatOfTheRows) {
   EXPECT_NEAR(answer["error"]["sinkage"]["bias"].get<double>(), sum / count, 1e-12);
 }
 
+TEST(Predict, WhatCheckDoubtsIsToldBeforeTheAnswer) {
+  const Scratch scratch;
+  scratch.write("campaign.yaml", campaign);
+  scratch.write("runs.csv", "run,load_N,slip,sinkage_m\n1,80,0.1,0.01\n2,80,0.2,0.02\n2,80,0.2,0.02\n");
+  const std::string folder = "'" + (scratch / "").string() + "'";
+  const Outcome checked = soilbin("check " + folder), predicted = soilbin("predict " + folder + " --json");
+  EXPECT_EQ(predicted.status, 0);
+  EXPECT_EQ(predicted.err, "warning: line 4: all its values are those of line 3: counted twice\n");
+  EXPECT_THAT(checked.out, HasSubstr(predicted.err));
+}
+
 TEST(Predict, AHopelessRowCarriesItsErrorAndRowsAreNumberedWhereNoRunIs) {
   const Scratch scratch;
   scratch.write("c/campaign.yaml", campaign);

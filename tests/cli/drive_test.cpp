@@ -258,6 +258,11 @@ TEST(LimitsCommand, AsksForTheLoadAndNoMore) {
   EXPECT_EQ(r.status, 2);
   EXPECT_THAT(r.err, HasSubstr("--load is missing"));
   EXPECT_THAT(soilbin("limits rover-slip").out, HasSubstr("slip_sinkage"));
+  for (const char* found : {"--slip 20%", "--longitudinal-incline 5deg"}) {
+    const Outcome told = soilbin(std::string("limits rover-slip ") + found);
+    EXPECT_EQ(told.status, 2) << found;
+    EXPECT_THAT(told.err, HasSubstr("is what limits looks for")) << found;
+  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/command.hpp"
@@ -7,7 +8,9 @@
 namespace soilbin::cli::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 const std::string wheel = "--soil dry-sand --radius 110mm --width 100mm --load 80N ";
 
@@ -37,6 +40,74 @@ TEST(Estimate, NotANumberIsNull) {  // a locked wheel has no tractive efficiency
   const Outcome r = soilbin("estimate " + wheel + "--slip -1 --json");
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_TRUE(r.json()["rows"].at(0).at("tractive_efficiency").is_null());
+}
+
+// Braked, F_DP v/(M w) is what the brakes take: no efficiency. The text says "none"; files and bindings say nothing.
+TEST(Estimate, AWheelThatDoesNotPullHasNoEfficiency) {
+  const Scratch scratch;
+  const std::string csv = (scratch / "t.csv").string();
+  for (const char* slip : {"-30%", "-5%", "0%"}) {
+    const std::string at = std::string(" rover-slip --slip=") + slip;
+    const Outcome r = soilbin("estimate" + at + " --json");
+    ASSERT_EQ(r.status, 0) << r.err;
+    const nlohmann::json document = r.json();
+    for (const auto& row : document["rows"]) {
+      EXPECT_TRUE(row["torque"] < 0.0 || row["drawbar_pull"] < 0.0) << slip;
+      EXPECT_TRUE(row["tractive_efficiency"].is_null()) << slip;
+    }
+    ASSERT_EQ(soilbin("run" + at + " --csv '" + csv + "'").status, 0);
+    std::istringstream lines(text_of(csv));
+    std::string header, line;
+    std::getline(lines, header);
+    const auto before = std::count(header.begin(), header.begin() + static_cast<long>(header.find("tractive")), ',');
+    while (std::getline(lines, line)) {
+      std::size_t cell = 0;
+      for (long i = 0; i < before; ++i) cell = line.find(',', cell) + 1;
+      EXPECT_EQ(line[cell], ',') << "empty: " << line;
+    }
+  }
+  const nlohmann::json pulling = soilbin("estimate paper-straight --load 4kN --slip 20% --json").json()["rows"][0];
+  EXPECT_NEAR(pulling["tractive_efficiency"].get<double>(),
+              pulling["drawbar_pull"].get<double>() * 0.496 * 0.8 / pulling["torque"].get<double>(), 1e-12)
+      << "F_DP r (1 - s)/M";
+}
+
+// Reece's h s/(1 - s) at 90 % is 9 h = 90 mm on top of the balance: past 0.9 r = 99 mm.
+TEST(Estimate, AWheelSettledDeeperThanTheModelIsMeantForIsTold) {
+  const std::string deep = "estimate " + wheel + "--slip 90% --effect slip_sinkage:reece ";
+  const Outcome text = soilbin(deep), json = soilbin(deep + "--json");
+  EXPECT_EQ(text.status, 0);
+  EXPECT_THAT(text.err, AllOf(HasSubstr("warning: the wheel settles to 103 % of its radius"), HasSubstr("90 %")));
+  EXPECT_GT(json.json()["rows"][0]["sinkage"].get<double>(), 0.9 * 0.11);
+  ASSERT_EQ(json.json()["warnings"].size(), 1U);
+  EXPECT_FALSE(soilbin("estimate " + wheel + "--slip 20% --json").json().contains("warnings"));
+}
+
+TEST(Estimate, WhatIsGivenAndChangesNothingIsTold) {
+  const std::string base = "estimate " + wheel + "--slip 20% ";
+  const struct {
+    const char* more;
+    const char* told;
+  } cases[] = {{"--lug-height 10mm", "effect lug_thrust"},
+               {"--pass 3", "effect multipass"},
+               {"--moisture 5%", "effect moisture"},
+               {"--effect multipass", "no condition has a 'pass'"},
+               {"--effect drift", "no condition has a 'run'"}};
+  const std::string plain = soilbin(base + "--json").json()["rows"][0]["budget"].dump();
+  for (const auto& c : cases) {
+    const Outcome r = soilbin(base + c.more + " --json");
+    EXPECT_EQ(r.status, 0);
+    EXPECT_THAT(r.err, AllOf(StartsWith("warning: "), HasSubstr(c.told))) << c.more;
+    EXPECT_EQ(r.json()["rows"][0]["budget"].dump(), plain) << c.more << " changes no digit";
+  }
+  for (const char* heard : {"--lug-height 10mm --effect lug_thrust", "--pass 3 --effect multipass"})
+    EXPECT_EQ(soilbin(base + heard).err, "") << heard;
+}
+
+TEST(Estimate, ASoilOfGrainsAloneIsBadInput) {
+  const Outcome r = soilbin("estimate --soil nakanishi-sand --radius 110mm --width 100mm --load 80N --slip 20%");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, AllOf(HasSubstr("no semi_empirical values"), HasSubstr("dry-sand")));
 }
 
 TEST(Estimate, AnEffectOfAmplitudeZeroChangesNothing) {
@@ -81,6 +152,9 @@ TEST(Estimate, BadInputNamesTheFlagAndTheNearestWord) {
       {"estimate --soil dry-sand --tire rover-wheel --load 80N --slip 0.2 --effect slip_sinkage,b=1",
        "no parameter 'b'"},
       {"estimate --soil dry-sand --tire rover-wheel --load 80N --slip 0.2 --effect slip_sinkage,a=99", "a:"},
+      {"estimate --soil dry-sand --tire rover-wheel --load 80N --slip 0.2 --effect slip_sinkage --effect "
+       "slip_sinkage:ding",
+       "given twice"},
       {"estimate no-such-case.yaml", "no such file"},
   };
   for (const auto& c : cases) {

@@ -1,11 +1,18 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "cli/command.hpp"
 
 namespace soilbin::cli::test {
 namespace {
 
+using testing::AllOf;
+using testing::DoubleNear;
+using testing::Each;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Pair;
 
 TEST(Run, AConditionWithoutSolutionCarriesItsErrorAndTheOthersStillCome) {
   const Scratch scratch;
@@ -48,6 +55,63 @@ TEST(Run, ConditionFlagsPickOrOverride) {
   const nlohmann::json overridden = soilbin("run paper-straight --load 3kN --json").json()["rows"];
   ASSERT_EQ(overridden.size(), 2U * 28U - 2U * 21U);
   EXPECT_EQ(overridden.at(0)["load"], 3000.0);
+}
+
+/// Slip and speed of a study's rows of its first model, as pairs.
+std::vector<std::pair<double, double>> slips_and_speeds(const std::string& arguments) {
+  std::vector<std::pair<double, double>> all;
+  const nlohmann::json document = soilbin(arguments + " --json").json();
+  for (const auto& row : document["rows"])
+    if (row["label"] == "bekker_wong") all.emplace_back(row["slip"].get<double>(), row["speed"].get<double>());
+  return all;
+}
+
+// The study: 2, 4, 6, 8 kN, 0 .. 60 % slip in steps of 10 %, a rim of 0.496 m at 10 rpm.
+TEST(Run, EachFlagPicksOrOverridesByItselfAndTheRotationStays) {
+  const double rim = 0.496 * 10 * 2 * std::acos(-1.0) / 60;
+  const auto here = [](double slip, double speed) { return Pair(DoubleNear(slip, 1e-12), DoubleNear(speed, 1e-12)); };
+  EXPECT_THAT(slips_and_speeds("run paper-straight --load 5kN --slip 20%"), ElementsAre(here(0.2, 0.8 * rim)))
+      << "no load of 5 kN: overridden; a slip of 20 %: picked";
+  const auto at_13 = slips_and_speeds("run paper-straight --slip 13%");
+  ASSERT_EQ(at_13.size(), 4U) << "one row a load";
+  EXPECT_THAT(at_13, Each(here(0.13, 0.87 * rim)));
+  EXPECT_THAT(slips_and_speeds("run paper-straight --load 4kN --slip=-20%"), ElementsAre(here(-0.2, rim / 0.8)));
+  EXPECT_THAT(slips_and_speeds("run paper-straight --load 4kN --slip 13% --speed 0.3m/s"), ElementsAre(here(0.13, 0.3)))
+      << "a speed that is given stays";
+  EXPECT_THAT(slips_and_speeds("estimate paper-straight --load 4kN --slip 20% --radius 992mm"),
+              ElementsAre(here(0.2, 2 * 0.8 * rim)))
+      << "a wheel of twice the radius goes twice as fast";
+  const Outcome locked = soilbin("run paper-straight --load 4kN --slip=-1");
+  EXPECT_EQ(locked.status, 2);
+  EXPECT_THAT(locked.err, AllOf(HasSubstr("is locked"), HasSubstr("give --speed too")));
+}
+
+TEST(Run, OutputNeedsAFolder) {
+  const Scratch scratch;
+  const fs::path file = scratch.write("there", "");
+  for (const std::string& at : {file.string(), file.string() + "/deeper"}) {
+    const Outcome r = soilbin("run rover-slip --output '" + at + "'");
+    EXPECT_EQ(r.status, 2);
+    EXPECT_THAT(r.err, AllOf(HasSubstr("is a file, where a folder is to be made"), HasSubstr("hint")));
+  }
+}
+
+TEST(Run, TwoFormsOfOneEffectAreToldApart) {
+  const Scratch scratch;
+  const fs::path file = scratch.write("case.yaml", R"(format: soilbin-case/1
+name: forms
+tire: rover-wheel
+soil: dry-sand
+study:
+  models:
+    - {model: bekker_wong, effects: [slip_sinkage, exit_angle]}
+    - {model: bekker_wong, effects: [{id: slip_sinkage, form: ding}]}
+  conditions: {load: 60 N, slip: 20 %}
+)");
+  std::vector<std::string> labels;
+  const nlohmann::json document = soilbin("run '" + file.string() + "' --json").json();
+  for (const auto& row : document["rows"]) labels.push_back(row["label"]);
+  EXPECT_THAT(labels, ElementsAre("bekker_wong + slip_sinkage:lyasko + exit_angle", "bekker_wong + slip_sinkage:ding"));
 }
 
 constexpr const char* pebbles = R"(format: soilbin-soil/1
@@ -128,6 +192,22 @@ TEST(Run, NamesTheFlagOrModelThatIsWrong) {
   EXPECT_EQ(length.status, 2);
   EXPECT_THAT(length.err, HasSubstr("--bed-length"));
   EXPECT_THAT(soilbin("run paper-straight --model bekker_wrong").err, HasSubstr("did you mean 'bekker_wong'?"));
+}
+
+TEST(Run, ASoilWithoutANameIsSaidToHaveNone) {
+  const Scratch scratch;
+  const fs::path file = scratch.write("case.yaml", R"(format: soilbin-case/1
+name: own
+tire: {radius: 150 mm, width: 120 mm}
+soil:
+  semi_empirical: {exponent: 1.05, k_c: 1.5 kN/m^(n+1), k_phi: 1350 kN/m^(n+2), cohesion: 0.7 kPa, friction_angle: 29 deg,
+                   shear_modulus: 18 mm, stress_angle_c1: 0.18, stress_angle_c2: 0.32}
+study:
+  conditions: {load: 60 N, slip: 20 %}
+)");
+  for (const char* command : {"estimate", "explain", "limits", "run", "check", "compare --no-loop"})
+    EXPECT_THAT(soilbin(command + (" '" + file.string() + "'")).out, HasSubstr("on a soil of its own (unnamed)"))
+        << command;
 }
 
 TEST(Run, NamesTheNearestStudy) {

@@ -138,6 +138,7 @@ TEST(CampaignRefuses, UnknownColumns) {
                     HasSubstr("hint: columns: run, setpoint, load_N")));
   EXPECT_THAT(refused_csv("torque_Nm", "drawbar_pull_N"), HasSubstr("column 'drawbar_pull_N' appears twice"));
   EXPECT_THAT(refused_csv("torque_Nm", ""), HasSubstr("a column without a name"));
+  EXPECT_THAT(refused_csv("torque_Nm", "torque_Nm;x"), HasSubstr("parted by commas, not by semicolons"));
 }
 
 TEST(CampaignRefuses, TextInANumber) {

@@ -100,9 +100,14 @@ TEST(Page, EscapesAndClosesWhatItOpens) {
 
 TEST(ResultJson, NotANumberIsNullAndErrorsStand) {
   TractionResult result;
+  result.torque.value = 1.0;
   result.tractive_efficiency = not_a_number;
   const auto solved = to_json(Answer{{}, result, ""});
   EXPECT_TRUE(solved["tractive_efficiency"].is_null());
+  result.tractive_efficiency = 0.5;
+  EXPECT_EQ(to_json(Answer{{}, result, ""})["tractive_efficiency"], 0.5);
+  result.drawbar_pull.value = -1.0;  // pushed: the ratio is no efficiency
+  EXPECT_TRUE(to_json(Answer{{}, result, ""})["tractive_efficiency"].is_null());
   EXPECT_FALSE(solved.contains("error"));
   EXPECT_EQ(to_json(Answer{{}, std::nullopt, "why"})["error"], "why");
 }

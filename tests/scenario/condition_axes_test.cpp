@@ -21,7 +21,7 @@ std::vector<OperatingCondition> conditions(const std::string& text) {
   const SourceText source = make_source_text(text, "case.yaml");
   Tire tire;
   tire.radius = 0.5;
-  return read_conditions(parse_yaml(source), tire, Reading{&source, std::nullopt, nullptr, ""});
+  return read_conditions(parse_yaml(source), tire, Reading{&source, std::nullopt, nullptr, ""}).conditions;
 }
 
 std::string refused_conditions(const std::string& text) {
@@ -59,6 +59,19 @@ TEST(ConditionAxes, AListIsAUnion) {
   const auto both =
       conditions("- {load: 4 kN, slip: 0.2}\n- {load: 4 kN, slip: 0.2, longitudinal_incline: [5 deg, 10 deg]}\n");
   EXPECT_THAT(column(both, &OperatingCondition::longitudinal_incline), ElementsAre(0.0, 5 * degree, 10 * degree));
+}
+
+TEST(ConditionAxes, RotationStaysBesideTheSpeedThatItGives) {
+  const SourceText source =
+      make_source_text("- {load: 1 kN, slip: 0.25, rotation: 10 rpm}\n- {load: 1 kN, slip: 0.25, speed: 1 m/s}\n", "c");
+  Tire tire;
+  tire.radius = 0.5;
+  const ConditionGrid grid = read_conditions(parse_yaml(source), tire, Reading{&source, std::nullopt, nullptr, ""});
+  ASSERT_EQ(grid.rotations.size(), grid.conditions.size());
+  ASSERT_TRUE(grid.rotations[0].has_value());
+  EXPECT_DOUBLE_EQ(*grid.rotations[0], 10 * 2 * std::numbers::pi / 60);
+  EXPECT_EQ(speed_at_rotation(grid.conditions[0], *grid.rotations[0], tire), grid.conditions[0].speed);
+  EXPECT_FALSE(grid.rotations[1].has_value());
 }
 
 TEST(ConditionAxes, RotationGivesTheSpeedOfTravel) {

@@ -4,6 +4,7 @@ Usage: serve_test.py SOILBIN [--pictures DIR]     the page's tests are left out 
 """
 import http.client
 import json
+import math
 import os
 import shlex
 import signal
@@ -129,6 +130,12 @@ class TheServer(unittest.TestCase):
         self.assertEqual(values["slip_sinkage"], ("sliding", {"h": 20, "d": 0.3, "d_b": 0.4}))
         self.assertEqual(values["exit_angle"][0], "fixed")
 
+    def test_the_speed_follows_the_slip_where_the_case_gives_the_rotation(self):
+        rim = 0.496 * 10 * 2 * math.pi / 60
+        for slip, speed in (("20%", 0.8 * rim), ("33%", 0.67 * rim), ("-20%", rim / 0.8)):
+            self.assertAlmostEqual(self.server.estimate(slip=slip)[1]["rows"][0]["speed"], speed, 12)
+        self.assertEqual(self.server.estimate(slip="33%", speed="0.3m/s")[1]["rows"][0]["speed"], 0.3)
+
     def test_refuses_with_a_hint_as_the_command_does(self):
         self.refused(400, "did you mean '--load'?", laod="80N")
         self.refused(400, "a mass", load="80kg")
@@ -209,7 +216,8 @@ class StartAndStop(unittest.TestCase):
                 start = json.loads(server.ask("/case")[2])
                 self.assertEqual({n["key"]: n["value"] for n in start["numbers"]},
                                  {"load": 60, "slip": 20, "speed": 0.02, "longitudinal-incline": 0,
-                                  "transverse-incline": 0, "yaw": 0, "lug-height": 8})
+                                  "transverse-incline": 0, "yaw": 0, "lug-height": 8, "pass": 1, "moisture": 8, "position": 0,
+                                  "run": 1})
                 self.assertIn("dry-sand", start["soils"])
                 on = {e["id"]: e["on"] for e in start["effects"] if e["on"]}
                 self.assertEqual(list(on), ["exit_angle"])
@@ -339,6 +347,21 @@ class ThePage(unittest.TestCase):
         self.assertTrue(self.browser.until(f"{control.replace(chr(39) + 'a', chr(39) + 'h')}.box.value === '10'"))
         self.js("document.getElementById('reset').click()")
         self.assertTrue(self.browser.until("!soilbin.live.asking && !document.querySelector('.parameters .number')"))
+
+    def test_4_what_an_effect_hears_of_comes_with_it(self):
+        shown = "['pass', 'moisture', 'position', 'run'].filter(k => !soilbin.live.numbers.get(k).element.hidden).join()"
+        self.assertEqual(self.js(shown), "")
+        self.js("soilbin.live.go('effect=multipass&effect=moisture')")
+        self.assertTrue(self.browser.until("!soilbin.live.asking"))
+        self.assertEqual(self.js(shown), "pass,moisture")
+        self.assertEqual(self.js("getComputedStyle(soilbin.live.numbers.get('run').element).display"), "none")
+        before = self.pull()
+        self.move("pass", 3)
+        self.assertNotEqual(self.pull(), before)
+        self.assertIn("--pass=3", self.js("document.getElementById('command').textContent"))
+        self.js("document.getElementById('reset').click()")
+        self.assertTrue(self.browser.until("!soilbin.live.asking"))
+        self.assertEqual(self.js(shown), "")
 
     def test_5_a_soil_of_the_library(self):
         before = self.pull()

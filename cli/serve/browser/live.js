@@ -134,6 +134,8 @@ soilbin.Live = class {
   wordOf(effect) { return this.effectWords().find(word => word.split(/[:,]/)[0] === effect.id); }
   showEffects() {
     for (const effect of this.start.effects) effect.show(this.wordOf(effect));
+    for (const {key, effects} of this.start.numbers)
+      if (effects) this.numbers.get(key).element.hidden = !effects.some(id => this.wordOf({id}));
     const on = this.effectWords().length;
     this.effects.firstChild.textContent = on ? `Effects (${on} on)` : 'Effects';
   }
@@ -187,7 +189,7 @@ soilbin.Live = class {
 
   // A refusal has no curves: those of the last answer stay.
   show(answer) {
-    this.complain(answer.error, answer.hint);
+    this.complain(answer.error || (answer.warnings || []).join('; '), answer.hint);
     document.querySelector('.results').classList.toggle('stale', !answer.curves);
     if (!answer.curves) return;
     soilbin.part('chosen').textContent = answer.in_words;

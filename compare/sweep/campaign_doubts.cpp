@@ -1,0 +1,106 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/report/result_json.hpp"
+#include "compare/sweep/plausibility.hpp"
+#include "compare/sweep/varying.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Warnings = std::vector<std::string>;
+
+/// The campaign's declared model at the conditions of its runs.
+Case declared_question(const Campaign& campaign) {
+  Case question;
+  question.scenario = scenario_of(campaign);
+  question.study.models = {{ModelKind::bekker_wong, campaign.effects, ""}};
+  for (const Run& run : campaign.runs) question.study.conditions.push_back(run.at);
+  return question;
+}
+
+void add_row_doubts(const Campaign& campaign, Warnings& warnings) {
+  for (const Run& run : campaign.runs) {
+    if (run.sinkage && std::abs(*run.sinkage) > 2 * campaign.wheel.radius)
+      warnings.push_back(fmt::format("line {}: a measured sinkage of {:.4g} mm is more than the wheel's diameter",
+                                     run.csv_line, 1000 * *run.sinkage));
+    if (run.drawbar_pull && std::abs(*run.drawbar_pull) > 3 * run.at.load)
+      warnings.push_back(fmt::format("line {}: a drawbar pull of {:.4g} N is more than three times the load",
+                                     run.csv_line, *run.drawbar_pull));
+  }
+}
+
+bool same_values(const Run& a, const Run& b) {
+  return a.setpoint == b.setpoint && a.drawbar_pull == b.drawbar_pull && a.torque == b.torque &&
+         a.sinkage == b.sinkage && a.lateral_force == b.lateral_force && to_json(a.at) == to_json(b.at);
+}
+
+/// Rows that were copied: a run's number that was there before, or every value equal to that of an earlier row.
+void add_repeated_rows(const std::vector<Run>& runs, Warnings& warnings) {
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const bool same = same_values(runs[i], runs[k]);
+      if (!same && !(runs[i].at.run && runs[i].at.run == runs[k].at.run)) continue;
+      warnings.push_back(same ? fmt::format("line {}: all its values are those of line {}: counted twice",
+                                            runs[i].csv_line, runs[k].csv_line)
+                              : fmt::format("line {}: run {} stands in line {} already", runs[i].csv_line,
+                                            *runs[i].at.run, runs[k].csv_line));
+      break;
+    }
+}
+
+/// Correlation within groups of two columns; 0 where one of them doesn't vary.
+double correlation(const std::vector<double>& x, const std::vector<double>& y, const std::vector<std::size_t>& group) {
+  const std::size_t groups = group.empty() ? 0 : *std::max_element(group.begin(), group.end()) + 1;
+  std::vector<double> n(groups), sum_x(groups), sum_y(groups);
+  for (std::size_t i = 0; i < x.size(); ++i) n[group[i]] += 1, sum_x[group[i]] += x[i], sum_y[group[i]] += y[i];
+  double xx = 0, xy = 0, yy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const std::size_t g = group[i];
+    const double dx = x[i] - sum_x[g] / n[g], dy = y[i] - sum_y[g] / n[g];
+    xx += dx * dx, xy += dx * dy, yy += dy * dy;
+  }
+  return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0.0;
+}
+
+/// A pull whose sign is flipped falls along each curve against slip while the torque rises, and lies nearer to what the
+/// declared model says once it is turned round.
+void add_flipped_pull(const Campaign& campaign, const Case& question, Warnings& warnings) {
+  constexpr std::size_t fewest = 6;
+  constexpr double clearly = 0.7;
+  const std::vector<std::size_t> curve_of = curves_against_slip(question.study.conditions, Spread::measured).curve_of;
+  std::vector<double> slip, pull, torque;
+  std::vector<std::size_t> curve;
+  double as_told = 0, turned_round = 0;
+  const std::vector<ModelAnswers> study = run_study(question);
+  for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
+    const Run& run = campaign.runs[i];
+    const auto& predicted = study.front().answers[i].result;
+    if (!run.drawbar_pull || !run.torque || !predicted) continue;
+    slip.push_back(run.at.slip), pull.push_back(*run.drawbar_pull), torque.push_back(*run.torque);
+    curve.push_back(curve_of[i]);
+    const double expected = predicted->drawbar_pull.value;
+    as_told += (pull.back() - expected) * (pull.back() - expected);
+    turned_round += (pull.back() + expected) * (pull.back() + expected);
+  }
+  if (slip.size() < fewest || !(turned_round < as_told)) return;
+  if (correlation(slip, pull, curve) < -clearly && correlation(slip, torque, curve) > clearly)
+    warnings.emplace_back(
+        "the drawbar pull falls as slip rises while the torque rises: is its sign flipped? Positive pulls forward");
+}
+
+}  // namespace
+
+Warnings doubts(const Campaign& campaign) {
+  const Case question = declared_question(campaign);
+  Warnings warnings = doubts_but_unheard(question), of_rows;
+  add_row_doubts(campaign, of_rows);
+  add_repeated_rows(campaign.runs, of_rows);
+  add_flipped_pull(campaign, question, of_rows);
+  for (std::string& warning : once_each(of_rows)) warnings.push_back(std::move(warning));
+  return warnings;
+}
+
+}  // namespace soilbin::compare
