@@ -207,9 +207,6 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
         fmt::format("the strongest of all effects reaches p = {:.3g} among the whole catalogue", id.p_value);
     return;
   }
-  answer.after =
-      lack_of_fit(id.rivals[*id.best].fit, id.noise, static_cast<Eigen::Index>(id.observations.cells.size()));
-  answer.reruns_after = rerun_test(id.observations, id.noise, id.rivals[*id.best].fit);
   if (const auto more = more_than_named(answer)) {
     answer.verdict = Verdict::unknown_effect;
     answer.reason = fmt::format("the residual is real (p = {:.2g}), {}", id.p_value, *more);
@@ -233,7 +230,7 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
 }
 
 /// Backward: an effect stays only if conditions left out are predicted better with it by a standard error; then the
-/// same for what stays against the base model.
+/// same for what stays against the base model, and what it leaves.
 void confirm(const Campaign& campaign, LoopAnswer& answer, std::uint64_t seed) {
   Identification& id = answer.details;
   for (auto fewer = best_subset(id, *id.best); fewer; fewer = best_subset(id, *id.best)) {
@@ -245,7 +242,9 @@ void confirm(const Campaign& campaign, LoopAnswer& answer, std::uint64_t seed) {
   }
   const Rival& best = id.rivals[*id.best];
   answer.choice_gain = predictive_gain(campaign, id, best.terms, best.fit, {}, id.base, choice_folds, seed);
-  if (confirmed(answer)) answer.noise = noise_beside(campaign, id, best);
+  answer.after = lack_of_fit(best.fit, id.noise, static_cast<Eigen::Index>(id.observations.cells.size()));
+  answer.reruns_after = rerun_test(id.observations, id.noise, best.fit);
+  if (confirmed(answer) && !more_than_named(answer)) answer.noise = noise_beside(campaign, id, best);
 }
 
 bool too_small(const Campaign& campaign, const Observations& observations, std::string& reason) {

@@ -62,7 +62,7 @@ struct LoopAnswer {
   RerunTest reruns_before, reruns_after;
   std::vector<Dependence> dependences_before, dependences_after;
   Identification details;
-  NoiseFloor noise;                    ///< beside the best named effects where there are any: what errors are told in
+  NoiseFloor noise;                    ///< beside the accepted effects where there are any: what errors are told in
   std::vector<SoilShift> soil_shifts;  ///< of the free values, where effects are accepted
   SemiEmpiricalSoil soil;  ///< refitted with the accepted effects or those that stand in, with standard errors
   int outliers = 0;        ///< cells set aside
