@@ -29,9 +29,6 @@ std::string as_text(const compare::HtmlTable& table);
 
 using compare::number;
 
-/// "rover-wheel (r 90 mm, b 110 mm, smooth)".
-std::string in_words(const Tire& tire);
-
 /// A line of an answer: "Sinkage", "20.6 ± 1.0", "mm"; no unit where the value is a sentence.
 struct Reading {
   std::string name, value, unit;
