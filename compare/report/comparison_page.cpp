@@ -79,10 +79,9 @@ void add_differences(Page& page, const Comparison& comparison) {
   page.section("Where they differ", "differ");
   page.table(tally_table(comparison));
   if (!comparison.joint.empty()) page.table(joint_table(comparison));
-  std::string maps;
-  for (const Tally& tally : comparison.tallies)
-    maps += "<div>" + heat_map_svg(heat_map_of(comparison, tally)) + "</div>\n";
-  page.drawing(maps, "Bold: a difference. Faint: within the scatter of a run, or covered by the errors.");
+  std::vector<std::string> maps;
+  for (const Tally& tally : comparison.tallies) maps.push_back(heat_map_svg(heat_map_of(comparison, tally)));
+  page.heat_maps(maps, "Bold: a difference. Faint: within the scatter of a run, or covered by the errors.");
   for (const Tally& tally : comparison.tallies)
     page.folded(
         fmt::format("Rows: {}, {} against {}", channel_views[tally.channel].title, comparison.sides[tally.side].label,
