@@ -4,15 +4,9 @@
 #include <numbers>
 
 #include "scenario/errors.hpp"
+#include "scenario/yawed_frames.hpp"
 
 namespace soilbin::bekker_wong {
-namespace {
-
-/// v/(r w) from a slip of the conventions: driven s = 1 - v/(r w), braked s = r w/v - 1.
-double speed_ratio(double slip) { return slip >= 0.0 ? 1.0 - slip : 1.0 / (1.0 + slip); }
-double slip_of_ratio(double ratio) { return ratio <= 1.0 ? 1.0 - ratio : 1.0 / ratio - 1.0; }
-
-}  // namespace
 
 Kinematics kinematics(const OperatingCondition& at) {
   if (!(std::abs(at.slip) <= 1.0)) throw InputError("slip must lie in -1 .. 1");

@@ -191,7 +191,9 @@ void add_compare(CLI::App& app, Session& session) {
   asked->conditions.add_to(*command);
   asked->soil_bin.add_to(*command);
   command->footer(
-      "A row counts as a difference beyond two standard errors of both sides and beyond the scatter of one run.\n"
+      "A row counts as a difference beyond two standard errors of both sides (more where they rest on few re-runs) "
+      "and\n"
+      "beyond the scatter of one run.\n"
       "Example: soilbin compare paper-straight --recorded --report compare.html");
   command->callback([=, &session] { session.action = [=, &session] { return compare_models(*asked, session); }; });
 }

@@ -32,9 +32,6 @@ using compare::number;
 /// Each on a line of its own to stderr, as `soilbin check` tells them: "warning: ...".
 void print_warnings(const std::vector<std::string>& warnings);
 
-/// "rover-wheel (r 90 mm, b 110 mm, smooth)".
-std::string in_words(const Tire& tire);
-
 /// A line of an answer: "Sinkage", "20.6 ± 1.0", "mm"; no unit where the value is a sentence.
 struct Reading {
   std::string name, value, unit;

@@ -34,4 +34,7 @@ struct Tire {
 
 inline bool is_lugged(const Tire& tire) { return tire.lugs.height > 0.0; }
 
+/// "rover-wheel (r 90 mm, b 110 mm, smooth)".
+std::string in_words(const Tire& tire);
+
 }  // namespace soilbin

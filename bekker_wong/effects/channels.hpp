@@ -1,10 +1,11 @@
 // The four measured channels as effects of the rig see them.
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "bekker_wong/effect.hpp"
+#include "scenario/yawed_frames.hpp"
 
 namespace soilbin::bekker_wong {
 
@@ -26,14 +27,9 @@ inline constexpr std::array<Channel, 4> measured_channels = {{
 
 /// Adds a force given along travel and to its left [N] to a reading, in the axes that the condition asks for.
 inline void add_force_of_travel(Reading& reading, double forward, double left, const OperatingCondition& at) {
-  if (at.force_frame == ForceFrame::travel) {
-    reading.drawbar_pull += forward;
-    reading.lateral_force += left;
-  } else {
-    const double c = std::cos(at.yaw), s = std::sin(at.yaw);
-    reading.drawbar_pull += forward * c + left * s;
-    reading.lateral_force += left * c - forward * s;
-  }
+  const GroundForce added = turned({forward, left}, at.yaw, ForceFrame::travel, at.force_frame);
+  reading.drawbar_pull += added.forward;
+  reading.lateral_force += added.left;
 }
 
 /// Rim speed r w [m/s]. At full slip the forward speed says nothing of it, so v/(r w) is held above 0.02; 0 where the

@@ -85,9 +85,14 @@ Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& c
     if (side >= choices.size() || comparison.sides[side].kind != SideKind::analytic ||
         comparison.sides[reference].kind == SideKind::analytic)
       continue;
-    if (auto test = joint_test(comparison.sides[reference], question, choices[side].effects)) {
-      test->side = side, test->reference = reference;
-      comparison.joint.push_back(*test);
+    JointOutcome outcome = joint_test(comparison.sides[reference], question, choices[side].effects);
+    if (outcome.test) {
+      outcome.test->side = side, outcome.test->reference = reference;
+      comparison.joint.push_back(std::move(*outcome.test));
+    } else {
+      comparison.not_compared.push_back(fmt::format("{} and {} have no test of all values at once: {}",
+                                                    comparison.sides[side].label, comparison.sides[reference].label,
+                                                    outcome.why_not));
     }
   }
   comparison.tallies = tallies_of(comparison.differences);
@@ -96,7 +101,10 @@ Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& c
   return comparison;
 }
 
-Campaign as_campaign(const Side& side, const Case& question, const std::vector<EffectChoice>& effects) {
+namespace {
+
+/// The case as the loop's declared model, without a run.
+Campaign declared(const Side& side, const Case& question, const std::vector<EffectChoice>& effects) {
   if (!question.scenario.soil.semi_empirical)
     throw InputError("soil '" + question.scenario.soil.name + "' has no semi_empirical values, which the loop needs");
   Campaign campaign;
@@ -105,6 +113,13 @@ Campaign as_campaign(const Side& side, const Case& question, const std::vector<E
   campaign.soil = *question.scenario.soil.semi_empirical;
   campaign.bin = question.scenario.bin;
   campaign.effects = effects;
+  return campaign;
+}
+
+}  // namespace
+
+Campaign means_of(const Side& side, const Case& question, const std::vector<EffectChoice>& effects) {
+  Campaign campaign = declared(side, question, effects);
   bool yawed = false;
   for (const OperatingCondition& at : question.study.conditions)
     yawed = yawed || at.yaw != 0.0 || at.transverse_incline != 0.0;
@@ -122,6 +137,15 @@ Campaign as_campaign(const Side& side, const Case& question, const std::vector<E
     campaign.runs.push_back(std::move(run));
   }
   if (campaign.runs.empty()) throw InputError("'" + side.label + "' has no result at any condition");
+  return campaign;
+}
+
+Campaign as_campaign(const Side& side, const Case& question, const std::vector<EffectChoice>& effects) {
+  if (side.runs.empty()) return means_of(side, question, effects);
+  Campaign campaign = declared(side, question, effects);
+  campaign.runs = side.runs;
+  campaign.force_frame = side.runs.front().at.force_frame;
+  campaign.slip_by = side.runs.front().at.slip_by;
   return campaign;
 }
 

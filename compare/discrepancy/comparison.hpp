@@ -40,9 +40,13 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<Side
 /// the joint test; in the sides' order.
 Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& choices, std::vector<Side> sides);
 
-/// A side's results as a measured campaign, so that the loop can look for what the analytic model lacks. A run that
-/// grains gave counts once a condition, at its mean; the declared soil is the case's. Throws InputError where the case
-/// has no semi-empirical soil or the side no result.
+/// A side's results as a measured campaign: a run for each condition with a result, at its mean. The declared soil and
+/// wheel are the case's. Throws InputError where the case has no semi-empirical soil or the side no result.
+Campaign means_of(const Side& side, const Case& question, const std::vector<EffectChoice>& effects = {});
+
+/// What the loop looks at for what the analytic model lacks, with the case's soil and wheel as declared: of a
+/// measurement the runs that count in the comparison, as they were measured (setpoints, order, position, frame, slip);
+/// of grains or a model means_of. Throws as that.
 Campaign as_campaign(const Side& side, const Case& question, const std::vector<EffectChoice>& effects = {});
 
 }  // namespace soilbin::compare

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bekker_wong/gsl.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
@@ -35,11 +36,21 @@ std::string_view words(DifferenceFinding finding) {
   return "";
 }
 
-DifferenceFinding finding_of(double difference, double std_error, double scatter) {
+double counting_errors(double freedom) {
+  constexpr double known = 2.0, most = 15.0;  // Student's t asks for 13.97 at one degree of freedom
+  constexpr double as_good_as_known = 1e6;
+  if (freedom > as_good_as_known) return known;
+  const double chance = 2 * gsl::normal_tail(known);
+  return gsl::bracketed_root([&](double k) { return gsl::f_tail(k * k, 1, freedom) - chance; }, known, most, 1e-9, 1e-9,
+                             "Student's t");
+}
+
+DifferenceFinding finding_of(double difference, double std_error, double scatter, double freedom) {
   const double size = std::abs(difference);
   if (std_error == 0.0 && scatter == 0.0) return DifferenceFinding::not_judged;
   if (size <= scatter) return DifferenceFinding::within_scatter;
-  return size <= counting_sigma * std_error ? DifferenceFinding::within_errors : DifferenceFinding::difference;
+  return size <= counting_errors(freedom) * std_error ? DifferenceFinding::within_errors
+                                                      : DifferenceFinding::difference;
 }
 
 double scale_of(std::size_t channel, double load, double radius) {
@@ -68,6 +79,12 @@ bool asked_of(const Side& side, const Side& reference, std::size_t channel) {
   return not_zero(side) && not_zero(reference);
 }
 
+/// Degrees of freedom of the root of two errors' squares (Welch 1947, Satterthwaite 1946).
+double joined_freedom(double a, double freedom_a, double b, double freedom_b) {
+  const double scattering = std::pow(a, 4) / freedom_a + std::pow(b, 4) / freedom_b;
+  return scattering > 0.0 ? std::pow(a * a + b * b, 2) / scattering : std::numeric_limits<double>::infinity();
+}
+
 Difference difference_at(const SidePoint& a, const SidePoint& b, std::size_t channel, double scale) {
   Difference d;
   d.channel = channel;
@@ -76,9 +93,10 @@ Difference difference_at(const SidePoint& a, const SidePoint& b, std::size_t cha
   d.scatter = std::max(a.scatter[channel], b.scatter[channel]);
   d.difference = d.value.value - d.reference_value.value;
   d.std_error = std::hypot(d.value.std_error, d.reference_value.std_error);
+  d.freedom = joined_freedom(d.value.std_error, a.freedom[channel], d.reference_value.std_error, b.freedom[channel]);
   d.share = d.difference / scale;
   d.sigma = d.std_error > 0.0 ? d.difference / d.std_error : not_a_number;
-  d.finding = finding_of(d.difference, d.std_error, d.scatter);
+  d.finding = finding_of(d.difference, d.std_error, d.scatter, d.freedom);
   return d;
 }
 

@@ -1,6 +1,7 @@
 // One number of one side against the same number of another, with what either doesn't know.
 #pragma once
 
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -8,19 +9,22 @@
 
 namespace soilbin::compare {
 
-/// What can be said of a difference d with standard error u, where one run of the reference scatters by s.
+/// What can be said of a difference d with standard error u, where one run of the reference scatters by s and k is
+/// counting_errors.
 enum class DifferenceFinding {
-  difference,      ///< |d| > s and |d| > 2 u
+  difference,      ///< |d| > s and |d| > k u
   within_scatter,  ///< |d| <= s: smaller than what another run of the reference would move; not called a difference
-  within_errors,   ///< s < |d| <= 2 u: the two sides' uncertainties cover it
+  within_errors,   ///< s < |d| <= k u: the two sides' uncertainties cover it
   not_judged,      ///< neither side states any doubt, or both share theirs: a number without a verdict
 };
 std::string_view word(DifferenceFinding finding);
 /// For people: "difference", "within the scatter", ...
 std::string_view words(DifferenceFinding finding);
 
-/// Standard errors beyond which a difference counts; one row in twenty reaches it by chance.
-inline constexpr double counting_sigma = 2.0;
+/// Standard errors beyond which a difference counts. Known errors: 2, which one row in twenty reaches by chance. Errors
+/// estimated with few degrees of freedom: as many as chance reaches as seldom, of Student's t (2.13 at 21, 2.87
+/// at 4, 14 at 1).
+double counting_errors(double freedom);
 
 /// One side against another, one channel, one condition [SI].
 struct Difference {
@@ -31,12 +35,16 @@ struct Difference {
   double scatter = 0.0;     ///< of one run of the reference, or of the side where that one scatters more
   double difference = 0.0;  ///< value less reference value
   double std_error = 0.0;   ///< root of the sum of both standard errors' squares
-  double share = 0.0;       ///< of the load W: forces over W, torque over W r, sinkage over r
-  double sigma = 0.0;       ///< difference over its standard error; NaN where that is 0
+  /// Degrees of freedom behind that error, of both sides by Welch and Satterthwaite; infinite where both are known.
+  double freedom = std::numeric_limits<double>::infinity();
+  double share = 0.0;  ///< of the load W: forces over W, torque over W r, sinkage over r
+  double sigma = 0.0;  ///< difference over its standard error; NaN where that is 0
   DifferenceFinding finding = DifferenceFinding::not_judged;
 };
 
-DifferenceFinding finding_of(double difference, double std_error, double scatter);
+/// `freedom`: of the standard error.
+DifferenceFinding finding_of(double difference, double std_error, double scatter,
+                             double freedom = std::numeric_limits<double>::infinity());
 
 /// Standard errors add in squares, but for two analytic models, which share the soil's doubt: their rows have none and
 /// are not judged. Each channel that both points speak of and that is not zero on both sides throughout (no lateral

@@ -1,6 +1,9 @@
 #include "compare/discrepancy/joint_test.hpp"
 
+#include <fmt/core.h>
+
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 #include "bekker_wong/gsl.hpp"
@@ -31,30 +34,88 @@ VectorXd errors_of(const Observations& observations, const Side& reference) {
   return errors;
 }
 
+/// How many channels the cells speak of, and the fewest degrees of freedom behind any of them.
+struct Estimated {
+  double channels = 0.0, freedom = std::numeric_limits<double>::infinity();
+};
+
+Estimated estimated_of(const Observations& observations, const Side& reference) {
+  Estimated all;
+  for (int channel = 0; channel < channel_count; ++channel) {
+    const bool asked = std::any_of(observations.cells.begin(), observations.cells.end(),
+                                   [&](const Cell& cell) { return cell.channel == channel; });
+    all.channels += asked;
+    if (asked && reference.noise)
+      all.freedom = std::min(all.freedom, reference.noise->channels[static_cast<std::size_t>(channel)].freedom);
+  }
+  return all;
+}
+
+/// Turns columns over the cells into units of the reference's errors, so that newtons and metres meet as equals, and
+/// takes the correlation between a measured run's channels out.
+class InErrors {
+ public:
+  InErrors(const Observations& observations, const Side& reference, const VectorXd& errors)
+      : errors_(errors), correlation_(observations, of_size_one(reference), VectorXd::Zero(errors.size())) {}
+  MatrixXd operator()(const MatrixXd& columns) const {
+    return correlation_(MatrixXd(errors_.cwiseInverse().asDiagonal() * columns));
+  }
+
+ private:
+  static NoiseFloor of_size_one(const Side& reference) {
+    NoiseFloor noise;
+    for (ChannelNoise& channel : noise.channels) channel.floor = 1.0;
+    if (reference.noise) noise.correlation = reference.noise->correlation;
+    return noise;
+  }
+
+  VectorXd errors_;
+  Whitening correlation_;
+};
+
+std::string why_not_tested(const VectorXd& errors, const Estimated& estimated) {
+  if (errors.size() == 0) return "no value to test";
+  if (!(errors.minCoeff() > 0.0)) return "a value has no standard error";
+  const double needed = estimated.channels > 1 ? estimated.channels + 4 : 1;
+  if (estimated.freedom < needed)
+    return fmt::format("{:.0f} runs beyond the first of a setpoint; {:.0f} are needed for {:.0f} channels",
+                       estimated.freedom, needed, estimated.channels);
+  return "";
+}
+
 }  // namespace
 
-std::optional<JointTest> joint_test(const Side& reference, const Case& question,
-                                    const std::vector<EffectChoice>& effects) {
-  if (!question.scenario.soil.semi_empirical) return std::nullopt;
-  const Campaign campaign = as_campaign(reference, question, effects);
+double trace_tail(double trace, double values, double channels, double freedom) {
+  if (channels == 1) return gsl::f_tail(trace / values, values, freedom);
+  const double m = values / channels, rest = freedom - channels;
+  const double b = (rest + m - 1) * (freedom - 1) / ((rest - 3) * rest);
+  const double denominator = 4 + (values + 2) / (b - 1);
+  const double size = values * (denominator - 2) / (denominator * (rest - 1));
+  return gsl::f_tail(trace / (freedom * size), values, denominator);
+}
+
+JointOutcome joint_test(const Side& reference, const Case& question, const std::vector<EffectChoice>& effects) {
+  if (!question.scenario.soil.semi_empirical) return {std::nullopt, "the soil has no semi_empirical values"};
+  const Campaign campaign = means_of(reference, question, effects);
   const Observations observations = observe(campaign);
   const WheelPredictor predictor(campaign, observations);
   const VectorXd errors = errors_of(observations, reference);
-  if (errors.size() == 0 || !(errors.minCoeff() > 0.0)) return std::nullopt;
+  const Estimated estimated = estimated_of(observations, reference);
+  if (std::string why = why_not_tested(errors, estimated); !why.empty()) return {std::nullopt, why};
   VectorXd predicted;
   MatrixXd jacobian;
-  if (!predictor.linearise(predictor.start(), predicted, jacobian)) return std::nullopt;
-  // In units of the reference's errors, so that newtons and metres meet as equals.
-  const VectorXd white = (predicted - observations.values()).cwiseQuotient(errors);
-  VectorXd sd(predictor.soil_parameters());
+  if (!predictor.linearise(predictor.start(), predicted, jacobian))
+    return {std::nullopt, "the model has no balance at some condition"};
   JointTest test;
+  VectorXd sd(predictor.soil_parameters());
   for (int i = 0; i < predictor.soil_parameters(); ++i) {
     const FreeParameter& parameter = predictor.parameters()[static_cast<std::size_t>(i)];
     sd[i] = parameter.prior_sd;
     test.soil.push_back(parameter.name);
   }
-  const MatrixXd columns =
-      errors.cwiseInverse().asDiagonal() * jacobian.leftCols(predictor.soil_parameters()) * sd.asDiagonal();
+  const InErrors in_errors(observations, reference, errors);
+  const VectorXd white = in_errors(predicted - observations.values());
+  const MatrixXd columns = in_errors(jacobian.leftCols(predictor.soil_parameters()) * sd.asDiagonal());
   // d' (1 + A A')^-1 d = d' d - (A' d)' (1 + A' A)^-1 (A' d): Woodbury's identity.
   const VectorXd along = columns.transpose() * white;
   MatrixXd inner = columns.transpose() * columns;
@@ -62,8 +123,11 @@ std::optional<JointTest> joint_test(const Side& reference, const Case& question,
   test.values = static_cast<std::size_t>(white.size());
   test.chi2_soil_exact = white.squaredNorm();
   test.chi2 = test.chi2_soil_exact - along.dot(inner.ldlt().solve(along));
-  test.p_value = gsl::chi_square_tail(test.chi2, static_cast<double>(test.values));
-  return test;
+  test.freedom = estimated.freedom;
+  const auto values = static_cast<double>(test.values);
+  test.p_value = std::isinf(test.freedom) ? gsl::chi_square_tail(test.chi2, values)
+                                          : trace_tail(test.chi2, values, estimated.channels, test.freedom);
+  return {test, ""};
 }
 
 }  // namespace soilbin::compare

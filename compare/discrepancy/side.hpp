@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "compare/loop/noise_floor.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/channels.hpp"
@@ -13,12 +15,21 @@ namespace soilbin::compare {
 
 enum class SideKind { analytic, grains, measured };
 
+/// Degrees of freedom of standard errors that are known: none of them estimated from a handful of runs.
+constexpr std::array<double, channel_views.size()> known_errors() {
+  constexpr double all = std::numeric_limits<double>::infinity();
+  return {all, all, all, all};
+}
+
 /// What a side says at one condition.
 struct SidePoint {
   std::optional<TractionResult> result;  ///< means; standard errors of the means
   /// Of each channel, the standard deviation of one run about the mean of all runs that could have been made [SI]: its
   /// own fluctuations and, with two packings or more, the packings'. 0 for an analytic model.
   std::array<double, channel_views.size()> scatter{};
+  /// Of each channel, the degrees of freedom behind the standard error; infinite where it is not an estimate of few
+  /// runs.
+  std::array<double, channel_views.size()> freedom = known_errors();
   /// Channels that the side speaks of; a measurement may lack some.
   std::array<bool, channel_views.size()> has{true, true, true, true};
   std::size_t runs = 1;             ///< behind the means
@@ -31,6 +42,10 @@ struct Side {
   std::string label;
   SideKind kind = SideKind::analytic;
   std::vector<SidePoint> points;
+  /// Of a measurement: the noise of one run, from all re-runs of the campaign.
+  std::optional<NoiseFloor> noise{};
+  /// Of a measurement: the runs behind the points as they were measured, in the campaign's own frame and slip.
+  std::vector<Run> runs{};
 };
 
 /// A model's answers as a side. Of grains, scatter is the answers' standard error.
@@ -52,8 +67,19 @@ struct Nearness {
   double angle = 0.02;  ///< [rad]
 };
 
-/// Measured runs near each condition, averaged: their spread gives scatter and error. Each run counts at the nearest
-/// condition alone. Throws InputError where no run is near any condition, or where the wheels differ by over 5 %.
+/// Measured runs near each condition, averaged. Each run counts at the nearest condition alone. Slips and forces are
+/// those of the study's definitions: slip by its speed, forces in its frame, each turned by the run's own yaw. At a yaw
+/// (beyond Nearness::angle) turning takes both drawbar pull and lateral force; where one wasn't measured the point
+/// speaks of neither, and a doubt tells so.
+///
+/// The standard error of a mean of n runs is the noise of one run over sqrt(n); the noise is pooled over all setpoints
+/// that the campaign ran twice or more (rerun_noise), near a condition or not, so that single runs have an error too.
+/// Runs without a label are re-runs of one setpoint where they count at one condition. Without any re-run a point has
+/// no error, and a doubt tells so. Means over two labels tell by a doubt that what sets these apart is not in their
+/// error.
+///
+/// Throws InputError where no run is near any condition, or where the wheels differ: radius, width, height of the lugs
+/// or inflation pressure by over 5 %, their number (where both know it) at all, lugs or air where the other has none.
 Side side_of(const Campaign& campaign, const Case& question, const Nearness& near = {});
 
 }  // namespace soilbin::compare

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "compare/discrepancy/causes.hpp"
@@ -14,7 +15,7 @@
 namespace soilbin::compare {
 namespace {
 
-constexpr double chance_level = 0.05;  // share of rows beyond two standard errors where nothing differs
+constexpr double chance_level = 0.05;  // share of rows beyond counting_errors where nothing differs
 
 std::vector<std::size_t> rows_of(const Comparison& comparison, const Tally& tally) {
   std::vector<std::size_t> rows;
@@ -35,7 +36,7 @@ std::string counts(const Tally& t) {
     text += fmt::format(", {} lie{} within the scatter of a single run and {} no difference", t.in_scatter,
                         t.in_scatter == 1 ? "s" : "", t.in_scatter == 1 ? "is" : "are");
   if (t.in_errors > 0)
-    text += fmt::format(", {} {} covered by the two standard errors", t.in_errors, t.in_errors == 1 ? "is" : "are");
+    text += fmt::format(", {} {} covered by the standard errors", t.in_errors, t.in_errors == 1 ? "is" : "are");
   return text;
 }
 
@@ -84,13 +85,15 @@ Clause joint_clause(const Comparison& comparison, const JointTest& test) {
   const double taken = 1.0 - test.chi2 / test.chi2_soil_exact;
   Clause clause{"all together", "", {}, {"joint test"}};
   const std::string p = test.p_value < 1e-300 ? "p < 1e-300" : fmt::format("p = {:.2g}", test.p_value);
+  const std::string errors =
+      std::isinf(test.freedom) ? "" : fmt::format("; the noise rests on {:.0f} degrees of freedom", test.freedom);
   clause.text = fmt::format(
-      "{} and {} {}: chi2 = {} for {} values ({}). The soil values' doubt, which moves all conditions together, "
+      "{} and {} {}: chi2 = {} for {} values ({}{}). The soil values' doubt, which moves all conditions together, "
       "accounts for {:.0f} % of the squared difference.",
       side, reference,
       test.p_value < 0.01 ? "differ by more than soil values and noise explain"
                           : "agree within what soil values and noise leave open",
-      number(test.chi2), test.values, p, 100 * taken);
+      number(test.chi2), test.values, p, errors, 100 * taken);
   return clause;
 }
 
@@ -115,14 +118,22 @@ std::vector<Clause> cause_clauses(const Comparison& comparison) {
   return clauses;
 }
 
+/// The rule, and how many rows it would let pass by chance.
 Clause chance_clause(const Comparison& comparison) {
-  const auto counted = static_cast<double>(
-      std::count_if(comparison.differences.begin(), comparison.differences.end(),
-                    [](const Difference& d) { return d.finding != DifferenceFinding::not_judged; }));
+  std::size_t counted = 0;
+  double fewest = std::numeric_limits<double>::infinity();
+  for (const Difference& d : comparison.differences)
+    if (d.finding != DifferenceFinding::not_judged) ++counted, fewest = std::min(fewest, d.freedom);
+  const std::string student = std::isinf(fewest)
+                                  ? ""
+                                  : fmt::format(
+                                        " Errors that rest on few re-runs count more (Student's t): {:.3g} of them at "
+                                        "{:.3g} degrees of freedom, the fewest here.",
+                                        counting_errors(fewest), fewest);
   return {"how sure",
           fmt::format("A row counts as a difference beyond two standard errors of both sides together and beyond the "
-                      "scatter of one run. Of {:.0f} rows about {:.0f} would pass two standard errors by chance alone.",
-                      counted, std::ceil(chance_level * counted)),
+                      "scatter of one run.{} Of {} rows about {:.0f} would pass the errors by chance alone.",
+                      student, counted, std::ceil(chance_level * static_cast<double>(counted))),
           {},
           {"rule"}};
 }

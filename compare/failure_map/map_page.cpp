@@ -94,12 +94,12 @@ std::string failure_map_page(const MapStory& story, const PageAbout& about, cons
       "sure that the models part by more than the tolerance. Faint: they agree, or the map can't tell; each cell says "
       "which.");
   const std::vector<Factor>& factors = story.question.factors;
-  std::string maps;
+  std::vector<std::string> maps;
   for (const double slip :
        {factors[map_slip].lower, (factors[map_slip].lower + factors[map_slip].upper) / 2, factors[map_slip].upper})
     for (const double height : two_levels(factors[map_lug_height]))
-      maps += "<div>" + heat_map_svg(heat_map_of(story, height, slip)) + "</div>\n";
-  page.drawing(maps, "Loads across, angles up.");
+      maps.push_back(heat_map_svg(heat_map_of(story, height, slip)));
+  page.heat_maps(maps, "Loads across, angles up.");
   page.section("What it rests on", "rows");
   page.table(rows_table(story));
   page.table(coordinates_table(story));

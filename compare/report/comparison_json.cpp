@@ -46,6 +46,7 @@ Json difference_json(const Comparison& comparison, const Difference& d) {
           {"scatter", finite(d.scatter)},
           {"difference", finite(d.difference)},
           {"std_error", finite(d.std_error)},
+          {"freedom", finite(d.freedom)},
           {"share_of_load", finite(d.share)},
           {"sigma", finite(d.sigma)},
           {"finding", word(d.finding)}};
@@ -84,6 +85,7 @@ Json comparison_json(const Comparison& comparison, const ComparisonAbout& about)
                                    {"reference", comparison.sides[test.reference].label},
                                    {"values", test.values},
                                    {"chi2", finite(test.chi2)},
+                                   {"freedom", finite(test.freedom)},
                                    {"chi2_soil_exact", finite(test.chi2_soil_exact)},
                                    {"p_value", finite(test.p_value)},
                                    {"soil", test.soil}});
@@ -97,15 +99,15 @@ Json comparison_json(const Comparison& comparison, const ComparisonAbout& about)
 std::string differences_csv(const Comparison& comparison) {
   std::string text =
       "side,reference,channel,condition,value,value_se,reference_value,reference_se,scatter,difference,std_error,"
-      "share_of_load,sigma,finding\n";
+      "freedom,share_of_load,sigma,finding\n";
   const auto cell = [](double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); };
   for (const Difference& d : comparison.differences)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(comparison.sides[d.side].label),
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(comparison.sides[d.side].label),
                         csv_cell(comparison.sides[d.reference].label), channel_views[d.channel].name,
                         csv_cell(in_words(comparison.question.study.conditions[d.condition])), cell(d.value.value),
                         cell(d.value.std_error), cell(d.reference_value.value), cell(d.reference_value.std_error),
-                        cell(d.scatter), cell(d.difference), cell(d.std_error), cell(d.share), cell(d.sigma),
-                        word(d.finding));
+                        cell(d.scatter), cell(d.difference), cell(d.std_error), cell(d.freedom), cell(d.share),
+                        cell(d.sigma), word(d.finding));
   return text;
 }
 

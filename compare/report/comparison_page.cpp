@@ -79,10 +79,9 @@ void add_differences(Page& page, const Comparison& comparison) {
   page.section("Where they differ", "differ");
   page.table(tally_table(comparison));
   if (!comparison.joint.empty()) page.table(joint_table(comparison));
-  std::string maps;
-  for (const Tally& tally : comparison.tallies)
-    maps += "<div>" + heat_map_svg(heat_map_of(comparison, tally)) + "</div>\n";
-  page.drawing(maps, "Bold: a difference. Faint: within the scatter of a run, or covered by the errors.");
+  std::vector<std::string> maps;
+  for (const Tally& tally : comparison.tallies) maps.push_back(heat_map_svg(heat_map_of(comparison, tally)));
+  page.heat_maps(maps, "Bold: a difference. Faint: within the scatter of a run, or covered by the errors.");
   for (const Tally& tally : comparison.tallies)
     page.folded(
         fmt::format("Rows: {}, {} against {}", channel_views[tally.channel].title, comparison.sides[tally.side].label,
@@ -154,14 +153,15 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
   page.section("How it is judged", "method");
   page.list(
       {"A difference d with standard error u counts where |d| is above 2 u and above the scatter of one run; u is "
-       "the root of both sides' variances.",
+       "the root of both sides' variances. Where u rests on few re-runs, Student's t takes the place of 2.",
        "Analytic: the declared standard deviations of the soil's values, propagated to first order. They move all "
        "conditions together; the joint test takes that in.",
        "Grains: block averages of each run, or the spread between packings where that is larger. A point from one "
        "packing says nothing of that spread, and its row carries the doubt.",
        "Convergence of the balance: 1e-14 of the load; of its quadrature 1e-9. Of grains with their size, the time "
        "step and the bed: not part of a comparison; see docs/soil-bin.md.",
-       "Measured: the spread of the runs near a condition, over the root of their number."});
+       "Measured: the noise of one run, pooled over all setpoints that were run twice or more, over the root of the "
+       "number of runs near a condition. Slips and forces are turned to the study's definitions by each run's yaw."});
   page.section("How to repeat this", "repeat");
   page.code(about.page.command);
   HtmlTable facts{"", {"part", ""}, {}, {true, true}};

@@ -181,7 +181,7 @@ HeatMap heat_map_of(const Comparison& comparison, const Tally& tally) {
                         slips.begin();
     const std::string sigma = std::isfinite(d.sigma) ? fmt::format(", {:.1f} standard errors", d.sigma) : "";
     map.cells[curves.curve_of[d.condition]][static_cast<std::size_t>(column)] = {
-        100 * d.share, fmt::format("{:+.1f}", 100 * d.share),
+        100 * d.share, fmt::format("{:+.{}f}", 100 * d.share, std::abs(d.share) < 1.0 ? 1 : 0),
         fmt::format("{}: {} ({:+.2f} %{}): {}", in_words(conditions[d.condition]), in_unit(d.channel, d.difference),
                     100 * d.share, sigma, words(d.finding)),
         d.finding == DifferenceFinding::difference};

@@ -117,12 +117,13 @@ HtmlTable sinkage_table(const Comparison& comparison) {
 
 HtmlTable joint_table(const Comparison& comparison) {
   HtmlTable table{"All values at once, with the soil's doubt that conditions share",
-                  {"side", "against", "values", "chi2, soil exact", "chi2", "p-value"},
+                  {"side", "against", "values", "chi2, soil exact", "chi2", "freedom of the noise", "p-value"},
                   {},
                   {true, true}};
   for (const JointTest& test : comparison.joint)
     table.rows.push_back({comparison.sides[test.side].label, comparison.sides[test.reference].label,
                           std::to_string(test.values), number(test.chi2_soil_exact), number(test.chi2),
+                          std::isinf(test.freedom) ? "known" : fmt::format("{:.0f}", test.freedom),
                           test.p_value < 1e-300 ? "< 1e-300" : fmt::format("{:.2g}", test.p_value)});
   return table;
 }

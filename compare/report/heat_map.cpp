@@ -10,7 +10,7 @@
 namespace soilbin::compare {
 namespace {
 
-constexpr double cell_width = 54, cell_height = 30, above = 48, below = 40, letter = 6.6;
+constexpr double cell_width = 43, cell_height = 30, above = 48, below = 40, letter = 6.6;
 
 double deepest(const HeatMap& map) {
   double most = map.limit;
@@ -66,8 +66,8 @@ std::string heat_map_svg(const HeatMap& map) {
   body += fmt::format(R"(<text class="quiet" fill="#5a6270" x="{:.0f}" y="{:.0f}" text-anchor="middle">{}</text>)",
                       left + cell_width * 0.5 * static_cast<double>(map.x.size()), bottom + 33, escaped(map.x_title));
   return fmt::format(
-      R"(<svg xmlns="http://www.w3.org/2000/svg" class="plot heat" viewBox="0 0 {:.0f} {:.0f}" role="group" aria-label="{}" )"
-      R"(font-size="12">{}</svg>)",
+      R"(<svg xmlns="http://www.w3.org/2000/svg" class="plot heat" viewBox="0 0 {0:.0f} {1:.0f}" width="{0:.0f}" )"
+      R"(height="{1:.0f}" role="group" aria-label="{2}" font-size="12">{3}</svg>)",
       width, bottom + below, escaped(map.title + ", " + map.subtitle + ", " + map.y_title + " by " + map.x_title),
       body);
 }

@@ -22,8 +22,8 @@ struct HeatMap {
   double limit = 0.0;                        ///< |value| of the deepest colour; 0: the largest there is
 };
 
-/// An <svg> element that scales with the page. Blue below zero, orange above, so that most colour-blind people tell
-/// them apart; the sign is in the text as well.
+/// An <svg> element of its natural size, its text 12 px high; a page lets it scroll rather than shrink. Blue below
+/// zero, orange above, so that most colour-blind people tell them apart; the sign is in the text as well.
 std::string heat_map_svg(const HeatMap& map);
 
 }  // namespace soilbin::compare

@@ -110,6 +110,12 @@ void Page::drawing(const std::string& svg, const std::string& caption) {
       "<figure><div class=\"panels\">" + svg + "</div><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
 }
 
+void Page::heat_maps(const std::vector<std::string>& maps, const std::string& caption) {
+  body_ += "<figure><div class=\"maps\">";
+  for (const std::string& map : maps) body_ += "<div>" + map + "</div>\n";
+  body_ += "</div><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+}
+
 void Page::choices(const std::string& what, const std::vector<Choice>& parts, std::size_t first) {
   body_ += fmt::format("<div class=\"choices\" data-what=\"{}\">\n", escaped(what));
   for (std::size_t i = 0; i < parts.size(); ++i) {

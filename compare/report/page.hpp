@@ -66,8 +66,10 @@ class Page {
   void table(const HtmlTable& table);
   /// The sheet's panels side by side as the width allows, its legend above them, a caption below.
   void figure(const Sheet& sheet, const std::string& caption);
-  /// A drawing of its own, an <svg> element or several, with a caption.
+  /// A drawing of its own, an <svg> element, with a caption.
   void drawing(const std::string& svg, const std::string& caption);
+  /// Heat maps (heat_map.hpp) side by side as the width allows, each at its own size, with one caption.
+  void heat_maps(const std::vector<std::string>& maps, const std::string& caption);
   void code(const std::string& text);
   /// One of the parts at a time, chosen from a list; all of them below each other where there are no scripts. `first`
   /// is shown at the start.

@@ -57,7 +57,8 @@ figcaption{color:var(--quiet);font-size:.92rem;margin-top:10px;max-width:72ch}
 .legend{display:flex;flex-wrap:wrap;gap:4px 18px;font-size:.86rem;margin:0 0 10px;padding:0;list-style:none}
 .legend li{display:flex;align-items:center;gap:7px}
 .panels{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,330px),1fr));gap:12px}
-svg.plot{display:block;width:100%;height:auto;max-width:560px;margin:0 auto}
+svg.plot{display:block}
+svg.plot:not(.heat){width:100%;height:auto;max-width:560px;margin:0 auto}
 svg text{font-family:inherit}
 .ink{fill:var(--ink)}.quiet{fill:var(--quiet)}.grid{stroke:var(--edge)}
 .quiet-line{stroke:var(--line)}.paper{fill:var(--paper)}
@@ -65,9 +66,9 @@ svg text{font-family:inherit}
 table{border-collapse:collapse;width:100%;font-size:.92rem;
   font-variant-numeric:tabular-nums}
 caption{text-align:left;color:var(--quiet);padding:.7em .75em .2em}
-th,td{padding:.42em .75em;text-align:right;white-space:nowrap;border-top:1px solid var(--edge)}
-thead th{border-top:0;color:var(--quiet);font-weight:600}
-th.t,td.t{text-align:left}
+th,td{padding:.42em .6em;text-align:right;white-space:nowrap;border-top:1px solid var(--edge)}
+thead th{border-top:0;color:var(--quiet);font-weight:600;white-space:normal;vertical-align:bottom}
+th.t,td.t{text-align:left;white-space:normal}
 td.wide{white-space:normal;min-width:16em}
 pre{overflow-x:auto;background:var(--paper);border:1px solid var(--edge);border-radius:8px;padding:.8em 1em;
   font-size:.88rem}
@@ -107,7 +108,9 @@ svg.live .cursor{stroke:var(--line);stroke-dasharray:3 3}
 .reading{min-height:1.6em;color:var(--quiet);font-size:.9rem;margin:.2em 0;grid-column:1/-1}
 .cell:focus{outline:none}
 .cell:focus rect,.cell:hover rect{stroke:var(--ink);stroke-width:2}
-.heat{max-width:680px}
+.maps{display:flex;flex-wrap:wrap;gap:12px}
+.maps>div{min-width:0;max-width:100%;overflow-x:auto}
+.maps .reading{width:0;min-width:100%}
 .cell-empty{stroke:var(--edge)}
 .warning{background:var(--paper);border:1px solid var(--edge);border-left:4px solid var(--c1);border-radius:8px;
   padding:.7em 1.1em;margin:1em 0}
@@ -129,6 +132,8 @@ svg.live .cursor{stroke:var(--line);stroke-dasharray:3 3}
   .scroll{overflow:visible}
   table{font-size:8.5pt}
   th,td{white-space:normal}
+  .maps>div{overflow:visible}
+  .maps svg.heat{max-width:100%;height:auto}
 }
 )css";
 

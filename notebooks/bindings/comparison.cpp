@@ -52,6 +52,7 @@ void bind_differences(py::module_& module) {
       .def_readonly("scatter", &D::scatter, "of one run of the reference")
       .def_readonly("difference", &D::difference, "value less reference value")
       .def_readonly("std_error", &D::std_error)
+      .def_readonly("freedom", &D::freedom, "degrees of freedom behind the standard error; infinite where it is known")
       .def_readonly("share", &D::share, "of the load: forces over W, torque over W r, sinkage over r")
       .def_readonly("finding", &D::finding);
   py::class_<Comparison>(module, "Comparison", "Models and measurements side by side.")

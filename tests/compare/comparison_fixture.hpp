@@ -7,8 +7,8 @@
 
 namespace soilbin::compare {
 
-/// A 250 mm wheel on sand of known doubt, one load, these slips.
-inline Case sand_study(const std::vector<double>& slips) {
+/// A 250 mm wheel on sand of known doubt, these slips at each of these loads.
+inline Case sand_study(const std::vector<double>& slips, const std::vector<double>& loads = {1000}) {
   Case question;
   question.name = question.study.name = "made";
   question.scenario.tire.name = "wheel";
@@ -25,12 +25,13 @@ inline Case sand_study(const std::vector<double>& slips) {
   soil.stress_angle_c1 = {0.18, 0.05};
   soil.stress_angle_c2 = {0.32, 0.05};
   question.scenario.soil.semi_empirical = soil;
-  for (const double slip : slips) {
-    OperatingCondition at;
-    at.load = 1000;
-    at.slip = slip;
-    question.study.conditions.push_back(at);
-  }
+  for (const double load : loads)
+    for (const double slip : slips) {
+      OperatingCondition at;
+      at.load = load;
+      at.slip = slip;
+      question.study.conditions.push_back(at);
+    }
   question.study.models = {{ModelKind::bekker_wong, {}, "bekker_wong"}};
   return question;
 }

@@ -1910,6 +1910,9 @@ class Difference:
     @property
     def std_error(self) -> float: ...
     @property
+    def freedom(self) -> float:
+        """degrees of freedom behind the standard error; infinite where it is known"""
+    @property
     def share(self) -> float:
         """of the load: forces over W, torque over W r, sinkage over r"""
     @property

@@ -194,5 +194,6 @@ def differences_frame(comparison: Comparison) -> pd.DataFrame:
         rows.append({"side": comparison.sides[d.side].label, "reference": comparison.sides[d.reference].label,
                      "channel": d.channel, **condition_columns(at[d.condition]), "value": d.value.value,
                      "reference_value": d.reference_value.value, "difference": d.difference,
-                     "std_error": d.std_error, "scatter": d.scatter, "share": d.share, "finding": d.finding.name})
+                     "std_error": d.std_error, "freedom": d.freedom, "scatter": d.scatter, "share": d.share,
+                     "finding": d.finding.name})
     return without_empty(pd.DataFrame(rows))

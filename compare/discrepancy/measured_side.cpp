@@ -1,0 +1,175 @@
+// A measured campaign as a side: whose wheel it was, which runs count where, and how sure their means are.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "compare/discrepancy/rerun_noise.hpp"
+#include "compare/discrepancy/side.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
+#include "scenario/yawed_frames.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+void check_wheel(const Tire& measured, const Tire& asked, const std::string& campaign) {
+  constexpr double same = 0.05;
+  const auto differ = [](double a, double b) { return std::abs(a - b) > same * b; };
+  const bool lugs =
+      differ(measured.lugs.height, asked.lugs.height) ||
+      (is_lugged(asked) && measured.lugs.count && asked.lugs.count && *measured.lugs.count != *asked.lugs.count);
+  if (!lugs && !differ(measured.radius, asked.radius) && !differ(measured.width, asked.width) &&
+      !differ(measured.inflation_pressure.value_or(0.0), asked.inflation_pressure.value_or(0.0)))
+    return;
+  throw InputError(
+      fmt::format("campaign '{}' measured {}, the study asks of {}\n  hint: a study with the campaign's wheel",
+                  campaign, in_words(measured), in_words(asked)));
+}
+
+/// A run's condition with its slip as another condition tells it.
+OperatingCondition told_as(OperatingCondition run, const OperatingCondition& asked) {
+  run.slip = slip_by(run.slip, run.yaw, run.slip_by, asked.slip_by);
+  run.slip_by = asked.slip_by;
+  return run;
+}
+
+/// How far a run is from a condition, in units of what counts as near; above 1: not near.
+double apart(const OperatingCondition& run, const OperatingCondition& b, const Nearness& near) {
+  if (run.pass != b.pass) return std::numeric_limits<double>::infinity();
+  const OperatingCondition a = told_as(run, b);
+  return std::max({std::abs(a.load - b.load) / (near.load * b.load), std::abs(a.slip - b.slip) / near.slip,
+                   std::abs(a.longitudinal_incline - b.longitudinal_incline) / near.angle,
+                   std::abs(a.transverse_incline - b.transverse_incline) / near.angle,
+                   std::abs(a.yaw - b.yaw) / near.angle});
+}
+
+/// A run with its slip and forces as the condition tells them; without forces that can't be turned.
+Run as_asked(Run run, const OperatingCondition& asked, const Nearness& near) {
+  const ForceFrame measured = run.at.force_frame;
+  run.at = told_as(run.at, asked);
+  run.at.force_frame = asked.force_frame;
+  if (measured == asked.force_frame) return run;
+  if (run.drawbar_pull && run.lateral_force) {
+    const GroundForce force = turned({*run.drawbar_pull, *run.lateral_force}, run.at.yaw, measured, asked.force_frame);
+    run.drawbar_pull = force.forward, run.lateral_force = force.left;
+  } else if (std::abs(run.at.yaw) > near.angle) {
+    run.drawbar_pull.reset(), run.lateral_force.reset();
+  }
+  return run;
+}
+
+/// A campaign's runs as the study asks for them.
+struct SortedRuns {
+  std::vector<Run> asked;              ///< in the campaign's order, each as its nearest condition tells it
+  std::vector<std::size_t> condition;  ///< that each counts at; none: near no condition
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+};
+
+SortedRuns sorted(const Campaign& campaign, const std::vector<OperatingCondition>& conditions, const Nearness& near) {
+  SortedRuns sorted;
+  for (const Run& run : campaign.runs) {
+    const auto nearest = std::min_element(conditions.begin(), conditions.end(), [&](const auto& a, const auto& b) {
+      return apart(run.at, a, near) < apart(run.at, b, near);
+    });
+    const bool counts = nearest != conditions.end() && apart(run.at, *nearest, near) <= 1.0;
+    sorted.asked.push_back(nearest == conditions.end() ? run : as_asked(run, *nearest, near));
+    sorted.condition.push_back(counts ? static_cast<std::size_t>(nearest - conditions.begin()) : SortedRuns::none);
+  }
+  return sorted;
+}
+
+/// Runs of one setpoint each: of one label or, without one, of one condition of the study.
+std::vector<std::vector<const Run*>> setpoints_of(const Campaign& campaign, const SortedRuns& sorted) {
+  const Observations seen = observe(campaign);
+  std::map<std::pair<std::size_t, int>, std::vector<const Run*>> by_name;
+  for (std::size_t i = 0; i < sorted.asked.size(); ++i) {
+    const bool counts = sorted.condition[i] != SortedRuns::none;
+    const int label = counts && !sorted.asked[i].setpoint ? -1 : seen.condition[i];
+    by_name[{sorted.condition[i], label}].push_back(&sorted.asked[i]);
+  }
+  std::vector<std::vector<const Run*>> setpoints;
+  for (auto& [name, runs] : by_name) setpoints.push_back(std::move(runs));
+  return setpoints;
+}
+
+/// What limits a mean of these runs. `forces`: of how many of them a force was measured.
+std::vector<std::string> doubts_of(const std::vector<const Run*>& runs, std::size_t forces, const NoiseFloor& noise) {
+  std::vector<std::string> doubts;
+  const auto kept = static_cast<std::size_t>(
+      std::count_if(runs.begin(), runs.end(), [](const Run* run) { return run->drawbar_pull || run->lateral_force; }));
+  if (kept < forces)
+    doubts.push_back(
+        fmt::format("forces of {} of {} run{} left out: turning them {} takes both drawbar pull and lateral force",
+                    forces - kept, runs.size(), runs.size() == 1 ? "" : "s",
+                    runs.front()->at.force_frame == ForceFrame::travel ? "from the wheel's axes to those of travel"
+                                                                       : "from the axes of travel to the wheel's"));
+  std::string unknown;
+  for (std::size_t c = 0; c < channel_views.size(); ++c)
+    if (noise.channels[c].freedom == 0.0 && !values_of(runs, c).empty())
+      unknown += fmt::format("{}{}", unknown.empty() ? "" : ", ", channel_views[c].title);
+  if (!unknown.empty()) doubts.push_back("no setpoint was run twice: the scatter is not known (" + unknown + ")");
+  const auto other = [&](const Run* run) { return run->setpoint != runs.front()->setpoint; };
+  if (std::any_of(runs.begin(), runs.end(), other))
+    doubts.push_back("runs of more than one setpoint: what sets these apart is not in the error");
+  return doubts;
+}
+
+SidePoint measured_point(const std::vector<const Run*>& runs, const OperatingCondition& at, const NoiseFloor& noise) {
+  SidePoint point;
+  point.runs = runs.size();
+  point.has = {};
+  if (runs.empty()) {
+    point.error = "not measured";
+    return point;
+  }
+  TractionResult result;
+  result.at = at;
+  result.tractive_efficiency = result.entry_angle = result.exit_angle = result.max_stress_angle = not_a_number;
+  for (std::size_t c = 0; c < channel_views.size(); ++c) {
+    Estimate& mean = result.*channel_views[c].predicted = {not_a_number, 0.0};
+    const std::vector<double> values = values_of(runs, c);
+    point.has[c] = !values.empty();
+    if (values.empty()) continue;
+    mean.value = mean_of(values).value;
+    if (noise.channels[c].freedom == 0.0) continue;
+    point.scatter[c] = noise.channels[c].sd(mean.value);
+    point.freedom[c] = noise.channels[c].freedom;
+    mean.std_error = point.scatter[c] / std::sqrt(static_cast<double>(values.size()));
+  }
+  point.result = result;
+  return point;
+}
+
+}  // namespace
+
+Side side_of(const Campaign& campaign, const Case& question, const Nearness& near) {
+  check_wheel(campaign.wheel, question.scenario.tire, campaign.name);
+  const std::vector<OperatingCondition>& conditions = question.study.conditions;
+  const SortedRuns runs = sorted(campaign, conditions, near);
+  Side side{campaign.name + " (measured)", SideKind::measured, {}};
+  side.noise = rerun_noise(setpoints_of(campaign, runs));
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    std::vector<const Run*> members;
+    std::size_t forces = 0;
+    for (std::size_t k = 0; k < runs.asked.size(); ++k)
+      if (runs.condition[k] == i) {
+        members.push_back(&runs.asked[k]);
+        forces += campaign.runs[k].drawbar_pull || campaign.runs[k].lateral_force;
+      }
+    side.points.push_back(measured_point(members, conditions[i], *side.noise));
+    if (!members.empty()) side.points.back().doubts = doubts_of(members, forces, *side.noise);
+  }
+  for (std::size_t k = 0; k < runs.asked.size(); ++k)
+    if (runs.condition[k] != SortedRuns::none) side.runs.push_back(campaign.runs[k]);
+  if (side.runs.empty())
+    throw InputError(
+        fmt::format("no run of campaign '{}' is near a condition of study '{}'\n  hint: within {:.0f} % of the load, "
+                    "{:.3g} % slip and {:.2g} deg",
+                    campaign.name, question.study.name, 100 * near.load, 100 * near.slip, near.angle / degree));
+  return side;
+}
+
+}  // namespace soilbin::compare
