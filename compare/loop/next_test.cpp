@@ -246,8 +246,7 @@ std::optional<NextTest> next_test(const Campaign& campaign, const Identification
     const Weighted& w = id.weights[c.weighted];
     add(id.rivals[w.best_rival].terms, id.rivals[w.best_rival].fit, w.ids, w.log_evidence, c.allowed);
   }
-  const bool decided = rivals.size() < 2;
-  if (decided) {
+  if (rivals.size() < 2) {
     const Competitor& alone = competitors.front();
     if (const Weighted* next = next_standing(id, id.weights[alone.weighted]))
       add(id.rivals[next->best_rival].terms, id.rivals[next->best_rival].fit, next->ids, next->log_evidence,
@@ -261,8 +260,6 @@ std::optional<NextTest> next_test(const Campaign& campaign, const Identification
   refine(search, limits);
   if (!search.best() || search.best()->second.runs > 50) return std::nullopt;
   const auto& [at, told] = *search.best();
-  constexpr double plain = 2.25;  // squared distance: 1.5 sd of one run
-  if (decided && told.distance < plain) return std::nullopt;
   NextTest next{.at = at,
                 .quantities = {},
                 .beyond = beyond(id.observations, at),

@@ -33,8 +33,8 @@ struct NextTest {
 /// Forzatti 1983, Chem. Eng. Sci. 38:225); a run adds d/2 to the ln evidence between them, and j is out where it stands
 /// further behind than allowed. On a grid, then one condition after the other on a finer one.
 /// competitors: the best one first. A single one is decided: it is set against the set that stands next behind it (the
-/// base model where there is none), to be surer still, where they part by one and a half standard deviations of one
-/// run. Nothing where no condition within limits sets them apart in 50 runs.
+/// base model where there is none), to be surer still. Nothing where no condition within limits sets them apart in 50
+/// runs.
 std::optional<NextTest> next_test(const Campaign& campaign, const Identification& id,
                                   const std::vector<Competitor>& competitors, const Limits& limits);
 
