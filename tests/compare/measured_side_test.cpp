@@ -95,7 +95,7 @@ TEST(MeasuredSide, ErrorsAreThoseOfTheTurnedForces) {
   Campaign campaign = told_by(question, ForceFrame::wheel, SlipBy::wheel_plane_speed);
   campaign.runs.push_back(campaign.runs[0]);
   *campaign.runs[0].drawbar_pull -= 8, *campaign.runs[1].drawbar_pull += 8;
-  const TractionResult& result = *side_of(campaign, question).points[0].result;
+  const TractionResult result = *side_of(campaign, question).points[0].result;
   EXPECT_NEAR(result.drawbar_pull.std_error, 8 * std::cos(60 * degree), 1e-9);
   EXPECT_NEAR(result.lateral_force.std_error, 8 * std::sin(60 * degree), 1e-9);
 }
