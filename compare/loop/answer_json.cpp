@@ -16,10 +16,10 @@ ordered_json effects_json(const std::vector<AcceptedEffect>& effects) {
   for (const AcceptedEffect& effect : effects) {
     ordered_json parameters = ordered_json::object(), ci = ordered_json::object(), bound = ordered_json::array();
     for (const auto& [name, value] : effect.choice.parameters) parameters[name] = finite(value);
-    for (std::size_t i = 0; i < effect.fitted.size(); ++i)
+    for (std::size_t i = 0; i < effect.fitted.size(); ++i) {
       ci[effect.fitted[i]] = {finite(effect.ci95[i].first), finite(effect.ci95[i].second)};
-    for (std::size_t i = 0; i < effect.fitted.size(); ++i)
       if (effect.at_bound[i]) bound.push_back(effect.fitted[i]);
+    }
     list.push_back({{"id", effect.choice.id},
                     {"form", effect.choice.form},
                     {"parameters", parameters},

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "compare/loop/base_fit.hpp"
+#include "compare/report/soil_views.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -104,18 +105,8 @@ AcceptedEffect accepted(const WheelPredictor& predictor, const Whitening& whiten
 SemiEmpiricalSoil fitted_soil(const Campaign& campaign, const WheelPredictor& predictor, const Fit& fit) {
   SemiEmpiricalSoil soil = campaign.soil;
   const Eigen::VectorXd errors = standard_errors(fit, predictor);
-  const std::map<std::string, Estimate SemiEmpiricalSoil::*> members = {
-      {"exponent", &SemiEmpiricalSoil::exponent},
-      {"k_c", &SemiEmpiricalSoil::k_c},
-      {"k_phi", &SemiEmpiricalSoil::k_phi},
-      {"cohesion", &SemiEmpiricalSoil::cohesion},
-      {"friction_angle", &SemiEmpiricalSoil::friction_angle},
-      {"shear_modulus", &SemiEmpiricalSoil::shear_modulus},
-      {"stress_angle_c1", &SemiEmpiricalSoil::stress_angle_c1},
-      {"stress_angle_c2", &SemiEmpiricalSoil::stress_angle_c2},
-  };
   for (int i = 0; i < predictor.soil_parameters(); ++i)
-    soil.*members.at(predictor.parameters()[static_cast<std::size_t>(i)].name) = {fit.theta[i], errors[i]};
+    soil.*soil_view(predictor.parameters()[static_cast<std::size_t>(i)].name).value = {fit.theta[i], errors[i]};
   return soil;
 }
 

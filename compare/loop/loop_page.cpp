@@ -187,11 +187,11 @@ HtmlTable soil_table(const LoopAnswer& answer) {
                   {"value", "with", "without", "bias", "unit"},
                   {},
                   {true, false, false, false, true}};
-  for (const SoilShift& s : answer.soil_shifts)
-    for (const SoilView& view : soil_views)
-      if (view.name == s.name)
-        table.rows.push_back({std::string(view.title), number(s.with, view.per_si), number(s.without, view.per_si),
-                              number(view.per_si * (s.without.value - s.with.value)), std::string(view.unit)});
+  for (const SoilShift& s : answer.soil_shifts) {
+    const SoilView& view = soil_view(s.name);
+    table.rows.push_back({std::string(view.title), number(s.with, view.per_si), number(s.without, view.per_si),
+                          number(view.per_si * (s.without.value - s.with.value)), std::string(view.unit)});
+  }
   return table;
 }
 

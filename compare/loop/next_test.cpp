@@ -242,15 +242,14 @@ std::optional<NextTest> next_test(const Campaign& campaign, const Identification
     rivals.push_back(contender(campaign, id, terms, fit, std::move(ids)));
     rivals.back().log_evidence = evidence, rivals.back().allowed = allowed;
   };
-  for (const Competitor& c : competitors) {
-    const Weighted& w = id.weights[c.weighted];
-    add(id.rivals[w.best_rival].terms, id.rivals[w.best_rival].fit, w.ids, w.log_evidence, c.allowed);
-  }
+  const auto add_set = [&](const Weighted& w, double allowed) {
+    add(id.rivals[w.best_rival].terms, id.rivals[w.best_rival].fit, w.ids, w.log_evidence, allowed);
+  };
+  for (const Competitor& c : competitors) add_set(id.weights[c.weighted], c.allowed);
   if (rivals.size() < 2) {
     const Competitor& alone = competitors.front();
     if (const Weighted* next = next_standing(id, id.weights[alone.weighted]))
-      add(id.rivals[next->best_rival].terms, id.rivals[next->best_rival].fit, next->ids, next->log_evidence,
-          alone.allowed);
+      add_set(*next, alone.allowed);
     else
       add({}, id.base, {}, id.base_log_evidence, alone.allowed);
   }

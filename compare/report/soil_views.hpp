@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include "scenario/soil.hpp"
@@ -29,5 +31,12 @@ inline constexpr std::array<SoilView, 8> soil_views = {{
     {"stress_angle_c1", "c1", "-", 1.0, &SemiEmpiricalSoil::stress_angle_c1},
     {"stress_angle_c2", "c2", "-", 1.0, &SemiEmpiricalSoil::stress_angle_c2},
 }};
+
+/// Throws std::out_of_range for a name that is none of them.
+inline const SoilView& soil_view(std::string_view name) {
+  for (const SoilView& view : soil_views)
+    if (view.name == name) return view;
+  throw std::out_of_range("a soil value of no such name: " + std::string(name));
+}
 
 }  // namespace soilbin::compare
