@@ -10,10 +10,10 @@
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
 #include "compare/loop/answer_words.hpp"
+#include "compare/measured/condition_views.hpp"
 #include "compare/report/result_json.hpp"
 #include "compare/sweep/plausibility.hpp"
 #include "scenario/atomic_file.hpp"
-#include "scenario/description.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 
@@ -30,28 +30,20 @@ struct LoopOptions {
 
 /// "load=50..200" in the campaign's units (N, m/s, deg, %, m), or with units: "load=50N..0.2kN".
 compare::Limits read_limits(const std::vector<std::string>& texts) {
-  const std::vector<std::pair<std::string, Measure>> known = {{"slip", {"-", {.lower = -1.0, .upper = 1.0}}},
-                                                              {"load", {"N", above_zero}},
-                                                              {"speed", {"m/s", above_zero}},
-                                                              {"pass", {"-", {.lower = 1.0}}},
-                                                              {"yaw", {"deg", yaws}},
-                                                              {"longitudinal_incline", {"deg", inclines}},
-                                                              {"transverse_incline", {"deg", inclines}},
-                                                              {"position", {"m", any_value}},
-                                                              {"moisture", {"%", fractions}}};
+  std::vector<std::string> names;
+  for (const compare::ConditionView& view : compare::condition_views)
+    if (view.name != "run") names.emplace_back(view.name);
   compare::Limits limits;
   for (const std::string& text : texts) {
     const std::vector<std::string> parts = split(text, "=");
     const std::vector<std::string> texts_of_ends = split(parts.back(), "..");
     if (parts.size() != 2 || texts_of_ends.size() != 2)
       throw InputError(fmt::format("--limit '{}': expected NAME=LOW..HIGH, such as load=50N..200N", clipped(text)));
-    std::vector<std::string> names;
-    for (const auto& [name, measure] : known) names.push_back(name);
-    const auto found = std::find(names.begin(), names.end(), parts[0]);
-    if (found == names.end())
+    if (std::find(names.begin(), names.end(), parts[0]) == names.end())
       throw InputError(
           fmt::format("--limit: unknown condition '{}'{}", clipped(parts[0]), did_you_mean(parts[0], names)));
-    const Measure& measure = known[static_cast<std::size_t>(found - names.begin())].second;
+    const compare::ConditionView& view = compare::condition_view(parts[0]);
+    const Measure measure{std::string(view.column_unit), view.range};
     std::vector<double> ends;
     for (const std::string& end : texts_of_ends)
       ends.push_back(read_flag("--limit " + parts[0],

@@ -31,6 +31,19 @@ double bearing(double a, const Reading&, const Surroundings& around) { return a 
 double viscous(double a, const Reading&, const Surroundings& around) { return a * rim_speed(around); }
 double gears(double a, const Reading& reading, const Surroundings&) { return a * std::abs(reading.torque); }
 
+/// Seals and a loaded bearing together.
+class Bearing final : public Effect {
+ public:
+  explicit Bearing(const std::vector<double>& p) : amplitude_(p[0]), power_(p[1]) {}
+  void sensor(Reading& reading, const Surroundings& around) const override {
+    constexpr double kilonewton = 1000.0;
+    if (!around.motion.locked) reading.torque += amplitude_ * std::pow(around.at.load / kilonewton, power_);
+  }
+
+ private:
+  double amplitude_, power_;
+};
+
 }  // namespace
 
 std::vector<EffectForm> rig_friction_forms() {
@@ -54,6 +67,16 @@ std::vector<EffectForm> rig_friction_forms() {
        .form_tolerance = 0.15,
        .steady_only = of_an_instrument,
        .make = maker<Taken<bearing>>()},
+      {.id = id,
+       .form = "seals_and_bearing",
+       .equation = "M + a (W/(1 kN))^e",
+       .source = source,
+       .parameters = {{"a", "N m", 1.0, 0.0, 1e4, "torque taken at a load of 1 kN"},
+                      {"e", "-", 0.5, 0.0, 1.5, "0: seals alone; 1: a bearing alone"}},
+       .measurement = true,
+       .form_tolerance = 0.15,
+       .steady_only = of_an_instrument,
+       .make = maker<Bearing>()},
       {.id = id,
        .form = "viscous",
        .equation = "M + a (r w)/(1 m/s), v/(r w) held above 0.02",

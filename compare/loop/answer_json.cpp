@@ -1,9 +1,10 @@
 // LoopAnswer in the contract's form.
 #include <cmath>
 
-#include "compare/loop/condition_views.hpp"
 #include "compare/loop/loop.hpp"
+#include "compare/measured/condition_views.hpp"
 #include "compare/report/json_fields.hpp"
+#include "compare/report/number_text.hpp"
 
 namespace soilbin::compare {
 
@@ -72,9 +73,8 @@ ordered_json condition_json(const NextTest& next) {
   ordered_json at = ordered_json::object();
   for (const std::string& name : next.quantities) {
     const ConditionView& view = condition_view(name);
-    const double value = view.column_per_si * view.get(next.at);
-    if (std::isfinite(value))
-      at[view.column] = view.unit.empty() ? ordered_json(std::lround(value)) : ordered_json(value);
+    const double value = view.get(next.at) * per_unit(std::string(view.column_unit));
+    if (std::isfinite(value)) at[view.column] = view.whole ? ordered_json(std::lround(value)) : ordered_json(value);
   }
   return at;
 }

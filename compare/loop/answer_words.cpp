@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/loop/condition_views.hpp"
+#include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/channels.hpp"
 

@@ -1,13 +1,12 @@
 #include "compare/loop/detection.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include "bekker_wong/gsl.hpp"
 #include "compare/loop/evidence.hpp"
+#include "compare/loop/setpoint_squares.hpp"
 
 namespace soilbin::compare {
 
@@ -25,31 +24,6 @@ double absorbed_freedom(const Fit& fit, Index cells) {
   return (gram.ldlt().solve(data.transpose() * data)).trace();
 }
 
-/// Residuals of one channel over the noise's sd, setpoint by setpoint.
-struct Setpoints {
-  std::vector<double> sum, squares, count;
-  void add(int condition, double value) {
-    const auto c = static_cast<std::size_t>(condition);
-    sum[c] += value, squares[c] += value * value, count[c] += 1;
-  }
-  double square_of_mean(std::size_t c) const { return count[c] > 0 ? sum[c] * sum[c] / count[c] : 0.0; }
-  double between() const {
-    double total = 0.0;
-    for (std::size_t c = 0; c < sum.size(); ++c) total += square_of_mean(c);
-    return total;
-  }
-  double largest() const {
-    double most = 0.0;
-    for (std::size_t c = 0; c < sum.size(); ++c) most = std::max(most, square_of_mean(c));
-    return most;
-  }
-  double within() const { return std::accumulate(squares.begin(), squares.end(), 0.0) - between(); }
-  double setpoints() const {
-    return static_cast<double>(std::count_if(count.begin(), count.end(), [](double n) { return n > 0; }));
-  }
-  double reruns() const { return std::accumulate(count.begin(), count.end(), 0.0) - setpoints(); }
-};
-
 }  // namespace
 
 LackOfFit lack_of_fit(const Fit& fit, const NoiseFloor& noise, Index cells) {
@@ -63,9 +37,7 @@ LackOfFit lack_of_fit(const Fit& fit, const NoiseFloor& noise, Index cells) {
 
 RerunTest rerun_test(const Observations& observations, const NoiseFloor& noise, const Fit& fit) {
   constexpr double least_reruns = 4.0;  // fewer tell next to nothing of the noise
-  const auto all = static_cast<std::size_t>(observations.conditions);
-  std::array<Setpoints, channel_count> channels;
-  channels.fill({std::vector<double>(all), std::vector<double>(all), std::vector<double>(all)});
+  std::vector<SetpointSquares> channels(channel_count, SetpointSquares(observations.conditions));
   for (std::size_t i = 0; i < observations.cells.size(); ++i) {
     const Cell& cell = observations.cells[i];
     const double f = fit.prediction[static_cast<Index>(i)];
@@ -75,12 +47,12 @@ RerunTest rerun_test(const Observations& observations, const NoiseFloor& noise, 
   }
   const auto cells = static_cast<Index>(observations.cells.size());
   double setpoints = 0.0;
-  for (const Setpoints& s : channels) setpoints += s.setpoints();
+  for (const SetpointSquares& s : channels) setpoints += s.setpoints();
   const double taken = absorbed_freedom(fit, cells) / std::max(1.0, setpoints);  // of each setpoint's freedom
   RerunTest test;
   int tested = 0;
   double least = 1.0;
-  for (const Setpoints& s : channels) {
+  for (const SetpointSquares& s : channels) {
     const double freedom = s.setpoints() * (1 - taken) - 1, reruns = s.reruns();
     if (reruns < least_reruns || freedom < 1.0) continue;
     ++tested;

@@ -67,25 +67,82 @@ namespace {
 
 constexpr double amplitude_range = 12.0;  // sd: effects worth naming are a few to a few tens of sd in all
 
-/// ln det of the Gram matrix of all columns but the amplitudes: with an amplitude's column scaled to unit length off
-/// the others, the determinant of all is that of the others.
-double log_determinant(const LinearProblem& problem) {
-  std::vector<Index> others;
+/// Columns but those of amplitudes: with an amplitude's column scaled to unit length off the others, the determinant
+/// of all is that of the others.
+MatrixXd without_amplitudes(const LinearProblem& problem) {
+  MatrixXd others(problem.nuisance.rows(), problem.nuisance.cols());
+  Index used = 0;
   for (Index c = 0; c < problem.nuisance.cols(); ++c)
     if (std::find(problem.amplitudes.begin(), problem.amplitudes.end(), c) == problem.amplitudes.end())
-      others.push_back(c);
-  MatrixXd columns(problem.nuisance.rows(), static_cast<Index>(others.size()));
-  for (std::size_t c = 0; c < others.size(); ++c) columns.col(static_cast<Index>(c)) = problem.nuisance.col(others[c]);
+      others.col(used++) = problem.nuisance.col(c);
+  return others.leftCols(used);
+}
+
+/// ln det of the Gram matrix.
+double log_determinant(const MatrixXd& columns) {
   MatrixXd gram = columns.transpose() * columns;
   gram.diagonal().array() += 1e-9;
   return 2 * gram.llt().matrixLLT().diagonal().array().log().sum();
 }
 
+/// 1 + S G S.
+Eigen::LLT<MatrixXd> widening(const MatrixXd& gram, const VectorXd& sd) {
+  MatrixXd m = sd.asDiagonal() * gram * sd.asDiagonal();
+  m.diagonal().array() += 1.0;
+  return Eigen::LLT<MatrixXd>(m);
+}
+
+/// Whitened columns over the cells, padded with zeros to the problem's rows.
+MatrixXd padded_columns(const LinearProblem& problem, const MatrixXd& columns) {
+  MatrixXd full = MatrixXd::Zero(problem.residual.size(), columns.cols());
+  full.topRows(columns.rows()) = columns;
+  return full;
+}
+
+double log_mean_exp(const std::vector<double>& logs) {
+  const double top = *std::max_element(logs.begin(), logs.end());
+  double sum = 0.0;
+  for (const double x : logs) sum += std::exp(x - top);
+  return top + std::log(sum / static_cast<double>(logs.size()));
+}
+
 }  // namespace
 
-double log_evidence(const LinearProblem& problem, int terms) {
-  const double chi2 = Projector(problem.nuisance).vector(problem.residual).squaredNorm();
-  return -0.5 * chi2 - 0.5 * log_determinant(problem) - terms * std::log(amplitude_range);
+double log_narrowing(const MatrixXd& gram, const VectorXd& sd) {
+  return widening(gram, sd).matrixLLT().diagonal().array().log().sum();
+}
+
+MatrixXd side_by_side(Index cells, const std::vector<Tolerance>& tolerances) {
+  Index width = 0;
+  for (const Tolerance& t : tolerances) width += t.columns.cols();
+  MatrixXd all(cells, width);
+  Index first = 0;
+  for (const Tolerance& t : tolerances) {
+    all.middleCols(first, t.columns.cols()) = t.columns;
+    first += t.columns.cols();
+  }
+  return all;
+}
+
+double log_evidence(const LinearProblem& exact, const std::vector<Tolerance>& tolerances) {
+  const MatrixXd others = without_amplitudes(exact), columns = side_by_side(exact.cells, tolerances);
+  const JoinedColumns joined(exact, columns);
+  const MatrixXd apart = Projector(others)(padded_columns(exact, columns)), gram = apart.transpose() * apart;
+  std::size_t choices = 1;
+  for (const Tolerance& t : tolerances) choices *= t.scales.size();
+  std::vector<double> densities;
+  for (std::size_t choice = 0; choice < choices; ++choice) {
+    VectorXd sd(columns.cols());
+    std::size_t left = choice;  // a digit a term
+    Index first = 0;
+    for (const Tolerance& t : tolerances) {
+      sd.segment(first, t.columns.cols()).setConstant(t.scales[left % t.scales.size()]);
+      first += t.columns.cols(), left /= t.scales.size();
+    }
+    densities.push_back(joined.taken(sd) - log_narrowing(gram, sd));
+  }
+  return log_mean_exp(densities) - 0.5 * joined.chi2() - 0.5 * log_determinant(others) -
+         static_cast<double>(tolerances.size()) * std::log(amplitude_range);
 }
 
 double foreign_log_evidence(const Fit& fit, Index cells) {
@@ -207,32 +264,30 @@ std::vector<MatrixXd> unnamed_families(const Observations& observations, const N
   return families;
 }
 
-UnnamedTerm::UnnamedTerm(const LinearProblem& problem, const MatrixXd& columns) {
+JoinedColumns::JoinedColumns(const LinearProblem& problem, const MatrixXd& columns) {
   const Projector off(problem.nuisance);
-  MatrixXd full = MatrixXd::Zero(problem.residual.size(), columns.cols());
-  full.topRows(columns.rows()) = columns;
-  const MatrixXd kept = off(full);
+  const MatrixXd kept = off(padded_columns(problem, columns));
   gram_ = kept.transpose() * kept;
   seen_ = kept.transpose() * problem.residual;
+  chi2_ = off.vector(problem.residual).squaredNorm();
 }
 
-double UnnamedTerm::gain(double size) const {
-  MatrixXd m = size * size * gram_;
-  m.diagonal().array() += 1.0;
-  const Eigen::LLT<MatrixXd> llt(m);
-  return 0.5 * size * size * llt.matrixL().solve(seen_).squaredNorm() - llt.matrixLLT().diagonal().array().log().sum();
+double JoinedColumns::taken(const VectorXd& sd) const {
+  return 0.5 * widening(gram_, sd).matrixL().solve(sd.cwiseProduct(seen_)).squaredNorm();
+}
+
+double JoinedColumns::gain(double size) const {
+  const VectorXd sd = VectorXd::Constant(seen_.size(), size);
+  return taken(sd) - log_narrowing(gram_, sd);
 }
 
 double unnamed_gain(const LinearProblem& problem, const std::vector<MatrixXd>& families) {
   std::vector<double> gains;
   for (const MatrixXd& columns : families) {
-    const UnnamedTerm term(problem, columns);
-    for (const double size : term_sizes) gains.push_back(term.gain(size));
+    const JoinedColumns joined(problem, columns);
+    for (const double size : term_sizes) gains.push_back(joined.gain(size));
   }
-  const double top = *std::max_element(gains.begin(), gains.end());
-  double sum = 0.0;
-  for (const double g : gains) sum += std::exp(g - top);
-  return top + std::log(sum / static_cast<double>(gains.size()));
+  return log_mean_exp(gains);
 }
 
 }  // namespace soilbin::compare

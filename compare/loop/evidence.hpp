@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,10 +46,25 @@ struct LinearProblem {
 LinearProblem linear_problem(const WheelPredictor& predictor, const Fit& fit, Eigen::Index cells,
                              const Eigen::MatrixXd& tolerance);
 
+/// How far nature's equation may be from ours, in units of a form's tolerance. Nobody knows, so each is tried; an
+/// instrument's zero or a tilt is as it is said to be, at the most.
+inline constexpr std::array<double, 3> tolerance_scales = {0.3, 1.0, 2.0};
+inline constexpr std::array<double, 2> instrument_tolerance_scales = {0.3, 1.0};
+
+/// Freedom of one term's form.
+struct Tolerance {
+  Eigen::MatrixXd columns;         ///< form_columns
+  std::span<const double> scales;  ///< of their unit weights
+};
+
 /// ln evidence of a fitted model up to a constant that all models of the same data share: Laplace's approximation with
 /// soil, shapes and tolerances integrated out, each term's amplitude under a prior that gives every form the same
-/// range of sizes `amplitude_range` in sd (so that no form is favoured by its units).
-double log_evidence(const LinearProblem& problem, int terms);
+/// range of sizes `amplitude_range` in sd (so that no form is favoured by its units). exact: without any tolerance;
+/// tolerances: of each term, averaged over every choice of a scale for each.
+double log_evidence(const LinearProblem& exact, const std::vector<Tolerance>& tolerances);
+
+/// Their columns as one matrix.
+Eigen::MatrixXd side_by_side(Eigen::Index cells, const std::vector<Tolerance>& tolerances);
 
 /// The same where no model comes near the noise: what is left is then not noise of a known size, and forms that could
 /// take it over within their tolerance say nothing. With the residual's variance unknown: -N/2 ln(chi2) - k/2 ln N
@@ -67,17 +83,26 @@ Eigen::MatrixXd in_every_channel(const Observations& observations, const NoiseFl
 /// Sizes that an unnamed term is tried at: sd of its columns' weights.
 inline constexpr std::array<double, 6> term_sizes = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0};
 
-/// A term of whitened columns over the cells, off what the problem's columns absorb.
-class UnnamedTerm {
+/// Whitened columns over the cells that join a problem, with weights that are normal about 0.
+class JoinedColumns {
  public:
-  UnnamedTerm(const LinearProblem& problem, const Eigen::MatrixXd& columns);
-  /// ln evidence that it adds to the problem, its weights normal about 0 with this sd.
+  JoinedColumns(const LinearProblem& problem, const Eigen::MatrixXd& columns);
+  /// chi2 that the problem leaves without them.
+  double chi2() const { return chi2_; }
+  /// Half of what they take off it, each weight with its sd.
+  double taken(const Eigen::VectorXd& sd) const;
+  /// ln evidence that they add, all weights with the same sd.
   double gain(double size) const;
 
  private:
-  Eigen::MatrixXd gram_;
+  Eigen::MatrixXd gram_;  ///< off what the problem's columns absorb
   Eigen::VectorXd seen_;
+  double chi2_ = 0.0;
 };
+
+/// ln of the factor by which a normal density narrows when columns of this Gram matrix, their weights normal with these
+/// sd, join its unit covariance: ln det(1 + S G S)/2.
+double log_narrowing(const Eigen::MatrixXd& gram, const Eigen::VectorXd& sd);
 
 /// ln evidence that an unnamed term adds to the problem: the mean over families and sizes, so that it is a Bayes factor
 /// whose price is paid (reached by chance with probability at most its inverse).

@@ -262,7 +262,7 @@ void complete_pairs(const Campaign& campaign, Identification& id, const Identify
 void name_effects(const Campaign& campaign, const IdentifyOptions& options, Identification& id) {
   const WheelPredictor base(campaign, id.observations);
   const LinearProblem problem = problem_of(id, base, id.base);
-  id.base_log_evidence = log_evidence(problem, 0);
+  id.base_log_evidence = log_evidence(problem, {});
   id.unnamed_gain =
       unnamed_gain(problem, unnamed_families(id.observations, id.noise, *id.whitening, id.base.prediction));
   id.signatures = trace({campaign, id.observations, *id.whitening, base, id.base, problem});

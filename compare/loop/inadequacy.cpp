@@ -30,21 +30,14 @@ double best_size(const Campaign& campaign, const Identification& id, const Matri
   double best = term_sizes.front(), most = -std::numeric_limits<double>::infinity();
   const auto weigh = [&](double log_evidence, const std::vector<Term>& terms, const Fit& fit) {
     const WheelPredictor predictor(campaign, id.observations, terms);
-    const UnnamedTerm term(problem_of(id, predictor, fit), columns);
+    const JoinedColumns joined(problem_of(id, predictor, fit), columns);
     for (const double size : term_sizes)
-      if (const double sum = log_evidence + term.gain(size); sum > most) most = sum, best = size;
+      if (const double sum = log_evidence + joined.gain(size); sum > most) most = sum, best = size;
   };
   weigh(id.base_log_evidence, {}, id.base);
   for (const Weighted& w : id.weights)
     weigh(w.log_evidence, id.rivals[w.best_rival].terms, id.rivals[w.best_rival].fit);
   return best;
-}
-
-/// ln of the factor by which a normal density narrows when columns of unit normal weights join its unit covariance.
-double half_log_determinant(const MatrixXd& columns) {
-  MatrixXd gram = columns.transpose() * columns;
-  gram.diagonal().array() += 1.0;
-  return gram.llt().matrixLLT().diagonal().array().log().sum();
 }
 
 void lower_evidence(Identification& id, double by) {
@@ -73,7 +66,8 @@ std::optional<InadequateReading> read_beside_inadequacy(const Campaign& campaign
   id.base = std::move(*found);
   name_effects(campaign, options, id);
   if (id.foreign) return std::nullopt;
-  lower_evidence(id, half_log_determinant(columns) + std::log(static_cast<double>(term_sizes.size())));
+  const double narrowed = log_narrowing(columns.transpose() * columns, VectorXd::Ones(columns.cols()));
+  lower_evidence(id, narrowed + std::log(static_cast<double>(term_sizes.size())));
   return reading;
 }
 

@@ -60,12 +60,14 @@ std::vector<std::string> not_testable(const Campaign& campaign, const Identifica
 
 /// Conditions left out are predicted better by a standard error; or better at all, where the odds are twenty to one:
 /// with a dozen conditions a standard error is more than a real effect reaches.
+bool stands(const PredictiveGain& gain, double log_odds) {
+  return gain.mean > gain.std_error || (gain.mean > 0 && log_odds > odds_enough);
+}
+
 bool confirmed(const LoopAnswer& answer) {
   const Identification& id = answer.details;
-  if (!id.best) return false;
-  const PredictiveGain& gain = answer.choice_gain;
-  const double odds = weighed(id, id.rivals[*id.best].ids).log_evidence - id.base_log_evidence;
-  return gain.mean > gain.std_error || (gain.mean > 0 && odds > odds_enough);
+  return id.best &&
+         stands(answer.choice_gain, weighed(id, id.rivals[*id.best].ids).log_evidence - id.base_log_evidence);
 }
 
 /// Share of the base model's excess over the noise that the best named rival leaves.
@@ -228,7 +230,7 @@ void confirm(const Campaign& campaign, LoopAnswer& answer, std::uint64_t seed) {
     const Rival &more = id.rivals[*id.best], &less = id.rivals[*fewer];
     const PredictiveGain gain =
         predictive_gain(campaign, id, more.terms, more.fit, less.terms, less.fit, choice_folds, seed);
-    if (gain.mean > gain.std_error) break;
+    if (stands(gain, weighed(id, more.ids).log_evidence - weighed(id, less.ids).log_evidence)) break;
     prefer(campaign, id, *fewer);
   }
   const Rival& best = id.rivals[*id.best];

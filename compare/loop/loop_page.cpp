@@ -7,7 +7,7 @@
 #include <map>
 
 #include "compare/loop/answer_words.hpp"
-#include "compare/loop/condition_views.hpp"
+#include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/soil_views.hpp"
 #include "compare/sweep/channels.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/loop/condition_views.hpp"
+#include "compare/measured/condition_views.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

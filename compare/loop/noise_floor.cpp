@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "compare/loop/setpoint_squares.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
@@ -210,18 +211,10 @@ ChannelCells gather(const Observations& observations, int channel) {
 }
 
 double pooled_rerun_sd(const Observations& observations, const ChannelCells& cells, const VectorXd& residual) {
-  std::vector<double> sum(static_cast<std::size_t>(observations.conditions)), count(sum.size());
-  for (std::size_t i = 0; i < cells.cell.size(); ++i) {
-    const auto c = static_cast<std::size_t>(observations.condition[static_cast<std::size_t>(cells.row[i])]);
-    sum[c] += residual[cells.cell[i]], count[c] += 1;
-  }
-  double squares = 0.0, freedom = 0.0;
-  for (std::size_t i = 0; i < cells.cell.size(); ++i) {
-    const auto c = static_cast<std::size_t>(observations.condition[static_cast<std::size_t>(cells.row[i])]);
-    squares += std::pow(residual[cells.cell[i]] - sum[c] / count[c], 2);
-  }
-  for (const double n : count) freedom += std::max(0.0, n - 1);
-  return freedom > 0 ? std::sqrt(squares / freedom) : 0.0;
+  SetpointSquares squares(observations.conditions);
+  for (std::size_t i = 0; i < cells.cell.size(); ++i)
+    squares.add(observations.condition[static_cast<std::size_t>(cells.row[i])], residual[cells.cell[i]]);
+  return squares.reruns() > 0 ? std::sqrt(squares.within() / squares.reruns()) : 0.0;
 }
 
 /// Median of the noise's prior: 2 % of the predictions' range; where the model predicts next to nothing (a lateral

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <tuple>
 
-#include "compare/loop/condition_views.hpp"
+#include "compare/measured/condition_views.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
@@ -94,13 +93,6 @@ std::vector<Covariate> covariates(const Observations& observations) {
     if (spread > 1e-3 * scale) varying.push_back({std::string(view.name), std::move(values)});
   }
   return varying;
-}
-
-const ConditionView& condition_view(std::string_view name) {
-  const auto found = std::find_if(condition_views.begin(), condition_views.end(),
-                                  [&](const ConditionView& view) { return view.name == name; });
-  if (found == condition_views.end()) throw std::out_of_range("a condition of no such name: " + std::string(name));
-  return *found;
 }
 
 }  // namespace soilbin::compare

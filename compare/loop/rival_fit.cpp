@@ -36,19 +36,20 @@ double share_kept(const Identification& id, const WheelPredictor& predictor, con
 /// Form tolerance of every term, shrunk by the root of the share that the soil's values could not have made: a form
 /// that is almost a change of soil would else be free to be anything. (Root: found best on the tuning sets among 0,
 /// 1/2, 1.)
-MatrixXd tolerance_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit) {
-  MatrixXd all(fit.prediction.size(), 0);
+std::vector<Tolerance> tolerances_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit) {
+  std::vector<Tolerance> each;
   for (int t = 0; t < static_cast<int>(predictor.terms().size()); ++t) {
+    const bekker_wong::EffectForm& form = *predictor.terms()[static_cast<std::size_t>(t)].form;
     const VectorXd contribution = contribution_of(predictor, fit, t);
-    const double tolerance = predictor.terms()[static_cast<std::size_t>(t)].form->form_tolerance *
-                             std::sqrt(share_kept(id, predictor, fit, contribution));
-    const MatrixXd more = form_columns(id.observations, *id.whitening, contribution, tolerance);
-    MatrixXd joined(all.rows(), all.cols() + more.cols());
-    joined << all, more;
-    all = joined;
+    const double tolerance = form.form_tolerance * std::sqrt(share_kept(id, predictor, fit, contribution));
+    const std::span<const double> all(tolerance_scales), instrument(instrument_tolerance_scales);
+    each.push_back(
+        {form_columns(id.observations, *id.whitening, contribution, tolerance), form.measurement ? instrument : all});
   }
-  return all;
+  return each;
 }
+
+Index cells_of(const Identification& id) { return static_cast<Index>(id.observations.cells.size()); }
 
 /// Soil values and earlier terms to start from, then the terms that join them at their defaults.
 VectorXd start_from(const WheelPredictor& predictor, const VectorXd& known) {
@@ -72,13 +73,13 @@ void put(VectorXd& start, const WheelPredictor& predictor, int term, const std::
 }  // namespace
 
 LinearProblem problem_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit) {
-  return linear_problem(predictor, fit, static_cast<Index>(id.observations.cells.size()),
-                        tolerance_of(id, predictor, fit));
+  return linear_problem(predictor, fit, cells_of(id), side_by_side(cells_of(id), tolerances_of(id, predictor, fit)));
 }
 
 double evidence_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit) {
-  if (id.foreign) return foreign_log_evidence(fit, static_cast<Index>(id.observations.cells.size()));
-  return log_evidence(problem_of(id, predictor, fit), static_cast<int>(predictor.terms().size()));
+  if (id.foreign) return foreign_log_evidence(fit, cells_of(id));
+  const LinearProblem exact = linear_problem(predictor, fit, cells_of(id), MatrixXd(cells_of(id), 0));
+  return log_evidence(exact, tolerances_of(id, predictor, fit));
 }
 
 std::optional<Rival> refit(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms,

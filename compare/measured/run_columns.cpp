@@ -5,27 +5,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/measured/condition_views.hpp"
+
 namespace soilbin::compare {
 namespace {
 
 using Content = RunColumn::Content;
-using C = OperatingCondition;
 
-/// A condition whose default is not worth a column.
-RunColumn condition(std::string quantity, std::string canonical, Measure measure, double C::*member) {
-  return {.quantity = std::move(quantity),
-          .canonical = std::move(canonical),
-          .measure = std::move(measure),
-          .set = [member](Run& run, double x) { run.at.*member = x; },
-          .get = [member](const Run& run) { return std::optional(run.at.*member); }};
+/// A condition; one whose default says it all needs no column.
+RunColumn condition(std::string_view name) {
+  const ConditionView& view = condition_view(name);
+  return {.quantity = std::string(view.name),
+          .canonical = std::string(view.column),
+          .content = view.whole ? Content::whole_number : Content::number,
+          .measure = {std::string(view.column_unit), view.range},
+          .set = [&view](Run& run, double x) { view.set(run.at, x); },
+          .get =
+              [&view](const Run& run) {
+                const double x = view.get(run.at);
+                return std::isnan(x) ? std::nullopt : std::optional(x);
+              }};
 }
 
-RunColumn condition(std::string quantity, std::string canonical, Measure measure, std::optional<double> C::*member) {
-  return {.quantity = std::move(quantity),
-          .canonical = std::move(canonical),
-          .measure = std::move(measure),
-          .set = [member](Run& run, double x) { run.at.*member = x; },
-          .get = [member](const Run& run) { return run.at.*member; }};
+RunColumn required_condition(std::string_view name) {
+  RunColumn column = condition(name);
+  column.required = true;
+  return column;
 }
 
 RunColumn channel(std::string quantity, std::string canonical, std::string unit, std::optional<double> Run::*member) {
@@ -37,40 +42,14 @@ RunColumn channel(std::string quantity, std::string canonical, std::string unit,
           .get = [member](const Run& run) { return run.*member; }};
 }
 
-RunColumn order_of_runs() {
-  return {.quantity = "run",
-          .canonical = "run",
-          .content = Content::whole_number,
-          .measure = {"-", zero_or_more},
-          .set = [](Run& run, double x) { run.at.run = static_cast<int>(x); },
-          .get = [](const Run& run) { return run.at.run ? std::optional<double>(*run.at.run) : std::nullopt; }};
-}
-
-RunColumn pass() {
-  return {.quantity = "pass",
-          .canonical = "pass",
-          .content = Content::whole_number,
-          .measure = {"-", {.lower = 1.0}},
-          .set = [](Run& run, double x) { run.at.pass = static_cast<int>(x); },
-          .get = [](const Run& run) { return std::optional<double>(run.at.pass); }};
-}
-
 std::vector<RunColumn> make_columns() {
   std::vector<RunColumn> all;
-  all.push_back(order_of_runs());
+  all.push_back(condition("run"));
   all.push_back({.quantity = "setpoint", .canonical = "setpoint", .content = Content::label});
-  all.push_back(condition("load", "load_N", {"N", above_zero}, &C::load));
-  all.back().required = true;
-  all.push_back(condition("slip", "slip", {"-", {.lower = -1.0, .upper = 1.0}}, &C::slip));
-  all.back().required = true;
-  all.push_back(condition("speed", "speed_m_s", {"m/s", zero_or_more}, &C::speed));
-  all.push_back(pass());
-  all.push_back(condition("position", "position_m", {"m", any_value}, &C::position));
-  all.push_back(condition("moisture", "moisture_percent", {"%", fractions}, &C::moisture));
-  all.push_back(
-      condition("longitudinal_incline", "longitudinal_incline_deg", {"deg", inclines}, &C::longitudinal_incline));
-  all.push_back(condition("transverse_incline", "transverse_incline_deg", {"deg", inclines}, &C::transverse_incline));
-  all.push_back(condition("yaw", "yaw_deg", {"deg", yaws}, &C::yaw));
+  for (const char* name : {"load", "slip"}) all.push_back(required_condition(name));
+  for (const char* name :
+       {"speed", "pass", "position", "moisture", "longitudinal_incline", "transverse_incline", "yaw"})
+    all.push_back(condition(name));
   all.push_back(channel("drawbar_pull", "drawbar_pull_N", "N", &Run::drawbar_pull));
   all.push_back(channel("torque", "torque_Nm", "N m", &Run::torque));
   all.push_back(channel("sinkage", "sinkage_m", "m", &Run::sinkage));

@@ -73,20 +73,25 @@ void add_flipped_pull(const Campaign& campaign, const Case& question, Warnings& 
   const std::vector<std::size_t> curve_of = curves_against_slip(question.study.conditions, Spread::measured).curve_of;
   std::vector<double> slip, pull, torque;
   std::vector<std::size_t> curve;
+  for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
+    const Run& run = campaign.runs[i];
+    if (!run.drawbar_pull || !run.torque) continue;
+    slip.push_back(run.at.slip), pull.push_back(*run.drawbar_pull), torque.push_back(*run.torque);
+    curve.push_back(curve_of[i]);
+  }
+  if (slip.size() < fewest ||
+      !(correlation(slip, pull, curve) < -clearly && correlation(slip, torque, curve) > clearly))
+    return;
   double as_told = 0, turned_round = 0;
   const std::vector<ModelAnswers> study = run_study(question);
   for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
-    const Run& run = campaign.runs[i];
+    const auto& measured = campaign.runs[i].drawbar_pull;
     const auto& predicted = study.front().answers[i].result;
-    if (!run.drawbar_pull || !run.torque || !predicted) continue;
-    slip.push_back(run.at.slip), pull.push_back(*run.drawbar_pull), torque.push_back(*run.torque);
-    curve.push_back(curve_of[i]);
-    const double expected = predicted->drawbar_pull.value;
-    as_told += (pull.back() - expected) * (pull.back() - expected);
-    turned_round += (pull.back() + expected) * (pull.back() + expected);
+    if (!measured || !predicted) continue;
+    as_told += std::pow(*measured - predicted->drawbar_pull.value, 2);
+    turned_round += std::pow(*measured + predicted->drawbar_pull.value, 2);
   }
-  if (slip.size() < fewest || !(turned_round < as_told)) return;
-  if (correlation(slip, pull, curve) < -clearly && correlation(slip, torque, curve) > clearly)
+  if (turned_round < as_told)
     warnings.emplace_back(
         "the drawbar pull falls as slip rises while the torque rises: is its sign flipped? Positive pulls forward");
 }

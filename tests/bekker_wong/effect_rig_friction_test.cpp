@@ -1,15 +1,21 @@
 // rig_friction: torque that never reaches the soil, by hand.
+#include <cmath>
+
 #include "bekker_wong/bed_fixture.hpp"
 
 namespace soilbin::bekker_wong::bed {
 namespace {
 
-double added(const char* form, double a, const OperatingCondition& at) {
-  const Reading b = base(at), e = with({"rig_friction", form, {{"a", a}}}, at);
+double added(const EffectChoice& choice, const OperatingCondition& at) {
+  const Reading b = base(at), e = with(choice, at);
   EXPECT_EQ(e.drawbar_pull, b.drawbar_pull);
   EXPECT_EQ(e.sinkage, b.sinkage);
   EXPECT_EQ(e.lateral_force, b.lateral_force);
   return e.torque - b.torque;
+}
+
+double added(const char* form, double a, const OperatingCondition& at) {
+  return added({"rig_friction", form, {{"a", a}}}, at);
 }
 
 TEST(RigFriction, ZeroAmplitudeAndALockedWheelAreTheBaseModel) {
@@ -28,6 +34,15 @@ TEST(RigFriction, CoulombIsTheSameEverywhere) {
 TEST(RigFriction, BearingsTakeInProportionToLoad) {
   EXPECT_NEAR(added("load_proportional", 0.01, driven(800)), 2.0, 1e-12);
   EXPECT_NEAR(added("load_proportional", 0.01, driven(400)), 1.0, 1e-12);
+}
+
+// 2 N m at 1 kN; at a quarter of the load the same, a half or a quarter for e = 0, 1/2, 1.
+TEST(RigFriction, SealsAndABearingTakeByAPowerOfTheLoad) {
+  for (const double e : {0.0, 0.5, 1.0}) {
+    const EffectChoice both{"rig_friction", "seals_and_bearing", {{"a", 2.0}, {"e", e}}};
+    EXPECT_NEAR(added(both, driven(1000)), 2.0, 1e-12);
+    EXPECT_NEAR(added(both, driven(250)), 2.0 * std::pow(0.25, e), 1e-12);
+  }
 }
 
 // Rim speed v/(1 - s): 0.1/(1 - 0.2) = 0.125 m/s driven, 0.1 (1 - 0.2) = 0.08 m/s braked.

@@ -51,7 +51,7 @@ TEST(Whitening, BesideATermIsThatOfTheirJointCovariance) {
 }
 
 // ln N(r; 0, 1 + s^2 U U') - ln N(r; 0, 1), by the joint covariance itself.
-TEST(UnnamedTerm, GainsTheRatioOfNormalDensities) {
+TEST(JoinedColumns, GainTheRatioOfNormalDensities) {
   const Identification id = settled();
   const Eigen::Index cells = id.base.prediction.size();
   const Eigen::MatrixXd columns = inadequacy_columns(id);
@@ -64,7 +64,7 @@ TEST(UnnamedTerm, GainsTheRatioOfNormalDensities) {
     const Eigen::LLT<Eigen::MatrixXd> factor(joint);
     const double quadratic = problem.residual.dot(factor.solve(problem.residual));
     const double log_determinant = 2 * factor.matrixLLT().diagonal().array().log().sum();
-    EXPECT_NEAR(UnnamedTerm(problem, columns).gain(size),
+    EXPECT_NEAR(JoinedColumns(problem, columns).gain(size),
                 0.5 * (problem.residual.squaredNorm() - quadratic - log_determinant),
                 1e-8 * problem.residual.squaredNorm())
         << size;

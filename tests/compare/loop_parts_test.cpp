@@ -5,10 +5,10 @@
 #include <random>
 
 #include "compare/loop/base_fit.hpp"
-#include "compare/loop/condition_views.hpp"
 #include "compare/loop/detection.hpp"
 #include "compare/loop/identify.hpp"
 #include "compare/loop_fixture.hpp"
+#include "compare/measured/condition_views.hpp"
 
 namespace soilbin::compare {
 namespace {

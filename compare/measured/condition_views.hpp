@@ -6,20 +6,24 @@
 #include <optional>
 #include <string_view>
 
+#include "scenario/description.hpp"
 #include "scenario/estimate.hpp"
 #include "scenario/operating_condition.hpp"
+#include "scenario/quantity.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 
 /// One condition of a run.
 struct ConditionView {
-  std::string_view name;                     ///< in answers and limits: "longitudinal_incline"
+  std::string_view name;                     ///< in answers, limits and `columns:`: "longitudinal_incline"
   std::string_view title;                    ///< for people: "uphill"
   std::string_view unit;                     ///< in which people read it: "deg"; empty: a plain number
   double per_si;                             ///< units per SI unit
   std::string_view column;                   ///< of a campaign's runs: "longitudinal_incline_deg"
-  double column_per_si;                      ///< the column's units per SI unit
+  std::string_view column_unit;              ///< "deg"; "-": a plain number
+  Range range;                               ///< [SI]
+  bool whole;                                ///< a whole number
   double (*get)(const OperatingCondition&);  ///< [SI]; not a number where it isn't told
   void (*set)(OperatingCondition&, double);  ///< [SI]
 };
@@ -41,21 +45,23 @@ constexpr auto set_told = [](OperatingCondition& at, double value) { at.*member 
 inline constexpr std::array<ConditionView, 10> condition_views = [] {
   using C = OperatingCondition;
   namespace m = condition_members;
+  constexpr Range slips{.lower = -1.0, .upper = 1.0}, passes{.lower = 1.0};
   return std::array<ConditionView, 10>{{
-      {"slip", "slip", "%", 100.0, "slip", 1.0, m::get<&C::slip>, m::set<&C::slip>},
-      {"load", "load", "N", 1.0, "load_N", 1.0, m::get<&C::load>, m::set<&C::load>},
-      {"pass", "pass", "", 1.0, "pass", 1.0, [](const C& at) { return static_cast<double>(at.pass); },
+      {"slip", "slip", "%", 100.0, "slip", "-", slips, false, m::get<&C::slip>, m::set<&C::slip>},
+      {"load", "load", "N", 1.0, "load_N", "N", above_zero, false, m::get<&C::load>, m::set<&C::load>},
+      {"pass", "pass", "", 1.0, "pass", "-", passes, true, [](const C& at) { return static_cast<double>(at.pass); },
        [](C& at, double value) { at.pass = static_cast<int>(std::lround(value)); }},
-      {"yaw", "yaw", "deg", 1 / degree, "yaw_deg", 1 / degree, m::get<&C::yaw>, m::set<&C::yaw>},
-      {"longitudinal_incline", "uphill", "deg", 1 / degree, "longitudinal_incline_deg", 1 / degree,
+      {"yaw", "yaw", "deg", 1 / degree, "yaw_deg", "deg", yaws, false, m::get<&C::yaw>, m::set<&C::yaw>},
+      {"longitudinal_incline", "uphill", "deg", 1 / degree, "longitudinal_incline_deg", "deg", inclines, false,
        m::get<&C::longitudinal_incline>, m::set<&C::longitudinal_incline>},
-      {"transverse_incline", "cross slope", "deg", 1 / degree, "transverse_incline_deg", 1 / degree,
+      {"transverse_incline", "cross slope", "deg", 1 / degree, "transverse_incline_deg", "deg", inclines, false,
        m::get<&C::transverse_incline>, m::set<&C::transverse_incline>},
-      {"speed", "speed", "m/s", 1.0, "speed_m_s", 1.0, m::get<&C::speed>, m::set<&C::speed>},
-      {"position", "position", "m", 1.0, "position_m", 1.0, m::get_told<&C::position>, m::set_told<&C::position>},
-      {"moisture", "moisture", "%", 100.0, "moisture_percent", 100.0, m::get_told<&C::moisture>,
+      {"speed", "speed", "m/s", 1.0, "speed_m_s", "m/s", zero_or_more, false, m::get<&C::speed>, m::set<&C::speed>},
+      {"position", "position", "m", 1.0, "position_m", "m", any_value, false, m::get_told<&C::position>,
+       m::set_told<&C::position>},
+      {"moisture", "moisture", "%", 100.0, "moisture_percent", "%", fractions, false, m::get_told<&C::moisture>,
        m::set_told<&C::moisture>},
-      {"run", "run", "", 1.0, "run", 1.0,
+      {"run", "run", "", 1.0, "run", "-", zero_or_more, true,
        [](const C& at) { return at.run ? static_cast<double>(*at.run) : not_a_number; },
        [](C& at, double value) { at.run = static_cast<int>(std::lround(value)); }},
   }};
