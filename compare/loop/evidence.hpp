@@ -46,10 +46,11 @@ struct LinearProblem {
 LinearProblem linear_problem(const WheelPredictor& predictor, const Fit& fit, Eigen::Index cells,
                              const Eigen::MatrixXd& tolerance);
 
-/// How far nature's equation may be from ours, in units of a form's tolerance. Nobody knows, so each is tried; an
-/// instrument's zero or a tilt is as it is said to be, at the most.
+/// How far nature's equation may be from ours, in units of a form's tolerance. Nobody knows, so each is tried; the
+/// narrow ones for an instrument's zero or a tilt, which is what it is said to be, and for fits that are far from the
+/// noise, where twice the tolerance would let any form take over what is left.
 inline constexpr std::array<double, 3> tolerance_scales = {0.3, 1.0, 2.0};
-inline constexpr std::array<double, 2> instrument_tolerance_scales = {0.3, 1.0};
+inline constexpr std::array<double, 2> narrow_tolerance_scales = {0.3, 1.0};
 
 /// Freedom of one term's form.
 struct Tolerance {

@@ -191,10 +191,8 @@ std::optional<std::size_t> strongest_rival(const Identification& id, const Wante
 
 /// Where even the rival that leaves least is far from the noise, all are weighed by what they leave from here on.
 void judge_misfit(const Campaign& campaign, Identification& id) {
-  constexpr double far = 3.0;  // chi2 a value
-  const double cells = static_cast<double>(id.observations.cells.size());
   id.foreign = std::all_of(id.rivals.begin(), id.rivals.end(),
-                           [&](const Rival& rival) { return rival.fit.chi2_cells > far * cells; });
+                           [&](const Rival& rival) { return far_from_noise(id, rival.fit); });
   if (!id.foreign) return;
   id.base_log_evidence = evidence_of(id, WheelPredictor(campaign, id.observations), id.base);
   for (Rival& rival : id.rivals)

@@ -37,14 +37,15 @@ double share_kept(const Identification& id, const WheelPredictor& predictor, con
 /// that is almost a change of soil would else be free to be anything. (Root: found best on the tuning sets among 0,
 /// 1/2, 1.)
 std::vector<Tolerance> tolerances_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit) {
+  const std::span<const double> all(tolerance_scales), narrow(narrow_tolerance_scales);
+  const bool far = far_from_noise(id, fit);
   std::vector<Tolerance> each;
   for (int t = 0; t < static_cast<int>(predictor.terms().size()); ++t) {
     const bekker_wong::EffectForm& form = *predictor.terms()[static_cast<std::size_t>(t)].form;
     const VectorXd contribution = contribution_of(predictor, fit, t);
     const double tolerance = form.form_tolerance * std::sqrt(share_kept(id, predictor, fit, contribution));
-    const std::span<const double> all(tolerance_scales), instrument(instrument_tolerance_scales);
-    each.push_back(
-        {form_columns(id.observations, *id.whitening, contribution, tolerance), form.measurement ? instrument : all});
+    each.push_back({form_columns(id.observations, *id.whitening, contribution, tolerance),
+                    far || form.measurement ? narrow : all});
   }
   return each;
 }
@@ -71,6 +72,11 @@ void put(VectorXd& start, const WheelPredictor& predictor, int term, const std::
 }
 
 }  // namespace
+
+bool far_from_noise(const Identification& id, const Fit& fit) {
+  constexpr double far = 3.0;  // chi2 a value
+  return fit.chi2_cells > far * static_cast<double>(id.observations.cells.size());
+}
 
 LinearProblem problem_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit) {
   return linear_problem(predictor, fit, cells_of(id), side_by_side(cells_of(id), tolerances_of(id, predictor, fit)));

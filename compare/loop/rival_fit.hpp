@@ -12,6 +12,9 @@ namespace soilbin::compare {
 /// The fit as a linear problem, with the tolerance of its terms' forms.
 LinearProblem problem_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit);
 
+/// Whether a fit leaves so much that it is no noise: then neither is it a form's own doing.
+bool far_from_noise(const Identification& id, const Fit& fit);
+
 /// ln evidence of a rival's fit; where no rival comes near the noise, by what it leaves alone (foreign_log_evidence).
 double evidence_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit);
 

@@ -48,10 +48,10 @@ TEST(Evidence, IsTheMeanOverTheTolerancesOfTheJointDensity) {
   const MatrixXd bare = MatrixXd::Identity(12, 12) + soil * soil.transpose();
   double mean = 0.0;
   for (const double a : tolerance_scales)
-    for (const double b : instrument_tolerance_scales)
+    for (const double b : narrow_tolerance_scales)
       mean += std::exp(log_density(r, bare + a * a * first * first.transpose() + b * b * second * second.transpose()));
-  mean /= static_cast<double>(tolerance_scales.size() * instrument_tolerance_scales.size());
-  EXPECT_NEAR(log_evidence(problem_with(r, soil), {{first, tolerance_scales}, {second, instrument_tolerance_scales}}),
+  mean /= static_cast<double>(tolerance_scales.size() * narrow_tolerance_scales.size());
+  EXPECT_NEAR(log_evidence(problem_with(r, soil), {{first, tolerance_scales}, {second, narrow_tolerance_scales}}),
               std::log(mean) - 2 * std::log(12.0), 1e-9);
   EXPECT_NEAR(log_evidence(problem_with(r, soil), {}), log_density(r, bare), 1e-9);
 }
