@@ -32,9 +32,9 @@ double viscous(double a, const Reading&, const Surroundings& around) { return a 
 double gears(double a, const Reading& reading, const Surroundings&) { return a * std::abs(reading.torque); }
 
 /// Seals and a loaded bearing together.
-class Bearing final : public Effect {
+class SealsAndBearing final : public Effect {
  public:
-  explicit Bearing(const std::vector<double>& p) : amplitude_(p[0]), power_(p[1]) {}
+  explicit SealsAndBearing(const std::vector<double>& p) : amplitude_(p[0]), power_(p[1]) {}
   void sensor(Reading& reading, const Surroundings& around) const override {
     constexpr double kilonewton = 1000.0;
     if (!around.motion.locked) reading.torque += amplitude_ * std::pow(around.at.load / kilonewton, power_);
@@ -76,7 +76,7 @@ std::vector<EffectForm> rig_friction_forms() {
        .measurement = true,
        .form_tolerance = 0.15,
        .steady_only = of_an_instrument,
-       .make = maker<Bearing>()},
+       .make = maker<SealsAndBearing>()},
       {.id = id,
        .form = "viscous",
        .equation = "M + a (r w)/(1 m/s), v/(r w) held above 0.02",
