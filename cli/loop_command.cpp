@@ -43,7 +43,8 @@ compare::Limits read_limits(const std::vector<std::string>& texts) {
       throw InputError(
           fmt::format("--limit: unknown condition '{}'{}", clipped(parts[0]), did_you_mean(parts[0], names)));
     const compare::ConditionView& view = compare::condition_view(parts[0]);
-    const Measure measure{std::string(view.column_unit), view.range};
+    const Range range = view.name == "speed" ? above_zero : view.range;  // a rig that stands still measures nothing
+    const Measure measure{std::string(view.column_unit), range};
     std::vector<double> ends;
     for (const std::string& end : texts_of_ends)
       ends.push_back(read_flag("--limit " + parts[0],

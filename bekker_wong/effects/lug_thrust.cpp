@@ -111,11 +111,11 @@ class LevelBlade final : public Effect {
     if (share_ == 0.0 || slide == 0.0) return;
     const double h = share_ * height(r.around.tire), radius = r.outline.radius;
     const double lugs_per_metre = r.outline.width / spacing(r.around.tire), weight = specific_weight(r.soil);
-    const double entry_cosine = std::cos(r.patch.angles.entry);
+    const Rim rim(r);
     const WallResistance face = passive_wall(r.soil);
     AddedForce force{.name = "lug_thrust"};
     for (int i = 0; i < r.patch.count; ++i) {
-      const Edge e = edge(r, i, entry_cosine);
+      const Edge e = rim.at(i);
       const double way = std::abs(slide) * radius * r.patch.since_entry[i] / r.patch.modulus[i];
       const double push = std::copysign(lugs_per_metre * r.patch.arc[i] * face(h, weight * e.depth), slide) *
                           (motion.locked ? 1.0 : -std::expm1(-way));

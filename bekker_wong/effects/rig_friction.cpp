@@ -11,38 +11,35 @@
 namespace soilbin::bekker_wong {
 namespace {
 
-/// Torque that friction takes [N m] at amplitude a.
-using Loss = double (*)(double a, const Reading&, const Surroundings&);
+using Parameters = std::vector<double>;
+
+/// Torque that friction takes [N m].
+using Loss = double (*)(const Parameters&, const Reading&, const Surroundings&);
 
 template <Loss loss>
 class Taken final : public Effect {
  public:
-  explicit Taken(const std::vector<double>& p) : amplitude_(p[0]) {}
+  explicit Taken(const Parameters& parameters) : parameters_(parameters) {}
   void sensor(Reading& reading, const Surroundings& around) const override {
-    if (!around.motion.locked) reading.torque += loss(amplitude_, reading, around);
+    if (!around.motion.locked) reading.torque += loss(parameters_, reading, around);
   }
 
  private:
-  double amplitude_;
+  Parameters parameters_;
 };
 
-double coulomb(double a, const Reading&, const Surroundings&) { return a; }
-double bearing(double a, const Reading&, const Surroundings& around) { return a * around.at.load * around.tire.radius; }
-double viscous(double a, const Reading&, const Surroundings& around) { return a * rim_speed(around); }
-double gears(double a, const Reading& reading, const Surroundings&) { return a * std::abs(reading.torque); }
-
-/// Seals and a loaded bearing together.
-class SealsAndBearing final : public Effect {
- public:
-  explicit SealsAndBearing(const std::vector<double>& p) : amplitude_(p[0]), power_(p[1]) {}
-  void sensor(Reading& reading, const Surroundings& around) const override {
-    constexpr double kilonewton = 1000.0;
-    if (!around.motion.locked) reading.torque += amplitude_ * std::pow(around.at.load / kilonewton, power_);
-  }
-
- private:
-  double amplitude_, power_;
-};
+double coulomb(const Parameters& p, const Reading&, const Surroundings&) { return p[0]; }
+double bearing(const Parameters& p, const Reading&, const Surroundings& around) {
+  return p[0] * around.at.load * around.tire.radius;
+}
+double seals_and_bearing(const Parameters& p, const Reading&, const Surroundings& around) {
+  constexpr double kilonewton = 1000.0;
+  return p[0] * std::pow(around.at.load / kilonewton, p[1]);
+}
+double viscous(const Parameters& p, const Reading&, const Surroundings& around) { return p[0] * rim_speed(around); }
+double gears(const Parameters& p, const Reading& reading, const Surroundings&) {
+  return p[0] * std::abs(reading.torque);
+}
 
 }  // namespace
 
@@ -76,7 +73,7 @@ std::vector<EffectForm> rig_friction_forms() {
        .measurement = true,
        .form_tolerance = 0.15,
        .steady_only = of_an_instrument,
-       .make = maker<SealsAndBearing>()},
+       .make = maker<Taken<seals_and_bearing>>()},
       {.id = id,
        .form = "viscous",
        .equation = "M + a (r w)/(1 m/s), v/(r w) held above 0.02",

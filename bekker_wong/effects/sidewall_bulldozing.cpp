@@ -62,17 +62,16 @@ double sideways_travel(const Rolling& r, int i) {
   return std::abs(r.around.motion.lateral) > 1e-12 ? std::copysign(std::numeric_limits<double>::infinity(), j_y) : 0.0;
 }
 
-/// What soil that presses on the wall with `pressing` [N] at node i does to a wall that slides along it with the
+/// What soil that presses on the wall with `pressing` [N] at a node does to a wall that slides along it with the
 /// coefficient of friction mu; adds to `sum`. acts_at: how far above the rim, as a share of the depth.
-void rub(AddedForce& sum, double mu, double pressing, double acts_at, const Edge& e, const Rolling& r, int i) {
-  const double sine = std::copysign(std::sqrt(1 - e.cosine * e.cosine), r.patch.theta[i]);
+void rub(AddedForce& sum, double mu, double pressing, double acts_at, const Edge& e, const Rolling& r) {
   const double arm = r.outline.radius - acts_at * e.depth;
   const double turns = r.around.motion.locked ? 0.0 : arm / r.outline.radius;
-  const double back = turns * e.cosine - r.around.motion.forward, down = turns * sine;  // of the wall over the soil
+  const double back = turns * e.cosine - r.around.motion.forward, down = turns * e.sine;  // of the wall over the soil
   const double speed = std::sqrt(back * back + down * down);
   if (!(speed > 1e-12)) return;
   const double forward = mu * pressing * back / speed, upward = mu * pressing * down / speed;
-  sum.forward += forward, sum.vertical += upward, sum.torque += arm * (forward * e.cosine + upward * sine);
+  sum.forward += forward, sum.vertical += upward, sum.torque += arm * (forward * e.cosine + upward * e.sine);
 }
 
 /// Force by metre of arc from `Resistance`, called up node by node; p[1], if there: the wall's coefficient of friction.
@@ -81,14 +80,15 @@ class Wall final : public Effect {
  public:
   explicit Wall(const std::vector<double>& p) : amplitude_(p[0]), friction_(p.size() > 1 ? p[1] : 0.0) {}
   void added_forces(ForceLedger& ledger, const Rolling& r) const override {
-    const double downhill = downhill_share(r.around), entry_cosine = std::cos(r.patch.angles.entry);
+    const double downhill = downhill_share(r.around);
     if (amplitude_ == 0.0 || (r.around.motion.lateral == 0.0 && downhill == 0.0)) return;
     const Resistance resistance(r);
+    const Rim rim(r);
     std::array<Edge, ContactPatch::capacity> edges;
     ContactPatch::Array resisting;
     double whole = 0.0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(r.patch.count); ++i) {
-      edges[i] = edge(r, static_cast<int>(i), entry_cosine);
+      edges[i] = rim.at(static_cast<int>(i));
       whole += resisting[i] = r.patch.arc[i] * resistance(edges[i]);
     }
     if (!(whole > 0.0)) return;
@@ -97,7 +97,7 @@ class Wall final : public Effect {
       const double q = sideways_travel(r, static_cast<int>(i)) + downhill / whole;
       const double force = amplitude_ * resisting[i] * std::copysign(-std::expm1(-std::abs(q)), q);
       sum.lateral += force;
-      if (friction_ > 0.0) rub(sum, friction_, std::abs(force), Resistance::acts_at, edges[i], r, static_cast<int>(i));
+      if (friction_ > 0.0) rub(sum, friction_, std::abs(force), Resistance::acts_at, edges[i], r);
     }
     ledger.add(sum);
   }
@@ -115,10 +115,10 @@ class SideArea final : public Effect {
     const Kinematics& motion = r.around.motion;
     const double downhill = downhill_share(r.around);
     if (amplitude_ == 0.0 || (motion.lateral == 0.0 && downhill == 0.0)) return;
-    const double entry_cosine = std::cos(r.patch.angles.entry);
+    const Rim rim(r);
     double area = 0.0;
     for (int i = 0; i < r.patch.count; ++i) {
-      const Edge e = edge(r, i, entry_cosine);
+      const Edge e = rim.at(i);
       area += r.patch.arc[i] * e.cosine * e.depth;
     }
     const double whole = area * mean_ground_pressure(r);

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numeric>
 #include <random>
-#include <thread>
 #include <tuple>
 
 #include "compare/loop/smooth_term.hpp"
@@ -84,32 +82,20 @@ std::vector<std::optional<FoldResult>> run_folds(const Campaign& campaign, const
                                                  int threads, const Progress& progress) {
   const std::vector<int> fold = deal(whole.observations.conditions, folds, options.seed);
   std::vector<std::optional<FoldResult>> results(static_cast<std::size_t>(folds));
-  std::atomic<int> next{0}, done{0};
-  std::atomic<bool> stopped{false};
-  std::exception_ptr failure;
-  struct Stopped {};
-  const auto work = [&](const std::function<void()>& pulse) {
+  std::atomic<std::size_t> done{0};
+  const Pulse tell = [&] {
+    if (progress) progress(done, static_cast<std::size_t>(folds));
+  };
+  const int even = folds / threads * threads;  // folds beyond these find threads without a fold
+  Crew{threads, tell}.each(folds, [&](int f, const Pulse& pulse) {
     IdentifyOptions own = options;
-    own.pulse = pulse;
-    for (int f = next++; f < folds && !stopped; f = next++, ++done) try {
-        results[static_cast<std::size_t>(f)] = run_fold(campaign, whole, noise, own, fold, f);
-      } catch (const NoSolution&) {  // this fold's conditions can't be fitted alone: its cells stay unpredicted
-      } catch (const Stopped&) {
-      } catch (...) {
-        if (!stopped.exchange(true)) failure = std::current_exception();
-      }
-  };
-  const auto halt = [&] {
-    if (stopped) throw Stopped();
-  };
-  std::vector<std::thread> crew;
-  for (int t = 1; t < std::min(threads, folds); ++t) crew.emplace_back(work, halt);
-  work([&] {
-    halt();
-    if (progress) progress(static_cast<std::size_t>(done), static_cast<std::size_t>(folds));
+    own.crew = {f < even ? 1 : std::max(1, threads / (folds - even)), pulse};
+    try {
+      results[static_cast<std::size_t>(f)] = run_fold(campaign, whole, noise, own, fold, f);
+    } catch (const NoSolution&) {  // this fold's conditions can't be fitted alone: its cells stay unpredicted
+    }
+    ++done;
   });
-  for (std::thread& t : crew) t.join();
-  if (failure) std::rethrow_exception(failure);
   return results;
 }
 
@@ -193,12 +179,13 @@ std::optional<Eigen::VectorXd> held_out_density(const Campaign& campaign, const 
 
 PredictiveGain predictive_gain(const Campaign& campaign, const Identification& whole, const std::vector<Term>& terms,
                                const Fit& fit, const std::vector<Term>& over_terms, const Fit& over_fit, int folds,
-                               std::uint64_t seed) {
+                               std::uint64_t seed, const Crew& crew) {
   const Observations& all = whole.observations;
   folds = std::min(folds, all.conditions);
   const std::vector<int> fold = deal(all.conditions, folds, seed);
-  std::map<int, double> gain;
-  for (int f = 0; f < folds; ++f) {
+  std::vector<std::map<int, double>> gains(static_cast<std::size_t>(folds));  // of each condition left out
+  crew.each(folds, [&](int f, const Pulse& pulse) {
+    pulse();
     std::vector<bool> keep(fold.size()), held(fold.size());
     std::vector<int> original;
     for (std::size_t c = 0; c < fold.size(); ++c) {
@@ -208,13 +195,15 @@ PredictiveGain predictive_gain(const Campaign& campaign, const Identification& w
     const Observations training = of_conditions(all, keep), rest = of_conditions(all, held);
     const auto base = held_out_density(campaign, whole, training, rest, over_terms, over_fit.theta);
     const auto better = held_out_density(campaign, whole, training, rest, terms, fit.theta);
-    if (!base || !better) continue;
+    if (!base || !better) return;
     for (std::size_t i = 0; i < rest.cells.size(); ++i) {
       const int condition = rest.condition[static_cast<std::size_t>(rest.cells[i].row)];
       const Eigen::Index k = static_cast<Eigen::Index>(i);
-      gain[original[static_cast<std::size_t>(condition)]] += (*better)[k] - (*base)[k];
+      gains[static_cast<std::size_t>(f)][original[static_cast<std::size_t>(condition)]] += (*better)[k] - (*base)[k];
     }
-  }
+  });
+  std::map<int, double> gain;
+  for (std::map<int, double>& of_fold : gains) gain.merge(of_fold);
   if (gain.size() < 2) return {};
   const auto [mean, error] = over_conditions(gain);
   return {mean, error, static_cast<int>(gain.size())};

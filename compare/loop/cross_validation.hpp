@@ -47,7 +47,7 @@ struct PredictiveGain {
 };
 PredictiveGain predictive_gain(const Campaign& campaign, const Identification& whole, const std::vector<Term>& terms,
                                const Fit& fit, const std::vector<Term>& over_terms, const Fit& over_fit, int folds,
-                               std::uint64_t seed);
+                               std::uint64_t seed, const Crew& crew = {});
 
 /// Folds are made of whole conditions, dealt by a seeded shuffle. Steps from the noise estimate to the choice of the
 /// effect are redone in each. noise: of the cells left out, in whose sd errors are told. threads: folds at once; the

@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "compare/loop/condition_functions.hpp"
 
 namespace soilbin::compare {
 
@@ -164,27 +165,11 @@ MatrixXd in_every_channel(const Observations& observations, const NoiseFloor& no
 
 namespace {
 
-/// Waves of one to `most` periods over a covariate's range.
-MatrixXd waves(const VectorXd& values, int most) {
-  const double low = values.minCoeff(), high = values.maxCoeff();
-  MatrixXd columns(values.size(), 2 * most);
-  for (int k = 1; k <= most; ++k)
-    for (Index i = 0; i < values.size(); ++i) {
-      const double phase = 2 * std::numbers::pi * k * (values[i] - low) / (1.05 * (high - low));
-      columns(i, 2 * k - 2) = std::sqrt(2.0) * std::sin(phase);
-      columns(i, 2 * k - 1) = std::sqrt(2.0) * std::cos(phase);
-    }
-  return columns;
-}
-
 /// Functions of the rows, family by family.
 std::vector<MatrixXd> row_families(const Observations& observations) {
-  const Index rows = static_cast<Index>(observations.rows.size());
-  const int most = std::clamp(static_cast<int>(rows) / 4, 2, 14);
+  const int most = std::clamp(static_cast<int>(observations.rows.size()) / 4, 2, 14);
   std::vector<MatrixXd> families = {with_constant(smooth_basis(observations, most))};
-  for (const Covariate& c : covariates(observations))
-    if (c.name == "slip" || c.name == "load" || c.name == "position" || c.name == "run")
-      families.push_back(waves(c.values, std::clamp(static_cast<int>(rows) / 10, 1, 5)));
+  for (MatrixXd& family : wave_families(observations)) families.push_back(std::move(family));
   return families;
 }
 
@@ -212,7 +197,7 @@ MatrixXd carried_over(const Observations& observations, const NoiseFloor& noise,
 /// A gain of all forces that waves with a covariate: an amplifier warming from day to day, a frame that gives way.
 MatrixXd common_gain(const Observations& observations, const Whitening& whitening, const VectorXd& prediction,
                      const VectorXd& values) {
-  const MatrixXd functions = waves(values, std::clamp(static_cast<int>(observations.rows.size()) / 10, 1, 5));
+  const MatrixXd functions = waves(values);
   MatrixXd columns = MatrixXd::Zero(prediction.size(), functions.cols());
   for (Index i = 0; i < prediction.size(); ++i) {
     const Cell& cell = observations.cells[static_cast<std::size_t>(i)];

@@ -64,13 +64,13 @@ struct Tolerance {
 /// tolerances: of each term, averaged over every choice of a scale for each.
 double log_evidence(const LinearProblem& exact, const std::vector<Tolerance>& tolerances);
 
-/// Their columns as one matrix.
-Eigen::MatrixXd side_by_side(Eigen::Index cells, const std::vector<Tolerance>& tolerances);
-
 /// The same where no model comes near the noise: what is left is then not noise of a known size, and forms that could
 /// take it over within their tolerance say nothing. With the residual's variance unknown: -N/2 ln(chi2) - k/2 ln N
 /// (Schwarz 1978), k free parameters.
 double foreign_log_evidence(const Fit& fit, Eigen::Index cells);
+
+/// The columns of all tolerances as one matrix.
+Eigen::MatrixXd side_by_side(Eigen::Index cells, const std::vector<Tolerance>& tolerances);
 
 /// What an unnamed effect could look like: families of functions of the conditions (smooth; waves in slip, in position,
 /// in time; what the run before left behind), each in every channel, whitened to about 1 sd a cell.

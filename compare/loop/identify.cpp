@@ -152,6 +152,18 @@ void weigh(Identification& id) {
                    [](const Weighted& x, const Weighted& y) { return x.weight > y.weight; });
 }
 
+/// Fits what is asked for, several at once; the rivals whose fit balances join, in order.
+template <class Asked, class Refit>
+void join(Identification& id, const IdentifyOptions& options, const std::vector<Asked>& asked, const Refit& refit_one) {
+  std::vector<std::optional<Rival>> found(asked.size());
+  options.crew.each(static_cast<int>(asked.size()), [&](int i, const Pulse& pulse) {
+    pulse();
+    found[static_cast<std::size_t>(i)] = refit_one(asked[static_cast<std::size_t>(i)]);
+  });
+  for (std::optional<Rival>& rival : found)
+    if (rival) id.rivals.push_back(std::move(*rival));
+}
+
 double strongest(const std::vector<Signature>& signatures) {
   double most = 0.0;
   for (const Signature& s : signatures)
@@ -165,19 +177,16 @@ void extend(const Campaign& campaign, Identification& id, std::size_t index, con
   const WheelPredictor predictor(campaign, id.observations, from.terms);
   const LinearProblem problem = problem_of(id, predictor, from.fit);
   const std::vector<Signature> signatures =
-      trace({campaign, id.observations, *id.whitening, predictor, from.fit, problem});
+      trace({campaign, id.observations, *id.whitening, predictor, from.fit, problem}, options.crew);
   const double p = family_wise_p(signatures, strongest(signatures), id.noise.typical_freedom(), options.simulations / 2,
                                  options.seed + 17 * from.terms.size());
   if (p > options.level) return;
-  for (const Signature* s : contenders(signatures, options.refits / 2)) {
-    options.pulse();
+  const int added = static_cast<int>(from.terms.size());
+  join(id, options, contenders(signatures, options.refits / 2), [&](const Signature* s) {
     std::vector<Term> terms = from.terms;
     terms.push_back(make_term(*s->term.form, id.observations, true));
-    const int added = static_cast<int>(from.terms.size());
-    if (auto rival =
-            refit(campaign, id, terms, {from.fit.theta, from.fit.chi2, {{added, reach_of(*s)}}, s->score * s->score}))
-      id.rivals.push_back(std::move(*rival));
-  }
+    return refit(campaign, id, terms, {from.fit.theta, from.fit.chi2, {{added, reach_of(*s)}}, s->score * s->score});
+  });
 }
 
 /// The rival of largest evidence among those wanted.
@@ -215,11 +224,18 @@ void extend_singles(const Campaign& campaign, Identification& id, const Identify
   }
 }
 
+/// A pair with one of its effects in another form, and where its fit starts.
+struct OtherForm {
+  std::vector<Term> terms;
+  RivalStart start;
+};
+
 /// Refits a pair with each of the other forms of its effects in turn.
 void other_forms(const Campaign& campaign, Identification& id, const Rival& from, std::set<FormSet>& fitted,
                  const IdentifyOptions& options) {
   const WheelPredictor predictor(campaign, id.observations, from.terms);
   std::set<const bekker_wong::EffectForm*> done;
+  std::vector<OtherForm> others;
   for (const Signature& s : id.signatures)
     for (std::size_t m = 0; m < from.terms.size(); ++m) {
       if (s.term.form->id != from.terms[m].form->id || !(s.projected_norm > 0) || !done.insert(s.term.form).second)
@@ -227,16 +243,15 @@ void other_forms(const Campaign& campaign, Identification& id, const Rival& from
       std::vector<Term> terms = from.terms;
       terms[m] = make_term(*s.term.form, id.observations, true);
       if (!fitted.insert(forms_of(terms)).second) continue;
-      options.pulse();
       std::map<int, std::vector<double>> traced;
       for (int t = 0; t < static_cast<int>(terms.size()); ++t) {
         traced[t] = terms[static_cast<std::size_t>(t)].defaults;  // shapes that suited the other form may be far off
         traced[t].front() = from.fit.theta[predictor.amplitude_index(t)];
       }
       traced[static_cast<int>(m)] = reach_of(s);
-      if (auto rival = refit(campaign, id, terms, {id.base.theta, id.base.chi2, traced, id.base.chi2 - from.fit.chi2}))
-        id.rivals.push_back(std::move(*rival));
+      others.push_back({std::move(terms), {id.base.theta, id.base.chi2, traced, id.base.chi2 - from.fit.chi2}});
     }
+  join(id, options, others, [&](const OtherForm& other) { return refit(campaign, id, other.terms, other.start); });
 }
 
 /// The same for the few pairs that stand close to the best set so far, so that they are weighed over as many forms as a
@@ -263,23 +278,19 @@ void name_effects(const Campaign& campaign, const IdentifyOptions& options, Iden
   id.base_log_evidence = log_evidence(problem, {});
   id.unnamed_gain =
       unnamed_gain(problem, unnamed_families(id.observations, id.noise, *id.whitening, id.base.prediction));
-  id.signatures = trace({campaign, id.observations, *id.whitening, base, id.base, problem});
+  id.signatures = trace({campaign, id.observations, *id.whitening, base, id.base, problem}, options.crew);
   id.p_value = family_wise_p(id.signatures, strongest(id.signatures), id.noise.typical_freedom(), options.simulations,
                              options.seed);
-  for (const Signature* s : contenders(id.signatures, options.refits)) {
-    options.pulse();
-    if (auto rival = refit(campaign, id, {make_term(*s->term.form, id.observations, true)},
-                           {id.base.theta, id.base.chi2, {{0, reach_of(*s)}}, s->score * s->score}))
-      id.rivals.push_back(std::move(*rival));
-  }
+  join(id, options, contenders(id.signatures, options.refits), [&](const Signature* s) {
+    return refit(campaign, id, {make_term(*s->term.form, id.observations, true)},
+                 {id.base.theta, id.base.chi2, {{0, reach_of(*s)}}, s->score * s->score});
+  });
   if (id.p_value > options.level || id.rivals.empty()) {
     if (!id.rivals.empty()) weigh(id);
     return;
   }
-  for (const SignaturePair& pair : strongest_pairs(id.signatures, options.refits / 2)) {
-    options.pulse();
-    if (auto rival = refit_pair(campaign, id, pair)) id.rivals.push_back(std::move(*rival));
-  }
+  join(id, options, strongest_pairs(id.signatures, options.refits / 2),
+       [&](const SignaturePair& pair) { return refit_pair(campaign, id, pair); });
   extend_singles(campaign, id, options);
   judge_misfit(campaign, id);
   complete_pairs(campaign, id, options);
@@ -310,7 +321,7 @@ double p_beside_others(const Campaign& campaign, const Identification& id, const
   if (!without) return 1.0;
   const LinearProblem problem = problem_of(id, predictor, *without);
   const std::vector<Signature> signatures =
-      trace({campaign, id.observations, *id.whitening, predictor, *without, problem});
+      trace({campaign, id.observations, *id.whitening, predictor, *without, problem}, options.crew);
   std::vector<Signature> own;
   for (const Signature& s : signatures)
     if (s.term.form->id == rival.terms[term].form->id) own.push_back(s);

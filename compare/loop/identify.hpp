@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -37,7 +36,7 @@ struct IdentifyOptions {
   int refits = 16;  ///< forms refitted in full at each stage, at the most
   std::uint64_t seed = 1;
   bool drop_outliers = true;
-  std::function<void()> pulse = [] {};  ///< called before every fit of a rival; may throw to stop the work
+  Crew crew = {};  ///< for traces and fits; its pulse comes before each
 };
 
 /// What one pass over a set of observations finds.

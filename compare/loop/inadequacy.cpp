@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/loop/condition_functions.hpp"
 #include "compare/loop/rival_fit.hpp"
 
 namespace soilbin::compare {

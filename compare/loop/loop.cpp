@@ -64,6 +64,7 @@ bool stands(const PredictiveGain& gain, double log_odds) {
   return gain.mean > gain.std_error || (gain.mean > 0 && log_odds > odds_enough);
 }
 
+/// Whether the best set stands against the base model.
 bool confirmed(const LoopAnswer& answer) {
   const Identification& id = answer.details;
   return id.best &&
@@ -224,17 +225,18 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
 
 /// Backward: an effect stays only if conditions left out are predicted better with it by a standard error; then the
 /// same for what stays against the base model, and what it leaves.
-void confirm(const Campaign& campaign, LoopAnswer& answer, std::uint64_t seed) {
+void confirm(const Campaign& campaign, LoopAnswer& answer, const IdentifyOptions& options) {
   Identification& id = answer.details;
   for (auto fewer = best_subset(id, *id.best); fewer; fewer = best_subset(id, *id.best)) {
     const Rival &more = id.rivals[*id.best], &less = id.rivals[*fewer];
-    const PredictiveGain gain =
-        predictive_gain(campaign, id, more.terms, more.fit, less.terms, less.fit, choice_folds, seed);
+    const PredictiveGain gain = predictive_gain(campaign, id, more.terms, more.fit, less.terms, less.fit, choice_folds,
+                                                options.seed, options.crew);
     if (stands(gain, weighed(id, more.ids).log_evidence - weighed(id, less.ids).log_evidence)) break;
     prefer(campaign, id, *fewer);
   }
   const Rival& best = id.rivals[*id.best];
-  answer.choice_gain = predictive_gain(campaign, id, best.terms, best.fit, {}, id.base, choice_folds, seed);
+  answer.choice_gain =
+      predictive_gain(campaign, id, best.terms, best.fit, {}, id.base, choice_folds, options.seed, options.crew);
   answer.after = lack_of_fit(best.fit, id.noise, static_cast<Eigen::Index>(id.observations.cells.size()));
   answer.reruns_after = rerun_test(id.observations, id.noise, best.fit);
   if (confirmed(answer) && !more_than_named(answer)) answer.noise = noise_beside(campaign, id, best);
@@ -250,7 +252,7 @@ bool too_small(const Campaign& campaign, const Observations& observations, std::
 }
 
 /// Steps of the progress: what the identification and the choice take of all.
-constexpr std::size_t all_steps = 100, identified = 30, chosen = 40;
+constexpr std::size_t all_steps = 100, identified = 30, chosen = 40, pulses_a_step = 10;
 
 /// What the data allow before any effect is judged; false where they are too few, with the reason.
 bool describe_base(const Campaign& campaign, LoopAnswer& answer) {
@@ -319,11 +321,11 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   const Observations observations = observe(campaign);
   if (too_small(campaign, observations, answer.reason)) return answer;
   IdentifyOptions whole = options.identify;
-  std::size_t fits = 0;
-  whole.pulse = [&] { say(std::min(++fits, identified)); };
+  std::size_t pulses = 0;
+  whole.crew = {options.threads, [&] { say(std::min(++pulses / pulses_a_step, identified)); }};
   answer.details = identify(campaign, observations, whole);
   if (!describe_base(campaign, answer)) return answer;
-  if (answer.details.best) confirm(campaign, answer, options.identify.seed);
+  if (answer.details.best) confirm(campaign, answer, whole);
   say(chosen);
   const IdentifyOptions inner = of_a_fold(options.identify);
   if (options.validate)
@@ -331,8 +333,8 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
         campaign, answer.details, answer.noise, inner, options.folds, options.threads,
         [&](std::size_t done, std::size_t folds) { say(chosen + (all_steps - 1 - chosen) * done / folds); });
   decide(campaign, answer);
-  describe_effects(campaign, answer, options.identify);
-  whole.pulse = [&] { say(all_steps - 1); };
+  whole.crew.pulse = [&] { say(all_steps - 1); };
+  describe_effects(campaign, answer, whole);
   if (answer.verdict == Verdict::unknown_effect) read_again(campaign, answer, options.limits, whole);
   if (answer.verdict == Verdict::effect_found) {
     answer.ambiguity_set = weighted_sets(answer.details, competitors(answer.details));

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "compare/loop/condition_functions.hpp"
 #include "compare/loop/setpoint_squares.hpp"
 #include "scenario/estimate.hpp"
 
@@ -72,63 +73,6 @@ Whitening Whitening::beside(const MatrixXd& columns) const {
   const MatrixXd r = joined.term_basis_.transpose() * columns, one = MatrixXd::Identity(wide, wide);
   joined.term_change_ = MatrixXd(one + r * r.transpose()).llt().matrixL().solve(one) - one;
   return joined;
-}
-
-namespace {
-
-/// Adds a column scaled to mean 0 and mean square 1, unless it is (nearly) a combination of those there.
-class BasisBuilder {
- public:
-  BasisBuilder(Index rows, int most) : rows_(rows), most_(most) {}
-  void add(VectorXd column) {
-    if (static_cast<int>(columns_.size()) >= most_) return;
-    column.array() -= column.mean();
-    const double size = std::sqrt(column.squaredNorm() / static_cast<double>(rows_));
-    if (!(size > 1e-9)) return;
-    column /= size;
-    VectorXd rest = column;
-    for (const VectorXd& q : orthonormal_) rest -= q.dot(rest) * q;
-    if (rest.squaredNorm() < 1e-4 * static_cast<double>(rows_)) return;
-    orthonormal_.push_back(rest.normalized());
-    columns_.push_back(std::move(column));
-  }
-  MatrixXd build() const {
-    MatrixXd basis(rows_, static_cast<Index>(columns_.size()));
-    for (std::size_t i = 0; i < columns_.size(); ++i) basis.col(static_cast<Index>(i)) = columns_[i];
-    return basis;
-  }
-
- private:
-  Index rows_;
-  int most_;
-  std::vector<VectorXd> columns_, orthonormal_;
-};
-
-VectorXd to_unit_interval(const VectorXd& values) {
-  const double low = values.minCoeff(), high = values.maxCoeff();
-  return ((values.array() - low) * (2 / (high - low)) - 1).matrix();
-}
-
-}  // namespace
-
-MatrixXd with_constant(const MatrixXd& functions) {
-  MatrixXd all(functions.rows(), functions.cols() + 1);
-  all << VectorXd::Ones(functions.rows()), functions;
-  return all;
-}
-
-MatrixXd smooth_basis(const Observations& observations, int max_columns) {
-  BasisBuilder basis(static_cast<Index>(observations.rows.size()), max_columns);
-  std::vector<VectorXd> u;
-  for (const Covariate& c : covariates(observations)) u.push_back(to_unit_interval(c.values));
-  for (const VectorXd& x : u) basis.add(x);
-  if (!u.empty()) basis.add(u[0].array().square());
-  if (!u.empty()) basis.add(u[0].array().cube());
-  for (std::size_t i = 1; i < u.size(); ++i) basis.add(u[0].array() * u[i].array());
-  for (std::size_t i = 1; i < u.size(); ++i) basis.add(u[i].array().square());
-  for (std::size_t i = 2; i < u.size(); ++i) basis.add(u[1].array() * u[i].array());
-  for (std::size_t i = 1; i < u.size(); ++i) basis.add(u[0].array().square() * u[i].array());
-  return basis.build();
 }
 
 namespace {
@@ -225,43 +169,64 @@ double typical_noise(const VectorXd& residual, const VectorXd& prediction) {
   return std::max(spread > range ? spread : 0.02 * range, 1e-12);
 }
 
-ChannelFit fit_channel(const Observations& observations, const NoiseData& data, const MatrixXd& basis, int channel) {
-  const ChannelCells cells = gather(observations, channel);
+/// What the cells of one channel are made of, and the columns that may explain them.
+struct ChannelData {
+  VectorXd e, f;  ///< residuals about the declared soil's prediction, and the predictions
+  MatrixXd soil, smooth;
+};
+
+ChannelData channel_data(const ChannelCells& cells, const NoiseData& data, const MatrixXd& basis) {
   const Index n = static_cast<Index>(cells.cell.size());
-  const int columns = static_cast<int>(std::clamp<Index>(n / 3, 1, basis.cols() + 1));
-  VectorXd e(n), f(n);
-  MatrixXd soil(n, data.soil_columns.cols()), smooth(n, columns);
-  for (Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    e[i] = data.residual[cells.cell[k]];
-    f[i] = data.prediction[cells.cell[k]];
-    soil.row(i) = data.soil_columns.row(cells.cell[k]);
-    smooth(i, 0) = 1.0;
-    for (int c = 1; c < columns; ++c) smooth(i, c) = basis(cells.row[k], c - 1);
-  }
-  const double typical = typical_noise(e, f), mean_square = f.squaredNorm() / static_cast<double>(n);
-  double best = std::numeric_limits<double>::infinity(), sigma = typical, tau = 0.0, share = 0.0;
+  const MatrixXd functions = basis(cells.row, Eigen::seqN(0, std::clamp<Index>(n / 3 - 1, 0, basis.cols())));
+  return {.e = data.residual(cells.cell),
+          .f = data.prediction(cells.cell),
+          .soil = data.soil_columns(cells.cell, Eigen::all),
+          .smooth = with_constant(functions)};
+}
+
+/// The likeliest sizes of noise and smooth function, and how the noise grows with the prediction.
+struct ChannelSizes {
+  double sigma = 0.0, tau = 0.0;
+  double share = 0.0;  ///< of the variance at the mean square prediction that grows with its square
+  double deviance = std::numeric_limits<double>::infinity();
+};
+
+/// Of the noise's variance over the cells, where a share of it grows with the prediction.
+VectorXd variance_shape(const VectorXd& f, double mean_square, double share) {
+  return (1 - share) + share * (0.02 + 0.98 * f.array().square() / std::max(mean_square, 1e-300));
+}
+
+ChannelSizes likeliest(const ChannelData& data, double mean_square) {
+  const double typical = typical_noise(data.e, data.f);
   const std::vector<double> shares =
-      n >= 30 && mean_square > 0 ? std::vector<double>{0.0, 0.5, 1.0} : std::vector<double>{0.0};
-  const auto shape_of = [&](double w) -> VectorXd {
-    return (1 - w) + w * (0.02 + 0.98 * f.array().square() / std::max(mean_square, 1e-300));
-  };
-  for (const double w : shares) {
-    const VarianceComponents model(e, soil, smooth, shape_of(w));
+      data.e.size() >= 30 && mean_square > 0 ? std::vector<double>{0.0, 0.5, 1.0} : std::vector<double>{0.0};
+  ChannelSizes best{.sigma = typical};
+  for (const double share : shares) {
+    const VarianceComponents model(data.e, data.soil, data.smooth, variance_shape(data.f, mean_square, share));
     for (int i = -32; i <= 20; ++i)
       for (const double ratio : {0.0, 0.3, 1.0, 3.0, 10.0, 40.0}) {
-        const double s = typical * std::exp(0.12 * i);
-        const double deviance = model.deviance(s, ratio * s) + std::pow(0.12 * i, 2) + 1.0 * w;
-        if (deviance < best) best = deviance, sigma = s, tau = ratio * s, share = w;
+        const double sigma = typical * std::exp(0.12 * i), tau = ratio * sigma;
+        const double deviance = model.deviance(sigma, tau) + std::pow(0.12 * i, 2) + 1.0 * share;
+        if (deviance < best.deviance) best = {sigma, tau, share, deviance};
       }
   }
+  return best;
+}
+
+ChannelFit fit_channel(const Observations& observations, const NoiseData& data, const ChannelCells& cells,
+                       const MatrixXd& basis) {
+  const ChannelData channel = channel_data(cells, data, basis);
+  const double n = static_cast<double>(cells.cell.size()), mean_square = channel.f.squaredNorm() / n;
+  const auto [sigma, tau, share, deviance] = likeliest(channel, mean_square);
+  const VarianceComponents model(channel.e, channel.soil, channel.smooth,
+                                 variance_shape(channel.f, mean_square, share));
   ChannelFit fit;
   double trace = 0.0;
-  fit.score = VarianceComponents(e, soil, smooth, shape_of(share)).studentized(sigma, tau, trace, fit.plain);
+  fit.score = model.studentized(sigma, tau, trace, fit.plain);
   fit.noise = {.measured = true,
                .floor = sigma * std::sqrt(1 - 0.98 * share),
                .growth = share > 0 ? sigma * std::sqrt(0.98 * share / mean_square) : 0.0,
-               .freedom = std::max(1.0, static_cast<double>(n) - trace),
+               .freedom = std::max(1.0, n - trace),
                .rerun_sd = pooled_rerun_sd(observations, cells, data.residual)};
   return fit;
 }
@@ -278,7 +243,7 @@ NoiseEstimate estimate_noise(const Observations& observations, const NoiseData& 
   for (int channel = 0; channel < channel_count; ++channel) {
     const ChannelCells cells = gather(observations, channel);
     if (cells.cell.size() < 3) continue;
-    const ChannelFit fit = fit_channel(observations, data, basis, channel);
+    const ChannelFit fit = fit_channel(observations, data, cells, basis);
     estimate.floor.channels[static_cast<std::size_t>(channel)] = fit.noise;
     for (std::size_t i = 0; i < cells.cell.size(); ++i) {
       const Index k = static_cast<Index>(i);

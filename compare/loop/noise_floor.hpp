@@ -49,13 +49,6 @@ class Whitening {
   Eigen::MatrixXd term_basis_, term_change_;
 };
 
-/// Smooth functions of the covariates over the rows, each of mean 0 and mean square 1, the plainest first: linear
-/// terms, powers of slip, products with slip and load, squares. At most max_columns.
-Eigen::MatrixXd smooth_basis(const Observations& observations, int max_columns);
-
-/// A column of ones, then the columns given.
-Eigen::MatrixXd with_constant(const Eigen::MatrixXd& functions);
-
 /// What a noise estimate starts from: the cells' residuals about the declared soil's linearised prediction,
 /// e = y - f + J (theta - prior), their predictions, and the columns of the soil's values (and
 /// of what else is fitted) in units of the priors' sd.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/loop/condition_functions.hpp"
+
 namespace soilbin::compare {
 
 using Eigen::Index;

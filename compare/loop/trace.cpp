@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 
 namespace soilbin::compare {
@@ -103,12 +104,19 @@ void add_signatures(const TracedModel& model, const Projector& off, const Term& 
 
 }  // namespace
 
-std::vector<Signature> trace(const TracedModel& model) {
+std::vector<Signature> trace(const TracedModel& model, const Crew& crew) {
   const Projector off(model.problem.nuisance);
-  std::vector<Signature> signatures;
+  std::vector<Term> terms;
   for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue())
     if (!named_already(model, form.id))
-      for (const Term& term : placed(form, model.observations)) add_signatures(model, off, term, signatures);
+      for (Term& term : placed(form, model.observations)) terms.push_back(std::move(term));
+  std::vector<std::vector<Signature>> of_term(terms.size());
+  crew.each(static_cast<int>(terms.size()), [&](int t, const Pulse& pulse) {
+    pulse();
+    add_signatures(model, off, terms[static_cast<std::size_t>(t)], of_term[static_cast<std::size_t>(t)]);
+  });
+  std::vector<Signature> signatures;
+  for (std::vector<Signature>& found : of_term) std::move(found.begin(), found.end(), std::back_inserter(signatures));
   return signatures;
 }
 

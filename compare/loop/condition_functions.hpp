@@ -1,0 +1,25 @@
+// Functions of the conditions that no law asked for: what stands in for an effect without a name.
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "compare/loop/observations.hpp"
+
+namespace soilbin::compare {
+
+/// Smooth functions of the covariates over the rows, each of mean 0 and mean square 1, the plainest first: linear
+/// terms, powers of slip, products with slip and load, squares. At most max_columns.
+Eigen::MatrixXd smooth_basis(const Observations& observations, int max_columns);
+
+/// A column of ones, then the columns given.
+Eigen::MatrixXd with_constant(const Eigen::MatrixXd& functions);
+
+/// Waves of one to a tenth as many periods as there are values (five at most) over the range of a covariate's values;
+/// sine and cosine of each, mean square about 1.
+Eigen::MatrixXd waves(const Eigen::VectorXd& values);
+
+/// Waves in slip, in load, in position, in the order of the runs: one family each that varies, over the rows.
+std::vector<Eigen::MatrixXd> wave_families(const Observations& observations);
+
+}  // namespace soilbin::compare

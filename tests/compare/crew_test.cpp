@@ -1,0 +1,61 @@
+// Pieces of work that several threads share.
+#include "compare/loop/crew.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace soilbin::compare {
+namespace {
+
+TEST(Crew, DoesEveryPieceOnce) {
+  for (const int threads : {1, 2, 7}) {
+    std::vector<std::atomic<int>> done(100);
+    Crew{.threads = threads}.each(100, [&](int i, const Pulse& pulse) {
+      pulse();
+      ++done[static_cast<std::size_t>(i)];
+    });
+    for (const auto& times : done) EXPECT_EQ(times, 1);
+  }
+  Crew{.threads = 3}.each(0, [](int, const Pulse&) { FAIL(); });
+}
+
+// Progress is written by one thread.
+TEST(Crew, CallsItsPulseOnTheCallersThreadAlone) {
+  const std::thread::id caller = std::this_thread::get_id();
+  int pulses = 0;
+  const Crew crew{3, [&] {
+                    EXPECT_EQ(std::this_thread::get_id(), caller);
+                    ++pulses;
+                  }};
+  crew.each(50, [](int, const Pulse& pulse) {
+    for (int k = 0; k < 3; ++k) pulse();
+  });
+  EXPECT_LE(pulses, 150);
+}
+
+TEST(Crew, ThrowsThePieceThatFailedAndStartsNoMore) {
+  std::atomic<int> started{0};
+  const auto work = [&](int i, const Pulse&) {
+    ++started;
+    if (i == 3) throw std::runtime_error("the fourth");
+  };
+  EXPECT_THROW(Crew{.threads = 1}.each(1000, work), std::runtime_error);
+  EXPECT_EQ(started, 4);
+}
+
+// Ctrl-C: what the caller's pulse throws ends the pieces of all threads at their next pulse.
+TEST(Crew, EndsEveryThreadWhenThePulseThrows) {
+  struct Interrupted {};
+  const Crew crew{3, [] { throw Interrupted(); }};
+  const auto until_stopped = [](int, const Pulse& pulse) {
+    while (true) pulse();
+  };
+  EXPECT_THROW(crew.each(3, until_stopped), Interrupted);
+}
+
+}  // namespace
+}  // namespace soilbin::compare
