@@ -80,12 +80,4 @@ MatrixXd waves(const VectorXd& values) {
   return columns;
 }
 
-std::vector<MatrixXd> wave_families(const Observations& observations) {
-  std::vector<MatrixXd> families;
-  for (const Covariate& c : covariates(observations))
-    if (c.name == "slip" || c.name == "load" || c.name == "position" || c.name == "run")
-      families.push_back(waves(c.values));
-  return families;
-}
-
 }  // namespace soilbin::compare

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <vector>
 
 #include "compare/loop/observations.hpp"
 
@@ -18,8 +17,5 @@ Eigen::MatrixXd with_constant(const Eigen::MatrixXd& functions);
 /// Waves of one to a tenth as many periods as there are values (five at most) over the range of a covariate's values;
 /// sine and cosine of each, mean square about 1.
 Eigen::MatrixXd waves(const Eigen::VectorXd& values);
-
-/// Waves in slip, in load, in position, in the order of the runs: one family each that varies, over the rows.
-std::vector<Eigen::MatrixXd> wave_families(const Observations& observations);
 
 }  // namespace soilbin::compare

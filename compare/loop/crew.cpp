@@ -34,4 +34,9 @@ void Crew::each(int count, const std::function<void(int, const Pulse&)>& work) c
   if (failure) std::rethrow_exception(failure);
 }
 
+int Crew::share_of(int i, int count) const {
+  const int all = std::max(1, threads), full_rounds = count / all * all;
+  return i < full_rounds ? 1 : std::max(1, all / (count - full_rounds));
+}
+
 }  // namespace soilbin::compare

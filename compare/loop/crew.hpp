@@ -15,6 +15,8 @@ struct Crew {
   /// work(i, pulse) for every i from 0 to count - 1. The first exception of any stops the others at their next pulse
   /// and is thrown when all have ended.
   void each(int count, const std::function<void(int, const Pulse&)>& work) const;
+  /// Threads that piece i of `count` may use itself: pieces of a last round that isn't full find some idle.
+  int share_of(int i, int count) const;
 };
 
 }  // namespace soilbin::compare

@@ -86,10 +86,10 @@ std::vector<std::optional<FoldResult>> run_folds(const Campaign& campaign, const
   const Pulse tell = [&] {
     if (progress) progress(done, static_cast<std::size_t>(folds));
   };
-  const int even = folds / threads * threads;  // folds beyond these find threads without a fold
-  Crew{threads, tell}.each(folds, [&](int f, const Pulse& pulse) {
+  const Crew crew{threads, tell};
+  crew.each(folds, [&](int f, const Pulse& pulse) {
     IdentifyOptions own = options;
-    own.crew = {f < even ? 1 : std::max(1, threads / (folds - even)), pulse};
+    own.crew = {crew.share_of(f, folds), pulse};
     try {
       results[static_cast<std::size_t>(f)] = run_fold(campaign, whole, noise, own, fold, f);
     } catch (const NoSolution&) {  // this fold's conditions can't be fitted alone: its cells stay unpredicted

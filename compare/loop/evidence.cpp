@@ -169,7 +169,9 @@ namespace {
 std::vector<MatrixXd> row_families(const Observations& observations) {
   const int most = std::clamp(static_cast<int>(observations.rows.size()) / 4, 2, 14);
   std::vector<MatrixXd> families = {with_constant(smooth_basis(observations, most))};
-  for (MatrixXd& family : wave_families(observations)) families.push_back(std::move(family));
+  for (const Covariate& c : covariates(observations))
+    if (c.name == "slip" || c.name == "load" || c.name == "position" || c.name == "run")
+      families.push_back(waves(c.values));
   return families;
 }
 

@@ -223,8 +223,8 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
     answer.reason += fmt::format("; held-out error falls by {:.2g} +- {:.2g} sigma^2", cv.gain, cv.gain_error);
 }
 
-/// Backward: an effect stays only if conditions left out are predicted better with it by a standard error; then the
-/// same for what stays against the base model, and what it leaves.
+/// Backward: an effect stays only if the set with it stands against the set without; then the same for what stays
+/// against the base model, and what it leaves.
 void confirm(const Campaign& campaign, LoopAnswer& answer, const IdentifyOptions& options) {
   Identification& id = answer.details;
   for (auto fewer = best_subset(id, *id.best); fewer; fewer = best_subset(id, *id.best)) {

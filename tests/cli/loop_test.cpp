@@ -41,7 +41,7 @@ TEST(LoopCommand, RefusesALimitThatIsNone) {
   EXPECT_THAT(outcome.err, HasSubstr("did you mean 'load'"));
   EXPECT_THAT(soilbin("loop made-lesson --limit load=2m..3m").err, HasSubstr("'m' is a length"));
   EXPECT_THAT(soilbin("loop made-lesson --limit load=3kN..2kN").err, HasSubstr("the lower end is above the upper"));
-  EXPECT_THAT(soilbin("loop made-lesson --limit speed=0..1").err, HasSubstr("speed"));
+  EXPECT_THAT(soilbin("loop made-lesson --limit speed=0..1").err, HasSubstr("must be above 0 m/s"));
 }
 
 // A range with units or in the campaign's own; what has no limit keeps to the campaign's range.

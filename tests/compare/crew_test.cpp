@@ -12,7 +12,7 @@ namespace soilbin::compare {
 namespace {
 
 TEST(Crew, DoesEveryPieceOnce) {
-  for (const int threads : {1, 2, 7}) {
+  for (const int threads : {0, 1, 2, 7}) {
     std::vector<std::atomic<int>> done(100);
     Crew{.threads = threads}.each(100, [&](int i, const Pulse& pulse) {
       pulse();
@@ -21,6 +21,18 @@ TEST(Crew, DoesEveryPieceOnce) {
     for (const auto& times : done) EXPECT_EQ(times, 1);
   }
   Crew{.threads = 3}.each(0, [](int, const Pulse&) { FAIL(); });
+}
+
+// Five folds on two cores: the fifth has both. On sixteen each has three.
+TEST(Crew, GivesThePiecesOfALastRoundTheThreadsThatAreIdle) {
+  const auto shares = [](int threads) {
+    std::vector<int> of;
+    for (int i = 0; i < 5; ++i) of.push_back(Crew{.threads = threads}.share_of(i, 5));
+    return of;
+  };
+  EXPECT_EQ(shares(2), (std::vector<int>{1, 1, 1, 1, 2}));
+  EXPECT_EQ(shares(16), std::vector<int>(5, 3));
+  for (const int threads : {0, 1, 3, 5}) EXPECT_EQ(shares(threads), std::vector<int>(5, 1)) << threads;
 }
 
 // Progress is written by one thread.
