@@ -5,31 +5,15 @@
 #include <limits>
 
 namespace soilbin::bekker_wong {
+
+using gsl::Sample;
+
 namespace {
 
 constexpr double longest_step = 1.0;  // of the secant method, in ln(theta_1)
 constexpr double flattest = 0.02;     // slope below which the secant method is no safe guide
 constexpr double scan_step = 0.05;
 constexpr double lowest = -40.0;
-
-struct Sample {
-  double x, f;
-};
-
-/// Highest point of f between two samples either side of a higher one, by golden section; stops where f > 0.
-Sample top_of_hump(gsl::FunctionRef f, double low, double high) {
-  constexpr double golden = 0.6180339887498949;
-  const auto sample = [&](double x) { return Sample{x, f(x)}; };
-  Sample a = sample(high - golden * (high - low)), b = sample(low + golden * (high - low));
-  while (std::max(a.f, b.f) < 0.0 && high - low > 1e-9) {
-    if (a.f > b.f) {
-      high = b.x, b = a, a = sample(high - golden * (high - low));
-    } else {
-      low = a.x, a = b, b = sample(low + golden * (high - low));
-    }
-  }
-  return a.f > b.f ? a : b;
-}
 
 }  // namespace
 
@@ -53,24 +37,51 @@ std::optional<RisingRoot> rising_root(gsl::FunctionRef f, double start, double s
 FirstRoot first_rising_root(gsl::FunctionRef f, double upper) {
   Sample before{-std::numeric_limits<double>::infinity(), 0.0}, low{std::min(upper - scan_step, -7.0), 0.0};
   for (low.f = f(low.x); low.f >= 0.0; low.f = f(low.x))
-    if ((low.x -= 2.0) < lowest) return {{}, low.f};
+    if ((low.x -= 2.0) < lowest) return {{}, low};
   const auto root_between = [&](double a, double b) {
-    return FirstRoot{gsl::bracketed_root(f, a, b, 1e-15, 1e-14, "the balance of the load"), 0.0};
+    return FirstRoot{gsl::bracketed_root(f, a, b, 1e-15, 1e-14, "the balance of the load"), {}};
   };
-  FirstRoot none{{}, low.f};
+  FirstRoot none{{}, low};
+  const auto note = [&](const Sample& at) {
+    if (at.f > none.highest.f) none.highest = at;
+  };
   while (low.x < upper) {
     const double x = std::min(low.x + scan_step, upper);
     const Sample high{x, f(x)};
     if (high.f >= 0.0) return root_between(low.x, high.x);
-    none.highest = std::max(none.highest, high.f);
+    note(high);
     if (low.f >= high.f && low.f > before.f && std::isfinite(before.x)) {  // low is the highest of three: a hump
-      const Sample top = top_of_hump(f, before.x, high.x);
-      none.highest = std::max(none.highest, top.f);
+      const Sample top = gsl::bracketed_top(f, before, low, high, 1e-9, 0.0, "the balance of the load");
+      note(top);
       if (top.f >= 0.0) return root_between(before.x, top.x);
     }
     before = low, low = high;
   }
   return none;
+}
+
+Sample climb(gsl::FunctionRef f, double about, double upper) {
+  constexpr double first_step = 0.02, growth = 2.0, known_to = 1e-5;
+  const auto at = [&](double x) { return Sample{std::min(x, upper), f(std::min(x, upper))}; };
+  double step = first_step;
+  Sample behind = at(about), here = at(behind.x + step);
+  if (!(here.f > behind.f)) {
+    step = -step;
+    if (here.x > behind.x) {
+      std::swap(behind, here);
+    } else if (here = at(upper + step); !(here.f > behind.f)) {
+      return behind;  // the upper end
+    }
+  }
+  while (here.f < 0.0 && here.x < upper && here.x > lowest) {
+    const Sample next = at(here.x + step);
+    if (!(next.f > here.f)) {
+      const auto [left, right] = std::minmax(behind, next, [](const Sample& a, const Sample& b) { return a.x < b.x; });
+      return gsl::bracketed_top(f, left, here, right, known_to, 0.0, "the most that the soil carries");
+    }
+    behind = here, here = next, step *= growth;
+  }
+  return here;
 }
 
 }  // namespace soilbin::bekker_wong

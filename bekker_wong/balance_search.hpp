@@ -21,11 +21,14 @@ std::optional<RisingRoot> rising_root(gsl::FunctionRef f, double start, double s
 /// What a search of the whole range found.
 struct FirstRoot {
   std::optional<double> x;  ///< smallest root
-  double highest = 0.0;     ///< else: the greatest value of f
+  gsl::Sample highest;      ///< else: where f is greatest
 };
 
 /// Smallest x in (-40, upper] where f rises through 0: f is followed upward from where it is negative in steps of 0.05,
 /// a hump between two steps included; then Brent's method to 1e-15. Empty too where f > 0 however small x.
 FirstRoot first_rising_root(gsl::FunctionRef f, double upper);
+
+/// The high point of f, x up to `upper`, that a climb from `about` leads to; x to 1e-5.
+gsl::Sample climb(gsl::FunctionRef f, double about, double upper);
 
 }  // namespace soilbin::bekker_wong

@@ -11,8 +11,6 @@
 namespace soilbin::bekker_wong {
 namespace {
 
-constexpr double max_stress_share = 0.98;  // of theta_1, conventions.md
-
 /// Where a segment's ends are singular, so that its nodes crowd there.
 enum Crowd { nowhere = 0, at_start = 1, at_end = 2, at_both = 3 };
 

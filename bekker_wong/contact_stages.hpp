@@ -6,7 +6,10 @@
 
 namespace soilbin::bekker_wong {
 
-/// theta_m = (c1 + c2 |s|) theta_1, held below 0.98 theta_1 and not behind the exit; theta_2 = 0.
+/// Most that theta_m may be of theta_1.
+inline constexpr double max_stress_share = 0.98;
+
+/// theta_m = (c1 + c2 |s|) theta_1, held below max_stress_share theta_1 and not behind the exit; theta_2 = 0.
 ContactAngles base_angles(double theta_1, const SoilValues& soil, const Kinematics& motion);
 
 /// How quadrature nodes are laid over the contact.

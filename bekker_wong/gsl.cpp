@@ -3,6 +3,7 @@
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
+#include <gsl/gsl_min.h>
 #include <gsl/gsl_multimin.h>
 #include <gsl/gsl_roots.h>
 
@@ -111,6 +112,32 @@ double bracketed_root(FunctionRef f, double lower, double upper, double rel_tol,
     if (gsl_root_test_interval(a, b, 0.0, rel_tol) == GSL_SUCCESS) return gsl_root_fsolver_root(solver.get());
   }
   throw std::domain_error(what + ": no convergence in 200 iterations");
+}
+
+Sample bracketed_top(FunctionRef f, Sample before, Sample top, Sample after, double x_tol, double enough,
+                     const std::string& what) {
+  for (const Sample& side : {before, after}) {
+    if (top.f != side.f) continue;  // as high: higher between the two, or nowhere
+    const double between = 0.5 * (top.x + side.x), value = f(between);
+    if (value > top.f) top = {between, value};
+  }
+  if (!(top.f > before.f && top.f > after.f)) return top;
+  using Minimiser = std::unique_ptr<gsl_min_fminimizer, Freed<gsl_min_fminimizer_free>>;
+  const Minimiser minimiser(gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent));
+  if (!minimiser) throw std::bad_alloc();
+  const auto turned = [&](double x) { return -f(x); };
+  FunctionRef down(turned);
+  gsl_function g = as_gsl(down);
+  gsl_min_fminimizer_set_with_values(minimiser.get(), &g, top.x, -top.f, before.x, -before.f, after.x, -after.f);
+  constexpr int max_iterations = 100;
+  for (int i = 0; i < max_iterations && top.f < enough; ++i) {
+    if (const int status = gsl_min_fminimizer_iterate(minimiser.get()); status != GSL_SUCCESS)
+      throw std::domain_error(what + ": " + gsl_strerror(status));
+    top = {gsl_min_fminimizer_x_minimum(minimiser.get()), -gsl_min_fminimizer_f_minimum(minimiser.get())};
+    const double a = gsl_min_fminimizer_x_lower(minimiser.get()), b = gsl_min_fminimizer_x_upper(minimiser.get());
+    if (gsl_min_test_interval(a, b, x_tol, 0.0) == GSL_SUCCESS) break;
+  }
+  return top;
 }
 
 double integrate(FunctionRef f, double a, double b, double rel_tol, const std::string& what) {

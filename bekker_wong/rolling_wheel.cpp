@@ -159,6 +159,15 @@ double RollingWheel::vertical(const Prepared& p, const ContactPatch& patch) cons
          });
 }
 
+/// theta_1 of the wheel standing still, by Bekker's formula: where a search starts.
+double RollingWheel::static_angle(const Prepared& p) const {
+  SoilValues guessed = p.soil;
+  guessed.exponent = std::min(guessed.exponent, 2.5);  // Bekker's formula ends at 3
+  const double share =
+      bekker_static_sinkage(guessed, p.outline.radius, p.outline.width, p.around.normal_load) / p.outline.radius;
+  return std::acos(1.0 - std::min(share, 0.8 * max_sinkage_share));
+}
+
 /// A braked wheel's shear stress pushes it down, so that the load carried may rise, fall and, where the shear
 /// displacement turns back, rise again. Looks from a root downward until even what lifts the wheel would not carry the
 /// load.
@@ -177,29 +186,26 @@ bool RollingWheel::is_smallest(const Prepared& p, double log_theta, ContactPatch
   return true;
 }
 
-double RollingWheel::balance(Prepared& p, ContactPatch& patch) const {
+FirstRoot RollingWheel::balance(Prepared& p, double about, ContactPatch& patch) const {
   const double load = p.around.normal_load, upper = std::log(deepest_angle());
   // ln(carried/load) against ln(theta_1) is nearly a line of slope 2n + 1.
   const auto imbalance = [&](double log_theta) {
     fill_patch(p, std::exp(log_theta), patch);
     return log_share(vertical(p, patch) / load);
   };
-  SoilValues guessed = p.soil;
-  guessed.exponent = std::min(guessed.exponent, 2.5);  // Bekker's formula ends at 3
-  const double static_share =
-      bekker_static_sinkage(guessed, p.outline.radius, p.outline.width, load) / p.outline.radius;
-  const double start = std::acos(1.0 - std::min(static_share, 0.8 * max_sinkage_share));
+  const double start = about > 0.0 ? about : static_angle(p);
   p.layout = coarse(layout_at(p, start));
   const auto near = rising_root(imbalance, std::log(start), 2 * p.soil.exponent + 1, upper, 1e-4);
   if (near && is_smallest(p, near->x, patch)) {
     p.layout = layout_at(p, std::exp(near->x));
-    if (const auto root = rising_root(imbalance, near->x, near->slope, upper, 1e-12)) return std::exp(root->x);
+    if (const auto root = rising_root(imbalance, near->x, near->slope, upper, 1e-12)) return {root->x, {}};
   }
+  if (about > 0.0)
+    if (const gsl::Sample top = climb(imbalance, std::log(about), upper); top.f < 0.0) return {{}, top};
   p.layout = layout_at(p, deepest_angle());
   const FirstRoot found = first_rising_root(imbalance, upper);
-  if (!found.x) refuse(p, found.highest, patch);
-  fill_patch(p, std::exp(*found.x), patch);
-  return std::exp(*found.x);
+  if (found.x) fill_patch(p, std::exp(*found.x), patch);
+  return found;
 }
 
 void RollingWheel::refuse(const Prepared& p, double highest, ContactPatch& patch) const {
@@ -254,15 +260,39 @@ void RollingWheel::read(const Prepared& p, RolledWheel& wheel) const {
   for (const auto& effect : effects_) effect->sensor(r, p.around);
 }
 
+double RollingWheel::finish(const Prepared& p, double theta_1, RolledWheel& wheel) const {
+  wheel.at = p.at;
+  wheel.motion = p.motion;
+  wheel.balance_angle = theta_1;
+  wheel.forces = integrate(p, wheel.patch);
+  const double carried = wheel.forces.vertical;
+  settle(p, wheel);
+  read(p, wheel);
+  return carried;
+}
+
 RolledWheel RollingWheel::roll(const OperatingCondition& at) const {
   Prepared p = prepare(at);
   RolledWheel wheel;
-  wheel.at = at;
-  wheel.motion = p.motion;
-  wheel.balance_angle = balance(p, wheel.patch);
-  wheel.forces = integrate(p, wheel.patch);
-  settle(p, wheel);
-  read(p, wheel);
+  const FirstRoot found = balance(p, 0.0, wheel.patch);
+  if (!found.x) refuse(p, found.highest.f, wheel.patch);
+  finish(p, std::exp(*found.x), wheel);
+  return wheel;
+}
+
+RolledWheel RollingWheel::roll_or_give_way(const OperatingCondition& at, double about) const {
+  Prepared p = prepare(at);
+  RolledWheel wheel;
+  const FirstRoot found = balance(p, about, wheel.patch);
+  wheel.gives_way = !found.x;
+  const double theta_1 = std::exp(found.x.value_or(found.highest.x));
+  if (wheel.gives_way) {
+    if (found.highest.f >= 0.0) refuse(p, found.highest.f, wheel.patch);
+    p.layout = layout_at(p, theta_1);
+    fill_patch(p, theta_1, wheel.patch);
+  }
+  const double carried = finish(p, theta_1, wheel);
+  if (wheel.gives_way) wheel.shortfall = -log_share(carried / p.around.normal_load);
   return wheel;
 }
 
@@ -280,21 +310,22 @@ ContactAngles RollingWheel::angles(const OperatingCondition& at, double theta_1)
   return angles(prepare(at), theta_1);
 }
 
-RolledWheel RollingWheel::at_entry_angle(const OperatingCondition& at, double theta_1) const {
+NodeLayout RollingWheel::nodes(const OperatingCondition& at, double theta_1) const {
+  return layout_at(prepare(at), theta_1);
+}
+
+RolledWheel RollingWheel::at_entry_angle(const OperatingCondition& at, double theta_1, const NodeLayout& nodes) const {
   if (!(theta_1 > 0.0 && theta_1 <= std::numbers::pi / 2)) throw InputError("theta_1 must lie in 0 .. 90 deg");
   Prepared p = prepare(at);
-  p.layout = layout_at(p, theta_1);
+  p.layout = nodes;
   RolledWheel wheel;
-  wheel.at = at;
-  wheel.motion = p.motion;
-  wheel.balance_angle = theta_1;
   fill_patch(p, theta_1, wheel.patch);
-  wheel.forces = integrate(p, wheel.patch);
-  const double carried = wheel.forces.vertical;
-  settle(p, wheel);
-  read(p, wheel);
-  wheel.forces.vertical = carried;
+  wheel.forces.vertical = finish(p, theta_1, wheel);
   return wheel;
+}
+
+RolledWheel RollingWheel::at_entry_angle(const OperatingCondition& at, double theta_1) const {
+  return at_entry_angle(at, theta_1, nodes(at, theta_1));
 }
 
 }  // namespace soilbin::bekker_wong

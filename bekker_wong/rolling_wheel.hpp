@@ -9,6 +9,7 @@
 
 namespace soilbin::bekker_wong {
 
+struct FirstRoot;
 struct NodeLayout;
 
 /// Fills j_x and j_y of a patch whose geometry is there, in place of the steady motion's: for a wheel whose motion
@@ -33,6 +34,8 @@ struct RolledWheel {
   WheelForces forces;
   double balance_angle = 0.0;  ///< theta_1 that balances the load [rad]
   double sinkage = 0.0;        ///< z [m]
+  bool gives_way = false;      ///< nothing balances: this is the wheel where the soil carries most
+  double shortfall = 0.0;      ///< then: ln(load/most that the soil carries)
   Reading reading;             ///< what conventions.md calls F_DP, M, z, F_y, after the sensor joint
 };
 
@@ -52,9 +55,18 @@ class RollingWheel {
   /// than 0.9 r or no sinkage carries the load.
   RolledWheel roll(const OperatingCondition& at) const;
 
+  /// The same; where the soil gives way, because no sinkage down to 0.9 r carries the load, the wheel at the depth at
+  /// which the soil carries most: its readings go on smoothly from those of the last load carried. For fits, which may
+  /// cross such soils. about: theta_1 of this wheel on a soil nearby, to look from [rad]; 0: none is known.
+  RolledWheel roll_or_give_way(const OperatingCondition& at, double about = 0.0) const;
+
   /// The wheel at a given theta_1 [rad], balanced or not: forces.vertical says what it carries. For derivatives by the
   /// implicit function theorem and for looking at the balance.
   RolledWheel at_entry_angle(const OperatingCondition& at, double theta_1) const;
+  /// The same on these nodes: for differences between wheels, which must not change nodes from one to the other.
+  RolledWheel at_entry_angle(const OperatingCondition& at, double theta_1, const NodeLayout& nodes) const;
+  /// The nodes that the wheel's stresses ask for at theta_1 [rad].
+  NodeLayout nodes(const OperatingCondition& at, double theta_1) const;
 
   /// What presses on the ground where the motion is not steady: `displacement` gives j, theta_1 [rad] the depth;
   /// nothing is balanced, settled or read. The slip of `at` is what effects and angles look at. The patch is left
@@ -77,10 +89,15 @@ class RollingWheel {
   NodeLayout layout_at(const Prepared&, double theta_1) const;
   WheelForces integrate(const Prepared&, const ContactPatch&) const;
   double vertical(const Prepared&, const ContactPatch&) const;
-  /// Finds theta_1 and leaves the patch filled for it; refines p's node layout on the way.
-  double balance(Prepared& p, ContactPatch& patch) const;
+  /// Finds ln(theta_1) and leaves the patch filled for it; refines p's node layout on the way. Looks from `about` [rad]
+  /// where that is known, and then for no higher place than the one that a climb from there leads to.
+  FirstRoot balance(Prepared& p, double about, ContactPatch& patch) const;
+  double static_angle(const Prepared&) const;
   bool is_smallest(const Prepared&, double log_theta, ContactPatch& patch) const;
   [[noreturn]] void refuse(const Prepared&, double highest, ContactPatch& patch) const;
+  /// Forces, where the wheel settles and readings of a wheel whose patch is filled for theta_1; gives the load that it
+  /// carried before it settled.
+  double finish(const Prepared&, double theta_1, RolledWheel&) const;
   void settle(const Prepared&, RolledWheel&) const;
   void read(const Prepared&, RolledWheel&) const;
 

@@ -1,10 +1,12 @@
 // soilbin compare: a study's models, grains and measurements side by side, and why they differ.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <set>
 #include <thread>
+#include <tuple>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
@@ -16,6 +18,7 @@
 #include "compare/report/comparison_page.hpp"
 #include "compare/report/comparison_tables.hpp"
 #include "compare/report/result_json.hpp"
+#include "compare/sweep/plausibility.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
@@ -42,8 +45,17 @@ std::vector<ModelChoice> analytic_choices(const Case& question, const CompareOpt
     if (choice.model == ModelKind::bekker_wong && !choice.effects.empty()) choices.push_back(choice);
   const double n = question.scenario.soil.semi_empirical ? question.scenario.soil.semi_empirical->exponent.value : 1.0;
   for (const std::string& text : asked.effects) {
-    const EffectChoice effect = parse_effect(text, session.place.effects, n);
-    choices.push_back({ModelKind::bekker_wong, {effect}, ""});
+    ModelChoice choice{ModelKind::bekker_wong, {parse_effect(text, session.place.effects, n)}, ""};
+    const auto same_effect = [](const EffectChoice& a, const EffectChoice& b) {
+      return std::tie(a.id, a.form, a.parameters) == std::tie(b.id, b.form, b.parameters);
+    };
+    const auto same = [&](const ModelChoice& other) {
+      return std::ranges::equal(other.effects, choice.effects, same_effect);
+    };
+    if (std::any_of(choices.begin(), choices.end(), same))
+      fmt::print(stderr, "soilbin: --effect {}: a side already\n", clipped(text));
+    else
+      choices.push_back(std::move(choice));
   }
   label_models(choices);
   return choices;
@@ -146,8 +158,9 @@ int compare_models(CompareOptions asked, const Session& session) {
   if (question.scenario.soil.semi_empirical) {
     Case analytic = question;
     analytic.study.models = choices;
-    for (const compare::ModelAnswers& answers : compare::run_study(analytic, shown_progress()))
-      sides.push_back(compare::side_of(answers));
+    const std::vector<compare::ModelAnswers> study = compare::run_study(analytic, shown_progress());
+    print_warnings(compare::doubts(question.scenario.tire, study));
+    for (const compare::ModelAnswers& answers : study) sides.push_back(compare::side_of(answers));
   }
   if (asks_for_grains(question, asked)) sides.push_back(grain_side(question, asked, session, about));
   if (!asked.measured.empty())

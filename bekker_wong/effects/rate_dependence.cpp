@@ -9,6 +9,7 @@
 #include "bekker_wong/effects/channels.hpp"
 #include "bekker_wong/effects/forms.hpp"
 #include "bekker_wong/effects/scaled_soil.hpp"
+#include "bekker_wong/node_functions.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
@@ -23,15 +24,18 @@ double sine_of_depth(double depth, double cosine_1, double radius) {
   return std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
 }
 
-/// Calls scale(sigma, v_z) with the speed of penetration v_z = v_x sin(theta) at each node.
-template <class Scale>
-void at_penetration_speed(ContactPatch& patch, const Outline& outline, const Surroundings& around, Scale scale) {
+/// sigma *= ratio(v_z)^m with the speed of penetration v_z = v_x sin(theta) at each node.
+template <class Ratio>
+void harden_with_speed(ContactPatch& patch, const Outline& outline, const Surroundings& around, double m, Ratio ratio) {
+  if (m == 0.0) return;
   const double speed = around.at.speed * std::abs(std::cos(around.at.yaw));
   const double cosine_1 = std::cos(patch.angles.entry);
-  for (int i = 0; i < patch.count; ++i) {
-    const double v_z = speed * sine_of_depth(patch.depth[i], cosine_1, outline.radius);
-    scale(patch.sigma[i], v_z);
-  }
+  const auto count = static_cast<std::size_t>(patch.count);
+  ContactPatch::Array ratios, factors;
+  for (std::size_t i = 0; i < count; ++i)
+    ratios[i] = ratio(speed * sine_of_depth(patch.depth[i], cosine_1, outline.radius));
+  scaled_power({ratios.data(), count}, m, 1.0, {factors.data(), count});
+  for (std::size_t i = 0; i < count; ++i) patch.sigma[i] *= factors[i];
 }
 
 /// sigma = k z^n (v_z/v0)^m.
@@ -39,9 +43,10 @@ class Grahn final : public Effect {
  public:
   explicit Grahn(const std::vector<double>& p) : m_(p[0]), v0_(p[1]) {}
   void pressure(ContactPatch& patch, const SoilValues&, const Outline& o, const Surroundings& around) const override {
-    if (m_ == 0.0) return;
-    at_penetration_speed(patch, o, around,
-                         [&](double& sigma, double v_z) { sigma *= std::pow(std::hypot(v_z / v0_, creep), m_); });
+    harden_with_speed(patch, o, around, m_, [&](double v_z) {
+      const double r = v_z / v0_;
+      return std::sqrt(r * r + creep * creep);
+    });
   }
 
  private:
@@ -53,8 +58,7 @@ class QuasiStatic final : public Effect {
  public:
   explicit QuasiStatic(const std::vector<double>& p) : m_(p[0]), v0_(p[1]) {}
   void pressure(ContactPatch& patch, const SoilValues&, const Outline& o, const Surroundings& around) const override {
-    if (m_ == 0.0) return;
-    at_penetration_speed(patch, o, around, [&](double& sigma, double v_z) { sigma *= std::pow(1 + v_z / v0_, m_); });
+    harden_with_speed(patch, o, around, m_, [&](double v_z) { return 1 + v_z / v0_; });
   }
 
  private:

@@ -36,13 +36,12 @@ struct Depth {
 /// Wong's flat: the pressure stays below p_g/a, so the depth below z_g = (p_g/(a k))^(1/n). The corner is rounded by
 /// the power 6 (the depth is 11 % below z_g where the circle's is z_g), so that the balance stays smooth.
 struct PressureCap {
-  static constexpr double sharpness = 6.0;
   double deepest;
   PressureCap(double a, const Outline& outline, const Surroundings& around)
       : deepest(std::pow(ground_pressure(around.tire) / (a * around.declared.pressure_modulus(outline.width)),
                          1 / around.declared.exponent)) {}
   Depth operator()(double d) const {
-    const double q = 1 + std::pow(d / deepest, sharpness), root = std::pow(q, -1 / sharpness);
+    const double x = d / deepest, square = x * x, q = 1 + square * square * square, root = 1 / std::cbrt(std::sqrt(q));
     return {d * root, root / q};
   }
 };

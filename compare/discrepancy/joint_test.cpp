@@ -104,7 +104,9 @@ JointOutcome joint_test(const Side& reference, const Case& question, const std::
   if (std::string why = why_not_tested(errors, estimated); !why.empty()) return {std::nullopt, why};
   VectorXd predicted;
   MatrixXd jacobian;
-  if (!predictor.linearise(predictor.start(), predicted, jacobian))
+  BalanceMemory balanced;
+  if (!predictor.predict(predictor.start(), predicted, balanced) ||
+      !predictor.linearise(predictor.start(), jacobian, balanced))
     return {std::nullopt, "the model has no balance at some condition"};
   JointTest test;
   VectorXd sd(predictor.soil_parameters());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/loop/descent.hpp"
 #include "compare/loop/evidence.hpp"
 
 namespace soilbin::compare {
@@ -12,166 +13,81 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-std::optional<VectorXd> feasible_start(const WheelPredictor& predictor, VectorXd start) {
-  VectorXd prediction;
-  const auto& parameters = predictor.parameters();
-  const auto k_phi =
-      std::find_if(parameters.begin(), parameters.end(), [](const auto& p) { return p.name == "k_phi"; });
-  for (int attempt = 0; attempt < 21; ++attempt) {
-    if (predictor.predict(start, prediction)) return start;
-    if (k_phi == parameters.end()) return std::nullopt;
-    const Index i = k_phi - parameters.begin();
-    start[i] = std::max(start[i] * 1.25, start[i] + 0.25 * k_phi->prior_sd);
-  }
-  return std::nullopt;
-}
-
 namespace {
 
-/// Rows of the priors: (prior - theta)/sd.
-VectorXd prior_residual(const std::vector<FreeParameter>& parameters, const VectorXd& theta) {
-  std::vector<double> rows;
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (std::isfinite(parameters[i].prior_sd))
-      rows.push_back((parameters[i].prior - theta[static_cast<Index>(i)]) / parameters[i].prior_sd);
-  return Eigen::Map<VectorXd>(rows.data(), static_cast<Index>(rows.size()));
+/// Index of k_phi, which stiffens the soil; nothing where the campaign takes it as known.
+std::optional<Index> k_phi_of(const std::vector<FreeParameter>& parameters) {
+  const auto k_phi =
+      std::find_if(parameters.begin(), parameters.end(), [](const auto& p) { return p.name == "k_phi"; });
+  return k_phi == parameters.end() ? std::nullopt : std::optional(k_phi - parameters.begin());
 }
 
-MatrixXd prior_columns(const std::vector<FreeParameter>& parameters) {
-  const Index n = static_cast<Index>(parameters.size());
-  MatrixXd rows = MatrixXd::Zero(n, n);
-  Index row = 0;
-  for (Index i = 0; i < n; ++i) {
-    const FreeParameter& p = parameters[static_cast<std::size_t>(i)];
-    if (std::isfinite(p.prior_sd)) rows(row++, i) = p.scale / p.prior_sd;
+/// Indices of the parameters that no bound holds: those off their bounds, and those pushed inward.
+std::vector<int> free_of_bounds(const WheelPredictor& predictor, const VectorXd& theta, const VectorXd& downhill) {
+  std::vector<int> free;
+  for (Index i = 0; i < theta.size(); ++i) {
+    const FreeParameter& p = predictor.parameters()[static_cast<std::size_t>(i)];
+    const bool held = (theta[i] <= p.lower && downhill[i] < 0) || (theta[i] >= p.upper && downhill[i] > 0);
+    if (!held) free.push_back(static_cast<int>(i));
   }
-  return rows.topRows(row);
+  return free;
 }
 
-struct Linearised {
-  VectorXd residual;  // augmented
-  MatrixXd columns;   // augmented, in units of scale
-};
-
-Linearised augment(const WheelPredictor& predictor, const VectorXd& theta, const VectorXd& values,
-                   const Whitening& whitening, const VectorXd& prediction, const MatrixXd& jacobian,
-                   const VectorXd& scale) {
-  const VectorXd cells = whitening(VectorXd(values - prediction));
-  const MatrixXd derivative = whitening(MatrixXd(jacobian * scale.asDiagonal()));
-  const VectorXd prior = prior_residual(predictor.parameters(), theta);
-  const MatrixXd prior_rows = prior_columns(predictor.parameters());
-  Linearised l;
-  l.residual.resize(cells.size() + prior.size());
-  l.residual << cells, prior;
-  l.columns.resize(l.residual.size(), derivative.cols());
-  l.columns << derivative, prior_rows;
-  return l;
-}
-
-/// Parameters that sit at a bound and are pushed outward by the gradient.
-std::vector<bool> held(const std::vector<FreeParameter>& parameters, const VectorXd& theta, const VectorXd& downhill) {
-  std::vector<bool> at_bound(parameters.size());
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const Index k = static_cast<Index>(i);
-    at_bound[i] =
-        (theta[k] <= parameters[i].lower && downhill[k] < 0) || (theta[k] >= parameters[i].upper && downhill[k] > 0);
+/// Puts the descent at `start`, or where that carries too little of some load, at a soil with k_phi raised step by
+/// step, up to a hundredfold.
+bool put_near(Descent& descent, const WheelPredictor& predictor, VectorXd start) {
+  const auto k_phi = k_phi_of(predictor.parameters());
+  for (int attempt = 0; attempt < 21; ++attempt) {
+    if (descent.put(start, true)) return true;
+    if (!k_phi) return false;
+    const double sd = predictor.parameters()[static_cast<std::size_t>(*k_phi)].prior_sd;
+    start[*k_phi] = std::max(start[*k_phi] * 1.25, start[*k_phi] + 0.25 * sd);
   }
-  return at_bound;
+  return false;
 }
 
-MatrixXd without(const MatrixXd& columns, const std::vector<bool>& drop, std::vector<int>* kept = nullptr) {
-  MatrixXd rest(columns.rows(), std::count(drop.begin(), drop.end(), false));
-  Index to = 0;
-  for (std::size_t i = 0; i < drop.size(); ++i) {
-    if (drop[i]) continue;
-    rest.col(to++) = columns.col(static_cast<Index>(i));
-    if (kept) kept->push_back(static_cast<int>(i));
-  }
-  return rest;
-}
-
-VectorXd damped_step(const Linearised& l, const std::vector<bool>& hold, double damping) {
-  std::vector<int> kept;
-  const MatrixXd a = without(l.columns, hold, &kept);
-  MatrixXd normal = a.transpose() * a;
-  normal.diagonal().array() *= 1 + damping;
-  normal.diagonal().array() += 1e-10;
-  const VectorXd step = normal.ldlt().solve(a.transpose() * l.residual);
-  VectorXd full = VectorXd::Zero(l.columns.cols());
-  for (std::size_t i = 0; i < kept.size(); ++i) full[kept[i]] = step[static_cast<Index>(i)];
-  return full;
-}
-
-/// What the linearised model expects of a step in chi2.
-double promised_gain(const Linearised& l, const VectorXd& step) {
-  return l.residual.squaredNorm() - (l.residual - l.columns * step).squaredNorm();
-}
-
-double chi2_of(const WheelPredictor& predictor, const VectorXd& theta, const VectorXd& values,
-               const Whitening& whitening, const VectorXd& prediction) {
-  return whitening(VectorXd(values - prediction)).squaredNorm() +
-         prior_residual(predictor.parameters(), theta).squaredNorm();
+/// From a soil that falls short of a load by little to one that carries all: k_phi raised as far as it takes, to a
+/// tenth of that.
+bool stiffen(Descent& descent, const WheelPredictor& predictor) {
+  const auto k_phi = k_phi_of(predictor.parameters());
+  if (!k_phi) return false;
+  const double sd = predictor.parameters()[static_cast<std::size_t>(*k_phi)].prior_sd;
+  const auto raised = [&, from = descent.theta()](double share) {
+    VectorXd theta = from;
+    theta[*k_phi] += share * std::max(std::abs(theta[*k_phi]), sd);
+    return theta;
+  };
+  double least = 0.0, enough = 1e-3;
+  for (; enough < 10.0 && !descent.would_carry(raised(enough)); enough *= 2) least = enough;
+  while (enough - least > 0.1 * enough)
+    (descent.would_carry(raised(0.5 * (least + enough))) ? enough : least) = 0.5 * (least + enough);
+  for (; enough < 10.0; enough *= 1.1)
+    if (descent.put(raised(enough), false)) return true;
+  return false;
 }
 
 }  // namespace
 
 std::optional<Fit> fit(const WheelPredictor& predictor, const VectorXd& values, const Whitening& whitening,
-                       VectorXd start) {
-  const auto feasible = feasible_start(predictor, std::move(start));
-  if (!feasible) return std::nullopt;
-  const std::vector<FreeParameter>& parameters = predictor.parameters();
-  const Index n = feasible->size();
-  VectorXd scale(n);
-  for (Index i = 0; i < n; ++i) scale[i] = parameters[static_cast<std::size_t>(i)].scale;
-
-  Fit best;
-  best.theta = *feasible;
-  if (!predictor.linearise(best.theta, best.prediction, best.jacobian)) return std::nullopt;
-  best.chi2 = chi2_of(predictor, best.theta, values, whitening, best.prediction);
-  double damping = 1e-3, growth = 2.0;
-  BalanceMemory memory;
-  constexpr int max_iterations = 40;
-  constexpr double small_gain = 2e-3, small_share = 1e-4;  // of chi2, far below what any decision turns on
-  for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    const Linearised l = augment(predictor, best.theta, values, whitening, best.prediction, best.jacobian, scale);
-    const std::vector<bool> hold = held(parameters, best.theta, l.columns.transpose() * l.residual);
-    const double enough = std::max(small_gain, small_share * best.chi2);
-    bool better = false;
-    double gain = 0.0;
-    for (int attempt = 0; attempt < 10 && !better; ++attempt) {
-      const VectorXd step = damped_step(l, hold, damping);
-      const double promised = promised_gain(l, step);
-      if (promised < enough) break;
-      VectorXd trial = best.theta + step.cwiseProduct(scale);
-      for (Index i = 0; i < n; ++i) {
-        const FreeParameter& p = parameters[static_cast<std::size_t>(i)];
-        trial[i] = std::clamp(trial[i], p.lower, p.upper);
-      }
-      VectorXd prediction;
-      if (predictor.predict(trial, prediction, memory)) {
-        const double chi2 = chi2_of(predictor, trial, values, whitening, prediction);
-        if (chi2 < best.chi2) {
-          gain = best.chi2 - chi2;
-          best.theta = trial, best.prediction = prediction, best.chi2 = chi2;
-          better = true;
-          const double kept = 2 * gain / promised - 1;  // Nielsen's rule: the damping follows how well the line held
-          damping = std::max(damping * std::max(0.1, 1 - kept * kept * kept), 1e-9);
-          growth = 2.0;
-        }
-      }
-      if (!better) damping *= growth, growth *= 2;
-    }
-    if (!better) break;
-    if (!predictor.linearise(best.theta, best.prediction, best.jacobian, memory.angles)) return std::nullopt;
-    if (gain < enough) break;
-  }
-  const Linearised l = augment(predictor, best.theta, values, whitening, best.prediction, best.jacobian, scale);
-  best.residual = l.residual;
-  best.columns =
-      without(l.columns, held(parameters, best.theta, l.columns.transpose() * l.residual), &best.column_parameter);
-  best.chi2 = best.residual.squaredNorm();
-  best.chi2_cells = best.residual.head(values.size()).squaredNorm();
-  return best;
+                       const VectorXd& start) {
+  Descent descent(predictor, values, whitening);
+  if (!put_near(descent, predictor, start)) return std::nullopt;
+  descent.go();
+  Fit end;
+  end.restart = descent.theta();
+  if (!descent.carries() && !stiffen(descent, predictor)) return std::nullopt;
+  AugmentedLine line = descent.line();
+  const Index rows = line.residual.size() - predictor.rows();  // nothing falls short
+  line.residual.conservativeResize(rows), line.columns.conservativeResize(rows, Eigen::NoChange);
+  end.theta = descent.theta();
+  end.prediction = descent.prediction();
+  end.jacobian = descent.jacobian();
+  end.column_parameter = free_of_bounds(predictor, end.theta, line.columns.transpose() * line.residual);
+  end.columns = line.columns(Eigen::all, end.column_parameter);
+  end.residual = line.residual;
+  end.chi2 = line.residual.squaredNorm();
+  end.chi2_cells = line.residual.head(values.size()).squaredNorm();
+  return end;
 }
 
 VectorXd standard_errors(const Fit& fit, const WheelPredictor& predictor) {

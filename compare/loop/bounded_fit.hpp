@@ -1,4 +1,4 @@
-// Bounded Levenberg-Marquardt with normal priors (Levenberg 1944, Marquardt 1963; bounds by an active set).
+// The fit of a model to a campaign: least chi2 inside the parameters' bounds, with normal priors.
 #pragma once
 
 #include <Eigen/Dense>
@@ -13,6 +13,8 @@ namespace soilbin::compare {
 /// The end of a fit. "Augmented" rows: the whitened cells, then one row a parameter with a prior.
 struct Fit {
   Eigen::VectorXd theta;
+  Eigen::VectorXd restart;            ///< where the way down ended, before k_phi was raised to carry every condition: a
+                                      ///< start for the next fit that has not its back to the wall
   Eigen::VectorXd prediction;         ///< of the cells
   Eigen::MatrixXd jacobian;           ///< cells x parameters, unwhitened
   Eigen::VectorXd residual;           ///< augmented
@@ -23,13 +25,10 @@ struct Fit {
   double chi2_cells = 0.0;
 };
 
-/// The least chi2 from `start`, or nothing where no feasible point is found.
+/// The least chi2 near `start` with a soil that carries the wheel in every condition; nothing where none is found. The
+/// way there may cross soils that do not (Descent); where it ends at one, k_phi is raised until all is carried.
 std::optional<Fit> fit(const WheelPredictor& predictor, const Eigen::VectorXd& values, const Whitening& whitening,
-                       Eigen::VectorXd start);
-
-/// A start at which every row has a balance: the given one, or one with k_phi raised step by step. Nothing where no
-/// stiffness up to a hundredfold suffices.
-std::optional<Eigen::VectorXd> feasible_start(const WheelPredictor& predictor, Eigen::VectorXd start);
+                       const Eigen::VectorXd& start);
 
 /// 1 sd of each parameter from the inverse of the columns' Gram matrix; 0 for those held by a bound.
 Eigen::VectorXd standard_errors(const Fit& fit, const WheelPredictor& predictor);

@@ -148,14 +148,16 @@ std::optional<Eigen::VectorXd> held_out_density(const Campaign& campaign, const 
                                                 const std::vector<Term>& terms, const Eigen::VectorXd& start) {
   const WheelPredictor predictor(campaign, training, terms);
   Eigen::VectorXd about;
-  if (!predictor.predict(start, about)) return std::nullopt;
+  BalanceMemory there = giving_way(), at_held = giving_way();
+  if (!predictor.predict(start, about, there)) return std::nullopt;
   const Whitening whitening(training, whole.noise, about);
   const auto found = fit(predictor, training.values(), whitening, start);
   if (!found) return std::nullopt;
   const WheelPredictor elsewhere(campaign, held, terms);
   Eigen::VectorXd prediction;
   Eigen::MatrixXd jacobian;
-  if (!elsewhere.linearise(found->theta, prediction, jacobian)) return std::nullopt;
+  if (!elsewhere.predict(found->theta, prediction, at_held) || !elsewhere.linearise(found->theta, jacobian, at_held))
+    return std::nullopt;
   Eigen::MatrixXd used(jacobian.rows(), static_cast<Eigen::Index>(found->column_parameter.size()));
   for (std::size_t c = 0; c < found->column_parameter.size(); ++c) {
     const int p = found->column_parameter[c];
@@ -193,8 +195,8 @@ PredictiveGain predictive_gain(const Campaign& campaign, const Identification& w
       if (held[c]) original.push_back(static_cast<int>(c));
     }
     const Observations training = of_conditions(all, keep), rest = of_conditions(all, held);
-    const auto base = held_out_density(campaign, whole, training, rest, over_terms, over_fit.theta);
-    const auto better = held_out_density(campaign, whole, training, rest, terms, fit.theta);
+    const auto base = held_out_density(campaign, whole, training, rest, over_terms, over_fit.restart);
+    const auto better = held_out_density(campaign, whole, training, rest, terms, fit.restart);
     if (!base || !better) return;
     for (std::size_t i = 0; i < rest.cells.size(); ++i) {
       const int condition = rest.condition[static_cast<std::size_t>(rest.cells[i].row)];

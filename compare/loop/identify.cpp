@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// The strongest signatures, at most two forms an effect, within reach of the strongest of all.
+/// The strongest signatures, at most three forms an effect.
 std::vector<const Signature*> contenders(const std::vector<Signature>& signatures, int most) {
   std::vector<const Signature*> order;
   for (const Signature& s : signatures)
@@ -77,19 +77,31 @@ std::vector<SignaturePair> strongest_pairs(const std::vector<Signature>& signatu
   return best;
 }
 
+using FormSet = std::set<const bekker_wong::EffectForm*>;
+
+FormSet forms_of(const std::vector<Term>& terms) {
+  FormSet forms;
+  for (const Term& term : terms) forms.insert(term.form);
+  return forms;
+}
+
+/// Which of these forms leaves least alone; null where none was fitted.
+const Rival* best_alone(const Identification& id, const FormSet& forms) {
+  const Rival* best = nullptr;
+  for (const Rival& rival : id.rivals)
+    if (rival.terms.size() == 1 && forms.count(rival.terms.front().form) && (!best || rival.fit.chi2 < best->fit.chi2))
+      best = &rival;
+  return best;
+}
+
 /// A pair from where the better of its members ended alone, if either was fitted; else both from the base model.
 std::optional<Rival> refit_pair(const Campaign& campaign, const Identification& id, const SignaturePair& pair) {
   const Signature *first = pair.a, *second = pair.b;
-  const Rival* alone = nullptr;
-  for (const Rival& rival : id.rivals) {
-    const auto* form = rival.terms.front().form;
-    if (rival.terms.size() != 1 || (form != pair.a->term.form && form != pair.b->term.form)) continue;
-    if (!alone || rival.fit.chi2 < alone->fit.chi2) alone = &rival;
-  }
+  const Rival* alone = best_alone(id, {first->term.form, second->term.form});
   if (alone && alone->terms.front().form == second->term.form) std::swap(first, second);
-  RivalStart start{id.base.theta, id.base.chi2, {{1, reach_of(*second)}}, pair.gain};
+  RivalStart start{id.base.restart, id.base.chi2, {{1, reach_of(*second)}}, pair.gain};
   if (alone)
-    start.known = alone->fit.theta, start.chi2 = alone->fit.chi2, start.promised -= id.base.chi2 - alone->fit.chi2;
+    start.known = alone->fit.restart, start.chi2 = alone->fit.chi2, start.promised -= id.base.chi2 - alone->fit.chi2;
   else
     start.traced[0] = reach_of(*first);
   return refit(
@@ -115,14 +127,6 @@ double log_prior(const std::vector<Term>& terms) {
   }
   constexpr double rarer = 3.5;  // several effects at once are thirty times rarer an effect
   return sum - rarer * static_cast<double>(terms.size() - 1);
-}
-
-using FormSet = std::set<const bekker_wong::EffectForm*>;
-
-FormSet forms_of(const std::vector<Term>& terms) {
-  FormSet forms;
-  for (const Term& term : terms) forms.insert(term.form);
-  return forms;
 }
 
 /// The evidence of each set of effects, summed over the forms that were refitted.
@@ -185,7 +189,7 @@ void extend(const Campaign& campaign, Identification& id, std::size_t index, con
   join(id, options, contenders(signatures, options.refits / 2), [&](const Signature* s) {
     std::vector<Term> terms = from.terms;
     terms.push_back(make_term(*s->term.form, id.observations, true));
-    return refit(campaign, id, terms, {from.fit.theta, from.fit.chi2, {{added, reach_of(*s)}}, s->score * s->score});
+    return refit(campaign, id, terms, {from.fit.restart, from.fit.chi2, {{added, reach_of(*s)}}, s->score * s->score});
   });
 }
 
@@ -230,6 +234,16 @@ struct OtherForm {
   RivalStart start;
 };
 
+/// It leaves no more than either effect does alone: where its fit ended above that, once more from there.
+std::optional<Rival> refit_in_other_form(const Campaign& campaign, const Identification& id, const OtherForm& other) {
+  auto found = refit(campaign, id, other.terms, other.start);
+  const Rival* alone = best_alone(id, forms_of(other.terms));
+  if (!alone || (found && found->fit.chi2 <= alone->fit.chi2)) return found;
+  const int joins = other.terms.front().form == alone->terms.front().form ? 1 : 0;
+  const std::vector<Term> terms = {alone->terms.front(), other.terms[static_cast<std::size_t>(joins)]};
+  return refit(campaign, id, terms, {alone->fit.restart, alone->fit.chi2, {{1, other.start.traced.at(joins)}}, 0.0});
+}
+
 /// Refits a pair with each of the other forms of its effects in turn.
 void other_forms(const Campaign& campaign, Identification& id, const Rival& from, std::set<FormSet>& fitted,
                  const IdentifyOptions& options) {
@@ -249,25 +263,28 @@ void other_forms(const Campaign& campaign, Identification& id, const Rival& from
         traced[t].front() = from.fit.theta[predictor.amplitude_index(t)];
       }
       traced[static_cast<int>(m)] = reach_of(s);
-      others.push_back({std::move(terms), {id.base.theta, id.base.chi2, traced, id.base.chi2 - from.fit.chi2}});
+      others.push_back({std::move(terms), {id.base.restart, id.base.chi2, traced, id.base.chi2 - from.fit.chi2}});
     }
-  join(id, options, others, [&](const OtherForm& other) { return refit(campaign, id, other.terms, other.start); });
+  join(id, options, others, [&](const OtherForm& other) { return refit_in_other_form(campaign, id, other); });
 }
 
 /// The same for the few pairs that stand close to the best set so far, so that they are weighed over as many forms as a
-/// single effect is, and a third effect joins the best of them.
+/// single effect is, and a third effect joins the best of them. Far from the noise a trace says little about which form
+/// is near: more pairs, and what came out best once more.
 void complete_pairs(const Campaign& campaign, Identification& id, const IdentifyOptions& options) {
-  constexpr double close = 15.0;  // ln evidence: what other forms may add
-  constexpr int most = 3;
+  const double close = id.foreign ? std::numeric_limits<double>::infinity() : 15.0;  // ln evidence: what forms may add
+  const int most = id.foreign ? 5 : 3, rounds = id.foreign ? 2 : 1;
   std::set<FormSet> fitted;
   for (const Rival& rival : id.rivals) fitted.insert(forms_of(rival.terms));
-  weigh(id);
-  std::vector<Rival> pairs;
-  for (const Weighted& w : id.weights)
-    if (w.ids.size() == 2 && id.weights.front().log_evidence - w.log_evidence < close &&
-        static_cast<int>(pairs.size()) < most)
-      pairs.push_back(id.rivals[w.best_rival]);
-  for (const Rival& pair : pairs) other_forms(campaign, id, pair, fitted, options);
+  for (int round = 0; round < rounds; ++round) {
+    weigh(id);
+    std::vector<Rival> pairs;
+    for (const Weighted& w : id.weights)
+      if (w.ids.size() == 2 && id.weights.front().log_evidence - w.log_evidence < close &&
+          static_cast<int>(pairs.size()) < most)
+        pairs.push_back(id.rivals[w.best_rival]);
+    for (const Rival& pair : pairs) other_forms(campaign, id, pair, fitted, options);
+  }
 }
 
 }  // namespace
@@ -283,7 +300,7 @@ void name_effects(const Campaign& campaign, const IdentifyOptions& options, Iden
                              options.seed);
   join(id, options, contenders(id.signatures, options.refits), [&](const Signature* s) {
     return refit(campaign, id, {make_term(*s->term.form, id.observations, true)},
-                 {id.base.theta, id.base.chi2, {{0, reach_of(*s)}}, s->score * s->score});
+                 {id.base.restart, id.base.chi2, {{0, reach_of(*s)}}, s->score * s->score});
   });
   if (id.p_value > options.level || id.rivals.empty()) {
     if (!id.rivals.empty()) weigh(id);
@@ -316,7 +333,7 @@ double p_beside_others(const Campaign& campaign, const Identification& id, const
   const Index first = whole.amplitude_index(static_cast<int>(term));
   const Index gone = static_cast<Index>(rival.terms[term].free.size()), last = rival.fit.theta.size() - first - gone;
   VectorXd start(rival.fit.theta.size() - gone);
-  start << rival.fit.theta.head(first), rival.fit.theta.tail(last);
+  start << rival.fit.restart.head(first), rival.fit.restart.tail(last);
   const auto without = fit(predictor, id.observations.values(), *id.whitening, start);
   if (!without) return 1.0;
   const LinearProblem problem = problem_of(id, predictor, *without);

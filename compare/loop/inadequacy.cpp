@@ -62,7 +62,7 @@ std::optional<InadequateReading> read_beside_inadequacy(const Campaign& campaign
   id.noise = first.noise;
   id.whitening = std::make_shared<Whitening>(first.whitening->beside(columns));
   const WheelPredictor base(campaign, id.observations);
-  auto found = fit(base, id.observations.values(), *id.whitening, first.base.theta);
+  auto found = fit(base, id.observations.values(), *id.whitening, first.base.restart);
   if (!found) return std::nullopt;
   id.base = std::move(*found);
   name_effects(campaign, options, id);

@@ -97,7 +97,8 @@ std::optional<Rival> refit(const Campaign& campaign, const Identification& id, c
     VectorXd start = start_from(predictor, from.known);
     for (const auto& [term, values] : from.traced) put(start, predictor, term, values, share);
     VectorXd prediction;
-    for (int halving = 0; halving < 6 && !predictor.predict(start, prediction); ++halving)
+    BalanceMemory memory = giving_way();
+    for (int halving = 0; halving < 6 && !predictor.predict(start, prediction, memory); ++halving)
       for (const auto& [term, values] : from.traced) start[predictor.amplitude_index(term)] *= 0.5;
     auto found = fit(predictor, id.observations.values(), *id.whitening, start);
     if (!found || (best && found->chi2 >= best->fit.chi2)) continue;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "bekker_wong/contact_stages.hpp"
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "scenario/errors.hpp"
@@ -53,6 +54,9 @@ Extent extent_of(const std::string& covariate, const Observations& observations,
   }
   return count > 0 ? Extent{sum / count, 0.5 * (most - least)} : Extent{fallback, 0.0};
 }
+
+constexpr double most_shortfall = 1.6;     // ln 5
+constexpr double least_shortfall = 1e-12;  // tells a row that gives way by less than the quadrature's error
 
 bool all_finite(const bekker_wong::Reading& r) {
   return std::isfinite(r.drawbar_pull) && std::isfinite(r.torque) && std::isfinite(r.sinkage) &&
@@ -121,6 +125,29 @@ Eigen::VectorXd WheelPredictor::start() const {
   return theta;
 }
 
+std::vector<Wall> WheelPredictor::walls() const {
+  const Eigen::Index n = static_cast<Eigen::Index>(parameters_.size());
+  std::vector<Wall> walls;
+  double slip = 0.0;
+  for (const OperatingCondition& at : observations_->rows)
+    slip = std::max(slip, std::abs(bekker_wong::kinematics(at).slip));
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(n);  // what theta_m/theta_1 at that slip gains from each
+  double fixed = campaign_->soil.stress_angle_c1.value + slip * campaign_->soil.stress_angle_c2.value;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const FreeParameter& p = parameters_[static_cast<std::size_t>(i)];
+    const Eigen::VectorXd along = Eigen::VectorXd::Unit(n, i);
+    if (std::isfinite(p.lower)) walls.push_back({-along, -p.lower});
+    if (std::isfinite(p.upper)) walls.push_back({along, p.upper});
+    if (p.name == "stress_angle_c1") share[i] = 1.0, fixed -= p.prior;
+    if (p.name == "stress_angle_c2") share[i] = slip, fixed -= slip * p.prior;
+  }
+  if (share.isZero()) return walls;
+  const double declared = share.dot(start());
+  walls.push_back({-share, std::max(fixed, -declared)});
+  walls.push_back({share, std::max(bekker_wong::max_stress_share - fixed, declared)});
+  return walls;
+}
+
 SoilValues WheelPredictor::soil(const Eigen::VectorXd& theta) const {
   SoilValues values = bekker_wong::values_of(campaign_->soil);
   for (std::size_t i = 0; i < soil_members_.size(); ++i) values.*soil_members_[i] = theta[static_cast<Eigen::Index>(i)];
@@ -151,6 +178,10 @@ std::vector<EffectChoice> WheelPredictor::choices(const Eigen::VectorXd& theta) 
   return list;
 }
 
+RollingWheel WheelPredictor::wheel_at(const Eigen::VectorXd& theta) const {
+  return {campaign_->wheel, soil(theta), effects(theta), campaign_->bin};
+}
+
 bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction) const {
   BalanceMemory memory;
   return predict(theta, prediction, memory);
@@ -158,24 +189,29 @@ bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& pred
 
 bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction, BalanceMemory& memory) const
     try {
-  const RollingWheel wheel(campaign_->wheel, soil(theta), effects(theta), campaign_->bin);
+  const RollingWheel wheel = wheel_at(theta);
   const std::vector<Cell>& cells = observations_->cells;
-  const int rows = static_cast<int>(observations_->rows.size());
+  const int rows = this->rows();
   prediction.resize(static_cast<Eigen::Index>(cells.size()));
-  std::vector<double> angles(static_cast<std::size_t>(rows));
+  std::vector<double> angles(static_cast<std::size_t>(rows)), shortfall(static_cast<std::size_t>(rows));
   for (int k = 0, first = memory.weakest; k < rows; ++k) {
     const int row = (first + k) % rows;
     auto cell = std::lower_bound(cells.begin(), cells.end(), row, [](const Cell& c, int r) { return c.row < r; });
     if (cell == cells.end() || cell->row != row) continue;
     memory.weakest = row;
-    const RolledWheel rolled = wheel.roll(observations_->rows[static_cast<std::size_t>(row)]);
-    if (!all_finite(rolled.reading)) return false;
-    angles[static_cast<std::size_t>(row)] = rolled.balance_angle;
+    const std::size_t r = static_cast<std::size_t>(row);
+    const OperatingCondition& at = observations_->rows[r];
+    const RolledWheel rolled =
+        memory.gives_way ? wheel.roll_or_give_way(at, memory.angles.empty() ? 0.0 : memory.angles[r]) : wheel.roll(at);
+    if (!all_finite(rolled.reading) || rolled.shortfall > most_shortfall) return false;
+    angles[r] = rolled.balance_angle;
+    shortfall[r] = rolled.gives_way ? std::max(rolled.shortfall, least_shortfall) : 0.0;
     for (; cell != cells.end() && cell->row == row; ++cell)
       prediction[cell - cells.begin()] = channel_of(rolled.reading, cell->channel);
     memory.weakest = first;
   }
   memory.angles = std::move(angles);
+  memory.shortfall = std::move(shortfall);
   return true;
 } catch (const NoSolution&) {
   return false;
@@ -185,50 +221,58 @@ bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& pred
   return false;
 }
 
-bool WheelPredictor::linearise(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction, Eigen::MatrixXd& jacobian,
-                               const std::vector<double>& angles) const try {
-  const auto wheel_at = [&](const Eigen::VectorXd& at) {
-    return RollingWheel(campaign_->wheel, soil(at), effects(at), campaign_->bin);
-  };
-  const RollingWheel wheel = wheel_at(theta);
-  std::vector<RollingWheel> moved;
+/// Wheels with one parameter moved each.
+struct WheelPredictor::Moved {
+  std::vector<RollingWheel> wheels;
   std::vector<double> steps;
+};
+
+WheelPredictor::Moved WheelPredictor::moved_from(const Eigen::VectorXd& theta) const {
+  Moved moved;
   for (Eigen::Index p = 0; p < theta.size(); ++p) {
     const FreeParameter& parameter = parameters_[static_cast<std::size_t>(p)];
     double step = 1e-5 * parameter.scale;
     if (theta[p] + step > parameter.upper) step = -step;
     Eigen::VectorXd at = theta;
     at[p] += step;
-    steps.push_back(at[p] - theta[p]);
-    moved.push_back(wheel_at(at));
+    moved.steps.push_back(at[p] - theta[p]);
+    moved.wheels.push_back(wheel_at(at));
   }
+  return moved;
+}
+
+bool WheelPredictor::linearise(const Eigen::VectorXd& theta, Eigen::MatrixXd& jacobian, const BalanceMemory& known,
+                               Eigen::MatrixXd* short_of) const try {
+  const RollingWheel wheel = wheel_at(theta);
+  const Moved moved = moved_from(theta);
   const std::vector<Cell>& cells = observations_->cells;
-  prediction.resize(static_cast<Eigen::Index>(cells.size()));
-  jacobian.resize(prediction.size(), theta.size());
+  jacobian.resize(static_cast<Eigen::Index>(cells.size()), theta.size());
+  if (short_of) short_of->setZero(rows(), theta.size());
   std::size_t cell = 0;
-  for (int row = 0; row < static_cast<int>(observations_->rows.size()); ++row) {
-    const std::size_t first = cell;
+  for (int row = 0; row < rows(); ++row) {
+    const std::size_t first = cell, r = static_cast<std::size_t>(row);
     while (cell < cells.size() && cells[cell].row == row) ++cell;
     if (cell == first) continue;
-    const OperatingCondition& at = observations_->rows[static_cast<std::size_t>(row)];
-    const double theta_1 = angles.empty() ? wheel.roll(at).balance_angle : angles[static_cast<std::size_t>(row)];
-    const double turn = 1e-6 * theta_1;
-    const RolledWheel here = wheel.at_entry_angle(at, theta_1);
-    const RolledWheel turned = wheel.at_entry_angle(at, theta_1 - turn);
+    const OperatingCondition& at = observations_->rows[r];
+    const double theta_1 = known.angles[r], turn = 1e-6 * theta_1;
+    const bekker_wong::NodeLayout nodes = bekker_wong::coarse(wheel.nodes(at, theta_1));
+    const RolledWheel here = wheel.at_entry_angle(at, theta_1, nodes);
+    const RolledWheel turned = wheel.at_entry_angle(at, theta_1 - turn, nodes);
     if (!all_finite(here.reading)) return false;
     const double stiffness = (here.forces.vertical - turned.forces.vertical) / turn;
-    for (std::size_t i = first; i < cell; ++i)
-      prediction[static_cast<Eigen::Index>(i)] = channel_of(here.reading, cells[i].channel);
+    const bool gives_way = known.shortfall[r] > 0.0;
     for (Eigen::Index p = 0; p < theta.size(); ++p) {
       const std::size_t q = static_cast<std::size_t>(p);
-      const RolledWheel there = moved[q].at_entry_angle(at, theta_1);
-      const double roll_by = -(there.forces.vertical - here.forces.vertical) / stiffness;
+      const RolledWheel there = moved.wheels[q].at_entry_angle(at, theta_1, nodes);
+      const double carries_more = there.forces.vertical - here.forces.vertical;
+      const double roll_by = gives_way ? 0.0 : -carries_more / stiffness;
+      if (gives_way && short_of) (*short_of)(row, p) = -carries_more / (here.forces.vertical * moved.steps[q]);
       for (std::size_t i = first; i < cell; ++i) {
         const int c = cells[i].channel;
         const double value = channel_of(here.reading, c);
         const double by_angle = (value - channel_of(turned.reading, c)) / turn;
         jacobian(static_cast<Eigen::Index>(i), p) =
-            (channel_of(there.reading, c) - value + by_angle * roll_by) / steps[q];
+            (channel_of(there.reading, c) - value + by_angle * roll_by) / moved.steps[q];
       }
     }
   }
@@ -242,7 +286,7 @@ bool WheelPredictor::linearise(const Eigen::VectorXd& theta, Eigen::VectorXd& pr
 }
 
 bekker_wong::Reading WheelPredictor::reading(const Eigen::VectorXd& theta, const OperatingCondition& at) const {
-  return RollingWheel(campaign_->wheel, soil(theta), effects(theta), campaign_->bin).roll(at).reading;
+  return wheel_at(theta).roll(at).reading;
 }
 
 }  // namespace soilbin::compare

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bekker_wong/effect.hpp"
+#include "bekker_wong/rolling_wheel.hpp"
 #include "compare/loop/observations.hpp"
 
 namespace soilbin::compare {
@@ -24,6 +25,12 @@ struct FreeParameter {
   double scale = 1.0;  ///< typical size of a change [SI]
 };
 
+/// normal . theta <= limit: a bound, or a kink of the model beyond which theta means nothing else.
+struct Wall {
+  Eigen::VectorXd normal;
+  double limit = 0.0;
+};
+
 /// A form of an effect as a term of a model: its amplitude is free, its shape parameters too where they have room,
 /// with a prior about their defaults.
 struct Term {
@@ -39,9 +46,18 @@ Term make_term(const bekker_wong::EffectForm& form, const Observations& observat
 
 /// What one prediction tells the next.
 struct BalanceMemory {
-  int weakest = 0;             ///< the row that had no balance at last: tried first, for it fails again
-  std::vector<double> angles;  ///< theta_1 of each row, of the last prediction in which all had a balance [rad]
+  bool gives_way = false;         ///< rows that no sinkage carries are read where the soil carries most
+  int weakest = 0;                ///< the row that had no balance at last: tried first, for it fails again
+  std::vector<double> angles;     ///< theta_1 of each row, of the last prediction that succeeded [rad]
+  std::vector<double> shortfall;  ///< of each row, of that prediction: ln(load/most carried); 0: balanced
 };
+
+/// For predictions that go on where the soil gives way.
+inline BalanceMemory giving_way() {
+  BalanceMemory memory;
+  memory.gives_way = true;
+  return memory;
+}
 
 /// What the declared campaign and some terms predict. theta: the soil's free values in the contract's order (those
 /// declared with sd > 0), then each term's free parameters. All const members may be called from any thread.
@@ -52,19 +68,26 @@ class WheelPredictor {
   const std::vector<FreeParameter>& parameters() const { return parameters_; }
   int soil_parameters() const { return static_cast<int>(soil_members_.size()); }
   const std::vector<Term>& terms() const { return terms_; }
+  int rows() const { return static_cast<int>(observations_->rows.size()); }
   /// Index in theta of a term's amplitude.
   int amplitude_index(int term) const { return first_of_term_[static_cast<std::size_t>(term)]; }
   Eigen::VectorXd start() const;
+  /// The parameters' bounds, and 0 <= c1 + c2 |s| <= max_stress_share for the largest slip of the rows, so that theta_m
+  /// is where that law puts it and not where it is held; a declared soil beyond that is a bound itself.
+  std::vector<Wall> walls() const;
 
-  /// Predictions of all cells; false where any row has no balance at theta.
+  /// Predictions of all cells; false where any row has no balance at theta, or with memory.gives_way where the soil
+  /// carries less than a fifth of any row's load.
   bool predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction) const;
   bool predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction, BalanceMemory& memory) const;
 
-  /// Predictions and their Jacobian over theta by implicit differentiation of the balance: at fixed theta_1 the forces
-  /// and the carried load are differenced, then dtheta_1 = -dV/(dV/dtheta_1). False where a row has no balance. angles:
-  /// theta_1 of each row at this theta where a prediction has found them; empty otherwise.
-  bool linearise(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction, Eigen::MatrixXd& jacobian,
-                 const std::vector<double>& angles = {}) const;
+  /// The predictions' Jacobian over theta by implicit differentiation of the balance: at fixed theta_1 the forces and
+  /// the carried load are differenced, then dtheta_1 = -dV/(dV/dtheta_1). All on the same nodes, half as many as a
+  /// prediction's: slopes to about 1e-4. known: of a prediction at this theta; its rows that give way stay at their
+  /// theta_1, as the theorem of the envelope says of what they carry at most: d ln(load/V) = -dV/V, into `short_of`.
+  /// False where a derivative is not finite.
+  bool linearise(const Eigen::VectorXd& theta, Eigen::MatrixXd& jacobian, const BalanceMemory& known,
+                 Eigen::MatrixXd* short_of = nullptr) const;
 
   /// One condition's four channels at theta. Throws NoSolution.
   bekker_wong::Reading reading(const Eigen::VectorXd& theta, const OperatingCondition& at) const;
@@ -74,7 +97,10 @@ class WheelPredictor {
   bekker_wong::SoilValues soil(const Eigen::VectorXd& theta) const;
 
  private:
+  struct Moved;
   bekker_wong::EffectList effects(const Eigen::VectorXd& theta) const;
+  bekker_wong::RollingWheel wheel_at(const Eigen::VectorXd& theta) const;
+  Moved moved_from(const Eigen::VectorXd& theta) const;
   std::vector<double> term_values(std::size_t term, const Eigen::VectorXd& theta) const;
 
   const Campaign* campaign_;

@@ -68,7 +68,9 @@ void bind_rolled(py::module_& module) {
   py::class_<RollingWheel>(module, "RollingWheel", "The wheel of Wong and Reece (1967) on its soil, with effects.")
       .def(py::init(&wheel_of), py::arg("scenario"), "Raises InputError where a value is missing or out of range.")
       .def("roll", &RollingWheel::roll, py::arg("at"), "The balanced wheel. Raises InputError, NoSolution.")
-      .def("at_entry_angle", &RollingWheel::at_entry_angle, py::arg("at"), py::arg("theta_1"),
+      .def("at_entry_angle",
+           py::overload_cast<const OperatingCondition&, double>(&RollingWheel::at_entry_angle, py::const_),
+           py::arg("at"), py::arg("theta_1"),
            "The wheel at a given theta_1 [rad], balanced or not: `vertical` says what it carries.");
 }
 

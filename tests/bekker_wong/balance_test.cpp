@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bekker_wong/balance_search.hpp"
@@ -158,6 +160,88 @@ TEST(Balance, TheSameInputGivesTheSameBits) {
   }
 }
 
+/// A locked wheel at 15 deg yaw: what the soil carries has a most.
+OperatingCondition locked(double load) {
+  OperatingCondition at = driven(load, -1.0);
+  at.yaw = 15 * degree;
+  return at;
+}
+
+/// The most that the soil carries down to 0.9 r, and where [rad].
+std::pair<double, double> most_carried(const RollingWheel& wheel) {
+  std::pair<double, double> most{0.0, 0.0};
+  for (double t = std::acos(0.1); t > 0.02; t /= 1.0005) most = std::max(most, {carried(wheel, locked(1.0), t), t});
+  return most;
+}
+
+/// Carries more the deeper the wheel stands; carries most half way down.
+const std::array<SoilValues, 2> soft_and_firm = {snow, gripping};
+
+TEST(GivingWay, TheMostIsAtTheDeepestOrAbove) {
+  const double deepest = std::acos(0.1);
+  EXPECT_EQ(most_carried(RollingWheel(smooth_tire(0.3, 0.2), snow)).second, deepest);
+  EXPECT_LT(most_carried(RollingWheel(smooth_tire(0.3, 0.2), gripping)).second, 0.8 * deepest);
+}
+
+TEST(GivingWay, AWheelThatIsCarriedRollsAsItDoes) {
+  for (const SoilValues& soil : soft_and_firm) {
+    const RollingWheel wheel(smooth_tire(0.3, 0.2), soil);
+    const double load = 0.9 * most_carried(wheel).first;
+    const RolledWheel rolled = wheel.roll(locked(load));
+    for (const double about : {0.0, 0.9 * rolled.balance_angle, 1.1 * rolled.balance_angle}) {
+      const RolledWheel same = wheel.roll_or_give_way(locked(load), about);
+      EXPECT_FALSE(same.gives_way);
+      EXPECT_EQ(same.shortfall, 0.0);
+      EXPECT_NEAR(same.balance_angle, rolled.balance_angle, 1e-10);
+      EXPECT_NEAR(same.reading.lateral_force, rolled.reading.lateral_force, 1e-8 * load);
+    }
+  }
+}
+
+TEST(GivingWay, ASoilThatFallsShortIsReadWhereItCarriesMost) {
+  for (const SoilValues& soil : soft_and_firm) {
+    const RollingWheel wheel(smooth_tire(0.3, 0.2), soil);
+    const auto [most, theta_1] = most_carried(wheel);
+    const double load = 1.2 * most;
+    EXPECT_THAT(refusal(wheel, locked(load)), HasSubstr("sink deeper"));
+    for (const double about : {0.0, 0.9 * theta_1, theta_1, 0.5 * (theta_1 + std::acos(0.1))}) {
+      const RolledWheel yielding = wheel.roll_or_give_way(locked(load), about);
+      EXPECT_TRUE(yielding.gives_way);
+      EXPECT_NEAR(yielding.shortfall, std::log(1.2), 1e-4) << about / theta_1;
+      EXPECT_NEAR(yielding.balance_angle, theta_1, 1e-2 * theta_1) << about / theta_1;
+    }
+  }
+}
+
+TEST(GivingWay, ReadingsGoOnFromTheLastLoadCarried) {
+  for (const SoilValues& soil : soft_and_firm) {
+    const RollingWheel wheel(smooth_tire(0.3, 0.2), soil);
+    const double most = most_carried(wheel).first;
+    const Reading last = wheel.roll(locked(most * (1 - 1e-6))).reading;
+    const Reading beyond = wheel.roll_or_give_way(locked(most * (1 + 1e-6))).reading;
+    EXPECT_NEAR(beyond.sinkage, last.sinkage, 1e-2 * last.sinkage);
+    EXPECT_NEAR(beyond.lateral_force, last.lateral_force, 1e-2 * std::abs(last.lateral_force));
+  }
+}
+
+TEST(BalanceSearch, ATopIsHighEnoughOrTheHighest) {
+  int calls = 0;
+  const auto wave = [&](double x) { return ++calls, std::cos(x); };
+  const auto at = [](double x) { return gsl::Sample{x, std::cos(x)}; };
+  EXPECT_NEAR(gsl::bracketed_top(wave, at(-1), at(0.5), at(2), 1e-7, 2.0, "").x, 0.0, 1e-7);
+  EXPECT_GE(gsl::bracketed_top(wave, at(-1), at(0.5), at(2), 1e-7, 0.95, "").f, 0.95);
+  calls = 0;
+  EXPECT_EQ(gsl::bracketed_top(wave, at(-1), at(-0.5), at(0), 1e-7, 2.0, "").x, -0.5);
+  EXPECT_EQ(calls, 0);
+}
+
+TEST(BalanceSearch, ClimbsToTheTopFromEitherSide) {
+  const auto hill = [](double x) { return -0.25 - (x + 2) * (x + 2); };
+  for (const double about : {-5.0, -2.0, -1.99, 0.4}) EXPECT_NEAR(climb(hill, about, 0.4).x, -2.0, 1e-4) << about;
+  EXPECT_EQ(climb(hill, -3.0, -2.5).x, -2.5);
+  EXPECT_EQ(climb(hill, -2.5, -2.5).x, -2.5);
+}
+
 TEST(BalanceSearch, FindsAHumpBetweenTwoSteps) {
   const auto narrow = [](double x) { return 1e-5 - std::abs(x + 1.026); };
   const FirstRoot found = first_rising_root(narrow, 0.4);
@@ -168,7 +252,8 @@ TEST(BalanceSearch, FindsAHumpBetweenTwoSteps) {
 TEST(BalanceSearch, SaysHowNearItCame) {
   const FirstRoot found = first_rising_root([](double x) { return -0.25 - (x + 2) * (x + 2); }, 0.4);
   EXPECT_FALSE(found.x);
-  EXPECT_NEAR(found.highest, -0.25, 1e-9);
+  EXPECT_NEAR(found.highest.f, -0.25, 1e-9);
+  EXPECT_NEAR(found.highest.x, -2.0, 1e-4);
 }
 
 TEST(BalanceSearch, TheSecantMethodLeavesAFallingRootAlone) {

@@ -67,6 +67,18 @@ TEST(Compare, WritesThePageMarkdownAndData) {
   EXPECT_EQ(nlohmann::json::parse(text_of(folder / "comparison.json"))["format"], "soilbin-compare/1");
 }
 
+// An effect that the study asks for already stays one side; one more form of it is one side more.
+TEST(Compare, TakesEverySideOnce) {
+  const Scratch scratch;
+  const std::string command = "compare '" + scratch.write("case.yaml", cmu).string() +
+                              "' --no-loop --json --effect slip_sinkage --effect slip_sinkage:lyasko "
+                              "--effect slip_sinkage:lyasko";
+  const Outcome r = soilbin(command);
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.json()["sides"].size(), 3U);
+  EXPECT_THAT(r.err, HasSubstr("--effect slip_sinkage: a side already"));
+}
+
 TEST(Compare, NamesWhatIsWrong) {
   EXPECT_THAT(soilbin("compare paper-straight --model den").err, HasSubstr("did you mean 'dem'?"));
   EXPECT_EQ(soilbin("compare paper-straight --model den").status, 2);

@@ -1,9 +1,13 @@
 // The loop's parts, each against what it must be: derivatives, fits, noise, signatures, p-values.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <random>
 
+#include "bekker_wong/contact_stages.hpp"
+#include "bekker_wong/effect_vocabulary.hpp"
 #include "compare/loop/base_fit.hpp"
 #include "compare/loop/detection.hpp"
 #include "compare/loop/identify.hpp"
@@ -30,7 +34,9 @@ TEST(WheelPredictor, JacobianIsTheSlopeOfBalancedPredictions) {
   theta[predictor.amplitude_index(0)] = 0.4;
   VectorXd here, up, down;
   MatrixXd jacobian;
-  ASSERT_TRUE(predictor.linearise(theta, here, jacobian));
+  BalanceMemory balanced;
+  ASSERT_TRUE(predictor.predict(theta, here, balanced));
+  ASSERT_TRUE(predictor.linearise(theta, jacobian, balanced));
   for (Eigen::Index p = 0; p < theta.size(); ++p) {
     const double step = 1e-3 * predictor.parameters()[static_cast<std::size_t>(p)].scale;
     VectorXd moved = theta;
@@ -42,6 +48,102 @@ TEST(WheelPredictor, JacobianIsTheSlopeOfBalancedPredictions) {
     EXPECT_LT((jacobian.col(p) - slope).norm(), 2e-4 * slope.norm() + 1e-9)
         << predictor.parameters()[static_cast<std::size_t>(p)].name;
   }
+}
+
+/// A campaign of a wheel that, locked, is as heavy as the soil carries at 15 deg yaw.
+Campaign braked_campaign() {
+  return read_campaign(std::filesystem::path(SOILBIN_SOURCE_DIR) / "cases/measured/cmu-smooth/campaign.yaml",
+                       bekker_wong::CatalogueVocabulary());
+}
+
+// The theorem of the envelope: what a row falls short of changes as its load does at fixed theta_1.
+TEST(WheelPredictor, SlopesOfWhatTheSoilFallsShortOf) {
+  const Campaign campaign = braked_campaign();
+  const Observations observations = observe(campaign);
+  const WheelPredictor predictor(campaign, observations);
+  const VectorXd theta = predictor.start();
+  VectorXd prediction;
+  EXPECT_FALSE(predictor.predict(theta, prediction));
+  BalanceMemory here = giving_way();
+  ASSERT_TRUE(predictor.predict(theta, prediction, here));
+  MatrixXd jacobian, short_of;
+  ASSERT_TRUE(predictor.linearise(theta, jacobian, here, &short_of));
+  int giving = 0;
+  for (int row = 0; row < predictor.rows(); ++row) {
+    const std::size_t r = static_cast<std::size_t>(row);
+    if (!(here.shortfall[r] > 0.0)) {
+      EXPECT_TRUE(short_of.row(row).isZero());
+      continue;
+    }
+    ++giving;
+    for (Eigen::Index p = 0; p < theta.size(); ++p) {
+      const double step = 1e-3 * predictor.parameters()[static_cast<std::size_t>(p)].scale;
+      VectorXd moved = theta;
+      moved[p] += step;
+      BalanceMemory up = here, down = here;
+      ASSERT_TRUE(predictor.predict(moved, prediction, up));
+      moved[p] -= 2 * step;
+      ASSERT_TRUE(predictor.predict(moved, prediction, down));
+      const double slope = (up.shortfall[r] - down.shortfall[r]) / (2 * step);
+      EXPECT_NEAR(short_of(row, p), slope, 1e-3 * short_of.row(row).cwiseAbs().maxCoeff() + 5e-3 * std::abs(slope))
+          << predictor.parameters()[static_cast<std::size_t>(p)].name;
+    }
+  }
+  EXPECT_EQ(giving, 3);
+}
+
+/// Fits from soils drawn about the declared one; the terms' parameters up to three times their scale.
+std::vector<Fit> scattered_fits(const WheelPredictor& predictor, const Identification& id, int starts) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  std::vector<Fit> fits;
+  for (int k = 0; k < starts; ++k) {
+    VectorXd start = predictor.start();
+    for (Eigen::Index i = 0; i < start.size(); ++i) {
+      const FreeParameter& p = predictor.parameters()[static_cast<std::size_t>(i)];
+      const double drawn =
+          std::isfinite(p.prior_sd) ? p.prior + normal(random) * p.prior_sd : 3 * uniform(random) * p.scale;
+      start[i] = std::clamp(drawn, p.lower, p.upper);
+    }
+    if (auto found = fit(predictor, id.observations.values(), *id.whitening, start)) fits.push_back(std::move(*found));
+  }
+  return fits;
+}
+
+// A fit ends where its data put it, not where it came from: through soils that do not carry every row, along theta_m =
+// 0.
+TEST(SlowFit, EndsAtTheSameChi2FromAnySoilAboutTheDeclaredOne) {
+  const Campaign campaign = braked_campaign();
+  Identification id;
+  settle_base(campaign, observe(campaign), {}, id);
+  const WheelPredictor base(campaign, id.observations);
+  const std::vector<Fit> alone = scattered_fits(base, id, 8);
+  ASSERT_EQ(alone.size(), 8U);
+  VectorXd prediction;
+  for (const Fit& fit : alone) {
+    EXPECT_NEAR(fit.chi2, id.base.chi2, 1e-3 * id.base.chi2);
+    EXPECT_TRUE(base.predict(fit.theta, prediction)) << "a row that is not carried";
+  }
+  const WheelPredictor two(campaign, id.observations,
+                           {term_of(id.observations, "sidewall_bulldozing", "passive_wedge"),
+                            term_of(id.observations, "slip_sinkage", "sliding")});
+  std::vector<double> ends;
+  for (const Fit& fit : scattered_fits(two, id, 6)) ends.push_back(fit.chi2);
+  std::sort(ends.begin(), ends.end());
+  ASSERT_GE(ends.size(), 5U);
+  EXPECT_LT(ends[3], ends[0] * (1 + 5e-3));
+  EXPECT_LT(ends[0], 0.3 * id.base.chi2);
+}
+
+// theta_m = (c1 + c2 |s|) theta_1 is held at 0 for a locked wheel where c1 + c2 < 0: a kink that no fit may hang on.
+TEST(SlowFit, KeepsTheStressAngleWhereItsLawPutsIt) {
+  const Campaign campaign = braked_campaign();
+  Identification id;
+  settle_base(campaign, observe(campaign), {}, id);
+  const bekker_wong::SoilValues soil = WheelPredictor(campaign, id.observations).soil(id.base.theta);
+  EXPECT_GE(soil.c1 + soil.c2, -1e-9);
+  EXPECT_LE(soil.c1 + soil.c2, bekker_wong::max_stress_share + 1e-9);
 }
 
 // Without noise and with the declared soil true, the fit stays where it is: chi2 = 0.
