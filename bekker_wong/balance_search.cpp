@@ -63,25 +63,22 @@ FirstRoot first_rising_root(gsl::FunctionRef f, double upper) {
 Sample climb(gsl::FunctionRef f, double about, double upper) {
   constexpr double first_step = 0.02, growth = 2.0, known_to = 1e-5;
   const auto at = [&](double x) { return Sample{std::min(x, upper), f(std::min(x, upper))}; };
+  const auto top = [&](const Sample& a, const Sample& middle, const Sample& b) {
+    const auto [left, right] = std::minmax(a, b, [](const Sample& l, const Sample& r) { return l.x < r.x; });
+    return gsl::bracketed_top(f, left, middle, right, known_to, 0.0, "the most that the soil carries");
+  };
   double step = first_step;
   Sample behind = at(about), here = at(behind.x + step);
-  if (!(here.f > behind.f)) {
-    step = -step;
-    if (here.x > behind.x) {
-      std::swap(behind, here);
-    } else if (here = at(upper + step); !(here.f > behind.f)) {
-      return behind;  // the upper end
-    }
-  }
-  while (here.f < 0.0 && here.x < upper && here.x > lowest) {
+  if (here.x == behind.x) behind = at(upper - step);
+  if (!(here.f > behind.f)) std::swap(behind, here), step = -step;
+  while (here.f < 0.0 && here.x > lowest && !(step > 0.0 && here.x == upper)) {
     const Sample next = at(here.x + step);
-    if (!(next.f > here.f)) {
-      const auto [left, right] = std::minmax(behind, next, [](const Sample& a, const Sample& b) { return a.x < b.x; });
-      return gsl::bracketed_top(f, left, here, right, known_to, 0.0, "the most that the soil carries");
-    }
+    if (!(next.f > here.f)) return top(behind, here, next);
     behind = here, here = next, step *= growth;
   }
-  return here;
+  if (here.f >= 0.0 || here.x < upper) return here;
+  const Sample inside = at(upper - 10 * known_to);  // the upper end is a top only where f rises up to it
+  return inside.f > here.f ? top(behind, inside, here) : here;
 }
 
 }  // namespace soilbin::bekker_wong

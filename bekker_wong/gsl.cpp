@@ -128,14 +128,18 @@ Sample bracketed_top(FunctionRef f, Sample before, Sample top, Sample after, dou
   const auto turned = [&](double x) { return -f(x); };
   FunctionRef down(turned);
   gsl_function g = as_gsl(down);
-  gsl_min_fminimizer_set_with_values(minimiser.get(), &g, top.x, -top.f, before.x, -before.f, after.x, -after.f);
+  if (const int status = gsl_min_fminimizer_set_with_values(minimiser.get(), &g, top.x, -top.f, before.x, -before.f,
+                                                            after.x, -after.f);
+      status != GSL_SUCCESS)
+    throw std::domain_error(what + ": " + gsl_strerror(status));
+  constexpr double rel_tol = 4 * GSL_SQRT_DBL_EPSILON;  // its steps are not shorter than a quarter of that
   constexpr int max_iterations = 100;
   for (int i = 0; i < max_iterations && top.f < enough; ++i) {
     if (const int status = gsl_min_fminimizer_iterate(minimiser.get()); status != GSL_SUCCESS)
       throw std::domain_error(what + ": " + gsl_strerror(status));
     top = {gsl_min_fminimizer_x_minimum(minimiser.get()), -gsl_min_fminimizer_f_minimum(minimiser.get())};
     const double a = gsl_min_fminimizer_x_lower(minimiser.get()), b = gsl_min_fminimizer_x_upper(minimiser.get());
-    if (gsl_min_test_interval(a, b, x_tol, 0.0) == GSL_SUCCESS) break;
+    if (gsl_min_test_interval(a, b, x_tol, rel_tol) == GSL_SUCCESS) break;
   }
   return top;
 }

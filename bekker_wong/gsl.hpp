@@ -39,8 +39,8 @@ struct Sample {
 };
 
 /// Highest point of a continuous f between two samples of it either side of a higher one, by Brent's method
-/// (gsl_min_fminimizer_brent): done where x is known to x_tol or f reaches `enough`; `top` itself where it is not
-/// higher than both. Throws std::domain_error with `what` where f is not finite.
+/// (gsl_min_fminimizer_brent): done where x is known to x_tol or 6e-8 |x|, or f reaches `enough`; `top` itself where it
+/// is not higher than both. Throws std::domain_error with `what` where f is not finite.
 Sample bracketed_top(FunctionRef f, Sample before, Sample top, Sample after, double x_tol, double enough,
                      const std::string& what);
 

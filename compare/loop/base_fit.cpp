@@ -81,7 +81,10 @@ Fit fit_from_several(const WheelPredictor& predictor, const Observations& observ
     ended_there = best && lower < near ? ended_there + 1 : 1;
     if (!best || lower > 0.0) best = std::move(found);
   }
-  if (!best) throw NoSolution("no soil near the declared one carries the wheel in every run of this campaign");
+  if (!best)
+    throw NoSolution(
+        "no soil near the declared one carries the wheel in every run of this campaign; free more of its values (sd), "
+        "k_phi above all, or leave out the runs that `soilbin check` names");
   return *best;
 }
 

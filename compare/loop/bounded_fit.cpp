@@ -46,23 +46,41 @@ bool put_near(Descent& descent, const WheelPredictor& predictor, VectorXd start)
   return false;
 }
 
-/// From a soil that falls short of a load by little to one that carries all: k_phi raised as far as it takes, to a
-/// tenth of that.
+/// The way from a soil that falls short to a firmer one: k_phi where it is free, else what costs chi2 least; its
+/// longest part as long as the parameter's scale, k_phi's not less than its value. Empty where there is none.
+VectorXd way_to_firmer(const Descent& descent, const WheelPredictor& predictor) {
+  const std::vector<FreeParameter>& parameters = predictor.parameters();
+  if (const auto k_phi = k_phi_of(parameters)) {
+    const double length =
+        std::max(std::abs(descent.theta()[*k_phi]), parameters[static_cast<std::size_t>(*k_phi)].scale);
+    return length * VectorXd::Unit(descent.theta().size(), *k_phi);
+  }
+  VectorXd way = descent.firmer();
+  double longest = 0.0;
+  for (Index i = 0; i < way.size(); ++i)
+    longest = std::max(longest, std::abs(way[i]) / parameters[static_cast<std::size_t>(i)].scale);
+  return longest > 0.0 ? VectorXd(way / longest) : VectorXd();
+}
+
+/// From a soil that falls short of a load by little to one that carries all, as far as it takes, to a tenth of that.
 bool stiffen(Descent& descent, const WheelPredictor& predictor) {
-  const auto k_phi = k_phi_of(predictor.parameters());
-  if (!k_phi) return false;
-  const double sd = predictor.parameters()[static_cast<std::size_t>(*k_phi)].prior_sd;
-  const auto raised = [&, from = descent.theta()](double share) {
-    VectorXd theta = from;
-    theta[*k_phi] += share * std::max(std::abs(theta[*k_phi]), sd);
+  const VectorXd from = descent.theta(), way = way_to_firmer(descent, predictor);
+  if (way.size() == 0) return false;
+  const auto firmer = [&](double share) {
+    VectorXd theta = from + share * way;
+    for (Index i = 0; i < theta.size(); ++i) {
+      const FreeParameter& p = predictor.parameters()[static_cast<std::size_t>(i)];
+      theta[i] = std::clamp(theta[i], p.lower, p.upper);
+    }
     return theta;
   };
+  constexpr double farthest = 10.0;
   double least = 0.0, enough = 1e-3;
-  for (; enough < 10.0 && !descent.would_carry(raised(enough)); enough *= 2) least = enough;
+  for (; enough < farthest && !descent.would_carry(firmer(enough)); enough *= 2) least = enough;
   while (enough - least > 0.1 * enough)
-    (descent.would_carry(raised(0.5 * (least + enough))) ? enough : least) = 0.5 * (least + enough);
-  for (; enough < 10.0; enough *= 1.1)
-    if (descent.put(raised(enough), false)) return true;
+    (descent.would_carry(firmer(0.5 * (least + enough))) ? enough : least) = 0.5 * (least + enough);
+  for (; enough < farthest; enough *= 1.1)
+    if (descent.put(firmer(enough), false)) return true;
   return false;
 }
 

@@ -13,20 +13,21 @@ namespace soilbin::compare {
 /// The end of a fit. "Augmented" rows: the whitened cells, then one row a parameter with a prior.
 struct Fit {
   Eigen::VectorXd theta;
-  Eigen::VectorXd restart;            ///< where the way down ended, before k_phi was raised to carry every condition: a
-                                      ///< start for the next fit that has not its back to the wall
+  Eigen::VectorXd restart;            ///< where the way down ended, before the soil was made firm enough for every
+                                      ///< condition: a start for the next fit that has not its back to the wall
   Eigen::VectorXd prediction;         ///< of the cells
   Eigen::MatrixXd jacobian;           ///< cells x parameters, unwhitened
   Eigen::VectorXd residual;           ///< augmented
-  Eigen::MatrixXd columns;            ///< augmented Jacobian of the parameters that are not held by a bound,
-                                      ///< in units of their scale
+  Eigen::MatrixXd columns;            ///< augmented Jacobian of the parameters that are not held by a bound, in
+                                      ///< units of their scale; the wall of theta_m's law holds none
   std::vector<int> column_parameter;  ///< which parameter each column belongs to
   double chi2 = 0.0;                  ///< |residual|^2: cells and priors
   double chi2_cells = 0.0;
 };
 
 /// The least chi2 near `start` with a soil that carries the wheel in every condition; nothing where none is found. The
-/// way there may cross soils that do not (Descent); where it ends at one, k_phi is raised until all is carried.
+/// way there may cross soils that do not (Descent); where it ends at one, the soil is made firmer (k_phi, or where that
+/// is known what costs chi2 least) until all is carried.
 std::optional<Fit> fit(const WheelPredictor& predictor, const Eigen::VectorXd& values, const Whitening& whitening,
                        const Eigen::VectorXd& start);
 

@@ -120,16 +120,21 @@ VectorXd Descent::residual(const Point& at) const {
   return residual;
 }
 
-std::optional<Descent::Point> Descent::try_at(const VectorXd& theta) const {
+std::optional<Descent::Point> Descent::try_at(const VectorXd& theta) {
   Point point{.theta = theta, .prediction = {}, .memory = here_.memory};
-  if (!predictor_.predict(theta, point.prediction, point.memory)) return {};
+  if (!predictor_.predict(theta, point.prediction, point.memory)) {
+    here_.memory.weakest = point.memory.weakest;
+    return {};
+  }
   point.chi2 = residual(point).squaredNorm();
   return point;
 }
 
 bool Descent::stand_at(Point point) {
-  here_ = std::move(point);
-  return predictor_.linearise(here_.theta, jacobian_, here_.memory, &short_of_);
+  MatrixXd jacobian, short_of;
+  if (!predictor_.linearise(point.theta, jacobian, point.memory, &short_of)) return false;
+  here_ = std::move(point), jacobian_ = std::move(jacobian), short_of_ = std::move(short_of);
+  return true;
 }
 
 bool Descent::put(VectorXd theta, bool gives_way) {
@@ -146,7 +151,7 @@ bool Descent::carries(const Point& at) {
   return std::all_of(at.memory.shortfall.begin(), at.memory.shortfall.end(), [](double s) { return s == 0.0; });
 }
 
-bool Descent::would_carry(const VectorXd& theta) const {
+bool Descent::would_carry(const VectorXd& theta) {
   const auto there = try_at(theta);
   return there && carries(*there);
 }
@@ -158,6 +163,14 @@ AugmentedLine Descent::line() const {
   l.columns << whitening_(MatrixXd(jacobian_ * scale_.asDiagonal())), prior_columns(predictor_.parameters()),
       short_of_ * (scale_ / carried_to).asDiagonal();
   return l;
+}
+
+VectorXd Descent::firmer() const {
+  const MatrixXd all = line().columns, kept = all.topRows(all.rows() - short_of_.rows());
+  MatrixXd cost = kept.transpose() * kept;
+  cost.diagonal().array() += 1e-10;
+  const VectorXd carries_more = -(short_of_ * scale_.asDiagonal()).colwise().sum().transpose();
+  return cost.ldlt().solve(carries_more).cwiseProduct(scale_);
 }
 
 /// How far each wall is, not less than 0; what a last digit leaves is nothing.
@@ -177,12 +190,12 @@ double Descent::step_down(const AugmentedLine& l) {
       const FreeParameter& p = predictor_.parameters()[static_cast<std::size_t>(i)];
       theta[i] = std::clamp(theta[i], p.lower, p.upper);
     }
-    auto there = try_at(theta);
-    if (const double before = here_.chi2; there && there->chi2 < before) {
-      const double gain = before - there->chi2, kept = 2 * gain / promised_gain(l, step) - 1;
-      if (!stand_at(std::move(*there))) return 0.0;
-      damping_ = std::max(damping_ * std::max(0.1, 1 - kept * kept * kept), 1e-9);  // Nielsen's rule
-      return gain;
+    if (auto there = try_at(theta); there && there->chi2 < here_.chi2) {
+      const double gain = here_.chi2 - there->chi2, kept = 2 * gain / promised_gain(l, step) - 1;
+      if (stand_at(std::move(*there))) {
+        damping_ = std::max(damping_ * std::max(0.1, 1 - kept * kept * kept), 1e-9);  // Nielsen's rule
+        return gain;
+      }
     }
     damping_ *= growth, growth *= 2;
   }

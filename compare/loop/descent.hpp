@@ -32,14 +32,15 @@ class Descent {
   void go();
 
   /// Would the soil carry the wheel in every row at theta?
-  bool would_carry(const Eigen::VectorXd& theta) const;
+  bool would_carry(const Eigen::VectorXd& theta);
   /// Does it where this stands?
   bool carries() const { return carries(here_); }
   const Eigen::VectorXd& theta() const { return here_.theta; }
   const Eigen::VectorXd& prediction() const { return here_.prediction; }
   const Eigen::MatrixXd& jacobian() const { return jacobian_; }
-  double chi2() const { return here_.chi2; }
   AugmentedLine line() const;
+  /// Where some row falls short: the way that carries more at the least cost in chi2, of any length.
+  Eigen::VectorXd firmer() const;
 
  private:
   struct Point {
@@ -48,8 +49,9 @@ class Descent {
     double chi2 = 0.0;
   };
   Eigen::VectorXd residual(const Point& at) const;
-  std::optional<Point> try_at(const Eigen::VectorXd& theta) const;
+  std::optional<Point> try_at(const Eigen::VectorXd& theta);
   static bool carries(const Point& at);
+  /// Moves there if there are slopes there.
   bool stand_at(Point point);
   Eigen::VectorXd room() const;
   /// What one better step gained; 0 where none was found.

@@ -241,7 +241,9 @@ std::optional<Rival> refit_in_other_form(const Campaign& campaign, const Identif
   if (!alone || (found && found->fit.chi2 <= alone->fit.chi2)) return found;
   const int joins = other.terms.front().form == alone->terms.front().form ? 1 : 0;
   const std::vector<Term> terms = {alone->terms.front(), other.terms[static_cast<std::size_t>(joins)]};
-  return refit(campaign, id, terms, {alone->fit.restart, alone->fit.chi2, {{1, other.start.traced.at(joins)}}, 0.0});
+  auto beside =
+      refit(campaign, id, terms, {alone->fit.restart, alone->fit.chi2, {{1, other.start.traced.at(joins)}}, 0.0});
+  return beside && (!found || beside->fit.chi2 < found->fit.chi2) ? beside : found;
 }
 
 /// Refits a pair with each of the other forms of its effects in turn.

@@ -15,7 +15,8 @@ namespace {
 VectorXd contribution_of(const WheelPredictor& predictor, const Fit& fit, int term) {
   VectorXd theta = fit.theta, without;
   theta[predictor.amplitude_index(term)] = 0.0;
-  if (!predictor.predict(theta, without)) return VectorXd::Zero(fit.prediction.size());
+  BalanceMemory memory = giving_way();
+  if (!predictor.predict(theta, without, memory)) return VectorXd::Zero(fit.prediction.size());
   return fit.prediction - without;
 }
 

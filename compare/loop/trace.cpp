@@ -21,13 +21,15 @@ VectorXd extended(const VectorXd& theta, const Term& term, double amplitude) {
   return longer;
 }
 
-/// Change of the cells by the term at this amplitude; the amplitude is halved until every row has a balance.
+/// Change of the cells by the term at this amplitude, halved until the soil carries every row or nearly does: a fit may
+/// stand where the least push makes it give way.
 bool secant(const TracedModel& model, const Term& term, double& amplitude, VectorXd& change) {
   std::vector<Term> terms = model.predictor.terms();
   terms.push_back(term);
   const WheelPredictor predictor(model.campaign, model.observations, terms);
+  BalanceMemory memory = giving_way();
   for (int attempt = 0; attempt < 8; ++attempt, amplitude *= 0.5) {
-    if (!predictor.predict(extended(model.fit.theta, term, amplitude), change)) continue;
+    if (!predictor.predict(extended(model.fit.theta, term, amplitude), change, memory)) continue;
     change -= model.fit.prediction;
     if (change.allFinite()) return true;
   }

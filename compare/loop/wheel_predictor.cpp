@@ -33,8 +33,8 @@ constexpr std::array<SoilSlot, 8> soil_slots = {{
     {"cohesion", &SoilValues::cohesion, &SemiEmpiricalSoil::cohesion, 0.0, unbounded},
     {"friction_angle", &SoilValues::friction_angle, &SemiEmpiricalSoil::friction_angle, 0.0, 65 * degree},
     {"shear_modulus", &SoilValues::shear_modulus, &SemiEmpiricalSoil::shear_modulus, 2e-4, unbounded},
-    {"stress_angle_c1", &SoilValues::c1, &SemiEmpiricalSoil::stress_angle_c1, 0.0, 0.98},
-    {"stress_angle_c2", &SoilValues::c2, &SemiEmpiricalSoil::stress_angle_c2, -0.5, 0.98},
+    {"stress_angle_c1", &SoilValues::c1, &SemiEmpiricalSoil::stress_angle_c1, 0.0, bekker_wong::max_stress_share},
+    {"stress_angle_c2", &SoilValues::c2, &SemiEmpiricalSoil::stress_angle_c2, -0.5, bekker_wong::max_stress_share},
 }};
 
 /// Mean and half range of a covariate.
@@ -229,10 +229,13 @@ struct WheelPredictor::Moved {
 
 WheelPredictor::Moved WheelPredictor::moved_from(const Eigen::VectorXd& theta) const {
   Moved moved;
+  const std::vector<Wall> walls = this->walls();
   for (Eigen::Index p = 0; p < theta.size(); ++p) {
-    const FreeParameter& parameter = parameters_[static_cast<std::size_t>(p)];
-    double step = 1e-5 * parameter.scale;
-    if (theta[p] + step > parameter.upper) step = -step;
+    double step = 1e-5 * parameters_[static_cast<std::size_t>(p)].scale;
+    const auto crosses = [&](const Wall& w) {
+      return w.normal[p] * step > 0.0 && w.normal.dot(theta) + w.normal[p] * step > w.limit;
+    };
+    if (std::any_of(walls.begin(), walls.end(), crosses)) step = -step;
     Eigen::VectorXd at = theta;
     at[p] += step;
     moved.steps.push_back(at[p] - theta[p]);

@@ -83,9 +83,9 @@ class WheelPredictor {
 
   /// The predictions' Jacobian over theta by implicit differentiation of the balance: at fixed theta_1 the forces and
   /// the carried load are differenced, then dtheta_1 = -dV/(dV/dtheta_1). All on the same nodes, half as many as a
-  /// prediction's: slopes to about 1e-4. known: of a prediction at this theta; its rows that give way stay at their
-  /// theta_1, as the theorem of the envelope says of what they carry at most: d ln(load/V) = -dV/V, into `short_of`.
-  /// False where a derivative is not finite.
+  /// prediction's: slopes to about 1e-4, less well near a fold, where dV/dtheta_1 is small. known: of a prediction at
+  /// this theta; its rows that give way stay at their theta_1, as the theorem of the envelope says of what they carry
+  /// at most: d ln(load/V) = -dV/V, into `short_of`. False where a derivative is not finite.
   bool linearise(const Eigen::VectorXd& theta, Eigen::MatrixXd& jacobian, const BalanceMemory& known,
                  Eigen::MatrixXd* short_of = nullptr) const;
 

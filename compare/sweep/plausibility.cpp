@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "bekker_wong/closed_forms.hpp"
+#include "bekker_wong/contact_stages.hpp"
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "compare/sweep/answers.hpp"
@@ -136,9 +137,9 @@ Warnings doubts(const SemiEmpiricalSoil& soil) {
   if (c == 0.0 && phi == 0.0)
     warnings.push_back("c and phi are both 0: this soil has no strength and gives no traction");
   const double most = soil.stress_angle_c1.value + std::max(0.0, soil.stress_angle_c2.value);
-  if (most > 0.98)
-    warnings.push_back(
-        fmt::format("c1 + c2 = {:.3g}: at full slip theta_m would pass 0.98 theta_1 and is held there", most));
+  if (most > bekker_wong::max_stress_share)
+    warnings.push_back(fmt::format("c1 + c2 = {:.3g}: at full slip theta_m would pass {} theta_1 and is held there",
+                                   most, bekker_wong::max_stress_share));
   if (soil.stress_angle_c1.value + std::min(0.0, soil.stress_angle_c2.value) < 0.0)
     warnings.push_back("c1 + c2 is negative: at full slip the largest stress would lie behind the axle");
   for (const auto& [name, value] :

@@ -230,6 +230,9 @@ TEST(BalanceSearch, ATopIsHighEnoughOrTheHighest) {
   const auto at = [](double x) { return gsl::Sample{x, std::cos(x)}; };
   EXPECT_NEAR(gsl::bracketed_top(wave, at(-1), at(0.5), at(2), 1e-7, 2.0, "").x, 0.0, 1e-7);
   EXPECT_GE(gsl::bracketed_top(wave, at(-1), at(0.5), at(2), 1e-7, 0.95, "").f, 0.95);
+  EXPECT_NEAR(gsl::bracketed_top(wave, at(5), at(6), at(8), 1e-5, 2.0, "").x, 2 * std::numbers::pi, 1e-5);
+  EXPECT_NEAR(gsl::bracketed_top(wave, at(-1), at(1), at(1.5), 1e-7, 2.0, "").x, 0.0, 1e-7) << "as high as before";
+  EXPECT_LT(calls, 100);
   calls = 0;
   EXPECT_EQ(gsl::bracketed_top(wave, at(-1), at(-0.5), at(0), 1e-7, 2.0, "").x, -0.5);
   EXPECT_EQ(calls, 0);
@@ -240,6 +243,7 @@ TEST(BalanceSearch, ClimbsToTheTopFromEitherSide) {
   for (const double about : {-5.0, -2.0, -1.99, 0.4}) EXPECT_NEAR(climb(hill, about, 0.4).x, -2.0, 1e-4) << about;
   EXPECT_EQ(climb(hill, -3.0, -2.5).x, -2.5);
   EXPECT_EQ(climb(hill, -2.5, -2.5).x, -2.5);
+  for (const double about : {-5.0, -1.96, -1.95}) EXPECT_NEAR(climb(hill, about, -1.95).x, -2.0, 1e-4) << about;
 }
 
 TEST(BalanceSearch, FindsAHumpBetweenTwoSteps) {

@@ -71,12 +71,13 @@ TEST(Compare, WritesThePageMarkdownAndData) {
 TEST(Compare, TakesEverySideOnce) {
   const Scratch scratch;
   const std::string command = "compare '" + scratch.write("case.yaml", cmu).string() +
-                              "' --no-loop --json --effect slip_sinkage --effect slip_sinkage:lyasko "
-                              "--effect slip_sinkage:lyasko";
+                              "' --no-loop --json --effect slip_sinkage --effect slip_sinkage:reece "
+                              "--effect slip_sinkage:reece";
   const Outcome r = soilbin(command);
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_EQ(r.json()["sides"].size(), 3U);
   EXPECT_THAT(r.err, HasSubstr("--effect slip_sinkage: a side already"));
+  EXPECT_THAT(r.err, HasSubstr("the wheel settles to")) << "deeper than the stresses are meant for";
 }
 
 TEST(Compare, NamesWhatIsWrong) {

@@ -1,0 +1,269 @@
+// Predictions, their slopes, and the fits that follow these between walls and through soils that give way.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include "bekker_wong/contact_stages.hpp"
+#include "bekker_wong/effect_vocabulary.hpp"
+#include "compare/loop/base_fit.hpp"
+#include "compare/loop/bounded_fit.hpp"
+#include "compare/loop/descent.hpp"
+#include "compare/loop/identify.hpp"
+#include "compare/loop_fixture.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Term term_of(const Observations& observations, const std::string& id, const std::string& form) {
+  return make_term(bekker_wong::find_form({id, form, {}}), observations, true);
+}
+
+// dF/dp by the implicit function theorem equals the slope of predictions that are balanced anew.
+TEST(WheelPredictor, JacobianIsTheSlopeOfBalancedPredictions) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 3);
+  const Observations observations = observe(campaign);
+  const WheelPredictor predictor(campaign, observations, {term_of(observations, "slip_sinkage", "lyasko")});
+  VectorXd theta = predictor.start();
+  theta[predictor.amplitude_index(0)] = 0.4;
+  VectorXd here, up, down;
+  MatrixXd jacobian;
+  BalanceMemory balanced;
+  ASSERT_TRUE(predictor.predict(theta, here, balanced));
+  ASSERT_TRUE(predictor.linearise(theta, jacobian, balanced));
+  for (Eigen::Index p = 0; p < theta.size(); ++p) {
+    const double step = 1e-3 * predictor.parameters()[static_cast<std::size_t>(p)].scale;
+    VectorXd moved = theta;
+    moved[p] += step;
+    ASSERT_TRUE(predictor.predict(moved, up));
+    moved[p] -= 2 * step;
+    ASSERT_TRUE(predictor.predict(moved, down));
+    const VectorXd slope = (up - down) / (2 * step);
+    EXPECT_LT((jacobian.col(p) - slope).norm(), 2e-4 * slope.norm() + 1e-9)
+        << predictor.parameters()[static_cast<std::size_t>(p)].name;
+  }
+}
+
+/// A campaign of a wheel that, locked, is as heavy as the soil carries at 15 deg yaw.
+Campaign braked_campaign() {
+  return read_campaign(std::filesystem::path(SOILBIN_SOURCE_DIR) / "cases/measured/cmu-smooth/campaign.yaml",
+                       bekker_wong::CatalogueVocabulary());
+}
+
+// The theorem of the envelope: what a row falls short of changes as its load does at fixed theta_1.
+TEST(WheelPredictor, SlopesOfWhatTheSoilFallsShortOf) {
+  const Campaign campaign = braked_campaign();
+  const Observations observations = observe(campaign);
+  const WheelPredictor predictor(campaign, observations);
+  const VectorXd theta = predictor.start();
+  VectorXd prediction;
+  EXPECT_FALSE(predictor.predict(theta, prediction));
+  BalanceMemory here = giving_way();
+  ASSERT_TRUE(predictor.predict(theta, prediction, here));
+  MatrixXd jacobian, short_of;
+  ASSERT_TRUE(predictor.linearise(theta, jacobian, here, &short_of));
+  int giving = 0;
+  for (int row = 0; row < predictor.rows(); ++row) {
+    const std::size_t r = static_cast<std::size_t>(row);
+    if (!(here.shortfall[r] > 0.0)) {
+      EXPECT_TRUE(short_of.row(row).isZero());
+      continue;
+    }
+    ++giving;
+    for (Eigen::Index p = 0; p < theta.size(); ++p) {
+      const double step = 1e-3 * predictor.parameters()[static_cast<std::size_t>(p)].scale;
+      VectorXd moved = theta;
+      moved[p] += step;
+      BalanceMemory up = here, down = here;
+      ASSERT_TRUE(predictor.predict(moved, prediction, up));
+      moved[p] -= 2 * step;
+      ASSERT_TRUE(predictor.predict(moved, prediction, down));
+      const double slope = (up.shortfall[r] - down.shortfall[r]) / (2 * step);
+      EXPECT_NEAR(short_of(row, p), slope, 1e-3 * short_of.row(row).cwiseAbs().maxCoeff() + 5e-3 * std::abs(slope))
+          << predictor.parameters()[static_cast<std::size_t>(p)].name;
+    }
+  }
+  EXPECT_EQ(giving, 3);
+}
+
+/// Fits from soils drawn about the declared one; the terms' parameters up to three times their scale.
+std::vector<Fit> scattered_fits(const WheelPredictor& predictor, const Identification& id, int starts) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  std::vector<Fit> fits;
+  for (int k = 0; k < starts; ++k) {
+    VectorXd start = predictor.start();
+    for (Eigen::Index i = 0; i < start.size(); ++i) {
+      const FreeParameter& p = predictor.parameters()[static_cast<std::size_t>(i)];
+      const double drawn =
+          std::isfinite(p.prior_sd) ? p.prior + normal(random) * p.prior_sd : 3 * uniform(random) * p.scale;
+      start[i] = std::clamp(drawn, p.lower, p.upper);
+    }
+    if (auto found = fit(predictor, id.observations.values(), *id.whitening, start)) fits.push_back(std::move(*found));
+  }
+  return fits;
+}
+
+// A fit ends where its data put it, not where it came from: through soils that do not carry every row, along theta_m =
+// 0.
+TEST(SlowFit, EndsAtTheSameChi2FromAnySoilAboutTheDeclaredOne) {
+  const Campaign campaign = braked_campaign();
+  Identification id;
+  settle_base(campaign, observe(campaign), {}, id);
+  const WheelPredictor base(campaign, id.observations);
+  const std::vector<Fit> alone = scattered_fits(base, id, 8);
+  ASSERT_EQ(alone.size(), 8U);
+  VectorXd prediction;
+  for (const Fit& fit : alone) {
+    EXPECT_NEAR(fit.chi2, id.base.chi2, 1e-3 * id.base.chi2);
+    EXPECT_TRUE(base.predict(fit.theta, prediction)) << "a row that is not carried";
+  }
+  const WheelPredictor two(campaign, id.observations,
+                           {term_of(id.observations, "sidewall_bulldozing", "passive_wedge"),
+                            term_of(id.observations, "slip_sinkage", "sliding")});
+  std::vector<double> ends;
+  for (const Fit& fit : scattered_fits(two, id, 6)) ends.push_back(fit.chi2);
+  std::sort(ends.begin(), ends.end());
+  ASSERT_GE(ends.size(), 5U);
+  EXPECT_LT(ends[3], ends[0] * (1 + 5e-3));
+  EXPECT_LT(ends[0], 0.3 * id.base.chi2);
+}
+
+// The bounds, and theta_m's law up to the largest slip run: c1 + c2 between 0 and max_stress_share where a wheel is
+// locked. The declared soil touches no wall from beyond.
+TEST(WheelPredictor, WallsOfTheStressAnglesLaw) {
+  const Campaign campaign = braked_campaign();
+  const Observations observations = observe(campaign);
+  const WheelPredictor predictor(campaign, observations);
+  const auto inside = [&](double c1, double c2) {
+    VectorXd theta = predictor.start();
+    theta[6] = c1, theta[7] = c2;
+    const std::vector<Wall> walls = predictor.walls();
+    return std::all_of(walls.begin(), walls.end(),
+                       [&](const Wall& w) { return w.normal.dot(theta) <= w.limit + 1e-12; });
+  };
+  EXPECT_TRUE(inside(campaign.soil.stress_angle_c1.value, campaign.soil.stress_angle_c2.value));
+  EXPECT_TRUE(inside(0.4, -0.4) && inside(0.4, 0.58));
+  EXPECT_FALSE(inside(0.4, -0.41) || inside(0.4, 0.59) || inside(-0.1, 0.3));
+}
+
+// theta_m = (c1 + c2 |s|) theta_1 is held at 0 for a locked wheel where c1 + c2 < 0: a kink that no fit may hang on.
+TEST(SlowFit, KeepsTheStressAngleWhereItsLawPutsIt) {
+  const Campaign campaign = braked_campaign();
+  Identification id;
+  settle_base(campaign, observe(campaign), {}, id);
+  const bekker_wong::SoilValues soil = WheelPredictor(campaign, id.observations).soil(id.base.theta);
+  EXPECT_GE(soil.c1 + soil.c2, -1e-9);
+  EXPECT_LE(soil.c1 + soil.c2, bekker_wong::max_stress_share + 1e-9);
+}
+
+/// Noise of this sd in force and torque, and of a thousandth of it in sinkage.
+Whitening even_noise(const Observations& observations, double sd) {
+  NoiseFloor noise;
+  for (ChannelNoise& c : noise.channels) c = {.measured = true, .floor = sd};
+  noise.channels[sinkage].floor = 1e-3 * sd;
+  return {observations, noise, observations.values()};
+}
+
+// A start beyond a wall is moved to it, and every step keeps inside.
+TEST(Fit, StartsInsideItsWalls) {
+  const Campaign campaign = braked_campaign();
+  const Observations observations = observe(campaign);
+  const WheelPredictor predictor(campaign, observations);
+  const VectorXd values = observations.values();
+  const Whitening whitening = even_noise(observations, 3.0);
+  Descent descent(predictor, values, whitening);
+  VectorXd start = predictor.start();
+  start[6] = 0.4, start[7] = -0.9;
+  ASSERT_TRUE(descent.put(start, true));
+  const auto outside = [&] {
+    double most = 0.0;
+    for (const Wall& w : predictor.walls()) most = std::max(most, w.normal.dot(descent.theta()) - w.limit);
+    return most;
+  };
+  EXPECT_LE(outside(), 1e-9);
+  EXPECT_LT(descent.theta()[7], 0.0) << "moved farther than to the wall";
+  const double before = descent.line().residual.squaredNorm();
+  descent.go();
+  EXPECT_LT(descent.line().residual.squaredNorm(), before);
+  EXPECT_LE(outside(), 1e-9);
+}
+
+// A soil whose k_phi is known is made firmer by its other values.
+TEST(Fit, CarriesEveryRowWithoutAFreeModulus) {
+  Campaign campaign = braked_campaign();
+  campaign.soil.k_phi.std_error = campaign.soil.k_c.std_error = 0.0;
+  const Observations observations = observe(campaign);
+  const WheelPredictor predictor(campaign, observations);
+  VectorXd prediction;
+  ASSERT_FALSE(predictor.predict(predictor.start(), prediction)) << "the declared soil carries all: nothing to show";
+  const auto found = fit(predictor, observations.values(), even_noise(observations, 3.0), predictor.start());
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(predictor.predict(found->theta, prediction));
+}
+
+// Without noise and with the declared soil true, the fit stays where it is: chi2 = 0.
+TEST(Fit, ReturnsTheDeclaredSoilWhereItIsTrue) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, {0, 0, 0, 0}, 1, 0.0);
+  const Observations observations = observe(campaign);
+  NoiseFloor noise;
+  for (ChannelNoise& c : noise.channels) c = {.measured = true, .floor = 1.0};
+  noise.channels[sinkage].floor = 1e-4;
+  const WheelPredictor predictor(campaign, observations);
+  const Whitening whitening(observations, noise, observations.values());
+  VectorXd start = predictor.start();
+  for (Eigen::Index i = 0; i < start.size(); ++i)
+    start[i] += 0.5 * predictor.parameters()[static_cast<std::size_t>(i)].prior_sd;
+  const auto found = fit(predictor, observations.values(), whitening, start);
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->chi2, 1e-2);
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    const FreeParameter& p = predictor.parameters()[static_cast<std::size_t>(i)];
+    EXPECT_NEAR(found->theta[i], p.prior, 0.1 * p.prior_sd) << p.name;
+  }
+}
+
+// Bounds hold: a truth without cohesion pulls c to 0, never below.
+TEST(Fit, StopsAtBounds) {
+  Campaign campaign = sand_campaign();
+  campaign.soil.cohesion = {0.0, 300};
+  measure(campaign, sweep(), {}, fine_noise, 5);
+  campaign.soil.cohesion = {200.0, 300};
+  const Identification id = identify(campaign, observe(campaign), {.simulations = 200});
+  const WheelPredictor predictor(campaign, id.observations);
+  EXPECT_GE(id.base.theta[3], 0.0);
+}
+
+// What a bound holds has the error that it would have if it could move: that of the inverse Gram matrix with its
+// column.
+TEST(Fit, TellsTheErrorOfWhatABoundHolds) {
+  constexpr int cohesion = 3;
+  Campaign campaign = sand_campaign();
+  Identification id;
+  for (std::uint64_t seed = 1; seed < 10 && (id.base.theta.size() == 0 || id.base.theta[cohesion] > 0.0); ++seed) {
+    campaign.soil.cohesion = {0.0, 300};
+    measure(campaign, sweep(), {}, fine_noise, seed, 0.0);  // noise pulls half of them below 0
+    campaign.soil.cohesion = {10.0, 300};
+    id = Identification();
+    settle_base(campaign, observe(campaign), {}, id);
+  }
+  const WheelPredictor predictor(campaign, id.observations);
+  ASSERT_EQ(standard_errors(id.base, predictor)[cohesion], 0.0);
+  VectorXd column = VectorXd::Zero(id.base.columns.rows());
+  column.head(id.base.jacobian.rows()) = (*id.whitening)(VectorXd(id.base.jacobian.col(cohesion)));
+  MatrixXd all(column.size() + 1, id.base.columns.cols() + 1);  // and the row of its own prior
+  all << id.base.columns, column, Eigen::RowVectorXd::Zero(id.base.columns.cols()), 1.0 / 300;
+  const double variance = (all.transpose() * all).inverse().diagonal().tail(1)[0];
+  EXPECT_NEAR(held_error(id.base, predictor, *id.whitening, cohesion), std::sqrt(variance), 1e-6 * std::sqrt(variance));
+}
+
+}  // namespace
+}  // namespace soilbin::compare
