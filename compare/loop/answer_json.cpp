@@ -102,6 +102,11 @@ ordered_json inadequacy_json(const LoopAnswer& answer) {
   return {{"effects", effects}, {"p_value", finite(id.p_value)}, {"size", finite(answer.inadequate->size)}};
 }
 
+ordered_json with_outliers_json(const LoopAnswer& answer) {
+  if (!answer.with_outliers) return nullptr;
+  return {{"verdict", word(answer.with_outliers->verdict)}, {"effects", answer.with_outliers->effects}};
+}
+
 }  // namespace
 
 ordered_json to_json(const LoopAnswer& answer) {
@@ -119,6 +124,7 @@ ordered_json to_json(const LoopAnswer& answer) {
           {"next_test", next_json(answer)},
           {"soil", soil_json(answer)},
           {"outliers", answer.outliers},
+          {"with_outliers", with_outliers_json(answer)},
           {"stand_in", effects_json(answer.stand_in)},
           {"beside_inadequacy", inadequacy_json(answer)}};
 }

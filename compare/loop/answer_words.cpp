@@ -112,6 +112,21 @@ std::string to_show_its_shape(const LoopAnswer& answer) {
                      channel_views[static_cast<std::size_t>(on->channel)].title, on->p_value);
 }
 
+/// What was set aside, and whether anything hangs on it.
+std::string outlier_sentence(const LoopAnswer& answer) {
+  const bool one = answer.outliers == 1;
+  std::string said = fmt::format("{} measured value{} stood more than five standard deviations off and {} set aside.",
+                                 answer.outliers, one ? "" : "s", one ? "was" : "were");
+  if (!answer.with_outliers) return said;
+  std::set<std::string> effects;
+  for (const AcceptedEffect& effect : answer.effects) effects.insert(effect.choice.id);
+  const WithOutliers& kept = *answer.with_outliers;
+  said += fmt::format(" With {} kept ", one ? "it" : "them");
+  if (kept.verdict == answer.verdict && kept.effects == effects) return said + "the verdict is the same.";
+  said += fmt::format("the verdict would be {}", word(kept.verdict));
+  return said + (kept.effects.empty() ? "." : ": " + joined(kept.effects) + ".");
+}
+
 }  // namespace
 
 std::vector<std::string> what_next(const LoopAnswer& answer) {
@@ -163,10 +178,7 @@ std::vector<std::string> explanation(const LoopAnswer& answer) {
         number(all.before), number(all.after), number(answer.validation.gain), number(answer.validation.gain_error)));
   if (answer.details.noise.rerun_freedom == 0 && answer.verdict != Verdict::not_enough_data)
     sentences.push_back("No setpoint was run twice: the noise was estimated together with the fit.");
-  if (answer.outliers > 0)
-    sentences.push_back(
-        fmt::format("{} measured value{} stood more than five standard deviations off and {} set aside.",
-                    answer.outliers, answer.outliers == 1 ? "" : "s", answer.outliers == 1 ? "was" : "were"));
+  if (answer.outliers > 0) sentences.push_back(outlier_sentence(answer));
   if (!answer.not_testable.empty())
     sentences.push_back(
         "Not testable with these data (which does not mean absent): " + listed_words(answer.not_testable) + ".");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "compare/loop/base_fit.hpp"
@@ -309,6 +310,20 @@ IdentifyOptions of_a_fold(IdentifyOptions options) {
   return options;
 }
 
+std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects) {
+  std::set<std::string> ids;
+  for (const AcceptedEffect& effect : effects) ids.insert(effect.choice.id);
+  return ids;
+}
+
+/// The conclusion with every value kept: a choice by the rest must not be the doing of what was set aside.
+WithOutliers keep_outliers(const Campaign& campaign, LoopOptions options, const std::function<void()>& pulse) {
+  options.identify.drop_outliers = options.validate = false;
+  options.progress = [&](std::size_t, std::size_t) { pulse(); };
+  const LoopAnswer answer = run_loop(campaign, options);
+  return {answer.verdict, ids_of(answer.effects)};
+}
+
 }  // namespace
 
 LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
@@ -340,6 +355,7 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
     answer.ambiguity_set = weighted_sets(answer.details, competitors(answer.details));
     answer.next = proposed(campaign, answer.details, options.limits);
   }
+  if (answer.outliers > 0) answer.with_outliers = keep_outliers(campaign, options, whole.crew.pulse);
   say(all_steps);
   return answer;
 }

@@ -42,6 +42,12 @@ struct SoilShift {
   Estimate with, without;  ///< [SI]
 };
 
+/// What the loop would say with no value set aside.
+struct WithOutliers {
+  Verdict verdict = Verdict::not_enough_data;
+  std::set<std::string> effects;
+};
+
 struct LoopAnswer {
   std::string campaign;
   Verdict verdict = Verdict::not_enough_data;
@@ -66,6 +72,7 @@ struct LoopAnswer {
   std::vector<SoilShift> soil_shifts;  ///< of the free values, where effects are accepted
   SemiEmpiricalSoil soil;  ///< refitted with the accepted effects or those that stand in, with standard errors
   int outliers = 0;        ///< cells set aside
+  std::optional<WithOutliers> with_outliers;  ///< where any were
 };
 
 /// Runs the loop. Throws InputError for a campaign that can't be used; a campaign too small to say anything is a

@@ -250,6 +250,18 @@ TEST(Loop, IsNotMovedByOneOutlier) {
   const LoopAnswer answer = run_loop(campaign, quick());
   EXPECT_EQ(answer.outliers, 1);
   EXPECT_EQ(answer.verdict, Verdict::nothing_missing) << answer.reason;
+  EXPECT_TRUE(answer.effects.empty());
+  LoopOptions all = quick();
+  all.identify.drop_outliers = false;
+  const LoopAnswer kept = run_loop(campaign, all);
+  EXPECT_EQ(kept.outliers, 0);
+  EXPECT_FALSE(kept.with_outliers);
+  ASSERT_TRUE(answer.with_outliers);
+  EXPECT_EQ(answer.with_outliers->verdict, kept.verdict);
+  const std::vector<std::string> said = explanation(answer);
+  EXPECT_TRUE(std::any_of(said.begin(), said.end(), [](const std::string& sentence) {
+    return sentence.find("With it kept the verdict") != std::string::npos;
+  }));
 }
 
 TEST(Loop, SaysWhenThereIsTooLittle) {
