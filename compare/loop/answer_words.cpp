@@ -118,11 +118,10 @@ std::string outlier_sentence(const LoopAnswer& answer) {
   std::string said = fmt::format("{} measured value{} stood more than five standard deviations off and {} set aside.",
                                  answer.outliers, one ? "" : "s", one ? "was" : "were");
   if (!answer.with_outliers) return said;
-  std::set<std::string> effects;
-  for (const AcceptedEffect& effect : answer.effects) effects.insert(effect.choice.id);
   const WithOutliers& kept = *answer.with_outliers;
   said += fmt::format(" With {} kept ", one ? "it" : "them");
-  if (kept.verdict == answer.verdict && kept.effects == effects) return said + "the verdict is the same.";
+  if (kept.verdict == answer.verdict && kept.effects == ids_of(answer.effects))
+    return said + "the verdict is the same.";
   said += fmt::format("the verdict would be {}", word(kept.verdict));
   return said + (kept.effects.empty() ? "." : ": " + joined(kept.effects) + ".");
 }

@@ -58,9 +58,9 @@ VectorXd drawn_soil(const WheelPredictor& predictor, std::mt19937_64& random) {
   VectorXd soil = predictor.start();
   for (Index i = 0; i < soil.size(); ++i) {
     const FreeParameter& p = predictor.parameters()[static_cast<std::size_t>(i)];
-    soil[i] = std::clamp(p.prior + p.prior_sd * normal(random), p.lower, p.upper);
+    soil[i] = p.prior + p.prior_sd * normal(random);
   }
-  return soil;
+  return predictor.within_bounds(std::move(soil));
 }
 
 /// The least chi2 of fits from `start` and from soils drawn about the declared one: as many as it takes until two have

@@ -66,14 +66,7 @@ VectorXd way_to_firmer(const Descent& descent, const WheelPredictor& predictor) 
 bool stiffen(Descent& descent, const WheelPredictor& predictor) {
   const VectorXd from = descent.theta(), way = way_to_firmer(descent, predictor);
   if (way.size() == 0) return false;
-  const auto firmer = [&](double share) {
-    VectorXd theta = from + share * way;
-    for (Index i = 0; i < theta.size(); ++i) {
-      const FreeParameter& p = predictor.parameters()[static_cast<std::size_t>(i)];
-      theta[i] = std::clamp(theta[i], p.lower, p.upper);
-    }
-    return theta;
-  };
+  const auto firmer = [&](double share) { return predictor.within_bounds(from + share * way); };
   constexpr double farthest = 10.0;
   double least = 0.0, enough = 1e-3;
   for (; enough < farthest && !descent.would_carry(firmer(enough)); enough *= 2) least = enough;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace soilbin::compare {
 
@@ -185,12 +184,8 @@ double Descent::step_down(const AugmentedLine& l) {
   double growth = 2.0;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const VectorXd step = damped_step(l, walls_, room, damping_);
-    VectorXd theta = here_.theta + step.cwiseProduct(scale_);
-    for (Index i = 0; i < theta.size(); ++i) {  // bounds hold to the last digit
-      const FreeParameter& p = predictor_.parameters()[static_cast<std::size_t>(i)];
-      theta[i] = std::clamp(theta[i], p.lower, p.upper);
-    }
-    if (auto there = try_at(theta); there && there->chi2 < here_.chi2) {
+    if (auto there = try_at(predictor_.within_bounds(here_.theta + step.cwiseProduct(scale_)));
+        there && there->chi2 < here_.chi2) {
       const double gain = here_.chi2 - there->chi2, kept = 2 * gain / promised_gain(l, step) - 1;
       if (stand_at(std::move(*there))) {
         damping_ = std::max(damping_ * std::max(0.1, 1 - kept * kept * kept), 1e-9);  // Nielsen's rule

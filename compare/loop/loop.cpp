@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 
 #include "compare/loop/base_fit.hpp"
@@ -310,21 +309,30 @@ IdentifyOptions of_a_fold(IdentifyOptions options) {
   return options;
 }
 
+/// Steps 1 to 7 on these observations; false where they are too few, with the reason.
+bool judge(const Campaign& campaign, const Observations& observations, const IdentifyOptions& options,
+           LoopAnswer& answer) {
+  answer.details = identify(campaign, observations, options);
+  if (!describe_base(campaign, answer)) return false;
+  if (answer.details.best) confirm(campaign, answer, options);
+  return true;
+}
+
+/// The conclusion with every value kept: a choice by the rest must not be the doing of what was set aside.
+WithOutliers keep_outliers(const Campaign& campaign, const Observations& observations, IdentifyOptions options) {
+  options.drop_outliers = false;
+  LoopAnswer answer;
+  if (judge(campaign, observations, options, answer)) decide(campaign, answer);
+  return {answer.verdict, ids_of(answer.effects)};
+}
+
+}  // namespace
+
 std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects) {
   std::set<std::string> ids;
   for (const AcceptedEffect& effect : effects) ids.insert(effect.choice.id);
   return ids;
 }
-
-/// The conclusion with every value kept: a choice by the rest must not be the doing of what was set aside.
-WithOutliers keep_outliers(const Campaign& campaign, LoopOptions options, const std::function<void()>& pulse) {
-  options.identify.drop_outliers = options.validate = false;
-  options.progress = [&](std::size_t, std::size_t) { pulse(); };
-  const LoopAnswer answer = run_loop(campaign, options);
-  return {answer.verdict, ids_of(answer.effects)};
-}
-
-}  // namespace
 
 LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   const auto say = [&](std::size_t step) {
@@ -338,9 +346,7 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   IdentifyOptions whole = options.identify;
   std::size_t pulses = 0;
   whole.crew = {options.threads, [&] { say(std::min(++pulses / pulses_a_step, identified)); }};
-  answer.details = identify(campaign, observations, whole);
-  if (!describe_base(campaign, answer)) return answer;
-  if (answer.details.best) confirm(campaign, answer, whole);
+  if (!judge(campaign, observations, whole, answer)) return answer;
   say(chosen);
   const IdentifyOptions inner = of_a_fold(options.identify);
   if (options.validate)
@@ -355,7 +361,7 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
     answer.ambiguity_set = weighted_sets(answer.details, competitors(answer.details));
     answer.next = proposed(campaign, answer.details, options.limits);
   }
-  if (answer.outliers > 0) answer.with_outliers = keep_outliers(campaign, options, whole.crew.pulse);
+  if (answer.outliers > 0) answer.with_outliers = keep_outliers(campaign, observations, whole);
   say(all_steps);
   return answer;
 }

@@ -75,6 +75,9 @@ struct LoopAnswer {
   std::optional<WithOutliers> with_outliers;  ///< where any were
 };
 
+/// Ids of effects that stand together.
+std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects);
+
 /// Runs the loop. Throws InputError for a campaign that can't be used; a campaign too small to say anything is a
 /// verdict, not an error.
 LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options);

@@ -118,9 +118,14 @@ WheelPredictor::WheelPredictor(const Campaign& campaign, const Observations& obs
 
 Eigen::VectorXd WheelPredictor::start() const {
   Eigen::VectorXd theta(static_cast<Eigen::Index>(parameters_.size()));
+  for (Eigen::Index i = 0; i < theta.size(); ++i) theta[i] = parameters_[static_cast<std::size_t>(i)].prior;
+  return within_bounds(std::move(theta));
+}
+
+Eigen::VectorXd WheelPredictor::within_bounds(Eigen::VectorXd theta) const {
   for (Eigen::Index i = 0; i < theta.size(); ++i) {
     const FreeParameter& p = parameters_[static_cast<std::size_t>(i)];
-    theta[i] = std::clamp(p.prior, p.lower, p.upper);
+    theta[i] = std::clamp(theta[i], p.lower, p.upper);
   }
   return theta;
 }

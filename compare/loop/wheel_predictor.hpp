@@ -72,6 +72,8 @@ class WheelPredictor {
   /// Index in theta of a term's amplitude.
   int amplitude_index(int term) const { return first_of_term_[static_cast<std::size_t>(term)]; }
   Eigen::VectorXd start() const;
+  /// theta with each parameter that is beyond a bound put on it, to the last digit.
+  Eigen::VectorXd within_bounds(Eigen::VectorXd theta) const;
   /// The parameters' bounds, and 0 <= c1 + c2 |s| <= max_stress_share for the largest slip of the rows, so that theta_m
   /// is where that law puts it and not where it is held; a declared soil beyond that is a bound itself.
   std::vector<Wall> walls() const;
