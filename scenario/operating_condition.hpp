@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <optional>
 
 namespace soilbin {
@@ -31,6 +32,9 @@ struct OperatingCondition {
   std::optional<double> moisture;  ///< water content by mass [-]
   std::optional<double> position;  ///< mean distance along the bin [m]
   std::optional<int> run;          ///< order in which the runs were made
+
+  /// Member by member: equal where every number is the same, sorted as a tuple.
+  auto operator<=>(const OperatingCondition&) const = default;
 };
 
 }  // namespace soilbin

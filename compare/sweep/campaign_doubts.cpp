@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 
-#include "compare/report/result_json.hpp"
 #include "compare/sweep/plausibility.hpp"
 #include "compare/sweep/varying.hpp"
 
@@ -32,23 +33,25 @@ void add_row_doubts(const Campaign& campaign, Warnings& warnings) {
   }
 }
 
-bool same_values(const Run& a, const Run& b) {
-  return a.setpoint == b.setpoint && a.drawbar_pull == b.drawbar_pull && a.torque == b.torque &&
-         a.sinkage == b.sinkage && a.lateral_force == b.lateral_force && to_json(a.at) == to_json(b.at);
+/// All that was set and measured in a run, but for the line it stands in.
+auto values_of(const Run& run) {
+  return std::tie(run.setpoint, run.drawbar_pull, run.torque, run.sinkage, run.lateral_force, run.at);
 }
 
 /// Rows that were copied: a run's number that was there before, or every value equal to that of an earlier row.
 void add_repeated_rows(const std::vector<Run>& runs, Warnings& warnings) {
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k) {
-      const bool same = same_values(runs[i], runs[k]);
-      if (!same && !(runs[i].at.run && runs[i].at.run == runs[k].at.run)) continue;
-      warnings.push_back(same ? fmt::format("line {}: all its values are those of line {}: counted twice",
-                                            runs[i].csv_line, runs[k].csv_line)
-                              : fmt::format("line {}: run {} stands in line {} already", runs[i].csv_line,
-                                            *runs[i].at.run, runs[k].csv_line));
-      break;
-    }
+  std::map<decltype(values_of(runs.front())), int> line_of_values;
+  std::map<int, int> line_of_number;
+  for (const Run& run : runs) {
+    const int same = line_of_values.try_emplace(values_of(run), run.csv_line).first->second;
+    const int numbered = run.at.run ? line_of_number.try_emplace(*run.at.run, run.csv_line).first->second : same;
+    const int earlier = std::min(same, numbered);
+    if (earlier == run.csv_line) continue;
+    warnings.push_back(
+        earlier == same
+            ? fmt::format("line {}: all its values are those of line {}: counted twice", run.csv_line, earlier)
+            : fmt::format("line {}: run {} stands in line {} already", run.csv_line, *run.at.run, earlier));
+  }
 }
 
 /// Correlation within groups of two columns; 0 where one of them doesn't vary.
