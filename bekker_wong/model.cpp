@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
@@ -45,12 +45,18 @@ std::vector<Contribution> budget_of(const RolledWheel& wheel) {
     slope = slope * std::cos(at.yaw) -
             at.load * std::cos(at.longitudinal_incline) * std::sin(at.transverse_incline) * std::sin(at.yaw);
   if (slope != 0.0) budget.push_back({"slope", slope});
-  const double sum =
-      std::accumulate(budget.begin(), budget.end(), 0.0, [](double a, const Contribution& c) { return a + c.force; });
-  const double rest = wheel.reading.drawbar_pull - sum;
-  if (std::abs(rest) > 1e-12 * (std::abs(wheel.forces.thrust) + std::abs(wheel.forces.compaction) + at.load))
-    budget.push_back({"measurement", rest});
+  if (const double shown = wheel.reading.drawbar_pull - wheel.unmeasured.drawbar_pull; shown != 0.0)
+    budget.push_back({"measurement", shown});
   return budget;
+}
+
+/// The parts and the pull are sums of the same forces in another order: what is left is rounding.
+BudgetRest rest_of(const std::vector<Contribution>& budget, const RolledWheel& wheel) {
+  const WheelForces& f = wheel.forces;
+  double rest = wheel.reading.drawbar_pull, scale = std::abs(f.thrust) + std::abs(f.compaction) + std::abs(f.side);
+  for (const Contribution& part : budget) rest -= part.force, scale += std::abs(part.force);
+  for (const AddedForce& added : f.added.rows()) scale += std::abs(added.forward) + std::abs(added.lateral);
+  return {rest, 16 * std::numeric_limits<double>::epsilon() * (scale + wheel.at.load)};
 }
 
 std::vector<StressSample> stresses_of(const ContactPatch& patch) {
@@ -115,6 +121,7 @@ TractionResult traction_result(const RolledWheel& wheel, const Tire& tire, bool 
   result.max_stress_angle = wheel.patch.angles.max_stress;
   result.exit_angle = wheel.patch.angles.exit;
   result.budget = budget_of(wheel);
+  result.budget_rest = rest_of(result.budget, wheel);
   if (with_patch) result.patch = stresses_of(wheel.patch);
   return result;
 }

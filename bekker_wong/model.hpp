@@ -28,7 +28,8 @@ class BekkerWong final : public Model {
   Detail detail_;
 };
 
-/// The result of a balanced wheel: forces, budget (adds up to the drawbar pull), angles and, if asked for, stresses.
+/// The result of a balanced wheel: forces, budget (adds up to the drawbar pull to rounding), angles and, if asked for,
+/// stresses.
 TractionResult traction_result(const RolledWheel& wheel, const Tire& tire, bool with_patch);
 
 }  // namespace soilbin::bekker_wong

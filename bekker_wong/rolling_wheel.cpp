@@ -257,6 +257,7 @@ void RollingWheel::read(const Prepared& p, RolledWheel& wheel) const {
   }
   r.torque = wheel.forces.torque;
   r.sinkage = wheel.sinkage;
+  wheel.unmeasured = r;
   for (const auto& effect : effects_) effect->sensor(r, p.around);
 }
 

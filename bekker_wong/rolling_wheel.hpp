@@ -36,6 +36,7 @@ struct RolledWheel {
   double sinkage = 0.0;        ///< z [m]
   bool gives_way = false;      ///< nothing balances: this is the wheel where the soil carries most
   double shortfall = 0.0;      ///< then: ln(load/most that the soil carries)
+  Reading unmeasured;          ///< the same four channels before the sensor joint
   Reading reading;             ///< what conventions.md calls F_DP, M, z, F_y, after the sensor joint
 };
 

@@ -111,6 +111,10 @@ std::vector<Reading> readings(const TractionResult& r) {
     const std::string sign = sum.empty() ? (part.force < 0 ? "-" : "") : (part.force < 0 ? " - " : " + ");
     sum += fmt::format("{}{} N ({})", sign, number(std::abs(part.force)), name);
   }
+  if (const BudgetRest& rest = r.budget_rest; std::abs(rest.force) > 1e-9 * r.at.load)
+    sum +=
+        fmt::format("; {} N of it is in none of these{}", number(rest.force),
+                    std::isfinite(rest.bound) ? fmt::format(" (sampling leaves up to {} N)", number(rest.bound)) : "");
   all.push_back({"Drawbar pull is", sum, ""});
   return all;
 }

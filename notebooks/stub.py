@@ -27,7 +27,8 @@ Told = Callable[[float, str], object]
 # What pybind11 can't say: what a dictionary or an object is.
 SAID_BETTER = {
     "samples": "dict[str, Array]", "nodes": "dict[str, Array]", "patch": "dict[str, Array]", "curve": "dict[str, Array]",
-    "profile": "dict[str, Array]", "budget": "dict[str, float]", "held_out": "dict[str, dict[str, float]]",
+    "profile": "dict[str, Array]", "budget": "dict[str, float]", "budget_rest": "dict[str, float]",
+    "held_out": "dict[str, dict[str, float]]",
     "left_out": "dict[str, dict[str, Array]]",
 }
 

@@ -14,6 +14,15 @@ struct Contribution {
   double force = 0.0;
 };
 
+/// What the parts of a drawbar pull leave unexplained. It is no part itself, so that a part that is wrong or missing
+/// shows.
+struct BudgetRest {
+  double force = not_a_number;  ///< drawbar pull less the sum of the parts [N]; NaN where nobody counted
+  /// Largest |force| that is no sign of a fault [N]; NaN where it isn't known. Equations: rounding. Grains: four
+  /// standard errors of the difference between the pull, a mean over all steps, and the parts, which are sampled.
+  double bound = not_a_number;
+};
+
 /// Stresses on the wheel's surface at one angle from the vertical (entry side positive).
 struct StressSample {
   double theta = 0.0;          ///< [rad]
@@ -33,8 +42,9 @@ struct TractionResult {
   double entry_angle = 0.0;          ///< theta_1 [rad]
   double max_stress_angle = 0.0;     ///< theta_m [rad]
   double exit_angle = 0.0;           ///< theta_2 [rad]; negative behind the axle
-  std::vector<Contribution> budget;  ///< parts that add up to the drawbar pull
-  std::vector<StressSample> patch;   ///< ordered from exit to entry
+  std::vector<Contribution> budget;  ///< parts that add up to the drawbar pull, but for budget_rest
+  BudgetRest budget_rest;
+  std::vector<StressSample> patch;  ///< ordered from exit to entry
 };
 
 }  // namespace soilbin

@@ -8,6 +8,20 @@
 #include "compare/sweep/alike.hpp"
 
 namespace soilbin::compare {
+namespace {
+
+/// Parts of the pull that leave more than rounding or sampling does: one of them is wrong or missing.
+void doubt_budget(SidePoint& point) {
+  if (!point.result) return;
+  const BudgetRest& rest = point.result->budget_rest;
+  if (std::abs(rest.force) > rest.bound)
+    point.doubts.push_back(
+        fmt::format("the parts of its drawbar pull leave {:.3g} N unexplained, where at most {:.3g} N "
+                    "can be chance: look at them with caution",
+                    rest.force, rest.bound));
+}
+
+}  // namespace
 
 Side side_of(const ModelAnswers& answers) {
   Side side{answers.choice.label, answers.choice.model == ModelKind::dem ? SideKind::grains : SideKind::analytic, {}};
@@ -20,6 +34,7 @@ Side side_of(const ModelAnswers& answers) {
         point.scatter[c] = ((*answer.result).*channel_views[c].predicted).std_error;
       point.doubts.push_back("one run: the scatter between packings is not known");
     }
+    doubt_budget(point);
     side.points.push_back(std::move(point));
   }
   return side;
@@ -55,6 +70,7 @@ SidePoint combine(const std::vector<const RecordedRun*>& runs) {
   if (std::all_of(solved.begin(), solved.end(),
                   [&](const auto* run) { return run->packing == solved.front()->packing; }))
     point.doubts.push_back("one packing: the scatter between packings is not known");
+  doubt_budget(point);
   return point;
 }
 

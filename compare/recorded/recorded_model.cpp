@@ -65,6 +65,16 @@ std::vector<Contribution> mean_budget(const Runs& runs) {
   return budget;
 }
 
+BudgetRest mean_rest(const Runs& runs) {
+  double force = 0, squared_bounds = 0;
+  for (const RecordedRun* run : runs) {
+    const BudgetRest& rest = run->answer.result->budget_rest;
+    force += rest.force, squared_bounds += rest.bound * rest.bound;
+  }
+  const double n = static_cast<double>(runs.size());
+  return {force / n, std::sqrt(squared_bounds) / n};
+}
+
 }  // namespace
 
 Estimate mean_over_packings(const std::vector<Estimate>& told) {
@@ -100,6 +110,7 @@ TractionResult mean_of_packings(const Runs& runs) {
     mean.*angle = mean_angle(runs, angle);
   mean.patch = mean_patch(runs);
   mean.budget = mean_budget(runs);
+  mean.budget_rest = mean_rest(runs);
   return mean;
 }
 

@@ -198,7 +198,7 @@ std::pair<Bars, std::vector<int>> budget_bars(const Comparison& comparison, std:
     colors_of_sides.push_back(static_cast<int>(s % colors(Palette::named).size()));
   }
   for (const BudgetRow& row : table.rows) bars.groups.push_back({part_in_words(row.name), row.force});
-  BarGroup whole{"drawbar pull, the sum", {}};
+  BarGroup whole{"drawbar pull", {}};
   for (const std::size_t s : table.sides)
     whole.values.push_back(comparison.sides[s].points[condition].result->drawbar_pull.value);
   if (!table.rows.empty()) bars.groups.push_back(std::move(whole));

@@ -23,6 +23,12 @@ std::string signed_number(double value, int places) {
   return std::isfinite(value) ? fmt::format("{:+.{}f}", value, places) : "-";
 }
 
+/// "0.76 (1.2)": what the parts leave, and how much that may be; "-" where nobody counted.
+std::string rest_cell(const BudgetRest& rest) {
+  if (!std::isfinite(rest.force)) return "-";
+  return fmt::format("{} ({})", number(rest.force), std::isfinite(rest.bound) ? number(rest.bound) : "not known");
+}
+
 }  // namespace
 
 HtmlTable tally_table(const Comparison& comparison) {
@@ -89,10 +95,13 @@ HtmlTable budget_table(const Comparison& comparison, std::size_t condition) {
     for (const double force : row.force) cells.push_back(number(force));
     table.rows.push_back(std::move(cells));
   }
-  std::vector<std::string> sum = {"drawbar pull, the sum"};
-  for (const std::size_t s : budget.sides)
-    sum.push_back(number(comparison.sides[s].points[condition].result->drawbar_pull.value));
-  if (!budget.rows.empty()) table.rows.push_back(std::move(sum));
+  std::vector<std::string> rest = {"left unexplained (largest that chance leaves)"}, pull = {"drawbar pull"};
+  for (const std::size_t s : budget.sides) {
+    const TractionResult& result = *comparison.sides[s].points[condition].result;
+    rest.push_back(rest_cell(result.budget_rest));
+    pull.push_back(number(result.drawbar_pull.value));
+  }
+  if (!budget.rows.empty()) table.rows.insert(table.rows.end(), {std::move(rest), std::move(pull)});
   return table;
 }
 

@@ -1,7 +1,8 @@
 // Members of a struct as JSON, said once: a function `fields(visitor, value)` names each key with its member, and the
 // visitors here write it, read it back and make its JSON Schema. SI throughout; a number that is not finite is null.
 //
-// A visitor offers number, whole, flag, text, numbers, group (an object of its own) and list (objects of one kind).
+// A visitor offers number, whole, flag, text, numbers, group (an object of its own), added_group (the same, which files
+// written before it was thought of lack) and list (objects of one kind).
 #pragma once
 
 #include <cmath>
@@ -44,6 +45,10 @@ class WriteJson {
     WriteJson inner(to_[std::string(key)] = Json::object());
     members(inner);
   }
+  template <class Members>
+  void added_group(std::string_view key, const char* meaning, const Members& members) {
+    group(key, meaning, members);
+  }
   template <class T, class Members>
   void list(std::string_view key, const std::vector<T>& values, const char*, const Members& members) {
     Json& all = to_[std::string(key)] = Json::array();
@@ -57,7 +62,8 @@ class WriteJson {
   Json& to_;
 };
 
-/// Every key that is named must be there. Throws InputError that names the place: "file.json: runs[3].torque: ...".
+/// Every key that is named must be there, but for an added_group, which then stays as it is. Throws InputError that
+/// names the place: "file.json: runs[3].torque: ...".
 class ReadJson {
  public:
   ReadJson(const Json& from, std::string place) : from_(from), place_(std::move(place)) {
@@ -88,6 +94,10 @@ class ReadJson {
   void group(std::string_view key, const char*, const Members& members) {
     ReadJson inner(at(key), below(key));
     members(inner);
+  }
+  template <class Members>
+  void added_group(std::string_view key, const char* meaning, const Members& members) {
+    if (has(key)) group(key, meaning, members);
   }
   template <class T, class Members>
   void list(std::string_view key, std::vector<T>& values, const char*, const Members& members) {
@@ -124,7 +134,7 @@ class ReadJson {
   std::string place_;
 };
 
-/// JSON Schema of an object; every key named is required.
+/// JSON Schema of an object; every key named is required, but for an added_group.
 class FieldsSchema {
  public:
   Json schema = {{"type", "object"}, {"properties", Json::object()}, {"required", Json::array()}};
@@ -146,6 +156,11 @@ class FieldsSchema {
     FieldsSchema inner;
     members(inner);
     add(key, std::move(inner.schema), meaning);
+  }
+  template <class Members>
+  void added_group(std::string_view key, const char* meaning, const Members& members) {
+    group(key, meaning, members);
+    schema["required"].erase(schema["required"].size() - 1);
   }
   template <class T, class Members>
   void list(std::string_view key, const std::vector<T>&, const char* meaning, const Members& members) {

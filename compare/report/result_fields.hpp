@@ -18,9 +18,13 @@ void result_fields(Visitor& v, Result& result) {
   v.number("tractive_efficiency", result.tractive_efficiency, "-", "F_DP v/(M w)");
   v.number("theta_m", result.max_stress_angle, "rad", "where soil presses most");
   v.number("theta_2", result.exit_angle, "rad", "where soil lets go; negative behind the axle");
-  v.list("budget", result.budget, "parts that add up to the drawbar pull", [](auto& inner, auto& part) {
+  v.list("budget", result.budget, "parts of the drawbar pull", [](auto& inner, auto& part) {
     inner.text("name", part.name, "what pulls");
     inner.number("force", part.force, "N", "its part");
+  });
+  v.added_group("budget_rest", "what the parts leave of the drawbar pull", [&](auto& inner) {
+    inner.number("force", result.budget_rest.force, "N", "drawbar pull less the sum of the parts");
+    inner.number("bound", result.budget_rest.bound, "N", "largest rest that is no sign of a fault; null: not known");
   });
 }
 

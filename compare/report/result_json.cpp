@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "compare/measured/csv.hpp"
@@ -163,6 +164,19 @@ Json to_json(const Answer& answer) {
   return row;
 }
 
+namespace {
+
+/// Files from before budget_rest hold the rest of a run of grains as a part.
+void take_rest_out(TractionResult& result) {
+  const auto row = std::find_if(result.budget.begin(), result.budget.end(),
+                                [](const Contribution& part) { return part.name == "between_samples"; });
+  if (row == result.budget.end()) return;
+  result.budget_rest.force = row->force;
+  result.budget.erase(row);
+}
+
+}  // namespace
+
 OperatingCondition condition_from_json(const Json& row, const std::string& place) {
   const ReadJson reader(row, place);
   ConditionFromJson visitor(reader);
@@ -177,6 +191,7 @@ Answer answer_from_json(const Json& row, const std::string& place) {
     visitor.text("error", answer.error, "");
   } else {
     result_fields(visitor, answer.result.emplace());
+    take_rest_out(*answer.result);
     answer.result->at = answer.at;
   }
   return answer;

@@ -48,10 +48,8 @@ PowerBalance power_of(std::span<const WheelSample> samples, const WheelMotion& m
   return power;
 }
 
-/// Parts of the drawbar pull; the stresses are sampled, the pull is summed over
-/// all steps, and what that leaves over is told too.
-std::vector<Contribution> budget_of(const TreadForces& sum, double count, const WheelMotion& motion, ForceFrame frame,
-                                    double pull) {
+/// Parts of the drawbar pull, from the forces at the ends of the samples.
+std::vector<Contribution> budget_of(const TreadForces& sum, double count, const WheelMotion& motion, ForceFrame frame) {
   const auto along = [&](const Vec3& force) {
     return frame == ForceFrame::travel ? force.x : dot(force, motion.heading);
   };
@@ -62,10 +60,22 @@ std::vector<Contribution> budget_of(const TreadForces& sum, double count, const 
   if (frame == ForceFrame::travel && motion.heading.y != 0)
     budget.push_back({"side_force", along(sum.side / count * motion.axle)});
   if (const double slope = along({motion.load.x, motion.load.y, 0}); slope != 0) budget.push_back({"slope", slope});
-  double rest = pull;
-  for (const Contribution& part : budget) rest -= part.force;
-  budget.push_back({"between_samples", rest});
   return budget;
+}
+
+/// The pull is a mean over all steps, its parts are over the samples' ends. The bound comes from the scatter of that
+/// difference about its mean, sample by sample, so that it doesn't grow with a part that is wrong.
+BudgetRest rest_of(const TractionResult& result, std::span<const WheelSample> samples, const WheelMotion& motion) {
+  BudgetRest rest{result.drawbar_pull.value, not_a_number};
+  for (const Contribution& part : result.budget) rest.force -= part.force;
+  if (samples.size() < 2) return rest;
+  const std::vector<double> missed = series_of(samples, [&](const WheelSample& s) {
+    const Vec3 at_end = (s.tread.thrust + s.tread.resistance) * motion.heading + s.tread.side * motion.axle;
+    return net_force(s.force - at_end, motion, result.at.force_frame).drawbar_pull;
+  });
+  constexpr double standard_errors = 4;  // they rest on as few as eight blocks: chance passes it once in 190
+  rest.bound = standard_errors * mean_with_error(missed).std_error;
+  return rest;
 }
 
 void tell_stresses(TractionResult& result, std::span<const WheelSample> samples, const WheelMotion& motion,
@@ -74,7 +84,8 @@ void tell_stresses(TractionResult& result, std::span<const WheelSample> samples,
   for (const WheelSample& sample : samples) sum += sample.tread;
   const double count = static_cast<double>(samples.size());
   result.patch = tread_stress(sum, count, tire);
-  result.budget = budget_of(sum, count, motion, result.at.force_frame, result.drawbar_pull.value);
+  result.budget = budget_of(sum, count, motion, result.at.force_frame);
+  result.budget_rest = rest_of(result, samples, motion);
   if (result.patch.empty()) return;
   const auto most = std::max_element(result.patch.begin(), result.patch.end(),
                                      [](const auto& a, const auto& b) { return a.normal < b.normal; });

@@ -41,7 +41,16 @@ void bind_result(py::module_& module) {
       .def_readonly("entry_angle", &R::entry_angle, "theta_1 [rad]")
       .def_readonly("max_stress_angle", &R::max_stress_angle, "theta_m [rad]")
       .def_readonly("exit_angle", &R::exit_angle, "theta_2 [rad]; negative behind the axle")
-      .def_property_readonly("budget", &budget_of, "named parts [N] that add up to the drawbar pull")
+      .def_property_readonly("budget", &budget_of,
+                             "named parts [N] that add up to the drawbar pull, but for budget_rest")
+      .def_property_readonly(
+          "budget_rest",
+          [](const R& r) {
+            return py::dict(py::arg("force") = r.budget_rest.force, py::arg("bound") = r.budget_rest.bound);
+          },
+          "force [N]: the drawbar pull less the sum of its parts; bound [N]: the largest that is no sign of a fault, "
+          "NaN "
+          "where it isn't known")
       .def_property_readonly("patch", &patch_of,
                              "stresses [Pa] under the wheel, from exit to entry: arrays theta [rad], normal, shear, "
                              "lateral_shear; views of the result, not copies")

@@ -366,6 +366,8 @@ TEST(Effects, BudgetAddsUpToTheDrawbarPull) {
             const double sum = std::accumulate(result.budget.begin(), result.budget.end(), 0.0,
                                                [](double a, const Contribution& c) { return a + c.force; });
             EXPECT_NEAR(sum, result.drawbar_pull.value, 4e-12 * at.load);
+            EXPECT_LE(std::abs(result.budget_rest.force), result.budget_rest.bound);
+            EXPECT_LT(result.budget_rest.bound, 1e-12 * at.load);
           } catch (const NoSolution&) {
             EXPECT_NE(form.id, "rig_friction");  // an effect of the rig can't bury the wheel
           }

@@ -7,6 +7,7 @@
 #include "compare/comparison_fixture.hpp"
 #include "compare/discrepancy/causes.hpp"
 #include "compare/discrepancy/summary.hpp"
+#include "compare/report/comparison_tables.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -173,6 +174,20 @@ TEST_F(Pair, TheBudgetNamesWhatPullsAndAddsUp) {
   double sum = 0;
   for (const BudgetRow& row : table.rows) sum += row.force[0];
   EXPECT_NEAR(sum, base.answers[2].result->drawbar_pull.value, 1e-6);
+}
+
+TEST_F(Pair, PartsThatLeaveMoreThanTheirBoundAreADoubtOfThePoint) {
+  std::vector<RecordedRun> runs = grain_runs(base, {300}, 40.0);
+  runs[2].answer.result->budget_rest = {-30, 12};
+  runs[3].answer.result->budget_rest = {11, 12};
+  const Side side = side_of("dem", runs, question.study.conditions);
+  EXPECT_THAT(side.points[2].doubts, Contains(HasSubstr("leave -30 N unexplained, where at most 12 N")));
+  EXPECT_THAT(side.points[3].doubts, Not(Contains(HasSubstr("unexplained"))));
+  // It is told beside the parts, and no part: each side's parts and the rest are its pull.
+  const Comparison comparison = compare_sides(question, {base.choice}, {side_of(base), side});
+  const HtmlTable table = budget_table(comparison, 2);
+  EXPECT_EQ(budget_at(comparison, 2).rows.size() + 2, table.rows.size());
+  EXPECT_EQ(table.rows[table.rows.size() - 2].back(), "-30.00 (12.00)");
 }
 
 TEST_F(Pair, SinkageIsWhatTheLoadPressesAndWhatSlipAdds) {

@@ -61,6 +61,19 @@ Record made_record() {
   return record;
 }
 
+TEST(Record, FromBeforeTheRestWasToldKeepsItWithoutABound) {
+  Record old = made_record();
+  old.runs[0].answer.result->budget.push_back({"between_samples", -0.125});
+  std::string text = record_text(old);
+  const std::string key = R"("budget_rest":{"force":null,"bound":null},)";
+  ASSERT_THAT(text, HasSubstr(key));
+  for (std::size_t at; (at = text.find(key)) != std::string::npos;) text.erase(at, key.size());
+  const TractionResult told = *parse_record({"old.json", text}).runs[0].answer.result;
+  EXPECT_EQ(told.budget.size(), 2U);
+  EXPECT_EQ(told.budget_rest.force, -0.125);
+  EXPECT_TRUE(std::isnan(told.budget_rest.bound));
+}
+
 TEST(Record, ComesBackToTheBit) {
   const Record record = made_record();
   const std::string text = record_text(record);
@@ -142,7 +155,9 @@ TEST(RecordedModel, AnswersWhatIsThereAndSaysWhatIsNot) {
 }
 
 TEST(Packings, ScatterBetweenThemIsTheError) {
-  const RecordedRun one = made_run(1, 0, 1, 10), two = made_run(1, 0, 2, 13), three = made_run(1, 0, 3, 16);
+  RecordedRun one = made_run(1, 0, 1, 10), two = made_run(1, 0, 2, 13), three = made_run(1, 0, 3, 16);
+  one.answer.result->budget_rest = {1, 3}, two.answer.result->budget_rest = {2, 4};
+  three.answer.result->budget_rest = {3, 12};
   const TractionResult mean = mean_of_packings({&one, &two, &three});
   EXPECT_NEAR(mean.drawbar_pull.value, 13, 1e-12);
   EXPECT_NEAR(mean.drawbar_pull.std_error, 3 / std::sqrt(3.0), 1e-12);
@@ -151,6 +166,8 @@ TEST(Packings, ScatterBetweenThemIsTheError) {
   EXPECT_NEAR(mean.torque.std_error, 0.2 / std::sqrt(3.0), 1e-12);
   EXPECT_NEAR(mean.patch.at(1).normal, 20, 1e-12);
   EXPECT_NEAR(mean.budget.at(0).force, 0.9, 1e-12);
+  EXPECT_NEAR(mean.budget_rest.force, 2, 1e-12);
+  EXPECT_NEAR(mean.budget_rest.bound, 13.0 / 3, 1e-12) << "independent bounds: sqrt(9 + 16 + 144)/3";
   const RecordedRun failed = failed_run(1);
   EXPECT_THROW(mean_of_packings({&one, &failed}), NoSolution);
   EXPECT_THROW(mean_of_packings({}), InputError);

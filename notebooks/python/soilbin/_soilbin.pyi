@@ -732,7 +732,12 @@ class TractionResult:
         """theta_2 [rad]; negative behind the axle"""
     @property
     def budget(self) -> dict[str, float]:
-        """named parts [N] that add up to the drawbar pull"""
+        """named parts [N] that add up to the drawbar pull, but for budget_rest"""
+    @property
+    def budget_rest(self) -> dict[str, float]:
+        """force [N]: the drawbar pull less the sum of its parts; bound [N]: the largest that is no sign of a fault, NaN
+        where it isn't known
+        """
     @property
     def patch(self) -> dict[str, Array]:
         """stresses [Pa] under the wheel, from exit to entry: arrays theta [rad], normal, shear, lateral_shear; views of
