@@ -106,11 +106,12 @@ bool give_load(Point& p) {
   return carried > 0.0;
 }
 
-void expect_agreement(const Point& p) {
+/// False, and nothing compared, where the load carried hardly grows with sinkage (the top of a braked wheel's hump):
+/// the root is ill-conditioned there.
+[[nodiscard]] bool expect_agreement(const Point& p) {
   const reference::Wheel wheel(p.tire, p.soil, p.at);
   const reference::Answer expected = wheel.roll();
-  // Where the load carried hardly grows with sinkage (the top of a braked wheel's hump) the root is ill-conditioned.
-  if (wheel.growth(expected.theta_1) < 0.1L) return;
+  if (wheel.growth(expected.theta_1) < 0.1L) return false;
   const Reading found = RollingWheel(p.tire, p.soil).roll(p.at).reading;
   const auto expect_close = [](double value, reference::Real reference, reference::Real scale, const char* what) {
     EXPECT_LE(std::abs(value - reference), tolerance * std::max(std::abs(reference), scale)) << what;
@@ -119,6 +120,7 @@ void expect_agreement(const Point& p) {
   expect_close(found.drawbar_pull, expected.drawbar_pull, expected.force_scale, "drawbar pull");
   expect_close(found.lateral_force, expected.lateral_force, expected.force_scale, "lateral force");
   expect_close(found.torque, expected.torque, expected.torque_scale, "torque");
+  return true;
 }
 
 void expect_agreement_at(int points, unsigned seed, bool at_corners) {
@@ -132,8 +134,7 @@ void expect_agreement_at(int points, unsigned seed, bool at_corners) {
     std::ostringstream where;
     where << p;
     SCOPED_TRACE(where.str());
-    expect_agreement(p);
-    ++compared;
+    compared += expect_agreement(p);
   }
 }
 
@@ -167,7 +168,7 @@ TEST(Reference, AgreesWhereTheShearCurveRisesBehindTheCrest) {
   p.at.slip = 1.0, p.at.yaw = -32 * degree;
   p.entry_angle = 1.46;
   ASSERT_TRUE(give_load(p));
-  expect_agreement(p);
+  EXPECT_TRUE(expect_agreement(p));
 }
 
 TEST(Reference, AgreesWhereShearNearlyTurnsBackUnderTheAxle) {
@@ -177,7 +178,7 @@ TEST(Reference, AgreesWhereShearNearlyTurnsBackUnderTheAxle) {
   p.at.slip = -0.318, p.at.yaw = 0.00492 * degree;
   p.entry_angle = 1.46;
   ASSERT_TRUE(give_load(p));
-  expect_agreement(p);
+  EXPECT_TRUE(expect_agreement(p));
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ TEST(Predict, EveryRowOfTheCmuCampaignIsAnswered) {
     ++solved;
     for (const char* key : {"drawbar_pull", "torque", "sinkage", "lateral_force", "theta_1"})
       EXPECT_TRUE(row.at(key).is_number()) << key;
+    EXPECT_FALSE(row["residual"].empty()) << row["run"];
     for (const auto& [key, rest] : row["residual"].items())
       EXPECT_NEAR(row[key].get<double>() - row["measured"][key].get<double>(), rest.get<double>(), 1e-12);
   }

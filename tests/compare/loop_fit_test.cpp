@@ -231,15 +231,16 @@ TEST(Fit, ReturnsTheDeclaredSoilWhereItIsTrue) {
   }
 }
 
-// Bounds hold: a truth without cohesion pulls c to 0, never below.
+// Bounds hold: a truth without cohesion, with less friction than is known for sure, pulls c below 0; it stops there.
 TEST(Fit, StopsAtBounds) {
   Campaign campaign = sand_campaign();
-  campaign.soil.cohesion = {0.0, 300};
-  measure(campaign, sweep(), {}, fine_noise, 5);
-  campaign.soil.cohesion = {200.0, 300};
+  campaign.soil.cohesion.value = 0.0, campaign.soil.friction_angle.value = 25 * degree;
+  measure(campaign, sweep(), {}, fine_noise, 5, 0.0);
+  campaign.soil.cohesion = {200.0, 300}, campaign.soil.friction_angle = {28 * degree, 0.01 * degree};
   const Identification id = identify(campaign, observe(campaign), {.simulations = 200});
   const WheelPredictor predictor(campaign, id.observations);
-  EXPECT_GE(id.base.theta[3], 0.0);
+  ASSERT_EQ(predictor.parameters()[3].name, "cohesion");
+  EXPECT_EQ(id.base.theta[3], 0.0);
 }
 
 // What a bound holds has the error that it would have if it could move: that of the inverse Gram matrix with its

@@ -94,8 +94,9 @@ TEST(ToldCampaign, TheOrderIsDrawnFromTheSeed) {
 TEST(ToldCampaign, TellsTheLateralForceWhereARunLeansOrIsYawed) {
   std::vector<RecordedRun> runs = on_a_slope();
   runs[1].answer.at.yaw = 0.1;
-  for (const auto& row : tell_campaign(sand_scenario(), runs, {}).campaign.runs)
-    EXPECT_EQ(row.lateral_force, -*row.drawbar_pull);
+  const std::vector<compare::Run> told = tell_campaign(sand_scenario(), runs, {}).campaign.runs;
+  ASSERT_EQ(told.size(), runs.size());
+  for (const compare::Run& row : told) EXPECT_EQ(row.lateral_force, -*row.drawbar_pull);
 }
 
 TEST(ToldCampaign, CountsWhatItLeavesOut) {

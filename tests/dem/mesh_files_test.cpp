@@ -162,14 +162,20 @@ TEST_F(MeshFiles, SpoiltFilesNeverDoWorse) {
        {std::pair<std::string, std::string>{"b.stl", content(folder_ / "whole.stl")},
         {"t.stl", text_stl(soup)},
         {"o.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"}}) {
+    int read = 0, refused = 0;
     for (int i = 0; i < (name == "o.obj" ? 40 : 400); ++i) {
       std::string spoilt = whole;
       for (int k = 0; k < 3; ++k) spoilt[random() % spoilt.size()] = static_cast<char>(random());
       if (i % 2) spoilt.resize(random() % spoilt.size());
       try {
-        read_mesh(file(name, spoilt), 1);
-      } catch (const InputError&) {}
+        const TriangleMesh mesh = read_mesh(file(name, spoilt), 1);
+        EXPECT_GE(mesh.size(), 4) << "the fewest that close a body";
+        ++read;
+      } catch (const InputError&) {
+        ++refused;
+      }
     }
+    EXPECT_GT(refused, read) << name;
   }
 }
 

@@ -73,6 +73,7 @@ TEST(TouchingBodies, TheOutsideOfABoxHasOnePointEverywhere) {
 TEST(TouchingBodies, TheNormalTurnsContinuouslyOverARidgeAndATip) {
   std::mt19937_64 random(2);
   const TriangleMesh mesh = mesh_of(tests::cube(), true);
+  int steps = 0;
   for (int round = 0; round < 50; ++round) {
     const Vec3 about = round % 2 ? Vec3{1, 1, 1} : Vec3{1, uniform(random, -0.8, 0.8), 1};
     const Vec3 u = tests::any_direction(random), v = unit(cross(u, tests::any_direction(random)));
@@ -88,12 +89,14 @@ TEST(TouchingBodies, TheNormalTurnsContinuouslyOverARidgeAndATip) {
       ASSERT_EQ(points.count, 1);
       const double path = 0.3 * 2 * pi / 5000;
       if (last.triangle >= 0) {
+        ++steps;
         EXPECT_LE(length(points[0].normal - last.normal), 1.01 * path / points[0].distance);
         EXPECT_LE(std::abs(points[0].distance - last.distance), 1.01 * path);
       }
       last = points[0];
     }
   }
+  EXPECT_GT(steps, 50 * 1000);
 }
 
 TEST(TouchingBodies, AConcaveEdgeHasTwoPointsAndAConcaveCornerThree) {
