@@ -23,6 +23,11 @@ struct SoilValues {
   double pressure_modulus(double width) const { return k_c / width + k_phi; }
 };
 
+/// Where the wheel keeps the soil_parameters, in their order.
+inline constexpr std::array<double SoilValues::*, 8> soil_members = {
+    &SoilValues::exponent,       &SoilValues::k_c,           &SoilValues::k_phi, &SoilValues::cohesion,
+    &SoilValues::friction_angle, &SoilValues::shear_modulus, &SoilValues::c1,    &SoilValues::c2};
+
 /// Outline of the wheel; effects at the outline joint change it.
 struct Outline {
   double radius = 0.0;        ///< of the circle that presses on the soil [m]

@@ -63,6 +63,10 @@ struct Reading {
   double drawbar_pull = 0.0, torque = 0.0, sinkage = 0.0, lateral_force = 0.0;
 };
 
+/// Where a reading keeps the traction_channels, in their order.
+inline constexpr std::array<double Reading::*, 4> reading_members = {&Reading::drawbar_pull, &Reading::torque,
+                                                                     &Reading::sinkage, &Reading::lateral_force};
+
 /// Joints of the wheel model, in the order in which they are called. Defaults do nothing.
 class Effect {
  public:

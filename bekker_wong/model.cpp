@@ -7,19 +7,16 @@
 
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
+#include "scenario/soil_parameters.hpp"
+#include "scenario/traction_channels.hpp"
 
 namespace soilbin::bekker_wong {
 
 SoilValues values_of(const SemiEmpiricalSoil& soil) {
-  return {.exponent = soil.exponent.value,
-          .k_c = soil.k_c.value,
-          .k_phi = soil.k_phi.value,
-          .cohesion = soil.cohesion.value,
-          .friction_angle = soil.friction_angle.value,
-          .shear_modulus = soil.shear_modulus.value,
-          .c1 = soil.stress_angle_c1.value,
-          .c2 = soil.stress_angle_c2.value,
-          .density = soil.density};
+  SoilValues values{.density = soil.density};
+  for (std::size_t i = 0; i < soil_parameters.size(); ++i)
+    values.*soil_members[i] = (soil.*soil_parameters[i].value).value;
+  return values;
 }
 
 namespace {
@@ -72,20 +69,11 @@ std::vector<StressSample> stresses_of(const ContactPatch& patch) {
 void propagate(TractionResult& result, const Scenario& scenario, const EffectList& effects,
                const OperatingCondition& at) {
   const SemiEmpiricalSoil& soil = *scenario.soil.semi_empirical;
-  using Value = double SoilValues::*;
-  const std::array<std::pair<Value, double>, 8> uncertain = {{
-      {&SoilValues::exponent, soil.exponent.std_error},
-      {&SoilValues::k_c, soil.k_c.std_error},
-      {&SoilValues::k_phi, soil.k_phi.std_error},
-      {&SoilValues::cohesion, soil.cohesion.std_error},
-      {&SoilValues::friction_angle, soil.friction_angle.std_error},
-      {&SoilValues::shear_modulus, soil.shear_modulus.std_error},
-      {&SoilValues::c1, soil.stress_angle_c1.std_error},
-      {&SoilValues::c2, soil.stress_angle_c2.std_error},
-  }};
   std::array<double, 4> variance{};
   const SoilValues base = values_of(soil);
-  for (const auto& [value, sd] : uncertain) {
+  for (std::size_t p = 0; p < soil_parameters.size(); ++p) {
+    const double sd = (soil.*soil_parameters[p].value).std_error;
+    const auto value = soil_members[p];
     if (!(sd > 0.0)) continue;
     const double step = 1e-3 * sd;
     SoilValues up = base, down = base;
@@ -94,14 +82,11 @@ void propagate(TractionResult& result, const Scenario& scenario, const EffectLis
     const Reading a = RollingWheel(scenario.tire, up, effects, scenario.bin).roll(at).reading;
     const Reading b = RollingWheel(scenario.tire, down, effects, scenario.bin).roll(at).reading;
     const double share = sd / (up.*value - down.*value);
-    const std::array<double, 4> moved = {a.drawbar_pull - b.drawbar_pull, a.torque - b.torque, a.sinkage - b.sinkage,
-                                         a.lateral_force - b.lateral_force};
-    for (std::size_t i = 0; i < moved.size(); ++i) variance[i] += std::pow(share * moved[i], 2);
+    for (std::size_t i = 0; i < variance.size(); ++i)
+      variance[i] += std::pow(share * (a.*reading_members[i] - b.*reading_members[i]), 2);
   }
-  result.drawbar_pull.std_error = std::sqrt(variance[0]);
-  result.torque.std_error = std::sqrt(variance[1]);
-  result.sinkage.std_error = std::sqrt(variance[2]);
-  result.lateral_force.std_error = std::sqrt(variance[3]);
+  for (std::size_t i = 0; i < variance.size(); ++i)
+    (result.*traction_channels[i].predicted).std_error = std::sqrt(variance[i]);
 }
 
 }  // namespace
@@ -109,10 +94,8 @@ void propagate(TractionResult& result, const Scenario& scenario, const EffectLis
 TractionResult traction_result(const RolledWheel& wheel, const Tire& tire, bool with_patch) {
   TractionResult result;
   result.at = wheel.at;
-  result.drawbar_pull.value = wheel.reading.drawbar_pull;
-  result.torque.value = wheel.reading.torque;
-  result.sinkage.value = wheel.reading.sinkage;
-  result.lateral_force.value = wheel.reading.lateral_force;
+  for (std::size_t i = 0; i < traction_channels.size(); ++i)
+    (result.*traction_channels[i].predicted).value = wheel.reading.*reading_members[i];
   result.tractive_efficiency =
       wheel.motion.locked || wheel.reading.torque == 0.0
           ? not_a_number

@@ -15,7 +15,6 @@
 #include "dem/element_tests/plate_tests.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/unit.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -84,17 +83,9 @@ Measured measure(const BevameterOptions& options, const GranularSoil& grains) {
 
 std::string table_of(const compare::BevameterFit& fit, const Soil& soil) {
   TextTable table({"value", "bevameter", "soil file"});
-  const auto row = [&](const char* name, const Estimate& found, Estimate SemiEmpiricalSoil::*member, double unit) {
-    table.add({name, number(found, 1 / unit),
-               soil.semi_empirical ? number(soil.semi_empirical.value().*member, 1 / unit) : "-"});
-  };
-  using S = SemiEmpiricalSoil;
-  row("n [-]", fit.exponent, &S::exponent, 1);
-  row("k_c [kN/m^(n+1)]", fit.k_c, &S::k_c, 1e3);
-  row("k_phi [kN/m^(n+2)]", fit.k_phi, &S::k_phi, 1e3);
-  row("c [kPa]", fit.cohesion, &S::cohesion, 1e3);
-  row("phi [deg]", fit.friction_angle, &S::friction_angle, degree);
-  row("K [mm]", fit.shear_modulus, &S::shear_modulus, 1e-3);
+  for (const SoilParameter& p : bevameter_parameters)
+    table.add({with_unit(p), number(fit.soil.*p.value, p.per_si),
+               soil.semi_empirical ? number((*soil.semi_empirical).*p.value, p.per_si) : "-"});
   std::string text = table.text();
   if (fit.cohesion_as_fitted < 0)
     text += fmt::format("cohesion came out at {} kPa and is given as 0\n", number(fit.cohesion_as_fitted / 1e3));
@@ -114,18 +105,12 @@ int bevameter(const BevameterOptions& options, const Session& session) {
   if (!options.output.empty())
     write_file_atomically(options.output, write_soil(with_bevameter(soil, fit, measured.density, source)));
   if (options.json) {
-    using compare::estimate_json;
-    fmt::print("{}", compare::json_text({{"format", "soilbin-bevameter/1"},
-                                         {"soil", soil.name},
-                                         {"exponent", estimate_json(fit.exponent)},
-                                         {"k_c", estimate_json(fit.k_c)},
-                                         {"k_phi", estimate_json(fit.k_phi)},
-                                         {"cohesion", estimate_json(fit.cohesion)},
-                                         {"friction_angle", estimate_json(fit.friction_angle)},
-                                         {"shear_modulus", estimate_json(fit.shear_modulus)},
-                                         {"cohesion_as_fitted", fit.cohesion_as_fitted},
-                                         {"pressure_error", fit.pressure_error},
-                                         {"density", measured.density}}));
+    nlohmann::ordered_json document = {{"format", "soilbin-bevameter/1"}, {"soil", soil.name}};
+    for (const SoilParameter& p : bevameter_parameters) document[p.name] = compare::estimate_json(fit.soil.*p.value);
+    document["cohesion_as_fitted"] = fit.cohesion_as_fitted;
+    document["pressure_error"] = fit.pressure_error;
+    document["density"] = measured.density;
+    fmt::print("{}", compare::json_text(document));
   } else {
     fmt::print("bevameter: {}, {} packings\n{}", soil.name, options.packings, table_of(fit, soil));
     if (!options.output.empty()) fmt::print("wrote {}\n", options.output);

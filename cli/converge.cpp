@@ -8,9 +8,9 @@
 
 #include "cli/commands.hpp"
 #include "cli/text_output.hpp"
+#include "compare/measured/channels.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/result_json.hpp"
-#include "compare/sweep/channels.hpp"
 #include "compare/sweep/varying.hpp"
 #include "dem/rig/step_criteria.hpp"
 #include "scenario/errors.hpp"

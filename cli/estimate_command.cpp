@@ -10,6 +10,7 @@
 #include "compare/report/result_json.hpp"
 #include "compare/sweep/plausibility.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -18,12 +19,9 @@ namespace {
 std::string doubt_in_words(const Soil& soil) {
   if (!soil.semi_empirical) return "";
   const SemiEmpiricalSoil& s = *soil.semi_empirical;
-  const std::pair<const char*, const Estimate*> values[] = {
-      {"n", &s.exponent},         {"k_c", &s.k_c},         {"k_phi", &s.k_phi},        {"c", &s.cohesion},
-      {"phi", &s.friction_angle}, {"K", &s.shear_modulus}, {"c1", &s.stress_angle_c1}, {"c2", &s.stress_angle_c2}};
   std::string words;
-  for (const auto& [name, value] : values)
-    if (value->std_error > 0.0) words += (words.empty() ? "" : ", ") + std::string(name);
+  for (const SoilParameter& p : soil_parameters)
+    if ((s.*p.value).std_error > 0.0) words += (words.empty() ? "" : ", ") + std::string(p.symbol);
   if (words.empty()) return "The soil's values are taken as exact.\n";
   return "± is one standard error, from the standard deviations of the soil's " + words + ".\n";
 }

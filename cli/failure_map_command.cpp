@@ -83,8 +83,9 @@ compare::VirtualTest grains_test(const FailureMapOptions& asked, const compare::
     grains.effects.clear();
     const compare::Answer answer = run(grains, condition_at(map, values), seed).answer;
     if (!answer.result) throw NoSolution(answer.error);
-    const TractionResult& result = *answer.result;
-    return std::vector<Estimate>{result.drawbar_pull, result.torque, result.sinkage, result.lateral_force};
+    std::vector<Estimate> measured;
+    for (const TractionChannel& channel : traction_channels) measured.push_back((*answer.result).*channel.predicted);
+    return measured;
   };
   return test;
 }

@@ -38,24 +38,24 @@ void add_entry(Listing& listing, const std::string& name, std::size_t columns, c
 }
 
 Listing soils(const Workplace& place) {
-  Listing all{
-      TextTable({"soil", "n", "k_c [kN/m^(n+1)]", "k_phi [kN/m^(n+2)]", "c [kPa]", "phi [deg]", "K [mm]", "source"})};
+  std::vector<std::string> header = {"soil"};
+  for (const SoilParameter& p : bevameter_parameters) header.push_back(with_unit(p));
+  header.emplace_back("source");
+  Listing all{TextTable(header)};
   for (const std::string& name : place.library.names(Shelf::soils))
-    add_entry(all, name, 8, [&] {
+    add_entry(all, name, header.size(), [&] {
       const Soil soil = find_soil(name, place.library);
-      if (!soil.semi_empirical) return all.table.add({name, "-", "-", "-", "-", "-", "-", soil.source});
-      const SemiEmpiricalSoil& s = *soil.semi_empirical;
-      all.table.add({name, number(s.exponent), number(s.k_c, 1e-3), number(s.k_phi, 1e-3), number(s.cohesion, 1e-3),
-                     number(s.friction_angle, 1 / degree), number(s.shear_modulus, 1e3), clipped(soil.source)});
-      all.json.push_back({{"name", name},
-                          {"exponent", s.exponent.value},
-                          {"k_c", s.k_c.value},
-                          {"k_phi", s.k_phi.value},
-                          {"cohesion", s.cohesion.value},
-                          {"friction_angle", s.friction_angle.value},
-                          {"shear_modulus", s.shear_modulus.value},
-                          {"granular", soil.granular.has_value()},
-                          {"source", soil.source}});
+      std::vector<std::string> row = {name};
+      Json entry = {{"name", name}};
+      for (const SoilParameter& p : bevameter_parameters) {
+        row.push_back(soil.semi_empirical ? number((*soil.semi_empirical).*p.value, p.per_si) : "-");
+        if (soil.semi_empirical) entry[p.name] = ((*soil.semi_empirical).*p.value).value;
+      }
+      row.push_back(clipped(soil.source));
+      all.table.add(std::move(row));
+      if (!soil.semi_empirical) return;
+      entry["granular"] = soil.granular.has_value(), entry["source"] = soil.source;
+      all.json.push_back(std::move(entry));
     });
   return all;
 }

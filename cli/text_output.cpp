@@ -6,7 +6,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "compare/sweep/channels.hpp"
+#include "compare/measured/channels.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/unit.hpp"
 
@@ -60,6 +60,11 @@ std::string efficiency(const TractionResult& result) {
 std::string heading(const ChannelView& channel) { return fmt::format("{} [{}]", channel.title, channel.unit); }
 
 }  // namespace
+
+std::string with_unit(const SoilParameter& parameter) {
+  const bool plain = std::string_view(parameter.unit) == "-";
+  return plain ? parameter.symbol : fmt::format("{} [{}]", parameter.symbol, parameter.unit);
+}
 
 std::string TextTable::text() const {
   std::vector<std::size_t> widths(rows_.front().size(), 0);

@@ -9,6 +9,7 @@
 #include "compare/report/page.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/prediction.hpp"
+#include "scenario/soil_parameters.hpp"
 #include "scenario/tire.hpp"
 
 namespace soilbin::cli {
@@ -28,6 +29,9 @@ class TextTable {
 std::string as_text(const compare::HtmlTable& table);
 
 using compare::number;
+
+/// "phi [deg]"; "n" of a plain number
+std::string with_unit(const SoilParameter& parameter);
 
 /// Each on a line of its own to stderr, as `soilbin check` tells them: "warning: ...".
 void print_warnings(const std::vector<std::string>& warnings);

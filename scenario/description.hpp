@@ -22,6 +22,7 @@
 
 #include "scenario/quantity.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/soil_parameters.hpp"
 
 namespace soilbin {
 
@@ -86,19 +87,12 @@ void describe(Visitor& v, std::type_identity<Tire>) {
 template <class Visitor>
 void describe(Visitor& v, std::type_identity<SemiEmpiricalSoil>) {
   using S = SemiEmpiricalSoil;
-  v.exponent("exponent", &S::exponent, Range{.lower = 0.1, .upper = 2.0}, Need::required,
-             "n of p = (k_c/b + k_phi) z^n");
-  v.number("k_c", &S::k_c, Measure{"kN/m^(n+1)", any_value}, Need::required, "cohesive modulus");
-  v.number("k_phi", &S::k_phi, Measure{"kN/m^(n+2)", any_value}, Need::required, "frictional modulus");
-  v.number("cohesion", &S::cohesion, Measure{"kPa", zero_or_more}, Need::required, "c");
-  v.number("friction_angle", &S::friction_angle,
-           Measure{"deg", {.lower = 0.0, .upper = right_angle, .upper_open = true}}, Need::required, "phi");
-  v.number("shear_modulus", &S::shear_modulus, Measure{"mm", above_zero}, Need::required,
-           "Janosi's shear deformation modulus K");
-  v.number("stress_angle_c1", &S::stress_angle_c1, Measure{"-", fractions}, Need::required,
-           "c1 of theta_m = (c1 + c2 |s|) theta_1");
-  v.number("stress_angle_c2", &S::stress_angle_c2, Measure{"-", {.lower = -1.0, .upper = 2.0}}, Need::required,
-           "c2 of theta_m = (c1 + c2 |s|) theta_1");
+  for (const SoilParameter& p : soil_parameters) {
+    if (p.value == &S::exponent)
+      v.exponent(p.name, p.value, p.range, Need::required, p.meaning);
+    else
+      v.number(p.name, p.value, p.measure(), Need::required, p.meaning);
+  }
   v.number("density", &S::density, Measure{"kg/m^3", above_zero}, Need::optional, "bulk density");
 }
 

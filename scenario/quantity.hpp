@@ -17,8 +17,24 @@ struct Range {
   bool lower_open = false;
   bool upper_open = false;
 
-  bool holds(double x) const { return (lower_open ? x > lower : x >= lower) && (upper_open ? x < upper : x <= upper); }
+  constexpr bool holds(double x) const {
+    return (lower_open ? x > lower : x >= lower) && (upper_open ? x < upper : x <= upper);
+  }
 };
+
+/// Two points about a value of the range, a step below and a step above it. A point that would pass a bound lies on the
+/// bound, or on the value itself where the bound is open: a difference over the two is then one-sided.
+struct Neighbours {
+  double below, above;
+};
+constexpr Neighbours neighbours(double x, double step, const Range& range) {
+  return {.below = range.holds(x - step) ? x - step
+                   : range.lower_open    ? x
+                                         : range.lower,
+          .above = range.holds(x + step) ? x + step
+                   : range.upper_open    ? x
+                                         : range.upper};
+}
 
 inline constexpr Range any_value{};
 inline constexpr Range above_zero{.lower = 0.0, .lower_open = true};

@@ -8,15 +8,16 @@
 
 namespace soilbin {
 
-/// Values of the Bekker / Wong-Reece model, each with its standard deviation (0: taken as exact).
+/// Values of the Bekker / Wong-Reece model, each with its standard deviation (0: taken as exact). Their ranges:
+/// soil_parameters.hpp.
 /// Pressure under a plate of smaller width b at depth z: p = (k_c/b + k_phi) z^n.
 struct SemiEmpiricalSoil {
-  Estimate exponent;                             ///< n [-], 0.1 .. 2
+  Estimate exponent;                             ///< n [-]
   Estimate k_c;                                  ///< cohesive modulus [N/m^(n+1)]
   Estimate k_phi;                                ///< frictional modulus [N/m^(n+2)]
-  Estimate cohesion;                             ///< c [Pa], >= 0
-  Estimate friction_angle;                       ///< phi [rad], 0 .. pi/2 (exclusive)
-  Estimate shear_modulus;                        ///< Janosi's shear deformation modulus K [m], > 0
+  Estimate cohesion;                             ///< c [Pa]
+  Estimate friction_angle;                       ///< phi [rad]
+  Estimate shear_modulus;                        ///< Janosi's shear deformation modulus K [m]
   Estimate stress_angle_c1;                      ///< c1 [-]: theta_m = (c1 + c2 |s|) theta_1
   Estimate stress_angle_c2;                      ///< c2 [-]
   double density = 1500.0;                       ///< bulk density [kg/m^3]

@@ -45,6 +45,9 @@ struct TractionResult {
   std::vector<Contribution> budget;  ///< parts that add up to the drawbar pull, but for budget_rest
   BudgetRest budget_rest;
   std::vector<StressSample> patch;  ///< ordered from exit to entry
+  /// Parameters of the soil, by name, whose standard deviation the standard errors lack: their derivative does not
+  /// exist.
+  std::vector<std::string> without_error_of{};
 };
 
 }  // namespace soilbin

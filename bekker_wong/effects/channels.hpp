@@ -5,24 +5,23 @@
 #include <array>
 
 #include "bekker_wong/effect.hpp"
+#include "scenario/traction_channels.hpp"
 #include "scenario/yawed_frames.hpp"
 
 namespace soilbin::bekker_wong {
 
 /// A measured channel: its place in a reading, and the sizes that an error of its instrument plausibly has [SI].
-struct Channel {
-  const char* name;
-  const char* unit;  ///< as in files
+struct Channel : TractionChannel {
   double Reading::*value;
   double usual;  ///< a default size of its error
   double limit;  ///< beyond it the reading would be useless
 };
 
 inline constexpr std::array<Channel, 4> measured_channels = {{
-    {"drawbar_pull", "N", &Reading::drawbar_pull, 5.0, 1e4},
-    {"torque", "N m", &Reading::torque, 1.0, 1e4},
-    {"sinkage", "mm", &Reading::sinkage, 0.002, 0.2},
-    {"lateral_force", "N", &Reading::lateral_force, 5.0, 1e4},
+    {traction_channels[0], reading_members[0], 5.0, 1e4},
+    {traction_channels[1], reading_members[1], 1.0, 1e4},
+    {traction_channels[2], reading_members[2], 0.002, 0.2},
+    {traction_channels[3], reading_members[3], 5.0, 1e4},
 }};
 
 /// Adds a force given along travel and to its left [N] to a reading, in the axes that the condition asks for.

@@ -69,16 +69,18 @@ EffectForm soil_form(const char* form, const char* equation, double usual, doubl
 EffectForm zero_form(const Channel& channel, Clock clock, const std::string& suffix, const std::string& progress,
                      double share, const char* meaning) {
   const double limit = share * channel.limit;
-  return {.id = "drift",
-          .form = channel.name + suffix,
-          .equation = channel.name + (" + a " + progress),
-          .source = "stated here",
-          .parameters = {{"a", channel.unit, share * channel.usual, -limit, limit, meaning}, reference_run()},
-          .measurement = true,
-          .steady_only = of_an_instrument,
-          .make = [value = channel.value, clock](const std::vector<double>& p) {
-            return std::make_unique<const ZeroDrift>(value, clock, p);
-          }};
+  const std::string name(channel.name);
+  return {
+      .id = "drift",
+      .form = name + suffix,
+      .equation = name + " + a " + progress,
+      .source = "stated here",
+      .parameters = {{"a", std::string(channel.unit), share * channel.usual, -limit, limit, meaning}, reference_run()},
+      .measurement = true,
+      .steady_only = of_an_instrument,
+      .make = [value = channel.value, clock](const std::vector<double>& p) {
+        return std::make_unique<const ZeroDrift>(value, clock, p);
+      }};
 }
 
 }  // namespace

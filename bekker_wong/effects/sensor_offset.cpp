@@ -20,18 +20,18 @@ class Offset final : public Effect {
 std::vector<EffectForm> sensor_offset_forms() {
   std::vector<EffectForm> forms;
   for (const Channel& channel : measured_channels)
-    forms.push_back(
-        {.id = "sensor_offset",
-         .form = channel.name,
-         .equation = std::string(channel.name) + " + a",
-         .source = "stated here",
-         .parameters = {{"a", channel.unit, channel.usual, -channel.limit, channel.limit, "offset of the zero"}},
-         .measurement = true,
-         .form_tolerance = 0.05,
-         .steady_only = of_an_instrument,
-         .make = [value = channel.value](const std::vector<double>& p) {
-           return std::make_unique<const Offset>(value, p[0]);
-         }});
+    forms.push_back({.id = "sensor_offset",
+                     .form = std::string(channel.name),
+                     .equation = std::string(channel.name) + " + a",
+                     .source = "stated here",
+                     .parameters = {{"a", std::string(channel.unit), channel.usual, -channel.limit, channel.limit,
+                                     "offset of the zero"}},
+                     .measurement = true,
+                     .form_tolerance = 0.05,
+                     .steady_only = of_an_instrument,
+                     .make = [value = channel.value](const std::vector<double>& p) {
+                       return std::make_unique<const Offset>(value, p[0]);
+                     }});
   return forms;
 }
 

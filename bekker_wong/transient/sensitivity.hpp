@@ -2,25 +2,17 @@
 #pragma once
 
 #include <array>
-#include <string_view>
 #include <vector>
 
 #include "bekker_wong/transient/driven_wheel.hpp"
+#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::bekker_wong {
 
-/// A soil value that a drive may be differentiated by.
-struct SoilParameter {
-  std::string_view name;  ///< as in files
-  Estimate SemiEmpiricalSoil::*value;
-};
-inline constexpr std::array<SoilParameter, 5> drive_parameters = {{
-    {"exponent", &SemiEmpiricalSoil::exponent},
-    {"k_phi", &SemiEmpiricalSoil::k_phi},
-    {"cohesion", &SemiEmpiricalSoil::cohesion},
-    {"friction_angle", &SemiEmpiricalSoil::friction_angle},
-    {"shear_modulus", &SemiEmpiricalSoil::shear_modulus},
-}};
+/// What a drive may be differentiated by. Steps are relative: none of these may be 0.
+inline constexpr std::array<SoilParameter, 5> drive_parameters = {
+    soil_parameter("exponent"), soil_parameter("k_phi"), soil_parameter("cohesion"), soil_parameter("friction_angle"),
+    soil_parameter("shear_modulus")};
 
 /// Distance travelled after the drive's duration [m] and its derivatives by drive_parameters [m per SI unit].
 struct TravelSensitivity {

@@ -49,8 +49,8 @@ double pressure_error(std::span<const PlateSet> plates, const BevameterFit& fit)
   for (const PlateSet& set : plates)
     for (const bekker_wong::PlateCurve& curve : set)
       for (std::size_t k = 0; k < curve.pressure.size(); ++k) {
-        const double modulus = fit.k_c.value / curve.radius + fit.k_phi.value;
-        const double miss = curve.pressure[k] - modulus * std::pow(curve.sinkage[k], fit.exponent.value);
+        const double modulus = fit.soil.k_c.value / curve.radius + fit.soil.k_phi.value;
+        const double miss = curve.pressure[k] - modulus * std::pow(curve.sinkage[k], fit.soil.exponent.value);
         squares += miss * miss, sum += curve.pressure[k], count += 1;
       }
   return std::sqrt(squares / count) / (sum / count);
@@ -87,22 +87,22 @@ BevameterFit fit_bevameter(std::span<const PlateSet> plates, std::span<const She
   std::vector<double> n, k_c, k_phi, modulus;
   for (const PlateSet& set : plates)
     n.push_back(bekker_wong::fit_plates(set, bekker_wong::PlateExponent::common).exponent);
-  fit.exponent = mean_of(n);
+  fit.soil.exponent = mean_of(n);
   // k_c and k_phi mean something at one exponent only: all sets at the mean one.
   for (const PlateSet& set : plates) {
-    const bekker_wong::PlateFit at = bekker_wong::fit_plates_at(set, fit.exponent.value);
+    const bekker_wong::PlateFit at = bekker_wong::fit_plates_at(set, fit.soil.exponent.value);
     k_c.push_back(at.k_c), k_phi.push_back(at.k_phi);
   }
-  fit.k_c = mean_of(k_c), fit.k_phi = mean_of(k_phi);
+  fit.soil.k_c = mean_of(k_c), fit.soil.k_phi = mean_of(k_phi);
   for (const ShearCurve& curve : shear) {
     fit.shear.push_back(fit_janosi(curve));
     modulus.push_back(fit.shear.back().modulus);
   }
-  fit.shear_modulus = mean_of(modulus);
+  fit.soil.shear_modulus = mean_of(modulus);
   const Strength strength = strength_of(shear, fit.shear);
   fit.cohesion_as_fitted = strength.cohesion.value;
-  fit.cohesion = {std::max(0.0, strength.cohesion.value), strength.cohesion.std_error};
-  fit.friction_angle = strength.friction_angle;
+  fit.soil.cohesion = {std::max(0.0, strength.cohesion.value), strength.cohesion.std_error};
+  fit.soil.friction_angle = strength.friction_angle;
   fit.pressure_error = pressure_error(plates, fit);
   return fit;
 }
@@ -115,11 +115,8 @@ Soil with_bevameter(Soil soil, const BevameterFit& fit, double density, const st
     for (const char* key : {"stress_angle_c1", "stress_angle_c2"})
       out.sources[key] = "chosen: as Azimi et al. 2013 take for sand; a bevameter does not tell it";
   }
-  out.exponent = fit.exponent, out.k_c = fit.k_c, out.k_phi = fit.k_phi;
-  out.cohesion = fit.cohesion, out.friction_angle = fit.friction_angle, out.shear_modulus = fit.shear_modulus;
-  out.density = density;
-  for (const char* key : {"exponent", "k_c", "k_phi", "cohesion", "friction_angle", "shear_modulus", "density"})
-    out.sources[key] = source;
+  for (const SoilParameter& p : bevameter_parameters) out.*p.value = fit.soil.*p.value, out.sources[p.name] = source;
+  out.density = density, out.sources["density"] = source;
   if (fit.cohesion_as_fitted < 0) out.sources["cohesion"] += "; fitted below 0, taken as 0";
   soil.semi_empirical = out;
   return soil;

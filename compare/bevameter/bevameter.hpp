@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "bekker_wong/plate_fit.hpp"
-#include "scenario/estimate.hpp"
-#include "scenario/soil.hpp"
+#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
 
@@ -32,11 +31,10 @@ struct JanosiFit {
 JanosiFit fit_janosi(const ShearCurve& curve);
 
 struct BevameterFit {
-  Estimate exponent, k_c, k_phi;                     ///< n [-], [N/m^(n+1)], [N/m^(n+2)]
-  Estimate cohesion, friction_angle, shear_modulus;  ///< c [Pa], phi [rad], K [m]
-  double cohesion_as_fitted = 0;                     ///< c before it was cut off at 0 [Pa]
-  double pressure_error = 0;     ///< root mean square of Bekker's form against all plates' points, over their mean
-  std::vector<JanosiFit> shear;  ///< of each curve
+  SemiEmpiricalSoil soil;         ///< bevameter_parameters of it alone
+  double cohesion_as_fitted = 0;  ///< c before it was cut off at 0 [Pa]
+  double pressure_error = 0;      ///< root mean square of Bekker's form against all plates' points, over their mean
+  std::vector<JanosiFit> shear;   ///< of each curve
 };
 
 /// n, k_c and k_phi: means over the sets, each fitted by fit_plates with a common exponent, with the standard errors of

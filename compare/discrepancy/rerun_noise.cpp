@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "compare/sweep/channels.hpp"
+#include "compare/measured/channels.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {

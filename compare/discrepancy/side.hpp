@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "compare/loop/noise_floor.hpp"
+#include "compare/measured/channels.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/sweep/answers.hpp"
-#include "compare/sweep/channels.hpp"
 
 namespace soilbin::compare {
 

@@ -9,6 +9,7 @@
 #include "compare/sweep/answers.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
+#include "scenario/traction_channels.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -79,7 +80,10 @@ OperatingCondition condition_at(const InclineMap& map, const VectorXd& values) {
 }
 
 std::vector<Target> grain_channels() {
-  return {{"drawbar_pull", {}, "N"}, {"torque", {}, "N m"}, {"sinkage", {}, "mm"}, {"lateral_force", {}, "N"}};
+  std::vector<Target> targets;
+  for (const TractionChannel& channel : traction_channels)
+    targets.push_back({std::string(channel.name), {}, std::string(channel.unit)});
+  return targets;
 }
 
 FailureQuestion failure_question(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store,

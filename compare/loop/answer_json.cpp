@@ -46,11 +46,12 @@ ordered_json soil_json(const LoopAnswer& answer) {
 ordered_json error_json(const LoopAnswer& answer) {
   ordered_json error = ordered_json::object();
   for (int c = 0; c < channel_count; ++c) {
-    const std::string name(channel_names[static_cast<std::size_t>(c)]);
+    const ChannelView& channel = channel_views[static_cast<std::size_t>(c)];
+    const std::string name(channel.name);
     const ErrorPair& e = answer.validation.channels[static_cast<std::size_t>(c)];
     error[name] = ordered_json::object();
     if (e.cells == 0) continue;
-    error[name] = {{"unit", channel_units[static_cast<std::size_t>(c)]},
+    error[name] = {{"unit", channel.si_unit},
                    {"before", finite(e.before)},
                    {"after", finite(e.after)},
                    {"noise_floor", finite(e.noise_floor)},

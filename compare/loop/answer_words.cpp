@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/sweep/channels.hpp"
 
 namespace soilbin::compare {
 

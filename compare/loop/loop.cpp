@@ -7,8 +7,8 @@
 #include <map>
 
 #include "compare/loop/base_fit.hpp"
-#include "compare/report/soil_views.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
 
@@ -109,7 +109,7 @@ SemiEmpiricalSoil fitted_soil(const Campaign& campaign, const WheelPredictor& pr
   SemiEmpiricalSoil soil = campaign.soil;
   const Eigen::VectorXd errors = standard_errors(fit, predictor);
   for (int i = 0; i < predictor.soil_parameters(); ++i)
-    soil.*soil_view(predictor.parameters()[static_cast<std::size_t>(i)].name).value = {fit.theta[i], errors[i]};
+    soil.*soil_parameter(predictor.parameters()[static_cast<std::size_t>(i)].name).value = {fit.theta[i], errors[i]};
   return soil;
 }
 

@@ -7,10 +7,10 @@
 #include <map>
 
 #include "compare/loop/answer_words.hpp"
+#include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/report/soil_views.hpp"
-#include "compare/sweep/channels.hpp"
+#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -188,9 +188,9 @@ HtmlTable soil_table(const LoopAnswer& answer) {
                   {},
                   {true, false, false, false, true}};
   for (const SoilShift& s : answer.soil_shifts) {
-    const SoilView& view = soil_view(s.name);
-    table.rows.push_back({std::string(view.title), number(s.with, view.per_si), number(s.without, view.per_si),
-                          number(view.per_si * (s.without.value - s.with.value)), std::string(view.unit)});
+    const SoilParameter& p = soil_parameter(s.name);
+    table.rows.push_back({p.title, number(s.with, p.per_si), number(s.without, p.per_si),
+                          number(p.per_si * (s.without.value - s.with.value)), p.unit});
   }
   return table;
 }

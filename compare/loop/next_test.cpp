@@ -41,7 +41,11 @@ Contender contender(const Campaign& campaign, const Identification& id, const st
   return c;
 }
 
-Vector4d as_vector(const bekker_wong::Reading& r) { return {r.drawbar_pull, r.torque, r.sinkage, r.lateral_force}; }
+Vector4d as_vector(const bekker_wong::Reading& reading) {
+  Vector4d vector;
+  for (int channel = 0; channel < channel_count; ++channel) vector[channel] = channel_of(reading, channel);
+  return vector;
+}
 
 /// Variance that each term's form may be wrong by: its contribution times the form's tolerance, channel by channel.
 Matrix4d form_variance(const Contender& c, const OperatingCondition& at, const Vector4d& here) {

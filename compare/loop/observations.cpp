@@ -27,10 +27,6 @@ auto fingerprint(const OperatingCondition& at) {
                          at.moisture.value_or(0.0), at.position.value_or(0.0));
 }
 
-std::array<std::optional<double>, channel_count> channels(const Run& run) {
-  return {run.drawbar_pull, run.torque, run.sinkage, run.lateral_force};
-}
-
 }  // namespace
 
 Observations observe(const Campaign& campaign) {
@@ -47,9 +43,9 @@ Observations observe(const Campaign& campaign) {
     all.rows.push_back(run.at);
     all.condition.push_back(condition);
     all.source_row.push_back(static_cast<int>(i));
-    const auto values = channels(run);
     for (int c = 0; c < channel_count; ++c)
-      if (const auto& value = values[static_cast<std::size_t>(c)]) all.cells.push_back({row, c, *value});
+      if (const auto& value = run.*channel_views[static_cast<std::size_t>(c)].measured)
+        all.cells.push_back({row, c, *value});
   }
   return all;
 }

@@ -4,19 +4,19 @@
 #include <Eigen/Dense>
 #include <array>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "compare/measured/campaign.hpp"
+#include "compare/measured/channels.hpp"
 
 namespace soilbin::compare {
 
-/// The measured channels, in the order of every array over channels.
+/// Places in channel_views and in every array over channels.
 enum Channel { drawbar_pull = 0, torque = 1, sinkage = 2, lateral_force = 3 };
 inline constexpr int channel_count = 4;
-inline constexpr std::array<std::string_view, channel_count> channel_names = {"drawbar_pull", "torque", "sinkage",
-                                                                              "lateral_force"};
-inline constexpr std::array<std::string_view, channel_count> channel_units = {"N", "N m", "m", "N"};
+static_assert(channel_count == channel_views.size() && channel_views[drawbar_pull].name == "drawbar_pull" &&
+              channel_views[torque].name == "torque" && channel_views[sinkage].name == "sinkage" &&
+              channel_views[lateral_force].name == "lateral_force");
 
 /// One measured number.
 struct Cell {

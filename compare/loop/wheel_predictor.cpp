@@ -8,6 +8,7 @@
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/soil_parameters.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
@@ -19,23 +20,27 @@ using bekker_wong::SoilValues;
 
 namespace {
 
-struct SoilSlot {
-  const char* name;
-  double SoilValues::*value;
-  Estimate SemiEmpiricalSoil::*declared;
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// Where a fit stays nearer than what a file may hold: strengths and lengths that no soil has, and stress angles that
+/// the wheel holds where they pass it.
+struct FitBounds {
+  std::string_view parameter;
   double lower, upper;
 };
-constexpr double unbounded = std::numeric_limits<double>::infinity();
-constexpr std::array<SoilSlot, 8> soil_slots = {{
-    {"exponent", &SoilValues::exponent, &SemiEmpiricalSoil::exponent, 0.05, 3.0},
-    {"k_c", &SoilValues::k_c, &SemiEmpiricalSoil::k_c, -unbounded, unbounded},
-    {"k_phi", &SoilValues::k_phi, &SemiEmpiricalSoil::k_phi, -unbounded, unbounded},
-    {"cohesion", &SoilValues::cohesion, &SemiEmpiricalSoil::cohesion, 0.0, unbounded},
-    {"friction_angle", &SoilValues::friction_angle, &SemiEmpiricalSoil::friction_angle, 0.0, 65 * degree},
-    {"shear_modulus", &SoilValues::shear_modulus, &SemiEmpiricalSoil::shear_modulus, 2e-4, unbounded},
-    {"stress_angle_c1", &SoilValues::c1, &SemiEmpiricalSoil::stress_angle_c1, 0.0, bekker_wong::max_stress_share},
-    {"stress_angle_c2", &SoilValues::c2, &SemiEmpiricalSoil::stress_angle_c2, -0.5, bekker_wong::max_stress_share},
+constexpr std::array<FitBounds, 5> narrower = {{
+    {"exponent", 0.05, 3.0},
+    {"friction_angle", 0.0, 65 * degree},
+    {"shear_modulus", 2e-4, unbounded},
+    {"stress_angle_c1", 0.0, bekker_wong::max_stress_share},
+    {"stress_angle_c2", -0.5, bekker_wong::max_stress_share},
 }};
+
+FitBounds fit_bounds(const SoilParameter& parameter) {
+  for (const FitBounds& one : narrower)
+    if (one.parameter == parameter.name) return one;
+  return {parameter.name, parameter.range.lower, parameter.range.upper};
+}
 
 /// Mean and half range of a covariate.
 struct Extent {
@@ -59,23 +64,14 @@ constexpr double most_shortfall = 1.6;     // ln 5
 constexpr double least_shortfall = 1e-12;  // tells a row that gives way by less than the quadrature's error
 
 bool all_finite(const bekker_wong::Reading& r) {
-  return std::isfinite(r.drawbar_pull) && std::isfinite(r.torque) && std::isfinite(r.sinkage) &&
-         std::isfinite(r.lateral_force);
+  return std::all_of(bekker_wong::reading_members.begin(), bekker_wong::reading_members.end(),
+                     [&](auto member) { return std::isfinite(r.*member); });
 }
 
 }  // namespace
 
 double channel_of(const bekker_wong::Reading& reading, int channel) {
-  switch (channel) {
-    case drawbar_pull:
-      return reading.drawbar_pull;
-    case torque:
-      return reading.torque;
-    case sinkage:
-      return reading.sinkage;
-    default:
-      return reading.lateral_force;
-  }
+  return reading.*bekker_wong::reading_members.at(static_cast<std::size_t>(channel));
 }
 
 Term make_term(const bekker_wong::EffectForm& form, const Observations& observations, bool free_shape) {
@@ -97,11 +93,14 @@ WheelPredictor::WheelPredictor(const Campaign& campaign, const Observations& obs
       observations_(&observations),
       terms_(std::move(terms)),
       declared_(bekker_wong::make_effects(campaign.effects)) {
-  for (const SoilSlot& slot : soil_slots) {
-    const Estimate& declared = campaign.soil.*slot.declared;
+  for (std::size_t i = 0; i < soilbin::soil_parameters.size(); ++i) {
+    const SoilParameter& parameter = soilbin::soil_parameters[i];
+    const Estimate& declared = campaign.soil.*parameter.value;
     if (!(declared.std_error > 0.0)) continue;
-    soil_members_.push_back(slot.value);
-    parameters_.push_back({slot.name, declared.value, declared.std_error, slot.lower, slot.upper, declared.std_error});
+    const FitBounds bounds = fit_bounds(parameter);
+    soil_members_.push_back(bekker_wong::soil_members[i]);
+    parameters_.push_back(
+        {parameter.name, declared.value, declared.std_error, bounds.lower, bounds.upper, declared.std_error});
   }
   for (const Term& term : terms_) {
     first_of_term_.push_back(static_cast<int>(parameters_.size()));

@@ -12,6 +12,7 @@
 #include "scenario/mapping_reader.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/nearest_word.hpp"
+#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -151,10 +152,8 @@ Scenario scenario_of(const Campaign& campaign) {
 }
 
 int free_parameters(const SemiEmpiricalSoil& soil) {
-  const auto values = {soil.exponent,       soil.k_c,           soil.k_phi,           soil.cohesion,
-                       soil.friction_angle, soil.shear_modulus, soil.stress_angle_c1, soil.stress_angle_c2};
-  return static_cast<int>(
-      std::count_if(values.begin(), values.end(), [](const Estimate& e) { return e.std_error > 0.0; }));
+  return static_cast<int>(std::count_if(soil_parameters.begin(), soil_parameters.end(),
+                                        [&](const SoilParameter& p) { return (soil.*p.value).std_error > 0.0; }));
 }
 
 Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(const std::string&)>& open,

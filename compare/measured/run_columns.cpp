@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 
 namespace soilbin::compare {
@@ -33,13 +34,13 @@ RunColumn required_condition(std::string_view name) {
   return column;
 }
 
-RunColumn channel(std::string quantity, std::string canonical, std::string unit, std::optional<double> Run::*member) {
-  return {.quantity = std::move(quantity),
-          .canonical = std::move(canonical),
-          .measure = {std::move(unit), any_value},
+RunColumn channel(const ChannelView& view) {
+  return {.quantity = std::string(view.name),
+          .canonical = column_of(view),
+          .measure = {view.si_unit, any_value},
           .channel = true,
-          .set = [member](Run& run, double x) { run.*member = x; },
-          .get = [member](const Run& run) { return run.*member; }};
+          .set = [&view](Run& run, double x) { run.*view.measured = x; },
+          .get = [&view](const Run& run) { return run.*view.measured; }};
 }
 
 std::vector<RunColumn> make_columns() {
@@ -50,10 +51,7 @@ std::vector<RunColumn> make_columns() {
   for (const char* name :
        {"speed", "pass", "position", "moisture", "longitudinal_incline", "transverse_incline", "yaw"})
     all.push_back(condition(name));
-  all.push_back(channel("drawbar_pull", "drawbar_pull_N", "N", &Run::drawbar_pull));
-  all.push_back(channel("torque", "torque_Nm", "N m", &Run::torque));
-  all.push_back(channel("sinkage", "sinkage_m", "m", &Run::sinkage));
-  all.push_back(channel("lateral_force", "lateral_force_N", "N", &Run::lateral_force));
+  for (const ChannelView& view : channel_views) all.push_back(channel(view));
   return all;
 }
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "compare/measured/channels.hpp"
 #include "compare/sweep/alike.hpp"
-#include "compare/sweep/channels.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <random>
 
+#include "compare/measured/channels.hpp"
 #include "compare/measured/run_columns.hpp"
 #include "compare/sweep/alike.hpp"
-#include "compare/sweep/channels.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/source_text.hpp"

@@ -9,8 +9,8 @@
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/peaks.hpp"
-#include "compare/report/soil_views.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/soil_parameters.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
@@ -97,9 +97,8 @@ HtmlTable soil_table(const std::string& name, const SemiEmpiricalSoil& soil, con
                   {"value", "", "unit", "source"},
                   {},
                   {true, false, true, true}};
-  for (const SoilView& view : soil_views)
-    table.rows.push_back({std::string(view.title), number(soil.*view.value, view.per_si), std::string(view.unit),
-                          source_of(soil.sources, std::string(view.name))});
+  for (const SoilParameter& p : soil_parameters)
+    table.rows.push_back({p.title, number(soil.*p.value, p.per_si), p.unit, source_of(soil.sources, p.name)});
   table.rows.push_back({"density", number(soil.density), "kg/m^3", source_of(soil.sources, "density")});
   return table;
 }

@@ -8,6 +8,7 @@
 
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/report/number_text.hpp"
+#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -57,12 +58,11 @@ dem::SteadyDrive values_at(const DriveState& end) {
 /// Adds errors: sd of each soil value times the central difference of the steady values over it. A drive that doesn't
 /// become steady with a changed soil leaves that value out, and says so.
 std::string add_doubt(dem::SteadyDrive& steady, const Case& question) {
-  using Soil = SemiEmpiricalSoil;
   constexpr double nudge = 0.1;  // of the standard deviation
   std::array<double, steady_values.size()> variance{};
   std::string left_out;
-  for (Estimate Soil::*value : {&Soil::exponent, &Soil::k_c, &Soil::k_phi, &Soil::cohesion, &Soil::friction_angle,
-                                &Soil::shear_modulus, &Soil::stress_angle_c1, &Soil::stress_angle_c2}) {
+  for (const SoilParameter& parameter : soil_parameters) {
+    const auto value = parameter.value;
     const Estimate of = (*question.scenario.soil.semi_empirical).*value;
     if (!(of.std_error > 0.0)) continue;
     const auto end_with = [&](double changed) {
@@ -73,7 +73,8 @@ std::string add_doubt(dem::SteadyDrive& steady, const Case& question) {
       return values_at(record.samples.back());
     };
     const double high = of.value + nudge * of.std_error;
-    const double low = std::max(of.value - nudge * of.std_error, value == &Soil::cohesion ? 0.0 : -INFINITY);
+    const double low =
+        std::max(of.value - nudge * of.std_error, value == &SemiEmpiricalSoil::cohesion ? 0.0 : -INFINITY);
     const dem::SteadyDrive up = end_with(high), down = end_with(low);
     for (std::size_t i = 0; i < variance.size(); ++i) {
       const auto member = steady_values[i].value;

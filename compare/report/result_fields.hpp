@@ -1,7 +1,7 @@
 // A result's members as JSON keys, for the visitors of json_fields.hpp. The names are the contract's.
 #pragma once
 
-#include "compare/sweep/channels.hpp"
+#include "compare/measured/channels.hpp"
 
 namespace soilbin::compare {
 
@@ -9,11 +9,11 @@ namespace soilbin::compare {
 template <class Visitor, class Result>
 void result_fields(Visitor& v, Result& result) {
   for (const ChannelView& channel : channel_views)
-    v.number(channel.name, (result.*channel.predicted).value, si_unit(channel), channel.title.data());
+    v.number(channel.name, (result.*channel.predicted).value, channel.si_unit, channel.title.data());
   v.number("theta_1", result.entry_angle, "rad", "where soil meets the wheel, from the vertical");
   v.group("std_error", "standard errors", [&](auto& inner) {
     for (const ChannelView& channel : channel_views)
-      inner.number(channel.name, (result.*channel.predicted).std_error, si_unit(channel), channel.title.data());
+      inner.number(channel.name, (result.*channel.predicted).std_error, channel.si_unit, channel.title.data());
   });
   v.number("tractive_efficiency", result.tractive_efficiency, "-", "F_DP v/(M w)");
   v.number("theta_m", result.max_stress_angle, "rad", "where soil presses most");

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/measured/channels.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/result_fields.hpp"
-#include "compare/sweep/channels.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/unit.hpp"
 
@@ -104,7 +104,7 @@ Json errors_json(const std::vector<ChannelError>& errors) {
   Json all = Json::object();
   for (const ChannelError& error : errors) {
     const ChannelView& channel = channel_views[error.channel];
-    all[std::string(channel.name)] = {{"unit", si_unit(channel)},     {"runs", error.runs},
+    all[std::string(channel.name)] = {{"unit", channel.si_unit},      {"runs", error.runs},
                                       {"rmse", finite(error.rmse)},   {"bias", finite(error.bias)},
                                       {"range", finite(error.range)}, {"share_of_range", finite(error.share_of_range)}};
   }
@@ -226,10 +226,10 @@ std::string json_text(const Json& document) {
 }
 
 std::string study_csv(const std::vector<ModelAnswers>& study) {
-  std::string text =
-      "model,load_N,slip,speed_m_s,longitudinal_incline_deg,transverse_incline_deg,yaw_deg,pass,drawbar_pull_N,"
-      "drawbar_pull_se_N,torque_Nm,torque_se_Nm,sinkage_m,sinkage_se_m,lateral_force_N,lateral_force_se_N,"
-      "tractive_efficiency,theta_1_deg,theta_m_deg,theta_2_deg,error\n";
+  std::string text = "model,load_N,slip,speed_m_s,longitudinal_incline_deg,transverse_incline_deg,yaw_deg,pass,";
+  for (const TractionChannel& channel : traction_channels)
+    text += column_of(channel) + "," + column_of(channel, "se") + ",";
+  text += "tractive_efficiency,theta_1_deg,theta_m_deg,theta_2_deg,error\n";
   for (const ModelAnswers& model : study)
     for (const Answer& answer : model.answers) text += csv_row(model.choice.label, answer);
   return text;

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/measured/channels.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/reproduction/reproduction.hpp"
 #include "compare/sweep/alike.hpp"
-#include "compare/sweep/channels.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

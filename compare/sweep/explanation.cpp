@@ -9,6 +9,7 @@
 #include "bekker_wong/model.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/quantity.hpp"
+#include "scenario/soil_parameters.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
@@ -51,11 +52,12 @@ Facts gather(const Scenario& scenario, const OperatingCondition& at) {
 std::vector<Step> contact_steps(const Facts& f) {
   const SoilValues& s = f.soil;
   const double n = s.exponent;
+  const char* modulus_unit = soil_parameter("k_phi").unit;
   std::vector<Step> steps;
   steps.push_back({"soil's stiffness", "k = k_c/b + k_phi",
-                   fmt::format("{} / {:.4g} m + {}", write_quantity(s.k_c, "kN/m^(n+1)", n), f.b,
-                               write_quantity(s.k_phi, "kN/m^(n+2)", n)),
-                   f.k / 1000, "kN/m^(n+2)"});
+                   fmt::format("{} / {:.4g} m + {}", write_quantity(s.k_c, soil_parameter("k_c").unit, n), f.b,
+                               write_quantity(s.k_phi, modulus_unit, n)),
+                   f.k / 1000, modulus_unit});
   steps.push_back({"load on the ground", "W_n = W cos(alpha) cos(beta_t)",
                    fmt::format("{:.5g} N cos({:.3g} deg) cos({:.3g} deg)", f.at.load,
                                f.at.longitudinal_incline / degree, f.at.transverse_incline / degree),

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "compare/measured/campaign.hpp"
+#include "compare/measured/channels.hpp"
 #include "compare/sweep/answers.hpp"
-#include "compare/sweep/channels.hpp"
 
 namespace soilbin::compare {
 

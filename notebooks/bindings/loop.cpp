@@ -58,7 +58,7 @@ py::dict held_out(const LoopAnswer& answer) {
   };
   for (std::size_t i = 0; i < compare::channel_count; ++i)
     if (answer.validation.channels[i].cells > 0)
-      out[py::str(std::string(compare::channel_names[i]))] = row(answer.validation.channels[i]);
+      out[py::str(std::string(compare::channel_views[i].name))] = row(answer.validation.channels[i]);
   if (answer.validation.overall.cells > 0) out["all"] = row(answer.validation.overall);
   return out;
 }

@@ -2,7 +2,7 @@
 #include <fmt/core.h>
 
 #include "compare/measured/campaign.hpp"
-#include "compare/sweep/channels.hpp"
+#include "compare/measured/channels.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "notebooks/bindings/bindings.hpp"
 
@@ -16,14 +16,13 @@ using compare::Prediction;
 using compare::Run;
 
 void bind_campaign(py::module_& module) {
-  py::class_<Run>(module, "Run", "The steady-state mean of one independent run; None where a channel wasn't measured.")
-      .def_readonly("at", &Run::at)
-      .def_readonly("setpoint", &Run::setpoint, "runs with the same label are re-runs of one setpoint")
-      .def_readonly("drawbar_pull", &Run::drawbar_pull, "[N]")
-      .def_readonly("torque", &Run::torque, "[N m]")
-      .def_readonly("sinkage", &Run::sinkage, "[m]")
-      .def_readonly("lateral_force", &Run::lateral_force, "[N]")
-      .def_readonly("csv_line", &Run::csv_line);
+  py::class_<Run> run(module, "Run",
+                      "The steady-state mean of one independent run; None where a channel wasn't measured.");
+  run.def_readonly("at", &Run::at);
+  run.def_readonly("setpoint", &Run::setpoint, "runs with the same label are re-runs of one setpoint");
+  for (const compare::ChannelView& channel : compare::channel_views)
+    run.def_readonly(channel.name.data(), channel.measured, fmt::format("[{}]", channel.si_unit).c_str());
+  run.def_readonly("csv_line", &Run::csv_line);
   py::class_<Campaign>(module, "Campaign", "What was measured, and what is known beforehand (docs/campaigns.md).")
       .def_readonly("name", &Campaign::name)
       .def_readonly("wheel", &Campaign::wheel)

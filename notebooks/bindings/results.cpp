@@ -8,6 +8,7 @@
 #include "compare/sweep/varying.hpp"
 #include "notebooks/bindings/bindings.hpp"
 #include "scenario/case.hpp"
+#include "scenario/traction_channels.hpp"
 
 namespace soilbin::python {
 namespace {
@@ -30,12 +31,11 @@ py::dict budget_of(const TractionResult& result) {
 
 void bind_result(py::module_& module) {
   using R = TractionResult;
-  py::class_<R>(module, "TractionResult", "The answer of a model or of a measurement at one condition.")
-      .def_readonly("at", &R::at)
-      .def_readonly("drawbar_pull", &R::drawbar_pull, "F_DP [N] along travel, less the slope's share of the load")
-      .def_readonly("torque", &R::torque, "M [N m]; positive drives")
-      .def_readonly("sinkage", &R::sinkage, "z [m]")
-      .def_readonly("lateral_force", &R::lateral_force, "F_y [N], to the left of travel")
+  py::class_<R> result(module, "TractionResult", "The answer of a model or of a measurement at one condition.");
+  result.def_readonly("at", &R::at);
+  for (const TractionChannel& channel : traction_channels)
+    result.def_readonly(channel.name.data(), channel.predicted, channel.meaning);
+  result
       .def_property_readonly("tractive_efficiency", &compare::told_efficiency,
                              "F_DP v/(M w) [-]; NaN unless the wheel is driven and pulls (M > 0, F_DP >= 0)")
       .def_readonly("entry_angle", &R::entry_angle, "theta_1 [rad]")
@@ -58,6 +58,14 @@ void bind_result(py::module_& module) {
         return fmt::format("TractionResult(drawbar_pull={:.4g} N, torque={:.4g} N m, sinkage={:.4g} m)",
                            r.drawbar_pull.value, r.torque.value, r.sinkage.value);
       });
+  module.def(
+      "channels",
+      [] {
+        std::vector<std::string> names;
+        for (const TractionChannel& channel : traction_channels) names.emplace_back(channel.name);
+        return names;
+      },
+      "Names of the four channels, in the order of every table.");
   py::class_<Answer>(module, "Answer", "What a model says at one condition: a result, or why there is none.")
       .def_readonly("at", &Answer::at)
       .def_readonly("result", &Answer::result, "None where there is none")

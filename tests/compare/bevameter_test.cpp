@@ -43,12 +43,12 @@ const std::vector<ShearCurve> three_stresses{sheared(5e3), sheared(10e3), sheare
 TEST(Bevameter, GivesBackTheSoil) {
   const std::vector<PlateSet> sets{plates()};
   const BevameterFit fit = fit_bevameter(sets, three_stresses);
-  EXPECT_NEAR(fit.exponent.value, n, 1e-9);
-  EXPECT_NEAR(fit.k_c.value, k_c, 1e-3);
-  EXPECT_NEAR(fit.k_phi.value, k_phi, 1);
-  EXPECT_NEAR(fit.cohesion.value, c, 0.01);
-  EXPECT_NEAR(fit.friction_angle.value, phi, 1e-6);
-  EXPECT_NEAR(fit.shear_modulus.value, K, 1e-7);
+  EXPECT_NEAR(fit.soil.exponent.value, n, 1e-9);
+  EXPECT_NEAR(fit.soil.k_c.value, k_c, 1e-3);
+  EXPECT_NEAR(fit.soil.k_phi.value, k_phi, 1);
+  EXPECT_NEAR(fit.soil.cohesion.value, c, 0.01);
+  EXPECT_NEAR(fit.soil.friction_angle.value, phi, 1e-6);
+  EXPECT_NEAR(fit.soil.shear_modulus.value, K, 1e-7);
   EXPECT_NEAR(fit.pressure_error, 0, 1e-9);
 }
 
@@ -56,9 +56,9 @@ TEST(Bevameter, ScatterOfSetsIsTheErrorOfTheMean) {
   // Moduli of 0.9, 1 and 1.1: mean 1, standard deviation 0.1, error 0.1/sqrt(3).
   const std::vector<PlateSet> sets{plates(0.9), plates(1), plates(1.1)};
   const BevameterFit fit = fit_bevameter(sets, three_stresses);
-  EXPECT_NEAR(fit.k_phi.value, k_phi, 1);
-  EXPECT_NEAR(fit.k_phi.std_error, 0.1 * k_phi / std::sqrt(3.0), 1);
-  EXPECT_NEAR(fit.exponent.std_error, 0, 1e-9);
+  EXPECT_NEAR(fit.soil.k_phi.value, k_phi, 1);
+  EXPECT_NEAR(fit.soil.k_phi.std_error, 0.1 * k_phi / std::sqrt(3.0), 1);
+  EXPECT_NEAR(fit.soil.exponent.std_error, 0, 1e-9);
 }
 
 TEST(Bevameter, WritesASoilThatReadsBack) {

@@ -42,7 +42,7 @@ TEST(NoiseFloor, IsTheNoisePutIn) {
     const ChannelNoise& n = id.noise.channels[static_cast<std::size_t>(c)];
     const double typical = n.sd(id.base.prediction.head(3)[c]);
     EXPECT_NEAR(std::log(typical / fine_noise[static_cast<std::size_t>(c)]), 0.0, 0.35)
-        << channel_names[static_cast<std::size_t>(c)];
+        << channel_views[static_cast<std::size_t>(c)].name;
   }
 }
 

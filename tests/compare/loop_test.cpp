@@ -64,7 +64,7 @@ TEST(SlowLoop, TellsErrorsInTheNoiseBesideTheEffect) {
     EXPECT_NEAR(
         std::log(answer.noise.channels[static_cast<std::size_t>(c)].sd(f[c]) / fine_noise[static_cast<std::size_t>(c)]),
         0.0, 0.35)
-        << channel_names[static_cast<std::size_t>(c)];
+        << channel_views[static_cast<std::size_t>(c)].name;
 }
 
 TEST(SlowLoop, SetsTheOneNameThatIsLeftAgainstTheNextOne) {

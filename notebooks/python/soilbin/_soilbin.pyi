@@ -744,6 +744,9 @@ class TractionResult:
         the result, not copies
         """
 
+def channels() -> list[str]:
+    """Names of the four channels, in the order of every table."""
+
 class Answer:
     """What a model says at one condition: a result, or why there is none."""
     @property

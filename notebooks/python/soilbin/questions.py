@@ -14,7 +14,7 @@ from soilbin.progress import Progress, told_to
 
 CONDITION = ("load", "slip", "speed", "longitudinal_incline", "transverse_incline", "yaw", "pass", "moisture",
              "position", "run")
-CHANNELS = ("drawbar_pull", "torque", "sinkage", "lateral_force")
+CHANNELS = tuple(_soilbin.channels())
 
 
 def conditions(**axes: Any) -> list[OperatingCondition]:

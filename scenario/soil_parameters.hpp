@@ -1,0 +1,60 @@
+// The eight parameters of a semi-empirical soil, said once: reader, writer, schema, fits, error propagation, tables and
+// pages all go over this table.
+#pragma once
+
+#include <array>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "scenario/quantity.hpp"
+#include "scenario/soil.hpp"
+
+namespace soilbin {
+
+/// One parameter: its names, its unit, what a file may hold, and where it stands.
+struct SoilParameter {
+  const char* name;     ///< in files: "friction_angle"
+  const char* symbol;   ///< in equations: "phi"
+  const char* title;    ///< for people: "friction angle"
+  const char* unit;     ///< in files and tables: "deg"; "-": a plain number
+  double per_si;        ///< units per SI unit
+  Range range;          ///< what a file may hold [SI]
+  const char* meaning;  ///< in the schema
+  Estimate SemiEmpiricalSoil::*value;
+
+  Measure measure() const { return {unit, range}; }
+};
+
+/// In the order in which files are written: n first, on which the units of k_c and k_phi depend.
+inline constexpr std::array<SoilParameter, 8> soil_parameters = [] {
+  using S = SemiEmpiricalSoil;
+  constexpr double per_kilo = 1e-3, per_milli = 1e3;
+  constexpr Range exponents{.lower = 0.1, .upper = 2.0}, c1s{.lower = 0.0, .upper = 1.0},
+      c2s{.lower = -1.0, .upper = 2.0}, angles{.lower = 0.0, .upper = std::numbers::pi / 2, .upper_open = true};
+  return std::array<SoilParameter, 8>{{
+      {"exponent", "n", "n", "-", 1.0, exponents, "n of p = (k_c/b + k_phi) z^n", &S::exponent},
+      {"k_c", "k_c", "k_c", "kN/m^(n+1)", per_kilo, any_value, "cohesive modulus", &S::k_c},
+      {"k_phi", "k_phi", "k_phi", "kN/m^(n+2)", per_kilo, any_value, "frictional modulus", &S::k_phi},
+      {"cohesion", "c", "cohesion c", "kPa", per_kilo, zero_or_more, "c", &S::cohesion},
+      {"friction_angle", "phi", "friction angle", "deg", 1 / degree, angles, "phi", &S::friction_angle},
+      {"shear_modulus", "K", "shear modulus K", "mm", per_milli, above_zero, "Janosi's shear deformation modulus K",
+       &S::shear_modulus},
+      {"stress_angle_c1", "c1", "c1", "-", 1.0, c1s, "c1 of theta_m = (c1 + c2 |s|) theta_1", &S::stress_angle_c1},
+      {"stress_angle_c2", "c2", "c2", "-", 1.0, c2s, "c2 of theta_m = (c1 + c2 |s|) theta_1", &S::stress_angle_c2},
+  }};
+}();
+
+/// n, k_c, k_phi, c, phi and K: what plates and sheared rings measure.
+inline constexpr std::span<const SoilParameter, 6> bevameter_parameters = std::span(soil_parameters).first<6>();
+
+/// Throws std::out_of_range for a name that is none of them.
+constexpr const SoilParameter& soil_parameter(std::string_view name) {
+  for (const SoilParameter& parameter : soil_parameters)
+    if (parameter.name == name) return parameter;
+  throw std::out_of_range("a soil parameter of no such name: " + std::string(name));
+}
+
+}  // namespace soilbin

@@ -1,0 +1,35 @@
+// The four channels that a wheel test measures and a model predicts, said once.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "scenario/traction_result.hpp"
+
+namespace soilbin {
+
+/// One channel: its names, its units, and where it stands in a result.
+struct TractionChannel {
+  std::string_view name;   ///< in files: "drawbar_pull"
+  std::string_view title;  ///< for people: "drawbar pull"
+  const char* si_unit;     ///< in files: "m"
+  std::string_view unit;   ///< in which people read it: "mm"
+  double per_si;           ///< units per SI unit: 1000 for mm
+  const char* meaning;     ///< with its SI unit
+  Estimate TractionResult::*predicted;
+};
+
+/// In the order of every array over channels.
+inline constexpr std::array<TractionChannel, 4> traction_channels = {{
+    {"drawbar_pull", "drawbar pull", "N", "N", 1.0, "F_DP [N] along travel, less the slope's share of the load",
+     &TractionResult::drawbar_pull},
+    {"torque", "torque", "N m", "N m", 1.0, "M [N m]; positive drives", &TractionResult::torque},
+    {"sinkage", "sinkage", "m", "mm", 1000.0, "z [m]", &TractionResult::sinkage},
+    {"lateral_force", "lateral force", "N", "N", 1.0, "F_y [N], to the left of travel", &TractionResult::lateral_force},
+}};
+
+/// The header of a CSV column, whose unit is SI: "torque_Nm"; with `what` between them, "torque_se_Nm".
+std::string column_of(const TractionChannel& channel, std::string_view what = "");
+
+}  // namespace soilbin
