@@ -28,18 +28,20 @@ struct FitBounds {
   std::string_view parameter;
   double lower, upper;
 };
-constexpr std::array<FitBounds, 5> narrower = {{
-    {"exponent", 0.05, 3.0},
+constexpr std::array<FitBounds, 4> narrower = {{
     {"friction_angle", 0.0, 65 * degree},
     {"shear_modulus", 2e-4, unbounded},
     {"stress_angle_c1", 0.0, bekker_wong::max_stress_share},
     {"stress_angle_c2", -0.5, bekker_wong::max_stress_share},
 }};
 
+/// Never wider than what a file may hold: a model that is saved can be read.
 FitBounds fit_bounds(const SoilParameter& parameter) {
+  FitBounds bounds{parameter.name, parameter.range.lower, parameter.range.upper};
   for (const FitBounds& one : narrower)
-    if (one.parameter == parameter.name) return one;
-  return {parameter.name, parameter.range.lower, parameter.range.upper};
+    if (one.parameter == parameter.name)
+      bounds.lower = std::max(bounds.lower, one.lower), bounds.upper = std::min(bounds.upper, one.upper);
+  return bounds;
 }
 
 /// Mean and half range of a covariate.
