@@ -6,6 +6,7 @@
 
 #include "bekker_wong/gsl.hpp"
 #include "compare/loop/evidence.hpp"
+#include "compare/loop/setpoint_permutation.hpp"
 #include "compare/loop/setpoint_squares.hpp"
 
 namespace soilbin::compare {
@@ -94,27 +95,26 @@ std::vector<Dependence> dependences(const Observations& observations, const Vect
   const std::vector<Covariate> variables = covariates(observations);
   for (int channel = 0; channel < channel_count; ++channel) {
     std::vector<double> values;
-    std::vector<int> rows;
+    std::vector<int> rows, setpoints;
     for (std::size_t i = 0; i < observations.cells.size(); ++i)
       if (observations.cells[i].channel == channel) {
         values.push_back(residual[static_cast<Index>(i)]);
         rows.push_back(observations.cells[i].row);
+        setpoints.push_back(observations.condition[static_cast<std::size_t>(rows.back())]);
       }
     if (values.size() < 6) continue;
     const VectorXd r = Eigen::Map<VectorXd>(values.data(), static_cast<Index>(values.size()));
+    const SetpointPermutation rearranged(setpoints);
     for (const Covariate& variable : variables) {
       std::vector<double> u;
       for (const int row : rows) u.push_back(variable.values[row]);
       const MatrixXd q = parabola(u);
       if (q.cols() < 2) continue;
       Dependence d{channel, variable.name, explained(q, r, r.mean()), 1.0};
-      VectorXd shuffled = r;
+      constexpr double same = 1 - 1e-12;  // the same values in other places, summed in another order
       int reached = 0;
-      for (int k = 0; k < permutations; ++k) {
-        for (Index i = shuffled.size() - 1; i > 0; --i)
-          std::swap(shuffled[i], shuffled[static_cast<Index>(random() % static_cast<std::uint64_t>(i + 1))]);
-        if (explained(q, shuffled, r.mean()) >= d.share) ++reached;
-      }
+      for (int k = 0; k < permutations; ++k)
+        if (explained(q, rearranged(r, random), r.mean()) >= same * d.share) ++reached;
       d.p_value = (reached + 1.0) / (permutations + 1.0);
       table.push_back(d);
     }

@@ -29,7 +29,8 @@ struct RerunTest {
 RerunTest rerun_test(const Observations& observations, const NoiseFloor& noise, const Fit& fit);
 
 /// Does a channel's residual depend on a variable? Share of its variance that a parabola in the variable explains,
-/// with its p-value from permutations of whole conditions.
+/// with its p-value from permutations that keep the re-runs of a setpoint together (SetpointPermutation): what they
+/// share, the model's error at that setpoint above all, is seen once, however often it was run.
 struct Dependence {
   int channel = 0;
   std::string variable;

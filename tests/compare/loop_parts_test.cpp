@@ -2,12 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <random>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "compare/loop/base_fit.hpp"
 #include "compare/loop/detection.hpp"
 #include "compare/loop/identify.hpp"
+#include "compare/loop/setpoint_permutation.hpp"
 #include "compare/loop_fixture.hpp"
 #include "compare/measured/condition_views.hpp"
 
@@ -174,6 +180,99 @@ TEST(Dependences, FindTheVariable) {
   ASSERT_TRUE(on_the_run);
   EXPECT_LE(*on_the_run, 0.01);
   EXPECT_GE(others, 5) << "load, slip and run, each in four channels or three";
+}
+
+/// Setpoints of 1, 2, 3, 1, 2, 3, ... or of `each` re-runs over slip, two channels measured.
+Observations rerun_observations(int setpoints, int each = 0) {
+  Observations made;
+  made.conditions = setpoints;
+  for (int s = 0; s < setpoints; ++s)
+    for (int k = 0; k < (each > 0 ? each : 1 + s % 3); ++k) {
+      OperatingCondition at;
+      at.slip = 0.05 * (s + 1);
+      const int row = static_cast<int>(made.rows.size());
+      made.rows.push_back(at), made.condition.push_back(s), made.source_row.push_back(row);
+      for (const int channel : {drawbar_pull, torque}) made.cells.push_back({row, channel, 0.0});
+    }
+  return made;
+}
+
+/// Of 400 residuals that share an error within each setpoint and between the channels of a row, and depend on nothing:
+/// how many find slip at 5 % in one channel or the other.
+std::array<int, 2> found_by_chance(const Observations& made, double shared) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  std::array<int, 2> found{};
+  for (int trial = 0; trial < 400; ++trial) {
+    std::vector<double> of_setpoint, of_row;
+    for (int s = 0; s < made.conditions; ++s) of_setpoint.push_back(shared * normal(random));
+    for (std::size_t r = 0; r < made.rows.size(); ++r) of_row.push_back(0.5 * normal(random));
+    VectorXd residual(static_cast<Eigen::Index>(made.cells.size()));
+    for (std::size_t i = 0; i < made.cells.size(); ++i) {
+      const auto row = static_cast<std::size_t>(made.cells[i].row);
+      residual[static_cast<Eigen::Index>(i)] =
+          of_setpoint[static_cast<std::size_t>(made.condition[row])] + of_row[row] + 0.3 * normal(random);
+    }
+    for (const Dependence& d : dependences(made, residual, 99, static_cast<std::uint64_t>(trial)))
+      if (d.variable == "slip" && d.p_value <= 0.05) ++found[static_cast<std::size_t>(d.channel)];
+  }
+  return found;
+}
+
+// p <= 0.05 by chance in 5 % of 400 campaigns, 20 +- 4.4: with setpoints that are off by twice what their re-runs
+// differ, too (cells permuted one by one would find slip in every third of these), and with unequal numbers of
+// re-runs.
+TEST(Dependences, KeepTheirLevelWhereRerunsShareAnError) {
+  const std::vector<std::pair<Observations, double>> designs = {
+      {rerun_observations(12, 3), 1.2}, {rerun_observations(24), 1.2}, {rerun_observations(20, 1), 0.0}};
+  for (const auto& [made, shared] : designs)
+    for (const int found : found_by_chance(made, shared)) {
+      EXPECT_LE(found, 33) << made.rows.size() << " runs";
+      EXPECT_GE(found, 7) << made.rows.size() << " runs";
+    }
+}
+
+// A torque that grows with the setpoints' slip is found all the same.
+TEST(Dependences, FindWhatSetpointsFollow) {
+  const Observations made = rerun_observations(12, 3);
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  VectorXd residual(static_cast<Eigen::Index>(made.cells.size()));
+  for (std::size_t i = 0; i < made.cells.size(); ++i) {
+    const auto row = static_cast<std::size_t>(made.cells[i].row);
+    residual[static_cast<Eigen::Index>(i)] =
+        0.3 * normal(random) + (made.cells[i].channel == torque ? 8 * (made.rows[row].slip - 0.3) : 0.0);
+  }
+  std::map<std::string, double> of_torque;
+  for (const Dependence& d : dependences(made, residual, 999, 1))
+    if (d.channel == torque) of_torque[d.variable] = d.p_value;
+  EXPECT_LE(of_torque.at("slip"), 0.002);
+}
+
+// Every value stays in some place, the re-runs of a setpoint stay together, and a setpoint without another of its size
+// stays where it is.
+TEST(SetpointPermutation, KeepsRerunsTogether) {
+  const std::vector<int> setpoint = {4, 7, 7, 4, 9, 9, 9, 5, 5};
+  const SetpointPermutation permuted(setpoint);
+  VectorXd values(9);
+  for (Eigen::Index i = 0; i < 9; ++i) values[i] = 10 * setpoint[static_cast<std::size_t>(i)] + static_cast<double>(i);
+  std::mt19937_64 random(5);
+  std::set<int> at_the_first;
+  for (int k = 0; k < 200; ++k) {
+    const VectorXd moved = permuted(values, random);
+    std::vector<double> sorted(moved.begin(), moved.end());
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<double> all(values.begin(), values.end());
+    std::sort(all.begin(), all.end());
+    EXPECT_EQ(sorted, all);
+    const auto from = [&](Eigen::Index i) { return static_cast<int>(moved[i]) / 10; };
+    EXPECT_EQ(from(0), from(3));
+    EXPECT_EQ(from(1), from(2));
+    EXPECT_EQ(from(7), from(8));
+    for (const Eigen::Index i : {4, 5, 6}) EXPECT_EQ(from(i), 9);
+    at_the_first.insert(from(0));
+  }
+  EXPECT_EQ(at_the_first, (std::set<int>{4, 5, 7}));
 }
 
 }  // namespace
