@@ -175,23 +175,24 @@ std::vector<MatrixXd> row_families(const Observations& observations) {
   return families;
 }
 
-/// Each channel's prediction in the run before, standardised: what a lagging instrument or bed would carry over.
+/// Each channel's prediction in the run before, less that of the run: what a lagging instrument or bed would carry
+/// over. Two sd of the channel's noise, at the mean size of its predictions, where it is largest.
 MatrixXd carried_over(const Observations& observations, const NoiseFloor& noise, const Whitening& whitening,
                       const VectorXd& prediction) {
   const Index cells = prediction.size();
   MatrixXd columns = MatrixXd::Zero(cells, channel_count);
-  std::array<double, channel_count> before{};
-  std::array<bool, channel_count> any{};
+  std::array<double, channel_count> before{}, sizes{}, counts{};
   for (Index i = 0; i < cells; ++i) {
     const std::size_t c = static_cast<std::size_t>(observations.cells[static_cast<std::size_t>(i)].channel);
-    if (any[c]) columns(i, static_cast<Index>(c)) = before[c] - prediction[i];
+    if (counts[c] > 0) columns(i, static_cast<Index>(c)) = before[c] - prediction[i];
     before[c] = prediction[i];
-    any[c] = true;
+    sizes[c] += std::abs(prediction[i]);
+    ++counts[c];
   }
-  for (int c = 0; c < channel_count; ++c) {
-    const double size = columns.col(c).cwiseAbs().maxCoeff();
-    if (size > 0)
-      columns.col(c) *= noise.channels[static_cast<std::size_t>(c)].sd(prediction.cwiseAbs().mean()) * 2 / size;
+  for (std::size_t c = 0; c < channel_count; ++c) {
+    auto column = columns.col(static_cast<Index>(c));
+    const double largest = column.cwiseAbs().maxCoeff();
+    if (largest > 0) column *= 2 * noise.channels[c].sd(sizes[c] / counts[c]) / largest;
   }
   return whitening(columns);
 }

@@ -68,6 +68,58 @@ TEST(Evidence, OfAnAmplitudeDoesNotHangOnItsUnit) {
   EXPECT_NEAR(log_evidence(problem, {{tolerance, tolerance_scales}}), in_metres, 1e-7);
 }
 
+// A family of functions is the same whatever the units that a channel is told in: what it may be off by is measured in
+// that channel's own noise, at the size of its own predictions.
+TEST(UnnamedFamilies, DoNotHangOnTheUnitsOfAChannel) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 8);
+  const Observations observations = observe(campaign);
+  NoiseFloor noise;
+  for (int c = 0; c < 3; ++c)
+    noise.channels[static_cast<std::size_t>(c)] = {
+        .measured = true, .floor = fine_noise[static_cast<std::size_t>(c)], .growth = 0.05};
+  const auto families = [&](double sinkage_unit) {
+    NoiseFloor told = noise;
+    told.channels[sinkage].floor *= sinkage_unit;
+    VectorXd prediction = observations.values();
+    for (Index i = 0; i < prediction.size(); ++i)
+      if (observations.cells[static_cast<std::size_t>(i)].channel == sinkage) prediction[i] *= sinkage_unit;
+    return unnamed_families(observations, told, Whitening(observations, told, prediction), prediction);
+  };
+  const std::vector<MatrixXd> in_metres = families(1.0), in_millimetres = families(1000.0);
+  ASSERT_EQ(in_metres.size(), in_millimetres.size());
+  for (std::size_t f = 0; f < in_metres.size(); ++f)
+    EXPECT_LT((in_metres[f] - in_millimetres[f]).norm(), 1e-9 * in_metres[f].norm()) << "family " << f;
+}
+
+// What a lagging channel carries over is 2 sd of its noise where it is largest: here every prediction has the same
+// size.
+TEST(UnnamedFamilies, CarryOverTwoStandardDeviationsAtTheMost) {
+  Observations observations;
+  VectorXd prediction(12);
+  NoiseFloor noise;
+  noise.channels[torque] = {.measured = true, .floor = 0.3, .growth = 0.1};
+  noise.channels[sinkage] = {.measured = true, .floor = 1e-3, .growth = 0.2};
+  for (int row = 0; row < 6; ++row) {
+    OperatingCondition at;
+    at.slip = 0.1 * row;
+    observations.rows.push_back(at), observations.condition.push_back(row), observations.source_row.push_back(row);
+    observations.cells.push_back({row, torque, 0.0}), observations.cells.push_back({row, sinkage, 0.0});
+    const double sign = row % 2 == 0 ? 1.0 : -1.0;
+    prediction[2 * row] = sign * 40.0, prediction[2 * row + 1] = -sign * 5e-3;
+  }
+  observations.conditions = 6;
+  int carried = 0;
+  for (const MatrixXd& family :
+       unnamed_families(observations, noise, Whitening(observations, noise, prediction), prediction))
+    if (family.cols() == channel_count) {
+      ++carried;
+      EXPECT_NEAR(family.col(torque).cwiseAbs().maxCoeff(), 2.0, 1e-9);
+      EXPECT_NEAR(family.col(sinkage).cwiseAbs().maxCoeff(), 2.0, 1e-9);
+    }
+  EXPECT_EQ(carried, 1);
+}
+
 // Nature's wheel digs by the catalogue's equation times 0.7 .. 1.3, the more the heavier it is: no second effect.
 TEST(SlowEvidence, AFormThatIsAThirdOffIsStillOneEffect) {
   Campaign campaign = sand_campaign(), bare = sand_campaign();
