@@ -14,6 +14,7 @@
 
 #include "bekker_wong/contact_patch.hpp"
 #include "bekker_wong/kinematics.hpp"
+#include "bekker_wong/presumption.hpp"
 #include "scenario/scenario.hpp"
 
 namespace soilbin::bekker_wong {
@@ -127,6 +128,8 @@ struct EffectForm {
   double form_tolerance = 0.25;
   /// Why a wheel driven in time can't take this form; empty: it can (bekker_wong/transient).
   std::string steady_only = {};
+  /// The values of the tire that the form reads and that a tire may leave out, each with what is taken instead.
+  std::vector<Presumption> presumes = {};
   std::function<std::unique_ptr<const Effect>(const std::vector<double>& parameters)> make;
 };
 

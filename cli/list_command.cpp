@@ -126,12 +126,15 @@ Json effect_json(const bekker_wong::EffectForm& form) {
                           {"lower", p.lower},
                           {"upper", p.upper},
                           {"meaning", p.meaning}});
+  Json presumes = Json::array();
+  for (const bekker_wong::Presumption& p : form.presumes) presumes.push_back({{"key", p.key}, {"value", p.rule}});
   return {{"id", form.id},
           {"form", form.form},
           {"equation", form.equation},
           {"source", form.source},
           {"of", form.measurement ? "measurement" : "wheel"},
-          {"parameters", parameters}};
+          {"parameters", parameters},
+          {"presumes", presumes}};
 }
 
 /// A value of a parameter in its own unit; units that need the soil's exponent are left in SI.
@@ -159,6 +162,8 @@ int print_effects(bool json) {
     for (const bekker_wong::EffectParameter& p : form.parameters)
       fmt::print("      {} = {}, from {} to {}: {}\n", p.name, in_unit(p.fallback, p.unit), in_unit(p.lower, p.unit),
                  in_unit(p.upper, p.unit), p.meaning);
+    for (const bekker_wong::Presumption& p : form.presumes)
+      fmt::print("      presumes {} = {} where the tire declares none\n", p.key, p.rule);
   }
   if (json) fmt::print("{}", compare::json_text({{"format", "soilbin-list/1"}, {"effects", all}}));
   return done;

@@ -5,8 +5,8 @@
 // with: slip (shear_radius: already at s = 0), cohesion and load (side_factors), load (passive_blade), lug size alone
 // (free_blade).
 //
-// The amplitude is the share of the lug height that acts. Where the tire declares no lugs the height it multiplies is
-// 5 % of the radius, and 24 lugs where it declares no count, so that an undeclared lug has a trace as well.
+// The amplitude is the share of the lug height that acts. Lugs that the tire does not declare are presumed, so that an
+// undeclared lug has a trace as well.
 #include <cmath>
 #include <numbers>
 
@@ -17,16 +17,21 @@
 namespace soilbin::bekker_wong {
 namespace {
 
-constexpr double undeclared_height_over_radius = 0.05;
-constexpr int undeclared_count = 24;
+constexpr Presumption lug_height = {
+    .key = "lugs.height",
+    .unit = "mm",
+    .rule = "5 % of the radius",
+    .declared = [](const Tire& t) { return is_lugged(t) ? std::optional<double>(t.lugs.height) : std::nullopt; },
+    .presumed = [](const Tire& t) { return 0.05 * t.radius; }};
 
-double height(const Tire& tire) {
-  return is_lugged(tire) ? tire.lugs.height : undeclared_height_over_radius * tire.radius;
-}
+constexpr Presumption lug_count = {
+    .key = "lugs.count",
+    .unit = "-",
+    .rule = "24",
+    .declared = [](const Tire& t) { return t.lugs.count ? std::optional<double>(*t.lugs.count) : std::nullopt; },
+    .presumed = [](const Tire&) { return 24.0; }};
 
-double spacing(const Tire& tire) {
-  return 2 * std::numbers::pi * tire.radius / tire.lugs.count.value_or(undeclared_count);
-}
+double spacing(const Tire& tire) { return 2 * std::numbers::pi * tire.radius / lug_count(tire); }
 
 /// The soil shears on R_s = r + lambda_s h, which is the torque's arm too. By the conventions slip is that of the tread
 /// base, so the soil's path keeps its length: j_x = R_s (theta_1 - theta) - r v_x/(r w) (sin theta_1 - sin theta). The
@@ -35,7 +40,7 @@ class ShearRadiusOwnSlip : public Effect {
  public:
   explicit ShearRadiusOwnSlip(const std::vector<double>& p) : share_(p[0]) {}
   void outline(Outline& outline, const Surroundings& around) const override {
-    outline.shear_radius += share_ * height(around.tire);
+    outline.shear_radius += share_ * lug_height(around.tire);
   }
 
  protected:
@@ -46,7 +51,7 @@ class ShearRadius final : public ShearRadiusOwnSlip {
  public:
   using ShearRadiusOwnSlip::ShearRadiusOwnSlip;
   void displacement(ContactPatch& patch, const Outline&, const Surroundings& around) const override {
-    const double beyond = share_ * height(around.tire);
+    const double beyond = share_ * lug_height(around.tire);
     for (int i = 0; i < patch.count && !around.motion.locked; ++i) {
       patch.j_x[i] += beyond * around.motion.forward * patch.sine_drop[i];
       patch.j_y[i] -= beyond * around.motion.lateral * patch.since_entry[i];
@@ -60,7 +65,7 @@ class SideFactors final : public Effect {
   explicit SideFactors(const std::vector<double>& p) : share_(p[0]) {}
   void strength(ContactPatch& patch, const SoilValues& soil, const Outline& outline,
                 const Surroundings& around) const override {
-    const double ratio = share_ * height(around.tire) / outline.width;
+    const double ratio = share_ * lug_height(around.tire) / outline.width;
     const double acot = std::numbers::pi / 2 - std::atan(ratio);
     const double cohesive = 2 * ratio * soil.cohesion;
     const double frictional = 0.64 * ratio * acot * std::tan(soil.friction_angle);
@@ -79,7 +84,7 @@ class Blade final : public Effect {
   explicit Blade(const std::vector<double>& p) : share_(p[0]) {}
   void added_forces(ForceLedger& ledger, const Rolling& r) const override {
     if (share_ == 0.0) return;
-    const double h = share_ * height(r.around.tire);
+    const double h = share_ * lug_height(r.around.tire);
     const double lugs_per_metre = r.outline.width / spacing(r.around.tire);
     const WallResistance face = passive_wall(r.soil);
     AddedForce force{.name = "lug_thrust"};
@@ -109,7 +114,7 @@ class LevelBlade final : public Effect {
     const Kinematics& motion = r.around.motion;
     const double slide = motion.locked ? -motion.forward : 1 - motion.forward;  // of the tread, over its way rolled
     if (share_ == 0.0 || slide == 0.0) return;
-    const double h = share_ * height(r.around.tire), radius = r.outline.radius;
+    const double h = share_ * lug_height(r.around.tire), radius = r.outline.radius;
     const double lugs_per_metre = r.outline.width / spacing(r.around.tire), weight = specific_weight(r.soil);
     const Rim rim(r);
     const WallResistance face = passive_wall(r.soil);
@@ -133,26 +138,29 @@ class LevelBlade final : public Effect {
 
 std::vector<EffectForm> lug_thrust_forms() {
   const std::string id = "lug_thrust";
-  const std::string meaning =
-      "share of the lug height that acts (of 5 % of the radius where the tire declares no lugs)";
+  const std::string meaning = "share of the lug height that acts";
+  const std::vector<Presumption> of_height = {lug_height}, of_faces = {lug_height, lug_count};
   return {
       {.id = id,
        .form = "shear_radius",
        .equation = "R_s = r + lambda_s h: shear surface and torque's arm; slip counted at the tread base",
        .source = "after Ding, Gao, Deng, Nagatani, Yoshida 2011, J. Terramechanics 48:27 (equivalent shearing radius)",
        .parameters = {{"lambda_s", "-", 0.5, 0.0, 4.0, meaning}},
+       .presumes = of_height,
        .make = maker<ShearRadius>()},
       {.id = id,
        .form = "shear_radius_own_slip",
        .equation = "R_s = r + lambda_s h: shear surface and torque's arm; slip counted at R_s",
        .source = "after Ding, Gao, Deng, Nagatani, Yoshida 2011, J. Terramechanics 48:27, with the slip of their wheel",
        .parameters = {{"lambda_s", "-", 0.5, 0.0, 4.0, meaning}},
+       .presumes = of_height,
        .make = maker<ShearRadiusOwnSlip>()},
       {.id = id,
        .form = "side_factors",
        .equation = "tau_max = c (1 + 2 h/b) + sigma tan(phi) [1 + 0.64 (h/b) acot(h/b)], h = a h_lug",
        .source = "after Bekker 1969, Introduction to Terrain-Vehicle Systems (thrust of a spud), taken per unit area",
        .parameters = {{"a", "-", 1.0, 0.0, 10.0, meaning}},
+       .presumes = of_height,
        .make = maker<SideFactors>()},
       {.id = id,
        .form = "passive_blade",
@@ -160,12 +168,14 @@ std::vector<EffectForm> lug_thrust_forms() {
            "F = b (gamma h^2 N_phi/2 + sigma h N_phi + 2 c h sqrt(N_phi)) a lug, times 1 - exp(-j/K), h = a h_lug",
        .source = "after Wong, Theory of Ground Vehicles, ch. 2 (passive earth pressure on a grouser with surcharge)",
        .parameters = {{"a", "-", 0.3, 0.0, 3.0, meaning}},
+       .presumes = of_faces,
        .make = maker<Blade<true>>()},
       {.id = id,
        .form = "free_blade",
        .equation = "F = b (gamma h^2 N_phi/2 + 2 c h sqrt(N_phi)) a lug, times 1 - exp(-j/K), h = a h_lug",
        .source = "after Bekker 1956, Theory of Land Locomotion (passive pressure without surcharge)",
        .parameters = {{"a", "-", 1.0, 0.0, 10.0, meaning}},
+       .presumes = of_faces,
        .make = maker<Blade<false>>()},
       {.id = id,
        .form = "level_blade",
@@ -174,6 +184,7 @@ std::vector<EffectForm> lug_thrust_forms() {
            "times 1 - exp(-|s| x/K), x = r (theta_1 - theta), h = a h_lug",
        .source = "after Wong, Theory of Ground Vehicles, ch. 2 (passive earth pressure on a grouser), taken level",
        .parameters = {{"a", "-", 0.5, 0.0, 10.0, meaning}},
+       .presumes = of_faces,
        .make = maker<LevelBlade>()},
   };
 }

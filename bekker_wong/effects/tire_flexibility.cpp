@@ -2,8 +2,8 @@
 //
 // Where the soil would press harder than the tire's ground pressure p_g = p_i + p_c, the tread gives way and rolls on a
 // flat. The load then spreads over a longer contact behind and before the axle: sinkage and compaction resistance fall,
-// drawbar pull rises, the more the harder the soil and the heavier the load. A tire that declares no inflation pressure
-// is given p_g = 100 kPa, so that an undeclared softness has a trace as well.
+// drawbar pull rises, the more the harder the soil and the heavier the load. Pressures that the tire does not declare
+// are presumed, so that an undeclared softness has a trace as well.
 //
 // The belt neither stretches nor loses energy: it runs at r w over any outline, so the torque's arm stays r, a point's
 // displacement is dj = ds - v_x/(r w) dx, and the normal stress takes no torque. M w - F v is then what slip and
@@ -22,12 +22,25 @@
 namespace soilbin::bekker_wong {
 namespace {
 
-constexpr double undeclared_ground_pressure = 100e3;  // [Pa]
+constexpr Presumption carcass_pressure = {.key = "carcass_pressure",
+                                          .unit = "kPa",
+                                          .rule = "0 kPa",
+                                          .declared = [](const Tire& t) { return t.carcass_pressure; },
+                                          .presumed = [](const Tire&) { return 0.0; }};
 
-double ground_pressure(const Tire& tire) {
-  const double p = tire.inflation_pressure.value_or(0.0) + tire.carcass_pressure.value_or(0.0);
-  return tire.inflation_pressure && p > 0.0 ? p : undeclared_ground_pressure;
-}
+/// A tire without any pressure carries nothing: 0 says no more than silence.
+constexpr Presumption inflation_pressure = {.key = "inflation_pressure",
+                                            .unit = "kPa",
+                                            .rule = "100 kPa",
+                                            .declared =
+                                                [](const Tire& t) {
+                                                  const bool carries =
+                                                      t.inflation_pressure.value_or(0.0) + carcass_pressure(t) > 0.0;
+                                                  return carries ? t.inflation_pressure : std::nullopt;
+                                                },
+                                            .presumed = [](const Tire&) { return 100e3; }};
+
+double ground_pressure(const Tire& tire) { return inflation_pressure(tire) + carcass_pressure(tire); }
 
 struct Depth {
   double value, slope;  // S(d) and dS/dd
@@ -148,14 +161,15 @@ class SubstituteCircle final : public Effect {
 
 std::vector<EffectForm> tire_flexibility_forms() {
   const std::string id = "tire_flexibility";
+  const std::vector<Presumption> of_pressure = {inflation_pressure, carcass_pressure};
   return {
       {.id = id,
        .form = "flat_section",
        .equation = "sigma <= p_g/a, p_g = p_i + p_c; d -> d (1 + (d/z_g)^6)^(-1/6), k z_g^n = p_g/a",
        .source = "after Wong, Theory of Ground Vehicles, ch. 2 (pneumatic tire below the critical ground pressure)",
-       .parameters = {{"a", "-", 1.0, 0.0, 30.0,
-                       "declared ground pressure (100 kPa where none is) over the one that acts"}},
+       .parameters = {{"a", "-", 1.0, 0.0, 30.0, "declared ground pressure over the one that acts"}},
        .steady_only = "the shear displacement is followed along a rigid rim",
+       .presumes = of_pressure,
        .make = maker<Flattening<PressureCap>>()},
       {.id = id,
        .form = "carcass_spring",
@@ -163,6 +177,7 @@ std::vector<EffectForm> tire_flexibility_forms() {
        .source = "stated: radial springs of stiffness 2 p_g/(r a^2) between rim and tread",
        .parameters = {{"a", "rad", 0.3, 0.0, 2.0, "half angle of the flat where the soil presses with p_g"}},
        .steady_only = "the shear displacement is followed along a rigid rim",
+       .presumes = of_pressure,
        .make = maker<Flattening<CarcassSpring>>()},
       {.id = id,
        .form = "substitute_circle",
@@ -170,6 +185,7 @@ std::vector<EffectForm> tire_flexibility_forms() {
        .source = "after Schmid 1995, J. Terramechanics 32(1):3",
        .parameters = {{"a", "rad", 0.5, 0.0, 2.0, "half angle of the flat where W/(2 r b) = p_g"}},
        .steady_only = "the shear displacement is followed along a rigid rim",
+       .presumes = of_pressure,
        .make = maker<SubstituteCircle>()},
   };
 }

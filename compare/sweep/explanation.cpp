@@ -119,6 +119,8 @@ std::vector<Step> effect_steps(const Scenario& scenario) {
   for (const EffectChoice& choice : scenario.effects) {
     const EffectForm& form = bekker_wong::find_form(choice);
     Step step{choice.id + " (" + form.form + ")", form.equation, "", 0.0, "", form.source};
+    for (const std::string& sentence : bekker_wong::presumptions({choice}, scenario.tire))
+      step.remark += "; " + sentence.substr(0, sentence.size() - 1);
     for (const EffectParameter& p : form.parameters) {
       const auto given = choice.parameters.find(p.name);
       const double value = given == choice.parameters.end() ? p.fallback : given->second;

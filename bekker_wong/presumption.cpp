@@ -1,0 +1,48 @@
+#include "bekker_wong/presumption.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "bekker_wong/effect.hpp"
+#include "scenario/quantity.hpp"
+
+namespace soilbin::bekker_wong {
+
+double Presumption::operator()(const Tire& tire) const {
+  const std::optional<double> value = declared(tire);
+  return value ? *value : presumed(tire);
+}
+
+std::vector<Presumed> presumed(const EffectForm& form, const Tire& tire) {
+  std::vector<Presumed> all;
+  for (const Presumption& p : form.presumes) {
+    if (p.declared(tire)) continue;
+    const double value = p.presumed(tire);
+    std::string words = fmt::format("{} = {}", p.key, write_quantity(value, std::string(p.unit)));
+    if (!words.ends_with(fmt::format("= {}", p.rule))) words += fmt::format(" ({})", p.rule);
+    all.push_back({std::string(p.key), value, std::move(words)});
+  }
+  return all;
+}
+
+std::vector<std::string> presumptions(const std::vector<EffectChoice>& choices, const Tire& tire) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> by_effect;
+  for (const EffectChoice& choice : choices)
+    for (const Presumed& value : presumed(find_form(choice), tire)) {
+      auto of = std::find_if(by_effect.begin(), by_effect.end(), [&](const auto& e) { return e.first == choice.id; });
+      if (of == by_effect.end()) of = by_effect.insert(of, {choice.id, {}});
+      std::vector<std::string>& values = of->second;
+      if (std::find(values.begin(), values.end(), value.words) == values.end()) values.push_back(value.words);
+    }
+  std::vector<std::string> sentences;
+  for (const auto& [id, values] : by_effect) {
+    std::string listed;
+    for (const std::string& value : values) listed += (listed.empty() ? "" : ", ") + value;
+    sentences.push_back(fmt::format("{} presumes {}, which the tire does not declare.", id, listed));
+  }
+  return sentences;
+}
+
+}  // namespace soilbin::bekker_wong
