@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <stdexcept>
 
+#include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
 
@@ -47,8 +49,14 @@ CLI::Validator writable_file() {
     const fs::path path(name), folder = path.parent_path();
     if (fs::is_directory(path, none))
       return fmt::format("'{}' is a folder, where a file is to be written", clipped(name));
-    if (folder.empty() || fs::is_directory(folder, none)) return "";
-    return fmt::format("there is no folder '{}'\n  hint: mkdir -p '{}'", folder.string(), folder.string());
+    if (!folder.empty() && !fs::is_directory(folder, none))
+      return fmt::format("there is no folder '{}'\n  hint: mkdir -p '{}'", folder.string(), folder.string());
+    try {
+      try_to_write(path);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
   };
   return {[problem](std::string& name) { return problem(name); }, ""};
 }

@@ -2,7 +2,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
+#include <stdexcept>
 #include <thread>
 
 #include "cli/commands.hpp"
@@ -75,6 +77,24 @@ void print_answer(const compare::LoopAnswer& answer, bool only_next) {
   if (sentences.empty()) fmt::print("No condition within the limits would decide more.\n");
 }
 
+/// Page and model, each whether or not the other can be written; the answer has been printed by then.
+void leave_files(const LoopOptions& asked, const compare::Campaign& campaign, const compare::LoopAnswer& answer,
+                 const Session& session) {
+  std::fflush(stdout);
+  std::string failures;
+  const auto leave = [&](const std::string& file, const auto& content) {
+    if (file.empty()) return;
+    try {
+      write_file_atomically(file, content());
+    } catch (const std::runtime_error& error) {
+      failures += (failures.empty() ? "" : "\n") + std::string(error.what());
+    }
+  };
+  leave(asked.report, [&] { return compare::loop_page(campaign, answer, session.command); });
+  leave(asked.model, [&] { return write_case(compare::resolved_model(campaign, answer), session.place.effects); });
+  if (!failures.empty()) throw std::runtime_error(failures);
+}
+
 int loop(const LoopOptions& asked, const Session& session) {
   const compare::Campaign campaign = find_campaign(session.place, asked.campaign);
   print_warnings(compare::doubts(campaign));
@@ -85,12 +105,6 @@ int loop(const LoopOptions& asked, const Session& session) {
   options.limits = read_limits(asked.limits);
   options.progress = shown_progress();
   const compare::LoopAnswer answer = compare::run_loop(campaign, options);
-  if (!asked.report.empty())
-    write_file_atomically(asked.report, compare::loop_page(campaign, answer,
-                                                           fmt::format("soilbin loop {} --report {} --seed {}",
-                                                                       asked.campaign, asked.report, asked.seed)));
-  if (!asked.model.empty())
-    write_file_atomically(asked.model, write_case(compare::resolved_model(campaign, answer), session.place.effects));
   if (asked.json) {
     nlohmann::ordered_json document = compare::to_json(answer);
     if (asked.details) document["details"] = compare::details_json(answer);
@@ -98,6 +112,7 @@ int loop(const LoopOptions& asked, const Session& session) {
   } else {
     print_answer(without_given_limits(answer, options.limits), asked.next);
   }
+  leave_files(asked, campaign, answer, session);
   return done;
 }
 

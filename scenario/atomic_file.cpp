@@ -80,4 +80,6 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   flush_folder(path);
 }
 
+void try_to_write(const std::filesystem::path& path) { const TemporaryFile tried(path); }
+
 }  // namespace soilbin

@@ -10,4 +10,8 @@ namespace soilbin {
 /// the step and the system's reason.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
+/// Tries the place before the work: makes the temporary file that write_file_atomically would, and removes it. Throws
+/// what that would.
+void try_to_write(const std::filesystem::path& path);
+
 }  // namespace soilbin

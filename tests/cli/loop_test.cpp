@@ -14,11 +14,13 @@ using testing::Le;
 TEST(SlowLoopCommand, NamesTheLessonsEffectInWordsAndLeavesItsFiles) {
   const Scratch scratch;
   const std::string page = (scratch / "loop.html").string(), model = (scratch / "fitted.yaml").string();
-  const Outcome outcome = soilbin("loop made-lesson --report '" + page + "' --save-model '" + model + "'");
+  const Outcome outcome = soilbin("loop made-lesson --folds 4 --limit load=0.3kN..400N --report '" + page +
+                                  "' --save-model '" + model + "'");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("The model lacks multipass"));
   EXPECT_THAT(outcome.out, HasSubstr("One name is left"));
   EXPECT_THAT(text_of(page), HasSubstr("<svg"));
+  EXPECT_THAT(text_of(page), HasSubstr("soilbin loop made-lesson --folds 4 --limit load=0.3kN..400N --report"));
   const Outcome predicted = soilbin("predict made-lesson --model '" + model + "'");
   EXPECT_EQ(predicted.status, 0) << predicted.err;
 }
@@ -64,6 +66,31 @@ TEST(LoopCommand, RefusesAFileThatCannotBeWrittenBeforeItWorks) {
   EXPECT_THAT(outcome.err, HasSubstr("there is no folder"));
   EXPECT_EQ(outcome.out, "");
   EXPECT_THAT(soilbin("run paper-straight --csv '" + (scratch / "").string() + "'").err, HasSubstr("is a folder"));
+}
+
+// A folder that is there and takes no file is found by trying, before the work.
+TEST(LoopCommand, TriesThePlacesOfItsFilesBeforeItWorks) {
+  for (const std::string flag : {"--report", "--save-model"}) {
+    const Outcome outcome = soilbin("loop made-lesson " + flag + " /proc/left.file");
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(flag), HasSubstr("/proc/left.file: can't create a file in its folder")));
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
+// No file may grow beyond 8 KiB: the page does not fit, found only once it is made. The answer is printed all the same,
+// and the model, which is small, is there.
+TEST(SlowLoopCommand, PrintsTheAnswerWhereTheReportCannotBeWritten) {
+  const Scratch scratch;
+  const fs::path page = scratch / "loop.html", model = scratch / "fitted.yaml";
+  const Outcome outcome =
+      soilbin("loop made-lesson --folds 2 --report '" + page.string() + "' --save-model '" + model.string() + "'",
+              "trap '' XFSZ; ulimit -f 16; ");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("loop.html: can't write"));
+  EXPECT_THAT(outcome.out, HasSubstr("The model lacks multipass"));
+  EXPECT_FALSE(fs::exists(page));
+  EXPECT_THAT(text_of(model), HasSubstr("multipass"));
 }
 
 }  // namespace
