@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <stdexcept>
 
 namespace soilbin::compare {
@@ -22,19 +20,6 @@ double allowed_behind(const Identification& id, const Weighted& best, const std:
   const double cells = static_cast<double>(id.observations.cells.size());
   return std::clamp(std::sqrt(few_cells / cells), 1.0, most_growth) *
          (allowed_base + allowed_growth * std::max(0.0, best.log_evidence - id.base_log_evidence));
-}
-
-double strongest(const std::vector<Weighted>& sets) {
-  double most = -std::numeric_limits<double>::infinity();
-  for (const Weighted& w : sets) most = std::max(most, w.log_evidence);
-  return most;
-}
-
-/// Makes weights sum to 1.
-void share_out(std::vector<Weighted>& sets) {
-  double total = 0.0;
-  for (const Weighted& w : sets) total += w.weight;
-  for (Weighted& w : sets) w.weight /= total;
 }
 
 }  // namespace
@@ -61,23 +46,12 @@ std::vector<Competitor> competitors(const Identification& id) {
 
 std::vector<Weighted> weighted_sets(const Identification& id, const std::vector<Competitor>& all) {
   std::vector<Weighted> sets;
-  for (const Competitor& c : all) sets.push_back(id.weights[c.weighted]);
-  share_out(sets);
-  return sets;
-}
-
-std::vector<Weighted> merged(const std::vector<Weighted>& first, const std::vector<Weighted>& second, double allowed) {
-  const double top = std::max(strongest(first), strongest(second));
-  std::map<std::set<std::string>, double> weight;
-  const auto join = [&](const std::vector<Weighted>& sets) {
-    for (const Weighted& w : sets) weight[w.ids] += std::exp(w.log_evidence - top);
-  };
-  join(first);
-  if (strongest(second) >= strongest(first) - allowed) join(second);
-  std::vector<Weighted> sets;
-  for (const auto& [ids, w] : weight) sets.push_back({.ids = ids, .weight = w, .log_evidence = top + std::log(w)});
-  share_out(sets);
-  std::stable_sort(sets.begin(), sets.end(), [](const Weighted& x, const Weighted& y) { return x.weight > y.weight; });
+  double total = 0.0;
+  for (const Competitor& c : all) {
+    sets.push_back(id.weights[c.weighted]);
+    total += sets.back().weight;
+  }
+  for (Weighted& w : sets) w.weight /= total;
   return sets;
 }
 

@@ -27,9 +27,4 @@ std::vector<Competitor> competitors(const Identification& id);
 /// The same as an answer lists them, with weights that sum to 1.
 std::vector<Weighted> weighted_sets(const Identification& id, const std::vector<Competitor>& all);
 
-/// The list of a reading, and that of a second one of the same data where this does not stand farther behind than
-/// `allowed` [ln evidence], as one, by their evidence, best first. The first one's sets stay: what the second takes for
-/// a change of the base model may be an effect after all.
-std::vector<Weighted> merged(const std::vector<Weighted>& first, const std::vector<Weighted>& second, double allowed);
-
 }  // namespace soilbin::compare

@@ -1,6 +1,9 @@
 // LoopAnswer in the contract's form.
+#include <algorithm>
 #include <cmath>
 
+#include "compare/loop/answer_words.hpp"
+#include "compare/loop/held_out_words.hpp"
 #include "compare/loop/loop.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/json_fields.hpp"
@@ -12,7 +15,16 @@ using nlohmann::ordered_json;
 
 namespace {
 
-ordered_json effects_json(const std::vector<AcceptedEffect>& effects) {
+/// What these forms take for values that the wheel does not declare [SI].
+ordered_json presumes_json(const std::vector<const bekker_wong::EffectForm*>& forms, const Tire& wheel) {
+  ordered_json list = ordered_json::array();
+  for (const bekker_wong::EffectForm* form : forms)
+    for (const bekker_wong::Presumed& p : bekker_wong::presumed(*form, wheel))
+      list.push_back({{"effect", form->id}, {"key", p.key}, {"value", p.value}, {"words", p.words}});
+  return list;
+}
+
+ordered_json effects_json(const std::vector<AcceptedEffect>& effects, const Tire& wheel) {
   ordered_json list = ordered_json::array();
   for (const AcceptedEffect& effect : effects) {
     ordered_json parameters = ordered_json::object(), ci = ordered_json::object(), bound = ordered_json::array();
@@ -27,7 +39,8 @@ ordered_json effects_json(const std::vector<AcceptedEffect>& effects) {
                     {"ci95", ci},
                     {"at_bound", bound},
                     {"p_value", finite(effect.p_value)},
-                    {"cosines", effect.cosines}});
+                    {"cosines", effect.cosines},
+                    {"presumes", presumes_json({&bekker_wong::find_form(effect.choice)}, wheel)}});
   }
   return list;
 }
@@ -94,13 +107,45 @@ ordered_json next_json(const LoopAnswer& answer) {
           {"beyond", answer.next->beyond}};
 }
 
-/// What stands out where the base model may be off by itself.
+/// Sets of effects with their shares, and what their best forms presume of the wheel.
+ordered_json sets_json(const Identification& id, const std::vector<Weighted>& sets, const Tire& wheel) {
+  ordered_json list = ordered_json::array();
+  for (const Weighted& w : sets) {
+    std::vector<const bekker_wong::EffectForm*> forms;
+    for (const Term& term : id.rivals[w.best_rival].terms) forms.push_back(term.form);
+    list.push_back({{"effects", w.ids}, {"weight", finite(w.weight)}, {"presumes", presumes_json(forms, wheel)}});
+  }
+  return list;
+}
+
+/// What stands out where the base model may be off by itself, and whether that decides what else is told.
 ordered_json inadequacy_json(const LoopAnswer& answer) {
-  if (!answer.inadequate) return nullptr;
-  const Identification& id = answer.inadequate->identification;
+  const Identification* id = beside_inadequacy(answer);
+  if (!id) return nullptr;
   ordered_json effects = ordered_json::array();
-  if (id.best) effects = id.rivals[*id.best].ids;
-  return {{"effects", effects}, {"p_value", finite(id.p_value)}, {"size", finite(answer.inadequate->size)}};
+  if (id->best) effects = id->rivals[*id->best].ids;
+  return {{"effects", effects},
+          {"p_value", finite(id->p_value)},
+          {"size", finite(answer.second->size)},
+          {"decides", answer.second->decides}};
+}
+
+/// What the data can't tell apart: the sets of the reading that decides, with their shares, then those that only the
+/// other one leaves, without.
+ordered_json ambiguity_json(const LoopAnswer& answer) {
+  ordered_json all = sets_json(answer.details, answer.ambiguity_set, answer.wheel);
+  if (answer.noted_sets.empty()) return all;
+  for (ordered_json& set : sets_json(answer.second->note, answer.noted_sets, answer.wheel)) {
+    set["of_other_reading"] = true;
+    all.push_back(std::move(set));
+  }
+  return all;
+}
+
+ordered_json worse_json(const LoopAnswer& answer) {
+  ordered_json names = ordered_json::array();
+  for (const int channel : worse_channels(answer)) names.push_back(channel_names[static_cast<std::size_t>(channel)]);
+  return names;
 }
 
 ordered_json with_outliers_json(const LoopAnswer& answer) {
@@ -111,22 +156,20 @@ ordered_json with_outliers_json(const LoopAnswer& answer) {
 }  // namespace
 
 ordered_json to_json(const LoopAnswer& answer) {
-  ordered_json ambiguity = ordered_json::array();
-  for (const Weighted& w : answer.ambiguity_set)
-    ambiguity.push_back({{"effects", w.ids}, {"weight", finite(w.weight)}});
   return {{"format", "soilbin-loop/1"},
           {"campaign", answer.campaign},
           {"verdict", word(answer.verdict)},
           {"reason", answer.reason},
-          {"effects", effects_json(answer.effects)},
-          {"ambiguity_set", ambiguity},
+          {"effects", effects_json(answer.effects, answer.wheel)},
+          {"ambiguity_set", ambiguity_json(answer)},
           {"not_testable", answer.not_testable},
           {"error", error_json(answer)},
           {"next_test", next_json(answer)},
           {"soil", soil_json(answer)},
           {"outliers", answer.outliers},
           {"with_outliers", with_outliers_json(answer)},
-          {"stand_in", effects_json(answer.stand_in)},
+          {"stand_in", effects_json(answer.stand_in, answer.wheel)},
+          {"worse", worse_json(answer)},
           {"beside_inadequacy", inadequacy_json(answer)}};
 }
 
@@ -135,11 +178,15 @@ ordered_json details_json(const LoopAnswer& answer) {
   ordered_json sets = ordered_json::array();
   for (const Weighted& w : id.weights) {
     const Rival& rival = id.rivals[w.best_rival];
+    const std::vector<std::string> in_order = forms_in_order(rival);
     ordered_json forms = ordered_json::array();
-    for (const Term& term : rival.terms) forms.push_back(term.form->id + "/" + term.form->form);
+    auto form = in_order.begin();
+    for (const std::string& effect : rival.ids) forms.push_back(effect + "/" + *form++);
+    const auto told = std::find_if(answer.ambiguity_set.begin(), answer.ambiguity_set.end(),
+                                   [&](const Weighted& one) { return one.ids == w.ids; });
     sets.push_back({{"effects", w.ids},
                     {"forms", forms},
-                    {"weight", finite(w.weight)},
+                    {"weight", finite(told == answer.ambiguity_set.end() ? 0.0 : told->weight)},
                     {"log_evidence", finite(rival.log_evidence)},
                     {"chi2", finite(rival.fit.chi2)},
                     {"parameters", rival.fit.theta.size()}});

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
@@ -34,6 +36,19 @@ std::string verdict_sentence(const LoopAnswer& answer) {
 
 namespace {
 
+/// The sets of the table of rivals: those that compete, then those that stand next.
+std::vector<const Weighted*> sets_shown(const LoopAnswer& answer) {
+  constexpr std::size_t most = 8;
+  std::vector<const Weighted*> sets;
+  for (const Weighted& w : answer.ambiguity_set) sets.push_back(&w);
+  const auto listed = [&](const Weighted& w) {
+    return std::any_of(sets.begin(), sets.end(), [&](const Weighted* one) { return one->ids == w.ids; });
+  };
+  for (const Weighted& w : answer.details.weights)
+    if (sets.size() < most && !listed(w)) sets.push_back(&w);
+  return sets;
+}
+
 std::string condition_words(const NextTest& next) {
   std::string text;
   for (const std::string& name : next.quantities) {
@@ -56,26 +71,62 @@ std::string effect_sentence(const AcceptedEffect& effect) {
   return fmt::format("{} in the form '{}', {} (SI).", effect.choice.id, effect.choice.form, parameters);
 }
 
+constexpr double little = 0.005;  // of the evidence
+
+/// A set's share of the evidence, the same wherever it is told: "81 %".
+std::string share_words(double weight) { return weight < little ? "< 1 %" : fmt::format("{:.0f} %", 100 * weight); }
+
 /// The sets with their weights; those of next to none are only counted.
 std::string ambiguity_words(const std::vector<Weighted>& sets) {
-  constexpr double little = 0.005;
   std::string text;
   std::size_t unsaid = 0;
   for (const Weighted& w : sets)
     if (w.weight < little && &w != &sets.front())
       ++unsaid;
     else
-      text += fmt::format("{}{} ({:.0f} %)", text.empty() ? "" : ", ", joined(w.ids), 100 * w.weight);
+      text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", joined(w.ids), share_words(w.weight));
   if (unsaid > 0) text += fmt::format(", and {} more set{} of less than a per cent", unsaid, unsaid == 1 ? "" : "s");
   return text;
 }
 
-/// What stands out where the base model may be off by itself.
-std::string inadequacy_sentence(const Identification& beside) {
-  const std::string premise = "Where the base model itself may be off by any smooth function of load and slip, ";
-  if (!beside.best) return premise + "no named effect stands out.";
-  return fmt::format("{}{} stands out most (p = {:.2g}).", premise, joined(beside.rivals[*beside.best].ids),
-                     beside.p_value);
+/// Why the first set is taken where another one has the larger share; "" where none has.
+std::string why_taken(const std::vector<Weighted>& sets) {
+  const auto lighter = [](const Weighted& a, const Weighted& b) { return a.weight < b.weight; };
+  const Weighted &taken = sets.front(), &heaviest = *std::max_element(sets.begin(), sets.end(), lighter);
+  if (heaviest.ids == taken.ids) return "";
+  return fmt::format("{} is taken all the same: what {} has beyond it does not predict conditions left out better.",
+                     joined(taken.ids), joined(heaviest.ids));
+}
+
+/// What the reading says that does not decide.
+std::string note_on_the_other_reading(const LoopAnswer& answer) {
+  const Identification& note = answer.second->note;
+  std::string names = "no named effect stands out", others;
+  if (note.best) {
+    const std::set<std::string>& best = note.rivals[*note.best].ids;
+    names = fmt::format("{} stands out most (p = {:.2g})", joined(best), note.p_value);
+    for (const Weighted& w : answer.noted_sets)
+      if (w.ids != best) others += (others.empty() ? "" : ", ") + joined(w.ids);
+  }
+  if (!others.empty()) names += "; beside it these compete: " + others;
+  const char* other = answer.second->decides
+                          ? "a base model that is taken as exact"
+                          : "a base model that may itself be off by any smooth function of load and slip";
+  return fmt::format("Note: read with {}{}, {}.", other, note.best ? ", which explains the data less well" : "", names);
+}
+
+/// The forms that the answer tells: of the effects in the model, and of the sets that compete.
+std::vector<EffectChoice> forms_told(const LoopAnswer& answer) {
+  std::vector<EffectChoice> forms;
+  for (const std::vector<AcceptedEffect>* effects : {&answer.effects, &answer.stand_in})
+    for (const AcceptedEffect& effect : *effects) forms.push_back(effect.choice);
+  for (const Weighted* w : sets_shown(answer))
+    for (const Term& term : answer.details.rivals[w->best_rival].terms)
+      forms.push_back({term.form->id, term.form->form, {}});
+  for (const Weighted& w : answer.noted_sets)
+    for (const Term& term : answer.second->note.rivals[w.best_rival].terms)
+      forms.push_back({term.form->id, term.form->form, {}});
+  return forms;
 }
 
 std::string listed_words(const std::vector<std::string>& words) {
@@ -167,8 +218,11 @@ std::vector<std::string> explanation(const LoopAnswer& answer) {
     sentences.push_back("In its place, without explaining it, the saved model takes " + effect_sentence(effect));
   if (answer.ambiguity_set.size() > 1) {
     sentences.push_back("These data can't tell apart: " + ambiguity_words(answer.ambiguity_set) + ".");
+    if (std::string why = why_taken(answer.ambiguity_set); !why.empty()) sentences.push_back(std::move(why));
   }
-  if (answer.inadequate) sentences.push_back(inadequacy_sentence(answer.inadequate->identification));
+  if (answer.second) sentences.push_back(note_on_the_other_reading(answer));
+  for (std::string& sentence : bekker_wong::presumptions(forms_told(answer), answer.wheel))
+    sentences.push_back(std::move(sentence));
   const ErrorPair& all = answer.validation.overall;
   if (all.cells > 0)
     sentences.push_back(fmt::format(
@@ -186,23 +240,37 @@ std::vector<std::string> explanation(const LoopAnswer& answer) {
   return sentences;
 }
 
+std::vector<std::string> forms_in_order(const Rival& rival) {
+  std::map<std::string, std::string> by_id;
+  for (const Term& term : rival.terms) by_id[term.form->id] = term.form->form;
+  std::vector<std::string> forms;
+  for (const std::string& id : rival.ids) forms.push_back(by_id.at(id));
+  return forms;
+}
+
 HtmlTable rivals_table(const LoopAnswer& answer) {
-  HtmlTable table{
-      answer.inadequate ? "Rivals, each fitted in full, the base model taken as exact" : "Rivals, each fitted in full",
-      {"effects", "form", "share of evidence [%]", "chi2", "values"},
-      {},
-      {true, true}};
-  constexpr std::size_t most = 8;
-  for (const Weighted& w : answer.details.weights) {
-    if (table.rows.size() == most) break;
+  const std::string premise = !answer.second           ? ""
+                              : answer.second->decides ? ", beside a base model that may be off by itself"
+                                                       : ", the base model taken as exact";
+  HtmlTable table{"Rivals, each fitted in full" + premise + "; shares are of those that the data can't tell apart",
+                  {"effects", "form", "share", "odds to the first", "chi2", "values"},
+                  {},
+                  {true, true}};
+  const std::string values = std::to_string(answer.details.observations.cells.size());
+  const std::vector<const Weighted*> sets = sets_shown(answer);
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const Weighted& w = *sets[i];
     const Rival& rival = answer.details.rivals[w.best_rival];
     std::string forms;
-    for (const Term& term : rival.terms) forms += (forms.empty() ? "" : " + ") + term.form->form;
-    table.rows.push_back({joined(w.ids), forms, number(std::round(1000 * w.weight) / 10), number(rival.fit.chi2),
-                          std::to_string(answer.details.observations.cells.size())});
+    for (const std::string& form : forms_in_order(rival)) forms += (forms.empty() ? "" : " + ") + form;
+    const double behind = sets.front()->log_evidence - w.log_evidence;
+    const std::string odds = i == 0       ? "-"
+                             : behind > 0 ? "1 : " + number(std::exp(behind))
+                                          : number(std::exp(-behind)) + " : 1";
+    table.rows.push_back({joined(w.ids), forms, i < answer.ambiguity_set.size() ? share_words(w.weight) : "-", odds,
+                          number(rival.fit.chi2), values});
   }
-  table.rows.push_back({"base model", "-", "-", number(answer.details.base.chi2),
-                        std::to_string(answer.details.observations.cells.size())});
+  table.rows.push_back({"base model", "-", "-", "-", number(answer.details.base.chi2), values});
   return table;
 }
 
@@ -228,7 +296,6 @@ HtmlTable error_table(const LoopAnswer& answer) {
 Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
   Case model;
   model.name = campaign.name + "-model";
-  model.description = "Made by soilbin loop: " + verdict_sentence(answer);
   model.source = "fitted to campaign " + campaign.name;
   model.scenario = scenario_of(campaign);
   model.scenario.effects.clear();
@@ -240,6 +307,9 @@ Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
   choice.effects = campaign.effects;
   for (const AcceptedEffect& effect : answer.effects) choice.effects.push_back(effect.choice);
   for (const AcceptedEffect& effect : answer.stand_in) choice.effects.push_back(effect.choice);
+  model.description = "Made by soilbin loop: " + verdict_sentence(answer);
+  for (const std::string& sentence : bekker_wong::presumptions(choice.effects, campaign.wheel))
+    model.description += " " + sentence;
   choice.label = "fitted";
   model.study.models = {choice};
   for (const Run& run : campaign.runs) model.study.conditions.push_back(run.at);

@@ -23,7 +23,11 @@ std::vector<std::string> explanation(const LoopAnswer& answer);
 /// What to measure next, or why no run is proposed; empty where no question is open.
 std::vector<std::string> what_next(const LoopAnswer& answer);
 
-/// Rivals, their weights and chi2; held-out errors before and after: as tables for a page or a terminal.
+/// The forms of a rival's effects, in the order of its ids.
+std::vector<std::string> forms_in_order(const Rival& rival);
+
+/// Rivals, first those that the data can't tell apart, their weights and chi2; held-out errors before and after: as
+/// tables for a page or a terminal.
 HtmlTable rivals_table(const LoopAnswer& answer);
 HtmlTable error_table(const LoopAnswer& answer);
 

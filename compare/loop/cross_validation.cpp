@@ -8,6 +8,7 @@
 #include <random>
 #include <tuple>
 
+#include "compare/loop/inadequacy.hpp"
 #include "compare/loop/smooth_term.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
@@ -33,14 +34,24 @@ struct FoldResult {
   int unpredicted = 0;
 };
 
-FoldResult run_fold(const Campaign& campaign, const Identification& whole, const NoiseFloor& noise,
-                    const IdentifyOptions& options, const std::vector<int>& fold, int left_out) {
+/// What is redone in each fold.
+struct Procedure {
+  const NoiseFloor& noise;  ///< in which errors are told
+  bool beside_inadequacy;
+  IdentifyOptions options;
+};
+
+FoldResult run_fold(const Campaign& campaign, const Identification& whole, const Procedure& procedure,
+                    const std::vector<int>& fold, int left_out) {
   const Observations& all = whole.observations;
   std::vector<bool> keep(fold.size());
   for (std::size_t c = 0; c < fold.size(); ++c) keep[c] = fold[c] != left_out;
   const Observations training = of_conditions(all, keep);
   FoldResult result;
-  const Identification id = identify(campaign, training, options);
+  const Identification exact = identify(campaign, training, procedure.options);
+  std::optional<InadequateReading> beside;
+  if (procedure.beside_inadequacy) beside = read_beside_inadequacy(campaign, exact, procedure.options);
+  const Identification& id = beside ? beside->identification : exact;
   const WheelPredictor base(campaign, training);
   std::optional<WheelPredictor> better;
   if (id.best) {
@@ -53,15 +64,15 @@ FoldResult run_fold(const Campaign& campaign, const Identification& whole, const
   for (const Cell& cell : all.cells) {
     ++index;
     if (keep[static_cast<std::size_t>(all.condition[static_cast<std::size_t>(cell.row)])]) {
-      predicted[index] = id.base.prediction[trained++];
+      predicted[index] = exact.base.prediction[trained++];
       continue;
     }
     const OperatingCondition& at = all.rows[static_cast<std::size_t>(cell.row)];
     try {
       HeldOut held{.row = cell.row, .channel = cell.channel, .measured = cell.value};
-      held.before = channel_of(base.reading(id.base.theta, at), cell.channel);
+      held.before = channel_of(base.reading(exact.base.theta, at), cell.channel);
       held.after = better ? channel_of(better->reading(id.rivals[*id.best].fit.theta, at), cell.channel) : held.before;
-      held.sd = noise.channels[static_cast<std::size_t>(cell.channel)].sd(cell.value);
+      held.sd = procedure.noise.channels[static_cast<std::size_t>(cell.channel)].sd(cell.value);
       predicted[index] = held.before;
       of_cell.push_back(index);
       result.cells.push_back(held);
@@ -71,16 +82,16 @@ FoldResult run_fold(const Campaign& campaign, const Identification& whole, const
   }
   std::vector<bool> kept_rows(all.rows.size());
   for (std::size_t r = 0; r < kept_rows.size(); ++r) kept_rows[r] = keep[static_cast<std::size_t>(all.condition[r])];
-  const VectorXd term = smooth_term(all, kept_rows, predicted, id.noise);
+  const VectorXd term = smooth_term(all, kept_rows, predicted, exact.noise);
   for (std::size_t k = 0; k < of_cell.size(); ++k) result.cells[k].smooth = result.cells[k].before + term[of_cell[k]];
   return result;
 }
 
 /// Every fold, some at once. The first exception of any stops them all and is thrown.
 std::vector<std::optional<FoldResult>> run_folds(const Campaign& campaign, const Identification& whole,
-                                                 const NoiseFloor& noise, const IdentifyOptions& options, int folds,
-                                                 int threads, const Progress& progress) {
-  const std::vector<int> fold = deal(whole.observations.conditions, folds, options.seed);
+                                                 const Procedure& procedure, int folds, int threads,
+                                                 const Progress& progress) {
+  const std::vector<int> fold = deal(whole.observations.conditions, folds, procedure.options.seed);
   std::vector<std::optional<FoldResult>> results(static_cast<std::size_t>(folds));
   std::atomic<std::size_t> done{0};
   const Pulse tell = [&] {
@@ -88,10 +99,10 @@ std::vector<std::optional<FoldResult>> run_folds(const Campaign& campaign, const
   };
   const Crew crew{threads, tell};
   crew.each(folds, [&](int f, const Pulse& pulse) {
-    IdentifyOptions own = options;
-    own.crew = {crew.share_of(f, folds), pulse};
+    Procedure own = procedure;
+    own.options.crew = {crew.share_of(f, folds), pulse};
     try {
-      results[static_cast<std::size_t>(f)] = run_fold(campaign, whole, noise, own, fold, f);
+      results[static_cast<std::size_t>(f)] = run_fold(campaign, whole, own, fold, f);
     } catch (const NoSolution&) {  // this fold's conditions can't be fitted alone: its cells stay unpredicted
     }
     ++done;
@@ -212,8 +223,9 @@ PredictiveGain predictive_gain(const Campaign& campaign, const Identification& w
 }
 
 CrossValidation cross_validate(const Campaign& campaign, const Identification& whole, const NoiseFloor& noise,
-                               const IdentifyOptions& options, int folds, int threads, const Progress& progress) {
-  const auto results = run_folds(campaign, whole, noise, options, folds, threads, progress);
+                               bool beside_inadequacy, const IdentifyOptions& options, int folds, int threads,
+                               const Progress& progress) {
+  const auto results = run_folds(campaign, whole, {noise, beside_inadequacy, options}, folds, threads, progress);
   CrossValidation cv;
   for (const auto& result : results) {
     if (!result) continue;

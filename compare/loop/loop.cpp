@@ -6,9 +6,11 @@
 #include <cmath>
 #include <map>
 
+#include "compare/loop/accepted_model.hpp"
 #include "compare/loop/base_fit.hpp"
+#include "compare/loop/held_out_words.hpp"
+#include "compare/loop/verdict.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
 
@@ -28,22 +30,7 @@ std::string_view word(Verdict verdict) {
 
 namespace {
 
-constexpr int choice_folds = 10;
 constexpr double least_noise_freedom = 5.0;  // a channel; below it a residual can't be told from noise
-
-/// Thresholds of the verdict, set once on the tuning sets of bench/loop (docs/loop.md), never on those reported.
-constexpr double odds_enough = 3.0;         // ln 20 to 1 over the base model, price paid
-constexpr double second_test_level = 0.1;   // of lack of fit after the best named effects: the noise was estimated
-                                            // beside a smooth function, so that it seldom falls under 0.3 by chance
-constexpr double unexplained_share = 0.15;  // of the base model's excess chi2 that a form 40 % off would leave
-constexpr double first_test_level = 0.02;   // of lack of fit where no effect is named
-constexpr double rerun_level = 0.005;       // of the same against re-runs alone, of the channel where it is least
-constexpr double rerun_share = 0.5;         // of the base model's excess over the re-runs that is left then
-constexpr double unnamed_alone = 2.0;       // ln evidence over the base model where no effect is named
-constexpr double unnamed_after = 1.0;       // ln evidence beyond the best named effects
-constexpr double alone_share = 0.9;         // of the sets' weight: then one effect stands alone, and what it leaves is
-constexpr double alone_test_level = 0.03;   // likelier to be its form's; the same two thresholds in that case
-constexpr double alone_unnamed_after = 3.0;
 
 std::vector<std::string> not_testable(const Campaign& campaign, const Identification& id) {
   std::map<std::string, bool> testable;
@@ -58,190 +45,6 @@ std::vector<std::string> not_testable(const Campaign& campaign, const Identifica
   return hidden;
 }
 
-/// Conditions left out are predicted better by a standard error; or better at all, where the odds are twenty to one:
-/// with a dozen conditions a standard error is more than a real effect reaches.
-bool stands(const PredictiveGain& gain, double log_odds) {
-  return gain.mean > gain.std_error || (gain.mean > 0 && log_odds > odds_enough);
-}
-
-/// Whether the best set stands against the base model.
-bool confirmed(const LoopAnswer& answer) {
-  const Identification& id = answer.details;
-  return id.best &&
-         stands(answer.choice_gain, weighed(id, id.rivals[*id.best].ids).log_evidence - id.base_log_evidence);
-}
-
-/// Share of the base model's excess over the noise that the best named rival leaves.
-double unexplained(const Identification& id) {
-  const double cells = static_cast<double>(id.observations.cells.size());
-  const double excess = id.base.chi2 - cells;
-  if (!(excess > 0)) return 0.0;
-  return std::max(0.0, id.rivals[*id.best].fit.chi2 - cells) / excess;
-}
-
-/// Whether a single effect is the best set, and no other set comes near it.
-bool stands_alone(const Identification& id) {
-  const Weighted best = weighted_sets(id, competitors(id)).front();
-  return best.ids.size() == 1 && best.weight >= alone_share;
-}
-
-AcceptedEffect accepted(const WheelPredictor& predictor, const Whitening& whitening, const Rival& rival, int term) {
-  constexpr double two_sided = 1.96;
-  Eigen::VectorXd errors = standard_errors(rival.fit, predictor);
-  const Term& t = rival.terms[static_cast<std::size_t>(term)];
-  AcceptedEffect effect;
-  const auto all = predictor.choices(rival.fit.theta);
-  effect.choice = all[all.size() - rival.terms.size() + static_cast<std::size_t>(term)];
-  for (std::size_t k = 0; k < t.free.size(); ++k) {
-    const Eigen::Index i = predictor.amplitude_index(term) + static_cast<Eigen::Index>(k);
-    const FreeParameter& bounds = predictor.parameters()[static_cast<std::size_t>(i)];
-    const bool held = errors[i] == 0.0;
-    if (held) errors[i] = held_error(rival.fit, predictor, whitening, i);
-    effect.at_bound.push_back(held);
-    effect.fitted.push_back(t.form->parameters[static_cast<std::size_t>(t.free[k])].name);
-    effect.ci95.emplace_back(std::max(bounds.lower, rival.fit.theta[i] - two_sided * errors[i]),
-                             std::min(bounds.upper, rival.fit.theta[i] + two_sided * errors[i]));
-  }
-  return effect;
-}
-
-SemiEmpiricalSoil fitted_soil(const Campaign& campaign, const WheelPredictor& predictor, const Fit& fit) {
-  SemiEmpiricalSoil soil = campaign.soil;
-  const Eigen::VectorXd errors = standard_errors(fit, predictor);
-  for (int i = 0; i < predictor.soil_parameters(); ++i)
-    soil.*soil_parameter(predictor.parameters()[static_cast<std::size_t>(i)].name).value = {fit.theta[i], errors[i]};
-  return soil;
-}
-
-std::vector<SoilShift> soil_shifts(const Identification& id, const WheelPredictor& predictor) {
-  const Fit& with = id.rivals[*id.best].fit;
-  const Eigen::VectorXd error = standard_errors(with, predictor);
-  const Eigen::VectorXd base_error = standard_errors(id.base, predictor);  // the same soil parameters come first
-  std::vector<SoilShift> shifts;
-  for (int i = 0; i < predictor.soil_parameters(); ++i)
-    shifts.push_back({predictor.parameters()[static_cast<std::size_t>(i)].name,
-                      {with.theta[i], error[i]},
-                      {id.base.theta[i], base_error[i]}});
-  return shifts;
-}
-
-/// p-value and separability of each accepted effect.
-void describe_effects(const Campaign& campaign, LoopAnswer& answer, const IdentifyOptions& options) {
-  const Identification& id = answer.details;
-  for (std::size_t t = 0; t < answer.effects.size(); ++t) {
-    answer.effects[t].p_value = p_beside_others(campaign, id, id.rivals[*id.best], t, options);
-    answer.effects[t].cosines = cosines(id, answer.effects[t].choice.id);
-  }
-}
-
-/// Where no effect is accepted: whether the residual is real all the same. Then the verdict is `unknown_effect`.
-bool unnamed_residual(LoopAnswer& answer) {
-  const Identification& id = answer.details;
-  const bool patterned = id.unnamed_gain > unnamed_alone, beyond_noise = answer.before.p_value <= first_test_level;
-  if (!patterned && !beyond_noise && answer.reruns_before.p_value > rerun_level) return false;
-  answer.verdict = Verdict::unknown_effect;
-  answer.reason = fmt::format("no effect of the catalogue is accepted (p = {:.3g}), but ", id.p_value);
-  if (patterned)
-    answer.reason += fmt::format(
-        "a function of the conditions that none of them makes explains the residual e^{:.1f} times better than noise",
-        id.unnamed_gain);
-  else if (beyond_noise)
-    answer.reason += fmt::format("the residual is more than noise (p = {:.2g})", answer.before.p_value);
-  else
-    answer.reason += fmt::format("the setpoints are off by more than their re-runs differ (p = {:.2g})",
-                                 answer.reruns_before.p_value);
-  return true;
-}
-
-/// The best rival's effects; its soil and what its residual still depends on go into the answer.
-std::vector<AcceptedEffect> take_best(const Campaign& campaign, LoopAnswer& answer) {
-  const Identification& id = answer.details;
-  const Rival& best = id.rivals[*id.best];
-  const WheelPredictor predictor(campaign, id.observations, best.terms);
-  std::vector<AcceptedEffect> effects;
-  for (int t = 0; t < static_cast<int>(best.terms.size()); ++t)
-    effects.push_back(accepted(predictor, *id.whitening, best, t));
-  answer.soil = fitted_soil(campaign, predictor, best.fit);
-  answer.soil_shifts = soil_shifts(id, predictor);
-  answer.dependences_after = dependences(
-      id.observations, best.fit.residual.head(static_cast<Eigen::Index>(id.observations.cells.size())), 999, 11);
-  return effects;
-}
-
-/// Why what the best named effects leave is the work of another one; nothing where it may be noise or their form's.
-std::optional<std::string> more_than_named(const LoopAnswer& answer) {
-  const Identification& id = answer.details;
-  const double left = unexplained(id);
-  const bool alone = stands_alone(id);
-  if (answer.after.p_value < (alone ? alone_test_level : second_test_level) && left > unexplained_share)
-    return fmt::format("but the best set of named effects leaves {:.0f} % of it", 100 * left);
-  if (id.residual_unnamed_gain > (alone ? alone_unnamed_after : unnamed_after))
-    return fmt::format(
-        "and after the best set of named effects a function of the conditions that none of them makes explains "
-        "e^{:.0f} "
-        "times more than chance would",
-        id.residual_unnamed_gain);
-  if (answer.reruns_after.p_value < rerun_level &&
-      answer.reruns_after.excess > rerun_share * answer.reruns_before.excess)
-    return fmt::format(
-        "and after the best set of named effects the setpoints are still off by more than their re-runs differ "
-        "(p = {:.2g})",
-        answer.reruns_after.p_value);
-  return std::nullopt;
-}
-
-void decide(const Campaign& campaign, LoopAnswer& answer) {
-  const Identification& id = answer.details;
-  const CrossValidation& cv = answer.validation;
-  const bool improves = confirmed(answer);
-  if (!id.best) {
-    if (unnamed_residual(answer)) return;
-    answer.verdict = Verdict::nothing_missing;
-    answer.reason =
-        fmt::format("the strongest of all effects reaches p = {:.3g} among the whole catalogue", id.p_value);
-    return;
-  }
-  if (const auto more = more_than_named(answer)) {
-    answer.verdict = Verdict::unknown_effect;
-    answer.reason = fmt::format("the residual is real (p = {:.2g}), {}", id.p_value, *more);
-    if (improves) answer.stand_in = take_best(campaign, answer);
-    return;
-  }
-  if (!improves) {
-    if (unnamed_residual(answer)) return;
-    answer.verdict = Verdict::nothing_missing;
-    answer.reason = fmt::format(
-        "the best effect fits (p = {:.2g}) but does not predict held-out conditions better "
-        "(gain in ln density a condition {:.2g} +- {:.2g})",
-        id.p_value, answer.choice_gain.mean, answer.choice_gain.std_error);
-    return;
-  }
-  answer.verdict = Verdict::effect_found;
-  answer.effects = take_best(campaign, answer);
-  answer.reason = fmt::format("p = {:.2g} among the whole catalogue", id.p_value);
-  if (cv.overall.cells > 0)
-    answer.reason += fmt::format("; held-out error falls by {:.2g} +- {:.2g} sigma^2", cv.gain, cv.gain_error);
-}
-
-/// Backward: an effect stays only if the set with it stands against the set without; then the same for what stays
-/// against the base model, and what it leaves.
-void confirm(const Campaign& campaign, LoopAnswer& answer, const IdentifyOptions& options) {
-  Identification& id = answer.details;
-  for (auto fewer = best_subset(id, *id.best); fewer; fewer = best_subset(id, *id.best)) {
-    const Rival &more = id.rivals[*id.best], &less = id.rivals[*fewer];
-    const PredictiveGain gain = predictive_gain(campaign, id, more.terms, more.fit, less.terms, less.fit, choice_folds,
-                                                options.seed, options.crew);
-    if (stands(gain, weighed(id, more.ids).log_evidence - weighed(id, less.ids).log_evidence)) break;
-    prefer(campaign, id, *fewer);
-  }
-  const Rival& best = id.rivals[*id.best];
-  answer.choice_gain =
-      predictive_gain(campaign, id, best.terms, best.fit, {}, id.base, choice_folds, options.seed, options.crew);
-  answer.after = lack_of_fit(best.fit, id.noise, static_cast<Eigen::Index>(id.observations.cells.size()));
-  answer.reruns_after = rerun_test(id.observations, id.noise, best.fit);
-  if (confirmed(answer) && !more_than_named(answer)) answer.noise = noise_beside(campaign, id, best);
-}
-
 bool too_small(const Campaign& campaign, const Observations& observations, std::string& reason) {
   const WheelPredictor base(campaign, observations);
   const int spare = static_cast<int>(observations.cells.size()) - base.soil_parameters();
@@ -254,17 +57,20 @@ bool too_small(const Campaign& campaign, const Observations& observations, std::
 /// Steps of the progress: what the identification and the choice take of all.
 constexpr std::size_t all_steps = 100, identified = 30, chosen = 40, pulses_a_step = 10;
 
-/// What the data allow before any effect is judged; false where they are too few, with the reason.
-bool describe_base(const Campaign& campaign, LoopAnswer& answer) {
+/// What the reading that decides finds before any effect is judged.
+void describe_base(const Campaign& campaign, LoopAnswer& answer) {
   const Identification& id = answer.details;
-  answer.noise = id.noise;
-  answer.outliers = static_cast<int>(std::count(id.outlier.begin(), id.outlier.end(), true));
-  answer.not_testable = not_testable(campaign, id);
   const Eigen::Index cells = static_cast<Eigen::Index>(id.observations.cells.size());
+  answer.noise = id.noise;
   answer.before = lack_of_fit(id.base, id.noise, cells);
   answer.reruns_before = rerun_test(id.observations, id.noise, id.base);
   answer.dependences_before = dependences(id.observations, id.base.residual.head(cells), 999, 7);
   answer.soil = fitted_soil(campaign, WheelPredictor(campaign, id.observations), id.base);
+}
+
+/// Whether the data allow to judge any effect; else the reason.
+bool judgeable(LoopAnswer& answer) {
+  const Identification& id = answer.details;
   if (id.noise.typical_freedom() < least_noise_freedom) {
     answer.reason = fmt::format("the noise of a channel rests on {:.1f} degrees of freedom only, too few to judge by",
                                 id.noise.typical_freedom());
@@ -284,22 +90,43 @@ std::optional<NextTest> proposed(const Campaign& campaign, const Identification&
   return next_test(campaign, id, competitors(id), reach);
 }
 
-/// The named sets that come nearest to an unknown effect, also where the base model's own form may be off: then effects
-/// can stand out that nothing but a change with load and slip, taken for another effect, had hidden. The next test is
-/// asked of the reading that explains the data better.
-void read_again(const Campaign& campaign, LoopAnswer& answer, const Limits& limits, const IdentifyOptions& options) {
-  const Identification& first = answer.details;
-  const Identification* ahead = first.best ? &first : nullptr;
-  if (ahead) answer.ambiguity_set = weighted_sets(first, competitors(first));
-  answer.inadequate = read_beside_inadequacy(campaign, first, options);
-  if (answer.inadequate && answer.inadequate->identification.best) {
-    const Identification& second = answer.inadequate->identification;
-    const std::vector<Competitor> all = competitors(second);
-    answer.ambiguity_set = merged(answer.ambiguity_set, weighted_sets(second, all), all.front().allowed);
-    const auto explains = [](const Identification& id) { return weighed(id, id.rivals[*id.best].ids).log_evidence; };
-    if (!ahead || explains(second) > explains(first)) ahead = &second;
-  }
-  if (ahead) answer.next = proposed(campaign, *ahead, limits);
+double evidence_of_best(const Identification& id) { return weighed(id, id.rivals[*id.best].ids).log_evidence; }
+
+/// Whether the second reading names effects and, the price of its freedom paid, explains the data better.
+bool explains_better(const Identification& second, const Identification& first) {
+  return second.best && (!first.best || evidence_of_best(second) > evidence_of_best(first));
+}
+
+/// What only the reading that does not decide leaves. An exact base model's sets always: an effect of load and slip
+/// alone looks like what the other one lets go. The other one's where it explains the data nearly as well.
+std::vector<Weighted> noted_sets(const LoopAnswer& answer) {
+  if (!answer.second || !answer.second->note.best) return {};
+  const Identification& note = answer.second->note;
+  const std::vector<Competitor> all = competitors(note);
+  const double behind = evidence_of_best(answer.details) - evidence_of_best(note);
+  if (!answer.second->decides && behind > all.front().allowed) return {};
+  std::vector<Weighted> noted = weighted_sets(note, all);
+  std::erase_if(noted, [&](const Weighted& w) {
+    return std::any_of(answer.ambiguity_set.begin(), answer.ambiguity_set.end(),
+                       [&](const Weighted& decided) { return decided.ids == w.ids; });
+  });
+  for (Weighted& w : noted) w.weight = 0.0;
+  return noted;
+}
+
+/// An unknown effect may be the base model's own form: then effects can stand out that nothing but a change with load
+/// and slip, taken for another effect, had hidden. The reading that explains the data better decides all that is told;
+/// the other is a note.
+void read_again(const Campaign& campaign, LoopAnswer& answer, const IdentifyOptions& options) {
+  auto beside = read_beside_inadequacy(campaign, answer.details, options);
+  if (!beside) return;
+  const bool decides = explains_better(beside->identification, answer.details);
+  answer.second = SecondReading{decides, beside->size, std::move(beside->identification)};
+  if (!decides) return;
+  std::swap(answer.details, answer.second->note);
+  describe_base(campaign, answer);
+  confirm(campaign, answer, options);
+  decide_beside_inadequacy(campaign, answer);
 }
 
 /// The choice within a fold: fewer simulations, its outliers set aside by the whole.
@@ -309,12 +136,21 @@ IdentifyOptions of_a_fold(IdentifyOptions options) {
   return options;
 }
 
-/// Steps 1 to 7 on these observations; false where they are too few, with the reason.
+/// Noise to verdict on these observations, the base model taken as exact; false where they are too few, with the
+/// reason.
 bool judge(const Campaign& campaign, const Observations& observations, const IdentifyOptions& options,
            LoopAnswer& answer) {
   answer.details = identify(campaign, observations, options);
-  if (!describe_base(campaign, answer)) return false;
-  if (answer.details.best) confirm(campaign, answer, options);
+  const Identification& id = answer.details;
+  answer.outliers = static_cast<int>(std::count(id.outlier.begin(), id.outlier.end(), true));
+  answer.not_testable = not_testable(campaign, id);
+  describe_base(campaign, answer);
+  if (!judgeable(answer)) return false;
+  if (id.best) {
+    confirm(campaign, answer, options);
+    if (explains_all(answer)) answer.noise = noise_beside(campaign, id, id.rivals[*id.best]);
+  }
+  decide(campaign, answer);
   return true;
 }
 
@@ -322,8 +158,16 @@ bool judge(const Campaign& campaign, const Observations& observations, const Ide
 WithOutliers keep_outliers(const Campaign& campaign, const Observations& observations, IdentifyOptions options) {
   options.drop_outliers = false;
   LoopAnswer answer;
-  if (judge(campaign, observations, options, answer)) decide(campaign, answer);
+  judge(campaign, observations, options, answer);
   return {answer.verdict, ids_of(answer.effects)};
+}
+
+/// What the effects gain on conditions left out, and where they lose, goes into the verdict.
+void tell_errors(LoopAnswer& answer) {
+  if (answer.validation.overall.cells == 0) return;
+  const std::string words = held_out_words(answer.validation);
+  if (!answer.effects.empty()) answer.reason += "; " + words;
+  if (!answer.stand_in.empty()) answer.reason += "; with the model that is saved, " + words;
 }
 
 }  // namespace
@@ -334,12 +178,20 @@ std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects) {
   return ids;
 }
 
+bool decided_beside_inadequacy(const LoopAnswer& answer) { return answer.second && answer.second->decides; }
+
+const Identification* beside_inadequacy(const LoopAnswer& answer) {
+  if (!answer.second) return nullptr;
+  return answer.second->decides ? &answer.details : &answer.second->note;
+}
+
 LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   const auto say = [&](std::size_t step) {
     if (options.progress) options.progress(step, all_steps);
   };
   LoopAnswer answer;
   answer.campaign = campaign.name;
+  answer.wheel = campaign.wheel;
   answer.soil = campaign.soil;
   const Observations observations = observe(campaign);
   if (too_small(campaign, observations, answer.reason)) return answer;
@@ -347,18 +199,21 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   std::size_t pulses = 0;
   whole.crew = {options.threads, [&] { say(std::min(++pulses / pulses_a_step, identified)); }};
   if (!judge(campaign, observations, whole, answer)) return answer;
+  if (answer.verdict == Verdict::unknown_effect) read_again(campaign, answer, whole);
   say(chosen);
   const IdentifyOptions inner = of_a_fold(options.identify);
   if (options.validate)
-    answer.validation = cross_validate(
-        campaign, answer.details, answer.noise, inner, options.folds, options.threads,
-        [&](std::size_t done, std::size_t folds) { say(chosen + (all_steps - 1 - chosen) * done / folds); });
-  decide(campaign, answer);
+    answer.validation = cross_validate(campaign, answer.details, answer.noise, decided_beside_inadequacy(answer), inner,
+                                       options.folds, options.threads, [&](std::size_t done, std::size_t folds) {
+                                         say(chosen + (all_steps - 1 - chosen) * done / folds);
+                                       });
+  tell_errors(answer);
   whole.crew.pulse = [&] { say(all_steps - 1); };
   describe_effects(campaign, answer, whole);
-  if (answer.verdict == Verdict::unknown_effect) read_again(campaign, answer, options.limits, whole);
-  if (answer.verdict == Verdict::effect_found) {
+  const bool compete = answer.verdict == Verdict::effect_found || answer.verdict == Verdict::unknown_effect;
+  if (compete && answer.details.best) {
     answer.ambiguity_set = weighted_sets(answer.details, competitors(answer.details));
+    answer.noted_sets = noted_sets(answer);
     answer.next = proposed(campaign, answer.details, options.limits);
   }
   if (answer.outliers > 0) answer.with_outliers = keep_outliers(campaign, observations, whole);

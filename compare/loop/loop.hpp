@@ -48,8 +48,17 @@ struct WithOutliers {
   std::set<std::string> effects;
 };
 
+/// Of an unknown effect: the data read twice, with a base model that is exact and with one that may be off by itself.
+struct SecondReading {
+  bool decides =
+      false;            ///< whether the base model that may be off explains the data better; else the exact one decides
+  double size = 0.0;    ///< InadequateReading::size
+  Identification note;  ///< the reading that does not decide; the one that does is LoopAnswer::details
+};
+
 struct LoopAnswer {
   std::string campaign;
+  Tire wheel;  ///< of the campaign: of what it does not declare, effects presume some
   Verdict verdict = Verdict::not_enough_data;
   std::string reason;  ///< one plain sentence
   std::vector<AcceptedEffect> effects;
@@ -57,9 +66,9 @@ struct LoopAnswer {
   /// for it in the model that is saved, and explain nothing.
   std::vector<AcceptedEffect> stand_in;
   std::vector<Weighted> ambiguity_set;  ///< best first; empty unless effects compete
-  /// Of an unknown effect: the data read once more with a base model that may be off by itself. Its sets are among the
-  /// ambiguity set.
-  std::optional<InadequateReading> inadequate;
+  /// Sets that only the reading which does not decide leaves: indices are those of SecondReading::note, weights 0.
+  std::vector<Weighted> noted_sets;
+  std::optional<SecondReading> second;
   std::vector<std::string> not_testable;
   std::optional<NextTest> next;  ///< also of an unknown effect: between the named sets that come nearest
   PredictiveGain choice_gain;    ///< of the best rival over the base model
@@ -67,13 +76,19 @@ struct LoopAnswer {
   LackOfFit before, after;
   RerunTest reruns_before, reruns_after;
   std::vector<Dependence> dependences_before, dependences_after;
-  Identification details;
-  NoiseFloor noise;                    ///< beside the accepted effects where there are any: what errors are told in
+  Identification details;  ///< the reading that decides: verdict, shares, tables, saved model and next test are its
+  NoiseFloor noise;        ///< beside the accepted effects where there are any: what errors are told in
   std::vector<SoilShift> soil_shifts;  ///< of the free values, where effects are accepted
   SemiEmpiricalSoil soil;  ///< refitted with the accepted effects or those that stand in, with standard errors
   int outliers = 0;        ///< cells set aside
   std::optional<WithOutliers> with_outliers;  ///< where any were
 };
+
+/// Whether the reading beside a base model that may be off by itself decides.
+bool decided_beside_inadequacy(const LoopAnswer& answer);
+
+/// That reading, whether it decides or not; null where there was none.
+const Identification* beside_inadequacy(const LoopAnswer& answer);
 
 /// Ids of effects that stand together.
 std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects);

@@ -143,26 +143,37 @@ HtmlTable noise_table(const LoopAnswer& answer) {
   return table;
 }
 
-HtmlTable trace_table(const LoopAnswer& answer) {
+/// The strongest signature of each form, strongest first.
+std::vector<const Signature*> strongest_signatures(const LoopAnswer& answer) {
+  constexpr std::size_t most = 15;
+  std::vector<const Signature*> order, strongest;
+  for (const Signature& s : answer.details.signatures)
+    if (s.projected_norm > 0) order.push_back(&s);
+  std::stable_sort(order.begin(), order.end(), [](auto a, auto b) { return a->strength() > b->strength(); });
+  std::set<const bekker_wong::EffectForm*> shown;
+  for (const Signature* s : order)
+    if (strongest.size() < most && shown.insert(s->term.form).second) strongest.push_back(s);
+  return strongest;
+}
+
+HtmlTable trace_table(const std::vector<const Signature*>& signatures) {
   HtmlTable table{
       "The strongest signatures against the base model; kept: the share that the soil's values can't absorb",
       {"effect", "form", "score [sd]", "amplitude [SI]", "kept [%]", "detectable from [SI]"},
       {},
       {true, true}};
-  std::vector<const Signature*> order;
-  for (const Signature& s : answer.details.signatures)
-    if (s.projected_norm > 0) order.push_back(&s);
-  std::stable_sort(order.begin(), order.end(), [](auto a, auto b) { return a->strength() > b->strength(); });
-  constexpr std::size_t most = 15;
-  std::set<const bekker_wong::EffectForm*> shown;
-  for (const Signature* s : order) {
-    if (table.rows.size() == most) break;
-    if (!shown.insert(s->term.form).second) continue;
+  for (const Signature* s : signatures)
     table.rows.push_back({s->term.form->id, s->term.form->form, number(s->score),
                           number(Estimate{s->amplitude, s->std_error}), number(100 * s->share_kept),
                           number(s->detectable)});
-  }
   return table;
+}
+
+/// What the traced forms presume of the wheel, a paragraph below their table.
+void tell_presumptions(Page& page, const std::vector<const Signature*>& signatures, const Tire& wheel) {
+  std::vector<EffectChoice> forms;
+  for (const Signature* s : signatures) forms.push_back({s->term.form->id, s->term.form->form, {}});
+  for (const std::string& sentence : bekker_wong::presumptions(forms, wheel)) page.paragraph(sentence);
 }
 
 /// The effects whose traces look most like an accepted one's.
@@ -220,7 +231,9 @@ std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const 
     }
     page.section("Rivals");
     page.table(rivals_table(answer));
-    page.table(trace_table(answer));
+    const std::vector<const Signature*> signatures = strongest_signatures(answer);
+    page.table(trace_table(signatures));
+    tell_presumptions(page, signatures, answer.wheel);
     if (!answer.effects.empty()) page.table(likeness_table(answer));
     if (!answer.soil_shifts.empty()) page.table(soil_table(answer));
     page.section("Residuals against every variable");
