@@ -78,14 +78,14 @@ TEST(LoopCommand, TriesThePlacesOfItsFilesBeforeItWorks) {
   }
 }
 
-// No file may grow beyond 8 KiB: the page does not fit, found only once it is made. The answer is printed all the same,
-// and the model, which is small, is there.
+// No file may grow beyond 32 KiB: the page does not fit, found only once it is made. The answer is printed all the
+// same, and the model, which is small, is there.
 TEST(SlowLoopCommand, PrintsTheAnswerWhereTheReportCannotBeWritten) {
   const Scratch scratch;
   const fs::path page = scratch / "loop.html", model = scratch / "fitted.yaml";
   const Outcome outcome =
       soilbin("loop made-lesson --folds 2 --report '" + page.string() + "' --save-model '" + model.string() + "'",
-              "trap '' XFSZ; ulimit -f 16; ");
+              "trap '' XFSZ; ulimit -f 64; ");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.err, HasSubstr("loop.html: can't write"));
   EXPECT_THAT(outcome.out, HasSubstr("The model lacks multipass"));
