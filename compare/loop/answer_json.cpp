@@ -144,7 +144,8 @@ ordered_json ambiguity_json(const LoopAnswer& answer) {
 
 ordered_json worse_json(const LoopAnswer& answer) {
   ordered_json names = ordered_json::array();
-  for (const int channel : worse_channels(answer)) names.push_back(channel_names[static_cast<std::size_t>(channel)]);
+  for (const int channel : worse_channels(answer))
+    names.push_back(channel_views[static_cast<std::size_t>(channel)].name);
   return names;
 }
 
