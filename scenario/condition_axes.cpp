@@ -83,7 +83,7 @@ class RangeReader {
     if (!(largest > 1e-12 && largest < 1e12)) return value;
     const int places = 12 - static_cast<int>(std::ceil(std::log10(largest)));
     const std::string number = fmt::format("{:.{}f}", value * per_unit, places);
-    if (std::stod(number) == 0.0) return 0.0;
+    if (read_number(number) == 0.0) return 0.0;
     const std::string text = unit.text == "-" ? number : number + " " + unit.text;
     return read_quantity(text, Measure{measure_.unit, any_value}, reading_.n);
   }

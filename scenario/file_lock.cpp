@@ -5,27 +5,66 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
+#include <chrono>
 #include <stdexcept>
+#include <system_error>
+#include <thread>
+#include <utility>
 
 namespace soilbin {
+namespace {
 
-FileLock::FileLock(const std::filesystem::path& place, Wait wait)
-    : descriptor_(std::filesystem::is_directory(place) ? ::open(place.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)
-                                                       : ::open(place.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-  const int how = wait == Wait::no ? LOCK_EX | LOCK_NB : LOCK_EX;
-  int status = descriptor_ < 0 ? -1 : ::flock(descriptor_, how);
-  while (descriptor_ >= 0 && status != 0 && errno == EINTR) status = ::flock(descriptor_, how);
-  if (status == 0) return;
-  const int error = errno;
-  if (descriptor_ >= 0) ::close(descriptor_);
-  descriptor_ = -1;
-  if (wait == Wait::no && error == EWOULDBLOCK) return;
-  throw std::runtime_error("cannot lock " + place.string() + ": " + std::strerror(error));
+constexpr std::chrono::milliseconds between_looks{100};
+
+std::function<void(const std::filesystem::path&)>& while_waiting() {
+  static std::function<void(const std::filesystem::path&)> look;
+  return look;
+}
+
+int opened(const std::filesystem::path& place) {
+  if (std::filesystem::is_directory(place)) return ::open(place.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  return ::open(place.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+}
+
+/// Whether it was had at once; otherwise errno says why not.
+bool try_lock(int descriptor) {
+  int status = ::flock(descriptor, LOCK_EX | LOCK_NB);
+  while (status != 0 && errno == EINTR) status = ::flock(descriptor, LOCK_EX | LOCK_NB);
+  return status == 0;
+}
+
+/// Closes what it was given, unless it is taken out.
+struct Opened {
+  int descriptor;
+  explicit Opened(int d) : descriptor(d) {}
+  Opened(const Opened&) = delete;
+  Opened& operator=(const Opened&) = delete;
+  ~Opened() {
+    if (descriptor >= 0) ::close(descriptor);
+  }
+};
+
+}  // namespace
+
+FileLock::FileLock(const std::filesystem::path& place, Wait wait) {
+  Opened file(opened(place));
+  const auto fail = [&] {
+    throw std::runtime_error("cannot lock " + place.string() + ": " + std::generic_category().message(errno));
+  };
+  if (file.descriptor < 0) fail();
+  while (!try_lock(file.descriptor)) {
+    if (errno != EWOULDBLOCK) fail();
+    if (wait == Wait::no) return;
+    if (while_waiting()) while_waiting()(place);
+    std::this_thread::sleep_for(between_looks);
+  }
+  descriptor_ = std::exchange(file.descriptor, -1);
 }
 
 FileLock::~FileLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
+
+void set_while_waiting(std::function<void(const std::filesystem::path&)> look) { while_waiting() = std::move(look); }
 
 }  // namespace soilbin

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 namespace soilbin {
 
@@ -10,8 +11,8 @@ class FileLock {
  public:
   enum class Wait { until_free, no };
 
-  /// On a folder, or on a file that is made where it isn't there. Throws std::runtime_error with the system's reason
-  /// where there can be no lock.
+  /// On a folder, or on a file that is made where it isn't there; a link of that name is refused. Throws
+  /// std::runtime_error with the system's reason where there can be no lock.
   FileLock(const std::filesystem::path& place, Wait wait);
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;
@@ -22,5 +23,9 @@ class FileLock {
  private:
   int descriptor_ = -1;
 };
+
+/// What every wait for a lock calls about ten times a second, with what it waits for: it may tell a person, or throw to
+/// give up. The program sets it once, before there are threads; without it waits are silent.
+void set_while_waiting(std::function<void(const std::filesystem::path& place)> look);
 
 }  // namespace soilbin

@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string_view>
-#include <system_error>
+
+#include "scenario/file_bytes.hpp"
 
 namespace soilbin {
 namespace {
@@ -36,8 +36,6 @@ bool is_control(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return (byte < 0x20U && c != '\t' && c != '\n' && c != '\r') || byte == 0x7FU;
 }
-
-std::string first_line_of(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 }  // namespace
 
@@ -90,21 +88,8 @@ SourceText make_source_text(std::string text, const std::string& file) {
 }
 
 SourceText read_source_text(const std::filesystem::path& path, std::size_t largest) {
-  namespace fs = std::filesystem;
-  const SourcePosition where{first_line_of(path.string())};
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) throw InputError(where, "no such file");
-  if (fs::is_directory(status)) throw InputError(where, "is a folder; a file is expected");
-  if (!fs::is_regular_file(status)) throw InputError(where, "is not a regular file that can be read");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(where, "can't be opened for reading");
-  std::string text(largest + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) throw InputError(where, "reading failed");
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > largest) throw InputError(where, fmt::format("is larger than the {} bytes allowed", largest));
-  return make_source_text(std::move(text), where.file);
+  const std::string name = path.string();
+  return make_source_text(read_bytes(path, largest), name.substr(0, name.find('\n')));
 }
 
 std::string clipped(std::string_view word) {

@@ -175,7 +175,7 @@ std::string body_vtp(const Body& body) {
 }
 
 void export_to_paraview(const fs::path& folder, const std::string& name, const State& state) {
-  fs::create_directories(folder);
+  make_folder(folder);
   const fs::path pvd = folder / (name + ".pvd");
   Entries entries = read_pvd(pvd);
   const auto add = [&](const std::string& part, int number, const std::string& title, const std::string& content) {

@@ -213,10 +213,10 @@ Restart load(const hdf5::Group& root, const std::string& file) {
 
 }  // namespace
 
-void write_restart(const fs::path& path, const Setup& setup, const State& state, const Notes& notes) {
+void write_restart(const fs::path& path, const Setup& setup, const State& state, const Notes& notes, Keep keep) {
   hdf5::OutputFile file(path.string());
   save(file.root(), setup, state, notes);
-  write_sealed(path, restart_kind, file.finish(), Keep::previous);
+  write_sealed(path, restart_kind, file.finish(), keep);
 }
 
 Restart read_restart(const fs::path& path) {
@@ -234,8 +234,9 @@ bool has_restart(const fs::path& path) { return fs::exists(path) || fs::exists(p
 
 void remove_restart(const fs::path& path) {
   if (path.empty()) return;
-  fs::remove(path);
-  fs::remove(previous_of(path));
+  std::error_code gone_already;
+  fs::remove(path, gone_already);
+  fs::remove(previous_of(path), gone_already);
 }
 
 LastGood read_last_good(const fs::path& path) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "dem/archive/sealed_file.hpp"
 #include "dem/engine/simulation.hpp"
 
 namespace soilbin::dem {
@@ -18,9 +19,10 @@ struct Restart {
   Notes notes;
 };
 
-/// Writes a whole restart or nothing; the one that was there before stays as path + ".previous". The same setup, state
-/// and notes give the same bytes. Throws std::runtime_error where the disk refuses.
-void write_restart(const std::filesystem::path& path, const Setup& setup, const State& state, const Notes& notes = {});
+/// Writes a whole restart or nothing; the one that was there before stays as path + ".previous", where it is to be kept.
+/// The same setup, state and notes give the same bytes. Throws std::runtime_error where the disk refuses.
+void write_restart(const std::filesystem::path& path, const Setup& setup, const State& state, const Notes& notes = {},
+                   Keep keep = Keep::previous);
 
 /// Throws InputError for a file that can't be read, is cut short, damaged, foreign, or of another version.
 Restart read_restart(const std::filesystem::path& path);

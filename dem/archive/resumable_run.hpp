@@ -31,6 +31,8 @@ class Checkpointer {
   /// Throws std::runtime_error where the disk refuses.
   void write(const Simulation& simulation, const Notes& notes) { write(checkpoints_.restart, simulation, notes); }
   void write(const std::filesystem::path& path, const Simulation& simulation, const Notes& notes);
+  /// After one that couldn't be written: the next one is due when it would be.
+  void put_off() { at_ = std::chrono::steady_clock::now(); }
 
  private:
   const Checkpoints& checkpoints_;

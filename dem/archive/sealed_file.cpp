@@ -1,6 +1,5 @@
 #include "dem/archive/sealed_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -10,6 +9,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "scenario/atomic_file.hpp"
+#include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
@@ -37,41 +38,6 @@ std::string header_of(const FileKind& kind, std::string_view content) {
       fmt::format("{}: can't {}: {}", path.string(), step, std::generic_category().message(reason)));
 }
 
-/// Open for writing; closed and removed unless it is kept.
-class FreshFile {
- public:
-  explicit FreshFile(const fs::path& path)
-      : path_(path), descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
-    if (descriptor_ < 0) fail(path_, "create", errno);
-  }
-  FreshFile(const FreshFile&) = delete;
-  FreshFile& operator=(const FreshFile&) = delete;
-  ~FreshFile() {
-    if (descriptor_ < 0) return;
-    ::close(descriptor_);
-    ::unlink(path_.c_str());
-  }
-
-  void write(std::string_view bytes) {
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail(path_, "write", errno);
-      bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
-  }
-  void keep() {
-    if (::fsync(descriptor_) != 0) fail(path_, "flush", errno);
-    const int descriptor = descriptor_;
-    descriptor_ = -1;
-    if (::close(descriptor) != 0) fail(path_, "close", errno);
-  }
-
- private:
-  fs::path path_;
-  int descriptor_;
-};
-
 bool is_good(const fs::path& path, const FileKind& kind) {
   try {
     const SealedFile file(path, kind);
@@ -94,15 +60,6 @@ void keep_previous(const fs::path& path) {
   ::unlink(between.c_str());  // it stays where both names were one file before
 }
 
-/// Makes renames last; a folder that can't be synced is no reason to fail.
-void flush_folder(const fs::path& path) {
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
-
 /// The first two words after 'soilbin'; false where they aren't there.
 bool kind_of(std::string_view bytes, FileKind& kind) {
   if (!bytes.starts_with(programme)) return false;
@@ -114,7 +71,9 @@ bool kind_of(std::string_view bytes, FileKind& kind) {
 }
 
 std::string read_whole(const fs::path& path) {
-  if (fs::is_directory(path)) refuse(path, "is a folder", "give the file in it");
+  std::error_code error;
+  if (fs::is_directory(path, error)) refuse(path, "is a folder", "give the file in it");
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) refuse(path, "is no regular file", "");
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) refuse(path, fmt::format("can't be read: {}", std::generic_category().message(errno)), "");
   std::string bytes(static_cast<std::size_t>(file.tellg()), '\0');
@@ -126,23 +85,15 @@ std::string read_whole(const fs::path& path) {
 
 }  // namespace
 
-std::uint64_t fnv1a(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
-  return hash;
-}
-
 fs::path previous_of(const fs::path& path) { return path.string() + ".previous"; }
 
 void write_sealed(const fs::path& path, const FileKind& kind, std::string_view content, Keep keep) {
-  const fs::path fresh = path.string() + ".writing";
-  FreshFile file(fresh);
+  FreshFile file(path, Links::replaced);
   file.write(header_of(kind, content));
   file.write(content);
-  file.keep();
+  file.flush();
   if (keep == Keep::previous && is_good(path, kind)) keep_previous(path);
-  if (std::rename(fresh.c_str(), path.c_str()) != 0) fail(path, "rename into place", errno);
-  flush_folder(path);
+  file.put_in_place();
 }
 
 SealedFile::SealedFile(const fs::path& path, const FileKind& kind) : bytes_(read_whole(path)) {

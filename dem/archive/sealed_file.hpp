@@ -2,7 +2,6 @@
 // checksum; HDF5 takes them for a user block, so other programs read the file as it is.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -15,18 +14,15 @@ struct FileKind {
   int version;
 };
 
-/// FNV-1a, 64 bits (Fowler, Noll and Vo; RFC 9923). Each single changed byte changes it.
-std::uint64_t fnv1a(std::string_view bytes);
-
 /// Beside the file: where the last one but one is kept.
 std::filesystem::path previous_of(const std::filesystem::path& path);
 
 enum class Keep { nothing, previous };
 
-/// Writes a whole file or nothing: under the name path + ".writing", flushed to the disk, then renamed. With
+/// Writes a whole file or nothing (FreshFile): flushed to the disk, then renamed; a link of that name is replaced. With
 /// Keep::previous the file that was there stays as previous_of(path), unless it is damaged; so at each moment a good
-/// one is under one of the two names. One writer a path. Throws std::runtime_error with file, step and the system's
-/// reason.
+/// one is under one of the two names. Several may write the same path: the last one stays. Throws std::runtime_error
+/// with file, step and the system's reason.
 void write_sealed(const std::filesystem::path& path, const FileKind& kind, std::string_view content, Keep keep);
 
 /// A file that came back as it was written.

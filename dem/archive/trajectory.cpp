@@ -39,7 +39,6 @@ fs::path frame_path(const fs::path& folder, std::int64_t step) {
 }
 
 void write_frame(const fs::path& folder, const Setup& setup, const State& state) {
-  fs::create_directories(folder);
   const fs::path path = frame_path(folder, state.step);
   hdf5::OutputFile file(path.string());
   write_h5md(file.root());

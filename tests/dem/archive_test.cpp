@@ -13,6 +13,7 @@
 #include "dem/archive/hdf5.hpp"
 #include "dem/archive/restart.hpp"
 #include "dem/archive/sealed_file.hpp"
+#include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 #include "tests/dem/archive_scene.hpp"
@@ -349,7 +350,7 @@ TEST(Seal, LeavesTheGoodOneWhereTheDiskIsFull) {
     message = error.what();
   }
   setrlimit(RLIMIT_FSIZE, &old);
-  EXPECT_THAT(message, HasSubstr("run.h5.writing: can't write: File too large"));
+  EXPECT_THAT(message, HasSubstr("run.h5: can't write: File too large"));
   EXPECT_TRUE(read_bytes(path) == before);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }

@@ -1,0 +1,16 @@
+// A checksum that tells damage, not intent.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace soilbin {
+
+/// FNV-1a, 64 bits (Fowler, Noll and Vo; RFC 9923). Each single changed byte changes it.
+std::uint64_t fnv1a(std::string_view bytes);
+
+/// Its sixteen hexadecimal digits.
+std::string fnv1a_digits(std::string_view bytes);
+
+}  // namespace soilbin

@@ -1,0 +1,35 @@
+#include "scenario/file_bytes.hpp"
+
+#include <fmt/core.h>
+
+#include <fstream>
+#include <system_error>
+
+#include "scenario/errors.hpp"
+
+namespace soilbin {
+
+std::string read_bytes(const std::filesystem::path& path, std::size_t largest) {
+  namespace fs = std::filesystem;
+  const SourcePosition where{path.string().substr(0, path.string().find('\n'))};
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) throw InputError(where, "no such file");
+  if (fs::is_directory(status)) throw InputError(where, "is a folder; a file is expected");
+  if (!fs::is_regular_file(status)) throw InputError(where, "is not a regular file that can be read");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(where, "can't be opened for reading");
+  std::string bytes;
+  constexpr std::size_t at_once = 1U << 20U;
+  while (in && bytes.size() <= largest) {  // the size that the system tells isn't relied upon
+    const std::size_t before = bytes.size();
+    bytes.resize(before + at_once);
+    in.read(bytes.data() + before, static_cast<std::streamsize>(at_once));
+    bytes.resize(before + static_cast<std::size_t>(in.gcount()));
+  }
+  if (in.bad()) throw InputError(where, "reading failed");
+  if (bytes.size() > largest) throw InputError(where, fmt::format("is larger than the {} bytes allowed", largest));
+  return bytes;
+}
+
+}  // namespace soilbin
