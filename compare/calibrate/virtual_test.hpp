@@ -27,6 +27,8 @@ struct VirtualTest {
   /// An estimate of each target at these values of the factors [SI]. seed: of the packing; another one is a repetition.
   /// Throws NoSolution where the values have no answer (the sample doesn't settle, the plane never slides).
   std::function<std::vector<Estimate>(const Eigen::VectorXd& values, std::uint64_t seed)> run;
+  /// Called once what the last run gave is kept, where it is set.
+  std::function<void()> when_safe{};
 };
 
 /// Throws InputError where a test can't be calibrated: no factor or target, bounds out of order, a target of 0.

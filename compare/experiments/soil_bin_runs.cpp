@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "dem/rig/run_inputs.hpp"
+#include "dem/rig/staged_run.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -10,12 +11,14 @@ namespace soilbin::compare {
 SoilBinRuns::SoilBinRuns(dem::DemSettings settings, std::string source)
     : settings_(std::move(settings)), source_(std::move(source)) {
   settings_.on_run = [told = told_](const dem::WheelRun& run) { *told = run; };
+  settings_.forget_finished = false;
 }
 
 RecordedRun SoilBinRuns::operator()(const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
   const auto began = std::chrono::steady_clock::now();
   RecordedRun run;
   run.answer.at = at, run.packing = packing, run.source = source_;
+  run.when_safe = [restart = model(packing).restart_of(scenario, at)] { dem::forget_run(restart); };
   *told_ = {};
   try {
     run.answer.result = model(packing).evaluate(scenario, at);

@@ -12,10 +12,12 @@
 namespace soilbin::compare {
 
 /// Runs conditions, with a model for each packing, so that a bed is taken once. A RunOnce: what grains can't answer
-/// (NoSolution, RunStopped) is a run whose answer carries the error.
+/// (NoSolution, RunStopped) is a run whose answer carries the error. Where runs are kept (DemSettings::checkpoints) a
+/// finished one can be had again until its when_safe is called.
 class SoilBinRuns {
  public:
-  /// `source`: state of the sources that the program was built from. The packing and on_run of `settings` are not read.
+  /// `source`: state of the sources that the program was built from. The packing, on_run and forget_finished of `settings` are
+  /// not read.
   SoilBinRuns(dem::DemSettings settings, std::string source);
   RecordedRun operator()(const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing);
 

@@ -7,6 +7,7 @@
 #include "compare/experiments/soil_bin_runs.hpp"
 #include "compare/sweep/varying.hpp"
 #include "dem/rig/wheel_in_bin.hpp"
+#include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -39,10 +40,14 @@ class Trials {
 
  private:
   RunOnce kept(const Case& question) const {
-    RunOnce run = [runs = runs_](const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
-      return (*runs)(scenario, at, packing);
+    const bool recorded = !settings_.records.empty();
+    RunOnce run = [runs = runs_, recorded](const Scenario& scenario, const OperatingCondition& at,
+                                           std::uint64_t packing) {
+      RecordedRun made = (*runs)(scenario, at, packing);
+      if (!recorded) made.when_safe();  // nobody asked for more than what is in memory
+      return made;
     };
-    if (settings_.records.empty()) return run;
+    if (!recorded) return run;
     const std::string key = inputs_key(inputs_of(settings_.bin, question.scenario));
     return kept_runs(settings_.records / (key + ".json"), settings_.bin, question, effects_, settings_.version,
                      std::move(run));
@@ -109,7 +114,7 @@ Case trial_case(const TrialQuestion& question, const Eigen::VectorXd& values) {
 Decision decide_in_soil_bin(const TrialQuestion& question, const TrialSettings& settings,
                             const std::vector<Candidate>& candidates, const EffectVocabulary& effects) {
   check(question, settings);
-  if (!settings.records.empty()) std::filesystem::create_directories(settings.records);
+  if (!settings.records.empty()) make_folder(settings.records);
   Trials trials(question, settings, effects, candidates.size());
   std::vector<std::vector<Answer>> answers;
   for (std::size_t k = 0; k < candidates.size(); ++k) answers.push_back(trials.answers_of(k, candidates[k].values));

@@ -6,7 +6,9 @@
 
 #include "dem/archive/restart.hpp"
 #include "dem/archive/sealed_file.hpp"
+#include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/quantity.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -24,10 +26,12 @@ std::optional<SettledBed> read_bed(const std::filesystem::path& file, const BedR
     const auto text = restart.notes.find(recipe_note), time = restart.notes.find(time_note);
     if (text == restart.notes.end() || text->second != recipe_text(recipe) || time == restart.notes.end())
       return std::nullopt;
+    const std::optional<double> seconds = read_number(time->second);
+    if (!seconds) return std::nullopt;
     SettledBed bed{.recipe = recipe, .setup = restart.setup, .state = std::move(restart.state), .report = {}};
     bed.setup.numerics.threads = how.threads;
     bed.report = report_on(Simulation(bed.setup, bed.state), recipe.size);
-    bed.report.settling_time = std::stod(time->second);
+    bed.report.settling_time = *seconds;
     return bed;
   } catch (const InputError&) {
     return std::nullopt;  // damaged, or of another version: settled anew
@@ -56,7 +60,7 @@ std::string recipe_text(const BedRecipe& recipe) {
   return text;
 }
 
-std::string content_key(const BedRecipe& recipe) { return fmt::format("{:016x}", fnv1a(recipe_text(recipe))); }
+std::string content_key(const BedRecipe& recipe) { return fnv1a_digits(recipe_text(recipe)); }
 
 std::shared_ptr<const SettledBed> BedStore::bed(const BedRecipe& recipe, const WorkOptions& how) {
   const std::lock_guard lock(guard_);
@@ -67,14 +71,20 @@ std::shared_ptr<const SettledBed> BedStore::bed(const BedRecipe& recipe, const W
   if (!folder_.empty()) found = read_bed(file(recipe), recipe, how);
   if (!found) {
     found = settle_bed(recipe, how);
-    if (!folder_.empty()) {
-      std::filesystem::create_directories(folder_);
-      write_restart(file(recipe), found->setup, found->state,
-                    {{recipe_note, text}, {time_note, fmt::format("{}", found->report.settling_time)}});
-    }
+    if (!folder_.empty()) keep(*found, text, how);
   }
   kept_.emplace_back(text, std::make_shared<const SettledBed>(std::move(*found)));
   return kept_.back().second;
+}
+
+void BedStore::keep(const SettledBed& bed, const std::string& text, const WorkOptions& how) const {
+  try {
+    write_restart(file(bed.recipe), bed.setup, bed.state,
+                  {{recipe_note, text}, {time_note, fmt::format("{}", bed.report.settling_time)}}, Keep::nothing);
+  } catch (const std::runtime_error& error) {
+    if (how.tell)
+      how.tell(fmt::format("warning: {}\n  the bed isn't kept: the next run settles it anew", error.what()));
+  }
 }
 
 }  // namespace soilbin::dem

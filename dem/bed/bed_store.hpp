@@ -24,12 +24,15 @@ class BedStore {
   explicit BedStore(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
 
   /// The bed of this recipe: from memory, from its file, or settled now. A file whose recipe differs from the one asked
-  /// for, or that is damaged, is settled anew and replaced.
+  /// for, or that is damaged, is settled anew and replaced. A bed that can't be written is told by `how` and used all
+  /// the same; so a folder that may only be read serves what is there.
   std::shared_ptr<const SettledBed> bed(const BedRecipe& recipe, const WorkOptions& how = {});
 
   std::filesystem::path file(const BedRecipe& recipe) const { return folder_ / ("bed-" + content_key(recipe) + ".h5"); }
 
  private:
+  void keep(const SettledBed& bed, const std::string& text, const WorkOptions& how) const;
+
   std::filesystem::path folder_;
   std::mutex guard_;
   std::vector<std::pair<std::string, std::shared_ptr<const SettledBed>>> kept_;  ///< by recipe_text

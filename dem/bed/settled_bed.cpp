@@ -32,6 +32,13 @@ void check(const BedRecipe& recipe) {
                     length, width, depth, 2 * largest));
   if (!(recipe.settling_friction >= 0 && recipe.settling_friction <= 1))
     throw InputError("settling_friction must lie in 0 .. 1");
+  constexpr double least_share = 1e-4;  // of the usual step: beyond it no bed settles in a person's life
+  const double usual = longest_step(recipe.soil);
+  if (recipe.dt != 0 && !(recipe.dt >= least_share * usual))
+    throw InputError(
+        fmt::format("a time step of {:.3g} s is too short to get anywhere: these grains usually take {:.3g} s\n"
+                    "  hint: {:.3g} s or more",
+                    recipe.dt, usual, least_share * usual));
   if (!(recipe.gravity > 0)) throw InputError("a bed settles under gravity: it must be above 0");
 }
 
@@ -72,6 +79,10 @@ Body bin_of(const BedSize& size) {
   return bin;
 }
 
+std::string number_or_words(double value) {
+  return std::isfinite(value) ? fmt::format("{:.3g}", value) : "without bounds";
+}
+
 /// Runs until the rest test holds.
 void come_to_rest(Simulation& simulation, const RestTest& test, const WorkOptions& how, double done, double share) {
   const double begin = simulation.time();
@@ -91,11 +102,11 @@ void come_to_rest(Simulation& simulation, const RestTest& test, const WorkOption
       how.progress({"settling", done + share * (1 - orders), not_a_number});
     }
   }
-  throw RunStopped(
-      fmt::format("the bed did not come to rest in {:.3g} s: kinetic {:.3g} (asked "
-                  "{:.3g}), unbalanced {:.3g} "
-                  "(asked {:.3g})\n  hint: a shorter time step, or a looser test",
-                  test.at_most, now.kinetic, test.kinetic, now.unbalanced, test.unbalanced));
+  throw RunStopped(fmt::format(
+      "the bed did not come to rest in {:.3g} s: kinetic {} (asked "
+      "{:.3g}), unbalanced {} "
+      "(asked {:.3g})\n  hint: a shorter time step, or a looser test",
+      test.at_most, number_or_words(now.kinetic), test.kinetic, number_or_words(now.unbalanced), test.unbalanced));
 }
 
 /// Takes away grains above a height chosen such that the surface seen from
@@ -113,7 +124,7 @@ void level(Simulation& simulation, const BedSize& size, double radius) {
   };
   double low = size.depth - 2 * radius, high = size.depth + 4 * radius;
   if (mean_below(high) < size.depth)
-    throw RunStopped(fmt::format("the settled grains fill the bin only to {:.4g} m", mean_below(high)));
+    throw RunStopped(fmt::format("the settled grains fill the bin only to {} m", number_or_words(mean_below(high))));
   for (int turn = 0; turn < 12; ++turn) {
     const double middle = (low + high) / 2;
     (mean_below(middle) < size.depth ? low : high) = middle;

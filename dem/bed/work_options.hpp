@@ -4,6 +4,7 @@
 #include <functional>
 #include <stdexcept>
 #include <stop_token>
+#include <string>
 #include <string_view>
 
 namespace soilbin::dem {
@@ -19,6 +20,8 @@ struct WorkOptions {
   int threads = 0;  ///< 0: one a core
   std::function<void(const Progress&)> progress;
   std::stop_token stop;
+  /// Gets what a person should know and that stops nothing: a bed that couldn't be kept, say.
+  std::function<void(const std::string&)> tell{};
 };
 
 /// The work was stopped from outside.

@@ -38,6 +38,11 @@ Simulation::Simulation(Setup setup, State state) : Simulation(std::move(setup)) 
   make_room(static_cast<int>(state_.slab_rows.size()) - 1);
 }
 
+int most_threads() {
+  constexpr int enough = 256;  // beyond the cores more of them only wait, and the system has no room for very many
+  return std::max(enough, omp_get_num_procs());
+}
+
 void Simulation::accounted(const std::function<void()>& change) {
   const double before = setup_.numerics.ledger ? energy().total() : 0;
   change();
@@ -48,6 +53,8 @@ void Simulation::set_numerics(const Numerics& numerics) {
   if (!positive(numerics.dt)) throw InputError("the time step must be above 0");
   if (numerics.skin < 0 || !positive(numerics.deepest_overlap))
     throw InputError("skin and deepest overlap can't be negative");
+  if (numerics.threads < 0 || numerics.threads > most_threads())
+    throw InputError(fmt::format("threads: 0 (one a core) .. {}, not {}", most_threads(), numerics.threads));
   if (state_.step > 0 && numerics.dt != setup_.numerics.dt) shift(false, (setup_.numerics.dt - numerics.dt) / 2);
   setup_.numerics = numerics;
   threads_ = numerics.threads > 0 ? numerics.threads : omp_get_num_procs();

@@ -38,11 +38,14 @@ struct Numerics {
   double deepest_overlap = 0.3;  ///< of the smaller radius; deeper stops the run
   double safe_share = 0.2;       ///< of the Rayleigh time; a longer step is refused
   bool force_step = false;       ///< takes a longer one all the same
-  int threads = 0;               ///< 0: one a core
+  int threads = 0;               ///< 0: one a core; at most most_threads()
   std::string instruction_set;   ///< of instruction_sets(); empty: the widest
   bool ledger = false;           ///< counts where the energy goes; a step takes about twice as long
   Sleep sleep;
 };
+
+/// 256, or the machine's cores where there are more.
+int most_threads();
 
 /// What doesn't change during a run.
 struct Setup {

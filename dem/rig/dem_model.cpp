@@ -3,9 +3,12 @@
 #include <fmt/core.h>
 
 #include "dem/rig/run_inputs.hpp"
+#include "dem/rig/staged_run.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
+
+namespace fs = std::filesystem;
 
 BedRecipe DemModel::recipe(const Scenario& scenario) const {
   if (!scenario.soil.granular)
@@ -27,10 +30,22 @@ TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondi
   wheel_motion(at, scenario.tire.radius);  // refuses what can't be run before a bed is settled for it
   const auto bed = beds_.bed(recipe(scenario), settings_.how);
   const ContactPair& contact = scenario.soil.granular->grain_tire;
-  const Checkpoints kept = checkpoints("run", inputs_text(bed->recipe, scenario.tire, contact, settings_.rig, at));
-  const WheelRun run = run_wheel(*bed, scenario.tire, contact, at, settings_.rig, settings_.how, kept);
-  remove_restart(kept.restart);
+  const Checkpoints kept = checkpoints_of(scenario, at);
+  const auto finished = [&] {
+    if (settings_.forget_finished) forget_run(kept.restart);
+  };
+  WheelRun run;
+  try {
+    run = run_wheel(*bed, scenario.tire, contact, at, settings_.rig, settings_.how, kept);
+  } catch (const NoSolution&) {
+    finished();
+    throw;
+  } catch (const RunStopped&) {
+    finished();
+    throw;
+  }
   if (settings_.on_run) settings_.on_run(run);
+  finished();
   if (settings_.only_steady && !run.steady)
     throw NoSolution(
         fmt::format("the run did not become steady: its halves differ by {:.3g} standard errors, {:.3g} is "
@@ -46,14 +61,23 @@ GrainDriveRecord DemModel::drive(const Scenario& scenario, const Drive& drive, i
                       settings_.how, checkpoints_of(scenario, drive, samples));
 }
 
+fs::path DemModel::restart_of(const Scenario& scenario, const OperatingCondition& at) const {
+  return checkpoints_of(scenario, at).restart;
+}
+
 void DemModel::forget(const Scenario& scenario, const Drive& drive, int samples) const {
-  remove_restart(checkpoints_of(scenario, drive, samples).restart);
+  forget_run(checkpoints_of(scenario, drive, samples).restart);
 }
 
 Checkpoints DemModel::checkpoints(const std::string& kind, const std::string& inputs) const {
   Checkpoints file = settings_.checkpoints;
   if (!file.restart.empty()) file.restart /= fmt::format("{}-{}.h5", kind, key_of(inputs));
   return file;
+}
+
+Checkpoints DemModel::checkpoints_of(const Scenario& scenario, const OperatingCondition& at) const {
+  const BedRecipe bed = recipe(scenario);
+  return checkpoints("run", inputs_text(bed, scenario.tire, bed.soil.grain_tire, settings_.rig, at));
 }
 
 Checkpoints DemModel::checkpoints_of(const Scenario& scenario, const Drive& drive, int samples) const {

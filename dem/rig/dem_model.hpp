@@ -20,6 +20,9 @@ struct DemSettings {
   /// How a run under way is kept, in files run-KEY.h5 and drive-KEY.h5 of the folder `restart`, by a hash of all that
   /// it follows from; without a folder none is.
   Checkpoints checkpoints{.restart = {}, .seconds = 60};
+  /// A finished run's restart goes when evaluate returns; false: it stays until whoever has put the answer where it is
+  /// safe calls forget.
+  bool forget_finished = true;
   bool only_steady = false;                     ///< NoSolution where a run didn't become steady, instead of its means
   std::function<void(const WheelRun&)> on_run;  ///< gets everything a run told, before evaluate returns
 };
@@ -32,8 +35,10 @@ class DemModel : public Model {
   /// Sinkage, forces and torque are means over the steady part of one run, with the errors of its fluctuations; the
   /// scatter between packings comes on top. Throws InputError without granular values, for effects, and
   /// what run_wheel throws. One call at a time: a run uses all the threads it is given. Where runs are kept, what is
-  /// there is gone on with; a finished run leaves nothing.
+  /// there is gone on with.
   TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override;
+  /// Where a run is kept, whether it has an answer or failed; empty where none is.
+  std::filesystem::path restart_of(const Scenario& scenario, const OperatingCondition& at) const;
 
   /// A drive of the scenario's tire on a bed of its soil. Throws what drive_freely throws, and InputError without
   /// granular values. The drive's effects belong to the analytic model and are not read. Where runs are kept the last
@@ -48,6 +53,7 @@ class DemModel : public Model {
  private:
   /// With the restart's file: `kind` and key.
   Checkpoints checkpoints(const std::string& kind, const std::string& inputs) const;
+  Checkpoints checkpoints_of(const Scenario& scenario, const OperatingCondition& at) const;
   Checkpoints checkpoints_of(const Scenario& scenario, const Drive& drive, int samples) const;
 
   DemSettings settings_;

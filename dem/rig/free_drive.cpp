@@ -324,7 +324,15 @@ GrainDriveRecord drive_freely(const SettledBed& bed, const Tire& tire, const Con
                               const Drive& drive, const Rig& rig, int samples, const WorkOptions& how,
                               const Checkpoints& checkpoints) {
   check_drive(drive);
-  return FreeDrive(bed, tire, tire_contact, drive, rig, samples, how, checkpoints).run();
+  try {
+    return FreeDrive(bed, tire, tire_contact, drive, rig, samples, how, checkpoints).run();
+  } catch (const NoSolution&) {
+    forget_run(checkpoints.restart);
+    throw;
+  } catch (const RunStopped&) {
+    forget_run(checkpoints.restart);
+    throw;
+  }
 }
 
 }  // namespace soilbin::dem

@@ -4,9 +4,9 @@
 
 #include <sstream>
 
-#include "dem/archive/sealed_file.hpp"
 #include "dem/bed/bed_store.hpp"
 #include "dem/rig/step_criteria.hpp"
+#include "scenario/checksum.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -111,6 +111,6 @@ std::string inputs_text(const BedRecipe& recipe, const Tire& tire, const Contact
   return text_of(inputs);
 }
 
-std::string key_of(const std::string& text) { return fmt::format("{:016x}", fnv1a(text)); }
+std::string key_of(const std::string& text) { return fnv1a_digits(text); }
 
 }  // namespace soilbin::dem

@@ -1,7 +1,10 @@
 #include "dem/rig/staged_run.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
+#include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 
@@ -14,15 +17,20 @@ constexpr const char* inputs_note = "inputs";
 constexpr const char* where_note = "stages";
 constexpr std::int64_t between_words = 100;  // steps
 
-fs::path lock_of(const Checkpoints& checkpoints) { return checkpoints.restart.string() + ".lock"; }
+fs::path lock_of(const fs::path& restart) { return restart.string() + ".lock"; }
 
-/// Nothing is kept by two at once: where another one is at it, the checkpoints lose their path.
+/// Nothing is kept by two at once, nor where the disk refuses: the checkpoints then lose their path.
 std::unique_ptr<const FileLock> lock_or_none(Checkpoints& checkpoints) {
   if (checkpoints.restart.empty()) return nullptr;
-  if (checkpoints.restart.has_parent_path()) fs::create_directories(checkpoints.restart.parent_path());
-  auto lock = std::make_unique<const FileLock>(lock_of(checkpoints), FileLock::Wait::no);
-  if (lock->is_held()) return lock;
-  if (checkpoints.tell) checkpoints.tell("another process is at the same run: this one can't be gone on with");
+  std::string why = "another process is at the same run: this one can't be gone on with";
+  try {
+    if (checkpoints.restart.has_parent_path()) make_folder(checkpoints.restart.parent_path());
+    auto lock = std::make_unique<const FileLock>(lock_of(checkpoints.restart), FileLock::Wait::no);
+    if (lock->is_held()) return lock;
+  } catch (const std::runtime_error& error) {
+    why = fmt::format("warning: {}\n  this run can't be gone on with if it is stopped", error.what());
+  }
+  if (checkpoints.tell) checkpoints.tell(why);
   checkpoints.restart.clear();
   return nullptr;
 }
@@ -56,7 +64,19 @@ StagedRun::StagedRun(const Checkpoints& checkpoints, std::string inputs, const W
 StagedRun::~StagedRun() {
   if (!lock_) return;
   std::error_code gone_already;
-  std::filesystem::remove(lock_of(checkpoints_), gone_already);
+  fs::remove(lock_of(checkpoints_.restart), gone_already);
+}
+
+void forget_run(const fs::path& restart) {
+  if (restart.empty() || !has_restart(restart)) return;
+  try {
+    const FileLock lock(lock_of(restart), FileLock::Wait::no);
+    if (!lock.is_held()) return;  // another process is at it
+    remove_restart(restart);
+    std::error_code gone_already;
+    fs::remove(lock_of(restart), gone_already);
+  } catch (const std::runtime_error&) {  // a folder that can't be written to any more: it stays
+  }
 }
 
 Notes StagedRun::notes() {
@@ -74,23 +94,29 @@ double StagedRun::seconds() const {
 double StagedRun::done() const { return std::min(1.0, static_cast<double>(steps_) / all_steps_); }
 
 void StagedRun::through(const std::function<void()>& stages) {
-  const auto without_restart = [&] {
-    remove_restart(checkpoints_.restart);
-    throw;
-  };
   try {
     stages();
-  } catch (const NoSolution&) {
-    without_restart();
   } catch (const InputError&) {
-    without_restart();
-  } catch (const RunStopped&) {
-    without_restart();
+    remove_restart(checkpoints_.restart);
+    throw;
   }
   const bool was_through = reached_ > stage_;
   reached_ = stage_ + 1, taken_ = 0;
-  if (is_kept() && !was_through) checkpointer_.write(simulation(), notes());
+  if (!was_through) write_restart();
   tell("done", 1);
+}
+
+/// False where there is none: a disk that is full now may have room at the next one.
+bool StagedRun::write_restart() {
+  if (!is_kept()) return false;
+  try {
+    checkpointer_.write(simulation(), notes());
+    return true;
+  } catch (const std::runtime_error& error) {
+    checkpointer_.put_off();
+    if (checkpoints_.tell) checkpoints_.tell(fmt::format("warning: {}\n  the run goes on without", error.what()));
+    return false;
+  }
 }
 
 /// Whether the next stage is still to be done, or to be gone on with.
@@ -115,7 +141,7 @@ void StagedRun::loop(std::string_view stage, const std::function<bool()>& goes_o
   for (; goes_on(); ++taken_) {
     if (taken_ % between_words == 0) {
       tell(stage, share ? share() : done());
-      if (is_kept() && checkpointer_.is_due(simulation().state().step)) checkpointer_.write(simulation(), notes());
+      if (is_kept() && checkpointer_.is_due(simulation().state().step)) write_restart();
     }
     each();
   }
@@ -132,8 +158,7 @@ void StagedRun::tell(std::string_view stage, double share) {
     if (how_.stop.stop_requested()) throw Stopped();
     if (how_.progress) how_.progress({stage, share, share > 0 ? seconds() * (1 - share) / share : not_a_number});
   } catch (...) {
-    if (is_kept()) checkpointer_.write(simulation(), notes());
-    if (is_kept() && checkpoints_.tell)
+    if (write_restart() && checkpoints_.tell)
       checkpoints_.tell(fmt::format("kept at {:.0f} %: the same command goes on from there", 100 * share));
     throw;
   }

@@ -31,9 +31,9 @@ namespace soilbin::dem {
 class StagedRun {
  public:
   /// Goes on from the last good restart where there is one, else begins with `fresh`. Without a path in `checkpoints`
-  /// nothing is kept, nor while another process is at the same run. `inputs`: all that the run's bits follow from, as a
-  /// text. Options must outlive it. Throws InputError where the restart is of a run of other inputs, or where there are
-  /// restarts but none is good.
+  /// nothing is kept, nor while another process is at the same run, nor where the folder can't be written to (told).
+  /// `inputs`: all that the run's bits follow from, as a text. Options must outlive it. Throws InputError where the
+  /// restart is of a run of other inputs, or where there are restarts but none is good.
   StagedRun(const Checkpoints& checkpoints, std::string inputs, const WorkOptions& how,
             const std::function<Simulation()>& fresh);
   StagedRun(const StagedRun&) = delete;
@@ -48,7 +48,8 @@ class StagedRun {
   /// Number of all steps that are to come, for the word about how far it is.
   void plan(double steps) { all_steps_ = steps; }
   /// Does the stages; throws what they throw, and Stopped. Stopped from outside, by whatever progress throws too, the
-  /// run leaves its restart; through, its last one; without an answer (NoSolution, InputError, RunStopped), none.
+  /// run leaves its restart; through, its last one; without an answer (NoSolution, RunStopped) the one before, and with
+  /// InputError none. A restart that can't be written is told by Checkpoints::tell, and the run goes on.
   void through(const std::function<void()>& stages);
 
   /// Between two stages.
@@ -82,6 +83,7 @@ class StagedRun {
 
   bool is_kept() const { return !checkpoints_.restart.empty(); }
   bool enters();
+  bool write_restart();
   void tell(std::string_view stage, double share);
   Notes notes();
   double seconds() const;
@@ -100,6 +102,9 @@ class StagedRun {
   double all_steps_ = 1, earlier_ = 0;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
+
+/// Removes what is kept of a run whose answer is safe, unless another process is at it.
+void forget_run(const std::filesystem::path& restart);
 
 template <class Part>
 void StagedRun::keep(const std::string& name, Part& part) {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "dem/bed/insertion.hpp"
@@ -137,6 +138,7 @@ InclineOutcome run_incline(const InclineLayer& layer) {
   out.rests = rests_within(simulation, 10, layer.longest, [&] {
     out.speeds.push_back(mean_speed(simulation));
     thicknesses.push_back(thickness(simulation));
+    if (layer.watch) layer.watch((simulation.time() - start) / layer.longest);
   });
   out.time = simulation.time() - start;
   if (out.rests) {
@@ -186,13 +188,25 @@ double stopping_angle(double thickness) { return std::atan(tan_1 + (tan_2 - tan_
 
 double flow_rule(double angle, double thickness) { return 0.191 * thickness / stopping_thickness(angle) - 0.045; }
 
-std::vector<VerificationRow> incline_rows(std::uint64_t seed) {
+std::vector<VerificationRow> incline_rows(std::uint64_t seed, const std::function<void(const Progress&)>& progress) {
   struct Bracket {
     double layers, rests, flows;  // [deg]
   };
   std::vector<VerificationRow> rows;
+  // Four or five layers a bracket, of which a layer that flows takes all its time and one that rests a tenth.
+  constexpr double layers_in_all = 10;
+  const auto began = std::chrono::steady_clock::now();
+  double finished = 0, before = 0;
+  const auto watch = [&](double share) {
+    if (share < before) finished += 1;
+    before = share;
+    const double done = std::min(0.99, (finished + share) / layers_in_all);
+    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    if (progress) progress({"layers on a rough incline", done, spent * (1 - done) / done});
+  };
   for (const Bracket& at : {Bracket{6, 22, 25}, Bracket{10, 20, 24}}) {
     InclineLayer layer;
+    layer.watch = watch;
     layer.layers = at.layers;
     layer.seed = seed;
     layer.base_from = 5;

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <vector>
 
+#include "dem/bed/work_options.hpp"
 #include "dem/engine/simulation.hpp"
 #include "dem/verification/cases.hpp"
 #include "scenario/estimate.hpp"
@@ -27,6 +29,7 @@ struct InclineLayer {
   double dt = 2e-4;       ///< [sqrt(d/g)]; an impact takes 5e-3
   std::uint64_t seed = 1;
   int threads = 1;
+  std::function<void(double share)> watch{};  ///< each sqrt(d/g), with how much of `longest` is over; may throw to stop
 };
 
 /// What became of a layer.
@@ -65,7 +68,8 @@ double stopping_angle(double thickness);
 double flow_rule(double angle, double thickness);
 
 /// Thin layers against the fit of h_stop, to the step of half a degree in which the publication's driver looked and
-/// half of ours, half a degree too. A quarter of an hour on one core.
-std::vector<VerificationRow> incline_rows(std::uint64_t seed);
+/// half of ours, half a degree too. A quarter of an hour on one core; `progress` may throw to stop.
+std::vector<VerificationRow> incline_rows(std::uint64_t seed,
+                                          const std::function<void(const Progress&)>& progress = {});
 
 }  // namespace soilbin::dem

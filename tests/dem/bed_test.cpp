@@ -156,6 +156,23 @@ TEST_F(SlowBedStore, FindsABedAgainToTheBit) {
   EXPECT_EQ(store.bed(small_recipe()), found);
 }
 
+TEST_F(SlowBedStore, ABedThatCannotBeKeptIsUsedAndThatIsTold) {
+  std::ofstream(folder_) << "in the way";
+  WorkOptions how = with_threads(1);
+  std::string told;
+  how.tell = [&](const std::string& words) { told += words; };
+  EXPECT_EQ(BedStore(folder_).bed(small_recipe(), how)->state.grains.count(), small_bed().state.grains.count());
+  EXPECT_THAT(told, ::testing::HasSubstr("the bed isn't kept"));
+}
+
+TEST(Bed, ATimeStepThatGetsNowhereIsRefused) {
+  BedRecipe recipe = small_recipe();
+  recipe.dt = 1e-300;
+  EXPECT_THROW(settle_bed(recipe, with_threads(1)), InputError);
+  recipe.dt = 0;
+  EXPECT_THROW(settle_bed(recipe, with_threads(100000)), InputError);
+}
+
 TEST_F(SlowBedStore, SettlesAnewWhereTheFileIsDamaged) {
   BedStore store(folder_);
   std::filesystem::create_directories(folder_);

@@ -9,6 +9,7 @@
 #include "dem/archive/sealed_file.hpp"
 #include "dem/rig/dem_model.hpp"
 #include "dem/rig/drive_parts.hpp"
+#include "dem/rig/staged_run.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 #include "tests/dem/archive_scene.hpp"
@@ -131,6 +132,61 @@ TEST(SlowRigResume, OfTwoAtOneRunOneKeepsIt) {
   EXPECT_EQ(told, "another process is at the same run: this one can't be gone on with");
   EXPECT_TRUE(has_restart(kept.restart));
   EXPECT_FALSE(std::filesystem::exists(kept.restart.string() + ".lock"));
+}
+
+// A run is worth more than the chance to go on with it: where the disk refuses, it says so and goes on.
+TEST(SlowRigResume, ADiskThatRefusesStopsNoRun) {
+  const Folder folder;
+  Drive brief = small_drive();
+  brief.duration = 0.1;
+  const std::string whole = bits_of(driven(brief, small_rig(), with_threads(1), {}));
+  std::ofstream(folder / "file") << "in the way";
+  std::string told;
+  const Checkpoints nowhere{folder / "file/drive.h5", 0, 100, [&](const std::string& words) { told += words; }};
+  EXPECT_TRUE(bits_of(driven(brief, small_rig(), with_threads(1), nowhere)) == whole);
+  EXPECT_THAT(told, testing::StartsWith("warning: "));
+  EXPECT_THAT(told, HasSubstr("can't be gone on with"));
+
+  told.clear();
+  const Checkpoints later{folder / "drive.h5", 0, 100, nowhere.tell};
+  WorkOptions how = with_threads(1);
+  how.progress = [&](const Progress&) { std::filesystem::create_directories(later.restart / "in the way"); };
+  EXPECT_TRUE(bits_of(driven(brief, small_rig(), how, later)) == whole);
+  EXPECT_THAT(told, HasSubstr("drive.h5: can't write: Is a directory\n  the run goes on without"));
+}
+
+// Between a run's end and its answer's place in a file the restart is all there is of it.
+TEST(SlowRigResume, AFinishedRunStaysUntilItIsForgotten) {
+  const Folder folder;
+  DemSettings settings;
+  settings.size = {0.8, 0.16, 0.06}, settings.rig = small_rig(), settings.how = with_threads(1);
+  settings.checkpoints.restart = folder / "";
+  settings.forget_finished = false;
+  std::string told;
+  settings.checkpoints.tell = [&](const std::string& words) { told += words; };
+  Scenario scenario;
+  scenario.tire = small_wheel(), scenario.soil.granular = bed().recipe.soil;
+  OperatingCondition at = two_passes_uphill();
+  at.pass = 1;
+  const DemModel model(settings);
+  const double pull = model.evaluate(scenario, at).drawbar_pull.value;
+  const std::filesystem::path restart = model.restart_of(scenario, at);
+  EXPECT_TRUE(has_restart(restart));
+  EXPECT_EQ(told, "");
+  EXPECT_EQ(model.evaluate(scenario, at).drawbar_pull.value, pull);
+  EXPECT_THAT(told, HasSubstr("going on from " + restart.string()));
+  {
+    const FileLock at_it(restart.string() + ".lock", FileLock::Wait::no);
+    forget_run(restart);
+    EXPECT_TRUE(has_restart(restart)) << "another process may be at it";
+  }
+  forget_run(restart);
+  EXPECT_FALSE(has_restart(restart));
+  EXPECT_FALSE(std::filesystem::exists(restart.string() + ".lock"));
+
+  settings.forget_finished = true;
+  EXPECT_EQ(DemModel(settings).evaluate(scenario, at).drawbar_pull.value, pull);
+  EXPECT_FALSE(has_restart(restart));
 }
 
 TEST(SlowRigResume, ARunInTwoPassesThatIsStoppedAgainAndAgainTellsTheSame) {
