@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "compare/report/json_file.hpp"
 #include "compare/report/result_json.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/file_lock.hpp"
+#include "scenario/source_text.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -29,17 +30,30 @@ std::string key_of(const VirtualTest& test) {
   return key;
 }
 
-Json json_of(const Experiment& experiment) {
+/// What a test is, with its seal.
+Json sealed_question(const std::string& key) {
+  Json question = {{"test", key}};
+  put_seal(question);
+  return question;
+}
+
+Json json_of(const StoredExperiment& stored) {
+  const Experiment& experiment = stored.experiment;
   Json values = Json::array(), results = Json::array();
   for (const double value : experiment.values) values.push_back(value);
   for (const Estimate& result : experiment.results) results.push_back({result.value, result.std_error});
   Json json{{"values", values}, {"seed", experiment.seed}, {"results", results}, {"seconds", experiment.seconds}};
   if (!experiment.error.empty()) json["error"] = experiment.error;
+  if (stored.sealed) put_seal(json);
   return json;
 }
 
-Experiment experiment_of(const Json& json) {
-  Experiment experiment;
+StoredExperiment experiment_of(const Json& json, const std::string& place) {
+  StoredExperiment stored;
+  stored.sealed =
+      check_seal(json, place, "take this experiment out of the file, and it is made again when it is needed") ==
+      Seal::whole;
+  Experiment& experiment = stored.experiment;
   const std::vector<double> values = json.at("values").get<std::vector<double>>();
   experiment.values = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   experiment.seed = json.at("seed").get<std::uint64_t>();
@@ -47,7 +61,7 @@ Experiment experiment_of(const Json& json) {
     experiment.results.push_back({result.at(0).get<double>(), result.at(1).get<double>()});
   experiment.seconds = json.at("seconds").get<double>();
   experiment.error = json.value("error", "");
-  return experiment;
+  return stored;
 }
 
 bool same_question(const Experiment& experiment, const Eigen::VectorXd& values, std::uint64_t seed) {
@@ -56,22 +70,34 @@ bool same_question(const Experiment& experiment, const Eigen::VectorXd& values, 
 
 }  // namespace
 
-ExperimentStore::ExperimentStore(std::filesystem::path file) : file_(std::move(file)) {
+ExperimentStore::ExperimentStore(std::filesystem::path file) : file_(std::move(file)) { read(); }
+
+/// What is in the file now, in place of what was known; what is known stays where there is none.
+void ExperimentStore::read() {
   if (file_.empty() || !std::filesystem::exists(file_)) return;
-  std::ifstream in(file_, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  try {
-    const Json document = Json::parse(text.str());
-    if (document.at("format") != format) throw InputError("");
-    for (const Json& test : document.at("tests")) {
-      OfOneTest& into = tests_.emplace_back(OfOneTest{test.at("test").get<std::string>(), {}});
-      for (const Json& experiment : test.at("experiments")) into.experiments.push_back(experiment_of(experiment));
+  const std::string other = "name another file, or move this one away";
+  const SourceText source = read_source_text(file_, largest_json);
+  const Json document = parse_json(source, other);
+  if (!document.is_object() || document.value("format", "") != format)
+    throw InputError({file_.string(), 0, 0}, fmt::format("not a store of experiments ({})", format), "", other);
+  std::vector<OfOneTest> tests;
+  const std::string file = file_.string() + ": tests";
+  for (const Json& test : read_json_at(file, [&] { return document.at("tests"); })) {
+    const std::string place = fmt::format("{}[{}]", file, tests.size());
+    read_json_at(place, [&] {
+      tests.push_back({test.at("test").get<std::string>(), {}});
+      Json question = sealed_question(tests.back().key);
+      if (test.contains("seal")) question["seal"] = test["seal"];
+      check_seal(question, place + ".test", "take this test out of the file, and its experiments are made again");
+      return test.at("experiments").size();
+    });
+    std::vector<StoredExperiment>& into = tests.back().experiments;
+    for (const Json& experiment : test.at("experiments")) {
+      const std::string where = fmt::format("{}.experiments[{}]", place, into.size());
+      into.push_back(read_json_at(where, [&] { return experiment_of(experiment, where); }));
     }
-  } catch (const std::exception& error) {
-    throw InputError({file_.string(), 0, 0}, fmt::format("not a store of experiments ({})", format), error.what(),
-                     "name another file, or move this one away");
   }
+  tests_ = std::move(tests);
 }
 
 std::optional<Experiment> ExperimentStore::find(const VirtualTest& test, const Eigen::VectorXd& values,
@@ -79,19 +105,35 @@ std::optional<Experiment> ExperimentStore::find(const VirtualTest& test, const E
   const std::string key = key_of(test);
   for (const OfOneTest& known : tests_)
     if (known.key == key)
-      for (const Experiment& experiment : known.experiments)
-        if (same_question(experiment, values, seed)) return experiment;
+      for (const StoredExperiment& stored : known.experiments)
+        if (same_question(stored.experiment, values, seed)) return stored.experiment;
   return std::nullopt;
 }
 
 void ExperimentStore::keep(const VirtualTest& test, const Experiment& experiment) {
-  const std::string key = key_of(test);
+  if (file_.empty()) return put(key_of(test), experiment);
+  const std::filesystem::path folder = file_.has_parent_path() ? file_.parent_path() : std::filesystem::path(".");
+  make_folder(folder);
+  const FileLock lock(folder, FileLock::Wait::until_free);
+  read();  // what other processes have finished meanwhile
+  put(key_of(test), experiment);
+  write_file_atomically(file_, text());
+}
+
+void ExperimentStore::put(const std::string& key, const Experiment& experiment) {
   const auto known = std::find_if(tests_.begin(), tests_.end(), [&](const OfOneTest& one) { return one.key == key; });
   OfOneTest& into = known != tests_.end() ? *known : tests_.emplace_back(OfOneTest{key, {}});
-  std::erase_if(into.experiments,
-                [&](const Experiment& old) { return same_question(old, experiment.values, experiment.seed); });
-  into.experiments.push_back(experiment);
-  if (!file_.empty()) write_file_atomically(file_, text());
+  std::erase_if(into.experiments, [&](const StoredExperiment& old) {
+    return same_question(old.experiment, experiment.values, experiment.seed);
+  });
+  into.experiments.push_back({experiment, true});
+}
+
+std::size_t ExperimentStore::unsealed() const {
+  std::ptrdiff_t sum = 0;
+  for (const OfOneTest& test : tests_)
+    sum += std::count_if(test.experiments.begin(), test.experiments.end(), [](const auto& one) { return !one.sealed; });
+  return static_cast<std::size_t>(sum);
 }
 
 std::size_t ExperimentStore::size() const {
@@ -104,8 +146,10 @@ std::string ExperimentStore::text() const {
   Json tests = Json::array();
   for (const OfOneTest& test : tests_) {
     Json experiments = Json::array();
-    for (const Experiment& experiment : test.experiments) experiments.push_back(json_of(experiment));
-    tests.push_back({{"test", test.key}, {"experiments", experiments}});
+    for (const StoredExperiment& stored : test.experiments) experiments.push_back(json_of(stored));
+    Json one = sealed_question(test.key);
+    one["experiments"] = experiments;
+    tests.push_back(std::move(one));
   }
   return json_text({{"format", format}, {"tests", tests}});
 }
@@ -125,6 +169,7 @@ std::pair<Experiment, bool> experiment_at(const VirtualTest& test, const Eigen::
   if (!experiment.error.empty()) experiment.results.clear();
   experiment.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   store.keep(test, experiment);
+  if (test.when_safe) test.when_safe();
   return {std::move(experiment), false};
 }
 

@@ -19,24 +19,36 @@ struct Experiment {
   double seconds = 0.0;           ///< of the clock on the wall
 };
 
+/// An experiment of a store, and whether a seal vouches for it: not for those from before there were seals.
+struct StoredExperiment {
+  Experiment experiment;
+  bool sealed = true;
+};
+
 /// Experiments by everything that made them: the test's identity, its factors' and targets' names, the values to the
-/// last bit, the seed. One JSON file (soilbin-experiments/1), written anew as a whole after each experiment.
+/// last bit, the seed. One JSON file (soilbin-experiments/1), written anew as a whole after each experiment. Several
+/// processes may keep theirs in one file at once: each reads it again under the folder's lock before it writes.
 class ExperimentStore {
  public:
   /// Reads the file where there is one. Without a path nothing is kept on disk. Throws InputError that names the file
-  /// for one that is no store or is damaged.
+  /// for one that is no store, and the place in it for
+  /// an experiment that is damaged.
   explicit ExperimentStore(std::filesystem::path file = {});
 
   std::optional<Experiment> find(const VirtualTest& test, const Eigen::VectorXd& values, std::uint64_t seed) const;
-  /// Keeps it and writes the file. Throws std::runtime_error where that fails.
+  /// Keeps it beside what the file has by now, and writes the file. Throws std::runtime_error where that fails.
   void keep(const VirtualTest& test, const Experiment& experiment);
   std::size_t size() const;
+  /// Number of experiments that no seal vouches for.
+  std::size_t unsealed() const;
 
  private:
   struct OfOneTest {
     std::string key;
-    std::vector<Experiment> experiments;
+    std::vector<StoredExperiment> experiments;
   };
+  void read();
+  void put(const std::string& key, const Experiment& experiment);
   std::string text() const;
 
   std::filesystem::path file_;

@@ -187,7 +187,7 @@ Campaign read_campaign(const fs::path& path, const EffectVocabulary& effects) {
 }
 
 void write_campaign(const fs::path& folder, const Campaign& campaign, const EffectVocabulary& effects) {
-  fs::create_directories(folder);
+  make_folder(folder);
   write_file_atomically(folder / campaign.data, write_runs(campaign.runs));
   write_file_atomically(folder / "campaign.yaml", campaign_yaml(campaign, effects));
 }

@@ -6,13 +6,16 @@
 
 #include "compare/recorded/record_fields.hpp"
 #include "compare/report/json_fields.hpp"
+#include "compare/report/json_file.hpp"
 #include "compare/report/result_json.hpp"
 #include "compare/sweep/alike.hpp"
+#include "scenario/checksum.hpp"
+#include "scenario/errors.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-constexpr std::size_t largest_record = 256U << 20U;
+constexpr const char* how_to_mend = "take that run out of the file, and the command that made it runs it again";
 
 Json lines_json(const std::string& text) {
   Json lines = Json::array();
@@ -39,34 +42,62 @@ Json run_json(const RecordedRun& run) {
   WriteJson visitor(row);
   run_fields(visitor, run);
   row.update(to_json(run.answer));
-  if (!run.answer.result) return row;
-  // The bare ratio, also where it is no efficiency: the mean of several packings weights every run's.
-  row["tractive_efficiency"] = finite(run.answer.result->tractive_efficiency);
-  told_fields(visitor, run);
+  if (run.answer.result) {
+    // The bare ratio, also where it is no efficiency: the mean of several packings weights every run's.
+    row["tractive_efficiency"] = finite(run.answer.result->tractive_efficiency);
+    told_fields(visitor, run);
+  }
+  if (run.sealed) put_seal(row);
   return row;
 }
 
-RecordedRun run_from_json(const Json& row, const std::string& place) {
-  RecordedRun run;
-  ReadJson visitor(row, place);
-  run_fields(visitor, run);
-  run.answer = answer_from_json(row, place);
-  if (run.answer.result) told_fields(visitor, run);
-  return run;
+/// In a file that has seals every run has one.
+RecordedRun run_from_json(const Json& row, const std::string& place, bool seals_expected) {
+  return read_json_at(place, [&] {
+    RecordedRun run;
+    run.sealed = check_seal(row, place, how_to_mend) == Seal::whole;
+    if (seals_expected && !run.sealed)
+      throw InputError(
+          fmt::format("{}: its seal is missing: it was changed after it was written\n  hint: {}", place, how_to_mend));
+    ReadJson visitor(row, place);
+    run_fields(visitor, run);
+    run.answer = answer_from_json(row, place);
+    if (run.answer.result) told_fields(visitor, run);
+    return run;
+  });
 }
 
-Json parsed(const SourceText& source) {
-  try {
-    return Json::parse(source.text);
-  } catch (const Json::parse_error& error) {
-    source.refuse(std::min(error.byte > 0 ? error.byte - 1 : 0, source.text.size()), "this is no JSON",
-                  "a record is made by 'soilbin run STUDY --model dem --record FILE'");
-  }
+/// What the runs answer, as its members are sealed together.
+Json head_json(const Record& record) {
+  Json inputs = Json::object();
+  for (const auto& [name, value] : record.inputs) inputs[name] = value;
+  return {{"format", recorded_format}, {"soilbin", record.soilbin},
+          {"model", record.model},     {"inputs_key", inputs_key(record.inputs)},
+          {"inputs", inputs},          {"case", lines_json(record.question)}};
+}
+
+/// Of a head that has no seal, as from before there were any, the inputs still have their key.
+Seal check_head(const Json& document, const Record& record, const std::string& file) {
+  Json head = Json::object();
+  for (const auto& [key, value] : document.items())
+    if (key != "runs") head[key] = value;
+  const std::string begin_anew = "take a copy of the file, or begin another one";
+  const Seal seal = check_seal(head, file + ": the inputs or the case", begin_anew);
+  if (document.contains("inputs_key") && document["inputs_key"] != inputs_key(record.inputs))
+    throw InputError(
+        fmt::format("{}: the inputs don't fit their key: they were changed after they were written"
+                    "\n  hint: {}",
+                    file, begin_anew));
+  return seal;
 }
 
 const std::string* value_of(const Inputs& inputs, const std::string& name) {
   const auto found = std::find_if(inputs.begin(), inputs.end(), [&](const auto& input) { return input.first == name; });
   return found == inputs.end() ? nullptr : &found->second;
+}
+
+Json seal_schema(const std::string& of) {
+  return {{"type", "string"}, {"description", "checksum of " + of + "; absent in files from before there was one"}};
 }
 
 bool looked_at(const std::string& name, const std::vector<std::string>& only) {
@@ -77,14 +108,13 @@ bool looked_at(const std::string& name, const std::vector<std::string>& only) {
 }  // namespace
 
 std::string inputs_key(const Inputs& inputs) {
-  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a, 64 bit
-  for (const auto& [name, value] : inputs)
-    for (const char c : name + ' ' + value + '\n') hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x100000001b3;
-  return fmt::format("{:016x}", hash);
+  std::string text;
+  for (const auto& [name, value] : inputs) text += name + ' ' + value + '\n';
+  return fnv1a_digits(text);
 }
 
 Record parse_record(const SourceText& source) {
-  const Json document = parsed(source);
+  const Json document = parse_json(source, "a record is made by 'soilbin run STUDY --model dem --record FILE'");
   const ReadJson head(document, source.file + ": ");
   if (head.at("format") != recorded_format)
     throw InputError(fmt::format("{}: expected the format '{}'", source.file, recorded_format));
@@ -98,27 +128,32 @@ Record parse_record(const SourceText& source) {
     if (!value.is_string()) ReadJson::refuse(head.below("inputs." + name), "a text");
     record.inputs.emplace_back(name, value.get<std::string>());
   }
+  record.sealed = check_head(document, record, source.file) == Seal::whole;
   if (!head.at("runs").is_array()) ReadJson::refuse(head.below("runs"), "a list");
   for (const Json& row : head.at("runs"))
-    record.runs.push_back(run_from_json(row, head.below(fmt::format("runs[{}]", record.runs.size()))));
+    record.runs.push_back(run_from_json(row, head.below(fmt::format("runs[{}]", record.runs.size())), record.sealed));
   return record;
 }
 
-Record read_record(const std::filesystem::path& path) { return parse_record(read_source_text(path, largest_record)); }
+Record read_record(const std::filesystem::path& path) { return parse_record(read_source_text(path, largest_json)); }
 
 std::string record_text(const Record& record) {
   const auto line = [](const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); };
-  Json inputs = Json::object();
-  for (const auto& [name, value] : record.inputs) inputs[name] = value;
-  Json head = {{"format", recorded_format}, {"soilbin", record.soilbin},
-               {"model", record.model},     {"inputs_key", inputs_key(record.inputs)},
-               {"inputs", inputs},          {"case", lines_json(record.question)}};
+  Json head = head_json(record);
+  if (record.sealed) put_seal(head);
   std::string text = json_text(head);
   text.erase(text.rfind('\n', text.size() - 2));
   text += ",\n  \"runs\": [";
   for (const RecordedRun& run : record.runs)
     text += (&run == record.runs.data() ? "\n    " : ",\n    ") + line(run_json(run));
   return text + "\n  ]\n}\n";
+}
+
+std::string unsealed_note(const Record& record, const std::filesystem::path& file) {
+  const auto bare = std::count_if(record.runs.begin(), record.runs.end(), [](const auto& run) { return !run.sealed; });
+  if (bare == 0) return "";
+  return fmt::format("{}: {} of its {} runs carry no seal, as from before there were any: damage to them can't be told",
+                     file.string(), bare, record.runs.size());
 }
 
 Json record_schema() {
@@ -128,6 +163,7 @@ Json record_schema() {
   result_fields(solved, *run.answer.result);
   told_fields(solved, run);
   Json row = always.schema;
+  row["properties"]["seal"] = seal_schema("the run's other members");
   row["properties"].update(condition_schema());
   row["properties"].update(solved.schema["properties"]);
   row["properties"]["error"] = {{"type", "string"}, {"description", "why there is no result"}};
@@ -142,6 +178,7 @@ Json record_schema() {
             "what an answer depends on beside condition and packing");
   whole.add("case", {{"type", "array"}, {"items", {{"type", "string"}}}}, "the resolved case, its lines of YAML");
   whole.add("runs", {{"type", "array"}, {"items", row}}, "a condition on a packing each, SI");
+  whole.schema["properties"]["seal"] = seal_schema("the members above");
   whole.schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   whole.schema["title"] = "A soilbin record";
   return whole.schema;

@@ -30,6 +30,10 @@ struct RecordedRun {
   dem::PowerBalance power;
   dem::Rut rut;
   dem::SoilFlow flow;
+  /// Whether a seal in the file vouches for it: not for runs of files from before there were seals. A new run gets one.
+  bool sealed = true;
+  /// To be called once the answer is where it stays: removes what the run could be had again from; not in the file.
+  std::function<void()> when_safe{};
 };
 
 /// What a file holds.
@@ -39,15 +43,21 @@ struct Record {
   std::string question;  ///< the resolved case, as YAML; of its conditions some may not have been run
   Inputs inputs;
   std::vector<RecordedRun> runs;
+  bool sealed = true;  ///< whether a seal vouches for all above the runs
 };
 
 inline constexpr const char* recorded_format = "soilbin-recorded/1";
 
-/// Throws InputError with file and place for everything that is no record.
+/// Throws InputError with file and place for everything that is no record, and for a run, or the inputs, whose seal
+/// doesn't fit: something changed it after it was written.
 Record parse_record(const SourceText& source);
 Record read_record(const std::filesystem::path& path);
 
-/// The file's text; reading it gives the same record to the bit. One line a run.
+/// The runs that no seal vouches for, in words for people; "" where all have one.
+std::string unsealed_note(const Record& record, const std::filesystem::path& file);
+
+/// The file's text; reading it gives the same record to the bit. One line a run, each with a seal, unless it was read
+/// without one.
 std::string record_text(const Record& record);
 
 /// JSON Schema of soilbin-recorded/1.
@@ -66,6 +76,7 @@ const RecordedRun* find_run(const Record& record, const OperatingCondition& at, 
 
 /// Adds a run to the file, which is begun with `empty` where there is none. Other processes may add to the same file
 /// at the same time: it is read again and replaced as a whole, one after the other. A run that is there already stays.
+/// With the run in the file, it is safe (when_safe).
 void add_run(const std::filesystem::path& file, const Record& empty, RecordedRun run);
 
 }  // namespace soilbin::compare

@@ -4,16 +4,18 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <sstream>
 #include <stdexcept>
 
+#include "compare/report/json_file.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
+#include "scenario/source_text.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -21,6 +23,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double most_steps = 65535;
+constexpr std::size_t largest_replay = 256U << 20U;  // [bytes]; a page with one is a third larger
 
 /// The grid on which places are told.
 struct Raster {
@@ -101,6 +104,32 @@ void add_frames(const Replay& replay, const Raster& grid, const std::vector<std:
     }
 }
 
+/// Of the bytes before they are compressed, as the header has it.
+std::uint64_t payload_size(const Json& header) {
+  const auto count = [&](const char* key) { return header.at(key).get<std::uint32_t>(); };
+  const std::uint64_t grains = count("grains"), frames = count("frames");
+  return 4 * grains + 12ULL * count("vertices") + 12ULL * count("triangles") + 6 * grains * frames;
+}
+
+/// Refuses a payload that doesn't come out whole, by zlib's own checksum, or with another size.
+void check_payload(std::string_view deflated, std::uint64_t size, const std::string& file) {
+  z_stream stream{};
+  if (inflateInit(&stream) != Z_OK) throw std::runtime_error("replay: zlib could not begin");
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(deflated.data()));  // zlib only reads it
+  stream.avail_in = static_cast<uInt>(deflated.size());
+  std::array<Bytef, 1 << 16> piece{};
+  int status = Z_OK;
+  while (status == Z_OK && stream.total_out <= size) {
+    stream.next_out = piece.data(), stream.avail_out = static_cast<uInt>(piece.size());
+    status = inflate(&stream, Z_NO_FLUSH);
+  }
+  const bool whole = status == Z_STREAM_END && stream.total_out == size && stream.avail_in == 0;
+  inflateEnd(&stream);
+  if (!whole)
+    throw InputError(
+        fmt::format("{}: is cut short or damaged\n  hint: take a copy of the file, or make it again", file));
+}
+
 Json header_of(const Replay& replay, const Raster& grid) {
   Json header = {{"format", replay_format}, {"title", replay.title}, {"facts", Json::array()}};
   for (const auto& [name, value] : replay.facts) header["facts"].push_back({name, value});
@@ -117,6 +146,7 @@ Json header_of(const Replay& replay, const Raster& grid) {
     header["wheel"].push_back(frame.wheel);
     header["rotation"].push_back(frame.rotation);
   }
+  put_seal(header);
   return header;
 }
 
@@ -141,30 +171,26 @@ std::string replay_bytes(const Replay& replay) {
 }
 
 ReplayFile read_replay(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in)
-    throw InputError(
-        fmt::format("{}: can't be read\n  hint: soilbin run STUDY --model dem --replay FILE", path.string()));
-  std::ostringstream all;
-  all << in.rdbuf();
+  const std::string hint = "soilbin run STUDY --model dem --replay FILE writes one";
   ReplayFile file;
-  file.bytes = all.str();
+  file.bytes = read_bytes(path, largest_replay);
   const std::size_t end = file.bytes.find('\n');
-  const Json header =
-      end == std::string::npos
-          ? Json()
-          : Json::parse(file.bytes.begin(), file.bytes.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
-  try {
-    if (header.at("format") != replay_format) throw InputError("");
+  if (end == std::string::npos)
+    throw InputError(fmt::format("{}: no replay ({})\n  hint: {}", path.string(), replay_format, hint));
+  const Json header = parse_json(make_source_text(file.bytes.substr(0, end), path.string()), hint);
+  if (!header.is_object() || header.value("format", Json()) != replay_format)
+    throw InputError(fmt::format("{}: no replay ({})\n  hint: {}", path.string(), replay_format, hint));
+  const std::string place = path.string() + ": its first line";
+  check_seal(header, place, "take a copy of the file, or make it again");
+  read_json_at(place, [&] {
     file.title = header.at("title");
     for (const Json& fact : header.at("facts")) file.facts.emplace_back(fact.at(0), fact.at(1));
     file.grains = header.at("grains");
     file.frames = header.at("frames");
     file.seconds = header.at("times").back().get<double>() - header.at("times").front().get<double>();
-  } catch (const std::exception&) {
-    throw InputError(fmt::format("{}: no replay ({})\n  hint: soilbin run STUDY --model dem --replay FILE writes one",
-                                 path.string(), replay_format));
-  }
+    check_payload(std::string_view(file.bytes).substr(end + 1), payload_size(header), path.string());
+    return 0;
+  });
   return file;
 }
 

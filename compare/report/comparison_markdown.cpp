@@ -97,7 +97,7 @@ void add_causes(Markdown& md, const Comparison& comparison) {
 }  // namespace
 
 void write_markdown(const fs::path& folder, const Comparison& comparison, const ComparisonAbout& about) {
-  fs::create_directories(folder);
+  make_folder(folder);
   Markdown md(folder);
   md.text("# " + plain(about.page.title));
   for (const Clause& clause : summary(comparison, about.loop ? &*about.loop : nullptr))

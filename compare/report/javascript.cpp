@@ -50,6 +50,12 @@ std::string in_script(std::string text) {
   return text;
 }
 
+std::string json_in_script(std::string text) {
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
+    text.replace(at, 1, "\\u003c");
+  return text;
+}
+
 std::string script_elements(const Libraries& libraries, bool with_replay) {
   std::string html;
   const auto add = [&](const std::optional<std::string>& text) {

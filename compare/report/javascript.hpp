@@ -33,4 +33,7 @@ std::string script_elements(const Libraries& libraries, bool with_replay);
 /// Text that may stand in a <script> element: "</" can't end it.
 std::string in_script(std::string text);
 
+/// JSON fit to stand in a script element: without a "<", which could begin a comment or an element that hides the rest.
+std::string json_in_script(std::string text);
+
 }  // namespace soilbin::compare

@@ -152,7 +152,7 @@ std::string Page::scripts() const {
   nlohmann::ordered_json figures = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < sheets_.size(); ++i) figures[fmt::format("figure-{}", i + 1)] = to_json(sheets_[i]);
   return "<script type=\"application/json\" id=\"figures\">" +
-         in_script(figures.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) + "</script>\n" +
+         json_in_script(figures.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) + "</script>\n" +
          script_elements(*libraries_, has_replay_) +
          (extra_scripts_.empty() ? "" : "<script>\n" + in_script(extra_scripts_) + "</script>\n");
 }

@@ -7,12 +7,13 @@
 #include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/plot_panel.hpp"
+#include "scenario/quantity.hpp"
 
 namespace soilbin::compare {
 namespace {
 
 /// Six digits: what a screen can show, at a third of the bytes.
-double shortened(double value) { return std::isfinite(value) ? std::stod(fmt::format("{:.6g}", value)) : value; }
+double shortened(double value) { return read_number(fmt::format("{:.6g}", value)).value_or(value); }
 
 Json numbers(const std::vector<double>& values) {
   Json list = Json::array();

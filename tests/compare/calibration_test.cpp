@@ -238,34 +238,5 @@ TEST(Calibration, WhatMakesNoSenseIsRefused) {
   EXPECT_THROW(calibrate(board(), {.probability = 1.0}, store), InputError);
 }
 
-TEST(ExperimentStores, ADamagedFileIsNamed) {
-  const Folder folder;
-  std::ofstream(folder / "bad.json") << "{\"format\": \"soilbin-experi";
-  try {
-    ExperimentStore store(folder / "bad.json");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("bad.json"));
-  }
-  std::ofstream(folder / "other.json") << "{\"format\": \"soilbin-run/1\"}";
-  EXPECT_THROW(ExperimentStore(folder / "other.json"), InputError);
-}
-
-TEST(ExperimentStores, KeepEveryBit) {
-  const Folder folder;
-  const VirtualTest test = board();
-  const VectorXd values = (VectorXd(3) << 1.0 / 3, 0.1 + 0.2, 5e-324).finished();
-  {
-    ExperimentStore store(folder / "store.json");
-    store.keep(test, {values, 18446744073709551615U, {{std::numbers::pi, 1e-300}}, "", 1.5});
-  }
-  const ExperimentStore store(folder / "store.json");
-  const std::optional<Experiment> found = store.find(test, values, 18446744073709551615U);
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->results[0].value, std::numbers::pi);
-  EXPECT_EQ(found->results[0].std_error, 1e-300);
-  EXPECT_FALSE(store.find(test, values, 1));
-}
-
 }  // namespace
 }  // namespace soilbin::compare

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <random>
 
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/report/result_json.hpp"
@@ -108,6 +109,13 @@ TEST(Record, SchemaNamesEveryKeyOfARow) {
   for (const auto& [key, value] : row.items()) EXPECT_TRUE(properties.contains(key)) << key;
 }
 
+/// What a record says, whatever vouches for it.
+std::string said_by(Record record) {
+  for (RecordedRun& run : record.runs) run.sealed = false;
+  record.sealed = false;
+  return record_text(record);
+}
+
 void expect_refused(const std::string& text, const std::string& words) {
   try {
     parse_record({"r.json", text});
@@ -121,11 +129,54 @@ TEST(Record, NamesThePlaceOfWhatIsWrong) {
   expect_refused("{\"format\":", "r.json:1");
   expect_refused("{}", "format is missing");
   expect_refused("{\"format\": \"soilbin-case/1\"}", "soilbin-recorded/1");
-  std::string text = record_text(made_record());
+  const std::string text = said_by(made_record());
   const std::string key = "\"torque\":0.2857142857142857";
   ASSERT_NE(text.find(key), std::string::npos);
   expect_refused(std::string(text).replace(text.find(key), key.size(), "\"torque\":\"much\""), "runs[0].torque");
   expect_refused(std::string(text).replace(text.find(key), key.size(), "\"torsion\":1"), "runs[0].torque is missing");
+}
+
+TEST(Record, RefusesWhatIsTooDeepOrTooLargeAndSaysWhere) {
+  const std::string deep(100000, '[');
+  expect_refused("{\"runs\":\n" + deep, "r.json:2:32: nested deeper than 32 levels");
+  expect_refused("{\"a\": 1,\n \"b\": 1e309}", "r.json:2:7: this number is too large");
+  std::string text = record_text(made_record());
+  const std::string key = "\"packing\":2";
+  ASSERT_NE(text.find(key), std::string::npos);
+  expect_refused(text.replace(text.find(key), key.size(), "\"packing\":-2"), "runs[1]: its seal doesn't fit");
+}
+
+// Damage of one bit, anywhere: refused with the file's name, or nothing that is read has changed.
+TEST(Record, NoFlippedBitChangesAnAnswer) {
+  const std::string text = record_text(made_record()), said = said_by(made_record());
+  std::mt19937 random(26);
+  int refused = 0;
+  constexpr int flips = 1500;
+  for (int k = 0; k < flips; ++k) {
+    std::string damaged = text;
+    const std::size_t at = random() % text.size();
+    damaged[at] = static_cast<char>(damaged[at] ^ (1 << random() % 8));
+    try {
+      EXPECT_EQ(said_by(parse_record(make_source_text(damaged, "r.json"))), said) << "byte " << at;
+    } catch (const InputError& error) {
+      ++refused;
+      EXPECT_THAT(error.what(), HasSubstr("r.json")) << "byte " << at;
+    }
+  }
+  EXPECT_GT(refused, flips * 8 / 10) << "all but what stands in the name of a seal, or in blanks";
+}
+
+// As from before there were seals.
+TEST(Record, WithoutSealsItIsReadAndSaysThatItHasNone) {
+  const Record old = parse_record({"r.json", said_by(made_record())});
+  EXPECT_FALSE(old.sealed);
+  EXPECT_EQ(unsealed_note(old, "r.json").find("r.json: 3 of its 3 runs carry no seal"), 0U);
+  EXPECT_EQ(unsealed_note(made_record(), "r.json"), "");
+  EXPECT_EQ(record_text(old).find("seal"), std::string::npos) << "writing it again vouches for nothing";
+  std::string other = said_by(made_record());
+  const std::string key = "\"bed.length\": \"2.5\"";
+  ASSERT_NE(other.find(key), std::string::npos);
+  expect_refused(other.replace(other.find(key), key.size(), "\"bed.length\": \"3.5\""), "inputs don't fit their key");
 }
 
 TEST(Record, RefusesOtherInputsAndNamesThem) {
@@ -214,6 +265,22 @@ TEST_F(SlowKeptRuns, ARerunSkipsWhatIsThere) {
   study(2);
   EXPECT_EQ(ran_, 6);
   EXPECT_EQ(read_record(file()).runs.size(), 6U);
+}
+
+// What a run could be had again from is let go only with the run in the file: never before, however the writing fails.
+TEST_F(SlowKeptRuns, ARunIsSafeOnlyOnceItIsInTheFile) {
+  int safe = 0;
+  RecordedRun run = made_run(1, 0.1, 1);
+  run.when_safe = [&] {
+    ++safe;
+    EXPECT_EQ(read_record(file()).runs.size(), 1U);
+  };
+  std::filesystem::create_directories(file() / "in the way");
+  EXPECT_ANY_THROW(add_run(file(), empty_, run));
+  EXPECT_EQ(safe, 0);
+  std::filesystem::remove_all(file());
+  add_run(file(), empty_, run);
+  EXPECT_EQ(safe, 1);
 }
 
 TEST_F(SlowKeptRuns, WhatIsFinishedStaysWhereTheRestIsStopped) {

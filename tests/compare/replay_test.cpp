@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "scenario/errors.hpp"
 
@@ -112,6 +113,34 @@ TEST(Replay, RefusesWhatIsNone) {
   EXPECT_NEAR(file.seconds, 0.3, 1e-12);
   std::filesystem::remove(path);
 }
+
+// Damage of one bit: refused with the file's name, or nothing that a page shows has changed.
+TEST(SlowReplay, NoFlippedBitPassesForWhatWasSeen) {
+  const auto path = std::filesystem::temp_directory_path() / "soilbin-damaged-replay";
+  const std::string bytes = replay_bytes(three_grains());
+  std::mt19937 random(26);
+  int refused = 0;
+  constexpr int flips = 500;
+  for (int k = 0; k < flips; ++k) {
+    std::string damaged = bytes;
+    const std::size_t at = random() % bytes.size();
+    damaged[at] = static_cast<char>(damaged[at] ^ (1 << random() % 8));
+    std::ofstream(path, std::ios::binary) << damaged;
+    try {
+      read_replay(path);
+      const Unpacked seen(damaged), right(bytes);
+      EXPECT_EQ(seen.frames, right.frames) << "byte " << at;
+      EXPECT_EQ(seen.header["times"], right.header["times"]) << "byte " << at;
+    } catch (const InputError& error) {
+      ++refused;
+      EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << "byte " << at;
+    }
+  }
+  EXPECT_GT(refused, flips * 9 / 10) << "all but what stands in the name of the seal";
+  std::filesystem::remove(path);
+}
+
+TEST(Replay, ADeviceIsRefusedBeforeItFillsTheMemory) { EXPECT_THROW(read_replay("/dev/zero"), InputError); }
 
 // RFC 4648, section 10.
 TEST(Base64, PublishedVectors) {

@@ -1,0 +1,178 @@
+// Stores of experiments: every bit comes back, two writers lose nothing, and damage is told.
+#include "compare/calibrate/experiment_store.hpp"
+
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <numbers>
+#include <random>
+
+#include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Eigen::VectorXd;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "soilbin-store-XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() { fs::remove_all(path_); }
+  fs::path operator/(const char* name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+VirtualTest board_test() {
+  VirtualTest test;
+  test.identity = "stand-in board, step 1e-5";
+  test.factors = {{"sliding_friction", 0.3, 0.9, "-"}};
+  test.targets = {{"board_angle", {0.5, 0}, "deg"}};
+  return test;
+}
+
+VectorXd at(double friction) { return VectorXd::Constant(1, friction); }
+
+Experiment made_experiment(double friction) { return {at(friction), 7, {{8.47 + friction, 0.3}}, "", 1.5}; }
+
+TEST(ExperimentStores, ADamagedFileIsNamed) {
+  const Folder folder;
+  std::ofstream(folder / "bad.json") << "{\"format\": \"soilbin-experi";
+  try {
+    ExperimentStore store(folder / "bad.json");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("bad.json"));
+  }
+  std::ofstream(folder / "other.json") << "{\"format\": \"soilbin-run/1\"}";
+  EXPECT_THROW(ExperimentStore(folder / "other.json"), InputError);
+}
+
+TEST(ExperimentStores, KeepEveryBit) {
+  const Folder folder;
+  const VirtualTest test = board_test();
+  const VectorXd values = (VectorXd(3) << 1.0 / 3, 0.1 + 0.2, 5e-324).finished();
+  {
+    ExperimentStore store(folder / "store.json");
+    store.keep(test, {values, 18446744073709551615U, {{std::numbers::pi, 1e-300}}, "", 1.5});
+  }
+  const ExperimentStore store(folder / "store.json");
+  const std::optional<Experiment> found = store.find(test, values, 18446744073709551615U);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->results[0].value, std::numbers::pi);
+  EXPECT_EQ(found->results[0].std_error, 1e-300);
+  EXPECT_FALSE(store.find(test, values, 1));
+}
+
+// Each began with what was there before the other's first experiment.
+TEST(ExperimentStores, TwoThatFillOneFileLoseNothing) {
+  const Folder folder;
+  ExperimentStore one(folder / "store.json"), other(folder / "store.json");
+  for (int k = 0; k < 5; ++k) {
+    one.keep(board_test(), made_experiment(0.3 + 0.1 * k));
+    other.keep(board_test(), made_experiment(1.3 + 0.1 * k));
+  }
+  const ExperimentStore both(folder / "store.json");
+  EXPECT_EQ(both.size(), 10U);
+  EXPECT_EQ(other.size(), 10U) << "each knows the other's by now";
+}
+
+TEST(ExperimentStores, AnExperimentIsSafeOnlyOnceItIsInTheFile) {
+  const Folder folder;
+  int safe = 0;
+  VirtualTest test = board_test();
+  test.run = [](const VectorXd&, std::uint64_t) -> std::vector<Estimate> { return {{1.0, 0.1}}; };
+  test.when_safe = [&] {
+    ++safe;
+    EXPECT_EQ(ExperimentStore(folder / "new" / "store.json").size(), 1U);
+  };
+  std::ofstream(folder / "new") << "in the way";
+  ExperimentStore store(folder / "new" / "store.json");
+  EXPECT_THROW(experiment_at(test, at(0.5), 1, store), std::runtime_error);
+  EXPECT_EQ(safe, 0);
+  fs::remove(folder / "new");
+  experiment_at(test, at(0.6), 1, store);
+  EXPECT_EQ(safe, 1);
+}
+
+/// What a store says of the experiments that were put into it.
+std::string said_by_store(const ExperimentStore& store) {
+  std::string said;
+  for (const double friction : {0.3, 0.4})
+    if (const auto found = store.find(board_test(), at(friction), 7))
+      said += fmt::format("{} {} {} {}\n", friction, found->results.at(0).value, found->results.at(0).std_error,
+                          found->error);
+  return said;
+}
+
+// Damage of one bit: refused with the file's name, or an experiment isn't known; never another answer.
+TEST(SlowExperimentStores, NoFlippedBitChangesAnAnswer) {
+  const Folder folder;
+  ExperimentStore store(folder / "store.json");
+  store.keep(board_test(), made_experiment(0.3)), store.keep(board_test(), made_experiment(0.4));
+  const std::string text = read_bytes(folder / "store.json", 1 << 20), said = said_by_store(store);
+  std::mt19937 random(26);
+  int refused = 0;
+  constexpr int flips = 600;
+  for (int k = 0; k < flips; ++k) {
+    std::string damaged = text;
+    const std::size_t place = random() % text.size();
+    damaged[place] = static_cast<char>(damaged[place] ^ (1 << random() % 8));
+    std::ofstream(folder / "damaged.json", std::ios::binary) << damaged;
+    try {
+      EXPECT_EQ(said_by_store(ExperimentStore(folder / "damaged.json")), said) << "byte " << place;
+    } catch (const InputError& error) {
+      ++refused;
+      EXPECT_THAT(error.what(), HasSubstr("damaged.json")) << "byte " << place;
+    }
+  }
+  EXPECT_GT(refused, flips / 2) << "half of the text are blanks";
+}
+
+TEST(ExperimentStores, WithoutSealsTheyAreReadAndCounted) {
+  const Folder folder;
+  std::ofstream(folder / "old.json") << R"({"format": "soilbin-experiments/1", "tests": [{"test":
+    "stand-in board, step 1e-5\nfactors sliding_friction\ntargets board_angle",
+    "experiments": [{"values": [0.3], "seed": 7, "results": [[8.77, 0.3]], "seconds": 1.5}]}]})";
+  ExperimentStore store(folder / "old.json");
+  EXPECT_EQ(store.unsealed(), 1U);
+  EXPECT_EQ(store.find(board_test(), at(0.3), 7)->results[0].value, 8.77);
+  store.keep(board_test(), made_experiment(0.4));
+  EXPECT_EQ(ExperimentStore(folder / "old.json").unsealed(), 1U) << "writing it again vouches for nothing";
+}
+
+TEST(ExperimentStores, SayWhereTheyAreNotAsExpected) {
+  const Folder folder;
+  const auto expect_refused = [&](const std::string& text, const std::string& words) {
+    std::ofstream(folder / "s.json") << text;
+    try {
+      ExperimentStore store(folder / "s.json");
+      ADD_FAILURE() << "took it: " << words;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("s.json"));
+      EXPECT_THAT(error.what(), HasSubstr(words));
+      EXPECT_EQ(std::string(error.what()).find("json.exception"), std::string::npos) << error.what();
+    }
+  };
+  const std::string head = "{\"format\": \"soilbin-experiments/1\", \"tests\": ";
+  expect_refused(head + "[{\"test\": \"a\", \"experiments\": [{}]}]}", "tests[0].experiments[0]: ");
+  expect_refused(head + "[{\"experiments\": []}]}", "tests[0]: ");
+  expect_refused(head + "7}", "tests");
+  expect_refused(head + "\n[1e309]}", "s.json:2:2: this number is too large");
+  expect_refused(std::string(100000, '['), "nested deeper than 32 levels");
+}
+
+}  // namespace
+}  // namespace soilbin::compare
