@@ -24,7 +24,10 @@ double round_number(double x) {
 }
 
 /// A number of SI as it is written in this unit.
-double read_in(double value, const std::string& unit) { return std::stod(write_quantity(value, unit)); }
+double read_in(double value, const std::string& unit) {
+  const std::string text = write_quantity(value, unit);
+  return read_number(text.substr(0, text.find(' '))).value_or(value);
+}
 
 /// The visitor that makes a control of each number that always has a value. Where the description knows no limit a
 /// slider reaches a few times `start`; where the limit itself is not admissible, half way to it.

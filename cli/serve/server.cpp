@@ -1,18 +1,25 @@
 #include "cli/serve/server.hpp"
 
 #include <fmt/core.h>
+#include <sys/resource.h>
 
+#include <algorithm>
+#include <array>
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/redirect_error.hpp>
 #include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
 #include <chrono>
+#include <list>
+#include <optional>
 
 #include "scenario/errors.hpp"
 
@@ -28,10 +35,22 @@ using Response = http::response<http::string_body>;
 
 constexpr std::chrono::seconds patience{60};  ///< with a browser that says nothing
 constexpr std::size_t largest_body = 1024;    ///< [bytes] of a request; none is needed
+constexpr std::uint32_t largest_head = 8192;  ///< [bytes] of a request's first line and its header
 
+/// Connections at once: 64, or what the system lets this process have beside a dozen other descriptors.
+std::size_t most_connections() {
+  constexpr rlim_t enough = 64, others = 16;
+  rlimit allowed{};
+  if (::getrlimit(RLIMIT_NOFILE, &allowed) != 0) return enough;
+  return std::clamp<rlim_t>(allowed.rlim_cur > others ? allowed.rlim_cur - others : 1, 1, enough);
+}
+
+/// "localhost", "127.0.0.1", and either with a port: which one, a tunnel may have changed.
 bool names_this_machine(beast::string_view host) {
-  const beast::string_view name = host.substr(0, host.rfind(':'));
-  return name == "127.0.0.1" || name == "localhost";
+  const std::size_t colon = std::min(host.find(':'), host.size());
+  const beast::string_view name = host.substr(0, colon), port = host.substr(std::min(colon + 1, host.size()));
+  const bool digits = std::all_of(port.begin(), port.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return digits && port.size() <= 5 && (name == "127.0.0.1" || name == "localhost");
 }
 
 Reply reply_to_request(const Request& request, const Answering& answer) {
@@ -43,45 +62,125 @@ Reply reply_to_request(const Request& request, const Answering& answer) {
   try {
     return answer({target.data(), target.size()});
   } catch (const std::exception& error) {
-    return refusal(500, error.what());
+    return refusal(500, fmt::format("this could not be answered: {}", error.what()));
   }
 }
 
-Response respond(const Request& request, const Answering& answer) {
-  Reply reply = reply_to_request(request, answer);
-  Response response(static_cast<http::status>(reply.status), request.version());
+Response response_of(Reply reply, unsigned version, bool with_body, bool keep_alive) {
+  Response response(static_cast<http::status>(reply.status), version);
   response.set(http::field::content_type, reply.type);
   response.set(http::field::cache_control, "no-store");
   response.set("X-Content-Type-Options", "nosniff");
-  response.keep_alive(request.keep_alive());
+  response.keep_alive(keep_alive);
   response.content_length(reply.body.size());
-  if (request.method() != http::verb::head) response.body() = std::move(reply.body);
+  if (with_body) response.body() = std::move(reply.body);
   return response;
 }
 
-/// One connection, to its end.
-asio::awaitable<void> converse(beast::tcp_stream stream, const Answering& answer) {
+/// What is owed to who sent something else than a request that is answered; nothing where he is gone or too slow.
+std::optional<Reply> reply_to_error(const beast::error_code& error) {
+  const auto is = [&](http::error kind) { return error == kind; };
+  if (is(http::error::header_limit) || is(http::error::buffer_overflow))
+    return refusal(414,
+                   fmt::format("the request is longer than {} bytes\n  hint: fewer or shorter flags", largest_head));
+  if (is(http::error::body_limit)) return refusal(413, "no body is needed\n  hint: only GET is answered");
+  if (is(http::error::end_of_stream) || is(http::error::partial_message)) return std::nullopt;
+  if (error.category() == make_error_code(http::error::bad_method).category())
+    return refusal(400, "this is no HTTP request");
+  return std::nullopt;
+}
+
+/// Connections that are open, the one that has been silent longest first: there are never more than so many, so that
+/// the process always has descriptors left.
+class Connections {
+ public:
+  using Place = std::list<beast::tcp_stream*>::iterator;
+
+  Place open(beast::tcp_stream& stream) {
+    if (open_.size() >= most_) close_oldest();
+    return open_.insert(open_.end(), &stream);
+  }
+  void heard_of(Place place) { open_.splice(open_.end(), open_, place); }
+  void close(Place place) { open_.erase(place); }
+  void close_oldest() {
+    if (open_.empty()) return;
+    heard_of(open_.begin());                 // the next one that has to go is another
+    open_.back()->socket().close(ignored_);  // its conversation ends, and gives up its place
+  }
+
+ private:
+  const std::size_t most_ = most_connections();
+  std::list<beast::tcp_stream*> open_;
+  beast::error_code ignored_;
+};
+
+/// Reads what still comes for a moment: a socket that is closed with something unread takes the last reply with it.
+asio::awaitable<void> hear_out(beast::tcp_stream& stream) {
+  constexpr std::size_t enough = 1U << 20U;
+  std::array<char, 4096> rest{};
+  stream.expires_after(std::chrono::seconds(1));
+  for (std::size_t heard = 0; heard < enough;)
+    heard += co_await stream.async_read_some(asio::buffer(rest), asio::use_awaitable);
+}
+
+/// Answers requests until one asks for no more. Throws system_error where the connection ends or fails.
+asio::awaitable<void> answer_requests(beast::tcp_stream& stream, const Answering& answer,
+                                      const std::function<void()>& heard) {
   beast::flat_buffer buffer;
-  try {
-    for (bool more = true; more;) {
-      stream.expires_after(patience);
-      http::request_parser<http::string_body> parser;
-      parser.body_limit(largest_body);
-      co_await http::async_read(stream, buffer, parser, asio::use_awaitable);
-      const Response response = respond(parser.get(), answer);
+  for (bool more = true; more;) {
+    stream.expires_after(patience);
+    http::request_parser<http::string_body> parser;
+    parser.header_limit(largest_head);
+    parser.body_limit(largest_body);
+    beast::error_code error;
+    co_await http::async_read(stream, buffer, parser, asio::redirect_error(asio::use_awaitable, error));
+    heard();
+    if (!error) {
+      const Request& request = parser.get();
+      const Response response = response_of(reply_to_request(request, answer), request.version(),
+                                            request.method() != http::verb::head, request.keep_alive());
       co_await http::async_write(stream, response, asio::use_awaitable);
       more = response.keep_alive();
+    } else if (std::optional<Reply> owed = reply_to_error(error)) {
+      constexpr unsigned http_1_1 = 11;
+      const Response response = response_of(std::move(*owed), http_1_1, true, false);
+      co_await http::async_write(stream, response, asio::use_awaitable);
+      stream.socket().shutdown(tcp::socket::shutdown_send);
+      co_await hear_out(stream);
+      more = false;
+    } else {
+      more = false;
     }
-  } catch (const boost::system::system_error&) {  // gone, too slow, or no HTTP: nothing is owed
   }
+}
+
+/// One connection, to its end.
+asio::awaitable<void> converse(beast::tcp_stream stream, Connections& connections, const Answering& answer) {
+  const Connections::Place place = connections.open(stream);
+  const std::function<void()> heard = [&connections, place] { connections.heard_of(place); };
+  try {
+    co_await answer_requests(stream, answer, heard);
+  } catch (const std::exception&) {  // gone or too slow: nothing is owed, and the others go on
+  }
+  connections.close(place);
   beast::error_code ignored;
   stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
 }
 
-asio::awaitable<void> welcome(tcp::acceptor& acceptor, const Answering& answer) {
+/// Takes connections as long as the program runs, whatever fails in between.
+asio::awaitable<void> welcome(tcp::acceptor& acceptor, Connections& connections, const Answering& answer) {
+  constexpr std::chrono::milliseconds pause{50};
   for (;;) {
-    tcp::socket socket = co_await acceptor.async_accept(asio::use_awaitable);
-    asio::co_spawn(acceptor.get_executor(), converse(beast::tcp_stream(std::move(socket)), answer), asio::detached);
+    beast::error_code error;
+    tcp::socket socket = co_await acceptor.async_accept(asio::redirect_error(asio::use_awaitable, error));
+    if (!error) {
+      asio::co_spawn(acceptor.get_executor(), converse(beast::tcp_stream(std::move(socket)), connections, answer),
+                     asio::detached);
+      continue;
+    }
+    connections.close_oldest();  // no descriptor is left, as a rule
+    asio::steady_timer timer(acceptor.get_executor(), pause);
+    co_await timer.async_wait(asio::redirect_error(asio::use_awaitable, error));
   }
 }
 
@@ -104,7 +203,8 @@ void serve_http(unsigned short port, const std::function<void(const std::string&
   tcp::acceptor acceptor = listen(context, port);
   asio::signal_set signals(context, SIGINT, SIGTERM);
   signals.async_wait([&](const boost::system::error_code&, int) { context.stop(); });
-  asio::co_spawn(context, welcome(acceptor, answer), asio::detached);
+  Connections connections;
+  asio::co_spawn(context, welcome(acceptor, connections, answer), asio::detached);
   listening(fmt::format("http://127.0.0.1:{}/", acceptor.local_endpoint().port()));
   context.run();
 }
