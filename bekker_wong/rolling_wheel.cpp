@@ -212,6 +212,8 @@ void RollingWheel::refuse(const Prepared& p, double highest, ContactPatch& patch
   if (highest >= 0.0) throw NoSolution("no sinkage balances the load: the added forces alone lift the wheel");
   fill_patch(p, deepest_angle(), patch);
   const double load = p.around.normal_load, carried = vertical(p, patch), most = share_of(highest) * load;
+  if (!std::isfinite(carried))
+    throw NoSolution("the wheel or its load is too large or too small for the model's numbers");
   throw NoSolution(fmt::format(
       "the wheel would sink deeper than {} of its radius: there the soil carries {:.4g} N of {:.4g} N{}",
       max_sinkage_share, carried, load,

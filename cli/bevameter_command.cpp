@@ -13,7 +13,6 @@
 #include "compare/report/json_fields.hpp"
 #include "compare/report/result_json.hpp"
 #include "dem/element_tests/plate_tests.hpp"
-#include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {
@@ -102,8 +101,8 @@ int bevameter(const BevameterOptions& options, const Session& session) {
   const std::string source = fmt::format(
       "virtual bevameter on the grains of {}: 3 round plates, ring with grousers, {} packings, settling friction {}",
       soil.name, options.packings, number(options.flags.specimen(grains_of(soil)).settling_friction));
-  if (!options.output.empty())
-    write_file_atomically(options.output, write_soil(with_bevameter(soil, fit, measured.density, source)));
+  Outputs outputs;
+  outputs.file(options.output, [&] { return write_soil(with_bevameter(soil, fit, measured.density, source)); });
   if (options.json) {
     nlohmann::ordered_json document = {{"format", "soilbin-bevameter/1"}, {"soil", soil.name}};
     for (const SoilParameter& p : bevameter_parameters) document[p.name] = compare::estimate_json(fit.soil.*p.value);
@@ -113,9 +112,9 @@ int bevameter(const BevameterOptions& options, const Session& session) {
     fmt::print("{}", compare::json_text(document));
   } else {
     fmt::print("bevameter: {}, {} packings\n{}", soil.name, options.packings, table_of(fit, soil));
-    if (!options.output.empty()) fmt::print("wrote {}\n", options.output);
+    if (!options.output.empty() && outputs.complete()) fmt::print("wrote {}\n", options.output);
   }
-  return done;
+  return outputs.status(done);
 }
 
 }  // namespace

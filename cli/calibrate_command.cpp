@@ -10,7 +10,9 @@
 #include "cli/commands.hpp"
 #include "cli/decision_flags.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
+#include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "compare/calibrate/decision_words.hpp"
 #include "compare/calibrate/published_sets.hpp"
@@ -146,6 +148,8 @@ compare::VirtualTest test_of(const CalibrateOptions& asked, ContactKind kind, co
   question.strength = asked.strength == "peak" ? compare::Strength::peak : compare::Strength::residual;
   question.how.threads = asked.threads;
   question.how.progress = [shown](const dem::Progress& progress) { shown->within_run(progress); };
+  question.how.tell = tell_beside_progress;
+  check_threads(asked.threads);
   return compare::contact_test(soil, question);
 }
 
@@ -153,8 +157,11 @@ fs::path store_of(const CalibrateOptions& asked, const Soil& soil) {
   if (!asked.store.empty()) return asked.store;
   const fs::path cache = user_cache();
   if (cache.empty()) return {};
-  fs::create_directories(cache / "experiments");
-  return cache / "experiments" / fmt::format("{}-{}.json", soil.name, asked.contact);
+  const fs::path file = cache / "experiments" / fmt::format("{}-{}.json", soil.name, asked.contact);
+  const std::string why = why_not_writable(file);
+  if (why.empty()) return file;
+  fmt::print(stderr, "warning: {}\n  experiments aren't kept\n", why);
+  return {};
 }
 
 /// Where the soil bin's runs are kept: a folder beside the store, named after it.
@@ -209,14 +216,14 @@ void add_decision(CalibrateOptions& asked, const Soil& soil, const compare::Virt
 
 int tell(const CalibrateOptions& asked, const Soil& soil, ContactKind kind, const compare::VirtualTest& test,
          const compare::Calibration& calibration) {
-  if (!asked.output.empty())
-    write_file_atomically(asked.output,
-                          write_soil(compare::calibrated_soil(soil, kind, test, asked.options, calibration)));
+  Outputs outputs;
+  outputs.file(asked.output,
+               [&] { return write_soil(compare::calibrated_soil(soil, kind, test, asked.options, calibration)); });
   if (asked.json)
     fmt::print("{}", compare::json_text(compare::to_json(test, asked.options, calibration)));
   else
     print(asked, test, calibration);
-  return calibration.reached ? done : failed;
+  return outputs.status(calibration.reached ? done : failed);
 }
 
 int calibrate(CalibrateOptions asked, const Session& session) {
@@ -230,6 +237,7 @@ int calibrate(CalibrateOptions asked, const Session& session) {
   const fs::path file = store_of(asked, soil);
   add_decision(asked, soil, test, kind, records_beside(file), session.place, shown);
   compare::ExperimentStore store(file);
+  tell_unsealed(store, file);
   compare::Calibration calibration;
   try {
     if (!asked.beside.empty()) return set_beside(asked, test, store, shown);

@@ -8,6 +8,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/question.hpp"
+#include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
 #include "compare/recorded/told_campaign.hpp"
@@ -38,7 +39,7 @@ struct Runs {
 Runs read_runs(const CampaignOptions& asked, const Workplace& place) {
   Runs runs;
   for (const std::string& file : asked.records) {
-    runs.records.push_back(compare::read_record(file));
+    runs.records.push_back(read_record_aloud(file));
     const compare::Record& record = runs.records.back();
     compare::refuse_other_inputs(record, runs.records.front().inputs, file);
     for (const compare::RecordedRun& run : record.runs) runs.all.push_back(run);

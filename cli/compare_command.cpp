@@ -70,9 +70,8 @@ bool asks_for_grains(const Case& question, const CompareOptions& asked) {
 }
 
 /// Runs the grains, or takes them from the record, and tells what they rest on.
-compare::Side grain_side(const Case& question, const CompareOptions& asked, const Session& session,
+compare::Side grain_side(const Case& question, const CompareOptions& asked, const Session& session, const RunLog& log,
                          compare::ComparisonAbout& about) {
-  const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
   const auto model = models_with(asked.soil_bin, question, session.place.effects, log)(ModelKind::dem);
   compare::sweep(*model, question.scenario, question.study.conditions, shown_progress());
   std::set<std::string> packings, sources;
@@ -89,6 +88,8 @@ compare::Side grain_side(const Case& question, const CompareOptions& asked, cons
   if (!file.empty()) {
     const compare::Record record = compare::read_record(file);
     about.facts.emplace_back("record", file);
+    if (const std::string note = compare::unsealed_note(record, file); !note.empty())
+      about.facts.emplace_back("seals of the record's runs", note);
     about.facts.emplace_back("hash of the record's inputs", compare::inputs_key(record.inputs));
   }
   return compare::side_of("dem", *log, question.study.conditions);
@@ -126,19 +127,21 @@ void print_text(const compare::Comparison& comparison, const compare::Comparison
   fmt::print("\n{}", as_text(table));
 }
 
-void save(const compare::Comparison& comparison, const compare::ComparisonAbout& about, const CompareOptions& asked) {
-  if (!asked.report.empty()) {
-    const fs::path file = asked.report;
-    if (file.has_parent_path()) fs::create_directories(file.parent_path());
-    write_file_atomically(file, compare::comparison_page(comparison, about));
+Outputs save(const compare::Comparison& comparison, const compare::ComparisonAbout& about,
+             const CompareOptions& asked) {
+  Outputs outputs;
+  outputs.write(asked.report, [&] {
+    write_file_atomically(asked.report, compare::comparison_page(comparison, about));
     fmt::print(stderr, "wrote {}: open it in a browser\n", asked.report);
     for (const std::string& package : about.libraries.missing)
       fmt::print(stderr, "soilbin: without {} some figures of the page are plain drawings\n", package);
-  }
-  if (!asked.csv.empty()) write_file_atomically(asked.csv, compare::differences_csv(comparison));
-  if (asked.markdown.empty()) return;
-  compare::write_markdown(asked.markdown, comparison, about);
-  fmt::print(stderr, "wrote {}\n", (fs::path(asked.markdown) / "report.md").string());
+  });
+  outputs.file(asked.csv, [&] { return compare::differences_csv(comparison); });
+  outputs.write(asked.markdown, [&] {
+    compare::write_markdown(asked.markdown, comparison, about);
+    fmt::print(stderr, "wrote {}\n", (fs::path(asked.markdown) / "report.md").string());
+  });
+  return outputs;
 }
 
 int compare_models(CompareOptions asked, const Session& session) {
@@ -154,6 +157,7 @@ int compare_models(CompareOptions asked, const Session& session) {
   }
   if (!asked.replay.empty()) about.replay = compare::read_replay(asked.replay);  // refused before anything is run
   const std::vector<ModelChoice> choices = analytic_choices(question, asked, session);
+  const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
   std::vector<compare::Side> sides;
   if (question.scenario.soil.semi_empirical) {
     Case analytic = question;
@@ -162,7 +166,7 @@ int compare_models(CompareOptions asked, const Session& session) {
     print_warnings(compare::doubts(question.scenario.tire, study));
     for (const compare::ModelAnswers& answers : study) sides.push_back(compare::side_of(answers));
   }
-  if (asks_for_grains(question, asked)) sides.push_back(grain_side(question, asked, session, about));
+  if (asks_for_grains(question, asked)) sides.push_back(grain_side(question, asked, session, log, about));
   if (!asked.measured.empty())
     sides.push_back(compare::side_of(find_campaign(session.place, asked.measured), question));
   const compare::Comparison comparison = compare::compare_sides(question, choices, std::move(sides));
@@ -170,12 +174,13 @@ int compare_models(CompareOptions asked, const Session& session) {
   about.page = {asked.title.empty() ? "Comparison: " + question.study.name : asked.title, session.command, versions()};
   about.resolved_case = write_case(question, session.place.effects);
   about.libraries = compare::find_libraries();
-  save(comparison, about, asked);
+  const Outputs outputs = save(comparison, about, asked);
   if (asked.json)
     fmt::print("{}", compare::json_text(compare::comparison_json(comparison, about)));
   else
     print_text(comparison, about);
-  return done;
+  forget_runs(*log, outputs);
+  return outputs.status(done);
 }
 
 }  // namespace
@@ -191,7 +196,9 @@ void add_compare(CLI::App& app, Session& session) {
       ->type_name("SOIL");
   command->add_option("--effect", asked->effects, "one more side: the analytic model with this effect; repeatable")
       ->type_name("ID[:FORM][,PARAMETER=VALUE]");
-  command->add_option("--report", asked->report, "write everything as one page")->type_name("FILE.html");
+  command->add_option("--report", asked->report, "write everything as one page")
+      ->type_name("FILE.html")
+      ->check(writable_file());
   command->add_option("--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data")
       ->type_name("DIR")
       ->check(writable_folder());

@@ -134,6 +134,7 @@ int converge(const SoilBinFlags& flags, const Case& question, const EffectVocabu
     fmt::print("{}", compare::json_text(document(variants, runs)));
   else
     fmt::print("{}: {}\n\n{}", question.study.name, compare::in_words(at), table(variants, runs));
+  forget_runs(runs, {});
   return runs.front().answer.result ? done : failed;
 }
 

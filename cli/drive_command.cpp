@@ -16,7 +16,6 @@
 #include "compare/report/drive_sides.hpp"
 #include "compare/report/result_json.hpp"
 #include "compare/sweep/varying.hpp"
-#include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/unit.hpp"
@@ -59,11 +58,12 @@ std::vector<Sample> picked(const std::vector<Sample>& samples, std::size_t rows)
 
 /// Writes what is asked for as files.
 template <class Answer>
-void save(const DriveOptions& options, const Answer& answer, const std::string& title, const Session& session) {
-  if (!options.csv.empty()) write_file_atomically(options.csv, compare::drive_csv(answer));
-  if (!options.plot.empty()) write_file_atomically(options.plot, compare::svg(compare::drive_sheet(answer)));
-  if (!options.report.empty())
-    write_file_atomically(options.report, compare::drive_page(answer, {title, session.command, versions()}));
+Outputs save(const DriveOptions& options, const Answer& answer, const std::string& title, const Session& session) {
+  Outputs outputs;
+  outputs.file(options.csv, [&] { return compare::drive_csv(answer); });
+  outputs.drawing(options.plot, [&] { return compare::drive_sheet(answer); });
+  outputs.file(options.report, [&] { return compare::drive_page(answer, {title, session.command, versions()}); });
+  return outputs;
 }
 
 std::string slip_text(const DriveState& s) { return s.slip ? number(100 * *s.slip) : "-"; }
@@ -97,9 +97,9 @@ std::string drive_text(const compare::DrivePart& part) {
 
 int drive_analytically(const DriveOptions& options, const Case& question, const Session& session) {
   const compare::DrivePart part = compare::run_drive(question, options.samples, progress_in_time());
-  save(options, part, question.name, session);
+  const Outputs outputs = save(options, part, question.name, session);
   fmt::print("{}", options.json ? compare::json_text(compare::to_json(part)) : drive_text(part));
-  return done;
+  return outputs.status(done);
 }
 
 /// The bed is as long as the way needs, where no length is asked for.
@@ -165,11 +165,13 @@ int drive_with_grains(const DriveOptions& options, const Case& question, const S
   grains.run();
   sides.insert(sides.end(), grains.sides().begin(), grains.sides().end());
   const compare::DriveSides drive = compare::side_by_side(question, std::move(sides), grains.notes());
-  save(options, drive, question.name, session);
+  const Outputs outputs = save(options, drive, question.name, session);
   fmt::print("{}", options.json ? compare::json_text(compare::to_json(drive)) : sides_text(drive));
-  std::fflush(stdout);
-  grains.forget();
-  return done;
+  if (std::fflush(stdout) == 0 && outputs.complete())
+    grains.forget();
+  else
+    fmt::print(stderr, "soilbin: {}\n", finished_runs_stay);
+  return outputs.status(done);
 }
 
 int drive(const DriveOptions& options, const Session& session) {
@@ -194,8 +196,8 @@ void add_drive(CLI::App& app, Session& session) {
       ->type_name("NAME")
       ->capture_default_str();
   command->add_option("--plot", options->plot, "draw speed, slip, sinkage, torque, forces and energy against time")
-      ->type_name("FILE.svg")
-      ->check(writable_file());
+      ->type_name("FILE.svg|png|pdf")
+      ->check(drawing_file());
   command->add_option("--csv", options->csv, "save every sample")->type_name("FILE.csv")->check(writable_file());
   command->add_option("--report", options->report, "save a page to open in a browser")
       ->type_name("FILE.html")

@@ -7,10 +7,10 @@
 #include "cli/element_test_flags.hpp"
 #include "cli/element_test_reports.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "compare/report/result_json.hpp"
-#include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 
@@ -119,7 +119,8 @@ int element_test(const ElementTestOptions& options, const Session& session) {
   TestReport report =
       test.run({options, grains_of(soil), options.flags.specimen(grains_of(soil)), options.flags.work(), beds});
   clear_progress_line();
-  if (!options.plot.empty()) write_file_atomically(options.plot, compare::svg(report.sheet));
+  Outputs outputs;
+  outputs.drawing(options.plot, [&] { return report.sheet; });
   if (options.json) {
     nlohmann::ordered_json document{{"format", "soilbin-element-test/1"}, {"test", test.name}, {"soil", soil.name}};
     document.update(report.json);
@@ -127,7 +128,7 @@ int element_test(const ElementTestOptions& options, const Session& session) {
   } else {
     fmt::print("{}: {}\n{}", test.name, soil.name, report.text);
   }
-  return done;
+  return outputs.status(done);
 }
 
 }  // namespace
@@ -147,7 +148,7 @@ void add_element_test(CLI::App& app, Session& session) {
   command->add_option("--inertial", options->inertial, "direct-shear, triaxial: inertial number of the rate, 0.001")
       ->type_name("I");
   command->add_flag("--ledger", options->ledger, "direct-shear, triaxial: check the balance of energy (in --json)");
-  command->add_option("--plot", options->plot, "draw the curves")->type_name("FILE.svg")->check(writable_file());
+  command->add_option("--plot", options->plot, "draw the curves")->type_name("FILE.svg|png|pdf")->check(drawing_file());
   command->add_flag("--json", options->json, "soilbin-element-test/1, in SI");
   options->flags.add_to(*command);
   command->footer("Example: soilbin element-test direct-shear paper-sand --stress 10kPa --stress 40kPa --plot box.svg");

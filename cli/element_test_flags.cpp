@@ -46,10 +46,11 @@ dem::SpecimenSettings ElementTestFlags::specimen(const GranularSoil& soil) const
 }
 
 dem::WorkOptions ElementTestFlags::work() const {
-  if (threads < 0) throw InputError("--threads: 0 (one a core) or more");
+  check_threads(threads);
   dem::WorkOptions how;
   how.threads = threads;
   how.progress = show_dem_progress;
+  how.tell = tell_beside_progress;
   return how;
 }
 

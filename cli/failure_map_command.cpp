@@ -77,14 +77,19 @@ compare::VirtualTest grains_test(const FailureMapOptions& asked, const compare::
   test.factors = map.factors;
   test.targets = compare::grain_channels();
   if (asked.stored) return test;
-  test.run = [map, run = run_with(settings, question, place.effects, {})](const Eigen::VectorXd& values,
-                                                                          std::uint64_t seed) {
+  const auto last = std::make_shared<compare::RecordedRun>();
+  test.when_safe = [last] {
+    if (last->when_safe) last->when_safe();
+  };
+  test.run = [map, last, run = run_with(settings, question, place.effects, {})](const Eigen::VectorXd& values,
+                                                                                std::uint64_t seed) {
     Scenario grains = scenario_at(map, values);
     grains.effects.clear();
-    const compare::Answer answer = run(grains, condition_at(map, values), seed).answer;
-    if (!answer.result) throw NoSolution(answer.error);
+    *last = run(grains, condition_at(map, values), seed);
+    if (!last->answer.result) throw NoSolution(last->answer.error);
     std::vector<Estimate> measured;
-    for (const TractionChannel& channel : traction_channels) measured.push_back((*answer.result).*channel.predicted);
+    for (const TractionChannel& channel : traction_channels)
+      measured.push_back((*last->answer.result).*channel.predicted);
     return measured;
   };
   return test;
@@ -142,15 +147,19 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
     question.scenario.soil.semi_empirical = find_soil(asked.soil, session.place.library).semi_empirical;
   if (asked.first < 6) throw InputError("--first: 6 conditions or more");
   if (asked.at_boundary < 0 || asked.fresh < 0) throw InputError("--boundary and --check: 0 or more");
+  if (!asked.stored && !asked.store.empty())  // what is only read may lie anywhere
+    if (const std::string why = why_not_writable(asked.store); !why.empty()) throw InputError("--store: " + why);
   compare::ExperimentStore store(asked.store);
+  tell_unsealed(store, asked.store);
+  Outputs outputs;
   compare::VirtualTest grains;
   try {
     const compare::MapStory story = learn(asked, question, session.place, store, grains);
-    if (!asked.report.empty())
-      write_file_atomically(
-          asked.report,
-          compare::failure_map_page(story, {"Failure map: " + name_of(story.map.incline), session.command, versions()},
-                                    write_case(question, session.place.effects)));
+    outputs.file(asked.report, [&] {
+      return compare::failure_map_page(story,
+                                       {"Failure map: " + name_of(story.map.incline), session.command, versions()},
+                                       write_case(question, session.place.effects));
+    });
     if (asked.json)
       fmt::print("{}", compare::json_text(compare::failure_map_json(story)));
     else
@@ -160,7 +169,7 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
       fmt::print(stderr, "\n{} runs are in {}: the same command goes on from there", store.size(), asked.store);
     throw;
   }
-  return done;
+  return outputs.status(done);
 }
 
 }  // namespace
@@ -189,8 +198,7 @@ void add_failure_map(CLI::App& app, Session& session) {
       ->type_name("ID[:FORM][,PARAMETER=VALUE...]")
       ->allow_extra_args(false);
   command->add_option("--store", asked->store, "keep each run in this file, and go on with what is there")
-      ->type_name("FILE.json")
-      ->check(writable_file());
+      ->type_name("FILE.json");
   command->add_flag("--stored", asked->stored, "answer from the store alone, without running");
   command->add_option("--report", asked->report, "write the report as one page")
       ->type_name("FILE.html")

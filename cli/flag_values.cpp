@@ -2,9 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <filesystem>
-#include <stdexcept>
-
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
@@ -43,39 +40,11 @@ std::pair<double, double> read_range(const std::string& flag, const std::string&
 }
 
 CLI::Validator writable_file() {
-  const auto problem = [](const std::string& name) -> std::string {
-    namespace fs = std::filesystem;
-    std::error_code none;
-    const fs::path path(name), folder = path.parent_path();
-    if (fs::is_directory(path, none))
-      return fmt::format("'{}' is a folder, where a file is to be written", clipped(name));
-    if (!folder.empty() && !fs::is_directory(folder, none))
-      return fmt::format("there is no folder '{}'\n  hint: mkdir -p '{}'", folder.string(), folder.string());
-    try {
-      try_to_write(path);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
-  };
-  return {[problem](std::string& name) { return problem(name); }, ""};
+  return {[](std::string& name) { return why_not_writable(name); }, ""};
 }
 
 CLI::Validator writable_folder() {
-  const auto problem = [](const std::string& name) -> std::string {
-    namespace fs = std::filesystem;
-    std::error_code none;
-    for (fs::path path(name); !path.empty(); path = path.parent_path()) {
-      if (fs::is_directory(path, none)) return "";
-      if (fs::exists(path, none))
-        return fmt::format(
-            "'{}' is a file, where a folder is to be made\n  hint: name a new folder, or one that is there",
-            clipped(path.string()));
-      if (path == path.parent_path()) break;
-    }
-    return "";
-  };
-  return {[problem](std::string& name) { return problem(name); }, ""};
+  return {[](std::string& name) { return why_no_folder(name); }, ""};
 }
 
 }  // namespace soilbin::cli

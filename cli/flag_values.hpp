@@ -23,10 +23,11 @@ void set_where_given(const std::string& flag, const std::string& text, const Mea
 /// "LOW..HIGH" [SI], the lower end below the upper one. Throws InputError that names the flag.
 std::pair<double, double> read_range(const std::string& flag, const std::string& text, const Measure& measure);
 
-/// For flags that name a file to write: refuses, before any work is done, what can't become one.
+/// For every flag that names a file to write: tries the place before any work is done, and refuses what can't become
+/// one. Folders that are missing are made when the file is written.
 CLI::Validator writable_file();
 
-/// The same for a folder that is made where it is missing.
+/// The same for a folder that files are written into.
 CLI::Validator writable_folder();
 
 }  // namespace soilbin::cli

@@ -51,7 +51,6 @@ int init(const std::string& folder, const Session&) {
     throw InputError(file.string() + " is there already and stays as it is; name another folder: soilbin init DIR");
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     throw InputError(folder + " is a file; a folder is expected");
-  fs::create_directories(folder);
   write_file_atomically(file, starter_case);
   fmt::print("wrote {}\nnext: soilbin run {}\n", file.string(), file.string());
   return done;

@@ -2,20 +2,18 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
-#include <stdexcept>
 #include <thread>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/result_json.hpp"
 #include "compare/sweep/plausibility.hpp"
-#include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 
@@ -77,24 +75,6 @@ void print_answer(const compare::LoopAnswer& answer, bool only_next) {
   if (sentences.empty()) fmt::print("No condition within the limits would decide more.\n");
 }
 
-/// Page and model, each whether or not the other can be written; the answer has been printed by then.
-void leave_files(const LoopOptions& asked, const compare::Campaign& campaign, const compare::LoopAnswer& answer,
-                 const Session& session) {
-  std::fflush(stdout);
-  std::string failures;
-  const auto leave = [&](const std::string& file, const auto& content) {
-    if (file.empty()) return;
-    try {
-      write_file_atomically(file, content());
-    } catch (const std::runtime_error& error) {
-      failures += (failures.empty() ? "" : "\n") + std::string(error.what());
-    }
-  };
-  leave(asked.report, [&] { return compare::loop_page(campaign, answer, session.command); });
-  leave(asked.model, [&] { return write_case(compare::resolved_model(campaign, answer), session.place.effects); });
-  if (!failures.empty()) throw std::runtime_error(failures);
-}
-
 int loop(const LoopOptions& asked, const Session& session) {
   const compare::Campaign campaign = find_campaign(session.place, asked.campaign);
   print_warnings(compare::doubts(campaign));
@@ -105,6 +85,10 @@ int loop(const LoopOptions& asked, const Session& session) {
   options.limits = read_limits(asked.limits);
   options.progress = shown_progress();
   const compare::LoopAnswer answer = compare::run_loop(campaign, options);
+  Outputs outputs;
+  outputs.file(asked.report, [&] { return compare::loop_page(campaign, answer, session.command); });
+  outputs.file(asked.model,
+               [&] { return write_case(compare::resolved_model(campaign, answer), session.place.effects); });
   if (asked.json) {
     nlohmann::ordered_json document = compare::to_json(answer);
     if (asked.details) document["details"] = compare::details_json(answer);
@@ -112,8 +96,7 @@ int loop(const LoopOptions& asked, const Session& session) {
   } else {
     print_answer(without_given_limits(answer, options.limits), asked.next);
   }
-  leave_files(asked, campaign, answer, session);
-  return done;
+  return outputs.status(done);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -92,12 +94,20 @@ int main(int argc, char** argv) {
   try {
     cli::catch_interrupts();
     const int status = cli::run(argc, argv);
-    return std::fflush(stdout) == 0 ? status : cli::failed;
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+    fmt::print(stderr, "soilbin: the answer can't be written to standard output\n");
+    return cli::failed;
   } catch (const InputError& error) {
     return cli::refuse(error.what());
   } catch (const cli::Interrupted&) {
     fmt::print(stderr, "\nsoilbin: stopped\n");
     return cli::interrupted;
+  } catch (const std::filesystem::filesystem_error& error) {
+    fmt::print(stderr, "soilbin: {}: {}\n", error.path1().string(), error.code().message());
+    return cli::failed;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "soilbin: this needs more memory than there is\n");
+    return cli::failed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "soilbin: {}\n", error.what());
     return cli::failed;

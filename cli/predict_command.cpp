@@ -5,13 +5,13 @@
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/curves.hpp"
 #include "compare/report/result_json.hpp"
 #include "compare/sweep/plausibility.hpp"
 #include "compare/sweep/prediction.hpp"
-#include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {
@@ -40,8 +40,8 @@ int predict(const PredictOptions& options, const Session& session) {
   const Scenario scenario = scenario_for(options, campaign, session.place);
   const auto model = compare::make_model(ModelKind::bekker_wong);
   const compare::Prediction prediction = compare::predict(*model, scenario, campaign, shown_progress());
-  if (!options.plot.empty())
-    write_file_atomically(options.plot, compare::svg(compare::campaign_sheet(campaign, prediction)));
+  Outputs outputs;
+  outputs.drawing(options.plot, [&] { return compare::campaign_sheet(campaign, prediction); });
   if (options.json) {
     fmt::print("{}", compare::json_text(compare::to_json(prediction, campaign.name)));
   } else {
@@ -49,7 +49,7 @@ int predict(const PredictOptions& options, const Session& session) {
                in_words(campaign.wheel), options.model.empty() ? "the declared soil" : options.model,
                prediction_text(prediction));
   }
-  if (prediction.unsolved < prediction.runs.size()) return done;
+  if (prediction.unsolved < prediction.runs.size()) return outputs.status(done);
   fmt::print(stderr, "soilbin: no run of the campaign has a solution\n");
   return failed;
 }
@@ -68,8 +68,8 @@ void add_predict(CLI::App& app, Session& session) {
                    "a resolved model (soilbin-case/1) in place of the declared soil and effects")
       ->type_name("FILE");
   command->add_option("--plot", options->plot, "draw measured and predicted against slip")
-      ->type_name("FILE.svg")
-      ->check(writable_file());
+      ->type_name("FILE.svg|png|pdf")
+      ->check(drawing_file());
   command->add_flag("--json", options->json, "soilbin-predict/1, in SI");
   command->footer("Example: soilbin predict cmu-smooth --plot predicted.svg");
   command->callback([=, &session] { session.action = [=, &session] { return predict(*options, session); }; });

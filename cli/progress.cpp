@@ -7,6 +7,8 @@
 #include <csignal>
 #include <ctime>
 
+#include "scenario/file_lock.hpp"
+
 namespace soilbin::cli {
 namespace {
 
@@ -31,30 +33,54 @@ void remember(int signal) {
   }
 }
 
+using Clock = std::chrono::steady_clock;
+
+/// Where nobody sees a line change: the first word ten seconds after the work began, then one a minute.
+bool a_word_is_due() {
+  constexpr std::chrono::seconds first{10}, every{60};
+  static Clock::time_point due = Clock::now() + first;
+  const Clock::time_point now = Clock::now();
+  if (now < due) return false;
+  due = now + every;
+  return true;
+}
+
+/// Called ten times a second while a lock is waited for.
+void look_up_from_waiting(const std::filesystem::path& place) {
+  if (stop_asked) throw Interrupted();
+  static std::filesystem::path told;
+  if (told == place) return;
+  told = place;
+  fmt::print(stderr, "waiting: another process is writing in {}\n",
+             std::filesystem::absolute(place).lexically_normal().string());
+}
+
 }  // namespace
 
 void catch_interrupts() {
   std::signal(SIGINT, remember);
   std::signal(SIGTERM, remember);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that gets too large is told like a full disk
+  set_while_waiting(look_up_from_waiting);
 }
 
 bool interrupt_asked() { return stop_asked != 0; }
 
 void show_progress_line(const std::string& text) {
-  if (isatty(STDERR_FILENO) != 1) return;
-  fmt::print(stderr, "\r\033[K{}", text);
-  std::fflush(stderr);
+  if (isatty(STDERR_FILENO) == 1) {
+    fmt::print(stderr, "\r\033[K{}", text);
+    std::fflush(stderr);
+  } else if (!text.empty() && a_word_is_due()) {
+    fmt::print(stderr, "{}\n", text);
+    std::fflush(stderr);
+  }
 }
 
 void clear_progress_line() { show_progress_line(""); }
 
 compare::Progress shown_progress() {
-  using Clock = std::chrono::steady_clock;
-  const bool terminal = isatty(STDERR_FILENO) == 1;
-  return [terminal, start = Clock::now(), shown = Clock::now(), open = false](std::size_t done,
-                                                                              std::size_t total) mutable {
+  return [start = Clock::now(), shown = Clock::now(), open = false](std::size_t done, std::size_t total) mutable {
     if (stop_asked) throw Interrupted();
-    if (!terminal) return;
     const Clock::time_point now = Clock::now();
     const double passed = std::chrono::duration<double>(now - start).count();
     const bool last = done == total;

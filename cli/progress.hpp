@@ -1,4 +1,4 @@
-// Long work: how far it is, on standard error where that is a terminal; and a clean stop by Ctrl-C.
+// Long work: how far it is, on standard error; and a clean stop by Ctrl-C.
 #pragma once
 
 #include <stdexcept>
@@ -13,17 +13,21 @@ struct Interrupted : std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-/// From now on Ctrl-C is remembered; another one, a second later or more, ends the program at once.
+/// From now on Ctrl-C is remembered; another one, a second later or more, ends the program at once. Waits for other
+/// processes (FileLock) are told, and end by it too. A file that grows too large is an error like any other.
 void catch_interrupts();
 /// Whether it was pressed.
 bool interrupt_asked();
 
-/// One line that takes the place of the last one, where standard error is a terminal.
+/// What is done now and about how long it takes. On a terminal: one line that takes the place of the last one, to be
+/// called as often as one likes. Elsewhere, in a log say: a line of its own, the first after ten seconds of work, then
+/// one a minute.
 void show_progress_line(const std::string& text);
 /// Takes away the line that shows progress, where there is a terminal.
 void clear_progress_line();
 
-/// Stops at Ctrl-C. Shows the share done and the time left, once the work has taken longer than half a second.
+/// Stops at Ctrl-C. Shows the share done and the time left (show_progress_line), once the work has taken longer than
+/// half a second.
 compare::Progress shown_progress();
 
 }  // namespace soilbin::cli

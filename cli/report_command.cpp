@@ -1,7 +1,6 @@
 // soilbin report: studies and measured campaigns as one HTML page that needs nothing but a browser.
 #include <fmt/core.h>
 
-#include <filesystem>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -32,6 +31,7 @@ std::string command_of(const ReportOptions& options) {
 int report(const ReportOptions& options, const Session& session) {
   if (options.studies.empty() && options.campaigns.empty())
     throw InputError("name a study or a campaign: soilbin report paper-straight --measured cmu-smooth");
+  if (const std::string why = why_not_writable(options.output); !why.empty()) throw InputError("--output: " + why);
   std::vector<compare::StudyPart> studies;
   for (const std::string& name : options.studies) {
     compare::StudyPart part{find_study(session.place, name), {}};
@@ -45,11 +45,9 @@ int report(const ReportOptions& options, const Session& session) {
     part.prediction = compare::predict(*model, compare::scenario_of(part.campaign), part.campaign, shown_progress());
     campaigns.push_back(std::move(part));
   }
-  const std::filesystem::path file = options.output;
-  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
-  write_file_atomically(file,
+  write_file_atomically(options.output,
                         compare::analysis_page(studies, campaigns, {options.title, command_of(options), versions()}));
-  fmt::print("wrote {}: open it in a browser\n", file.string());
+  fmt::print("wrote {}: open it in a browser\n", options.output);
   return done;
 }
 

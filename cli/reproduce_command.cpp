@@ -8,13 +8,14 @@
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
+#include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/report/result_json.hpp"
 #include "compare/reproduction/reproduction_report.hpp"
-#include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/nearest_word.hpp"
@@ -95,7 +96,7 @@ std::vector<Recorded> records_of(std::vector<std::string> files, const compare::
   std::vector<Recorded> records;
   if (files.empty()) files = library_records(findings, place);
   for (const std::string& file : files) {
-    compare::Record record = compare::read_record(file);
+    compare::Record record = read_record_aloud(file);
     const std::string study = study_of(record, file, place);
     const bool asked = std::any_of(findings.all.begin(), findings.all.end(),
                                    [&](const compare::Finding& finding) { return finding.study == study; });
@@ -132,15 +133,16 @@ int reproduce(const ReproduceOptions& options, const Session& session) {
   compare::Reproduction reproduction =
       compare::reproduce(findings, answers_of(findings, records, session.place, remarks));
   reproduction.remarks = remarks;
-  if (!options.report.empty()) {
-    const compare::PageAbout about{"What of " + findings.name + " is reproduced", session.command, versions()};
-    write_file_atomically(options.report, compare::reproduction_page(reproduction, about));
-  }
+  Outputs outputs;
+  outputs.file(options.report, [&] {
+    return compare::reproduction_page(reproduction,
+                                      {"What of " + findings.name + " is reproduced", session.command, versions()});
+  });
   if (options.json)
     fmt::print("{}", compare::json_text(compare::to_json(reproduction)));
   else
     print_text(reproduction);
-  return done;
+  return outputs.status(done);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/converge.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
@@ -64,16 +65,17 @@ nlohmann::ordered_json document_of(const Case& question, const std::vector<compa
   return document;
 }
 
-void save(const RunOptions& options, const Case& question, const std::vector<compare::ModelAnswers>& study,
-          const std::optional<dem::StepCriteria>& step, const Workplace& place) {
-  if (!options.csv.empty()) write_file_atomically(options.csv, compare::study_csv(study));
-  if (!options.plot.empty()) write_file_atomically(options.plot, compare::svg(compare::study_sheet(question, study)));
-  if (options.output.empty()) return;
-  const fs::path folder = options.output;
-  fs::create_directories(folder);
-  write_file_atomically(folder / "case.yaml", write_case(question, place.effects));
-  write_file_atomically(folder / "results.csv", compare::study_csv(study));
-  write_file_atomically(folder / "results.json", compare::json_text(document_of(question, study, step)));
+void save(Outputs& outputs, const RunOptions& options, const Case& question,
+          const std::vector<compare::ModelAnswers>& study, const std::optional<dem::StepCriteria>& step,
+          const Workplace& place) {
+  outputs.file(options.csv, [&] { return compare::study_csv(study); });
+  outputs.drawing(options.plot, [&] { return compare::study_sheet(question, study); });
+  outputs.write(options.output, [&] {
+    const fs::path folder = options.output;
+    write_file_atomically(folder / "case.yaml", write_case(question, place.effects));
+    write_file_atomically(folder / "results.csv", compare::study_csv(study));
+    write_file_atomically(folder / "results.json", compare::json_text(document_of(question, study, step)));
+  });
 }
 
 /// Runs the study; what an interrupted one has recorded stays, and the command says how to go on.
@@ -86,6 +88,10 @@ std::vector<compare::ModelAnswers> answers_to(const Case& question, const compar
       fmt::print(stderr, "\n{} runs are in {}: the same command goes on from there", log->size(),
                  options.soil_bin.record);
     throw;
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {  // a record or a replay that can't be written
+    throw std::runtime_error(fmt::format("{}\n  hint: {}", error.what(), finished_runs_stay));
   }
 }
 
@@ -104,7 +110,8 @@ int run(RunOptions options, const Session& session) {
   options.conditions.pick(question.study, question.scenario.tire);
   const std::optional<dem::StepCriteria> step = step_of(options.soil_bin, question);
   const std::vector<compare::ModelAnswers> study = answers_to(question, make, options, log);
-  save(options, question, study, step, session.place);
+  Outputs outputs;
+  save(outputs, options, question, study, step, session.place);
   print_warnings(compare::doubts(question.scenario.tire, study));
   if (options.json) {
     fmt::print("{}", compare::json_text(document_of(question, study, step)));
@@ -113,7 +120,8 @@ int run(RunOptions options, const Session& session) {
                compare::in_words(question.scenario.soil), step ? in_words(*step) : "", study_text(study));
     if (const std::string notes = notes_on(*log); !notes.empty()) fmt::print("\n{}", notes);
   }
-  if (compare::any_result(study)) return done;
+  forget_runs(*log, outputs);
+  if (compare::any_result(study)) return outputs.status(done);
   fmt::print(stderr, "soilbin: no condition of the study has a solution\n");
   return failed;
 }
@@ -126,8 +134,8 @@ void add_run(CLI::App& app, Session& session) {
   command->add_option("study", options->study, "of the library, or a case file")->type_name("STUDY")->required();
   command->add_option("--model", options->model, "only this model: bekker_wong or dem")->type_name("NAME");
   command->add_option("--plot", options->plot, "draw the curves against slip")
-      ->type_name("FILE.svg")
-      ->check(writable_file());
+      ->type_name("FILE.svg|png|pdf")
+      ->check(drawing_file());
   command->add_option("--csv", options->csv, "save the table")->type_name("FILE.csv")->check(writable_file());
   command->add_option("--output", options->output, "save the resolved case and the results")
       ->type_name("DIR")

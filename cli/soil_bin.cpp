@@ -37,12 +37,12 @@ void show_dem_progress(const dem::Progress& progress) {
                                  known ? fmt::format(", {:.0f} s left", progress.seconds_left) : ""));
 }
 
-namespace {
-
 void tell_beside_progress(const std::string& words) {
   clear_progress_line();
   fmt::print(stderr, "{}\n", words);
 }
+
+namespace {
 
 /// Runs conditions, and keeps a replay of the first run that is made.
 class WatchedRuns {
@@ -98,7 +98,7 @@ class FromRecord : public Model {
 };
 
 std::unique_ptr<const Model> from_record(const SoilBinFlags& flags, const Case& question, const RunLog& log) {
-  compare::Record record = compare::read_record(flags.recorded);
+  compare::Record record = read_record_aloud(flags.recorded);
   // Bed and rig are the record's; tire and grains must be the study's.
   compare::refuse_other_inputs(record, compare::inputs_of({}, question.scenario), flags.recorded,
                                {"tire.", "soil.", "bed.radius", "bed.density", "bed.young", "bed.poisson",
@@ -117,6 +117,11 @@ std::unique_ptr<const Model> running(const SoilBinFlags& flags, const Case& ques
 }
 
 }  // namespace
+
+void check_threads(int threads) {
+  if (threads < 0 || threads > dem::most_threads())
+    throw InputError(fmt::format("--threads: 0 (one a core) .. {}", dem::most_threads()));
+}
 
 dem::DemSettings settings_of(const SoilBinFlags& flags) {
   dem::DemSettings settings;
@@ -137,11 +142,12 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   set_where_given("--settling-friction", flags.settling_friction, {"-", fractions}, settings.settling_friction);
   if (flags.packing < 0) throw InputError("--packing: a seed is 0 or more");
   if (flags.packings < 1) throw InputError("--packings: 1 or more");
-  if (flags.threads < 0) throw InputError("--threads: 0 (one a core) or more");
+  check_threads(flags.threads);
   settings.packing = static_cast<std::uint64_t>(flags.packing);
   settings.beds = folder_of_beds();
   settings.how.threads = flags.threads;
   settings.how.progress = show_dem_progress;
+  settings.how.tell = tell_beside_progress;
   settings.checkpoints.restart = settings.beds;
   settings.checkpoints.tell = tell_beside_progress;
   return settings;
@@ -187,7 +193,8 @@ void SoilBinFlags::add_to(CLI::App& command) {
   command.add_option("--packings", packings, "dem: runs on so many packings, from --packing on, and their mean; 1")
       ->type_name("N");
   command.add_option("--record", record, "dem: keep each run in this file, and go on with what is there")
-      ->type_name("FILE.json");
+      ->type_name("FILE.json")
+      ->check(writable_file());
   command
       .add_option("--recorded", recorded,
                   "dem: answer from this record, without running; without a file from the one in the library")
@@ -243,6 +250,31 @@ nlohmann::ordered_json to_json(const dem::StepCriteria& step) {
           {"rayleigh_time", step.rayleigh},
           {"impact_speed", step.speed},
           {"hertz_time", step.hertz}};
+}
+
+compare::Record read_record_aloud(const fs::path& file) {
+  compare::Record record = compare::read_record(file);
+  if (const std::string note = compare::unsealed_note(record, file); !note.empty())
+    fmt::print(stderr, "note: {}\n", note);
+  return record;
+}
+
+void tell_unsealed(const compare::ExperimentStore& store, const fs::path& file) {
+  if (store.unsealed() > 0)
+    fmt::print(stderr,
+               "note: {}: {} of its {} experiments carry no seal, as from before there were any: damage to them can't "
+               "be told\n",
+               file.string(), store.unsealed(), store.size());
+}
+
+void forget_runs(const std::vector<compare::RecordedRun>& runs, const Outputs& outputs) {
+  if (runs.empty()) return;
+  if (!outputs.complete() || std::fflush(stdout) != 0) {
+    fmt::print(stderr, "soilbin: {}\n", finished_runs_stay);
+    return;
+  }
+  for (const compare::RecordedRun& run : runs)
+    if (run.when_safe) run.when_safe();
 }
 
 std::string notes_on(const std::vector<compare::RecordedRun>& runs) {

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "cli/outputs.hpp"
 #include "cli/workplace.hpp"
+#include "compare/calibrate/experiment_store.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/sweep/answers.hpp"
 #include "dem/bed/work_options.hpp"
@@ -21,6 +23,12 @@ std::filesystem::path folder_of_beds();
 
 /// Stops at Ctrl-C; shows stage, share and time left where standard error is a terminal.
 void show_dem_progress(const dem::Progress& progress);
+
+/// A line on standard error that progress doesn't write over.
+void tell_beside_progress(const std::string& words);
+
+/// Throws InputError for a --threads that no machine has.
+void check_threads(int threads);
 
 /// Flags of the model dem, as typed; empty: the default.
 struct SoilBinFlags {
@@ -56,6 +64,16 @@ compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, 
 /// run that is made, to look at.
 compare::RunOnce run_with(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
                           const std::filesystem::path& file, const std::filesystem::path& replay = {});
+
+/// compare::read_record; says so where no seal vouches for a run.
+compare::Record read_record_aloud(const std::filesystem::path& file);
+/// Tells the experiments of a store that no seal vouches for, where there are any.
+void tell_unsealed(const compare::ExperimentStore& store, const std::filesystem::path& file);
+
+/// After the answer and all files are written: what the runs could be had again from is removed. Where a file is
+/// missing it stays, and the person is told.
+void forget_runs(const std::vector<compare::RecordedRun>& runs, const Outputs& outputs);
+inline constexpr const char* finished_runs_stay = "finished runs are kept: the same command goes on from there";
 
 /// The time step that runs of a question take beside the Rayleigh time and how long an impact lasts at the fastest
 /// rim; no value where none of the question's models is dem.

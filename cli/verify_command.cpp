@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/result_json.hpp"
 #include "dem/verification/fast_engine.hpp"
@@ -45,7 +47,8 @@ void print_table(const std::vector<VerificationRow>& rows) {
 
 int verify(bool json, std::optional<std::uint64_t> incline, const std::string& containing) {
   std::vector<VerificationRow> rows =
-      incline ? dem::incline_rows(*incline) : dem::verification_rows(dem::start_fast_engine);
+      incline ? dem::incline_rows(*incline, show_dem_progress) : dem::verification_rows(dem::start_fast_engine);
+  clear_progress_line();
   std::erase_if(rows, [&](const VerificationRow& row) { return row.name.find(containing) == std::string::npos; });
   const auto passed = std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.pass(); });
   if (json) {

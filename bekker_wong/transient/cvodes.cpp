@@ -163,6 +163,25 @@ void Integrator::Body::begin_sensitivities() {
   check(CVodeSetSensErrCon(m, 1), "the sensitivities' error control");
 }
 
+/// In words, for the statuses that an integration ends with.
+const char* why_stopped(int status) {
+  switch (status) {
+    case CV_TOO_MUCH_WORK:
+      return "it would take more steps in time than are allowed";
+    case CV_TOO_MUCH_ACC:
+      return "the accuracy that is asked for is more than its numbers hold";
+    case CV_ERR_FAILURE:
+    case CV_SRHSFUNC_FAIL:
+      return "its steps in time became too short to go on";
+    case CV_CONV_FAILURE:
+    case CV_LSETUP_FAIL:
+    case CV_LSOLVE_FAIL:
+      return "the forces change too abruptly there for a step in time to be solved";
+    default:
+      return "its forces can't be had there";
+  }
+}
+
 Integrator::Integrator(Problem problem, double start, std::vector<double> state)
     : body_(std::make_unique<Body>(std::move(problem), start, std::move(state))) {}
 Integrator::~Integrator() = default;
@@ -174,7 +193,8 @@ Stop Integrator::advance(double until) {
   if (b.thrown) std::rethrow_exception(std::exchange(b.thrown, nullptr));
   if (status < 0)
     throw std::runtime_error(
-        fmt::format("the integration in time stops at {:.6g} s (CVODES status {}): {}", reached, status, b.message));
+        fmt::format("the motion can't be followed beyond {:.6g} s: {}\n  hint: a gentler motor, way or soil there",
+                    reached, why_stopped(status)));
   b.time = reached;
   const std::span<const double> y = all_of(b.y.get());
   b.state.assign(y.begin(), y.end());

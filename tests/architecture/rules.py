@@ -25,6 +25,8 @@ LIBRARIES = {
     "fmt/": ["scenario/", "bekker_wong/", "dem/", "compare/", "cli/", "notebooks/", "tests/", "bench/"],
     "boost/": ["compare/", "cli/serve/server.cpp", "tests/"],  # the server: Beast and Asio
     "CLI/": ["cli/"],
+    "librsvg/": ["cli/picture.cpp"],  # the wrapper: drawings as PNG and PDF
+    "cairo": ["cli/picture.cpp"],
     "gtest/": ["tests/"],
     "gmock/": ["tests/"],
     "rapidcheck": ["tests/"],

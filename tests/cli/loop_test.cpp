@@ -61,9 +61,10 @@ TEST(SlowLoopCommand, AsksForARunWithinTheLimits) {
 // What can't be written is refused before minutes of work, not after them.
 TEST(LoopCommand, RefusesAFileThatCannotBeWrittenBeforeItWorks) {
   const Scratch scratch;
-  const Outcome outcome = soilbin("loop made-lesson --save-model '" + (scratch / "none" / "model.yaml").string() + "'");
+  scratch.write("file", "in the way");
+  const Outcome outcome = soilbin("loop made-lesson --save-model '" + (scratch / "file" / "model.yaml").string() + "'");
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("there is no folder"));
+  EXPECT_THAT(outcome.err, HasSubstr("is a file, where a folder is to be"));
   EXPECT_EQ(outcome.out, "");
   EXPECT_THAT(soilbin("run paper-straight --csv '" + (scratch / "").string() + "'").err, HasSubstr("is a folder"));
 }
@@ -73,7 +74,7 @@ TEST(LoopCommand, TriesThePlacesOfItsFilesBeforeItWorks) {
   for (const std::string flag : {"--report", "--save-model"}) {
     const Outcome outcome = soilbin("loop made-lesson " + flag + " /proc/left.file");
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr(flag), HasSubstr("/proc/left.file: can't create a file in its folder")));
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(flag), HasSubstr("no file can be made in '/proc'")));
     EXPECT_EQ(outcome.out, "");
   }
 }

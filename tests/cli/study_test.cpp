@@ -216,11 +216,12 @@ TEST(Run, NamesTheNearestStudy) {
   EXPECT_THAT(r.err, HasSubstr("did you mean 'paper-straight'?"));
 }
 
-TEST(Run, AFileThatCannotBeWrittenIsAFailure) {
-  const Scratch scratch;  // a name that no file system takes is found out only by writing
+TEST(Run, AFileThatCannotBeWrittenIsRefusedBeforeAnyWork) {
+  const Scratch scratch;  // a name that no file system takes
   const Outcome r = soilbin("run rover-slip --plot '" + (scratch / (std::string(300, 'p') + ".svg")).string() + "'");
-  EXPECT_EQ(r.status, 1);
-  EXPECT_THAT(r.err, HasSubstr("ppp.svg"));
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("File name too long"));
+  EXPECT_EQ(r.out, "");
 }
 
 // As the demo does it: the page's folder is made where there is none.

@@ -1,0 +1,34 @@
+// The files that a command is asked for: tried before the work, written after it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "compare/report/plot.hpp"
+
+namespace soilbin::cli {
+
+/// Writes files at the end of a command. One that can't be written is told on standard error, and the others are still
+/// written and the answer printed: the work isn't lost for a disk that is full.
+class Outputs {
+ public:
+  /// Calls `write`, which writes what was named, where anything was.
+  void write(const std::string& name, const std::function<void()>& write);
+  void file(const std::string& name, const std::function<std::string()>& content);
+  /// A drawing in the format that the name's ending says.
+  void drawing(const std::string& name, const std::function<compare::Sheet()>& sheet);
+
+  bool complete() const { return complete_; }
+  /// The command's exit status: `so_far`, or `failed` where a file is missing.
+  int status(int so_far) const;
+
+ private:
+  bool complete_ = true;
+};
+
+/// For flags that name a drawing: writable_file (flag_values.hpp), with an ending that tells a format, .svg, .png or
+/// .pdf.
+CLI::Validator drawing_file();
+
+}  // namespace soilbin::cli
