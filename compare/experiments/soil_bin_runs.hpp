@@ -16,8 +16,8 @@ namespace soilbin::compare {
 /// finished one can be had again until its when_safe is called.
 class SoilBinRuns {
  public:
-  /// `source`: state of the sources that the program was built from. The packing, on_run and forget_finished of `settings` are
-  /// not read.
+  /// `source`: state of the sources that the program was built from. The packing, on_run and forget_finished of
+  /// `settings` are not read.
   SoilBinRuns(dem::DemSettings settings, std::string source);
   RecordedRun operator()(const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing);
 

@@ -19,8 +19,8 @@ struct Restart {
   Notes notes;
 };
 
-/// Writes a whole restart or nothing; the one that was there before stays as path + ".previous", where it is to be kept.
-/// The same setup, state and notes give the same bytes. Throws std::runtime_error where the disk refuses.
+/// Writes a whole restart or nothing; the one that was there before stays as path + ".previous", where it is to be
+/// kept. The same setup, state and notes give the same bytes. Throws std::runtime_error where the disk refuses.
 void write_restart(const std::filesystem::path& path, const Setup& setup, const State& state, const Notes& notes = {},
                    Keep keep = Keep::previous);
 

@@ -65,6 +65,8 @@ Record made_record() {
 TEST(Record, FromBeforeTheRestWasToldKeepsItWithoutABound) {
   Record old = made_record();
   old.runs[0].answer.result->budget.push_back({"between_samples", -0.125});
+  old.sealed = false;  // nor were there seals
+  for (RecordedRun& run : old.runs) run.sealed = false;
   std::string text = record_text(old);
   const std::string key = R"("budget_rest":{"force":null,"bound":null},)";
   ASSERT_THAT(text, HasSubstr(key));
