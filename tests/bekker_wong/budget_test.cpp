@@ -58,6 +58,15 @@ TEST(Budget, InstrumentsAddTheirOwnPartAndChangeNoOther) {
   }
 }
 
+// At amplitude 0 an effect adds no part, not even one of 0 N; a row of an effect that does nothing would be a riddle.
+TEST(Budget, AnEffectAtAmplitudeZeroHasNoPart) {
+  const std::vector<double> plain = parts_of_the_wheel(told({}, yawed_uphill()));
+  for (const EffectForm& form : effect_catalogue()) {
+    const EffectChoice off{form.id, form.form, {{form.parameters.front().name, 0.0}}};
+    EXPECT_EQ(parts_of_the_wheel(told(make_effects({off}), yawed_uphill())), plain) << form.id << " " << form.form;
+  }
+}
+
 // A newton that the soil gave, though no part says so; and one that an instrument added.
 TEST(Budget, AForceThatNoPartNamesIsTheRest) {
   RolledWheel wheel = wheel_on(sand()).roll(yawed_uphill());
