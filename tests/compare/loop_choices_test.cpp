@@ -1,0 +1,57 @@
+// What the loop makes of effects near the edge of what the data can tell, and what it would measure next.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "compare/loop/loop.hpp"
+#include "compare/loop_fixture.hpp"
+#include "compare/measured/condition_views.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+LoopAnswer answer_to(double slip_sinkage, std::uint64_t seed) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {{"slip_sinkage", "lyasko", {{"a", slip_sinkage}}}}, fine_noise, seed);
+  LoopOptions options;
+  options.identify.simulations = 1000;
+  options.validate = false;
+  return run_loop(campaign, options);
+}
+
+// Slip sinkage of a thirtieth of its usual size: the trace is seen at 3 % of chance, but conditions left out are
+// predicted no better with it, by the gain's own error. So nothing is named.
+TEST(LoopChoices, AnEffectThatPredictsNothingIsNotNamed) {
+  const LoopAnswer answer = answer_to(0.03, 23);
+  ASSERT_LT(answer.details.p_value, 0.05);
+  ASSERT_LT(answer.choice_gain.mean, 2 * answer.choice_gain.std_error);
+  EXPECT_EQ(answer.verdict, Verdict::nothing_missing) << answer.reason;
+  EXPECT_THAT(answer.reason, testing::HasSubstr("does not predict held-out conditions better"));
+  EXPECT_TRUE(answer.effects.empty());
+  EXPECT_FALSE(answer.next);
+}
+
+// Slip sinkage is found, alone. The next run sets it against the set behind, within what the campaign allows.
+TEST(LoopChoices, TheNextRunLiesWithinTheLimitsAndSetsTheBestAgainstAnother) {
+  const LoopAnswer answer = answer_to(0.5, 22);
+  ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
+  ASSERT_TRUE(answer.next);
+  const NextTest& next = *answer.next;
+  const Limits limits = limits_of(answer.details.observations);
+  ASSERT_EQ(next.quantities.size(), limits.size());
+  for (const std::string& name : next.quantities) {
+    const double value = condition_view(name).get(next.at);
+    EXPECT_GE(value, limits.at(name).first) << name;
+    EXPECT_LE(value, limits.at(name).second) << name;
+  }
+  ASSERT_EQ(next.separates.size(), 2U);
+  EXPECT_EQ(next.separates[0], std::set<std::string>{"slip_sinkage"});
+  EXPECT_NE(next.separates[1], next.separates[0]);
+  EXPECT_GE(next.runs, 1);
+  EXPECT_LE(next.runs, 50);
+  EXPECT_GT(next.distance, 0.0);
+}
+
+}  // namespace
+}  // namespace soilbin::compare
