@@ -20,12 +20,16 @@ LoopAnswer answer_to(double slip_sinkage, std::uint64_t seed) {
   return run_loop(campaign, options);
 }
 
-// Slip sinkage of a thirtieth of its usual size: the trace is seen at 3 % of chance, but conditions left out are
-// predicted no better with it, by the gain's own error. So nothing is named.
+// Slip sinkage of a thirtieth of its usual size is at the edge of what these data show. In some campaigns its trace
+// stands out (p below 5 %), but conditions left out are predicted no better with it, by the gain's own error. Then
+// nothing is named. Among campaigns drawn so the first such one is looked at; about one in thirty is.
 TEST(LoopChoices, AnEffectThatPredictsNothingIsNotNamed) {
-  const LoopAnswer answer = answer_to(0.03, 23);
-  ASSERT_LT(answer.details.p_value, 0.05);
-  ASSERT_LT(answer.choice_gain.mean, 2 * answer.choice_gain.std_error);
+  const auto seen_but_useless = [](const LoopAnswer& a) {
+    return a.details.best && a.details.p_value < 0.05 && a.choice_gain.mean < a.choice_gain.std_error;
+  };
+  LoopAnswer answer;
+  for (std::uint64_t seed = 23; seed < 150 && !seen_but_useless(answer); ++seed) answer = answer_to(0.03, seed);
+  ASSERT_TRUE(seen_but_useless(answer));
   EXPECT_EQ(answer.verdict, Verdict::nothing_missing) << answer.reason;
   EXPECT_THAT(answer.reason, testing::HasSubstr("does not predict held-out conditions better"));
   EXPECT_TRUE(answer.effects.empty());
