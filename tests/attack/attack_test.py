@@ -80,8 +80,19 @@ class Attack(unittest.TestCase):
 
     def start(self, *words, **more):
         environment = self.environment(**more.pop("environment", {}))
-        return subprocess.Popen([SOILBIN, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                env=environment, cwd=self.here, **more)
+        process = subprocess.Popen([SOILBIN, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                   env=environment, cwd=self.here, **more)
+        self.addCleanup(self.end, process)
+        return process
+
+    @staticmethod
+    def end(process):
+        """Nothing that a test started outlives it."""
+        if process.poll() is None:
+            process.kill()
+            process.wait()
+        for pipe in (process.stdout, process.stderr):
+            pipe.close()
 
     def soilbin(self, *words, within=120, **more):
         process = self.start(*words, **more)
@@ -438,12 +449,7 @@ class TheLivePage(Attack):
 
     def serve(self, **more):
         self.process = self.start("serve", "--port", "0", "paper-straight", "--load", "4kN", **more)
-        self.addCleanup(self.stop)
         self.port = int(self.process.stdout.readline().strip().rstrip("/").rsplit(":", 1)[1])
-
-    def stop(self):
-        self.process.kill()
-        self.process.communicate()
 
     def ask(self, target, method="GET", body=None, **headers):
         line = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
