@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bekker_wong/standard_errors.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 #include "scenario/soil_parameters.hpp"
@@ -65,30 +66,6 @@ std::vector<StressSample> stresses_of(const ContactPatch& patch) {
   return samples;
 }
 
-/// Adds standard errors: sd of each soil value times the central difference of the results over it.
-void propagate(TractionResult& result, const Scenario& scenario, const EffectList& effects,
-               const OperatingCondition& at) {
-  const SemiEmpiricalSoil& soil = *scenario.soil.semi_empirical;
-  std::array<double, 4> variance{};
-  const SoilValues base = values_of(soil);
-  for (std::size_t p = 0; p < soil_parameters.size(); ++p) {
-    const double sd = (soil.*soil_parameters[p].value).std_error;
-    const auto value = soil_members[p];
-    if (!(sd > 0.0)) continue;
-    const double step = 1e-3 * sd;
-    SoilValues up = base, down = base;
-    up.*value += step;
-    down.*value -= std::min(step, value == &SoilValues::cohesion ? base.cohesion : step);
-    const Reading a = RollingWheel(scenario.tire, up, effects, scenario.bin).roll(at).reading;
-    const Reading b = RollingWheel(scenario.tire, down, effects, scenario.bin).roll(at).reading;
-    const double share = sd / (up.*value - down.*value);
-    for (std::size_t i = 0; i < variance.size(); ++i)
-      variance[i] += std::pow(share * (a.*reading_members[i] - b.*reading_members[i]), 2);
-  }
-  for (std::size_t i = 0; i < variance.size(); ++i)
-    (result.*traction_channels[i].predicted).std_error = std::sqrt(variance[i]);
-}
-
 }  // namespace
 
 TractionResult traction_result(const RolledWheel& wheel, const Tire& tire, bool with_patch) {
@@ -114,8 +91,9 @@ TractionResult BekkerWong::evaluate(const Scenario& scenario, const OperatingCon
     throw InputError("soil '" + scenario.soil.name + "' has no semi_empirical values, which bekker_wong needs");
   const EffectList effects = make_effects(scenario.effects);
   const RollingWheel wheel(scenario.tire, values_of(*scenario.soil.semi_empirical), effects, scenario.bin);
-  TractionResult result = traction_result(wheel.roll(at), scenario.tire, detail_.patch);
-  if (detail_.errors) propagate(result, scenario, effects, at);
+  const RolledWheel balanced = wheel.roll(at);
+  TractionResult result = traction_result(balanced, scenario.tire, detail_.patch);
+  if (detail_.errors) add_standard_errors(result, balanced, scenario, effects);
   return result;
 }
 

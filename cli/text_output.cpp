@@ -8,6 +8,7 @@
 
 #include "compare/measured/channels.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/nearest_word.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::cli {
@@ -121,6 +122,11 @@ std::vector<Reading> readings(const TractionResult& r) {
         fmt::format("; {} N of it is in none of these{}", number(rest.force),
                     std::isfinite(rest.bound) ? fmt::format(" (sampling leaves up to {} N)", number(rest.bound)) : "");
   all.push_back({"Drawbar pull is", sum, ""});
+  if (!r.without_error_of.empty())
+    all.push_back(
+        {"Standard errors",
+         fmt::format("leave out the soil's {}: the results have no derivative by it here", listed(r.without_error_of)),
+         ""});
   return all;
 }
 

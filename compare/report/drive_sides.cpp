@@ -8,6 +8,7 @@
 
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/report/number_text.hpp"
+#include "scenario/errors.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
@@ -27,6 +28,7 @@ constexpr std::array<SteadyValue, 5> steady_values = {{{"speed", "cm/s", 100, &d
                                                        {"soil force", "N", 1, &dem::SteadyDrive::forward}}};
 
 using bekker_wong::DriveRecord;
+using Steady = std::optional<dem::SteadyDrive>;
 
 /// Why the end of an analytic drive is not a steady state, or nothing: the setpoint and the way have stopped changing,
 /// and so has the speed, to a thousandth over the last twentieth of the time.
@@ -55,34 +57,43 @@ dem::SteadyDrive values_at(const DriveState& end) {
   return steady;
 }
 
-/// Adds errors: sd of each soil value times the central difference of the steady values over it. A drive that doesn't
-/// become steady with a changed soil leaves that value out, and says so.
+/// The steady values of the drive with one parameter of the soil changed; nothing where it then has no steady state.
+Steady steady_with(const Case& question, const SoilParameter& parameter, double value) try {
+  Scenario scenario = question.scenario;
+  ((*scenario.soil.semi_empirical).*parameter.value).value = value;
+  const DriveRecord record = bekker_wong::drive_wheel(scenario, *question.drive, 40);
+  if (!unsteady(record, *question.drive).empty()) return std::nullopt;
+  return values_at(record.samples.back());
+} catch (const NoSolution&) {
+  return std::nullopt;
+}
+
+/// Adds errors: sd of each parameter of the soil times the difference of the steady values over it, central or, where
+/// one side passes a bound or has no steady state, one-sided. Names the parameters that are left out for want of both.
 std::string add_doubt(dem::SteadyDrive& steady, const Case& question) {
   constexpr double nudge = 0.1;  // of the standard deviation
   std::array<double, steady_values.size()> variance{};
   std::string left_out;
   for (const SoilParameter& parameter : soil_parameters) {
-    const auto value = parameter.value;
-    const Estimate of = (*question.scenario.soil.semi_empirical).*value;
+    const Estimate of = (*question.scenario.soil.semi_empirical).*parameter.value;
     if (!(of.std_error > 0.0)) continue;
-    const auto end_with = [&](double changed) {
-      Scenario scenario = question.scenario;
-      ((*scenario.soil.semi_empirical).*value).value = changed;
-      const DriveRecord record = bekker_wong::drive_wheel(scenario, *question.drive, 40);
-      if (!unsteady(record, *question.drive).empty()) left_out = "a soil value's doubt would keep it from steadiness";
-      return values_at(record.samples.back());
-    };
-    const double high = of.value + nudge * of.std_error;
-    const double low =
-        std::max(of.value - nudge * of.std_error, value == &SemiEmpiricalSoil::cohesion ? 0.0 : -INFINITY);
-    const dem::SteadyDrive up = end_with(high), down = end_with(low);
+    const auto [below, above] = neighbours(of.value, nudge * of.std_error, parameter.range);
+    const Steady down = below < of.value ? steady_with(question, parameter, below) : std::nullopt;
+    const Steady up = above > of.value ? steady_with(question, parameter, above) : std::nullopt;
+    if (!down && !up) {
+      left_out += (left_out.empty() ? "" : ", ") + std::string(parameter.symbol);
+      continue;
+    }
+    const double width = (up ? above : of.value) - (down ? below : of.value);
     for (std::size_t i = 0; i < variance.size(); ++i) {
       const auto member = steady_values[i].value;
-      variance[i] += std::pow(of.std_error * ((up.*member).value - (down.*member).value) / (high - low), 2);
+      const double change = ((up ? *up : steady).*member).value - ((down ? *down : steady).*member).value;
+      variance[i] += std::pow(of.std_error * change / width, 2);
     }
   }
   for (std::size_t i = 0; i < variance.size(); ++i) (steady.*steady_values[i].value).std_error = std::sqrt(variance[i]);
-  return left_out;
+  if (left_out.empty()) return "";
+  return "the standard errors leave out the soil's " + left_out + ": the drive has no steady state beside it";
 }
 
 template <class Sample>
@@ -91,8 +102,6 @@ DriveSideSample side_sample(const Sample& sample, double soil) {
   out.energy = sample.energy;
   return out;
 }
-
-using Steady = std::optional<dem::SteadyDrive>;
 
 std::vector<DriveDifference> differences_of(const Steady& analytic, const Steady& grains) {
   std::vector<DriveDifference> rows;

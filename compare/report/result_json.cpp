@@ -158,6 +158,7 @@ Json to_json(const Answer& answer) {
     WriteJson visitor(row);
     result_fields(visitor, *answer.result);
     row["tractive_efficiency"] = finite(told_efficiency(*answer.result));
+    if (!answer.result->without_error_of.empty()) row["std_error_without"] = answer.result->without_error_of;
   } else {
     row["error"] = answer.error;
   }

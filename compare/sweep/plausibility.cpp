@@ -145,10 +145,11 @@ Warnings doubts(const SemiEmpiricalSoil& soil) {
   for (const auto& [name, value] :
        {std::pair{"n", soil.exponent}, {"phi", soil.friction_angle}, {"K", soil.shear_modulus}})
     if (value.std_error > 0.6 * value.value)
-      warnings.push_back(
-          fmt::format("the standard deviation of {} is {:.0f} % of its value: errors propagated to first "
-                      "order are a rough guide",
-                      name, 100 * value.std_error / value.value));
+      warnings.push_back((value.value > 0.0
+                              ? fmt::format("the standard deviation of {} is {:.0f} % of its value", name,
+                                            100 * value.std_error / value.value)
+                              : fmt::format("{} is 0 with a standard deviation, and can only be larger", name)) +
+                         ": errors propagated to first order are a rough guide");
   return warnings;
 }
 

@@ -54,6 +54,8 @@ void bind_result(py::module_& module) {
       .def_property_readonly("patch", &patch_of,
                              "stresses [Pa] under the wheel, from exit to entry: arrays theta [rad], normal, shear, "
                              "lateral_shear; views of the result, not copies")
+      .def_readonly("without_error_of", &R::without_error_of,
+                    "parameters of the soil that the standard errors leave out: the results have no derivative by them")
       .def("__repr__", [](const R& r) {
         return fmt::format("TractionResult(drawbar_pull={:.4g} N, torque={:.4g} N m, sinkage={:.4g} m)",
                            r.drawbar_pull.value, r.torque.value, r.sinkage.value);

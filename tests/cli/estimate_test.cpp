@@ -83,6 +83,23 @@ TEST(Estimate, AWheelSettledDeeperThanTheModelIsMeantForIsTold) {
   EXPECT_FALSE(soilbin("estimate " + wheel + "--slip 20% --json").json().contains("warnings"));
 }
 
+// A clay without friction and a sand without cohesion, both in doubt: admissible, so they have an answer and its error.
+TEST(Estimate, ASoilAtABoundHasItsErrors) {
+  const Scratch scratch;
+  for (const char* strength : {"cohesion: 20 kPa, friction_angle: {value: 0 deg, sd: 3 deg}",
+                               "cohesion: {value: 0 kPa, sd: 0.5 kPa}, friction_angle: 30 deg"}) {
+    const fs::path soil = scratch.write(
+        "soil.yaml", std::string("format: soilbin-soil/1\nsemi_empirical: {exponent: 1, k_c: 0 kN/m^(n+1), "
+                                 "k_phi: 2000 kN/m^(n+2), shear_modulus: 20 mm, stress_angle_c1: 0.2, "
+                                 "stress_angle_c2: 0.3, ") +
+                         strength + "}\n");
+    const Outcome r =
+        soilbin("estimate --soil '" + soil.string() + "' --radius 110mm --width 100mm --load 80N --slip 20% --json");
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_GT(r.json()["rows"][0]["std_error"]["drawbar_pull"].get<double>(), 0.0) << strength;
+  }
+}
+
 TEST(Estimate, WhatIsGivenAndChangesNothingIsTold) {
   const std::string base = "estimate " + wheel + "--slip 20% ";
   const struct {

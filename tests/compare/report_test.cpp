@@ -112,6 +112,13 @@ TEST(ResultJson, NotANumberIsNullAndErrorsStand) {
   EXPECT_EQ(to_json(Answer{{}, std::nullopt, "why"})["error"], "why");
 }
 
+TEST(ResultJson, StandardErrorsSayWhatTheyLeaveOut) {
+  TractionResult result;
+  EXPECT_FALSE(to_json(Answer{{}, result, ""}).contains("std_error_without"));
+  result.without_error_of = {"k_c", "cohesion"};
+  EXPECT_EQ(to_json(Answer{{}, result, ""})["std_error_without"].dump(), R"(["k_c","cohesion"])");
+}
+
 TEST(ResultJson, CsvRowsHaveAsManyCellsAsTheHeader) {
   std::vector<ModelAnswers> study(1);
   study[0].choice.label = "a, b";

@@ -743,6 +743,9 @@ class TractionResult:
         """stresses [Pa] under the wheel, from exit to entry: arrays theta [rad], normal, shear, lateral_shear; views of
         the result, not copies
         """
+    @property
+    def without_error_of(self) -> list[str]:
+        """parameters of the soil that the standard errors leave out: the results have no derivative by them"""
 
 def channels() -> list[str]:
     """Names of the four channels, in the order of every table."""

@@ -1,0 +1,62 @@
+// Standard errors of a balanced wheel's channels, from the standard deviations of the soil's parameters.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "bekker_wong/contact_stages.hpp"
+#include "bekker_wong/rolling_wheel.hpp"
+#include "scenario/scenario.hpp"
+#include "scenario/traction_channels.hpp"
+
+namespace soilbin::bekker_wong {
+
+/// How a balanced wheel's channels change with the soil, by the implicit function theorem: where the load carried,
+/// V(theta_1, p) = W, keeps theta_1 in balance, dr/dp = r_p - r_theta V_p/V_theta (subscripts: partial derivatives).
+/// No soil but the declared one needs a balance, so the derivatives exist up to the largest load, where V_theta = 0.
+///
+/// Partial derivatives are central differences on the nodes of the balanced wheel; one-sided where the other side
+/// passes a bound of the parameter or has no wheel. They agree with differences of balanced wheels to 1e-5
+/// (standard_errors_test.cpp).
+class BalanceDerivatives {
+ public:
+  using Channels = std::array<double, traction_channels.size()>;
+
+  /// balance_angle: theta_1 of the wheel in balance [rad]. What is referred to must outlive this.
+  BalanceDerivatives(const Tire& tire, const SoilValues& soil, const EffectList& effects, const std::optional<Bin>& bin,
+                     const OperatingCondition& at, double balance_angle);
+
+  /// By soil_parameters[parameter]; `sd`, its standard deviation, sets the step [SI]. Not finite where there is none.
+  Channels by(std::size_t parameter, double sd) const;
+
+ private:
+  /// What a wheel carries and shows at one value of what is varied.
+  struct Point {
+    double x = 0.0;
+    double carried = 0.0;
+    Channels channels{};
+  };
+  using OnePoint = std::optional<Point>;
+
+  OnePoint point(const SoilValues& soil, double theta_1, double x) const;
+  /// Slopes over x, in place of values; one-sided where a point is missing, not a number without both.
+  Point slopes(const OnePoint& below, const OnePoint& above) const;
+
+  const Tire& tire_;
+  const SoilValues& soil_;
+  const EffectList& effects_;
+  const std::optional<Bin>& bin_;
+  const OperatingCondition& at_;
+  double theta_1_;
+  NodeLayout nodes_;
+  OnePoint here_;
+  Point by_angle_;
+};
+
+/// Sets the channels' standard errors, the root of the sum of (sd dr/dp)^2 over the soil's parameters, and names in
+/// without_error_of each parameter whose derivative does not exist.
+void add_standard_errors(TractionResult& result, const RolledWheel& balanced, const Scenario& scenario,
+                         const EffectList& effects);
+
+}  // namespace soilbin::bekker_wong
