@@ -115,12 +115,12 @@ struct EffectParameter {
   double spread = 0.0;
 };
 
-/// One published (or stated) form of an effect. parameters[0] is its amplitude: at 0 the form is the base model.
+/// One form of an effect. parameters[0] is its amplitude: at 0 the form is the base model.
 struct EffectForm {
   std::string id;  ///< of the catalogue
   std::string form;
   std::string equation;  ///< one line, plain text
-  std::string source;    ///< paper and equation, or "after X"
+  std::string source;    ///< paper and equation, "after X", or "stated"
   std::vector<EffectParameter> parameters;
   bool measurement = false;  ///< an effect of the rig or the bed, not of the wheel on the soil
   /// How far nature may differ from this form, as a share of the effect: what a wrong form leaves over is not taken for

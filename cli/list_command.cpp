@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "bekker_wong/effect.hpp"
+#include "bekker_wong/effects/provenance.hpp"
 #include "cli/commands.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/result_json.hpp"
@@ -132,6 +133,7 @@ Json effect_json(const bekker_wong::EffectForm& form) {
           {"form", form.form},
           {"equation", form.equation},
           {"source", form.source},
+          {"provenance", in_words(provenance_of(form))},
           {"of", form.measurement ? "measurement" : "wheel"},
           {"parameters", parameters},
           {"presumes", presumes}};

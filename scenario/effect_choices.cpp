@@ -33,7 +33,7 @@ EffectChoice read_effect(const YamlNode& node, const EffectVocabulary& vocabular
   EffectChoice choice;
   choice.id = ids[read_word(id_node, ids, reading)];
   const std::vector<EffectFormWords> forms = vocabulary.forms(choice.id);
-  const YamlNode* form_node = plain ? nullptr : value_of(node, "form", Need::optional, "published form", reading);
+  const YamlNode* form_node = plain ? nullptr : value_of(node, "form", Need::optional, "form of the effect", reading);
   const EffectFormWords& form = read_form(form_node, forms, reading);
   choice.form = form.form;
   const YamlNode* values =

@@ -21,7 +21,7 @@ struct Bin {
 /// An effect that a case switches on, as a person names it. Parameters left out keep the form's defaults.
 struct EffectChoice {
   std::string id;                            ///< of the catalogue, e.g. "slip_sinkage"
-  std::string form;                          ///< published form, e.g. "lyasko"; empty: the effect's first form
+  std::string form;                          ///< of the effect, e.g. "lyasko"; empty: the effect's first form
   std::map<std::string, double> parameters;  ///< SI units
 };
 

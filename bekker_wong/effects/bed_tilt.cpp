@@ -92,7 +92,7 @@ class AlongWithLoad final : public Effect {
 }  // namespace
 
 std::vector<EffectForm> bed_tilt_forms() {
-  const std::string id = "bed_tilt", source = "statics, stated here";
+  const std::string id = "bed_tilt", source = "stated here: statics";
   return {
       {.id = id,
        .form = "along",

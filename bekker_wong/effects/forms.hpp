@@ -1,4 +1,5 @@
-// The published forms of each effect: one function a file of this folder, called by catalogue.cpp.
+// The forms of each effect: one function a file of this folder, called by catalogue.cpp. Whose they are:
+// provenance.hpp.
 #pragma once
 
 #include <vector>

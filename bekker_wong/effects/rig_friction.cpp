@@ -44,7 +44,7 @@ double gears(const Parameters& p, const Reading& reading, const Surroundings&) {
 }  // namespace
 
 std::vector<EffectForm> rig_friction_forms() {
-  const std::string id = "rig_friction", source = "machine elements, stated here";
+  const std::string id = "rig_friction", source = "stated here: machine elements";
   return {
       {.id = id,
        .form = "coulomb",

@@ -111,7 +111,8 @@ void bind_effects(py::module_& module) {
       .def_readonly("lower", &EffectParameter::lower)
       .def_readonly("upper", &EffectParameter::upper)
       .def_readonly("meaning", &EffectParameter::meaning);
-  py::class_<EffectForm>(module, "EffectForm", "One published form of an effect.")
+  py::class_<EffectForm>(module, "EffectForm",
+                         "One form of an effect: as published, after a source, or ours; its source says which.")
       .def_readonly("id", &EffectForm::id)
       .def_readonly("form", &EffectForm::form)
       .def_readonly("equation", &EffectForm::equation)

@@ -1,9 +1,11 @@
-// The base model and exit_angle against published inputs and closed forms (docs/verification.md).
+// The base model where independent codes agree, on the soils of Wong's table, and against a closed form
+// (docs/verification.md).
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
+#include "bekker_wong/agreed_points.hpp"
 #include "bekker_wong/bed_fixture.hpp"
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/effect.hpp"
@@ -19,74 +21,25 @@ namespace {
 using bed::driven;
 using bed::smooth_tire;
 
-// Two independent public codes agree on this point to all digits given.
-TEST(Published, LightWheelAtSixtyPercentSlip) {
-  const SoilValues soil{.exponent = 1,
-                        .k_c = 1.4e3,
-                        .k_phi = 8.2e5,
-                        .cohesion = 170,
-                        .friction_angle = 46 * degree,
-                        .shear_modulus = 0.018,
-                        .c1 = 0.4,
-                        .c2 = 0.2};
-  const RolledWheel w = RollingWheel(smooth_tire(0.1, 0.1), soil).roll(driven(40, 0.6));
-  EXPECT_NEAR(w.reading.sinkage, 17.789e-3, 0.5e-6);
-  EXPECT_NEAR(w.reading.drawbar_pull, 11.7861, 5e-5);
-  EXPECT_NEAR(w.reading.torque, 2.3489, 5e-5);
+// Two independent codes agree on each of these to the digits told.
+TEST(AgreedPoints, AreTheModels) {
+  for (const AgreedPoint& point : agreed_points()) {
+    const Reading reading = reading_at(point);
+    EXPECT_NEAR(reading.sinkage, point.sinkage.value, point.sinkage.half_unit) << point.name;
+    EXPECT_NEAR(reading.drawbar_pull, point.drawbar_pull.value, point.drawbar_pull.half_unit) << point.name;
+    EXPECT_NEAR(reading.torque, point.torque.value, point.torque.half_unit) << point.name;
+    EXPECT_LE(worst_difference(point, reading), 1.0) << point.name;
+  }
 }
 
-TEST(Published, Ishigami2007WithAndWithoutRebound) {
-  const SoilValues soil{.exponent = 1,
-                        .k_c = 1370,
-                        .k_phi = 8.14e5,
-                        .cohesion = 800,
-                        .friction_angle = 37.2 * degree,
-                        .shear_modulus = 0.036,
-                        .c1 = 0.4,
-                        .c2 = 0.15};
-  const Tire tire = smooth_tire(0.09, 0.11);
-  const RolledWheel flat = RollingWheel(tire, soil).roll(driven(64.68, 0.2));
-  EXPECT_NEAR(flat.reading.sinkage, 23.7341e-3, 5e-8);
-  EXPECT_NEAR(flat.reading.drawbar_pull, -9.11318, 5e-6);
-  EXPECT_NEAR(flat.reading.torque, 1.275805, 5e-7);
-  const EffectList rebound = make_effects({{"exit_angle", "rebound", {{"lambda", 0.9}}}});
-  const RolledWheel back = RollingWheel(tire, soil, rebound).roll(driven(64.68, 0.2));
-  EXPECT_NEAR(back.reading.sinkage, 15.5711e-3, 5e-8);
-  EXPECT_NEAR(back.reading.drawbar_pull, 10.05743, 5e-6);
-  EXPECT_NEAR(back.reading.torque, 1.471679, 5e-7);
-}
-
-TEST(Published, Azimi2013) {
-  const SoilValues soil{.exponent = 0.8,
-                        .k_c = 0,
-                        .k_phi = 4.1e5,
-                        .cohesion = 234,
-                        .friction_angle = 30 * degree,
-                        .shear_modulus = 0.013,
-                        .c1 = 0.18,
-                        .c2 = 0.32};
-  const RolledWheel w = RollingWheel(smooth_tire(0.15, 0.1), soil).roll(driven(165, 0.2));
-  EXPECT_NEAR(w.reading.sinkage, 31.7033e-3, 5e-8);
-  EXPECT_NEAR(w.reading.drawbar_pull, 15.6228, 5e-5);
-  EXPECT_NEAR(w.reading.torque, 9.42284, 5e-6);
-}
-
-// Reece's form p = (k1 + k2 b)(z/b)^n is Bekker's with k = (k1 + k2 b)/b^n.
-TEST(Published, WongReece1967CompactSand) {
-  constexpr double psi = 6894.757293168361, inch = 0.0254, pound = 4.4482216152605;
-  const double b = 6 * inch, n = 0.47;
-  const SoilValues soil{.exponent = n,
-                        .k_c = 0,
-                        .k_phi = (20 * psi + 2.5 * psi / inch * b) / std::pow(b, n),
-                        .cohesion = 0.1 * psi,
-                        .friction_angle = 33.3 * degree,
-                        .shear_modulus = 1.5 * inch,
-                        .c1 = 0.43,
-                        .c2 = 0.32};
-  const RolledWheel w = RollingWheel(smooth_tire(24.7 * inch, b), soil).roll(driven(2006 * pound, 0.221));
-  EXPECT_NEAR(w.reading.sinkage, 123.318e-3, 5e-7);
-  EXPECT_NEAR(w.reading.drawbar_pull, 1292.51, 5e-3);
-  EXPECT_NEAR(w.reading.torque, 2553.46, 5e-3);
+// A wheel that is off by one and a half units of a last digit is off by three halves of a unit.
+TEST(AgreedPoints, CountInHalfUnitsOfTheLastDigit) {
+  const AgreedPoint& point = agreed_points().front();
+  const Reading told{point.drawbar_pull.value, point.torque.value, point.sinkage.value, 0.0};
+  EXPECT_EQ(worst_difference(point, told), 0.0);
+  Reading off = told;
+  off.torque -= 3 * point.torque.half_unit;
+  EXPECT_NEAR(worst_difference(point, off), 3.0, 1e-9);
 }
 
 /// Wong's table of soils: n, k_c and k_phi in kN units, c [kPa], phi [deg]; K, c1, c2 are not in it.

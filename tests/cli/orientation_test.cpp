@@ -63,9 +63,10 @@ TEST(Schema, IsJsonForEachFormat) {
 TEST(Doctor, IsWellAndSaysWhereTheLibraryIs) {
   const Outcome r = soilbin("doctor");
   EXPECT_EQ(r.status, 0) << r.out;
-  for (const char* word : {"compiler", "GSL", "yaml-cpp", "Library of cases", "pass"})
+  for (const char* word : {"compiler", "GSL", "yaml-cpp", "Library of cases", "pass", "two independent codes",
+                           "inputs of Azimi and others 2013"})
     EXPECT_THAT(r.out, HasSubstr(word));
-  EXPECT_EQ(soilbin("doctor --json").json()["self_test"].size(), 3U);
+  EXPECT_EQ(soilbin("doctor --json").json()["self_test"].size(), 5U);
 }
 
 TEST(Library, TheEnvironmentGoesFirst) {

@@ -434,7 +434,7 @@ class EffectParameter:
     def meaning(self) -> str: ...
 
 class EffectForm:
-    """One published form of an effect."""
+    """One form of an effect: as published, after a source, or ours; its source says which."""
     @property
     def id(self) -> str: ...
     @property
