@@ -10,6 +10,7 @@
 #include "scenario/estimate.hpp"
 #include "scenario/soil_parameters.hpp"
 #include "scenario/traction_channels.hpp"
+#include "scenario/tractive_efficiency.hpp"
 
 namespace soilbin::bekker_wong {
 
@@ -73,10 +74,7 @@ TractionResult traction_result(const RolledWheel& wheel, const Tire& tire, bool 
   result.at = wheel.at;
   for (std::size_t i = 0; i < traction_channels.size(); ++i)
     (result.*traction_channels[i].predicted).value = wheel.reading.*reading_members[i];
-  result.tractive_efficiency =
-      wheel.motion.locked || wheel.reading.torque == 0.0
-          ? not_a_number
-          : wheel.reading.drawbar_pull * tire.radius * wheel.motion.travel_ratio / wheel.reading.torque;
+  result.tractive_efficiency = tractive_efficiency(result, tire.radius);
   result.entry_angle = wheel.patch.angles.entry;
   result.max_stress_angle = wheel.patch.angles.max_stress;
   result.exit_angle = wheel.patch.angles.exit;

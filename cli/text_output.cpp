@@ -21,7 +21,6 @@ using compare::ChannelError;
 using compare::ChannelView;
 using compare::Curves;
 using compare::curves_against_slip;
-using compare::drives_and_pulls;
 using compare::HtmlTable;
 using compare::ModelAnswers;
 using compare::PredictedRun;
@@ -53,9 +52,9 @@ bool any_side_force(const std::vector<ModelAnswers>& study) {
   return false;
 }
 
-/// In percent; "-" for a wheel that does not both drive and pull.
+/// In percent; "-" where there is none (has_efficiency).
 std::string efficiency(const TractionResult& result) {
-  return drives_and_pulls(result) ? number(100 * result.tractive_efficiency) : "-";
+  return has_efficiency(result) ? number(100 * result.tractive_efficiency) : "-";
 }
 
 std::string heading(const ChannelView& channel) { return fmt::format("{} [{}]", channel.title, channel.unit); }
@@ -102,9 +101,8 @@ std::vector<Reading> readings(const TractionResult& r) {
   for (const ChannelView& channel : channel_views)
     all.push_back(
         {capital(std::string(channel.title)), number(r.*channel.predicted, channel.per_si), std::string(channel.unit)});
-  const bool pulls = drives_and_pulls(r);
-  all.push_back(
-      {"Tractive efficiency", pulls ? efficiency(r) : "none: the wheel has to be pushed or braked", pulls ? "%" : ""});
+  const std::string none = why_no_efficiency(r);
+  all.push_back({"Tractive efficiency", none.empty() ? efficiency(r) : "none: " + none, none.empty() ? "%" : ""});
   all.push_back(
       {"Contact",
        fmt::format("soil meets the wheel {:.1f}° before the axle, presses most at {:.1f}°, lets go at {:.1f}°",

@@ -38,7 +38,7 @@ struct TractionResult {
   Estimate torque;                   ///< M [N m]; positive drives
   Estimate sinkage;                  ///< z [m]
   Estimate lateral_force;            ///< F_y [N] to the left of travel
-  double tractive_efficiency = 0.0;  ///< TE = F_DP v/(M w) [-]; NaN where M w is 0
+  double tractive_efficiency = 0.0;  ///< [-]; scenario/tractive_efficiency.hpp; NaN where nothing is driven
   double entry_angle = 0.0;          ///< theta_1 [rad]
   double max_stress_angle = 0.0;     ///< theta_m [rad]
   double exit_angle = 0.0;           ///< theta_2 [rad]; negative behind the axle

@@ -117,7 +117,16 @@ std::vector<std::string> doubts_of(const std::vector<const Run*>& runs, std::siz
   return doubts;
 }
 
-SidePoint measured_point(const std::vector<const Run*>& runs, const OperatingCondition& at, const NoiseFloor& noise) {
+/// The efficiency at the mean slip that was run, where the channels that it takes were measured.
+double measured_efficiency(TractionResult means, const std::vector<const Run*>& runs, double radius) {
+  const auto count = static_cast<double>(runs.size());
+  means.at.slip = means.at.load = 0.0;
+  for (const Run* run : runs) means.at.slip += run->at.slip / count, means.at.load += run->at.load / count;
+  return tractive_efficiency(means, radius);
+}
+
+SidePoint measured_point(const std::vector<const Run*>& runs, const OperatingCondition& at, double radius,
+                         const NoiseFloor& noise) {
   SidePoint point;
   point.runs = runs.size();
   point.has = {};
@@ -127,7 +136,7 @@ SidePoint measured_point(const std::vector<const Run*>& runs, const OperatingCon
   }
   TractionResult result;
   result.at = at;
-  result.tractive_efficiency = result.entry_angle = result.exit_angle = result.max_stress_angle = not_a_number;
+  result.entry_angle = result.exit_angle = result.max_stress_angle = not_a_number;
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     Estimate& mean = result.*channel_views[c].predicted = {not_a_number, 0.0};
     const std::vector<double> values = values_of(runs, c);
@@ -139,6 +148,7 @@ SidePoint measured_point(const std::vector<const Run*>& runs, const OperatingCon
     point.freedom[c] = noise.channels[c].freedom;
     mean.std_error = point.scatter[c] / std::sqrt(static_cast<double>(values.size()));
   }
+  result.tractive_efficiency = measured_efficiency(result, runs, radius);
   point.result = result;
   return point;
 }
@@ -159,7 +169,7 @@ Side side_of(const Campaign& campaign, const Case& question, const Nearness& nea
         members.push_back(&runs.asked[k]);
         forces += campaign.runs[k].drawbar_pull || campaign.runs[k].lateral_force;
       }
-    side.points.push_back(measured_point(members, conditions[i], *side.noise));
+    side.points.push_back(measured_point(members, conditions[i], campaign.wheel.radius, *side.noise));
     if (!members.empty()) side.points.back().doubts = doubts_of(members, forces, *side.noise);
   }
   for (std::size_t k = 0; k < runs.asked.size(); ++k)

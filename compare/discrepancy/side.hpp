@@ -78,6 +78,8 @@ struct Nearness {
 /// no error, and a doubt tells so. Means over two labels tell by a doubt that what sets these apart is not in their
 /// error.
 ///
+/// The tractive efficiency of a point is that of the means, where the channels that it takes were measured.
+///
 /// Throws InputError where no run is near any condition, or where the wheels differ: radius, width, height of the lugs
 /// or inflation pressure by over 5 %, their number (where both know it) at all, lugs or air where the other has none.
 Side side_of(const Campaign& campaign, const Case& question, const Nearness& near = {});

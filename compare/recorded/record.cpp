@@ -11,6 +11,7 @@
 #include "compare/sweep/alike.hpp"
 #include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/quantity.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -113,6 +114,21 @@ std::string inputs_key(const Inputs& inputs) {
   return fnv1a_digits(text);
 }
 
+namespace {
+
+/// Older records hold the force in the wheel's plane times the speed of travel where forces are told in the wheel's
+/// axes.
+void mend_efficiencies(Record& record) {
+  const std::string* radius = value_of(record.inputs, "tire.radius");
+  if (radius == nullptr) return;
+  for (RecordedRun& run : record.runs)
+    if (std::optional<TractionResult>& result = run.answer.result;
+        result && result->at.force_frame == ForceFrame::wheel)
+      result->tractive_efficiency = tractive_efficiency(*result, read_number(*radius).value_or(not_a_number));
+}
+
+}  // namespace
+
 Record parse_record(const SourceText& source) {
   const Json document = parse_json(source, "a record is made by 'soilbin run STUDY --model dem --record FILE'");
   const ReadJson head(document, source.file + ": ");
@@ -132,6 +148,7 @@ Record parse_record(const SourceText& source) {
   if (!head.at("runs").is_array()) ReadJson::refuse(head.below("runs"), "a list");
   for (const Json& row : head.at("runs"))
     record.runs.push_back(run_from_json(row, head.below(fmt::format("runs[{}]", record.runs.size())), record.sealed));
+  mend_efficiencies(record);
   return record;
 }
 

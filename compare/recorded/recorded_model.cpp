@@ -28,14 +28,10 @@ double mean_angle(const Runs& runs, double TractionResult::*angle) {
   return sum / static_cast<double>(runs.size());
 }
 
-/// Pulling over driving power: each run's efficiency weighted by its torque, since all turn and travel alike.
 double efficiency(const Runs& runs) {
-  double pulls = 0, drives = 0;
-  for (const RecordedRun* run : runs) {
-    const TractionResult& one = *run->answer.result;
-    pulls += one.tractive_efficiency * one.torque.value, drives += one.torque.value;
-  }
-  return pulls / drives;
+  std::vector<const TractionResult*> results;
+  for (const RecordedRun* run : runs) results.push_back(&*run->answer.result);
+  return mean_efficiency(results);
 }
 
 std::vector<StressSample> mean_patch(const Runs& runs) {

@@ -19,8 +19,8 @@ RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run);
 /// number or, where that is larger, what their own errors give: with two or three packings the scatter is poorly known.
 Estimate mean_over_packings(const std::vector<Estimate>& told);
 
-/// Several packings' answers to one condition as one: mean_over_packings of the four results; means of efficiency
-/// (weighted by the power put in), stresses and budget.
+/// Several packings' answers to one condition as one: mean_over_packings of the four results; mean_efficiency; means
+/// of stresses and budget.
 /// Throws NoSolution where a run has no result, and InputError for no runs.
 TractionResult mean_of_packings(const std::vector<const RecordedRun*>& runs);
 

@@ -66,7 +66,7 @@ HtmlTable answers_table(const StudyPart& part) {
         for (const ChannelView& channel : channel_views)
           row.push_back(number((*answer.result).*channel.predicted, channel.per_si));
       if (answer.result)
-        row.push_back(drives_and_pulls(*answer.result) ? number(100 * answer.result->tractive_efficiency) : "-");
+        row.push_back(has_efficiency(*answer.result) ? number(100 * answer.result->tractive_efficiency) : "-");
       row.resize(table.header.size());
       table.rows.push_back(std::move(row));
     }

@@ -112,7 +112,7 @@ Sheet curve_sheet(const Comparison& comparison, std::size_t curve) {
   add_plot(
       sheet, comparison, "Tractive efficiency [%]", members,
       [](const SidePoint& point, std::size_t) {
-        return Estimate{told_efficiency(*point.result), 0.0};
+        return has_efficiency(*point.result) ? efficiency_with_error(*point.result) : Estimate{not_a_number, 0.0};
       },
       100);
   return sheet;

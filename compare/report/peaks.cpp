@@ -19,7 +19,7 @@ std::vector<Peak> peaks(const ModelAnswers& model) {
     const TractionResult& r = *model.answers[i].result;
     if (!peak.pull || r.drawbar_pull.value > peak.pull->drawbar_pull.value) peak.pull = &r;
     if (!peak.last || r.at.slip > peak.last->at.slip) peak.last = &r;
-    if (drives_and_pulls(r) && (!peak.efficiency || r.tractive_efficiency > peak.efficiency->tractive_efficiency))
+    if (has_efficiency(r) && (!peak.efficiency || r.tractive_efficiency > peak.efficiency->tractive_efficiency))
       peak.efficiency = &r;
   }
   return found;

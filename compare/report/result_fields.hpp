@@ -15,7 +15,8 @@ void result_fields(Visitor& v, Result& result) {
     for (const ChannelView& channel : channel_views)
       inner.number(channel.name, (result.*channel.predicted).std_error, channel.si_unit, channel.title.data());
   });
-  v.number("tractive_efficiency", result.tractive_efficiency, "-", "F_DP v/(M w)");
+  v.number("tractive_efficiency", result.tractive_efficiency, "-",
+           "power at the drawbar over power put in; an efficiency from 0 to 1");
   v.number("theta_m", result.max_stress_angle, "rad", "where soil presses most");
   v.number("theta_2", result.exit_angle, "rad", "where soil lets go; negative behind the axle");
   v.list("budget", result.budget, "parts of the drawbar pull", [](auto& inner, auto& part) {

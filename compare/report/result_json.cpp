@@ -140,7 +140,7 @@ std::string csv_row(const std::string& model, const Answer& answer) {
   const TractionResult& r = *answer.result;
   for (const ChannelView& channel : channel_views)
     row += fmt::format(",{},{}", (r.*channel.predicted).value, (r.*channel.predicted).std_error);
-  row += drives_and_pulls(r) ? fmt::format(",{}", told_efficiency(r)) : std::string(",");
+  row += has_efficiency(r) ? fmt::format(",{}", told_efficiency(r)) : std::string(",");
   return row + fmt::format(",{},{},{},\n", r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree);
 }
 

@@ -12,7 +12,7 @@ namespace soilbin::compare {
 nlohmann::ordered_json to_json(const OperatingCondition& at);
 
 /// The contract's names at the top ("drawbar_pull", ..., "theta_1" [rad]), their standard errors under "std_error",
-/// then efficiency (null unless drives_and_pulls), angles and budget; or {"error": "..."} beside the condition.
+/// then efficiency (null unless has_efficiency), angles and budget; or {"error": "..."} beside the condition.
 nlohmann::ordered_json to_json(const Answer& answer);
 
 /// Reads back what to_json wrote. `place` names the row in errors, such as "runs.json: rows[3]". Throws InputError.

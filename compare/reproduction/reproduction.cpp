@@ -26,7 +26,7 @@ Estimate value_of(const TractionResult& result, FindingQuantity quantity) {
     case FindingQuantity::tractive_efficiency:
       break;
   }
-  return efficiency_of(result);
+  return efficiency_with_error(result);
 }
 
 /// Fewest points of a curve from which a test can be made.
@@ -85,14 +85,6 @@ FindingVerdict verdict_on(const Interval& interval, const Finding& finding) {
 }
 
 }  // namespace
-
-Estimate efficiency_of(const TractionResult& result) {
-  const double pull = result.drawbar_pull.value, torque = result.torque.value;
-  const double per = pull != 0 ? result.tractive_efficiency * torque / pull : 0.0;  // v/w
-  const double of_pull = per / torque * result.drawbar_pull.std_error;
-  const double of_torque = result.tractive_efficiency / torque * result.torque.std_error;
-  return {result.tractive_efficiency, std::hypot(of_pull, of_torque)};
-}
 
 Curve curve_of(const Finding& finding, const Where& where, const std::vector<Answer>& answers,
                std::vector<OperatingCondition>& missing) {

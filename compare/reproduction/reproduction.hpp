@@ -33,9 +33,6 @@ struct Evidence {
   std::vector<OperatingCondition> missing;  ///< conditions of the study without a result that belong to it
 };
 
-/// The tractive efficiency with its error, from those of pull and torque taken as independent.
-Estimate efficiency_of(const TractionResult& result);
-
 /// The curve of a finding: at each value of `along`, the mean of all conditions in `where`. A value that lacks one of
 /// its conditions is left out, and the condition named in `missing`.
 Curve curve_of(const Finding& finding, const Where& where, const std::vector<Answer>& answers,

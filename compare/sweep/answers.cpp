@@ -66,12 +66,4 @@ bool any_result(const std::vector<ModelAnswers>& study) {
   });
 }
 
-bool drives_and_pulls(const TractionResult& result) {
-  return result.torque.value > 0.0 && result.drawbar_pull.value >= 0.0 && std::isfinite(result.tractive_efficiency);
-}
-
-double told_efficiency(const TractionResult& result) {
-  return drives_and_pulls(result) ? result.tractive_efficiency : not_a_number;
-}
-
 }  // namespace soilbin::compare

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scenario/case.hpp"
+#include "scenario/tractive_efficiency.hpp"
 
 namespace soilbin::compare {
 
@@ -45,12 +46,5 @@ std::vector<ModelAnswers> run_study(const Case& question, const Progress& progre
 
 /// Whether any answer of a study holds a result.
 bool any_result(const std::vector<ModelAnswers>& study);
-
-/// Whether the wheel is driven and pulls (M > 0, F_DP >= 0, M w not 0): only then is its tractive efficiency a share
-/// of the power put in.
-bool drives_and_pulls(const TractionResult& result);
-
-/// The tractive efficiency [-] as every table, file and binding tells it: NaN unless drives_and_pulls.
-double told_efficiency(const TractionResult& result);
 
 }  // namespace soilbin::compare

@@ -106,11 +106,17 @@ std::vector<Step> result_steps(const Facts& f, const TractionResult& result) {
   std::vector<Step> steps;
   steps.push_back({"drawbar pull", "F_DP = the sum of the budget", parts + " N", result.drawbar_pull.value, "N"});
   steps.push_back({"torque", "M = r^2 b Int tau d theta", "over the contact", result.torque.value, "N m"});
-  if (drives_and_pulls(result))
-    steps.push_back({"tractive efficiency", "TE = F_DP v/(M w)",
-                     fmt::format("{:.5g} N * {:.4g} m * {:.4g} / {:.5g} N m", result.drawbar_pull.value, f.r,
-                                 f.wheel.motion.travel_ratio, result.torque.value),
-                     100 * result.tractive_efficiency, "%"});
+  if (has_efficiency(result)) {
+    const double advance = f.r * f.wheel.motion.travel_ratio;
+    const bool downhill = f.at.longitudinal_incline < 0.0;
+    const std::string slope =
+        downhill ? fmt::format(" + {:.5g} N * {:.4g} m", -f.at.load * std::sin(f.at.longitudinal_incline), advance)
+                 : "";
+    steps.push_back({"tractive efficiency", downhill ? "TE = F_t v/(M w + W sin(-alpha) v)" : "TE = F_t v/(M w)",
+                     fmt::format("{:.5g} N * {:.4g} m / {}{:.5g} N m{}{}", pull_along_travel(result), advance,
+                                 downhill ? "(" : "", result.torque.value, slope, downhill ? ")" : ""),
+                     100 * result.tractive_efficiency, "%", "F_t: the drawbar pull along travel"});
+  }
   return steps;
 }
 

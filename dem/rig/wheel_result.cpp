@@ -6,6 +6,7 @@
 
 #include "dem/rig/mean_value.hpp"
 #include "scenario/estimate.hpp"
+#include "scenario/tractive_efficiency.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -115,8 +116,7 @@ void summarise(WheelRun& run, const Tire& tire, const OperatingCondition& at, co
   const double rotation = mean_of(steady, [](auto& s) { return s.rotation; });
   const double in_plane = at.slip_by == SlipBy::wheel_plane_speed ? speed * motion.heading.x : speed;
   if (rig.drive_torque) result.at.slip = slip_of(in_plane, rotation, tire.radius);
-  const double drive = result.torque.value * rotation;
-  result.tractive_efficiency = drive != 0 ? result.drawbar_pull.value * speed / drive : not_a_number;
+  result.tractive_efficiency = tractive_efficiency(result, tire.radius);
   run.moment = {mean_of(steady, [](auto& s) { return s.moment.x; }),
                 mean_of(steady, [](auto& s) { return s.moment.y; }),
                 mean_of(steady, [](auto& s) { return s.moment.z; })};

@@ -36,8 +36,9 @@ void bind_result(py::module_& module) {
   for (const TractionChannel& channel : traction_channels)
     result.def_readonly(channel.name.data(), channel.predicted, channel.meaning);
   result
-      .def_property_readonly("tractive_efficiency", &compare::told_efficiency,
-                             "F_DP v/(M w) [-]; NaN unless the wheel is driven and pulls (M > 0, F_DP >= 0)")
+      .def_property_readonly(
+          "tractive_efficiency", &told_efficiency,
+          "power at the drawbar over power put in [-]; NaN unless the wheel is driven and pulls along its travel")
       .def_readonly("entry_angle", &R::entry_angle, "theta_1 [rad]")
       .def_readonly("max_stress_angle", &R::max_stress_angle, "theta_m [rad]")
       .def_readonly("exit_angle", &R::exit_angle, "theta_2 [rad]; negative behind the axle")

@@ -226,6 +226,18 @@ TEST(Packings, ScatterBetweenThemIsTheError) {
   EXPECT_THROW(mean_of_packings({}), InputError);
 }
 
+TEST(Record, AnOlderEfficiencyInTheWheelsAxesIsMended) {
+  Record record = made_record();  // a yaw of 0.1, a wheel of 0.496 m
+  TractionResult& told = *record.runs[0].answer.result;
+  told.at.force_frame = ForceFrame::wheel;
+  record.runs[0].answer.at = told.at;
+  told.tractive_efficiency = told.drawbar_pull.value * 0.496 * 0.8 / std::cos(0.1) / told.torque.value;
+  const double along_travel = told.drawbar_pull.value * std::cos(0.1) - told.lateral_force.value * std::sin(0.1);
+  const Record back = parse_record({"r.json", record_text(record)});
+  EXPECT_NEAR(back.runs[0].answer.result->tractive_efficiency,
+              along_travel * 0.496 * 0.8 / std::cos(0.1) / told.torque.value, 1e-14);
+}
+
 /// Files are flushed to the disk, which takes its time.
 class SlowKeptRuns : public testing::Test {
  protected:

@@ -106,8 +106,10 @@ TEST(ResultJson, NotANumberIsNullAndErrorsStand) {
   EXPECT_TRUE(solved["tractive_efficiency"].is_null());
   result.tractive_efficiency = 0.5;
   EXPECT_EQ(to_json(Answer{{}, result, ""})["tractive_efficiency"], 0.5);
-  result.drawbar_pull.value = -1.0;  // pushed: the ratio is no efficiency
-  EXPECT_TRUE(to_json(Answer{{}, result, ""})["tractive_efficiency"].is_null());
+  for (const double no_share : {-0.5, 1.2}) {  // pushed; more power out than in
+    result.tractive_efficiency = no_share;
+    EXPECT_TRUE(to_json(Answer{{}, result, ""})["tractive_efficiency"].is_null()) << no_share;
+  }
   EXPECT_FALSE(solved.contains("error"));
   EXPECT_EQ(to_json(Answer{{}, std::nullopt, "why"})["error"], "why");
 }

@@ -206,7 +206,7 @@ TEST(SlowFindings, AreSeldomShownOnNoiseAlone) {
 TEST(Efficiency, HasTheErrorsOfPullAndTorque) {
   TractionResult r;
   r.drawbar_pull = {300, 30}, r.torque = {600, 30}, r.tractive_efficiency = 0.4 * 300 / 600;
-  const Estimate found = efficiency_of(r);
+  const Estimate found = efficiency_with_error(r);
   EXPECT_NEAR(found.std_error, 0.2 * std::hypot(0.1, 0.05), 1e-12);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dem/rig/mean_value.hpp"
+#include "dem/rig/wheel_result.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -68,6 +69,39 @@ TEST(DriftOverError, TellsATrendFromNoise) {
   EXPECT_LT(drift_over_error(series), 3);
   for (std::size_t k = 0; k < series.size(); ++k) series[k] += 0.004 * static_cast<double>(k);
   EXPECT_GT(drift_over_error(series), 5);
+}
+
+/// A run in which every sample is alike: the soil pushes with `force`, the axle's torque is 40 N m.
+WheelRun even_run(const OperatingCondition& at, const Tire& tire, const Vec3& force) {
+  const WheelMotion motion = wheel_motion(at, tire.radius);
+  WheelRun run;
+  for (int k = 0; k < 64; ++k) {
+    WheelSample sample;
+    sample.time = 0.01 * k;
+    sample.force = force, sample.moment = -40.0 * motion.axle;
+    sample.speed = motion.speed, sample.rotation = motion.rotation;
+    run.samples.push_back(sample);
+  }
+  summarise(run, tire, at, {});
+  return run;
+}
+
+TEST(WheelResult, EfficiencyIsOfTheWheelAndBalancesItsPowersInEitherFrame) {
+  Tire tire;
+  tire.radius = 0.25;
+  for (const double incline : {-0.2, 0.0, 0.2}) {
+    OperatingCondition at;
+    at.load = 400, at.slip = 0.3, at.speed = 0.2, at.yaw = 0.5, at.longitudinal_incline = incline;
+    at.transverse_incline = 0.3;
+    const WheelRun travel = even_run(at, tire, {90, -60, 380});
+    at.force_frame = ForceFrame::wheel;
+    const WheelRun wheel = even_run(at, tire, {90, -60, 380});
+    EXPECT_GT(std::abs(wheel.result.drawbar_pull.value - travel.result.drawbar_pull.value), 1.0);
+    EXPECT_NEAR(wheel.result.tractive_efficiency, travel.result.tractive_efficiency, 1e-12);
+    // climb [W] is what lifting the load takes; downhill it is gravity's, with the sign turned.
+    const PowerBalance& power = travel.power;
+    EXPECT_NEAR(travel.result.tractive_efficiency, power.pull / (power.drive + std::max(0.0, -power.climb)), 1e-12);
+  }
 }
 
 }  // namespace
