@@ -6,8 +6,9 @@
 
 #include "cli/commands.hpp"
 #include "cli/text_output.hpp"
+#include "compare/report/number_text.hpp"
 #include "compare/report/result_json.hpp"
-#include "compare/sweep/plausibility.hpp"
+#include "compare/sweep/doubts.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -51,7 +52,8 @@ Verdict judge(const fs::path& file, const Workplace& place) {
   const std::string format = format_of(file);
   if (format == compare::campaign_format) {
     const compare::Campaign campaign = compare::read_campaign(file, place.effects);
-    return {fmt::format("campaign '{}': {} runs of {}", campaign.name, campaign.runs.size(), in_words(campaign.wheel)),
+    return {fmt::format("campaign '{}': {} of {}", campaign.name, compare::counted(campaign.runs.size(), "run"),
+                        in_words(campaign.wheel)),
             compare::doubts(campaign)};
   }
   if (format == tire_format) return {fmt::format("tire {}", in_words(read_tire(file))), {}};
@@ -64,7 +66,8 @@ Verdict judge(const fs::path& file, const Workplace& place) {
       read_case(file, place.library, place.effects);  // refuses any other format with the nearest word
   std::string asks;
   if (!question.study.conditions.empty())
-    asks = fmt::format("{} models at {} conditions", question.study.models.size(), question.study.conditions.size());
+    asks = compare::counted(question.study.models.size(), "model") + " at " +
+           compare::counted(question.study.conditions.size(), "condition");
   if (question.drive) asks += (asks.empty() ? "" : ", ") + std::string("a drive");
   return {fmt::format("case '{}': {} on {}, {}", question.name, in_words(question.scenario.tire),
                       compare::in_words(question.scenario.soil), asks),

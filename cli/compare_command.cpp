@@ -18,7 +18,7 @@
 #include "compare/report/comparison_page.hpp"
 #include "compare/report/comparison_tables.hpp"
 #include "compare/report/result_json.hpp"
-#include "compare/sweep/plausibility.hpp"
+#include "compare/sweep/doubts.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
@@ -95,6 +95,23 @@ compare::Side grain_side(const Case& question, const CompareOptions& asked, cons
   return compare::side_of("dem", *log, question.study.conditions);
 }
 
+/// Of the models that stand side by side: the analytic choices first, then grains where there are any.
+std::vector<std::string> doubts_of(const Case& question, const std::vector<ModelChoice>& choices,
+                                   const std::vector<compare::Side>& sides) {
+  Case asked = question;
+  asked.study.models.clear();
+  std::vector<compare::ModelAnswers> study;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const bool grains = sides[s].kind == compare::SideKind::grains;
+    study.push_back({grains ? ModelChoice{ModelKind::dem, {}, sides[s].label} : choices.at(s), {}});
+    asked.study.models.push_back(study.back().choice);
+    for (std::size_t i = 0; i < sides[s].points.size(); ++i)
+      study.back().answers.push_back(
+          {question.study.conditions[i], sides[s].points[i].result, sides[s].points[i].error});
+  }
+  return compare::doubts(asked, study);
+}
+
 void check_model(const CompareOptions& asked) {
   if (asked.model.empty() || asked.model == "dem" || asked.model == "bekker_wong") return;
   throw InputError("--model: unknown model '" + clipped(asked.model) + "'" +
@@ -163,15 +180,17 @@ int compare_models(CompareOptions asked, const Session& session) {
     Case analytic = question;
     analytic.study.models = choices;
     const std::vector<compare::ModelAnswers> study = compare::run_study(analytic, shown_progress());
-    print_warnings(compare::doubts(question.scenario.tire, study));
     for (const compare::ModelAnswers& answers : study) sides.push_back(compare::side_of(answers));
   }
   if (asks_for_grains(question, asked)) sides.push_back(grain_side(question, asked, session, log, about));
+  about.page.doubts = doubts_of(question, choices, sides);
+  print_warnings(about.page.doubts);
   if (!asked.measured.empty())
     sides.push_back(compare::side_of(find_campaign(session.place, asked.measured), question));
   const compare::Comparison comparison = compare::compare_sides(question, choices, std::move(sides));
   run_loop_on(comparison, asked, about);
-  about.page = {asked.title.empty() ? "Comparison: " + question.study.name : asked.title, session.command, versions()};
+  about.page.title = asked.title.empty() ? "Comparison: " + question.study.name : asked.title;
+  about.page.command = session.command, about.page.versions = versions();
   about.resolved_case = write_case(question, session.place.effects);
   about.libraries = compare::find_libraries();
   const Outputs outputs = save(comparison, about, asked);

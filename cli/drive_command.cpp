@@ -58,12 +58,22 @@ std::vector<Sample> picked(const std::vector<Sample>& samples, std::size_t rows)
 
 /// Writes what is asked for as files.
 template <class Answer>
-Outputs save(const DriveOptions& options, const Answer& answer, const std::string& title, const Session& session) {
+Outputs save(const DriveOptions& options, const Answer& answer, const std::string& title,
+             const std::vector<std::string>& doubts, const Session& session) {
   Outputs outputs;
   outputs.file(options.csv, [&] { return compare::drive_csv(answer); });
   outputs.drawing(options.plot, [&] { return compare::drive_sheet(answer); });
-  outputs.file(options.report, [&] { return compare::drive_page(answer, {title, session.command, versions()}); });
+  outputs.file(options.report, [&] {
+    return compare::drive_page(answer, {title, session.command, versions(), doubts});
+  });
   return outputs;
+}
+
+template <class Answer>
+std::string json_of(const Answer& answer, const std::vector<std::string>& doubts) {
+  nlohmann::ordered_json document = compare::to_json(answer);
+  compare::tell_doubts(document, doubts);
+  return compare::json_text(document);
 }
 
 std::string slip_text(const DriveState& s) { return s.slip ? number(100 * *s.slip) : "-"; }
@@ -97,8 +107,10 @@ std::string drive_text(const compare::DrivePart& part) {
 
 int drive_analytically(const DriveOptions& options, const Case& question, const Session& session) {
   const compare::DrivePart part = compare::run_drive(question, options.samples, progress_in_time());
-  const Outputs outputs = save(options, part, question.name, session);
-  fmt::print("{}", options.json ? compare::json_text(compare::to_json(part)) : drive_text(part));
+  const std::vector<std::string> doubts = compare::doubts(part);
+  print_warnings(doubts);
+  const Outputs outputs = save(options, part, question.name, doubts, session);
+  fmt::print("{}", options.json ? json_of(part, doubts) : drive_text(part));
   return outputs.status(done);
 }
 
@@ -165,8 +177,10 @@ int drive_with_grains(const DriveOptions& options, const Case& question, const S
   grains.run();
   sides.insert(sides.end(), grains.sides().begin(), grains.sides().end());
   const compare::DriveSides drive = compare::side_by_side(question, std::move(sides), grains.notes());
-  const Outputs outputs = save(options, drive, question.name, session);
-  fmt::print("{}", options.json ? compare::json_text(compare::to_json(drive)) : sides_text(drive));
+  const std::vector<std::string> doubts = compare::doubts(drive);
+  print_warnings(doubts);
+  const Outputs outputs = save(options, drive, question.name, doubts, session);
+  fmt::print("{}", options.json ? json_of(drive, doubts) : sides_text(drive));
   if (std::fflush(stdout) == 0 && outputs.complete())
     grains.forget();
   else

@@ -8,7 +8,7 @@
 #include "cli/question.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/result_json.hpp"
-#include "compare/sweep/plausibility.hpp"
+#include "compare/sweep/doubts.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/soil_parameters.hpp"
 
@@ -40,10 +40,10 @@ int estimate(const Question& inputs, bool json, const Session& session) {
   const Case question = inputs.ask(session.place);
   require_semi_empirical(question, session.place.library);
   const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
-  print_warnings(compare::doubts(question.scenario.tire, study));
-  print_warnings(inputs.without_effect(question));
+  const std::vector<std::string> doubts = compare::doubts(question, study);
+  print_warnings(doubts);
   if (json) {
-    fmt::print("{}", compare::json_text(answers_json(question, study)));
+    fmt::print("{}", compare::json_text(answers_json(question, study, doubts)));
   } else if (compare::any_result(study)) {
     print_text(question, study);
   }

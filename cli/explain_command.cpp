@@ -8,8 +8,8 @@
 #include "cli/question.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/result_json.hpp"
+#include "compare/sweep/doubts.hpp"
 #include "compare/sweep/explanation.hpp"
-#include "compare/sweep/plausibility.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 
@@ -108,13 +108,15 @@ int explain(const Question& inputs, bool json, const Session& session) {
       told.push_back({choice, {{at, explanation.result, ""}}});
     }
   }
-  print_warnings(compare::doubts(question.scenario.tire, told));
-  print_warnings(inputs.without_effect(question));
-  if (json)
-    fmt::print("{}", compare::json_text({{"format", "soilbin-explain/1"},
-                                         {"tire", question.scenario.tire.name},
-                                         {"soil", question.scenario.soil.name},
-                                         {"rows", rows}}));
+  const std::vector<std::string> doubts = compare::doubts(question, told);
+  print_warnings(doubts);
+  if (!json) return done;
+  nlohmann::ordered_json document = {{"format", "soilbin-explain/1"},
+                                     {"tire", question.scenario.tire.name},
+                                     {"soil", question.scenario.soil.name},
+                                     {"rows", rows}};
+  compare::tell_doubts(document, doubts);
+  fmt::print("{}", compare::json_text(document));
   return done;
 }
 

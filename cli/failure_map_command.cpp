@@ -1,6 +1,7 @@
 // soilbin failure-map: where the analytic model parts from grains, over load, lug height, an incline and slip.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -13,6 +14,7 @@
 #include "cli/versions.hpp"
 #include "compare/failure_map/map_report.hpp"
 #include "compare/report/result_json.hpp"
+#include "compare/sweep/doubts.hpp"
 #include "dem/rig/run_inputs.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
@@ -141,6 +143,24 @@ void print_story(const compare::MapStory& story, bool rows) {
   if (!story.checks.empty()) fmt::print("\n{}", as_text(compare::checks_table(story)));
 }
 
+/// Of the analytic model and the grains at the conditions that were run, with the highest lugs.
+std::vector<std::string> doubts_of(const compare::MapStory& story) {
+  Case question;
+  std::vector<Eigen::VectorXd> rows;
+  for (const compare::FailureRow& row : story.rows.rows) {
+    rows.push_back(row.values);
+    question.study.conditions.push_back(compare::condition_at(story.map, row.values));
+  }
+  if (rows.empty()) return {};
+  const auto height = [](const Eigen::VectorXd& values) { return values[compare::map_lug_height]; };
+  question.scenario = compare::scenario_at(story.map, *std::ranges::max_element(rows, {}, height));
+  question.study.models = {{ModelKind::bekker_wong, question.scenario.effects, ""}};
+  question.scenario.effects.clear();
+  const std::vector<compare::ModelAnswers> study = compare::run_study(question);
+  question.study.models.push_back({ModelKind::dem, {}, ""});
+  return compare::doubts(question, study);
+}
+
 int failure_map(const FailureMapOptions& asked, const Session& session) {
   Case question = find_study(session.place, asked.study);
   if (!asked.soil.empty())
@@ -155,15 +175,18 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
   compare::VirtualTest grains;
   try {
     const compare::MapStory story = learn(asked, question, session.place, store, grains);
-    outputs.file(asked.report, [&] {
-      return compare::failure_map_page(story,
-                                       {"Failure map: " + name_of(story.map.incline), session.command, versions()},
-                                       write_case(question, session.place.effects));
-    });
-    if (asked.json)
-      fmt::print("{}", compare::json_text(compare::failure_map_json(story)));
-    else
+    const compare::PageAbout about{"Failure map: " + name_of(story.map.incline), session.command, versions(),
+                                   doubts_of(story)};
+    print_warnings(about.doubts);
+    outputs.file(asked.report,
+                 [&] { return compare::failure_map_page(story, about, write_case(question, session.place.effects)); });
+    if (asked.json) {
+      nlohmann::ordered_json document = compare::failure_map_json(story);
+      compare::tell_doubts(document, about.doubts);
+      fmt::print("{}", compare::json_text(document));
+    } else {
       print_story(story, asked.rows);
+    }
   } catch (const Interrupted&) {
     if (!asked.store.empty())
       fmt::print(stderr, "\n{} runs are in {}: the same command goes on from there", store.size(), asked.store);

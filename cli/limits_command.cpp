@@ -15,6 +15,7 @@
 #include "cli/text_output.hpp"
 #include "compare/report/result_json.hpp"
 #include "compare/sweep/alike.hpp"
+#include "compare/sweep/doubts.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
@@ -99,6 +100,13 @@ std::vector<OperatingCondition> without_slip(const std::vector<OperatingConditio
   return kept;
 }
 
+std::string steepest_in_words(double steepest) {
+  if (steepest >= 0.0) return fmt::format("The steepest slope that it climbs is {} deg.", number(steepest / degree));
+  return fmt::format(
+      "It climbs no slope and doesn't move on level ground: it needs a downhill slope of {} deg or more.",
+      number(-steepest / degree));
+}
+
 std::string limits_text(const LimitsAnswer& answer) {
   std::string text = fmt::format("{}, load {} N\n", answer.model.label, number(answer.at.load));
   if (!answer.error.empty()) return text + "no solution: " + answer.error + "\n";
@@ -108,7 +116,7 @@ std::string limits_text(const LimitsAnswer& answer) {
                number(100 * row.best.slip)});
   text += table.text();
   if (!answer.steepest) return text + "The steepest slope lies beyond -60 .. 80 deg.\n";
-  return text + fmt::format("The steepest slope that it climbs is {} deg.\n", number(*answer.steepest / degree));
+  return text + steepest_in_words(*answer.steepest) + "\n";
 }
 
 nlohmann::ordered_json limits_json(const LimitsAnswer& answer) {
@@ -134,6 +142,24 @@ nlohmann::ordered_json limits_json(const LimitsAnswer& answer) {
   return row;
 }
 
+/// The wheel where it pulls most on each slope: what there is to doubt in the answer.
+std::vector<compare::ModelAnswers> answers_at_the_limits(const Case& question,
+                                                         const std::vector<LimitsAnswer>& answers) {
+  const bekker_wong::BekkerWong model({.errors = false, .patch = false});
+  std::vector<compare::ModelAnswers> study;
+  for (const LimitsAnswer& answer : answers) {
+    Scenario scenario = question.scenario;
+    scenario.effects = answer.model.effects;
+    study.push_back({answer.model, {}});
+    for (const SlopeRow& row : answer.slopes) {
+      OperatingCondition at = answer.at;
+      at.longitudinal_incline = row.slope, at.slip = row.best.slip;
+      study.back().answers.push_back(compare::ask(model, scenario, at));
+    }
+  }
+  return study;
+}
+
 int limits(const Question& inputs, bool json, const Session& session) {
   for (const char* key : {"slip", "longitudinal_incline"})
     if (inputs.given(key))
@@ -154,13 +180,17 @@ int limits(const Question& inputs, bool json, const Session& session) {
       else
         known->at_every_speed = true;
     }
+  const std::vector<std::string> doubts = compare::doubts(question, answers_at_the_limits(question, answers));
+  print_warnings(doubts);
   if (json) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const LimitsAnswer& answer : answers) rows.push_back(limits_json(answer));
-    fmt::print("{}", compare::json_text({{"format", "soilbin-limits/1"},
-                                         {"tire", question.scenario.tire.name},
-                                         {"soil", question.scenario.soil.name},
-                                         {"rows", rows}}));
+    nlohmann::ordered_json document = {{"format", "soilbin-limits/1"},
+                                       {"tire", question.scenario.tire.name},
+                                       {"soil", question.scenario.soil.name},
+                                       {"rows", rows}};
+    compare::tell_doubts(document, doubts);
+    fmt::print("{}", compare::json_text(document));
   } else {
     fmt::print("{} on {}\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil));
     for (const LimitsAnswer& answer : answers) fmt::print("\n{}", limits_text(answer));

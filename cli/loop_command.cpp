@@ -13,7 +13,7 @@
 #include "compare/loop/answer_words.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/result_json.hpp"
-#include "compare/sweep/plausibility.hpp"
+#include "compare/sweep/doubts.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 
@@ -28,7 +28,7 @@ struct LoopOptions {
   unsigned seed = 1;
 };
 
-/// "load=50..200" in the campaign's units (N, m/s, deg, %, m), or with units: "load=50N..0.2kN".
+/// "load=50N..0.2kN", values with units.
 compare::Limits read_limits(const std::vector<std::string>& texts) {
   std::vector<std::string> names;
   for (const compare::ConditionView& view : compare::condition_views)
@@ -46,9 +46,7 @@ compare::Limits read_limits(const std::vector<std::string>& texts) {
     const Range range = view.name == "speed" ? above_zero : view.range;  // a rig that stands still measures nothing
     const Measure measure{std::string(view.column_unit), range};
     std::vector<double> ends;
-    for (const std::string& end : texts_of_ends)
-      ends.push_back(read_flag("--limit " + parts[0],
-                               read_number(end) && measure.unit != "-" ? end + measure.unit : end, measure));
+    for (const std::string& end : texts_of_ends) ends.push_back(read_flag("--limit " + parts[0], end, measure));
     if (!(ends[0] <= ends[1]))
       throw InputError(fmt::format("--limit '{}': the lower end is above the upper", clipped(text)));
     limits[parts[0]] = {ends[0], ends[1]};
@@ -76,8 +74,8 @@ void print_answer(const compare::LoopAnswer& answer, bool only_next) {
 }
 
 int loop(const LoopOptions& asked, const Session& session) {
-  const compare::Campaign campaign = find_campaign(session.place, asked.campaign);
-  print_warnings(compare::doubts(campaign));
+  const compare::Campaign campaign = find_campaign(session.place, asked.campaign, compare::CampaignUse::fit);
+  print_warnings(compare::doubts_before_fit(campaign));
   compare::LoopOptions options;
   options.folds = asked.folds;
   options.identify.seed = asked.seed;

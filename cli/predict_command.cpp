@@ -10,7 +10,7 @@
 #include "cli/text_output.hpp"
 #include "compare/report/curves.hpp"
 #include "compare/report/result_json.hpp"
-#include "compare/sweep/plausibility.hpp"
+#include "compare/sweep/doubts.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "scenario/errors.hpp"
 
@@ -36,14 +36,17 @@ Scenario scenario_for(const PredictOptions& options, const compare::Campaign& ca
 
 int predict(const PredictOptions& options, const Session& session) {
   const compare::Campaign campaign = find_campaign(session.place, options.campaign);
-  print_warnings(compare::doubts(campaign));
   const Scenario scenario = scenario_for(options, campaign, session.place);
   const auto model = compare::make_model(ModelKind::bekker_wong);
   const compare::Prediction prediction = compare::predict(*model, scenario, campaign, shown_progress());
+  const std::vector<std::string> doubts = compare::doubts(campaign, scenario, prediction);
+  print_warnings(doubts);
   Outputs outputs;
   outputs.drawing(options.plot, [&] { return compare::campaign_sheet(campaign, prediction); });
   if (options.json) {
-    fmt::print("{}", compare::json_text(compare::to_json(prediction, campaign.name)));
+    nlohmann::ordered_json document = compare::to_json(prediction, campaign.name);
+    compare::tell_doubts(document, doubts);
+    fmt::print("{}", compare::json_text(document));
   } else {
     fmt::print("{}: {} runs of {}, predicted with {} and not fitted\n\n{}", campaign.name, prediction.runs.size(),
                in_words(campaign.wheel), options.model.empty() ? "the declared soil" : options.model,

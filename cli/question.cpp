@@ -8,7 +8,6 @@
 
 #include "compare/report/result_json.hpp"
 #include "compare/sweep/alike.hpp"
-#include "compare/sweep/plausibility.hpp"
 #include "scenario/condition_axes.hpp"
 #include "scenario/mapping_writer.hpp"
 
@@ -189,23 +188,13 @@ Case Question::ask(const Workplace& place) const {
   return question;
 }
 
-std::vector<std::string> Question::without_effect(const Case& question) const {
-  std::vector<std::string> words;
-  for (const compare::Unheard& one : compare::unheard(question)) {
-    const bool asked = one.key == "lugs"     ? lugs_.any_given()
-                       : one.key == "effect" ? !effects_.empty()
-                                             : condition_.given(one.key);
-    if (asked) words.push_back(one.words);
-  }
-  return words;
-}
-
-nlohmann::ordered_json answers_json(const Case& question, const std::vector<compare::ModelAnswers>& study) {
+nlohmann::ordered_json answers_json(const Case& question, const std::vector<compare::ModelAnswers>& study,
+                                    const std::vector<std::string>& doubts) {
   nlohmann::ordered_json document = {{"format", "soilbin-estimate/1"},
                                      {"tire", question.scenario.tire.name},
                                      {"soil", question.scenario.soil.name},
                                      {"rows", compare::rows_json(study)}};
-  tell_doubts(document, question, study);
+  compare::tell_doubts(document, doubts);
   return document;
 }
 
@@ -221,12 +210,6 @@ void require_semi_empirical(const Case& question, const Library& library) {
   throw InputError(
       fmt::format("soil '{}' has no semi_empirical values, which bekker_wong needs\n  hint: these have: {}",
                   clipped(question.scenario.soil.name), listed(right)));
-}
-
-void tell_doubts(nlohmann::ordered_json& document, const Case& question,
-                 const std::vector<compare::ModelAnswers>& study) {
-  const std::vector<std::string> warnings = compare::doubts(question.scenario.tire, study);
-  if (!warnings.empty()) document["warnings"] = warnings;
 }
 
 }  // namespace soilbin::cli

@@ -46,9 +46,6 @@ class Question {
   /// Whether a condition was given by a flag.
   bool given(const std::string& key) const { return condition_.given(key); }
 
-  /// What was given by a flag and changes no digit of the answer to `question`, which ask() gave: a line each.
-  std::vector<std::string> without_effect(const Case& question) const;
-
  private:
   Case from_flags(const Workplace& place) const;
   void override_tire(Tire& tire, const Workplace& place) const;
@@ -65,11 +62,8 @@ class Question {
 /// Throws InputError where the analytic model is asked on a soil that has values for grains alone.
 void require_semi_empirical(const Case& question, const Library& library);
 
-/// Adds "warnings" where the answers lie beyond what the model is meant for (compare::doubts).
-void tell_doubts(nlohmann::ordered_json& document, const Case& question,
-                 const std::vector<compare::ModelAnswers>& study);
-
-/// soilbin-estimate/1: what each model answers at each condition of the question, in SI; with tell_doubts.
-nlohmann::ordered_json answers_json(const Case& question, const std::vector<compare::ModelAnswers>& study);
+/// soilbin-estimate/1: what each model answers at each condition of the question, in SI, and the doubts.
+nlohmann::ordered_json answers_json(const Case& question, const std::vector<compare::ModelAnswers>& study,
+                                    const std::vector<std::string>& doubts);
 
 }  // namespace soilbin::cli

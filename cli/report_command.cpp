@@ -5,8 +5,10 @@
 
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
+#include "cli/text_output.hpp"
 #include "cli/versions.hpp"
 #include "compare/report/analysis_page.hpp"
+#include "compare/sweep/doubts.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 
@@ -28,25 +30,36 @@ std::string command_of(const ReportOptions& options) {
   return command + " --title " + quoted(options.title) + " --output " + quoted(options.output);
 }
 
+/// Each with the name of the study or the campaign that it is of.
+void add(std::vector<std::string>& all, const std::string& name, const std::vector<std::string>& doubts) {
+  for (const std::string& doubt : doubts) all.push_back(name + ": " + doubt);
+}
+
 int report(const ReportOptions& options, const Session& session) {
   if (options.studies.empty() && options.campaigns.empty())
     throw InputError("name a study or a campaign: soilbin report paper-straight --measured cmu-smooth");
   if (const std::string why = why_not_writable(options.output); !why.empty()) throw InputError("--output: " + why);
   std::vector<compare::StudyPart> studies;
+  std::vector<std::string> doubts;
   for (const std::string& name : options.studies) {
     compare::StudyPart part{find_study(session.place, name), {}};
     part.study = compare::run_study(part.question, shown_progress());
+    add(doubts, name, compare::doubts(part.question));
     studies.push_back(std::move(part));
   }
   const auto model = compare::make_model(ModelKind::bekker_wong);
   std::vector<compare::CampaignPart> campaigns;
   for (const std::string& name : options.campaigns) {
     compare::CampaignPart part{find_campaign(session.place, name), {}};
-    part.prediction = compare::predict(*model, compare::scenario_of(part.campaign), part.campaign, shown_progress());
+    const Scenario declared = compare::scenario_of(part.campaign);
+    part.prediction = compare::predict(*model, declared, part.campaign, shown_progress());
+    add(doubts, name, compare::doubts(part.campaign, declared, part.prediction));
     campaigns.push_back(std::move(part));
   }
-  write_file_atomically(options.output,
-                        compare::analysis_page(studies, campaigns, {options.title, command_of(options), versions()}));
+  print_warnings(doubts);
+  write_file_atomically(
+      options.output,
+      compare::analysis_page(studies, campaigns, {options.title, command_of(options), versions(), doubts}));
   fmt::print("wrote {}: open it in a browser\n", options.output);
   return done;
 }

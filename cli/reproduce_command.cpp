@@ -16,6 +16,7 @@
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/report/result_json.hpp"
 #include "compare/reproduction/reproduction_report.hpp"
+#include "compare/sweep/doubts.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/nearest_word.hpp"
@@ -55,24 +56,43 @@ struct Recorded {
   compare::Record record;
 };
 
+/// What is to be known of the answers beside them.
+struct Notes {
+  std::vector<std::string> remarks;  ///< on errors
+  std::vector<std::string> doubts;   ///< each with the study that it is of
+};
+
+/// Those of the analytic models and of grains that a record answers by.
+void add_doubts(Notes& notes, Case question, std::vector<compare::ModelAnswers> study,
+                const std::vector<compare::Answer>& grains) {
+  if (!grains.empty()) {
+    question.study.models.push_back({ModelKind::dem, {}, "dem"});
+    study.push_back({question.study.models.back(), grains});
+  }
+  for (const std::string& doubt : compare::doubts(question, study))
+    notes.doubts.push_back(question.study.name + ": " + doubt);
+}
+
 /// Answers of every model to every study that the findings speak of.
 std::vector<compare::StudyAnswers> answers_of(const compare::Findings& findings, const std::vector<Recorded>& records,
-                                              const Workplace& place, std::vector<std::string>& remarks) {
+                                              const Workplace& place, Notes& notes) {
   std::set<std::string> names;
   for (const compare::Finding& finding : findings.all) names.insert(finding.study);
   std::vector<compare::StudyAnswers> all;
   for (const std::string& name : names) {
     Case question = find_case(place, name);
     std::erase_if(question.study.models, [](const ModelChoice& c) { return c.model == ModelKind::dem; });
-    for (compare::ModelAnswers& model : compare::run_study(question, shown_progress()))
-      all.push_back({name, model.choice.label, compare::taken_as_exact(std::move(model.answers))});
+    const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
+    for (const compare::ModelAnswers& model : study)
+      all.push_back({name, model.choice.label, compare::taken_as_exact(model.answers)});
     std::string remark;
     compare::StudyAnswers dem{name, "dem", {}};
     for (const Recorded& one : records) {
       if (one.study != name) continue;
       dem.answers = compare::recorded_answers(one.record, question.study.conditions, remark);
-      remarks.push_back(fs::path(one.file).filename().string() + ": " + remark);
+      notes.remarks.push_back(fs::path(one.file).filename().string() + ": " + remark);
     }
+    add_doubts(notes, question, study, dem.answers);
     if (dem.answers.empty())
       for (const OperatingCondition& at : question.study.conditions)
         dem.answers.push_back({at, std::nullopt, "not run"});
@@ -129,19 +149,23 @@ void print_text(const compare::Reproduction& reproduction) {
 int reproduce(const ReproduceOptions& options, const Session& session) {
   const compare::Findings findings = compare::read_findings(findings_file(session.place, options.findings));
   const std::vector<Recorded> records = records_of(options.recorded, findings, session.place);
-  std::vector<std::string> remarks;
+  Notes notes;
   compare::Reproduction reproduction =
-      compare::reproduce(findings, answers_of(findings, records, session.place, remarks));
-  reproduction.remarks = remarks;
+      compare::reproduce(findings, answers_of(findings, records, session.place, notes));
+  reproduction.remarks = notes.remarks;
+  print_warnings(notes.doubts);
   Outputs outputs;
   outputs.file(options.report, [&] {
-    return compare::reproduction_page(reproduction,
-                                      {"What of " + findings.name + " is reproduced", session.command, versions()});
+    return compare::reproduction_page(
+        reproduction, {"What of " + findings.name + " is reproduced", session.command, versions(), notes.doubts});
   });
-  if (options.json)
-    fmt::print("{}", compare::json_text(compare::to_json(reproduction)));
-  else
+  if (options.json) {
+    nlohmann::ordered_json document = compare::to_json(reproduction);
+    compare::tell_doubts(document, notes.doubts);
+    fmt::print("{}", compare::json_text(document));
+  } else {
     print_text(reproduction);
+  }
   return outputs.status(done);
 }
 

@@ -14,7 +14,7 @@
 #include "cli/text_output.hpp"
 #include "compare/report/curves.hpp"
 #include "compare/report/result_json.hpp"
-#include "compare/sweep/plausibility.hpp"
+#include "compare/sweep/doubts.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
 
@@ -53,28 +53,34 @@ void add_dem(Case& question) {
   question.study.models.push_back({ModelKind::dem, {}, "dem"});
 }
 
-nlohmann::ordered_json document_of(const Case& question, const std::vector<compare::ModelAnswers>& study,
-                                   const std::optional<dem::StepCriteria>& step) {
+/// What the models answered, and what is doubtful in it.
+struct Answered {
+  std::vector<compare::ModelAnswers> study;
+  std::vector<std::string> doubts;
+  std::optional<dem::StepCriteria> step;  ///< of grains
+};
+
+nlohmann::ordered_json document_of(const Case& question, const Answered& answered) {
   nlohmann::ordered_json document = {{"format", "soilbin-run/1"},
                                      {"study", question.study.name},
                                      {"tire", question.scenario.tire.name},
                                      {"soil", question.scenario.soil.name},
-                                     {"rows", compare::rows_json(study)}};
-  tell_doubts(document, question, study);
-  if (step) document["dem"] = to_json(*step);
+                                     {"rows", compare::rows_json(answered.study)}};
+  compare::tell_doubts(document, answered.doubts);
+  if (answered.step) document["dem"] = to_json(*answered.step);
   return document;
 }
 
-void save(Outputs& outputs, const RunOptions& options, const Case& question,
-          const std::vector<compare::ModelAnswers>& study, const std::optional<dem::StepCriteria>& step,
+void save(Outputs& outputs, const RunOptions& options, const Case& question, const Answered& answered,
           const Workplace& place) {
+  const std::vector<compare::ModelAnswers>& study = answered.study;
   outputs.file(options.csv, [&] { return compare::study_csv(study); });
   outputs.drawing(options.plot, [&] { return compare::study_sheet(question, study); });
   outputs.write(options.output, [&] {
     const fs::path folder = options.output;
     write_file_atomically(folder / "case.yaml", write_case(question, place.effects));
     write_file_atomically(folder / "results.csv", compare::study_csv(study));
-    write_file_atomically(folder / "results.json", compare::json_text(document_of(question, study, step)));
+    write_file_atomically(folder / "results.json", compare::json_text(document_of(question, answered)));
   });
 }
 
@@ -108,20 +114,22 @@ int run(RunOptions options, const Session& session) {
   const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
   const compare::MakeModel make = models_with(options.soil_bin, question, session.place.effects, log);
   options.conditions.pick(question.study, question.scenario.tire);
-  const std::optional<dem::StepCriteria> step = step_of(options.soil_bin, question);
-  const std::vector<compare::ModelAnswers> study = answers_to(question, make, options, log);
+  Answered answered{.study = {}, .doubts = {}, .step = step_of(options.soil_bin, question)};
+  answered.study = answers_to(question, make, options, log);
+  answered.doubts = compare::doubts(question, answered.study);
   Outputs outputs;
-  save(outputs, options, question, study, step, session.place);
-  print_warnings(compare::doubts(question.scenario.tire, study));
+  save(outputs, options, question, answered, session.place);
+  print_warnings(answered.doubts);
   if (options.json) {
-    fmt::print("{}", compare::json_text(document_of(question, study, step)));
+    fmt::print("{}", compare::json_text(document_of(question, answered)));
   } else {
     fmt::print("{}: {} on {}\n{}\n{}", question.study.name, in_words(question.scenario.tire),
-               compare::in_words(question.scenario.soil), step ? in_words(*step) : "", study_text(study));
+               compare::in_words(question.scenario.soil), answered.step ? in_words(*answered.step) : "",
+               study_text(answered.study));
     if (const std::string notes = notes_on(*log); !notes.empty()) fmt::print("\n{}", notes);
   }
   forget_runs(*log, outputs);
-  if (compare::any_result(study)) return outputs.status(done);
+  if (compare::any_result(answered.study)) return outputs.status(done);
   fmt::print(stderr, "soilbin: no condition of the study has a solution\n");
   return failed;
 }

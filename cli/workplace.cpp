@@ -51,8 +51,8 @@ fs::path find_record(const Workplace& place, const std::string& study, const std
   return recorded == library_record ? find_record(place, study) : fs::path(recorded);
 }
 
-compare::Campaign find_campaign(const Workplace& place, const std::string& name) {
-  return compare::read_campaign(find_file(place.library, Shelf::measured, name), place.effects);
+compare::Campaign find_campaign(const Workplace& place, const std::string& name, compare::CampaignUse use) {
+  return compare::read_campaign(find_file(place.library, Shelf::measured, name), place.effects, use);
 }
 
 fs::path user_cache() {

@@ -37,7 +37,8 @@ std::filesystem::path find_record(const Workplace& place, const std::string& stu
 inline constexpr const char* library_record = "library";
 
 /// Reads a campaign: a name of the library, its folder, or its campaign.yaml.
-compare::Campaign find_campaign(const Workplace& place, const std::string& name);
+compare::Campaign find_campaign(const Workplace& place, const std::string& name,
+                                compare::CampaignUse use = compare::CampaignUse::prediction);
 
 /// $XDG_CACHE_HOME/soilbin, else .cache/soilbin in the user's home; empty where there is no home.
 std::filesystem::path user_cache();

@@ -7,7 +7,7 @@
 #include "cli/described_flags.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/sweep/plausibility.hpp"
+#include "compare/sweep/unheard.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::cli {

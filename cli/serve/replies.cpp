@@ -17,6 +17,7 @@
 #include "compare/report/curves.hpp"
 #include "compare/report/result_json.hpp"
 #include "compare/report/sheet_json.hpp"
+#include "compare/sweep/doubts.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
@@ -131,7 +132,7 @@ Reply estimate_reply(const Setup& setup, const std::string& query) {
   const Asked asked = setup.ask(flags);
   const Case swept = swept_over(asked.question, slips);
   const Study point = compare::run_study(asked.question), curves = compare::run_study(swept, {}, make_curve_model);
-  Json document = answers_json(asked.question, point);
+  Json document = answers_json(asked.question, point, compare::doubts(asked.question, point));
   document["command"] = command_line(asked.words);
   document["in_words"] = in_words(asked.question.scenario.tire) + " on " +
                          compare::in_words(asked.question.scenario.soil) + ", " +

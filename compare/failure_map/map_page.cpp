@@ -83,6 +83,7 @@ std::string failure_map_page(const MapStory& story, const PageAbout& about, cons
   std::vector<std::pair<std::string, std::string>> sentences;
   for (const std::string& sentence : map_summary(story)) sentences.emplace_back("", sentence);
   page.summary(sentences);
+  page.doubts(about.doubts);
   page.figures_at_a_glance(
       {{std::to_string(story.rows.rows.size()), "conditions run"},
        {fmt::format("{:.1f} %", 100 * story.rows.held_out.rms()), "cross-validated error, of the load"},

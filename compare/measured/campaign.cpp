@@ -109,11 +109,11 @@ std::vector<ColumnChoice> choose_columns(const CsvTable& table, Renames& renames
   return choices;
 }
 
-void check_amount(const Campaign& campaign, const SourceText& csv) {
+void check_amount(const Campaign& campaign, const SourceText& csv, CampaignUse use) {
   const auto rows = std::count_if(campaign.runs.begin(), campaign.runs.end(), has_channel);
   if (rows == 0) csv.refuse(0, "no measured channel: no row holds a measured value");
   const int parameters = free_parameters(campaign.soil);
-  if (rows < parameters)
+  if (use == CampaignUse::fit && rows < parameters)
     csv.refuse(0,
                fmt::format("{} rows with a measured value are fewer than the {} free parameters of the soil", rows,
                            parameters),
@@ -157,7 +157,7 @@ int free_parameters(const SemiEmpiricalSoil& soil) {
 }
 
 Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(const std::string&)>& open,
-                        const EffectVocabulary& effects) {
+                        const EffectVocabulary& effects, CampaignUse use) {
   const YamlNode document = parse_yaml(yaml);
   const Reading reading{&yaml, std::nullopt, nullptr, ""};
   expect_format(document, campaign_format, reading);
@@ -175,15 +175,15 @@ Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(c
     run.at.slip_by = campaign.slip_by;
     run.at.force_frame = campaign.force_frame;
   }
-  check_amount(campaign, csv);
+  check_amount(campaign, csv, use);
   return campaign;
 }
 
-Campaign read_campaign(const fs::path& path, const EffectVocabulary& effects) {
+Campaign read_campaign(const fs::path& path, const EffectVocabulary& effects, CampaignUse use) {
   std::error_code error;
   const fs::path file = fs::is_directory(path, error) ? path / "campaign.yaml" : path;
   const auto open = [&](const std::string& name) { return read_source_text(file.parent_path() / name, largest_csv); };
-  return parse_campaign(read_source_text(file, largest_yaml), open, effects);
+  return parse_campaign(read_source_text(file, largest_yaml), open, effects, use);
 }
 
 void write_campaign(const fs::path& folder, const Campaign& campaign, const EffectVocabulary& effects) {

@@ -59,13 +59,17 @@ Scenario scenario_of(const Campaign& campaign);
 /// Soil values that a fit may move: those with sd > 0, of the eight of the semi-empirical model.
 int free_parameters(const SemiEmpiricalSoil& soil);
 
+/// What a campaign is read for. A fit needs a row with a measured value for each free value of the soil.
+enum class CampaignUse { prediction, fit };
+
 /// Reads a campaign: its folder or its campaign.yaml. Throws InputError with file, line, column and the nearest right
 /// word for everything that the contract refuses.
-Campaign read_campaign(const std::filesystem::path& path, const EffectVocabulary& effects);
+Campaign read_campaign(const std::filesystem::path& path, const EffectVocabulary& effects,
+                       CampaignUse use = CampaignUse::prediction);
 
 /// The same from texts in memory; `open` supplies the data file by the name that stands in the YAML.
 Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(const std::string&)>& open,
-                        const EffectVocabulary& effects);
+                        const EffectVocabulary& effects, CampaignUse use = CampaignUse::prediction);
 
 /// Writes campaign.yaml and the data file into a folder (made where it is missing). Reading them gives the same
 /// campaign; an angle may differ in the last bit. Throws std::runtime_error where a file can't be written.

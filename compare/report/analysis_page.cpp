@@ -170,6 +170,7 @@ std::string analysis_page(const std::vector<StudyPart>& studies, const std::vect
         doubt = doubt || (answer.result && answer.result->drawbar_pull.std_error > 0.0);
   if (doubt) summary.emplace_back("", "± is one standard error, from the standard deviations of the soil's values.");
   page.summary(summary);
+  page.doubts(about.doubts);
   for (const StudyPart& part : studies) add_study(page, part);
   for (const CampaignPart& part : campaigns) add_campaign(page, part);
   add_provenance(page, studies, campaigns);

@@ -27,6 +27,7 @@ struct PageAbout {
   std::string title;
   std::string command;  ///< that made the page
   std::vector<std::pair<std::string, std::string>> versions;
+  std::vector<std::string> doubts{};  ///< in what the page tells (compare/sweep/doubts.hpp)
 };
 
 std::string analysis_page(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns,

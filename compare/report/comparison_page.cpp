@@ -55,6 +55,7 @@ void add_summary(Page& page, const Comparison& comparison, const ComparisonAbout
                             {count(DifferenceFinding::difference), "differences"},
                             {count(DifferenceFinding::within_scatter), "within the scatter of a run"},
                             {count(DifferenceFinding::within_errors), "covered by the errors"}});
+  page.doubts(about.page.doubts);
 }
 
 void add_curves(Page& page, const Comparison& comparison) {

@@ -176,6 +176,7 @@ std::string drive_page(const DrivePart& part, const PageAbout& about) {
   std::vector<std::pair<std::string, std::string>> sentences;
   for (const std::string& sentence : in_words(part)) sentences.emplace_back("", sentence);
   page.summary(sentences);
+  page.doubts(about.doubts);
   page.section("Against time");
   page.figure(drive_sheet(part),
               "The soil in contact has seen the slip of the last quarter turn or so: it lags behind the speeds.");

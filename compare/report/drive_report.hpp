@@ -26,6 +26,10 @@ DrivePart run_drive(const Case& question, int samples, const bekker_wong::DriveP
 /// How it ended and where the work went, in sentences.
 std::vector<std::string> in_words(const DrivePart& part);
 
+/// What is doubtful in a drive (compare/sweep/doubts.hpp): its wheel and soil, how deep it sank on its way, what
+/// changes nothing.
+std::vector<std::string> doubts(const DrivePart& part);
+
 /// Where the motor's work went: a name and its share in J, the rest last.
 std::vector<std::pair<std::string, double>> energy_rows(const bekker_wong::EnergyLedger& energy);
 

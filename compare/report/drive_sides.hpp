@@ -78,6 +78,9 @@ DriveSide grain_side(const dem::GrainDriveRecord& record, std::optional<std::uin
 /// is, or the mean over packings.
 DriveSides side_by_side(const Case& question, std::vector<DriveSide> sides, std::vector<std::string> notes);
 
+/// What is doubtful in both models' drives (compare/sweep/doubts.hpp).
+std::vector<std::string> doubts(const DriveSides& drive);
+
 /// The steady values of the side of grains: the one there is, or the mean over packings.
 std::optional<dem::SteadyDrive> steady_of_grains(const DriveSides& drive);
 

@@ -195,6 +195,7 @@ std::string drive_page(const DriveSides& drive, const PageAbout& about) {
   std::vector<std::pair<std::string, std::string>> sentences;
   for (const std::string& sentence : in_words(drive)) sentences.emplace_back("", sentence);
   page.summary(sentences);
+  page.doubts(about.doubts);
   page.section("Against time");
   page.figure(
       drive_sheet(drive),

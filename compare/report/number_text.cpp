@@ -33,6 +33,10 @@ double per_unit(const std::string& unit) {
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
+std::string counted(std::size_t count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 std::string capital(std::string text) {
   if (!text.empty()) text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
   return text;

@@ -19,6 +19,9 @@ double per_unit(const std::string& unit);
 /// A share as "12.3 %".
 std::string percent(double share);
 
+/// "1 model", "2 models".
+std::string counted(std::size_t count, const std::string& noun);
+
 /// "drawbar pull" as "Drawbar pull".
 std::string capital(std::string text);
 

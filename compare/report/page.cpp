@@ -75,6 +75,12 @@ void Page::list(const std::vector<std::string>& items) {
   body_ += "</ul>\n";
 }
 
+void Page::doubts(const std::vector<std::string>& doubts) {
+  if (doubts.empty()) return;
+  section("What is doubtful", "doubts");
+  list(doubts);
+}
+
 void Page::table(const HtmlTable& table) {
   body_ += "<div class=\"scroll\"><table>";
   if (!table.caption.empty()) body_ += "<caption>" + escaped(table.caption) + "</caption>";

@@ -63,6 +63,8 @@ class Page {
   void subsection(const std::string& title);
   void paragraph(const std::string& text);
   void list(const std::vector<std::string>& items);
+  /// A section of what is doubtful in what the page tells (compare/sweep/doubts.hpp); none where there is nothing.
+  void doubts(const std::vector<std::string>& doubts);
   void table(const HtmlTable& table);
   /// The sheet's panels side by side as the width allows, its legend above them, a caption below.
   void figure(const Sheet& sheet, const std::string& caption);

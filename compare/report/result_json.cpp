@@ -222,6 +222,10 @@ Json to_json(const Prediction& prediction, const std::string& campaign) {
   return document;
 }
 
+void tell_doubts(Json& document, const std::vector<std::string>& doubts) {
+  if (!doubts.empty()) document["warnings"] = doubts;
+}
+
 std::string json_text(const Json& document) {
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

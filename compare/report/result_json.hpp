@@ -28,6 +28,9 @@ nlohmann::ordered_json rows_json(const std::vector<ModelAnswers>& study);
 /// soilbin-predict/1.
 nlohmann::ordered_json to_json(const Prediction& prediction, const std::string& campaign);
 
+/// Adds "warnings" where there are doubts (compare/sweep/doubts.hpp).
+void tell_doubts(nlohmann::ordered_json& document, const std::vector<std::string>& doubts);
+
 /// The text of a document: indented, and never an exception for bytes that are not UTF-8.
 std::string json_text(const nlohmann::ordered_json& document);
 

@@ -152,6 +152,7 @@ std::string reproduction_page(const Reproduction& reproduction, const PageAbout&
   for (std::size_t k = 0; k < reproduction.labels.size(); ++k)
     sentences.emplace_back(reproduction.labels[k], tally(reproduction, k));
   page.summary(sentences);
+  page.doubts(about.doubts);
   page.paragraph(fmt::format(
       "Each finding is a statistic with its {:.0f} % interval: shown where the whole interval lies in what is claimed, "
       "contradicted where none of it does, not shown between. The analytic model's answers are exact: an interval of "

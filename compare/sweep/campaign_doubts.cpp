@@ -5,7 +5,9 @@
 #include <map>
 #include <tuple>
 
-#include "compare/sweep/plausibility.hpp"
+#include "compare/sweep/doubt_parts.hpp"
+#include "compare/sweep/doubts.hpp"
+#include "compare/sweep/unheard.hpp"
 #include "compare/sweep/varying.hpp"
 
 namespace soilbin::compare {
@@ -13,11 +15,12 @@ namespace {
 
 using Warnings = std::vector<std::string>;
 
-/// The campaign's declared model at the conditions of its runs.
-Case declared_question(const Campaign& campaign) {
+/// A campaign's runs as questions to a model.
+Case question_of(const Campaign& campaign, const Scenario& asked) {
   Case question;
-  question.scenario = scenario_of(campaign);
-  question.study.models = {{ModelKind::bekker_wong, campaign.effects, ""}};
+  question.scenario = asked;
+  question.study.models = {{ModelKind::bekker_wong, asked.effects, ""}};
+  question.scenario.effects.clear();
   for (const Run& run : campaign.runs) question.study.conditions.push_back(run.at);
   return question;
 }
@@ -31,6 +34,17 @@ void add_row_doubts(const Campaign& campaign, Warnings& warnings) {
       warnings.push_back(fmt::format("line {}: a drawbar pull of {:.4g} N is more than three times the load",
                                      run.csv_line, *run.drawbar_pull));
   }
+}
+
+/// Wheels stand above the undisturbed surface here and there; not in most runs.
+void add_flipped_sinkage(const std::vector<Run>& runs, Warnings& warnings) {
+  const auto measured = std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.sinkage.has_value(); });
+  const auto above = std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.sinkage < 0.0; });
+  if (2 * above > measured)
+    warnings.push_back(
+        fmt::format("{} of {} measured sinkages are negative: is their sign flipped? Below the undisturbed surface is "
+                    "positive",
+                    above, measured));
 }
 
 /// All that was set and measured in a run, but for the line it stands in.
@@ -69,8 +83,9 @@ double correlation(const std::vector<double>& x, const std::vector<double>& y, c
 }
 
 /// A pull whose sign is flipped falls along each curve against slip while the torque rises, and lies nearer to what the
-/// declared model says once it is turned round.
-void add_flipped_pull(const Campaign& campaign, const Case& question, Warnings& warnings) {
+/// model says once it is turned round.
+void add_flipped_pull(const Campaign& campaign, const Case& question, const std::vector<Answer>& answers,
+                      Warnings& warnings) {
   constexpr std::size_t fewest = 6;
   constexpr double clearly = 0.7;
   const std::vector<std::size_t> curve_of = curves_against_slip(question.study.conditions, Spread::measured).curve_of;
@@ -86,10 +101,9 @@ void add_flipped_pull(const Campaign& campaign, const Case& question, Warnings& 
       !(correlation(slip, pull, curve) < -clearly && correlation(slip, torque, curve) > clearly))
     return;
   double as_told = 0, turned_round = 0;
-  const std::vector<ModelAnswers> study = run_study(question);
   for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
     const auto& measured = campaign.runs[i].drawbar_pull;
-    const auto& predicted = study.front().answers[i].result;
+    const auto& predicted = answers[i].result;
     if (!measured || !predicted) continue;
     as_told += std::pow(*measured - predicted->drawbar_pull.value, 2);
     turned_round += std::pow(*measured + predicted->drawbar_pull.value, 2);
@@ -99,16 +113,43 @@ void add_flipped_pull(const Campaign& campaign, const Case& question, Warnings& 
         "the drawbar pull falls as slip rises while the torque rises: is its sign flipped? Positive pulls forward");
 }
 
-}  // namespace
+/// Each row has a run and a place: so a campaign is told, whether or not its model asks for them.
+bool only_tells_the_row(const Unheard& one) { return one.key == "run" || one.key == "position"; }
 
-Warnings doubts(const Campaign& campaign) {
-  const Case question = declared_question(campaign);
-  Warnings warnings = doubts_but_unheard(question), of_rows;
+enum class Fit { none, will_look_for_effects };
+
+Warnings doubts_of(const Campaign& campaign, const Case& question, const std::vector<ModelAnswers>& study,
+                   Answered answered, Fit fit) {
+  Warnings warnings = doubts_but_unheard(question, study, answered), of_rows;
+  if (fit == Fit::none)
+    for (Unheard& one : unheard(question))
+      if (!only_tells_the_row(one)) warnings.push_back(std::move(one.words));
   add_row_doubts(campaign, of_rows);
+  add_flipped_sinkage(campaign.runs, of_rows);
   add_repeated_rows(campaign.runs, of_rows);
-  add_flipped_pull(campaign, question, of_rows);
+  add_flipped_pull(campaign, question, study.front().answers, of_rows);
   for (std::string& warning : once_each(of_rows)) warnings.push_back(std::move(warning));
   return warnings;
+}
+
+Warnings doubts_as_declared(const Campaign& campaign, Fit fit) {
+  const Case question = question_of(campaign, scenario_of(campaign));
+  return doubts_of(campaign, question, quick_answers(question), Answered::no, fit);
+}
+
+}  // namespace
+
+Warnings doubts(const Campaign& campaign) { return doubts_as_declared(campaign, Fit::none); }
+
+Warnings doubts_before_fit(const Campaign& campaign) {
+  return doubts_as_declared(campaign, Fit::will_look_for_effects);
+}
+
+Warnings doubts(const Campaign& campaign, const Scenario& asked, const Prediction& prediction) {
+  const Case question = question_of(campaign, asked);
+  ModelAnswers answers{question.study.models.front(), {}};
+  for (const PredictedRun& run : prediction.runs) answers.answers.push_back(run.predicted);
+  return doubts_of(campaign, question, {answers}, Answered::yes, Fit::none);
 }
 
 }  // namespace soilbin::compare

@@ -1,10 +1,9 @@
+#include "compare/sweep/unheard.hpp"
+
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <functional>
-
-#include "bekker_wong/effect.hpp"
-#include "compare/sweep/plausibility.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -12,9 +11,9 @@ namespace {
 /// A thing that a case may declare, and what hears of it.
 struct Declared {
   std::string key;
-  std::string of_case;  ///< why declaring it may change nothing; {}: the effects that hear of it
-  std::string needs;    ///< what an effect that hears of it needs; empty where it does without
-  bool grains_hear = false;
+  std::string of_wheel;  ///< why declaring it may change nothing of the analytic wheel; {}: the effects that hear of it
+  std::string of_grains;  ///< the same of grains; empty where they hear of it
+  std::string needs;      ///< what an effect that hears of it needs; empty where it does without
   std::function<bool(const Case&)> given;
 };
 
@@ -25,17 +24,24 @@ bool any_condition(const Case& question, const std::function<bool(const Operatin
 const std::vector<Declared>& declarable() {
   using At = const OperatingCondition&;
   const auto some = [](auto has) { return [has](const Case& question) { return any_condition(question, has); }; };
+  const auto of_condition = [&](const std::string& key, const std::string& of_grains, const std::string& needs,
+                                auto has) {
+    return Declared{key, "'" + key + "' changes nothing: the analytic model hears of it by {}", of_grains, needs,
+                    some(has)};
+  };
   static const std::vector<Declared> all = {
-      {"lugs", "the tire's lugs change nothing: the analytic wheel is smooth without {}", "", true,
+      {"lugs", "the tire's lugs change nothing: the analytic wheel is smooth without {}", "", "",
        [](const Case& question) { return is_lugged(question.scenario.tire); }},
-      {"pass", "'pass' changes nothing: the analytic model hears of it by {}", "no condition has a 'pass' of 2 or more",
-       true, some([](At at) { return at.pass > 1; })},
-      {"moisture", "'moisture' changes nothing: the analytic model hears of it by {}", "no condition has a 'moisture'",
-       false, some([](At at) { return at.moisture.has_value(); })},
-      {"position", "'position' changes nothing: the analytic model hears of it by {}", "no condition has a 'position'",
-       false, some([](At at) { return at.position.has_value(); })},
-      {"run", "'run' changes nothing: the analytic model hears of it by {}", "no condition has a 'run'", false,
-       some([](At at) { return at.run.has_value(); })},
+      {"inflation", "the tire's inflation pressure changes nothing: the analytic wheel is rigid without {}",
+       "the tire's inflation pressure changes nothing: grains meet a rigid tire", "",
+       [](const Case& question) { return question.scenario.tire.inflation_pressure.has_value(); }},
+      of_condition("pass", "", "no condition has a 'pass' of 2 or more", [](At at) { return at.pass > 1; }),
+      of_condition("moisture", "'moisture' changes nothing of the grains", "no condition has a 'moisture'",
+                   [](At at) { return at.moisture.has_value(); }),
+      of_condition("position", "'position' changes nothing of the grains", "no condition has a 'position'",
+                   [](At at) { return at.position.has_value(); }),
+      of_condition("run", "'run' changes nothing of the grains", "no condition has a 'run'",
+                   [](At at) { return at.run.has_value(); }),
   };
   return all;
 }
@@ -51,10 +57,19 @@ std::string hearing_effects(const std::string& key) {
 }
 
 bool hears(const ModelChoice& choice, const Declared& declared) {
-  if (choice.model == ModelKind::dem) return declared.grains_hear;
   return std::any_of(choice.effects.begin(), choice.effects.end(), [&](const EffectChoice& effect) {
     return hears_of(bekker_wong::find_form(effect), declared.key);
   });
+}
+
+/// Why a thing that is given changes nothing, of the analytic models or, where these hear or aren't asked, of grains.
+std::string why_unheard(const std::vector<ModelChoice>& models, const Declared& declared) {
+  const auto is_grains = [](const ModelChoice& m) { return m.model == ModelKind::dem; };
+  const bool grains = std::any_of(models.begin(), models.end(), is_grains);
+  const bool wheel = !std::all_of(models.begin(), models.end(), is_grains);
+  if (wheel && std::none_of(models.begin(), models.end(), [&](const ModelChoice& m) { return hears(m, declared); }))
+    return fmt::format(fmt::runtime(declared.of_wheel), hearing_effects(declared.key));
+  return grains ? declared.of_grains : "";
 }
 
 /// The effects of the study's models that need this, each id once.
@@ -71,9 +86,10 @@ std::vector<std::string> in_need(const std::vector<ModelChoice>& models, const D
 }  // namespace
 
 bool hears_of(const bekker_wong::EffectForm& form, const std::string& key) {
-  // A parameter about which a form is centred tells; passes have none, and of lugs the one that knows them hears.
+  // A parameter about which a form is centred tells; passes, lugs and inflation have none.
   if (key == "pass") return form.id == "multipass";
   if (key == "lugs") return form.id == "lug_thrust";
+  if (key == "inflation") return form.id == "tire_flexibility";
   return std::any_of(form.parameters.begin(), form.parameters.end(),
                      [&](const bekker_wong::EffectParameter& parameter) { return parameter.centred_on == key; });
 }
@@ -84,8 +100,7 @@ std::vector<Unheard> unheard(const Case& question) {
   if (question.study.conditions.empty()) return all;
   for (const Declared& declared : declarable()) {
     if (declared.given(question)) {
-      if (std::none_of(models.begin(), models.end(), [&](const ModelChoice& m) { return hears(m, declared); }))
-        all.push_back({declared.key, fmt::format(fmt::runtime(declared.of_case), hearing_effects(declared.key))});
+      if (const std::string why = why_unheard(models, declared); !why.empty()) all.push_back({declared.key, why});
     } else if (!declared.needs.empty()) {
       for (const std::string& id : in_need(models, declared))
         all.push_back({"effect", fmt::format("effect {} changes nothing: {}", id, declared.needs)});

@@ -3,8 +3,8 @@
 
 #include "bekker_wong/model.hpp"
 #include "compare/sweep/answers.hpp"
+#include "compare/sweep/doubts.hpp"
 #include "compare/sweep/explanation.hpp"
-#include "compare/sweep/plausibility.hpp"
 #include "compare/sweep/varying.hpp"
 #include "notebooks/bindings/bindings.hpp"
 #include "scenario/case.hpp"

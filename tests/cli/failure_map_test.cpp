@@ -37,6 +37,8 @@ TEST(SlowFailureMapCommand, LearnsFromTheStoredRuns) {
   }
   EXPECT_GT(answered, 12);
   EXPECT_THAT(text_of(page), HasSubstr("Cross-validated error of the map"));
+  EXPECT_THAT(text_of(page), HasSubstr("the grains are coarse for this wheel"));
+  EXPECT_THAT(map["warnings"].dump(), HasSubstr("the grains are coarse for this wheel"));
 }
 
 // docs/failure-map.md on the paper's tire: by load and slip, hardly by slope; and five runs that the map had not seen.

@@ -43,13 +43,15 @@ TEST(LoopCommand, RefusesALimitThatIsNone) {
   EXPECT_THAT(outcome.err, HasSubstr("did you mean 'load'"));
   EXPECT_THAT(soilbin("loop made-lesson --limit load=2m..3m").err, HasSubstr("'m' is a length"));
   EXPECT_THAT(soilbin("loop made-lesson --limit load=3kN..2kN").err, HasSubstr("the lower end is above the upper"));
-  EXPECT_THAT(soilbin("loop made-lesson --limit speed=0..1").err, HasSubstr("must be above 0 m/s"));
+  EXPECT_THAT(soilbin("loop made-lesson --limit speed=0m/s..1m/s").err, HasSubstr("must be above 0 m/s"));
+  EXPECT_THAT(soilbin("loop made-lesson --limit load=10..30").err,
+              HasSubstr("expected a force, such as '4 kN', not '10'"));
 }
 
-// A range with units or in the campaign's own; what has no limit keeps to the campaign's range.
+// What has no limit keeps to the campaign's range.
 TEST(SlowLoopCommand, AsksForARunWithinTheLimits) {
-  const Outcome outcome =
-      soilbin("loop made-lesson --folds 2 --json --limit slip=0.1..0.2 --limit yaw=-2..3 --limit load=0.3kN..400N");
+  const Outcome outcome = soilbin(
+      "loop made-lesson --folds 2 --json --limit slip=0.1..0.2 --limit yaw=-2deg..3deg --limit load=0.3kN..400N");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const nlohmann::json condition = outcome.json().at("next_test").at("condition");
   EXPECT_THAT(condition.at("slip").get<double>(), AllOf(Ge(0.1), Le(0.2)));

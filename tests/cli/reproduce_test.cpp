@@ -37,6 +37,10 @@ TEST(ReproduceCommand, CallsFindingsOfThePaperByTheirNames) {
                                   [](const auto& finding) { return finding.at("id") == "straight-pull-steep-to-20"; });
   ASSERT_NE(steep, all.end());
   EXPECT_EQ(steep->at("answers").at("dem").at("verdict"), "shown");
+  const std::string warnings = told.at("warnings").dump();
+  for (const char* doubt :
+       {"paper-straight: the grains are coarse for this wheel", "paper-straight: the grains' rolling"})
+    EXPECT_THAT(warnings, HasSubstr(doubt));
 }
 
 TEST(ReproduceCommand, RefusesAnUnknownPaperAndARecordOfAnotherStudy) {

@@ -174,12 +174,20 @@ TEST(CampaignRefuses, MissingConditionsAndChannels) {
   EXPECT_THAT(refused_csv("2,a,1000", "2,a,"), StartsWith("runs.csv:3:5: column 'load_N': empty"));
 }
 
-TEST(CampaignRefuses, FewerRowsThanParameters) {
+std::string refused_fit(const std::string& csv) {
+  return refusal([&] {
+    const auto open = [&](const std::string& name) { return make_source_text(csv, name); };
+    parse_campaign(make_source_text(good_yaml, "campaign.yaml"), open, FakeVocabulary(), CampaignUse::fit);
+  });
+}
+
+TEST(CampaignRefuses, FewerRowsThanParametersOfAFit) {
   EXPECT_EQ(free_parameters(parse(good_yaml, good_csv).soil), 3) << "exponent, k_c and k_phi have an sd";
   EXPECT_THAT(
-      refused(good_yaml, "load_N,slip,torque_Nm\n1000,0,1\n1000,0.1,2\n"),
+      refused_fit("load_N,slip,torque_Nm\n1000,0,1\n1000,0.1,2\n"),
       StartsWith("runs.csv:1:1: 2 rows with a measured value are fewer than the 3 free parameters of the soil"));
-  EXPECT_THAT(refused(good_yaml, "load_N,slip,torque_Nm\n1000,0,1\n1000,0.1,2\n1000,0.2,\n"), HasSubstr("2 rows"));
+  EXPECT_THAT(refused_fit("load_N,slip,torque_Nm\n1000,0,1\n1000,0.1,2\n1000,0.2,\n"), HasSubstr("2 rows"));
+  EXPECT_EQ(parse(good_yaml, "load_N,slip,torque_Nm\n1000,0,1\n").runs.size(), 1U) << "a prediction fits nothing";
   EXPECT_THAT(refused(good_yaml, "load_N,slip,torque_Nm\n"), HasSubstr("no row holds a measured value"));
 }
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "compare/sweep/explanation.hpp"
-#include "compare/sweep/plausibility.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
@@ -11,11 +10,8 @@
 namespace soilbin::compare {
 namespace {
 
-using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::StartsWith;
 
 /// Pulls 10 N for each percent of slip, sinks 1 mm, and refuses slips above one half.
 struct Linear final : Model {
@@ -143,90 +139,6 @@ TEST(Explanation, StepsRepeatTheResult) {
   double largest = 0.0;
   for (const StressSample& sample : e.result.patch) largest = std::max(largest, sample.normal);
   EXPECT_NEAR(value("normal stress there"), largest / 1000, 0.01 * largest / 1000);
-}
-
-TEST(Plausibility, NothingToSayOfAnOrdinarySoil) { EXPECT_TRUE(doubts(sand()).empty()); }
-
-TEST(Plausibility, EachKindOfWarningIsSaidOnce) {
-  Case question;
-  question.scenario = wheel_on_sand();
-  question.study.models = {ModelChoice{}};
-  for (const double load : {1e6, 2e6, 3e6}) question.study.conditions.push_back(condition(load, 0.2));
-  const std::vector<std::string> warnings = doubts(question);
-  ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_THAT(warnings[0], HasSubstr("no solution"));
-  EXPECT_THAT(warnings[0], HasSubstr("2 other conditions"));
-}
-
-std::vector<std::string> keys_of_unheard(const Case& question) {
-  std::vector<std::string> keys;
-  for (const Unheard& one : unheard(question)) keys.push_back(one.key);
-  return keys;
-}
-
-TEST(Plausibility, WhatNoModelHearsOfIsTold) {
-  Case question;
-  question.scenario = wheel_on_sand();
-  question.study.models = {ModelChoice{}};
-  question.study.conditions = {condition(80, 0.2)};
-  EXPECT_THAT(keys_of_unheard(question), IsEmpty());
-  question.scenario.tire.lugs.height = 0.01;
-  question.study.conditions[0].pass = 2;
-  question.study.conditions[0].moisture = 0.05;
-  EXPECT_THAT(keys_of_unheard(question), ElementsAre("lugs", "pass", "moisture"));
-  question.study.models.push_back({ModelKind::dem, {}, ""});
-  EXPECT_THAT(keys_of_unheard(question), ElementsAre("moisture")) << "grains hear of lugs and passes";
-  question.study.models.push_back({ModelKind::bekker_wong, {{"moisture", "", {}}, {"drift", "", {}}}, ""});
-  EXPECT_THAT(keys_of_unheard(question), ElementsAre("effect")) << "drift without a run";
-}
-
-/// Eight runs over slip at one load as the base model has them.
-Campaign modelled_campaign() {
-  Campaign campaign;
-  const Scenario scenario = wheel_on_sand();
-  campaign.wheel = scenario.tire;
-  campaign.soil = *scenario.soil.semi_empirical;
-  for (int i = 0; i < 8; ++i) {
-    Run run;
-    run.at = condition(80, 0.05 * i);
-    run.at.run = i + 1;
-    run.csv_line = i + 2;
-    const TractionResult told = *ask(*make_model(ModelKind::bekker_wong), scenario, run.at).result;
-    run.drawbar_pull = told.drawbar_pull.value, run.torque = told.torque.value, run.sinkage = told.sinkage.value;
-    campaign.runs.push_back(run);
-  }
-  return campaign;
-}
-
-TEST(Plausibility, ACampaignsRepeatedRowsAndFlippedPullAreTold) {
-  const Campaign good = modelled_campaign();
-  EXPECT_THAT(doubts(good), IsEmpty());
-  Campaign flipped = good;
-  for (auto& run : flipped.runs) *run.drawbar_pull *= -1;
-  EXPECT_THAT(doubts(flipped), ElementsAre(HasSubstr("is its sign flipped?")));
-  Campaign copied = good;
-  copied.runs.push_back(copied.runs[1]);
-  copied.runs.back().csv_line = 10;
-  copied.runs.push_back(copied.runs[2]);
-  copied.runs.back().csv_line = 11;
-  EXPECT_THAT(doubts(copied), ElementsAre(AllOf(StartsWith("line 10: all its values are those of line 3"),
-                                                HasSubstr("(and at 1 other line)"))));
-  copied.runs.resize(9);
-  *copied.runs.back().torque += 1;
-  EXPECT_THAT(doubts(copied), ElementsAre("line 10: run 2 stands in line 3 already"));
-}
-
-TEST(Plausibility, WarningsOfOneKindOfManyRowsAreOneLine) {
-  Campaign campaign = modelled_campaign();
-  for (auto& run : campaign.runs) *run.sinkage += 1.0;
-  EXPECT_THAT(doubts(campaign),
-              ElementsAre(AllOf(HasSubstr("more than the wheel's diameter"), HasSubstr("(and at 7 other lines)"))));
-}
-
-TEST(Plausibility, ASoilThatCarriesNothingIsTold) {
-  SemiEmpiricalSoil soil = sand();
-  soil.k_c.value = 0.0, soil.k_phi.value = -5.0;
-  EXPECT_THAT(doubts(soil), ElementsAre(HasSubstr("carries nothing")));
 }
 
 }  // namespace

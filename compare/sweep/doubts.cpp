@@ -1,4 +1,4 @@
-#include "compare/sweep/plausibility.hpp"
+#include "compare/sweep/doubts.hpp"
 
 #include <fmt/core.h>
 
@@ -10,7 +10,9 @@
 #include "bekker_wong/contact_stages.hpp"
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
-#include "compare/sweep/answers.hpp"
+#include "compare/sweep/doubt_parts.hpp"
+#include "compare/sweep/grain_doubts.hpp"
+#include "compare/sweep/unheard.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/unit.hpp"
 
@@ -18,6 +20,13 @@ namespace soilbin::compare {
 namespace {
 
 using Warnings = std::vector<std::string>;
+
+/// Of the radius. The base model has no balance beyond 0.9; its stresses are tested up to about this.
+constexpr double stretched_sinkage_share = 0.5;
+
+void append(Warnings& all, Warnings more) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
 
 /// "n = 0.12 is outside 0.3 .. 1.6, ..." where it is.
 void expect(Warnings& warnings, const char* name, double value, double lower, double upper, const char* unit,
@@ -28,44 +37,49 @@ void expect(Warnings& warnings, const char* name, double value, double lower, do
 }
 
 /// What a wheel and a soil say together, before any condition.
-void add_wheel_doubts(const Tire& tire, const SemiEmpiricalSoil& soil, Warnings& warnings) {
+void add_wheel_doubts(const Tire& tire, const std::optional<SemiEmpiricalSoil>& soil, Warnings& warnings) {
   expect(warnings, "the wheel's radius", tire.radius * 1000, 20, 2000, "mm", "the model is tested from 50 mm to 2 m");
   if (tire.width > 2 * tire.radius)
     warnings.push_back(fmt::format("the wheel is wider ({:.4g} mm) than its diameter ({:.4g} mm)", 1000 * tire.width,
                                    2000 * tire.radius));
   if (is_lugged(tire) && tire.lugs.height > 0.3 * tire.radius)
     warnings.push_back(fmt::format("the lugs ({:.4g} mm) are higher than 30 % of the radius", 1000 * tire.lugs.height));
-  if (!(bekker_wong::values_of(soil).pressure_modulus(tire.width) > 0.0))
+  if (soil && !(bekker_wong::values_of(*soil).pressure_modulus(tire.width) > 0.0))
     warnings.push_back("k_c/b + k_phi is not positive for this width: the soil carries nothing");
 }
 
-/// What to say of a wheel that an effect settles deeper than the base model balances one; "" where it doesn't.
-std::string too_deep(const Tire& tire, const Answer& answer) {
-  if (!answer.result) return "";
-  const double share = answer.result->sinkage.value / tire.radius;
-  if (!(share > bekker_wong::max_sinkage_share)) return "";
-  return fmt::format(
-      "the wheel settles to {:.0f} % of its radius at {}: the stresses are not meant for more than {:.0f} %",
-      100 * share, in_words(answer.at), 100 * bekker_wong::max_sinkage_share);
+/// A wheel so deep that the stresses under it are a stretch, or none at all; "" where it isn't.
+std::string too_deep(const Scenario& scenario, const Answer& answer) {
+  const double share = answer.result->sinkage.value / scenario.tire.radius;
+  if (share > bekker_wong::max_sinkage_share)
+    return fmt::format(
+        "the wheel settles to {:.0f} % of its radius at {}: the stresses are not meant for more than {:.0f} %",
+        100 * share, in_words(answer.at), 100 * bekker_wong::max_sinkage_share);
+  if (!(share > stretched_sinkage_share)) return "";
+  return fmt::format("the wheel sinks {:.0f} % of its radius at {}: the model's rigid outline is a stretch there",
+                     100 * share, in_words(answer.at));
 }
 
-/// The wheel at one condition of the base model.
-void add_condition_doubts(const Scenario& scenario, const Answer& answer, Warnings& warnings) {
+/// A steady wheel gives out no more than is put in; what instruments show may.
+void add_power_doubt(const Answer& answer, Warnings& warnings) {
+  if (answer.result->tractive_efficiency > 1.0)
+    warnings.push_back(
+        fmt::format("more power comes out at the drawbar than is put in at {}: an instrument's fault, or an effect "
+                    "that tells one; no efficiency is told",
+                    in_words(answer.at)));
+}
+
+/// What the analytic wheel answers at one condition.
+void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings& warnings) {
   const std::string at = " at " + in_words(answer.at);
   const Tire& tire = scenario.tire;
-  if (!answer.result) return warnings.push_back("no solution" + at + ": " + answer.error);
   const TractionResult& r = *answer.result;
   const double length = tire.radius * (r.entry_angle - r.exit_angle);
   const double pressure = answer.at.load / (tire.width * tire.radius * std::sin(r.entry_angle));
   if (pressure < 500.0 || pressure > 2e6)
     warnings.push_back(fmt::format("mean ground pressure {:.3g} kPa{}: wheels on soil press with 0.5 .. 2000 kPa",
                                    pressure / 1000, at));
-  if (const std::string deep = too_deep(tire, answer); !deep.empty())
-    warnings.push_back(deep);
-  else if (r.sinkage.value > 0.5 * tire.radius)
-    warnings.push_back(
-        fmt::format("the wheel sinks {:.0f} % of its radius{}: the model's rigid outline is a stretch there",
-                    100 * r.sinkage.value / tire.radius, at));
+  if (std::string deep = too_deep(scenario, answer); !deep.empty()) warnings.push_back(std::move(deep));
   if (scenario.bin && r.sinkage.value > 0.5 * scenario.bin->depth)
     warnings.push_back(
         fmt::format("the wheel sinks {:.0f} % of the bin's depth{}: its floor will be felt (effect hard_layer)",
@@ -114,16 +128,6 @@ Warnings once_each(const Warnings& warnings) {
   return shown;
 }
 
-Warnings doubts(const Tire& tire, const std::vector<ModelAnswers>& study) {
-  Warnings warnings;
-  for (const ModelAnswers& model : study) {
-    if (model.choice.model != ModelKind::bekker_wong) continue;
-    for (const Answer& answer : model.answers)
-      if (std::string deep = too_deep(tire, answer); !deep.empty()) warnings.push_back(std::move(deep));
-  }
-  return once_each(warnings);
-}
-
 Warnings doubts(const SemiEmpiricalSoil& soil) {
   Warnings warnings;
   if (!(soil.k_c.value > 0.0) && !(soil.k_phi.value > 0.0))
@@ -153,26 +157,79 @@ Warnings doubts(const SemiEmpiricalSoil& soil) {
   return warnings;
 }
 
-Warnings doubts_but_unheard(const Case& question) {
-  if (!question.scenario.soil.semi_empirical) return {};
-  const SemiEmpiricalSoil& soil = *question.scenario.soil.semi_empirical;
-  Warnings warnings = doubts(soil), at_conditions;
-  add_wheel_doubts(question.scenario.tire, soil, warnings);
-  const bekker_wong::BekkerWong model({.errors = false, .patch = false});
-  for (const ModelChoice& choice : question.study.models) {
-    if (choice.model != ModelKind::bekker_wong) continue;
-    Scenario scenario = question.scenario;
-    scenario.effects = choice.effects;
-    for (const Answer& answer : sweep(model, scenario, question.study.conditions))
-      add_condition_doubts(scenario, answer, at_conditions);
+namespace {
+
+/// Of each answer, those alike once.
+Warnings doubts_of_answers(const Scenario& scenario, const std::vector<ModelAnswers>& study, bool unsolved) {
+  Warnings warnings;
+  for (const ModelAnswers& model : study) {
+    Scenario asked = scenario;
+    asked.effects = model.choice.effects;
+    for (const Answer& answer : model.answers) {
+      if (!answer.result) {
+        if (unsolved) warnings.push_back("no solution at " + in_words(answer.at) + ": " + answer.error);
+        continue;
+      }
+      add_power_doubt(answer, warnings);
+      if (model.choice.model == ModelKind::bekker_wong && asked.soil.semi_empirical)
+        add_answer_doubts(asked, answer, warnings);
+    }
   }
-  for (std::string& warning : once_each(at_conditions)) warnings.push_back(std::move(warning));
+  return once_each(warnings);
+}
+
+bool asks(const Case& question, ModelKind kind) {
+  const std::vector<ModelChoice>& models = question.study.models;
+  return std::any_of(models.begin(), models.end(), [&](const ModelChoice& choice) { return choice.model == kind; });
+}
+
+/// A drive asks the analytic wheel, with effects of its own.
+Case as_study(Case question) {
+  question.study.models = {{ModelKind::bekker_wong, question.drive->effects, ""}};
+  OperatingCondition& at = question.study.conditions.emplace_back();
+  at.load = question.drive->load, at.pass = question.drive->pass;
+  return question;
+}
+
+Warnings words_of_unheard(const Case& question) {
+  Warnings words;
+  for (Unheard& one : unheard(question)) words.push_back(std::move(one.words));
+  return words;
+}
+
+}  // namespace
+
+Warnings doubts_but_unheard(const Case& question, const std::vector<ModelAnswers>& study, Answered answered) {
+  const Scenario& scenario = question.scenario;
+  const bool open = answered == Answered::no;
+  Warnings warnings;
+  if (scenario.soil.semi_empirical && (open || asks(question, ModelKind::bekker_wong)))
+    append(warnings, doubts(*scenario.soil.semi_empirical));
+  add_wheel_doubts(scenario.tire, scenario.soil.semi_empirical, warnings);
+  append(warnings, doubts_of_answers(scenario, study, open));
+  if (open || asks(question, ModelKind::dem)) append(warnings, grain_doubts(scenario, study));
+  return warnings;
+}
+
+std::vector<ModelAnswers> quick_answers(const Case& question) {
+  Case analytic = question;
+  std::erase_if(analytic.study.models, [](const ModelChoice& c) { return c.model != ModelKind::bekker_wong; });
+  if (!question.scenario.soil.semi_empirical) return {};
+  return run_study(analytic, {}, [](ModelKind) {
+    return std::make_unique<const bekker_wong::BekkerWong>(bekker_wong::Detail{.errors = false, .patch = false});
+  });
+}
+
+Warnings doubts(const Case& question, const std::vector<ModelAnswers>& study) {
+  Warnings warnings = doubts_but_unheard(question, study, Answered::yes);
+  append(warnings, words_of_unheard(question));
   return warnings;
 }
 
 Warnings doubts(const Case& question) {
-  Warnings warnings = doubts_but_unheard(question);
-  for (Unheard& one : unheard(question)) warnings.push_back(std::move(one.words));
+  Warnings warnings = doubts_but_unheard(question, quick_answers(question), Answered::no);
+  append(warnings,
+         words_of_unheard(question.drive && question.study.conditions.empty() ? as_study(question) : question));
   return warnings;
 }
 

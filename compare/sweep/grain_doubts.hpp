@@ -1,0 +1,33 @@
+// Whether grains can stand for soil under a wheel: a part of the list of doubts (doubts.hpp).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/sweep/answers.hpp"
+
+namespace soilbin::compare {
+
+/// How many grains of the mean diameter a wheel's lengths hold.
+struct GrainCounts {
+  double diameter = 0.0;          ///< mean, of radii that are uniform between two bounds [m]
+  double width = 0.0;             ///< across the tread
+  std::optional<double> contact;  ///< along the shortest contact of the answers
+  OperatingCondition at;          ///< where that is
+  std::optional<double> lug;      ///< in a lug's height; none for a smooth wheel
+};
+
+/// Fewest grains that are wanted. Across and along: 10, as a shear box is wanted to be 10 largest grains wide (after
+/// ASTM D3080). A lug of less than a grain (chosen) digs nothing.
+inline constexpr double grains_wanted = 10.0, grains_wanted_in_a_lug = 1.0;
+
+/// Counts them. The contact reaches from the lowest point to where the undisturbed surface meets the wheel,
+/// r acos(1 - z/r) with the answer's sinkage z; those of grains are taken where there are any.
+GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswers>& study);
+
+/// Sentences, each kind once: grains that are coarse for the wheel, with all counts and what that does to the answer;
+/// the rolling law `directional`, whose answers hang on the time step. Empty where the soil has no grains.
+std::vector<std::string> grain_doubts(const Scenario& scenario, const std::vector<ModelAnswers>& study);
+
+}  // namespace soilbin::compare

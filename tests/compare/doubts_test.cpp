@@ -1,0 +1,264 @@
+// The one list of doubts: what is told, in which words, and that ordinary questions raise none.
+#include "compare/sweep/doubts.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "compare/sweep/grain_doubts.hpp"
+#include "compare/sweep/unheard.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+OperatingCondition condition(double load, double slip) {
+  OperatingCondition at;
+  at.load = load, at.slip = slip;
+  return at;
+}
+
+SemiEmpiricalSoil sand() {
+  return {.exponent = {1.1, 0},
+          .k_c = {990, 0},
+          .k_phi = {1528.43e3, 0},
+          .cohesion = {1040, 0},
+          .friction_angle = {0.4887, 0},
+          .shear_modulus = {0.02, 0.006},
+          .stress_angle_c1 = {0.18, 0},
+          .stress_angle_c2 = {0.32, 0},
+          .density = 1600};
+}
+
+Scenario wheel_on_sand() {
+  Scenario scenario;
+  scenario.tire.radius = 0.11, scenario.tire.width = 0.1;
+  scenario.soil.semi_empirical = sand();
+  return scenario;
+}
+
+TEST(Doubts, NothingToSayOfAnOrdinarySoil) { EXPECT_TRUE(doubts(sand()).empty()); }
+
+TEST(Doubts, EachKindOfWarningIsSaidOnce) {
+  Case question;
+  question.scenario = wheel_on_sand();
+  question.study.models = {ModelChoice{}};
+  for (const double load : {1e6, 2e6, 3e6}) question.study.conditions.push_back(condition(load, 0.2));
+  const std::vector<std::string> warnings = doubts(question);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(warnings[0], HasSubstr("no solution"));
+  EXPECT_THAT(warnings[0], HasSubstr("2 other conditions"));
+}
+
+std::vector<std::string> keys_of_unheard(const Case& question) {
+  std::vector<std::string> keys;
+  for (const Unheard& one : unheard(question)) keys.push_back(one.key);
+  return keys;
+}
+
+TEST(Doubts, WhatNoModelHearsOfIsTold) {
+  Case question;
+  question.scenario = wheel_on_sand();
+  question.study.models = {ModelChoice{}};
+  question.study.conditions = {condition(80, 0.2)};
+  EXPECT_THAT(keys_of_unheard(question), IsEmpty());
+  question.scenario.tire.lugs.height = 0.01;
+  question.study.conditions[0].pass = 2;
+  question.study.conditions[0].moisture = 0.05;
+  EXPECT_THAT(keys_of_unheard(question), ElementsAre("lugs", "pass", "moisture"));
+  question.study.models.push_back({ModelKind::dem, {}, ""});
+  EXPECT_THAT(keys_of_unheard(question), ElementsAre("lugs", "pass", "moisture")) << "the wheel beside them doesn't";
+  question.study.models.push_back({ModelKind::bekker_wong, {{"moisture", "", {}}, {"drift", "", {}}}, ""});
+  EXPECT_THAT(keys_of_unheard(question), ElementsAre("lugs", "pass", "moisture", "effect"))
+      << "grains don't hear of moisture; drift without a run";
+  question.study.models = {{ModelKind::dem, {}, ""}};
+  EXPECT_THAT(keys_of_unheard(question), ElementsAre("moisture")) << "grains alone hear of lugs and passes";
+}
+
+/// Eight runs over slip at one load as the base model has them.
+Campaign modelled_campaign() {
+  Campaign campaign;
+  const Scenario scenario = wheel_on_sand();
+  campaign.wheel = scenario.tire;
+  campaign.soil = *scenario.soil.semi_empirical;
+  for (int i = 0; i < 8; ++i) {
+    Run run;
+    run.at = condition(80, 0.05 * i);
+    run.at.run = i + 1;
+    run.csv_line = i + 2;
+    const TractionResult told = *ask(*make_model(ModelKind::bekker_wong), scenario, run.at).result;
+    run.drawbar_pull = told.drawbar_pull.value, run.torque = told.torque.value, run.sinkage = told.sinkage.value;
+    campaign.runs.push_back(run);
+  }
+  return campaign;
+}
+
+TEST(Doubts, ACampaignsRepeatedRowsAndFlippedPullAreTold) {
+  const Campaign good = modelled_campaign();
+  EXPECT_THAT(doubts(good), IsEmpty());
+  Campaign flipped = good;
+  for (auto& run : flipped.runs) *run.drawbar_pull *= -1;
+  EXPECT_THAT(doubts(flipped), ElementsAre(HasSubstr("is its sign flipped?")));
+  Campaign copied = good;
+  copied.runs.push_back(copied.runs[1]);
+  copied.runs.back().csv_line = 10;
+  copied.runs.push_back(copied.runs[2]);
+  copied.runs.back().csv_line = 11;
+  EXPECT_THAT(doubts(copied), ElementsAre(AllOf(StartsWith("line 10: all its values are those of line 3"),
+                                                HasSubstr("(and at 1 other line)"))));
+  copied.runs.resize(9);
+  *copied.runs.back().torque += 1;
+  EXPECT_THAT(doubts(copied), ElementsAre("line 10: run 2 stands in line 3 already"));
+}
+
+TEST(Doubts, WarningsOfOneKindOfManyRowsAreOneLine) {
+  Campaign campaign = modelled_campaign();
+  for (auto& run : campaign.runs) *run.sinkage += 1.0;
+  EXPECT_THAT(doubts(campaign),
+              ElementsAre(AllOf(HasSubstr("more than the wheel's diameter"), HasSubstr("(and at 7 other lines)"))));
+}
+
+TEST(Doubts, ASoilThatCarriesNothingIsTold) {
+  SemiEmpiricalSoil soil = sand();
+  soil.k_c.value = 0.0, soil.k_phi.value = -5.0;
+  EXPECT_THAT(doubts(soil), ElementsAre(HasSubstr("carries nothing")));
+}
+
+// Point by point: a flattening tire needs its effect; grains meet a rigid one.
+TEST(Doubts, InflationIsHeardByAFlexibleTireAlone) {
+  Case question;
+  question.scenario = wheel_on_sand();
+  question.scenario.tire.inflation_pressure = 1e5;
+  question.study.models = {ModelChoice{}};
+  question.study.conditions = {condition(80, 0.2)};
+  EXPECT_THAT(doubts(question, {}), ElementsAre(HasSubstr("inflation pressure changes nothing: the analytic wheel is "
+                                                          "rigid without effect tire_flexibility")));
+  question.study.models[0].effects = {{"tire_flexibility", "", {}}};
+  EXPECT_THAT(keys_of_unheard(question), IsEmpty());
+  question.study.models = {{ModelKind::dem, {}, ""}};
+  EXPECT_THAT(keys_of_unheard(question), ElementsAre("inflation"));
+}
+
+// Before the answer and with it: the same words, each kind once.
+TEST(Doubts, ADeepWheelIsDoubtedWithItsAnswerAsWithoutIt) {
+  Case question;
+  question.scenario = wheel_on_sand();
+  question.study.models = {ModelChoice{}};
+  for (const double load : {80.0, 600.0, 800.0}) question.study.conditions.push_back(condition(load, 0.2));
+  const std::vector<ModelAnswers> study = run_study(question);
+  ASSERT_LT(study[0].answers[0].result->sinkage.value, 0.5 * 0.11);
+  ASSERT_GT(study[0].answers[1].result->sinkage.value, 0.5 * 0.11);
+  const std::vector<std::string> answered = doubts(question, study);
+  EXPECT_EQ(answered, doubts(question));
+  EXPECT_THAT(answered, Contains(AllOf(HasSubstr("% of its radius at load 600 N"), HasSubstr("is a stretch"),
+                                       HasSubstr("(and at 1 other condition)"))));
+}
+
+TEST(Doubts, MorePowerOutThanInIsTold) {
+  Case question;
+  question.scenario = wheel_on_sand();
+  question.study.models = {ModelChoice{}};
+  question.study.conditions = {condition(80, 0.2)};
+  std::vector<ModelAnswers> study = run_study(question);
+  EXPECT_THAT(doubts(question, study), IsEmpty());
+  study[0].answers[0].result->tractive_efficiency = 1.01;
+  EXPECT_THAT(doubts(question, study), ElementsAre(HasSubstr("more power comes out at the drawbar than is put in")));
+}
+
+TEST(Doubts, MostSinkagesNegativeMeansAFlippedSign) {
+  Campaign campaign = modelled_campaign();
+  for (auto& run : campaign.runs) *run.sinkage *= -1;
+  EXPECT_THAT(doubts(campaign),
+              ElementsAre(HasSubstr("8 of 8 measured sinkages are negative: is their sign flipped?")));
+  for (std::size_t i = 0; i < 4; ++i) *campaign.runs[i].sinkage *= -1;
+  EXPECT_THAT(doubts(campaign), IsEmpty()) << "half of them may stand above the surface";
+}
+
+TEST(Doubts, OfACampaignAreThoseOfTheModelThatAnswers) {
+  Campaign campaign = modelled_campaign();
+  campaign.wheel.lugs.height = 0.01;
+  campaign.soil.density = 9000;  // as declared
+  const Scenario declared = scenario_of(campaign);
+  Scenario fitted = declared;
+  fitted.soil.semi_empirical->density = 1600;
+  fitted.effects = {{"lug_thrust", "", {}}};
+  const auto model = make_model(ModelKind::bekker_wong);
+  EXPECT_THAT(doubts(campaign, declared, predict(*model, declared, campaign)),
+              ElementsAre(HasSubstr("density"), HasSubstr("lugs change nothing")));
+  EXPECT_THAT(doubts(campaign, fitted, predict(*model, fitted, campaign)), IsEmpty());
+  EXPECT_THAT(doubts_before_fit(campaign), ElementsAre(HasSubstr("density"))) << "a fit tries lugs";
+}
+
+/// The paper's tire on its grains of 30 to 50 mm, 0.25 mm deep at 4 kN.
+Case papers_case() {
+  Case question;
+  question.scenario = wheel_on_sand();
+  Tire& tire = question.scenario.tire;
+  tire.radius = 0.496, tire.width = 0.305, tire.lugs.height = 0.011;
+  GranularSoil grains;
+  grains.radius_min = 0.015, grains.radius_max = 0.025;
+  question.scenario.soil.granular = grains;
+  question.study.models = {{ModelKind::dem, {}, ""}};
+  question.study.conditions = {condition(4000, 0.2)};
+  return question;
+}
+
+std::vector<ModelAnswers> answer_of_grains(double sinkage) {
+  TractionResult result;
+  result.sinkage.value = sinkage;
+  return {{{ModelKind::dem, {}, ""}, {{condition(4000, 0.2), result, ""}}}};
+}
+
+// 305 mm and 11 mm over 40 mm; the contact is 496 mm acos(1 - 0.25/496) = 15.75 mm long.
+TEST(Doubts, ThePapersStraightCaseHasCoarseGrains) {
+  const Case question = papers_case();
+  const GrainCounts counts = count_grains(question.scenario, answer_of_grains(0.25e-3));
+  EXPECT_NEAR(counts.width, 305 / 40.0, 1e-12);
+  EXPECT_NEAR(*counts.lug, 11 / 40.0, 1e-12);
+  EXPECT_NEAR(*counts.contact, 496 * std::acos(1 - 0.25 / 496) / 40, 1e-12);
+  EXPECT_THAT(doubts(question, answer_of_grains(0.25e-3)),
+              Contains(AllOf(HasSubstr("mean diameter, 40 mm, 7.6 lie across it, 0.39 along its contact (load 4 kN"),
+                             HasSubstr("0.27 in a lug's height; at least 10, 10, 1 are wanted"),
+                             HasSubstr("scatter from packing to packing"), HasSubstr("don't dig"))));
+}
+
+TEST(Doubts, GrainsAreCoarseByEachOfTheirLengths) {
+  Case question = papers_case();
+  question.scenario.soil.granular->rolling_resistance = RollingResistance::elastic_plastic;
+  const auto told = [&](double radius, double width, double lugs) {
+    question.scenario.soil.granular->radius_min = question.scenario.soil.granular->radius_max = radius;
+    question.scenario.tire.width = width, question.scenario.tire.lugs.height = lugs;
+    return doubts(question, answer_of_grains(0.01));  // 99.8 mm of contact
+  };
+  EXPECT_THAT(told(0.004, 0.1, 0.0), IsEmpty()) << "12.5 grains each way under a smooth wheel";
+  EXPECT_THAT(told(0.004, 0.07, 0.0), ElementsAre(HasSubstr("8.8 lie across it")));
+  EXPECT_THAT(told(0.006, 0.2, 0.0), ElementsAre(HasSubstr("8.3 along its contact")));
+  EXPECT_THAT(told(0.004, 0.1, 0.007), ElementsAre(AllOf(HasSubstr("0.88 in a lug's height"), HasSubstr("roughness"))));
+  EXPECT_THAT(told(0.02, 0.16, 0.0), ElementsAre(HasSubstr("of their mean diameter, 40 mm, 4 lie across it")));
+}
+
+TEST(Doubts, ARollingLawThatHangsOnTheStepIsToldWhereGrainsAnswer) {
+  Case question = papers_case();
+  const auto told = [&] { return doubts(question, answer_of_grains(0.25e-3)); };
+  EXPECT_THAT(told(), Contains(HasSubstr("1183 ± 43 N in place of 773 ± 19 N")));
+  question.scenario.soil.granular->rolling_resistance = RollingResistance::elastic_plastic;
+  EXPECT_THAT(told(), Not(Contains(HasSubstr("time step"))));
+  question = papers_case();
+  question.scenario.soil.granular->grain_grain.rolling_friction = 0.0;
+  question.scenario.soil.granular->grain_tire.rolling_friction = 0.0;
+  EXPECT_THAT(told(), Not(Contains(HasSubstr("time step")))) << "nothing resists rolling";
+  question = papers_case();
+  question.study.models = {ModelChoice{}};
+  EXPECT_THAT(doubts(question, run_study(question)), Not(Contains(HasSubstr("grains")))) << "they weren't asked";
+  EXPECT_THAT(doubts(question), Contains(HasSubstr("grains are coarse"))) << "--model dem would ask them";
+}
+
+}  // namespace
+}  // namespace soilbin::compare
