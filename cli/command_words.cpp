@@ -23,6 +23,32 @@ std::string command_line(const std::vector<std::string>& words) {
   return line;
 }
 
+namespace {
+
+/// Words that people use, and the flag that means them.
+constexpr std::pair<std::string_view, std::string_view> everyday_words[] = {{"--slope", "--longitudinal-incline"},
+                                                                            {"--incline", "--longitudinal-incline"},
+                                                                            {"--grade", "--longitudinal-incline"},
+                                                                            {"--pitch", "--longitudinal-incline"},
+                                                                            {"--cross-slope", "--transverse-incline"},
+                                                                            {"--side-slope", "--transverse-incline"},
+                                                                            {"--bank", "--transverse-incline"},
+                                                                            {"--slip-angle", "--yaw"},
+                                                                            {"--steering", "--yaw"},
+                                                                            {"--weight", "--load"},
+                                                                            {"--velocity", "--speed"},
+                                                                            {"--pressure", "--inflation-pressure"}};
+
+/// What a command has for a flag that it doesn't know, or "".
+std::string suggestion(const std::string& flag, const std::vector<std::string>& flags) {
+  for (const auto& [word, meant] : everyday_words)
+    if (flag == word && std::find(flags.begin(), flags.end(), meant) != flags.end())
+      return fmt::format(", did you mean '{}'?", meant);
+  return did_you_mean(flag, flags);
+}
+
+}  // namespace
+
 std::string unknown_flag(const CLI::App& command, const std::vector<std::string>& words) {
   std::vector<std::string> flags;
   for (const CLI::Option* option : command.get_options())
@@ -32,7 +58,7 @@ std::string unknown_flag(const CLI::App& command, const std::vector<std::string>
     const std::string flag = word.substr(0, word.find('='));
     if (!flag.starts_with("--") || std::find(flags.begin(), flags.end(), flag) != flags.end()) continue;
     return fmt::format("'{}' has no option '{}'{}\n  hint: see soilbin {} --help", command.get_name(), clipped(flag),
-                       did_you_mean(flag, flags), command.get_name());
+                       suggestion(flag, flags), command.get_name());
   }
   return "";
 }

@@ -15,6 +15,9 @@
 #include "compare/report/result_json.hpp"
 #include "dem/verification/fast_engine.hpp"
 #include "dem/verification/incline.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+#include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -45,11 +48,22 @@ void print_table(const std::vector<VerificationRow>& rows) {
   fmt::print("{}", table.text());
 }
 
+/// Throws InputError with the nearest name where no case's name contains the text.
+void keep_named(std::vector<VerificationRow>& rows, const std::string& containing) {
+  std::vector<std::string> names;
+  for (const VerificationRow& row : rows) names.push_back(row.name.substr(0, row.name.find_first_of(":,")));
+  std::erase_if(rows, [&](const VerificationRow& row) { return row.name.find(containing) == std::string::npos; });
+  if (!rows.empty()) return;
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  throw InputError(fmt::format("--case: no case's name contains '{}'{}\n  hint: there are {}", clipped(containing),
+                               did_you_mean(containing, names), listed(names)));
+}
+
 int verify(bool json, std::optional<std::uint64_t> incline, const std::string& containing) {
   std::vector<VerificationRow> rows =
       incline ? dem::incline_rows(*incline, show_dem_progress) : dem::verification_rows(dem::start_fast_engine);
   clear_progress_line();
-  std::erase_if(rows, [&](const VerificationRow& row) { return row.name.find(containing) == std::string::npos; });
+  keep_named(rows, containing);
   const auto passed = std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.pass(); });
   if (json) {
     print_json(rows);
@@ -57,7 +71,7 @@ int verify(bool json, std::optional<std::uint64_t> incline, const std::string& c
     print_table(rows);
     fmt::print("{} of {} cases within their tolerance\n", passed, rows.size());
   }
-  return passed == static_cast<std::ptrdiff_t>(rows.size()) && !rows.empty() ? done : failed;
+  return passed == static_cast<std::ptrdiff_t>(rows.size()) ? done : failed;
 }
 
 }  // namespace

@@ -42,6 +42,14 @@ std::string where_it_goes(Shelf shelf, const std::string& name, const std::strin
   return there;
 }
 
+/// All names where a line holds them.
+std::string what_there_is(Shelf shelf, const std::vector<std::string>& names) {
+  constexpr std::size_t few = 12;
+  if (names.empty()) return "the library is empty; see soilbin doctor";
+  if (names.size() <= few) return "there are " + listed(names);
+  return fmt::format("soilbin list {} shows the {} that there are", folder_of(shelf), names.size());
+}
+
 void add_where_present(const fs::path& folder, std::vector<fs::path>& folders) {
   std::error_code error;
   if (fs::is_directory(folder, error)) folders.push_back(folder);
@@ -68,7 +76,7 @@ fs::path find_file(const Library& library, Shelf shelf, const std::string& name)
   std::error_code error;
   if (fs::exists(name, error)) return name;
   const std::vector<std::string> names = library.names(shelf);
-  const std::string there = names.empty() ? "the library is empty; see soilbin doctor" : "there are " + listed(names);
+  const std::string there = what_there_is(shelf, names);
   for (const Shelf other : {Shelf::tires, Shelf::soils, Shelf::studies, Shelf::measured})
     if (other != shelf && library.find(other, name))
       throw InputError(fmt::format("no {} '{}' in the library: that is a {}\n  hint: {}", kind_of(shelf), name,

@@ -98,7 +98,7 @@ Unit unit_as_written(std::string_view text, std::string_view rest, const Unit& e
   if (!rest.empty() && rest.front() == ',')
     refuse(expected, text, "a decimal point is '.', and thousands are not separated");
   try {
-    return parse_unit(rest, n);
+    return parse_unit(rest, n, &expected.dimension);
   } catch (const InputError& error) {
     refuse(expected, text, error.what());
   }
@@ -156,6 +156,12 @@ std::optional<std::string> searched_decimal(double value, const Unit& unit) {
   return std::nullopt;
 }
 
+/// ", did you mean '20%'?" of a plain number that is too large for a share and is one as a percentage.
+std::string meant_percent(const Decimal& decimal, const Unit& unit, double value, const Range& range) {
+  if (unit.text != "-" || !range.holds(value / 100)) return "";
+  return fmt::format(", did you mean '{}%'?", decimal.mantissa);
+}
+
 }  // namespace
 
 Quantity parse_quantity(std::string_view text, const Measure& measure, std::optional<double> n) {
@@ -171,7 +177,8 @@ Quantity parse_quantity(std::string_view text, const Measure& measure, std::opti
   const std::optional<double> value = in_base_units(decimal, found.unit);
   if (!value) refuse(expected, whole, "the number is too large or too small");
   if (!measure.range.holds(*value))
-    throw InputError(fmt::format("'{}' is out of range: must be {}", clipped(whole), describe_range(measure, n)));
+    throw InputError(fmt::format("'{}' is out of range: must be {}{}", clipped(whole), describe_range(measure, n),
+                                 meant_percent(decimal, found.unit, *value, measure.range)));
   found.value = *value;
   return found;
 }

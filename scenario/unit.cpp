@@ -104,10 +104,22 @@ const Symbol* find_symbol(std::string_view text) {
   return nullptr;
 }
 
-[[noreturn]] void unknown_symbol(std::string_view text) {
-  std::vector<std::string> right;
-  for (const Symbol& symbol : symbols) right.emplace_back(symbol.text);
-  throw InputError(fmt::format("unknown unit '{}'{}", text, did_you_mean(std::string(text), right)));
+bool is_of(const Symbol& symbol, const Dimension& dimension) {
+  const auto is = [](const Exponent& e, double constant) { return e.per_n == 0.0 && e.constant == constant; };
+  return is(dimension.metre, symbol.metre) && is(dimension.kilogram, symbol.kilogram) &&
+         is(dimension.second, symbol.second) && is(dimension.radian, symbol.radian);
+}
+
+/// Suggests a unit of the dimension that is meant before any other: 'lbs' of a force is 'lbf'.
+[[noreturn]] void unknown_symbol(std::string_view text, const Dimension* meant) {
+  std::vector<std::string> right, any;
+  for (const Symbol& symbol : symbols) {
+    any.emplace_back(symbol.text);
+    if (meant != nullptr && is_of(symbol, *meant)) right.emplace_back(symbol.text);
+  }
+  const std::string of_dimension = did_you_mean(std::string(text), right);
+  throw InputError(fmt::format("unknown unit '{}'{}", text,
+                               of_dimension.empty() ? did_you_mean(std::string(text), any) : of_dimension));
 }
 
 void add(Exponent& to, const Exponent& e, double times) {
@@ -118,7 +130,8 @@ void add(Exponent& to, const Exponent& e, double times) {
 /// Recursive descent over a unit's text; the depth of brackets is bounded by `deepest`.
 class UnitParser {
  public:
-  UnitParser(std::string_view text, std::optional<double> n) : text_(text), n_(n) {}
+  UnitParser(std::string_view text, std::optional<double> n, const Dimension* meant)
+      : text_(text), n_(n), meant_(meant) {}
 
   Unit parse() {
     product({1.0, 0.0}, 0);
@@ -168,7 +181,7 @@ class UnitParser {
     const std::string_view name = text_.substr(begin, at_ - begin);
     if (name.empty()) refuse();
     const Symbol* symbol = find_symbol(name);
-    if (symbol == nullptr) unknown_symbol(name);
+    if (symbol == nullptr) unknown_symbol(name, meant_);
     apply(*symbol, times(exponent(), outer, sign));
   }
 
@@ -273,6 +286,7 @@ class UnitParser {
 
   std::string_view text_;
   std::optional<double> n_;
+  const Dimension* meant_;
   std::size_t at_ = 0;
   Dimension dimension_;
   Exponent decimal_;
@@ -305,11 +319,11 @@ void spell(std::string& text, std::string_view symbol, const Exponent& e) {
 
 }  // namespace
 
-Unit parse_unit(std::string_view text, std::optional<double> n) {
+Unit parse_unit(std::string_view text, std::optional<double> n, const Dimension* meant) {
   constexpr std::size_t longest = 100;
   if (text.size() > longest) throw InputError("a unit of more than 100 characters");
   if (text.empty() || text == "-") return Unit{"-", {}};
-  return UnitParser(text, n).parse();
+  return UnitParser(text, n, meant).parse();
 }
 
 bool same_dimension(const Dimension& a, const Dimension& b, std::optional<double> n) {

@@ -35,7 +35,8 @@ struct Unit {
 /// allowed. An exponent is a number or a bracketed expression in n: '(n+1)'. '' and '-' are the plain number 1.
 /// `n` is the soil's exponent; a unit such as 'mm^(n+1)' can't be read without it.
 /// Throws InputError (without a position) for an unknown symbol, with the nearest right one.
-Unit parse_unit(std::string_view text, std::optional<double> n = std::nullopt);
+/// `meant`: a dimension whose units a misspelt one is first compared with.
+Unit parse_unit(std::string_view text, std::optional<double> n = std::nullopt, const Dimension* meant = nullptr);
 
 /// Same dimension: as expressions in n or, where n is given, at that n.
 bool same_dimension(const Dimension& a, const Dimension& b, std::optional<double> n = std::nullopt);

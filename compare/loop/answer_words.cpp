@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/sweep/unheard.hpp"
 
 namespace soilbin::compare {
 
@@ -293,6 +295,27 @@ HtmlTable error_table(const LoopAnswer& answer) {
   return table;
 }
 
+namespace {
+
+/// The conditions of a campaign's runs, each once. When and where a run was made counts where an effect hears of it.
+std::vector<OperatingCondition> asked_of(const Campaign& campaign, const std::vector<EffectChoice>& effects) {
+  const auto heard = [&](const char* key) {
+    return std::any_of(effects.begin(), effects.end(),
+                       [&](const EffectChoice& effect) { return hears_of(bekker_wong::find_form(effect), key); });
+  };
+  std::vector<OperatingCondition> conditions;
+  std::set<OperatingCondition> seen;
+  for (const Run& run : campaign.runs) {
+    OperatingCondition at = run.at;
+    if (!heard("run")) at.run.reset();
+    if (!heard("position")) at.position.reset();
+    if (seen.insert(at).second) conditions.push_back(at);
+  }
+  return conditions;
+}
+
+}  // namespace
+
 Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
   Case model;
   model.name = campaign.name + "-model";
@@ -312,7 +335,7 @@ Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
     model.description += " " + sentence;
   choice.label = "fitted";
   model.study.models = {choice};
-  for (const Run& run : campaign.runs) model.study.conditions.push_back(run.at);
+  model.study.conditions = asked_of(campaign, choice.effects);
   return model;
 }
 

@@ -106,6 +106,7 @@ TEST(Estimate, WhatIsGivenAndChangesNothingIsTold) {
     const char* more;
     const char* told;
   } cases[] = {{"--lug-height 10mm", "effect lug_thrust"},
+               {"--inflation-pressure 100kPa", "effect tire_flexibility"},
                {"--pass 3", "effect multipass"},
                {"--moisture 5%", "effect moisture"},
                {"--effect multipass", "no condition has a 'pass'"},
@@ -172,6 +173,11 @@ TEST(Estimate, BadInputNamesTheFlagAndTheNearestWord) {
       {"estimate --soil dry-sand --tire rover-wheel --load 80N --slip 0.2 --effect slip_sinkage --effect "
        "slip_sinkage:ding",
        "given twice"},
+      {"estimate --soil dry-sand --tire rover-wheel --load 80N --slip 20", "did you mean '20%'?"},
+      {"estimate --soil dry-sand --tire rover-wheel --load '18 lbs' --slip 0.2", "did you mean 'lbf'?"},
+      {"estimate --soil dry-sand --tire rover-wheel --load 80N --slip 0.2 --slope 5deg",
+       "did you mean '--longitudinal-incline'?"},
+      {"estimate --soil dry-sand --tire rover-wheel --weight 80N --slip 0.2", "did you mean '--load'?"},
       {"estimate no-such-case.yaml", "no such file"},
   };
   for (const auto& c : cases) {

@@ -213,7 +213,9 @@ study:
 TEST(Run, NamesTheNearestStudy) {
   const Outcome r = soilbin("run paper-strait");
   EXPECT_EQ(r.status, 2);
-  EXPECT_THAT(r.err, HasSubstr("did you mean 'paper-straight'?"));
+  EXPECT_THAT(r.err, AllOf(HasSubstr("did you mean 'paper-straight'?"), HasSubstr("soilbin list studies shows the"),
+                           testing::Not(HasSubstr("paper-longitudinal"))))
+      << "names of three lines tell nobody anything";
 }
 
 TEST(Run, AFileThatCannotBeWrittenIsRefusedBeforeAnyWork) {

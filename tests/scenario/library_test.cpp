@@ -47,7 +47,7 @@ TEST(Library, FindsTheFileBehindANameOrAPath) {
   EXPECT_THAT(test::refusal([] { find_file(library(), Shelf::studies, "rover-wheel"); }),
               HasSubstr("no study 'rover-wheel' in the library: that is a tire\n  hint: --tire rover-wheel takes it"));
   EXPECT_THAT(test::refusal([] { find_file(library(), Shelf::measured, "rover-climb"); }),
-              HasSubstr("no campaign 'rover-climb' in the library: that is a study\n  hint: there are cmu-"));
+              HasSubstr("no campaign 'rover-climb' in the library: that is a study\n  hint: soilbin list measured shows the "));
 }
 
 TEST(Library, SearchesTheUsersFoldersFirst) {

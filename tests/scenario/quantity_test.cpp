@@ -143,5 +143,20 @@ TEST(Quantity, ReadingNeverCrashes) {
   }));
 }
 
+TEST(Quantity, APercentageWithoutItsSignIsGuessed) {
+  const Measure slip{"-", {.lower = -1.0, .upper = 1.0}};
+  EXPECT_THAT(test::refusal([&] { read_quantity("20", slip); }), testing::HasSubstr("did you mean '20%'?"));
+  EXPECT_THAT(test::refusal([&] { read_quantity("2000", slip); }), testing::Not(testing::HasSubstr("did you mean")));
+}
+
+TEST(Quantity, AMisspeltUnitIsFirstComparedWithThoseOfItsDimension) {
+  const auto told = [](const char* text, const char* unit) {
+    return test::refusal([&] { read_quantity(text, {unit, {}}); });
+  };
+  EXPECT_THAT(told("18 lbs", "N"), testing::HasSubstr("did you mean 'lbf'?"));
+  EXPECT_THAT(told("18 lbs", "kg"), testing::HasSubstr("did you mean 'lb'?"));
+  EXPECT_THAT(told("18 kpa", "Pa"), testing::HasSubstr("did you mean 'kPa'?"));
+}
+
 }  // namespace
 }  // namespace soilbin

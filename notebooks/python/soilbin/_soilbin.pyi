@@ -720,7 +720,7 @@ class TractionResult:
         """F_y [N], to the left of travel"""
     @property
     def tractive_efficiency(self) -> float:
-        """F_DP v/(M w) [-]; NaN unless the wheel is driven and pulls (M > 0, F_DP >= 0)"""
+        """power at the drawbar over power put in [-]; NaN unless the wheel is driven and pulls along its travel"""
     @property
     def entry_angle(self) -> float:
         """theta_1 [rad]"""
