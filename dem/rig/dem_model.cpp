@@ -4,6 +4,7 @@
 
 #include "dem/rig/run_inputs.hpp"
 #include "dem/rig/staged_run.hpp"
+#include "dem/rig/wheel_in_bin.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
@@ -27,8 +28,10 @@ BedRecipe DemModel::recipe(const Scenario& scenario) const {
 TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondition& at) const {
   if (!scenario.effects.empty())
     throw InputError("dem takes no effects, but '" + scenario.effects.front().id + "' is switched on");
-  wheel_motion(at, scenario.tire.radius);  // refuses what can't be run before a bed is settled for it
-  const auto bed = beds_.bed(recipe(scenario), settings_.how);
+  const BedRecipe asked = recipe(scenario);
+  wheel_motion(at, scenario.tire.radius);  // these two refuse what can't be run before a bed is settled for it
+  way_in_bin(asked.size, scenario.tire, settings_.rig);
+  const auto bed = beds_.bed(asked, settings_.how);
   const ContactPair& contact = scenario.soil.granular->grain_tire;
   const Checkpoints kept = checkpoints_of(scenario, at);
   const auto finished = [&] {
