@@ -76,9 +76,9 @@ void rub(AddedForce& sum, double mu, double pressing, double acts_at, const Edge
 
 /// Force by metre of arc from `Resistance`, called up node by node; p[1], if there: the wall's coefficient of friction.
 template <class Resistance>
-class Wall final : public Effect {
+class SideWall final : public Effect {
  public:
-  explicit Wall(const std::vector<double>& p) : amplitude_(p[0]), friction_(p.size() > 1 ? p[1] : 0.0) {}
+  explicit SideWall(const std::vector<double>& p) : amplitude_(p[0]), friction_(p.size() > 1 ? p[1] : 0.0) {}
   void added_forces(ForceLedger& ledger, const Rolling& r) const override {
     const double downhill = downhill_share(r.around);
     if (amplitude_ == 0.0 || (r.around.motion.lateral == 0.0 && downhill == 0.0)) return;
@@ -143,13 +143,13 @@ std::vector<EffectForm> sidewall_bulldozing_forms() {
                    "R_b: Hegedus",
        .source = "after Ishigami, Miwa, Nagatani, Yoshida 2007, J. Field Robotics 24:233 (there fully called up)",
        .parameters = {{"a", "-", 1.0, 0.0, 10.0, "multiplier of the published side force"}},
-       .make = maker<Wall<Ishigami>>()},
+       .make = maker<SideWall<Ishigami>>()},
       {.id = id,
        .form = "passive_wedge",
        .equation = "F = a Int (gamma h^2 N_phi/2 + 2 c h sqrt(N_phi)) (1 - exp(-|q|)) r cos theta d theta",
        .source = "after Wong, Theory of Ground Vehicles, ch. 2 (Rankine's passive pressure on the wall)",
        .parameters = {{"a", "-", 1.0, 0.0, 20.0, "multiplier of the passive force"}},
-       .make = maker<Wall<Wedge>>()},
+       .make = maker<SideWall<Wedge>>()},
       {.id = id,
        .form = "rough_wedge",
        .equation =
@@ -158,7 +158,7 @@ std::vector<EffectForm> sidewall_bulldozing_forms() {
        .source = "stated: after Wong, Theory of Ground Vehicles, ch. 2, with Coulomb's friction on the wall",
        .parameters = {{"a", "-", 3.0, 0.0, 40.0, "multiplier of the passive force"},
                       {"mu", "-", 0.3, 0.0, 1.0, "friction of the soil on the wall", {}, 0.1}},
-       .make = maker<Wall<Wedge>>()},
+       .make = maker<SideWall<Wedge>>()},
       {.id = id,
        .form = "rough_area",
        .equation = "F = a (W/A) Int h (1 - exp(-|q|)) r cos theta d theta; the wall rubs on that soil with mu, against "
@@ -166,7 +166,7 @@ std::vector<EffectForm> sidewall_bulldozing_forms() {
        .source = "stated: a share of the mean ground pressure on the buried wall, with Coulomb's friction",
        .parameters = {{"a", "-", 0.5, 0.0, 20.0, "side pressure over mean ground pressure"},
                       {"mu", "-", 0.3, 0.0, 1.0, "friction of the soil on the wall", {}, 0.1}},
-       .make = maker<Wall<GroundPressure>>()},
+       .make = maker<SideWall<GroundPressure>>()},
       {.id = id,
        .form = "side_area",
        .equation = "F = a A_side (W/A) sin(psi_s), tan(psi_s) = v_y/(r w)",

@@ -174,7 +174,7 @@ ToldCalibration calibrate(const Soil& soil, ContactQuestion question, compare::C
   return told;
 }
 
-void bind_parts(py::module_& module) {
+void bind_calibration_parts(py::module_& module) {
   py::class_<ToldRun>(module, "CalibrationRun", "One experiment of a calibration. SI.")
       .def_readonly("stage", &ToldRun::stage, "'design', 'candidates' or 'refinement'")
       .def_readonly("seed", &ToldRun::seed, "of its packings")
@@ -215,7 +215,7 @@ Targets measured_of(const ToldCalibration& told) {
   return out;
 }
 
-void bind_told(py::module_& module) {
+void bind_calibration_answer(py::module_& module) {
   using C = ToldCalibration;
   py::class_<C>(module, "Calibration",
                 "What a calibration found (docs/calibration.md). SI; by names of factors, targets.")
@@ -258,8 +258,8 @@ void bind_told(py::module_& module) {
 }  // namespace
 
 void bind_calibration(py::module_& module) {
-  bind_parts(module);
-  bind_told(module);
+  bind_calibration_parts(module);
+  bind_calibration_answer(module);
   const compare::CalibrationOptions usual;
   module.def(
       "calibrate",

@@ -26,7 +26,7 @@ py::array slip_of(const DriveRecord& record) {
   return out;
 }
 
-py::dict samples_of(const py::object& self) {
+py::dict drive_samples(const py::object& self) {
   const auto& record = self.cast<const DriveRecord&>();
   const auto of = [&](auto member) { return column(record.samples, member, self); };
   return dict_of({{"time", of(&DriveSample::time)},
@@ -79,7 +79,7 @@ void bind_record(py::module_& module) {
       .def_readonly("happenings", &DriveRecord::happenings)
       .def_property_readonly(
           "energy", [](const DriveRecord& r) { return r.samples.back().energy; }, "at the end")
-      .def_property_readonly("samples", &samples_of,
+      .def_property_readonly("samples", &drive_samples,
                              "arrays over time, SI and radians, views but for slip (NaN while the wheel all but "
                              "stands); works in J since the start");
 }

@@ -20,7 +20,7 @@ using compare::NextTest;
 using compare::Verdict;
 using compare::Weighted;
 
-void bind_parts(py::module_& module) {
+void bind_loop_parts(py::module_& module) {
   py::enum_<Verdict>(module, "Verdict", "What the loop says.")
       .value("effect_found", Verdict::effect_found)
       .value("nothing_missing", Verdict::nothing_missing)
@@ -103,7 +103,7 @@ void bind_answer(py::module_& module) {
 }  // namespace
 
 void bind_loop(py::module_& module) {
-  bind_parts(module);
+  bind_loop_parts(module);
   bind_answer(module);
   module.def(
       "run_loop",

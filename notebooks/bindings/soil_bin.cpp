@@ -131,7 +131,7 @@ std::string settings_doc() {
   return doc;
 }
 
-py::dict samples_of(const py::object& self) {
+py::dict wheel_samples(const py::object& self) {
   const auto& rows = self.cast<const WheelRun&>().samples;
   const auto of = [&](double WheelSample::*member) { return column(rows, member, self); };
   return dict_of({{"time", of(&WheelSample::time)},
@@ -145,7 +145,7 @@ py::dict samples_of(const py::object& self) {
                   {"moment", vectors(rows, &WheelSample::moment, self)}});
 }
 
-void bind_told(py::module_& module) {
+void bind_powers_and_marks(py::module_& module) {
   py::class_<PowerBalance>(module, "PowerBalance", "Powers, means over the steady part [W].")
       .def_readonly("drive", &PowerBalance::drive, "M w")
       .def_readonly("pull", &PowerBalance::pull, "F_DP v")
@@ -185,7 +185,7 @@ void bind_told(py::module_& module) {
 
 }  // namespace
 
-void bind_run_parts(py::module_& module) { bind_told(module); }
+void bind_run_parts(py::module_& module) { bind_powers_and_marks(module); }
 
 void bind_soil_bin(py::module_& module) {
   py::class_<WheelRun>(module, "WheelRun", "What a run of the soil bin tells.")
@@ -196,7 +196,7 @@ void bind_soil_bin(py::module_& module) {
       .def_readonly("steady_from", &WheelRun::steady_from, "first sample that counts")
       .def_readonly("rut", &WheelRun::rut)
       .def_readonly("flow", &WheelRun::flow)
-      .def_property_readonly("samples", &samples_of,
+      .def_property_readonly("samples", &wheel_samples,
                              "arrays over time from the start of the motion on, views: time [s], travel, sinkage [m], "
                              "force [N] and moment [N m] of the soil on the wheel (three columns), ...");
   py::class_<SoilBin>(module, "SoilBin",

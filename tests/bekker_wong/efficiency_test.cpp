@@ -14,30 +14,30 @@
 namespace soilbin::bekker_wong {
 namespace {
 
-double between(double low, double high) { return low + (high - low) * *rc::gen::inRange(0, 100001) / 1e5; }
+double drawn_between(double low, double high) { return low + (high - low) * *rc::gen::inRange(0, 100001) / 1e5; }
 
 Scenario any_scenario() {
   Scenario scenario;
-  scenario.tire.radius = between(0.05, 1.0);
-  scenario.tire.width = scenario.tire.radius * between(0.2, 1.5);
+  scenario.tire.radius = drawn_between(0.05, 1.0);
+  scenario.tire.width = scenario.tire.radius * drawn_between(0.2, 1.5);
   SemiEmpiricalSoil soil;
-  soil.exponent.value = between(0.3, 1.5);
-  soil.k_phi.value = std::pow(10, between(4.0, 5.5)) / std::pow(0.1 * scenario.tire.radius, soil.exponent.value);
-  soil.cohesion.value = between(0, 2e4);
-  soil.friction_angle.value = between(5, 44) * degree;
-  soil.shear_modulus.value = std::pow(10, between(-3, -1));
-  soil.stress_angle_c1.value = between(0, 0.6), soil.stress_angle_c2.value = between(0, 0.4);
+  soil.exponent.value = drawn_between(0.3, 1.5);
+  soil.k_phi.value = std::pow(10, drawn_between(4.0, 5.5)) / std::pow(0.1 * scenario.tire.radius, soil.exponent.value);
+  soil.cohesion.value = drawn_between(0, 2e4);
+  soil.friction_angle.value = drawn_between(5, 44) * degree;
+  soil.shear_modulus.value = std::pow(10, drawn_between(-3, -1));
+  soil.stress_angle_c1.value = drawn_between(0, 0.6), soil.stress_angle_c2.value = drawn_between(0, 0.4);
   scenario.soil.semi_empirical = soil;
   return scenario;
 }
 
 OperatingCondition any_condition(const Tire& tire) {
   OperatingCondition at;
-  at.load = 5e4 * tire.radius * tire.width * between(0.01, 1.0);
-  at.slip = between(-0.5, 0.99);
-  at.yaw = between(-80, 80) * degree;
-  at.longitudinal_incline = between(-40, 40) * degree;
-  at.transverse_incline = between(-40, 40) * degree;
+  at.load = 5e4 * tire.radius * tire.width * drawn_between(0.01, 1.0);
+  at.slip = drawn_between(-0.5, 0.99);
+  at.yaw = drawn_between(-80, 80) * degree;
+  at.longitudinal_incline = drawn_between(-40, 40) * degree;
+  at.transverse_incline = drawn_between(-40, 40) * degree;
   at.slip_by = *rc::gen::element(SlipBy::wheel_plane_speed, SlipBy::travel_speed);
   return at;
 }

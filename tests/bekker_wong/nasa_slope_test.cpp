@@ -16,7 +16,7 @@
 namespace soilbin::bekker_wong {
 namespace {
 
-constexpr double load = 180.0;
+constexpr double nasa_load = 180.0;
 
 struct ClimbedPoint {
   double slip = 0.0, slope = 0.0;
@@ -39,7 +39,7 @@ Estimate climbed(double slip) {
   s.tire.radius = 0.25, s.tire.width = 0.2;
   s.soil = read_soil(SOILBIN_SOURCE_DIR "/cases/soils/grc-1.yaml");
   OperatingCondition at;
-  at.load = load, at.slip = slip;
+  at.load = nasa_load, at.slip = slip;
   const BekkerWong fast({.errors = false, .patch = false}), full({.errors = true, .patch = false});
   const auto pull = [&](double slope) {
     at.longitudinal_incline = slope;
@@ -47,7 +47,7 @@ Estimate climbed(double slip) {
   };
   const double slope = gsl::bracketed_root(pull, -40 * degree, 60 * degree, 1e-9, 1e-9, "the slope");
   at.longitudinal_incline = slope;
-  return {slope, full.evaluate(s, at).drawbar_pull.std_error / load};
+  return {slope, full.evaluate(s, at).drawbar_pull.std_error / nasa_load};
 }
 
 TEST(NasaSlopes, FromTenPercentOfSlipOnTheSlopeIsWithinTheSoilsDoubt) {

@@ -11,10 +11,12 @@
 
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
+#include "tests/dem/archive_scene.hpp"
 
 namespace soilbin::compare {
 namespace {
 
+using dem::test::Folder;
 using Eigen::VectorXd;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -53,20 +55,6 @@ VirtualTest shear_box() {
   };
   return test;
 }
-
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / fs::path("soilbin-calibration-" + std::to_string(::getpid()))) {
-    fs::create_directories(path_);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { fs::remove_all(path_); }
-  fs::path operator/(const char* name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 TEST(Calibration, FindsABoardsAngleWithinThreePercent) {
   ExperimentStore store;

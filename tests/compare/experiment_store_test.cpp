@@ -12,28 +12,15 @@
 
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
+#include "tests/dem/archive_scene.hpp"
 
 namespace soilbin::compare {
 namespace {
 
+using dem::test::Folder;
 using Eigen::VectorXd;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
-
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "soilbin-store-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { fs::remove_all(path_); }
-  fs::path operator/(const char* name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 VirtualTest board_test() {
   VirtualTest test;

@@ -21,7 +21,7 @@ double formula(const VectorXd& v) {
   return 0.02 + 0.10 * std::pow(v[0] / 8000, 2) + 0.10 * v[1] / 0.020 + 0.12 * v[2] / (20 * degree) - 0.02 * v[3];
 }
 
-FailureQuestion question() {
+FailureQuestion map_question() {
   FailureQuestion q;
   q.name = "longitudinal incline";
   q.factors = {{"load", 1000, 8000, "kN"},
@@ -35,7 +35,7 @@ FailureQuestion question() {
 const std::vector<Role> without_lugs{Role::limited, Role::held, Role::limited, Role::whole};
 
 TEST(SlowFailureMap, FindsTheBoundaryOfAFormula) {
-  const FailureQuestion q = question();
+  const FailureQuestion q = map_question();
   const FailureMap map = map_failures(q);
   EXPECT_EQ(map.rows.size(), 40U);
   EXPECT_LT(map.held_out.rms(), 0.01);
@@ -51,7 +51,7 @@ TEST(SlowFailureMap, FindsTheBoundaryOfAFormula) {
 }
 
 TEST(SlowFailureMap, ItsClauseHoldsEverywhereInTheBoxAndRestsOnRows) {
-  const FailureQuestion q = question();
+  const FailureQuestion q = map_question();
   FailureMap map = map_failures(q);
   const std::optional<AgreementClause> clause = agreement(q, map, without_lugs);
   ASSERT_TRUE(clause);
@@ -68,7 +68,7 @@ TEST(SlowFailureMap, ItsClauseHoldsEverywhereInTheBoxAndRestsOnRows) {
 }
 
 TEST(SlowFailureMap, SaysNothingWhereModelsNeverAgree) {
-  FailureQuestion q = question();
+  FailureQuestion q = map_question();
   q.difference = [](const VectorXd& v) -> std::optional<Estimate> { return Estimate{0.3 + formula(v), 0.002}; };
   FailureMap map = map_failures(q, {.at_boundary = 2});
   EXPECT_FALSE(agreement(q, map, without_lugs));
@@ -77,7 +77,7 @@ TEST(SlowFailureMap, SaysNothingWhereModelsNeverAgree) {
 // Models that part at either end of the load and agree between 2.69 and 7.31 kN, whatever the lugs, the angle and the
 // slip: nothing to say from the lower corner, but a box with two ends.
 TEST(SlowFailureMap, ABoxWithTwoEndsWhereTheCornerDisagrees) {
-  FailureQuestion q = question();
+  FailureQuestion q = map_question();
   q.difference = [](const VectorXd& v) -> std::optional<Estimate> {
     return Estimate{0.3 * std::pow((v[0] - 5000) / 4000, 2), 0.002};
   };
@@ -103,7 +103,7 @@ TEST(SlowFailureMap, ABoxWithTwoEndsWhereTheCornerDisagrees) {
 }
 
 TEST(FailureMap, ConditionsWithoutAnAnswerAreRowsAndTooManyAreRefused) {
-  FailureQuestion q = question();
+  FailureQuestion q = map_question();
   q.difference = [](const VectorXd& v) -> std::optional<Estimate> {
     if (v[3] > 0.5) return std::nullopt;
     return Estimate{formula(v), 0.002};

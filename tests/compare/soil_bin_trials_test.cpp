@@ -67,7 +67,7 @@ TrialQuestion asked_of_nature() {
   return question;
 }
 
-const TrialQuestion& question() {
+const TrialQuestion& trial_question() {
   static const TrialQuestion asked = asked_of_nature();
   return asked;
 }
@@ -89,7 +89,7 @@ TrialSettings kept_in_folder(const Folder& folder) {
 }
 
 Decision decided(const TrialSettings& settings) {
-  return decide_in_soil_bin(question(), settings, candidates(), bekker_wong::CatalogueVocabulary{});
+  return decide_in_soil_bin(trial_question(), settings, candidates(), bekker_wong::CatalogueVocabulary{});
 }
 
 /// In one go.

@@ -95,7 +95,7 @@ Both make(const Cloud& cloud, const std::string& instruction_set) {
 }
 
 /// Largest relative difference of velocities and spins after some steps.
-double difference(const Cloud& cloud, const std::string& instruction_set, long steps) {
+double difference_of_instructions(const Cloud& cloud, const std::string& instruction_set, long steps) {
   Both both = make(cloud, instruction_set);
   both.fast.run(steps);
   both.plain.step(steps);
@@ -141,7 +141,7 @@ class Agreement : public testing::TestWithParam<LawCase> {};
 TEST_P(Agreement, WallsAndTwoMaterials) {
   Cloud cloud{.materials = sand_and_rubber(GetParam().cohesion), .laws = GetParam().laws};
   for (const std::string_view set : instruction_sets())
-    EXPECT_LT(difference(cloud, std::string(set), 300), 1e-9) << set;
+    EXPECT_LT(difference_of_instructions(cloud, std::string(set), 300), 1e-9) << set;
 }
 
 TEST_P(Agreement, PeriodicWithOneMaterial) {
@@ -149,13 +149,13 @@ TEST_P(Agreement, PeriodicWithOneMaterial) {
   cloud.materials.all.resize(1);
   cloud.materials.interactions.resize(1);
   for (const std::string_view set : instruction_sets())
-    EXPECT_LT(difference(cloud, std::string(set), 300), 1e-9) << set;
+    EXPECT_LT(difference_of_instructions(cloud, std::string(set), 300), 1e-9) << set;
 }
 
 TEST_P(Agreement, SomeGrainsHeld) {
   Cloud cloud{.materials = sand_and_rubber(GetParam().cohesion), .laws = GetParam().laws, .seed = 11, .held = 40};
   for (const std::string_view set : instruction_sets())
-    EXPECT_LT(difference(cloud, std::string(set), 300), 1e-9) << set;
+    EXPECT_LT(difference_of_instructions(cloud, std::string(set), 300), 1e-9) << set;
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, Agreement, testing::ValuesIn(law_cases),
@@ -163,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, Agreement, testing::ValuesIn(law_cases),
 
 TEST(AgreementOverTime, ManySearchesChangeNothing) {
   Cloud cloud{.materials = sand_and_rubber(0), .laws = law_cases[4].laws, .seed = 3};
-  EXPECT_LT(difference(cloud, "", 2000), 1e-6);  // differences of rounding grow with each bump
+  EXPECT_LT(difference_of_instructions(cloud, "", 2000), 1e-6);  // differences of rounding grow with each bump
 }
 
 }  // namespace

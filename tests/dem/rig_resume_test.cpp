@@ -28,7 +28,7 @@ const SettledBed& bed() {
   return bed;
 }
 
-Rig small_rig() {
+Rig short_rig() {
   Rig rig;
   rig.behind = 0.12, rig.ahead = 0.12;
   rig.tilting = 0.1, rig.lowering = 0.1, rig.resting = 0.05;
@@ -69,7 +69,7 @@ OperatingCondition two_passes_uphill() {
 }
 
 WheelRun run(const WorkOptions& how, const Checkpoints& checkpoints) {
-  return run_wheel(bed(), small_wheel(), bed().recipe.soil.grain_tire, two_passes_uphill(), small_rig(), how,
+  return run_wheel(bed(), small_wheel(), bed().recipe.soil.grain_tire, two_passes_uphill(), short_rig(), how,
                    checkpoints);
 }
 
@@ -101,10 +101,10 @@ std::pair<std::string, int> stopped_again_and_again(const Work& work, int words)
 
 TEST(SlowRigResume, ADriveThatIsStoppedAgainAndAgainTellsTheSame) {
   const Folder folder;
-  const std::string whole = bits_of(driven(small_drive(), small_rig(), with_threads(1), {}));
+  const std::string whole = bits_of(driven(small_drive(), short_rig(), with_threads(1), {}));
   std::vector<std::string> told;
   const Checkpoints kept{folder / "drive.h5", 0, 0, [&](const std::string& words) { told.push_back(words); }};
-  const auto work = [&](const WorkOptions& how) { return driven(small_drive(), small_rig(), how, kept); };
+  const auto work = [&](const WorkOptions& how) { return driven(small_drive(), short_rig(), how, kept); };
   const auto [bits, stops] = stopped_again_and_again(work, 4);
   EXPECT_GE(stops, 4);
   EXPECT_TRUE(bits == whole);
@@ -114,7 +114,7 @@ TEST(SlowRigResume, ADriveThatIsStoppedAgainAndAgainTellsTheSame) {
   // Its last restart answers at once.
   WorkOptions quick = with_threads(1);
   quick.progress = [](const Progress& progress) { EXPECT_EQ(progress.done, 1); };
-  EXPECT_TRUE(bits_of(driven(small_drive(), small_rig(), quick, kept)) == whole);
+  EXPECT_TRUE(bits_of(driven(small_drive(), short_rig(), quick, kept)) == whole);
 }
 
 TEST(SlowRigResume, OfTwoAtOneRunOneKeepsIt) {
@@ -126,9 +126,9 @@ TEST(SlowRigResume, OfTwoAtOneRunOneKeepsIt) {
   kept.tell = [&](const std::string& words) { told += words; };
   WorkOptions how = with_threads(1);
   how.progress = [&](const Progress&) {
-    if (other.empty()) other = bits_of(driven(brief, small_rig(), with_threads(1), kept));
+    if (other.empty()) other = bits_of(driven(brief, short_rig(), with_threads(1), kept));
   };
-  EXPECT_TRUE(bits_of(driven(brief, small_rig(), how, kept)) == other);
+  EXPECT_TRUE(bits_of(driven(brief, short_rig(), how, kept)) == other);
   EXPECT_EQ(told, "another process is at the same run: this one can't be gone on with");
   EXPECT_TRUE(has_restart(kept.restart));
   EXPECT_FALSE(std::filesystem::exists(kept.restart.string() + ".lock"));
@@ -201,7 +201,7 @@ TEST(SlowRigResume, ARunInTwoPassesThatIsStoppedAgainAndAgainTellsTheSame) {
 // A killed process leaves the last restart that it wrote: here each of them in turn.
 TEST(SlowRigResume, ADriveWhoseProcessIsLostGoesOnFromItsLastRestart) {
   const Folder lost, later;
-  const std::string whole = bits_of(driven(small_drive(), small_rig(), with_threads(1), {}));
+  const std::string whole = bits_of(driven(small_drive(), short_rig(), with_threads(1), {}));
   const Checkpoints kept{lost / "drive.h5", 0, 700};
   int copies = 0;
   std::filesystem::file_time_type last;
@@ -211,22 +211,22 @@ TEST(SlowRigResume, ADriveWhoseProcessIsLostGoesOnFromItsLastRestart) {
     last = std::filesystem::last_write_time(kept.restart);
     std::filesystem::copy(kept.restart, later / (std::to_string(copies++) + ".h5"));
   };
-  EXPECT_TRUE(bits_of(driven(small_drive(), small_rig(), how, kept)) == whole);
+  EXPECT_TRUE(bits_of(driven(small_drive(), short_rig(), how, kept)) == whole);
   ASSERT_GE(copies, 3);
   for (int k = 0; k < copies; ++k) {
     const Checkpoints there{later / (std::to_string(k) + ".h5"), 0};
-    EXPECT_TRUE(bits_of(driven(small_drive(), small_rig(), with_threads(1), there)) == whole) << k;
+    EXPECT_TRUE(bits_of(driven(small_drive(), short_rig(), with_threads(1), there)) == whole) << k;
   }
 }
 
 TEST(SlowRigResume, ADamagedOrForeignRestartIsNeverTakenForTheRuns) {
   const Folder folder;
   const Checkpoints kept{folder / "drive.h5", 0, 700};
-  const std::string whole = bits_of(driven(small_drive(), small_rig(), with_threads(1), kept));
+  const std::string whole = bits_of(driven(small_drive(), short_rig(), with_threads(1), kept));
   Drive other = small_drive();
   other.profile[1].drawbar = 2;
   try {
-    driven(other, small_rig(), with_threads(1), kept);
+    driven(other, short_rig(), with_threads(1), kept);
     FAIL() << "another drive went on from it";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("is the restart of another run"));
@@ -236,11 +236,11 @@ TEST(SlowRigResume, ADamagedOrForeignRestartIsNeverTakenForTheRuns) {
   std::string told;
   Checkpoints said = kept;
   said.tell = [&](const std::string& words) { told += words; };
-  EXPECT_TRUE(bits_of(driven(small_drive(), small_rig(), with_threads(1), said)) == whole);
+  EXPECT_TRUE(bits_of(driven(small_drive(), short_rig(), with_threads(1), said)) == whole);
   EXPECT_THAT(told, HasSubstr("going on from " + previous_of(kept.restart).string()));
   std::ofstream(kept.restart) << "nothing";
   std::ofstream(previous_of(kept.restart)) << "nothing";
-  EXPECT_THROW(driven(small_drive(), small_rig(), with_threads(1), kept), InputError);
+  EXPECT_THROW(driven(small_drive(), short_rig(), with_threads(1), kept), InputError);
 }
 
 TEST(SlowRigResume, ADriveWithoutAnAnswerLeavesNothing) {
@@ -249,7 +249,7 @@ TEST(SlowRigResume, ADriveWithoutAnAnswerLeavesNothing) {
   weak.profile[0].longitudinal_incline = 8 * degree;
   weak.controller.highest_torque = 0.01;
   const Checkpoints kept{folder / "drive.h5", 0, 100};
-  EXPECT_THROW(driven(weak, small_rig(), with_threads(1), kept), NoSolution);
+  EXPECT_THROW(driven(weak, short_rig(), with_threads(1), kept), NoSolution);
   EXPECT_FALSE(has_restart(kept.restart));
 }
 
