@@ -177,7 +177,7 @@ soilbin.Live = class {
     const hash = String(this.state);
     if (location.hash.slice(1) !== hash) history.replaceState(null, '', hash ? `#${hash}` : location.pathname);
     const said = [...document.querySelectorAll('#now div')].map(d => d.dataset.said).join('; ');
-    soilbin.part('spoken').textContent = soilbin.part('say').hidden ? said : '';
+    soilbin.part('spoken').textContent = this.refused ? '' : said;
   }
 
   complain(error, hint) {
@@ -189,6 +189,7 @@ soilbin.Live = class {
 
   // A refusal has no curves: those of the last answer stay.
   show(answer) {
+    this.refused = Boolean(answer.error);
     this.complain(answer.error || (answer.warnings || []).join('; '), answer.hint);
     document.querySelector('.results').classList.toggle('stale', !answer.curves);
     if (!answer.curves) return;
