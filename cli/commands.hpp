@@ -40,5 +40,6 @@ void add_list(CLI::App& app, Session& session);
 void add_schema(CLI::App& app, Session& session);
 void add_verify(CLI::App& app, Session& session);
 void add_doctor(CLI::App& app, Session& session);
+void add_manual(CLI::App& app, Session& session);
 
 }  // namespace soilbin::cli

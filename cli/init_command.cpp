@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.hpp"
 #include "scenario/atomic_file.hpp"
@@ -51,7 +52,9 @@ int init(const std::string& folder, const Session&) {
     throw InputError(file.string() + " is there already and stays as it is; name another folder: soilbin init DIR");
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     throw InputError(folder + " is a file; a folder is expected");
-  write_file_atomically(file, starter_case);
+  const std::optional<fs::path> schema = schema_file("case");
+  write_file_atomically(
+      file, (schema ? fmt::format("# yaml-language-server: $schema={}\n", schema->string()) : "") + starter_case);
   fmt::print("wrote {}\nnext: soilbin run {}\n", file.string(), file.string());
   return done;
 }

@@ -12,6 +12,7 @@
 #include "cli/command_words.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
+#include "cli/versions.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 
@@ -42,6 +43,7 @@ void add_commands(CLI::App& app, Session& session) {
   add_schema(app, session);
   add_verify(app, session);
   add_doctor(app, session);
+  add_manual(app, session);
 }
 
 int refuse(const std::string& message) {
@@ -68,7 +70,7 @@ std::string misspelt(const CLI::App& app, const std::vector<std::string>& words)
 
 int run(int argc, char** argv) {
   CLI::App app{"soilbin - what does this tire do on this soil?", "soilbin"};
-  app.set_version_flag("--version", SOILBIN_VERSION);
+  app.set_version_flag("--version", version_line());
   app.require_subcommand(1);
   app.get_formatter()->column_width(36);
   Session session{find_workplace(), command_line({argv + 1, argv + argc}), {}};

@@ -1,10 +1,18 @@
 #include "cli/versions.hpp"
 
+#include <fmt/core.h>
+
 #include <source_state.hpp>
 
 namespace soilbin::cli {
 
 std::string source_state() { return SOILBIN_SOURCE_STATE; }
+
+std::string version_line() {
+  const std::string state = source_state();
+  return fmt::format("soilbin {} ({}{}, {}, {})", SOILBIN_VERSION, state.starts_with("release") ? "" : "commit ", state,
+                     SOILBIN_BUILD_TYPE, SOILBIN_COMPILER);
+}
 
 std::vector<std::pair<std::string, std::string>> versions() {
   return {

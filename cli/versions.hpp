@@ -14,4 +14,7 @@ std::vector<std::pair<std::string, std::string>> versions();
 /// "release VERSION" where they came without git.
 std::string source_state();
 
+/// All that a report of a fault needs, on one line: "soilbin 0.1.0 (commit 1a2b3c4d5e6f, Release, GNU 12.2.0)".
+std::string version_line();
+
 }  // namespace soilbin::cli

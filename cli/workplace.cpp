@@ -11,14 +11,29 @@
 namespace soilbin::cli {
 namespace fs = std::filesystem;
 
-Workplace find_workplace() {
-  Workplace place;
+namespace {
+
+/// What an installation keeps beside the program, in ../share/soilbin; empty where nothing tells where that is.
+fs::path installed_share(const std::string& what) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = error ? fs::path() : program.parent_path() / "../share/soilbin/cases";
-  place.folders = case_folders(installed.lexically_normal(), SOILBIN_SOURCE_CASES);
+  return error ? fs::path() : (program.parent_path() / "../share/soilbin" / what).lexically_normal();
+}
+
+}  // namespace
+
+Workplace find_workplace() {
+  Workplace place;
+  place.folders = case_folders(installed_share("cases"), SOILBIN_SOURCE_CASES);
   place.library = Library(place.folders);
   return place;
+}
+
+std::optional<fs::path> schema_file(const std::string& format) {
+  std::error_code error;
+  for (const fs::path& folder : {installed_share("schema"), fs::path(SOILBIN_SOURCE_SCHEMAS)})
+    if (const fs::path file = folder / (format + ".json"); fs::is_regular_file(file, error)) return file;
+  return std::nullopt;
 }
 
 Case find_case(const Workplace& place, const std::string& name) {

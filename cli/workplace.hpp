@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct Workplace {
 /// Searches $SOILBIN_CASES (folders separated by ':'), then ../share/soilbin/cases beside the program, then the source
 /// tree that the program was built from.
 Workplace find_workplace();
+
+/// The JSON Schema of a file format ("case", "tire", ...) as a file, installed or of this build; no value where it was
+/// not written.
+std::optional<std::filesystem::path> schema_file(const std::string& format);
 
 /// Reads a case: the name of a study in the library, or a path.
 Case find_case(const Workplace& place, const std::string& name);

@@ -9,6 +9,10 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/soilbin)
 
 if(TARGET soilbin)
   install(TARGETS soilbin RUNTIME COMPONENT runtime)
+  install(FILES ${PROJECT_BINARY_DIR}/share/soilbin.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime)
+  install(FILES ${PROJECT_BINARY_DIR}/share/soilbin.bash RENAME soilbin COMPONENT runtime
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/share/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/soilbin COMPONENT runtime)
 endif()
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/soilbin COMPONENT runtime)
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
@@ -31,4 +35,4 @@ configure_package_config_file(cmake/soilbin-config.cmake.in ${PROJECT_BINARY_DIR
   INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/soilbin-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/soilbin-config.cmake ${PROJECT_BINARY_DIR}/soilbin-config-version.cmake
-  DESTINATION ${package_folder} COMPONENT development)
+  cmake/FindSUNDIALS.cmake DESTINATION ${package_folder} COMPONENT development)

@@ -37,6 +37,50 @@ TEST(Init, WritesACaseThatRunsAndNeverOverwrites) {
   EXPECT_EQ(text_of(fs::path(folder) / "case.yaml"), before);
 }
 
+TEST(Init, NamesTheSchemaForEditorsWhereItWasWritten) {
+  const Scratch scratch;
+  const std::string folder = (scratch / "new").string();
+  ASSERT_EQ(soilbin("init '" + folder + "'").status, 0);
+  std::ifstream file(fs::path(folder) / "case.yaml");
+  std::string line;
+  std::getline(file, line);
+  constexpr std::string_view mark = "# yaml-language-server: $schema=";
+  ASSERT_TRUE(line.starts_with(mark)) << line;
+  const nlohmann::json schema = nlohmann::json::parse(text_of(line.substr(mark.size())));
+  EXPECT_EQ(schema["properties"]["format"]["const"], "soilbin-case/1");
+}
+
+TEST(Version, TellsCommitBuildAndCompiler) {
+  EXPECT_THAT(soilbin("--version").out,
+              testing::MatchesRegex(
+                  "soilbin [0-9.]+ \\((commit [0-9a-f]+(-dirty)?|release [0-9.]+), [A-Za-z]+, GNU [0-9.]+\\)\n"));
+}
+
+TEST(Manual, DescribesEveryCommandAndFlagOfTheHelp) {
+  const std::string page = soilbin("manual").out;
+  EXPECT_THAT(page, testing::StartsWith(".TH SOILBIN 1"));
+  for (const char* command : {"estimate", "run", "loop", "failure\\-map", "doctor"})
+    EXPECT_THAT(page, HasSubstr(std::string("\n.SS ") + command + "\n"));
+  for (const char* flag : {"\\-\\-slip", "\\-\\-save\\-model", "\\-\\-record"}) EXPECT_THAT(page, HasSubstr(flag));
+  EXPECT_THAT(page, HasSubstr("SOILBIN_BEDS"));
+}
+
+TEST(Manual, CompletesInBash) {
+  const Scratch scratch;
+  const std::string script = (scratch / "completion").string();
+  std::ofstream(script) << soilbin("manual --bash-completion").out;
+  const auto completed = [&](const std::string& words, int at) {
+    const fs::path typed =
+        scratch.write("typed", ". " + script + "; COMP_WORDS=(" + words + "); COMP_CWORD=" + std::to_string(at) +
+                                   "; _soilbin; echo ${COMPREPLY[*]}");
+    const std::string line = "bash '" + typed.string() + "' >'" + (scratch / "answer").string() + "'";
+    EXPECT_EQ(std::system(line.c_str()), 0);
+    return text_of(scratch / "answer");
+  };
+  EXPECT_EQ(completed("soilbin est", 1), "estimate\n");
+  EXPECT_EQ(completed("soilbin estimate --lug-h", 2), "--lug-height\n");
+}
+
 TEST(List, EveryShelfAndTheCatalogue) {
   for (const char* what : {"soils", "tires", "studies", "measured", "effects"}) {
     const Outcome r = soilbin(std::string("list ") + what);

@@ -1,0 +1,120 @@
+// soilbin manual: the manual page and the completion for bash, from the same descriptions as --help.
+#include <fmt/core.h>
+
+#include <memory>
+#include <string>
+
+#include "cli/commands.hpp"
+#include "cli/versions.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+/// Text as troff takes it: backslashes and hyphens kept, no line that begins like a request.
+std::string troff(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const bool begins = out.empty() || out.back() == '\n';
+    if (begins && (c == '.' || c == '\'')) out += "\\&";
+    if (c == '\\')
+      out += "\\e";
+    else if (c == '-')
+      out += "\\-";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string described(const CLI::Option& option) {
+  const std::string kind = option.get_type_name();
+  return fmt::format(".TP\n\\fB{}\\fR{}\n{}\n", troff(option.get_name(option.get_positional())),
+                     kind.empty() ? "" : fmt::format(" \\fI{}\\fR", troff(kind)), troff(option.get_description()));
+}
+
+std::string command_page(const CLI::App& command) {
+  std::string page = fmt::format(".SS {}\n{}\n", troff(command.get_name()), troff(command.get_description()));
+  for (const CLI::Option* option : command.get_options())
+    if (option->get_name() != "--help") page += described(*option);
+  for (const CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; }))
+    page += command_page(*below);
+  if (!command.get_footer().empty()) page += fmt::format(".PP\n{}\n", troff(command.get_footer()));
+  return page;
+}
+
+std::string manual_page(const CLI::App& app) {
+  std::string page = fmt::format(
+      ".TH SOILBIN 1 \"\" \"soilbin {}\" \"User Commands\"\n.SH NAME\nsoilbin \\- what does this tire do on this "
+      "soil?\n"
+      ".SH SYNOPSIS\n.B soilbin\n\\fICOMMAND\\fR [\\fIOPTION\\fR]...\n.SH DESCRIPTION\n"
+      "Drawbar pull, torque, sinkage and side force of a wheel on soil: by the semi\\-empirical model of Wong and "
+      "Reece, by "
+      "discrete elements in a virtual soil bin, and beside measurements. Values carry their unit: 80N, 110mm, 20%, "
+      "5deg.\n"
+      ".SH COMMANDS\n",
+      SOILBIN_VERSION);
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    page += command_page(*command);
+  return page +
+         ".SH EXIT STATUS\n0: done; 1: failed, or no answer; 2: bad input; 130: stopped by Ctrl\\-C.\n"
+         ".SH ENVIRONMENT\n.TP\nSOILBIN_CASES\nfolders of tires, soils, studies and campaigns, before the installed "
+         "ones\n"
+         ".TP\nSOILBIN_BEDS\nfolder in which settled beds of grains are kept\n"
+         ".TP\nSOILBIN_JAVASCRIPT\nfolder of d3 and three.js for pages, before those of the system\n";
+}
+
+std::string joined_names(const CLI::App& command) {
+  std::string names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names += (names.empty() ? "--" : " --") + name;
+  return names;
+}
+
+/// What bash completes: commands, their flags, names of the library after --tire and --soil, else files.
+std::string bash_completion(const CLI::App& app) {
+  std::string commands, cases;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    commands += (commands.empty() ? "" : " ") + command->get_name();
+    cases += fmt::format("    {}) flags=\"{}\" ;;\n", command->get_name(), joined_names(*command));
+  }
+  return "# bash completion for soilbin; made by: soilbin manual --bash-completion\n"
+         "_soilbin() {\n"
+         "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} flags=\"\"\n"
+         "  COMPREPLY=()\n"
+         "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
+         "    COMPREPLY=($(compgen -W \"" +
+         commands +
+         "\" -- \"$word\"))\n"
+         "    return\n"
+         "  fi\n"
+         "  case \"$before\" in\n"
+         "    --tire | --soil)\n"
+         "      COMPREPLY=($(compgen -W \"$(soilbin list \"${before#--}s\" 2>/dev/null | awk 'NR > 1 {print $1}')\" -- "
+         "\"$word\"))\n"
+         "      return\n"
+         "      ;;\n"
+         "  esac\n"
+         "  case \"${COMP_WORDS[1]}\" in\n" +
+         cases +
+         "  esac\n"
+         "  [[ \"$word\" == -* ]] && COMPREPLY=($(compgen -W \"$flags\" -- \"$word\"))\n"
+         "}\n"
+         "complete -o default -F _soilbin soilbin\n";
+}
+
+}  // namespace
+
+void add_manual(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("manual", "the manual page of soilbin, or its completion for bash");
+  const auto for_bash = std::make_shared<bool>(false);
+  command->add_flag("--bash-completion", *for_bash, "a script for bash in place of the page");
+  command->footer("Example: soilbin manual | man -l -");
+  command->callback([=, &app, &session] {
+    session.action = [=, &app] {
+      fmt::print("{}", *for_bash ? bash_completion(app) : manual_page(app));
+      return done;
+    };
+  });
+}
+
+}  // namespace soilbin::cli
