@@ -1,4 +1,5 @@
-# Sourced by ./check and ./demo: installs what is missing of packaging/debian-packages.txt, and nothing else.
+# Sourced by ./check and ./demo: installs what is missing of packaging/debian-packages.txt, and nothing else; of its
+# section [unpacked] it unpacks the files below build/unpacked.
 # Usage: set_up SECTION...   Quiet, quick and offline where everything is there.
 
 packages_of() {  # SECTION...: the names of the packages in these sections
@@ -20,6 +21,19 @@ missing_of() {  # PACKAGE...: those that are not installed
   done
 }
 
+# Packages whose files are needed and not what they depend on are unpacked, not installed.
+unpack_packages() {
+  local name into=$PWD/build/unpacked
+  for name in $(packages_of unpacked); do
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$name" 2>/dev/null)" = installed ] && continue
+    [ -e "$into/usr/share/doc/$name" ] && continue
+    echo "unpacking $name into build/unpacked"
+    mkdir -p "$into.new"
+    (cd "$into.new" && apt-get -q download "$name" && dpkg-deb --extract "$name"_*.deb . && rm "$name"_*.deb) || return 1
+    mkdir -p "$into" && cp -a "$into.new/." "$into/" && rm -r "$into.new" || return 1
+  done
+}
+
 set_up() {  # SECTION...
   if ! command -v dpkg-query >/dev/null; then
     echo "set-up installs packages by apt, for Debian 12; elsewhere install what packaging/debian-packages.txt names" >&2
@@ -28,8 +42,8 @@ set_up() {  # SECTION...
   local -a missing as_root=()
   mapfile -t missing < <(missing_of $(packages_of "$@"))
   if [ ${#missing[@]} -eq 0 ]; then
-    echo "all packages are there"
-    return 0
+    unpack_packages && echo "all packages are there"
+    return
   fi
   if [ "$(id -u)" -ne 0 ]; then
     if ! command -v sudo >/dev/null; then
@@ -44,4 +58,5 @@ set_up() {  # SECTION...
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${missing[@]}" || return 1
   mapfile -t missing < <(missing_of "${missing[@]}")
   [ ${#missing[@]} -eq 0 ] || { echo "still missing: ${missing[*]}" >&2; return 1; }
+  unpack_packages
 }

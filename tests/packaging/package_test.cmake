@@ -28,7 +28,7 @@ file(GLOB development ${SCRATCH}/libsoilbin-dev_${VERSION}*.deb)
 
 run(dpkg-deb --info ${runtime})
 expect("${output}" "soilbin's control file" "Package: soilbin\n" "Version: ${VERSION}\n" "Depends: [^\n]*libc6 "
-  "Depends: [^\n]*libfmt" "Depends: [^\n]*libgsl" "Depends: [^\n]*libsundials-cvodes" "Depends: [^\n]*libstdc\\+\\+6 " "Depends: [^\n]*libyaml-cpp"
+  "Depends: [^\n]*libfmt" "Depends: [^\n]*libgsl" "Depends: [^\n]*libstdc\\+\\+6 " "Depends: [^\n]*libyaml-cpp"
   "Recommends: [^\n]*libjs-three[^\n]*node-d3")
 run(dpkg-deb --contents ${runtime})
 expect("${output}" "soilbin's files" " ./usr/bin/soilbin\n" " ./usr/share/doc/soilbin/copyright\n"

@@ -1,0 +1,28 @@
+# CVODES of SUNDIALS and what it needs, as archives: SUNDIALS::<component> for cvodes, nvecserial, sunmatrixdense,
+# sunlinsoldense. Debian's libsundials-dev depends on MPI, PETSc, Trilinos and a Fortran compiler (98 MB to fetch, 520 MB
+# on disk), of which nothing is called. So packaging/set_up.sh unpacks it below build/unpacked and does not install it;
+# an installed one serves as well.
+set(unpacked ${PROJECT_SOURCE_DIR}/build/unpacked/usr)
+find_path(SUNDIALS_INCLUDE_DIR cvodes/cvodes.h HINTS ${unpacked}/include)
+if(SUNDIALS_INCLUDE_DIR)
+  file(STRINGS ${SUNDIALS_INCLUDE_DIR}/sundials/sundials_config.h line REGEX "define SUNDIALS_VERSION \"")
+  string(REGEX REPLACE ".*\"(.*)\".*" "\\1" SUNDIALS_VERSION "${line}")
+endif()
+
+set(needed SUNDIALS_INCLUDE_DIR)
+foreach(component IN LISTS SUNDIALS_FIND_COMPONENTS)
+  find_library(SUNDIALS_${component}_LIBRARY NAMES libsundials_${component}.a
+    HINTS ${unpacked}/lib/${CMAKE_LIBRARY_ARCHITECTURE} ${unpacked}/lib)
+  list(APPEND needed SUNDIALS_${component}_LIBRARY)
+  if(SUNDIALS_${component}_LIBRARY AND NOT TARGET SUNDIALS::${component})
+    add_library(SUNDIALS::${component} STATIC IMPORTED)
+    set_target_properties(SUNDIALS::${component} PROPERTIES IMPORTED_LOCATION ${SUNDIALS_${component}_LIBRARY})
+    if(NOT SUNDIALS_INCLUDE_DIR STREQUAL "/usr/include")
+      set_target_properties(SUNDIALS::${component} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${SUNDIALS_INCLUDE_DIR})
+    endif()
+  endif()
+endforeach()
+
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(SUNDIALS REQUIRED_VARS ${needed} VERSION_VAR SUNDIALS_VERSION
+  REASON_FAILURE_MESSAGE "packaging/debian-packages.txt names the packages, and ./demo sees to them")

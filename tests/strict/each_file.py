@@ -1,0 +1,54 @@
+"""Compiles each source file of the floors by itself, without writing an object: a missing #include or a warning is an
+error. The other builds join files, and so would not see what a file borrows from its neighbour.
+
+Usage: each_file.py BUILD_FOLDER       of the configured preset 'strict'; exit status 1 where a file fails
+"""
+import json
+import os
+import shlex
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+FLOORS = {"scenario", "bekker_wong", "dem", "compare", "cli", "notebooks"}
+
+
+def checks(build):
+    """Each source file once: its path below the project, the folder to compile in, and the command."""
+    entries = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
+    root = build.parent.parent
+    found = {}
+    for entry in entries:
+        file = Path(entry["file"])
+        if not file.is_relative_to(root) or file.relative_to(root).parts[0] not in FLOORS:
+            continue  # tests, and what the build itself writes
+        words = shlex.split(entry["command"])
+        at = words.index("-o")
+        found.setdefault(file.relative_to(root), (entry["directory"], words[:at] + words[at + 2:] + ["-fsyntax-only"]))
+    return [(name, *rest) for name, rest in sorted(found.items())]
+
+
+def main(build):
+    def compiles(check):
+        name, folder, command = check
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+        return name, done.returncode, done.stderr
+
+    todo = checks(build)
+    if not todo:
+        sys.exit(f"{build}: no source files")
+    failed = 0
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        for name, status, errors in pool.map(compiles, todo):
+            if status != 0:
+                failed += 1
+                print(f"{name} does not compile by itself:\n{errors}")
+    print(f"{len(todo)} files, {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    sys.exit(main(Path(sys.argv[1]).resolve()))
