@@ -22,8 +22,8 @@ double pull_along_travel(const TractionResult& result);
 /// resistance, since F_t is less the slope's share of the load. Downhill that share pulls: the power that gravity puts
 /// in counts as put in (our choice; without it the ratio passes 1). On a cross slope gravity does no work along travel.
 ///
-/// `radius` [m] and the result's slip give v/w. Negative where the wheel is pushed. NaN where nothing is driven (M <= 0,
-/// a locked wheel) and where a force that it takes is NaN.
+/// `radius` [m] and the result's slip give v/w. Negative where the wheel is pushed. NaN where nothing is driven (M <=
+/// 0, a locked wheel) and where a force that it takes is NaN.
 double tractive_efficiency(const TractionResult& result, double radius);
 
 /// Whether the ratio that a result holds is an efficiency: the wheel is driven and pulls along its travel (0 or more),

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "compare/report/number_text.hpp"
 #include "compare/measured/channels.hpp"
+#include "compare/report/number_text.hpp"
 
 namespace soilbin::compare {
 
