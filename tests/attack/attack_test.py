@@ -528,7 +528,7 @@ class OddRequests(Attack):
         self.assertFalse("<!--<script" in page)
 
     def test_long_work_says_so_where_nobody_sees_a_line_change(self):
-        process = self.start("element-test", "repose", "paper-sand", "--threads", "1")
+        process = self.start("run", "paper-straight", "--model", "dem", "--load", "4kN", "--slip", "20%", "--threads", "1")
         began = time.monotonic()
         os.set_blocking(process.stderr.fileno(), True)
         line = process.stderr.readline()
