@@ -9,7 +9,7 @@ set_up_peer() {  # COMMAND PACKAGE TARGET...
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$2" >&2
   fi
   shift 2
-  set_up build check >&2
+  set_up build python check >&2
   cmake --preset release >/dev/null
   cmake --build --preset release --target "$@" -j "$(nproc)" >/dev/null
   mkdir -p build/bench/peers

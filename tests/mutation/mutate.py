@@ -124,7 +124,7 @@ class Workshop:
 
     def __init__(self, scratch, jobs):
         self.tree, self.jobs = scratch / "tree", jobs
-        self.build = self.tree / "build" / "release"
+        self.build = self.tree / "build" / "strict"
         copy_tree(self.tree)
         if not (self.build / "build.ninja").exists():
             subprocess.run(["cmake", "--preset", "strict"], cwd=self.tree, check=True, stdout=subprocess.DEVNULL)
