@@ -9,6 +9,7 @@
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/contact_stages.hpp"
 #include "bekker_wong/model.hpp"
+#include "bekker_wong/presumption.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "compare/sweep/doubt_parts.hpp"
 #include "compare/sweep/grain_doubts.hpp"
@@ -191,9 +192,14 @@ Case as_study(Case question) {
   return question;
 }
 
-Warnings words_of_unheard(const Case& question) {
+/// What is declared and has no influence, and what has influence and is not declared.
+Warnings doubts_of_declarations(const Case& question) {
   Warnings words;
   for (Unheard& one : unheard(question)) words.push_back(std::move(one.words));
+  std::vector<EffectChoice> effects;
+  for (const ModelChoice& model : question.study.models)
+    effects.insert(effects.end(), model.effects.begin(), model.effects.end());
+  append(words, bekker_wong::presumptions(effects, question.scenario.tire));
   return words;
 }
 
@@ -222,14 +228,14 @@ std::vector<ModelAnswers> quick_answers(const Case& question) {
 
 Warnings doubts(const Case& question, const std::vector<ModelAnswers>& study) {
   Warnings warnings = doubts_but_unheard(question, study, Answered::yes);
-  append(warnings, words_of_unheard(question));
+  append(warnings, doubts_of_declarations(question));
   return warnings;
 }
 
 Warnings doubts(const Case& question) {
   Warnings warnings = doubts_but_unheard(question, quick_answers(question), Answered::no);
   append(warnings,
-         words_of_unheard(question.drive && question.study.conditions.empty() ? as_study(question) : question));
+         doubts_of_declarations(question.drive && question.study.conditions.empty() ? as_study(question) : question));
   return warnings;
 }
 

@@ -9,6 +9,7 @@
 //   a wheel on a soil    proportions, a width for which the soil carries nothing   doubts.cpp
 //   an answer            deep sinkage, odd pressure, more power out than in        doubts.cpp
 //   no influence         lugs, inflation, passes, ... that change no digit         unheard.cpp
+//   a presumption        what an effect takes the wheel to have, and nobody said   doubts.cpp
 //   grains               too coarse for the wheel, a law that hangs on the step    grain_doubts.cpp
 //   measured rows        repeated, flipped, impossible                             campaign_doubts.cpp
 #pragma once
