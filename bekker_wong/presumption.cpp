@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "bekker_wong/effect.hpp"
@@ -20,7 +21,8 @@ std::vector<Presumed> presumed(const EffectForm& form, const Tire& tire) {
   for (const Presumption& p : form.presumes) {
     if (p.declared(tire)) continue;
     const double value = p.presumed(tire);
-    std::string words = fmt::format("{} = {}", p.key, write_quantity(value, std::string(p.unit)));
+    const double shown = std::stod(fmt::format("{:.6g}", value));  // 5.5 mm, not 5.5000000000000005 mm
+    std::string words = fmt::format("{} = {}", p.key, write_quantity(shown, std::string(p.unit)));
     if (!words.ends_with(fmt::format("= {}", p.rule))) words += fmt::format(" ({})", p.rule);
     all.push_back({std::string(p.key), value, std::move(words)});
   }
