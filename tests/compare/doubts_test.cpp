@@ -147,23 +147,26 @@ TEST(Doubts, InflationIsHeardByAFlexibleTireAlone) {
   EXPECT_THAT(keys_of_unheard(question), ElementsAre("inflation"));
 }
 
-// Before the answer and with it: the same words, each kind once.
 TEST(Doubts, WhatAnEffectPresumesOfTheTireIsToldUntilItIsDeclared) {
   Case question;
-  question.scenario.tire = {.name = "bare", .radius = 0.25, .width = 0.1};
+  question.scenario.tire.radius = 0.25;
+  question.scenario.tire.width = 0.1;
   question.scenario.soil.semi_empirical = sand();
   question.study.models = {{ModelKind::bekker_wong, {{.id = "lug_thrust", .form = "", .parameters = {}}}, ""}};
-  question.study.conditions = {{.load = 1000, .slip = 0.2}};
+  OperatingCondition& at = question.study.conditions.emplace_back();
+  at.load = 1000, at.slip = 0.2;
   const auto presumes = [&] {
     const std::vector<std::string> all = doubts(question);
     return std::any_of(all.begin(), all.end(),
                        [](const std::string& d) { return d.starts_with("lug_thrust presumes"); });
   };
   EXPECT_TRUE(presumes());
-  question.scenario.tire.lugs = {.height = 0.0125, .count = 24};
+  question.scenario.tire.lugs.height = 0.0125;
+  question.scenario.tire.lugs.count = 24;
   EXPECT_FALSE(presumes());
 }
 
+// Before the answer and with it: the same words, each kind once.
 TEST(Doubts, ADeepWheelIsDoubtedWithItsAnswerAsWithoutIt) {
   Case question;
   question.scenario = wheel_on_sand();
