@@ -234,8 +234,10 @@ void add_failure_map(CLI::App& app, Session& session) {
   command->get_option("--recorded")->group("");
   command->get_option("--packings")->group("");
   command->footer(
-      "Example: soilbin failure-map dem-lugs --incline longitudinal --load 40N..100N --lug-height 0mm..15mm\n"
-      "         --angle 0deg..18deg --slip 5%..40% --store map.json --report map.html --check 5");
+      "Example: soilbin failure-map paper-longitudinal --soil paper-sand-virtual --incline longitudinal --load "
+      "2kN..8kN\n"
+      "         --lug-height 0mm..30mm --angle 0deg..15deg --slip 5%..50% --store map.json --report map.html --check "
+      "5");
   command->callback([=, &session] { session.action = [=, &session] { return failure_map(*asked, session); }; });
 }
 

@@ -1,4 +1,4 @@
-"""Runs `soilbin loop` on the campaigns cases/measured/dem-* and prints what it says of what was hidden, as Markdown.
+"""Runs `soilbin loop` on the campaigns of measured/ beside this file and prints what it says of what was hidden, as Markdown.
 
     /usr/bin/python3 bench/dem_nature/measure.py [SOILBIN]
 """
@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+CAMPAIGNS = Path(__file__).resolve().parent / "measured"
 # What was switched on in the grains, by the catalogue's names; on a cross slope two names tell of the same push.
 TRUTH = {"dem-null": set(), "dem-lugs": {"lug_thrust"}, "dem-incline": {"slope_weakening"},
          "dem-cross-slope": {"sidewall_bulldozing", "slope_weakening"}, "dem-yaw": {"sidewall_bulldozing"},
@@ -21,7 +22,7 @@ def sets_of(found):
 
 def row(soilbin, name, truth):
     """One line of the table, and whether the truth is in the set (None for the control)."""
-    done = subprocess.run([soilbin, "loop", str(ROOT / "cases/measured" / name), "--json"], capture_output=True,
+    done = subprocess.run([soilbin, "loop", str(CAMPAIGNS / name), "--json"], capture_output=True,
                           text=True, check=True)
     found = json.loads(done.stdout)
     sets = sets_of(found)
@@ -29,7 +30,7 @@ def row(soilbin, name, truth):
     holds = any(ids & truth for ids, _ in sets) if truth else None
     best = " + ".join(sorted(sets[0][0])) if sets else "-"
     error = found["error"]["overall"]
-    rows = sum(1 for _ in open(ROOT / "cases/measured" / name / "runs.csv", encoding="utf-8")) - 1
+    rows = sum(1 for _ in open(CAMPAIGNS / name / "runs.csv", encoding="utf-8")) - 1
     told = "-" if holds is None else f"yes, {100 * share:.0f} %" if holds else "no"
     print(f"| {name} | {rows} | {found['verdict']} | {best} | {told} | {error['before']:.2f} | {error['after']:.2f} |")
     fell = error["after"] < error["before"] if found["verdict"] == "effect_found" else None

@@ -28,14 +28,14 @@ TEST(CalibrateCommand, RefusesWhatMakesNoSenseWithAHint) {
       {"calibrate paper-sand --probability 100%", "--probability"},
       {"calibrate paper-sand --strength top", "'top' is none of peak, residual"},
       {"calibrate paper-sand --rolling elastic_plastik", "did you mean 'elastic_plastic'"},
-      {"calibrate paper-sand --decide dem-nul", "did you mean 'dem-null'"},
-      {"calibrate paper-sand --decide dem-null --decide-at slop=1%..2%", "did you mean 'slip'"},
-      {"calibrate paper-sand --decide dem-null --decide-at slip=20%", "expected LOW..HIGH"},
-      {"calibrate paper-sand --decide dem-null --decide-at slip=70%..80%", "it has load 70 N, slip 20 %"},
-      {"calibrate paper-sand --decide dem-null --bed-length 0.6m", "leaves the wheel no way"},
+      {"calibrate paper-sand --decide ding2011-smoot", "did you mean 'ding2011-smooth'"},
+      {"calibrate paper-sand --decide ding2011-smooth --decide-at slop=1%..2%", "did you mean 'slip'"},
+      {"calibrate paper-sand --decide ding2011-smooth --decide-at slip=20%", "expected LOW..HIGH"},
+      {"calibrate paper-sand --decide ding2011-smooth --decide-at slip=70%..80%", "it has load 80 N, slip 0 %"},
+      {"calibrate paper-sand --decide ding2011-smooth --bed-length 0.6m", "leaves the wheel no way"},
       {"calibrate paper-sand --decide cmu-grousered --bed-width 0.1m", "cmu-grousered: its wheel: "},
       {"calibrate paper-sand --bed-length 3m", "--decide"},
-      {"calibrate paper-sand --decide dem-null --beside sets.csv", "--beside"},
+      {"calibrate paper-sand --decide ding2011-smooth --beside sets.csv", "--beside"},
   };
   for (const auto& [arguments, says] : wrong) {
     const Scratch scratch;

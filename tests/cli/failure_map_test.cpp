@@ -12,11 +12,13 @@ using testing::HasSubstr;
 
 /// The command of docs/failure-map.md, from the runs in the store alone.
 std::string stored(const std::string& more) {
-  return "failure-map dem-lugs --incline longitudinal --load 40N..100N --lug-height 0mm..15mm --angle 0deg..15deg "
+  return "failure-map '" SOILBIN_SOURCE_DIR
+         "/bench/dem_nature/studies/dem-lugs.yaml' --incline longitudinal --load 40N..100N --lug-height 0mm..15mm "
+         "--angle 0deg..15deg "
          "--slip 5%..40% --boundary 0 --rounds 0 --settling-friction 0.2 --bed-length 0.5m --behind 0.12m --ahead "
          "0.12m "
          "--lowering 0.2s --resting 0.1s --starting 0.1s --tilting 0.2s --sleep 0 --stored --store '" SOILBIN_SOURCE_DIR
-         "/cases/failure_maps/dem-nature-longitudinal.json' " +
+         "/bench/dem_nature/failure_maps/dem-nature-longitudinal.json' " +
          more;
 }
 
@@ -70,13 +72,18 @@ TEST(SlowFailureMapCommand, TellsWhereThePapersTireParts) {
 
 TEST(FailureMapCommand, NamesWhatIsWrong) {
   const auto error = [](const std::string& flags) {
-    return soilbin("failure-map dem-lugs --lug-height 0mm..1mm --slip 0%..1% --stored " + flags).err;
+    return soilbin(
+               "failure-map paper-longitudinal --soil paper-sand-virtual --lug-height 0mm..1mm --slip 0%..1% "
+               "--stored " +
+               flags)
+        .err;
   };
   EXPECT_THAT(error("--incline sideways --load 1N..2N --angle 0deg..1deg"), HasSubstr("unknown kind 'sideways'"));
   EXPECT_THAT(error("--load 100N..40N --angle 0deg..1deg"), HasSubstr("below the upper"));
   EXPECT_THAT(error("--load 1N..2N --angle 15deg"), HasSubstr("expected LOW..HIGH"));
   const Outcome none = soilbin(
-      "failure-map dem-lugs --load 1N..2N --lug-height 0mm..1mm --angle 0deg..1deg --slip 0%..1% "
+      "failure-map paper-longitudinal --soil paper-sand-virtual --load 1N..2N --lug-height 0mm..1mm --angle 0deg..1deg "
+      "--slip 0%..1% "
       "--stored --store no-such.json");
   EXPECT_EQ(none.status, 1);
   EXPECT_THAT(none.err, HasSubstr("only 0 of 24 conditions have an answer of both models"));
@@ -95,7 +102,7 @@ TEST(CampaignCommand, RefusesWhatIsNoRecord) {
 // The control that comes with the project: grains in which nothing was switched on. What the loop names is true of
 // them.
 TEST(SlowCampaigns, TheLoopFindsHowSoftGrainsSpringBack) {
-  const Outcome r = soilbin("loop dem-null --json");
+  const Outcome r = soilbin("loop '" SOILBIN_SOURCE_DIR "/bench/dem_nature/measured/dem-null' --json");
   ASSERT_EQ(r.status, 0) << r.err;
   const nlohmann::json found = r.json();
   EXPECT_EQ(found["verdict"], "effect_found");

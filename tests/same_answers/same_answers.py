@@ -57,7 +57,7 @@ def questions(quick, campaigns):
     if not quick:
         yield "drive.json", ["run", "rover-climb", "--json"]
         yield "bevameter.json", ["bevameter", "paper-sand", "--json"]
-        yield "grains.json", ["run", "dem-null", "--model", "dem", "--limit", "slip=20%", "--limit", "load=75N", "--packings", "1",
+        yield "grains.json", ["run", "bench/dem_nature/studies/dem-null.yaml", "--model", "dem", "--limit", "slip=20%", "--limit", "load=75N", "--packings", "1",
                               "--json", "--record", "{out}/grains-record.json"]
 
 
