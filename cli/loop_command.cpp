@@ -64,7 +64,7 @@ void print_answer(const compare::LoopAnswer& answer, bool only_next) {
   if (!only_next) {
     fmt::print("{}: {}\n\n", answer.campaign, compare::verdict_sentence(answer));
     for (const std::string& sentence : compare::explanation(answer)) fmt::print("{}\n", sentence);
-    if (!answer.details.weights.empty()) fmt::print("\n{}", as_text(compare::rivals_table(answer)));
+    if (!answer.details.weights.empty()) fmt::print("\n{}", as_text(compare::candidates_table(answer)));
     if (answer.validation.overall.cells > 0) fmt::print("\n{}", as_text(compare::error_table(answer)));
     return;
   }

@@ -1,6 +1,6 @@
 """Runs `soilbin loop` over a set of synthetic campaigns (nature/) and reports the targets with 95 % intervals.
 
-Baselines stand beside the loop on the same campaigns: `refit only` (the soil refitted, no effect), `AICc only` (the rival of
+Baselines stand beside the loop on the same campaigns: `refit only` (the soil refitted, no effect), `AICc only` (the candidate of
 least AICc, nothing else), `smooth term` (any smooth function of the conditions on what the refit leaves: no name), `random
 pick` (one of the testable ids).
 Nothing here tunes the loop: thresholds were set on set `tune`; set `report` is for the figures.
@@ -84,7 +84,7 @@ def share_by_chance(truth, found):
 
 
 def by_aicc(found):
-    """Ids that the corrected Akaike criterion picks among base model and rivals."""
+    """Ids that the corrected Akaike criterion picks among base model and candidates."""
     details = found["details"]
     n = details["values"]
 

@@ -8,28 +8,29 @@ namespace soilbin::compare {
 
 namespace {
 
-AcceptedEffect accepted(const WheelPredictor& predictor, const Whitening& whitening, const Rival& rival, int term) {
+AcceptedEffect accepted(const WheelPredictor& predictor, const Whitening& whitening, const CandidateModel& candidate,
+                        int term) {
   constexpr double two_sided = 1.96;
-  Eigen::VectorXd errors = standard_errors(rival.fit, predictor);
-  const Term& t = rival.terms[static_cast<std::size_t>(term)];
+  Eigen::VectorXd errors = standard_errors(candidate.fit, predictor);
+  const Term& t = candidate.terms[static_cast<std::size_t>(term)];
   AcceptedEffect effect;
-  const auto all = predictor.choices(rival.fit.theta);
-  effect.choice = all[all.size() - rival.terms.size() + static_cast<std::size_t>(term)];
+  const auto all = predictor.choices(candidate.fit.theta);
+  effect.choice = all[all.size() - candidate.terms.size() + static_cast<std::size_t>(term)];
   for (std::size_t k = 0; k < t.free.size(); ++k) {
     const Eigen::Index i = predictor.amplitude_index(term) + static_cast<Eigen::Index>(k);
     const FreeParameter& bounds = predictor.parameters()[static_cast<std::size_t>(i)];
     const bool held = errors[i] == 0.0;
-    if (held) errors[i] = held_error(rival.fit, predictor, whitening, i);
+    if (held) errors[i] = held_error(candidate.fit, predictor, whitening, i);
     effect.at_bound.push_back(held);
     effect.fitted.push_back(t.form->parameters[static_cast<std::size_t>(t.free[k])].name);
-    effect.ci95.emplace_back(std::max(bounds.lower, rival.fit.theta[i] - two_sided * errors[i]),
-                             std::min(bounds.upper, rival.fit.theta[i] + two_sided * errors[i]));
+    effect.ci95.emplace_back(std::max(bounds.lower, candidate.fit.theta[i] - two_sided * errors[i]),
+                             std::min(bounds.upper, candidate.fit.theta[i] + two_sided * errors[i]));
   }
   return effect;
 }
 
 std::vector<SoilShift> soil_shifts(const Identification& id, const WheelPredictor& predictor) {
-  const Fit& with = id.rivals[*id.best].fit;
+  const Fit& with = id.candidates[*id.best].fit;
   const Eigen::VectorXd error = standard_errors(with, predictor);
   const Eigen::VectorXd base_error = standard_errors(id.base, predictor);  // the same soil parameters come first
   std::vector<SoilShift> shifts;
@@ -52,7 +53,7 @@ SemiEmpiricalSoil fitted_soil(const Campaign& campaign, const WheelPredictor& pr
 
 std::vector<AcceptedEffect> take_best(const Campaign& campaign, LoopAnswer& answer) {
   const Identification& id = answer.details;
-  const Rival& best = id.rivals[*id.best];
+  const CandidateModel& best = id.candidates[*id.best];
   const WheelPredictor predictor(campaign, id.observations, best.terms);
   std::vector<AcceptedEffect> effects;
   for (int t = 0; t < static_cast<int>(best.terms.size()); ++t)
@@ -67,7 +68,7 @@ std::vector<AcceptedEffect> take_best(const Campaign& campaign, LoopAnswer& answ
 void describe_effects(const Campaign& campaign, LoopAnswer& answer, const IdentifyOptions& options) {
   const Identification& id = answer.details;
   for (std::size_t t = 0; t < answer.effects.size(); ++t) {
-    answer.effects[t].p_value = p_beside_others(campaign, id, id.rivals[*id.best], t, options);
+    answer.effects[t].p_value = p_beside_others(campaign, id, id.candidates[*id.best], t, options);
     answer.effects[t].cosines = cosines(id, answer.effects[t].choice.id);
   }
 }

@@ -10,7 +10,7 @@ namespace soilbin::compare {
 /// The campaign's soil with the values of a fit and their standard errors.
 SemiEmpiricalSoil fitted_soil(const Campaign& campaign, const WheelPredictor& predictor, const Fit& fit);
 
-/// The best rival's effects; its soil and what its residual still depends on go into the answer.
+/// The best candidate's effects; its soil and what its residual still depends on go into the answer.
 std::vector<AcceptedEffect> take_best(const Campaign& campaign, LoopAnswer& answer);
 
 /// p-value and separability of each accepted effect.

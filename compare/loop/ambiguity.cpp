@@ -32,7 +32,7 @@ const Weighted& weighed(const Identification& id, const std::set<std::string>& i
 }
 
 std::vector<Competitor> competitors(const Identification& id) {
-  const Weighted& best = weighed(id, id.rivals[*id.best].ids);
+  const Weighted& best = weighed(id, id.candidates[*id.best].ids);
   std::vector<Competitor> all = {
       {static_cast<std::size_t>(&best - id.weights.data()), allowed_behind(id, best, best.ids)}};
   for (std::size_t i = 0; i < id.weights.size(); ++i) {

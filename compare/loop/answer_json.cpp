@@ -112,18 +112,18 @@ ordered_json sets_json(const Identification& id, const std::vector<Weighted>& se
   ordered_json list = ordered_json::array();
   for (const Weighted& w : sets) {
     std::vector<const bekker_wong::EffectForm*> forms;
-    for (const Term& term : id.rivals[w.best_rival].terms) forms.push_back(term.form);
+    for (const Term& term : id.candidates[w.best_candidate].terms) forms.push_back(term.form);
     list.push_back({{"effects", w.ids}, {"weight", finite(w.weight)}, {"presumes", presumes_json(forms, wheel)}});
   }
   return list;
 }
 
 /// What stands out where the base model may be off by itself, and whether that decides what else is told.
-ordered_json inadequacy_json(const LoopAnswer& answer) {
-  const Identification* id = beside_inadequacy(answer);
+ordered_json model_discrepancy_json(const LoopAnswer& answer) {
+  const Identification* id = with_model_discrepancy(answer);
   if (!id) return nullptr;
   ordered_json effects = ordered_json::array();
-  if (id->best) effects = id->rivals[*id->best].ids;
+  if (id->best) effects = id->candidates[*id->best].ids;
   return {{"effects", effects},
           {"p_value", finite(id->p_value)},
           {"size", finite(answer.second->size)},
@@ -171,26 +171,26 @@ ordered_json to_json(const LoopAnswer& answer) {
           {"with_outliers", with_outliers_json(answer)},
           {"stand_in", effects_json(answer.stand_in, answer.wheel)},
           {"worse", worse_json(answer)},
-          {"beside_inadequacy", inadequacy_json(answer)}};
+          {"beside_inadequacy", model_discrepancy_json(answer)}};
 }
 
 ordered_json details_json(const LoopAnswer& answer) {
   const Identification& id = answer.details;
   ordered_json sets = ordered_json::array();
   for (const Weighted& w : id.weights) {
-    const Rival& rival = id.rivals[w.best_rival];
-    const std::vector<std::string> in_order = forms_in_order(rival);
+    const CandidateModel& candidate = id.candidates[w.best_candidate];
+    const std::vector<std::string> in_order = forms_in_order(candidate);
     ordered_json forms = ordered_json::array();
     auto form = in_order.begin();
-    for (const std::string& effect : rival.ids) forms.push_back(effect + "/" + *form++);
+    for (const std::string& effect : candidate.ids) forms.push_back(effect + "/" + *form++);
     const auto told = std::find_if(answer.ambiguity_set.begin(), answer.ambiguity_set.end(),
                                    [&](const Weighted& one) { return one.ids == w.ids; });
     sets.push_back({{"effects", w.ids},
                     {"forms", forms},
                     {"weight", finite(told == answer.ambiguity_set.end() ? 0.0 : told->weight)},
-                    {"log_evidence", finite(rival.log_evidence)},
-                    {"chi2", finite(rival.fit.chi2)},
-                    {"parameters", rival.fit.theta.size()}});
+                    {"log_evidence", finite(candidate.log_evidence)},
+                    {"chi2", finite(candidate.fit.chi2)},
+                    {"parameters", candidate.fit.theta.size()}});
   }
   return {{"p_value", finite(id.p_value)},
           {"values", id.observations.cells.size()},

@@ -24,7 +24,7 @@ std::string joined(const std::set<std::string>& ids) {
 std::string verdict_sentence(const LoopAnswer& answer) {
   switch (answer.verdict) {
     case Verdict::effect_found:
-      return fmt::format("The model lacks {}: {}.", joined(answer.details.rivals[*answer.details.best].ids),
+      return fmt::format("The model lacks {}: {}.", joined(answer.details.candidates[*answer.details.best].ids),
                          answer.reason);
     case Verdict::nothing_missing:
       return fmt::format("Nothing is missing that these data show: {}.", answer.reason);
@@ -38,7 +38,7 @@ std::string verdict_sentence(const LoopAnswer& answer) {
 
 namespace {
 
-/// The sets of the table of rivals: those that compete, then those that stand next.
+/// The sets of the table of candidates: those that compete, then those that stand next.
 std::vector<const Weighted*> sets_shown(const LoopAnswer& answer) {
   constexpr std::size_t most = 8;
   std::vector<const Weighted*> sets;
@@ -105,7 +105,7 @@ std::string note_on_the_other_reading(const LoopAnswer& answer) {
   const Identification& note = answer.second->note;
   std::string names = "no named effect stands out", others;
   if (note.best) {
-    const std::set<std::string>& best = note.rivals[*note.best].ids;
+    const std::set<std::string>& best = note.candidates[*note.best].ids;
     names = fmt::format("{} stands out most (p = {:.2g})", joined(best), note.p_value);
     for (const Weighted& w : answer.noted_sets)
       if (w.ids != best) others += (others.empty() ? "" : ", ") + joined(w.ids);
@@ -123,10 +123,10 @@ std::vector<EffectChoice> forms_told(const LoopAnswer& answer) {
   for (const std::vector<AcceptedEffect>* effects : {&answer.effects, &answer.stand_in})
     for (const AcceptedEffect& effect : *effects) forms.push_back(effect.choice);
   for (const Weighted* w : sets_shown(answer))
-    for (const Term& term : answer.details.rivals[w->best_rival].terms)
+    for (const Term& term : answer.details.candidates[w->best_candidate].terms)
       forms.push_back({term.form->id, term.form->form, {}});
   for (const Weighted& w : answer.noted_sets)
-    for (const Term& term : answer.second->note.rivals[w.best_rival].terms)
+    for (const Term& term : answer.second->note.candidates[w.best_candidate].terms)
       forms.push_back({term.form->id, term.form->form, {}});
   return forms;
 }
@@ -187,7 +187,7 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
   if (unknown) sentences.push_back(to_show_its_shape(answer));
   if (!answer.next) {
     if (!unknown && answer.ambiguity_set.size() > 1)
-      sentences.push_back("No condition within the limits would set these rivals apart in 50 runs.");
+      sentences.push_back("No condition within the limits would set these candidates apart in 50 runs.");
     if (answer.verdict == Verdict::effect_found && answer.ambiguity_set.size() == 1)
       sentences.push_back(
           "One name is left, and no condition within the limits would set it further apart in one run.");
@@ -207,9 +207,10 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
   if (next.beyond.empty()) return sentences;
   std::vector<std::string> names = next.beyond;
   for (std::string& name : names) name = spaced(name);
-  sentences.push_back(fmt::format(
-      "That is beyond what was run (in {}), where rivals part best. What the rig can't reach: --limit {}=LOW..HIGH.",
-      listed_words(names), next.beyond.front()));
+  sentences.push_back(
+      fmt::format("That is beyond what was run (in {}), where candidates differ most. What the rig can't reach: --limit "
+                  "{}=LOW..HIGH.",
+                  listed_words(names), next.beyond.front()));
   return sentences;
 }
 
@@ -242,19 +243,19 @@ std::vector<std::string> explanation(const LoopAnswer& answer) {
   return sentences;
 }
 
-std::vector<std::string> forms_in_order(const Rival& rival) {
+std::vector<std::string> forms_in_order(const CandidateModel& candidate) {
   std::map<std::string, std::string> by_id;
-  for (const Term& term : rival.terms) by_id[term.form->id] = term.form->form;
+  for (const Term& term : candidate.terms) by_id[term.form->id] = term.form->form;
   std::vector<std::string> forms;
-  for (const std::string& id : rival.ids) forms.push_back(by_id.at(id));
+  for (const std::string& id : candidate.ids) forms.push_back(by_id.at(id));
   return forms;
 }
 
-HtmlTable rivals_table(const LoopAnswer& answer) {
+HtmlTable candidates_table(const LoopAnswer& answer) {
   const std::string premise = !answer.second           ? ""
                               : answer.second->decides ? ", beside a base model that may be off by itself"
                                                        : ", the base model taken as exact";
-  HtmlTable table{"Rivals, each fitted in full" + premise + "; shares are of those that the data can't tell apart",
+  HtmlTable table{"Candidates, each fitted in full" + premise + "; shares are of those that the data can't tell apart",
                   {"effects", "form", "share", "odds to the first", "chi2", "values"},
                   {},
                   {true, true}};
@@ -262,15 +263,15 @@ HtmlTable rivals_table(const LoopAnswer& answer) {
   const std::vector<const Weighted*> sets = sets_shown(answer);
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const Weighted& w = *sets[i];
-    const Rival& rival = answer.details.rivals[w.best_rival];
+    const CandidateModel& candidate = answer.details.candidates[w.best_candidate];
     std::string forms;
-    for (const std::string& form : forms_in_order(rival)) forms += (forms.empty() ? "" : " + ") + form;
+    for (const std::string& form : forms_in_order(candidate)) forms += (forms.empty() ? "" : " + ") + form;
     const double behind = sets.front()->log_evidence - w.log_evidence;
     const std::string odds = i == 0       ? "-"
                              : behind > 0 ? "1 : " + number(std::exp(behind))
                                           : number(std::exp(-behind)) + " : 1";
     table.rows.push_back({joined(w.ids), forms, i < answer.ambiguity_set.size() ? share_words(w.weight) : "-", odds,
-                          number(rival.fit.chi2), values});
+                          number(candidate.fit.chi2), values});
   }
   table.rows.push_back({"base model", "-", "-", "-", number(answer.details.base.chi2), values});
   return table;

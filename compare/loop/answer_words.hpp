@@ -23,12 +23,12 @@ std::vector<std::string> explanation(const LoopAnswer& answer);
 /// What to measure next, or why no run is proposed; empty where no question is open.
 std::vector<std::string> what_next(const LoopAnswer& answer);
 
-/// The forms of a rival's effects, in the order of its ids.
-std::vector<std::string> forms_in_order(const Rival& rival);
+/// The forms of a candidate's effects, in the order of its ids.
+std::vector<std::string> forms_in_order(const CandidateModel& candidate);
 
-/// Rivals, first those that the data can't tell apart, their weights and chi2; held-out errors before and after: as
+/// Candidates, first those that the data can't tell apart, their weights and chi2; held-out errors before and after: as
 /// tables for a page or a terminal.
-HtmlTable rivals_table(const LoopAnswer& answer);
+HtmlTable candidates_table(const LoopAnswer& answer);
 HtmlTable error_table(const LoopAnswer& answer);
 
 /// The campaign's wheel on the refitted soil with the accepted effects, at each of its conditions: what estimate, run
@@ -36,7 +36,7 @@ HtmlTable error_table(const LoopAnswer& answer);
 Case resolved_model(const Campaign& campaign, const LoopAnswer& answer);
 
 /// The report: verdict, residuals against every variable before and after, the accepted effect's signature over the
-/// residual, rivals, what is not testable, what to measure next. `command`: how to repeat it.
+/// residual, candidates, what is not testable, what to measure next. `command`: how to repeat it.
 std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const std::string& command);
 
 }  // namespace soilbin::compare

@@ -124,9 +124,9 @@ void settle_base(const Campaign& campaign, const Observations& given, const Iden
   }
 }
 
-NoiseFloor noise_beside(const Campaign& campaign, const Identification& id, const Rival& rival) {
-  const WheelPredictor predictor(campaign, id.observations, rival.terms);
-  return estimate_noise(id.observations, noise_data(predictor, id.observations, rival.fit)).floor;
+NoiseFloor noise_beside(const Campaign& campaign, const Identification& id, const CandidateModel& candidate) {
+  const WheelPredictor predictor(campaign, id.observations, candidate.terms);
+  return estimate_noise(id.observations, noise_data(predictor, id.observations, candidate.fit)).floor;
 }
 
 }  // namespace soilbin::compare

@@ -10,8 +10,8 @@ namespace soilbin::compare {
 void settle_base(const Campaign& campaign, const Observations& given, const IdentifyOptions& options,
                  Identification& id);
 
-/// The noise estimated once more, beside a rival in place of the base model: where an effect is large and the smooth
-/// functions follow it badly, it counts as noise beside the base model.
-NoiseFloor noise_beside(const Campaign& campaign, const Identification& id, const Rival& rival);
+/// The noise estimated once more, beside a candidate in place of the base model: where an effect is large and the
+/// smooth functions follow it badly, it counts as noise beside the base model.
+NoiseFloor noise_beside(const Campaign& campaign, const Identification& id, const CandidateModel& candidate);
 
 }  // namespace soilbin::compare

@@ -8,7 +8,7 @@
 #include <random>
 #include <tuple>
 
-#include "compare/loop/inadequacy.hpp"
+#include "compare/loop/model_discrepancy.hpp"
 #include "compare/loop/smooth_term.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
@@ -37,7 +37,7 @@ struct FoldResult {
 /// What is redone in each fold.
 struct Procedure {
   const NoiseFloor& noise;  ///< in which errors are told
-  bool beside_inadequacy;
+  bool with_model_discrepancy;
   IdentifyOptions options;
 };
 
@@ -49,14 +49,14 @@ FoldResult run_fold(const Campaign& campaign, const Identification& whole, const
   const Observations training = of_conditions(all, keep);
   FoldResult result;
   const Identification exact = identify(campaign, training, procedure.options);
-  std::optional<InadequateReading> beside;
-  if (procedure.beside_inadequacy) beside = read_beside_inadequacy(campaign, exact, procedure.options);
+  std::optional<DiscrepancyReading> beside;
+  if (procedure.with_model_discrepancy) beside = read_with_model_discrepancy(campaign, exact, procedure.options);
   const Identification& id = beside ? beside->identification : exact;
   const WheelPredictor base(campaign, training);
   std::optional<WheelPredictor> better;
   if (id.best) {
-    better.emplace(campaign, training, id.rivals[*id.best].terms);
-    result.chosen = id.rivals[*id.best].ids;
+    better.emplace(campaign, training, id.candidates[*id.best].terms);
+    result.chosen = id.candidates[*id.best].ids;
   }
   VectorXd predicted = VectorXd::Constant(static_cast<Index>(all.cells.size()), not_a_number);
   std::vector<Index> of_cell;  // of each held-out cell, its index among all
@@ -71,7 +71,8 @@ FoldResult run_fold(const Campaign& campaign, const Identification& whole, const
     try {
       HeldOut held{.row = cell.row, .channel = cell.channel, .measured = cell.value};
       held.before = channel_of(base.reading(exact.base.theta, at), cell.channel);
-      held.after = better ? channel_of(better->reading(id.rivals[*id.best].fit.theta, at), cell.channel) : held.before;
+      held.after =
+          better ? channel_of(better->reading(id.candidates[*id.best].fit.theta, at), cell.channel) : held.before;
       held.sd = procedure.noise.channels[static_cast<std::size_t>(cell.channel)].sd(cell.value);
       predicted[index] = held.before;
       of_cell.push_back(index);
@@ -97,10 +98,10 @@ std::vector<std::optional<FoldResult>> run_folds(const Campaign& campaign, const
   const Pulse tell = [&] {
     if (progress) progress(done, static_cast<std::size_t>(folds));
   };
-  const Crew crew{threads, tell};
-  crew.each(folds, [&](int f, const Pulse& pulse) {
+  const ThreadPool pool{threads, tell};
+  pool.each(folds, [&](int f, const Pulse& pulse) {
     Procedure own = procedure;
-    own.options.crew = {crew.share_of(f, folds), pulse};
+    own.options.pool = {pool.share_of(f, folds), pulse};
     try {
       results[static_cast<std::size_t>(f)] = run_fold(campaign, whole, own, fold, f);
     } catch (const NoSolution&) {  // this fold's conditions can't be fitted alone: its cells stay unpredicted
@@ -192,12 +193,12 @@ std::optional<Eigen::VectorXd> held_out_density(const Campaign& campaign, const 
 
 PredictiveGain predictive_gain(const Campaign& campaign, const Identification& whole, const std::vector<Term>& terms,
                                const Fit& fit, const std::vector<Term>& over_terms, const Fit& over_fit, int folds,
-                               std::uint64_t seed, const Crew& crew) {
+                               std::uint64_t seed, const ThreadPool& pool) {
   const Observations& all = whole.observations;
   folds = std::min(folds, all.conditions);
   const std::vector<int> fold = deal(all.conditions, folds, seed);
   std::vector<std::map<int, double>> gains(static_cast<std::size_t>(folds));  // of each condition left out
-  crew.each(folds, [&](int f, const Pulse& pulse) {
+  pool.each(folds, [&](int f, const Pulse& pulse) {
     pulse();
     std::vector<bool> keep(fold.size()), held(fold.size());
     std::vector<int> original;
@@ -223,9 +224,9 @@ PredictiveGain predictive_gain(const Campaign& campaign, const Identification& w
 }
 
 CrossValidation cross_validate(const Campaign& campaign, const Identification& whole, const NoiseFloor& noise,
-                               bool beside_inadequacy, const IdentifyOptions& options, int folds, int threads,
+                               bool with_model_discrepancy, const IdentifyOptions& options, int folds, int threads,
                                const Progress& progress) {
-  const auto results = run_folds(campaign, whole, {noise, beside_inadequacy, options}, folds, threads, progress);
+  const auto results = run_folds(campaign, whole, {noise, with_model_discrepancy, options}, folds, threads, progress);
   CrossValidation cv;
   for (const auto& result : results) {
     if (!result) continue;

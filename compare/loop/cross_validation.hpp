@@ -47,15 +47,16 @@ struct PredictiveGain {
 };
 PredictiveGain predictive_gain(const Campaign& campaign, const Identification& whole, const std::vector<Term>& terms,
                                const Fit& fit, const std::vector<Term>& over_terms, const Fit& over_fit, int folds,
-                               std::uint64_t seed, const Crew& crew = {});
+                               std::uint64_t seed, const ThreadPool& pool = {});
 
 /// Folds are made of whole conditions, dealt by a seeded shuffle. Steps from the noise estimate to the choice of the
-/// effect are redone in each. beside_inadequacy: choose by the reading in which the base model may be off by itself,
-/// where there is one (inadequacy.hpp); errors before are those of the base model taken as exact, all the same. noise:
-/// of the cells left out, in whose sd errors are told. threads: folds at once; the answer does not depend on it.
-/// progress: folds done, called again and again from the calling thread alone; what it throws stops all of them.
+/// effect are redone in each. with_model_discrepancy: choose by the reading in which the base model may be off by
+/// itself, where there is one (model_discrepancy.hpp); errors before are those of the base model taken as exact, all
+/// the same. noise: of the cells left out, in whose sd errors are told. threads: folds at once; the answer does not
+/// depend on it. progress: folds done, called again and again from the calling thread alone; what it throws stops all
+/// of them.
 CrossValidation cross_validate(const Campaign& campaign, const Identification& whole, const NoiseFloor& noise,
-                               bool beside_inadequacy, const IdentifyOptions& options, int folds, int threads,
+                               bool with_model_discrepancy, const IdentifyOptions& options, int folds, int threads,
                                const Progress& progress = {});
 
 }  // namespace soilbin::compare

@@ -146,7 +146,7 @@ double log_evidence(const LinearProblem& exact, const std::vector<Tolerance>& to
          static_cast<double>(tolerances.size()) * std::log(amplitude_range);
 }
 
-double foreign_log_evidence(const Fit& fit, Index cells) {
+double schwarz_log_evidence(const Fit& fit, Index cells) {
   const double n = static_cast<double>(cells), k = static_cast<double>(fit.column_parameter.size());
   return -0.5 * n * std::log(fit.chi2) - 0.5 * k * std::log(n);
 }

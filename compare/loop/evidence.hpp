@@ -67,7 +67,7 @@ double log_evidence(const LinearProblem& exact, const std::vector<Tolerance>& to
 /// The same where no model comes near the noise: what is left is then not noise of a known size, and forms that could
 /// take it over within their tolerance say nothing. With the residual's variance unknown: -N/2 ln(chi2) - k/2 ln N
 /// (Schwarz 1978), k free parameters.
-double foreign_log_evidence(const Fit& fit, Eigen::Index cells);
+double schwarz_log_evidence(const Fit& fit, Eigen::Index cells);
 
 /// The columns of all tolerances as one matrix.
 Eigen::MatrixXd side_by_side(Eigen::Index cells, const std::vector<Tolerance>& tolerances);

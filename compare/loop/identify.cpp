@@ -6,7 +6,7 @@
 #include <map>
 
 #include "compare/loop/base_fit.hpp"
-#include "compare/loop/rival_fit.hpp"
+#include "compare/loop/candidate_fit.hpp"
 
 namespace soilbin::compare {
 
@@ -86,20 +86,22 @@ FormSet forms_of(const std::vector<Term>& terms) {
 }
 
 /// Which of these forms leaves least alone; null where none was fitted.
-const Rival* best_alone(const Identification& id, const FormSet& forms) {
-  const Rival* best = nullptr;
-  for (const Rival& rival : id.rivals)
-    if (rival.terms.size() == 1 && forms.count(rival.terms.front().form) && (!best || rival.fit.chi2 < best->fit.chi2))
-      best = &rival;
+const CandidateModel* best_alone(const Identification& id, const FormSet& forms) {
+  const CandidateModel* best = nullptr;
+  for (const CandidateModel& candidate : id.candidates)
+    if (candidate.terms.size() == 1 && forms.count(candidate.terms.front().form) &&
+        (!best || candidate.fit.chi2 < best->fit.chi2))
+      best = &candidate;
   return best;
 }
 
 /// A pair from where the better of its members ended alone, if either was fitted; else both from the base model.
-std::optional<Rival> refit_pair(const Campaign& campaign, const Identification& id, const SignaturePair& pair) {
+std::optional<CandidateModel> refit_pair(const Campaign& campaign, const Identification& id,
+                                         const SignaturePair& pair) {
   const Signature *first = pair.a, *second = pair.b;
-  const Rival* alone = best_alone(id, {first->term.form, second->term.form});
+  const CandidateModel* alone = best_alone(id, {first->term.form, second->term.form});
   if (alone && alone->terms.front().form == second->term.form) std::swap(first, second);
-  RivalStart start{id.base.restart, id.base.chi2, {{1, reach_of(*second)}}, pair.gain};
+  CandidateStart start{id.base.restart, id.base.chi2, {{1, reach_of(*second)}}, pair.gain};
   if (alone)
     start.known = alone->fit.restart, start.chi2 = alone->fit.chi2, start.promised -= id.base.chi2 - alone->fit.chi2;
   else
@@ -110,8 +112,8 @@ std::optional<Rival> refit_pair(const Campaign& campaign, const Identification& 
       start);
 }
 
-/// ln prior of one rival: an effect among about twenty, a form among the effect's, and, where physics fixes the sign,
-/// half the amplitudes to choose from.
+/// ln prior of one candidate: an effect among about twenty, a form among the effect's, and, where physics fixes the
+/// sign, half the amplitudes to choose from.
 double log_prior(const std::vector<Term>& terms) {
   double sum = 0.0;
   for (const Term& term : terms) {
@@ -132,19 +134,21 @@ double log_prior(const std::vector<Term>& terms) {
 /// The evidence of each set of effects, summed over the forms that were refitted.
 void weigh(Identification& id) {
   std::map<std::set<std::string>, Weighted> by_set;
-  const auto standing = [&](std::size_t i) { return id.rivals[i].log_evidence + log_prior(id.rivals[i].terms); };
+  const auto standing = [&](std::size_t i) {
+    return id.candidates[i].log_evidence + log_prior(id.candidates[i].terms);
+  };
   double top = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < id.rivals.size(); ++i) top = std::max(top, standing(i));
+  for (std::size_t i = 0; i < id.candidates.size(); ++i) top = std::max(top, standing(i));
   std::set<FormSet> seen;
   double total = 0.0;
-  for (std::size_t i = 0; i < id.rivals.size(); ++i) {
-    const bool repeated = !seen.insert(forms_of(id.rivals[i].terms)).second;
-    Weighted& w =
-        by_set.try_emplace(id.rivals[i].ids, Weighted{.ids = id.rivals[i].ids, .best_rival = i}).first->second;
+  for (std::size_t i = 0; i < id.candidates.size(); ++i) {
+    const bool repeated = !seen.insert(forms_of(id.candidates[i].terms)).second;
+    Weighted& w = by_set.try_emplace(id.candidates[i].ids, Weighted{.ids = id.candidates[i].ids, .best_candidate = i})
+                      .first->second;
     const double share = repeated ? 0.0 : std::exp(standing(i) - top);
     w.weight += share;
     total += share;
-    if (standing(i) > standing(w.best_rival)) w.best_rival = i;
+    if (standing(i) > standing(w.best_candidate)) w.best_candidate = i;
   }
   id.weights.clear();
   for (const auto& [ids, w] : by_set) id.weights.push_back(w);
@@ -156,16 +160,16 @@ void weigh(Identification& id) {
                    [](const Weighted& x, const Weighted& y) { return x.weight > y.weight; });
 }
 
-/// Fits what is asked for, several at once; the rivals whose fit balances join, in order.
+/// Fits what is asked for, several at once; the candidates whose fit balances join, in order.
 template <class Asked, class Refit>
 void join(Identification& id, const IdentifyOptions& options, const std::vector<Asked>& asked, const Refit& refit_one) {
-  std::vector<std::optional<Rival>> found(asked.size());
-  options.crew.each(static_cast<int>(asked.size()), [&](int i, const Pulse& pulse) {
+  std::vector<std::optional<CandidateModel>> found(asked.size());
+  options.pool.each(static_cast<int>(asked.size()), [&](int i, const Pulse& pulse) {
     pulse();
     found[static_cast<std::size_t>(i)] = refit_one(asked[static_cast<std::size_t>(i)]);
   });
-  for (std::optional<Rival>& rival : found)
-    if (rival) id.rivals.push_back(std::move(*rival));
+  for (std::optional<CandidateModel>& candidate : found)
+    if (candidate) id.candidates.push_back(std::move(*candidate));
 }
 
 double strongest(const std::vector<Signature>& signatures) {
@@ -175,13 +179,13 @@ double strongest(const std::vector<Signature>& signatures) {
   return most;
 }
 
-/// Adds to a rival the effects that a trace of its residual calls for: rivals with one effect more.
+/// Adds to a candidate the effects that a trace of its residual calls for: candidates with one effect more.
 void extend(const Campaign& campaign, Identification& id, std::size_t index, const IdentifyOptions& options) {
-  const Rival from = id.rivals[index];
+  const CandidateModel from = id.candidates[index];
   const WheelPredictor predictor(campaign, id.observations, from.terms);
   const LinearProblem problem = problem_of(id, predictor, from.fit);
   const std::vector<Signature> signatures =
-      trace({campaign, id.observations, *id.whitening, predictor, from.fit, problem}, options.crew);
+      residual_signatures({campaign, id.observations, *id.whitening, predictor, from.fit, problem}, options.pool);
   const double p = family_wise_p(signatures, strongest(signatures), id.noise.typical_freedom(), options.simulations / 2,
                                  options.seed + 17 * from.terms.size());
   if (p > options.level) return;
@@ -193,26 +197,27 @@ void extend(const Campaign& campaign, Identification& id, std::size_t index, con
   });
 }
 
-/// The rival of largest evidence among those wanted.
+/// The candidate of largest evidence among those wanted.
 template <class Wanted>
-std::optional<std::size_t> strongest_rival(const Identification& id, const Wanted& wanted) {
+std::optional<std::size_t> strongest_candidate(const Identification& id, const Wanted& wanted) {
   std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < id.rivals.size(); ++i)
-    if (wanted(id.rivals[i]) && (!best || id.rivals[i].log_evidence > id.rivals[*best].log_evidence)) best = i;
+  for (std::size_t i = 0; i < id.candidates.size(); ++i)
+    if (wanted(id.candidates[i]) && (!best || id.candidates[i].log_evidence > id.candidates[*best].log_evidence))
+      best = i;
   return best;
 }
 
-/// Where even the rival that leaves least is far from the noise, all are weighed by what they leave from here on.
+/// Where even the candidate that leaves least is far from the noise, all are weighed by what they leave from here on.
 void judge_misfit(const Campaign& campaign, Identification& id) {
-  id.foreign = std::all_of(id.rivals.begin(), id.rivals.end(),
-                           [&](const Rival& rival) { return far_from_noise(id, rival.fit); });
-  if (!id.foreign) return;
+  id.none_near_noise = std::all_of(id.candidates.begin(), id.candidates.end(),
+                                   [&](const CandidateModel& candidate) { return far_from_noise(id, candidate.fit); });
+  if (!id.none_near_noise) return;
   id.base_log_evidence = evidence_of(id, WheelPredictor(campaign, id.observations), id.base);
-  for (Rival& rival : id.rivals)
-    rival.log_evidence = evidence_of(id, WheelPredictor(campaign, id.observations, rival.terms), rival.fit);
+  for (CandidateModel& candidate : id.candidates)
+    candidate.log_evidence = evidence_of(id, WheelPredictor(campaign, id.observations, candidate.terms), candidate.fit);
 }
 
-const auto of_size = [](std::size_t n) { return [n](const Rival& r) { return r.ids.size() == n; }; };
+const auto of_size = [](std::size_t n) { return [n](const CandidateModel& r) { return r.ids.size() == n; }; };
 
 /// Forward from the best single effect, then from each member of the best pair: another partner may suit it better.
 void extend_singles(const Campaign& campaign, Identification& id, const IdentifyOptions& options) {
@@ -220,24 +225,25 @@ void extend_singles(const Campaign& campaign, Identification& id, const Identify
   const auto once = [&](std::optional<std::size_t> from) {
     if (from && extended.insert(*from).second) extend(campaign, id, *from, options);
   };
-  once(strongest_rival(id, of_size(1)));
-  if (const auto pair = strongest_rival(id, of_size(2)); pair) {
-    const std::set<std::string> members = id.rivals[*pair].ids;
+  once(strongest_candidate(id, of_size(1)));
+  if (const auto pair = strongest_candidate(id, of_size(2)); pair) {
+    const std::set<std::string> members = id.candidates[*pair].ids;
     for (const std::string& member : members)
-      once(strongest_rival(id, [&](const Rival& r) { return r.ids == std::set<std::string>{member}; }));
+      once(strongest_candidate(id, [&](const CandidateModel& r) { return r.ids == std::set<std::string>{member}; }));
   }
 }
 
 /// A pair with one of its effects in another form, and where its fit starts.
 struct OtherForm {
   std::vector<Term> terms;
-  RivalStart start;
+  CandidateStart start;
 };
 
 /// It leaves no more than either effect does alone: where its fit ended above that, once more from there.
-std::optional<Rival> refit_in_other_form(const Campaign& campaign, const Identification& id, const OtherForm& other) {
+std::optional<CandidateModel> refit_in_other_form(const Campaign& campaign, const Identification& id,
+                                                  const OtherForm& other) {
   auto found = refit(campaign, id, other.terms, other.start);
-  const Rival* alone = best_alone(id, forms_of(other.terms));
+  const CandidateModel* alone = best_alone(id, forms_of(other.terms));
   if (!alone || (found && found->fit.chi2 <= alone->fit.chi2)) return found;
   const int joins = other.terms.front().form == alone->terms.front().form ? 1 : 0;
   const std::vector<Term> terms = {alone->terms.front(), other.terms[static_cast<std::size_t>(joins)]};
@@ -247,7 +253,7 @@ std::optional<Rival> refit_in_other_form(const Campaign& campaign, const Identif
 }
 
 /// Refits a pair with each of the other forms of its effects in turn.
-void other_forms(const Campaign& campaign, Identification& id, const Rival& from, std::set<FormSet>& fitted,
+void other_forms(const Campaign& campaign, Identification& id, const CandidateModel& from, std::set<FormSet>& fitted,
                  const IdentifyOptions& options) {
   const WheelPredictor predictor(campaign, id.observations, from.terms);
   std::set<const bekker_wong::EffectForm*> done;
@@ -274,18 +280,19 @@ void other_forms(const Campaign& campaign, Identification& id, const Rival& from
 /// single effect is, and a third effect joins the best of them. Far from the noise a trace says little about which form
 /// is near: more pairs, and what came out best once more.
 void complete_pairs(const Campaign& campaign, Identification& id, const IdentifyOptions& options) {
-  const double close = id.foreign ? std::numeric_limits<double>::infinity() : 15.0;  // ln evidence: what forms may add
-  const int most = id.foreign ? 5 : 3, rounds = id.foreign ? 2 : 1;
+  const double close =
+      id.none_near_noise ? std::numeric_limits<double>::infinity() : 15.0;  // ln evidence: what forms may add
+  const int most = id.none_near_noise ? 5 : 3, rounds = id.none_near_noise ? 2 : 1;
   std::set<FormSet> fitted;
-  for (const Rival& rival : id.rivals) fitted.insert(forms_of(rival.terms));
+  for (const CandidateModel& candidate : id.candidates) fitted.insert(forms_of(candidate.terms));
   for (int round = 0; round < rounds; ++round) {
     weigh(id);
-    std::vector<Rival> pairs;
+    std::vector<CandidateModel> pairs;
     for (const Weighted& w : id.weights)
       if (w.ids.size() == 2 && id.weights.front().log_evidence - w.log_evidence < close &&
           static_cast<int>(pairs.size()) < most)
-        pairs.push_back(id.rivals[w.best_rival]);
-    for (const Rival& pair : pairs) other_forms(campaign, id, pair, fitted, options);
+        pairs.push_back(id.candidates[w.best_candidate]);
+    for (const CandidateModel& pair : pairs) other_forms(campaign, id, pair, fitted, options);
   }
 }
 
@@ -297,15 +304,15 @@ void name_effects(const Campaign& campaign, const IdentifyOptions& options, Iden
   id.base_log_evidence = log_evidence(problem, {});
   id.unnamed_gain =
       unnamed_gain(problem, unnamed_families(id.observations, id.noise, *id.whitening, id.base.prediction));
-  id.signatures = trace({campaign, id.observations, *id.whitening, base, id.base, problem}, options.crew);
+  id.signatures = residual_signatures({campaign, id.observations, *id.whitening, base, id.base, problem}, options.pool);
   id.p_value = family_wise_p(id.signatures, strongest(id.signatures), id.noise.typical_freedom(), options.simulations,
                              options.seed);
   join(id, options, contenders(id.signatures, options.refits), [&](const Signature* s) {
     return refit(campaign, id, {make_term(*s->term.form, id.observations, true)},
                  {id.base.restart, id.base.chi2, {{0, reach_of(*s)}}, s->score * s->score});
   });
-  if (id.p_value > options.level || id.rivals.empty()) {
-    if (!id.rivals.empty()) weigh(id);
+  if (id.p_value > options.level || id.candidates.empty()) {
+    if (!id.candidates.empty()) weigh(id);
     return;
   }
   join(id, options, strongest_pairs(id.signatures, options.refits / 2),
@@ -314,10 +321,10 @@ void name_effects(const Campaign& campaign, const IdentifyOptions& options, Iden
   judge_misfit(campaign, id);
   complete_pairs(campaign, id, options);
   for (int effects = 2; effects < options.most_effects; ++effects)
-    if (const auto best = strongest_rival(id, of_size(static_cast<std::size_t>(effects))))
+    if (const auto best = strongest_candidate(id, of_size(static_cast<std::size_t>(effects))))
       extend(campaign, id, *best, options);
   weigh(id);
-  prefer(campaign, id, id.weights.front().best_rival);
+  prefer(campaign, id, id.weights.front().best_candidate);
 }
 
 Identification identify(const Campaign& campaign, const Observations& observations, const IdentifyOptions& options) {
@@ -327,23 +334,24 @@ Identification identify(const Campaign& campaign, const Observations& observatio
   return id;
 }
 
-double p_beside_others(const Campaign& campaign, const Identification& id, const Rival& rival, std::size_t term,
-                       const IdentifyOptions& options) {
-  std::vector<Term> others = rival.terms;
+double p_beside_others(const Campaign& campaign, const Identification& id, const CandidateModel& candidate,
+                       std::size_t term, const IdentifyOptions& options) {
+  std::vector<Term> others = candidate.terms;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(term));
-  const WheelPredictor predictor(campaign, id.observations, others), whole(campaign, id.observations, rival.terms);
+  const WheelPredictor predictor(campaign, id.observations, others), whole(campaign, id.observations, candidate.terms);
   const Index first = whole.amplitude_index(static_cast<int>(term));
-  const Index gone = static_cast<Index>(rival.terms[term].free.size()), last = rival.fit.theta.size() - first - gone;
-  VectorXd start(rival.fit.theta.size() - gone);
-  start << rival.fit.restart.head(first), rival.fit.restart.tail(last);
+  const Index gone = static_cast<Index>(candidate.terms[term].free.size()),
+              last = candidate.fit.theta.size() - first - gone;
+  VectorXd start(candidate.fit.theta.size() - gone);
+  start << candidate.fit.restart.head(first), candidate.fit.restart.tail(last);
   const auto without = fit(predictor, id.observations.values(), *id.whitening, start);
   if (!without) return 1.0;
   const LinearProblem problem = problem_of(id, predictor, *without);
   const std::vector<Signature> signatures =
-      trace({campaign, id.observations, *id.whitening, predictor, *without, problem}, options.crew);
+      residual_signatures({campaign, id.observations, *id.whitening, predictor, *without, problem}, options.pool);
   std::vector<Signature> own;
   for (const Signature& s : signatures)
-    if (s.term.form->id == rival.terms[term].form->id) own.push_back(s);
+    if (s.term.form->id == candidate.terms[term].form->id) own.push_back(s);
   return family_wise_p(signatures, strongest(own), id.noise.typical_freedom(), options.simulations, options.seed);
 }
 
@@ -359,17 +367,17 @@ std::map<std::string, double> cosines(const Identification& id, const std::strin
   return most;
 }
 
-std::optional<std::size_t> best_subset(const Identification& id, std::size_t rival) {
-  const std::set<std::string>& all = id.rivals[rival].ids;
+std::optional<std::size_t> best_subset(const Identification& id, std::size_t candidate) {
+  const std::set<std::string>& all = id.candidates[candidate].ids;
   for (const Weighted& w : id.weights)
     if (w.ids.size() + 1 == all.size() && std::includes(all.begin(), all.end(), w.ids.begin(), w.ids.end()))
-      return w.best_rival;
+      return w.best_candidate;
   return std::nullopt;
 }
 
-void prefer(const Campaign& campaign, Identification& id, std::size_t rival) {
-  id.best = rival;
-  const Rival& best = id.rivals[rival];
+void prefer(const Campaign& campaign, Identification& id, std::size_t candidate) {
+  id.best = candidate;
+  const CandidateModel& best = id.candidates[candidate];
   const WheelPredictor predictor(campaign, id.observations, best.terms);
   const LinearProblem after = problem_of(id, predictor, best.fit);
   id.residual_unnamed_gain =

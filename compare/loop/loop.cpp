@@ -90,7 +90,7 @@ std::optional<NextTest> proposed(const Campaign& campaign, const Identification&
   return next_test(campaign, id, competitors(id), reach);
 }
 
-double evidence_of_best(const Identification& id) { return weighed(id, id.rivals[*id.best].ids).log_evidence; }
+double evidence_of_best(const Identification& id) { return weighed(id, id.candidates[*id.best].ids).log_evidence; }
 
 /// Whether the second reading names effects and, the price of its freedom paid, explains the data better.
 bool explains_better(const Identification& second, const Identification& first) {
@@ -118,7 +118,7 @@ std::vector<Weighted> noted_sets(const LoopAnswer& answer) {
 /// and slip, taken for another effect, had hidden. The reading that explains the data better decides all that is told;
 /// the other is a note.
 void read_again(const Campaign& campaign, LoopAnswer& answer, const IdentifyOptions& options) {
-  auto beside = read_beside_inadequacy(campaign, answer.details, options);
+  auto beside = read_with_model_discrepancy(campaign, answer.details, options);
   if (!beside) return;
   const bool decides = explains_better(beside->identification, answer.details);
   answer.second = SecondReading{decides, beside->size, std::move(beside->identification)};
@@ -126,7 +126,7 @@ void read_again(const Campaign& campaign, LoopAnswer& answer, const IdentifyOpti
   std::swap(answer.details, answer.second->note);
   describe_base(campaign, answer);
   confirm(campaign, answer, options);
-  decide_beside_inadequacy(campaign, answer);
+  decide_with_model_discrepancy(campaign, answer);
 }
 
 /// The choice within a fold: fewer simulations, its outliers set aside by the whole.
@@ -148,7 +148,7 @@ bool judge(const Campaign& campaign, const Observations& observations, const Ide
   if (!judgeable(answer)) return false;
   if (id.best) {
     confirm(campaign, answer, options);
-    if (explains_all(answer)) answer.noise = noise_beside(campaign, id, id.rivals[*id.best]);
+    if (explains_all(answer)) answer.noise = noise_beside(campaign, id, id.candidates[*id.best]);
   }
   decide(campaign, answer);
   return true;
@@ -178,9 +178,9 @@ std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects) {
   return ids;
 }
 
-bool decided_beside_inadequacy(const LoopAnswer& answer) { return answer.second && answer.second->decides; }
+bool decided_with_model_discrepancy(const LoopAnswer& answer) { return answer.second && answer.second->decides; }
 
-const Identification* beside_inadequacy(const LoopAnswer& answer) {
+const Identification* with_model_discrepancy(const LoopAnswer& answer) {
   if (!answer.second) return nullptr;
   return answer.second->decides ? &answer.details : &answer.second->note;
 }
@@ -197,18 +197,18 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   if (too_small(campaign, observations, answer.reason)) return answer;
   IdentifyOptions whole = options.identify;
   std::size_t pulses = 0;
-  whole.crew = {options.threads, [&] { say(std::min(++pulses / pulses_a_step, identified)); }};
+  whole.pool = {options.threads, [&] { say(std::min(++pulses / pulses_a_step, identified)); }};
   if (!judge(campaign, observations, whole, answer)) return answer;
   if (answer.verdict == Verdict::unknown_effect) read_again(campaign, answer, whole);
   say(chosen);
   const IdentifyOptions inner = of_a_fold(options.identify);
   if (options.validate)
-    answer.validation = cross_validate(campaign, answer.details, answer.noise, decided_beside_inadequacy(answer), inner,
-                                       options.folds, options.threads, [&](std::size_t done, std::size_t folds) {
+    answer.validation = cross_validate(campaign, answer.details, answer.noise, decided_with_model_discrepancy(answer),
+                                       inner, options.folds, options.threads, [&](std::size_t done, std::size_t folds) {
                                          say(chosen + (all_steps - 1 - chosen) * done / folds);
                                        });
   tell_errors(answer);
-  whole.crew.pulse = [&] { say(all_steps - 1); };
+  whole.pool.pulse = [&] { say(all_steps - 1); };
   describe_effects(campaign, answer, whole);
   const bool compete = answer.verdict == Verdict::effect_found || answer.verdict == Verdict::unknown_effect;
   if (compete && answer.details.best) {

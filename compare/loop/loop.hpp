@@ -9,7 +9,7 @@
 
 #include "compare/loop/cross_validation.hpp"
 #include "compare/loop/detection.hpp"
-#include "compare/loop/inadequacy.hpp"
+#include "compare/loop/model_discrepancy.hpp"
 #include "compare/loop/next_test.hpp"
 
 namespace soilbin::compare {
@@ -52,7 +52,7 @@ struct WithOutliers {
 struct SecondReading {
   bool decides =
       false;            ///< whether the base model that may be off explains the data better; else the exact one decides
-  double size = 0.0;    ///< InadequateReading::size
+  double size = 0.0;    ///< DiscrepancyReading::size
   Identification note;  ///< the reading that does not decide; the one that does is LoopAnswer::details
 };
 
@@ -71,7 +71,7 @@ struct LoopAnswer {
   std::optional<SecondReading> second;
   std::vector<std::string> not_testable;
   std::optional<NextTest> next;  ///< also of an unknown effect: between the named sets that come nearest
-  PredictiveGain choice_gain;    ///< of the best rival over the base model
+  PredictiveGain choice_gain;    ///< of the best candidate over the base model
   CrossValidation validation;
   LackOfFit before, after;
   RerunTest reruns_before, reruns_after;
@@ -85,10 +85,10 @@ struct LoopAnswer {
 };
 
 /// Whether the reading beside a base model that may be off by itself decides.
-bool decided_beside_inadequacy(const LoopAnswer& answer);
+bool decided_with_model_discrepancy(const LoopAnswer& answer);
 
 /// That reading, whether it decides or not; null where there was none.
-const Identification* beside_inadequacy(const LoopAnswer& answer);
+const Identification* with_model_discrepancy(const LoopAnswer& answer);
 
 /// Ids of effects that stand together.
 std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects);

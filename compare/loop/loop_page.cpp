@@ -69,7 +69,7 @@ Sheet residual_sheet(const Identification& id, const Covariate& x, const Eigen::
 /// What the accepted effects change in the prediction, soil refitted, in sd of the noise.
 Eigen::VectorXd signature_of_best(const LoopAnswer& answer) {
   const Identification& id = answer.details;
-  Eigen::VectorXd change = id.rivals[*id.best].fit.prediction - id.base.prediction;
+  Eigen::VectorXd change = id.candidates[*id.best].fit.prediction - id.base.prediction;
   for (Eigen::Index i = 0; i < change.size(); ++i) {
     const Cell& cell = id.observations.cells[static_cast<std::size_t>(i)];
     change[i] /= answer.noise.channels[static_cast<std::size_t>(cell.channel)].sd(id.base.prediction[i]);
@@ -156,7 +156,7 @@ std::vector<const Signature*> strongest_signatures(const LoopAnswer& answer) {
   return strongest;
 }
 
-HtmlTable trace_table(const std::vector<const Signature*>& signatures) {
+HtmlTable signature_table(const std::vector<const Signature*>& signatures) {
   HtmlTable table{
       "The strongest signatures against the base model; kept: the share that the soil's values can't absorb",
       {"effect", "form", "score [sd]", "amplitude [SI]", "kept [%]", "detectable from [SI]"},
@@ -218,7 +218,7 @@ std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const 
     const Eigen::VectorXd before = standardised(answer, id.base.prediction);
     std::optional<Eigen::VectorXd> after;
     if (!answer.effects.empty() || !answer.stand_in.empty())
-      after = standardised(answer, id.rivals[*id.best].fit.prediction);
+      after = standardised(answer, id.candidates[*id.best].fit.prediction);
     page.section("Error before and after");
     page.table(error_table(answer));
     const std::vector<Covariate> variables = covariates(id.observations);
@@ -229,10 +229,10 @@ std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const 
       page.figure(signature_sheet(id, before, change, telling_variable(id, change, variables)),
                   "Points: what the base model, refitted, leaves; and what the effect changes in the prediction.");
     }
-    page.section("Rivals");
-    page.table(rivals_table(answer));
+    page.section("Candidates");
+    page.table(candidates_table(answer));
     const std::vector<const Signature*> signatures = strongest_signatures(answer);
-    page.table(trace_table(signatures));
+    page.table(signature_table(signatures));
     tell_presumptions(page, signatures, answer.wheel);
     if (!answer.effects.empty()) page.table(likeness_table(answer));
     if (!answer.soil_shifts.empty()) page.table(soil_table(answer));

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// A rival's predictor with its fit, and the covariance of its parameters.
+/// A candidate's predictor with its fit, and the covariance of its parameters.
 struct Contender {
   std::set<std::string> ids;
   WheelPredictor predictor;
@@ -148,32 +148,33 @@ std::vector<OperatingCondition> grid(const Observations& observations, const Lim
 /// What a run at a condition would tell.
 struct Prospect {
   double worth = 0.0;               ///< expected number of pairs that one run decides
-  std::size_t against = 0;          ///< the rival that it bears most upon, if the first is true
+  std::size_t against = 0;          ///< the candidate that it bears most upon, if the first is true
   double distance = 0.0, runs = 0;  ///< of these two; runs until that one is out
 };
 
-/// The rivals with their weights, the best first.
+/// The candidates with their weights, the best first.
 class Contest {
  public:
-  Contest(std::vector<Contender> rivals, const NoiseFloor& noise) : rivals_(std::move(rivals)), noise_(noise) {
+  Contest(std::vector<Contender> candidates, const NoiseFloor& noise)
+      : candidates_(std::move(candidates)), noise_(noise) {
     double top = -std::numeric_limits<double>::infinity(), total = 0.0;
-    for (const Contender& c : rivals_) top = std::max(top, c.log_evidence);
-    for (const Contender& c : rivals_) weights_.push_back(std::exp(c.log_evidence - top)), total += weights_.back();
+    for (const Contender& c : candidates_) top = std::max(top, c.log_evidence);
+    for (const Contender& c : candidates_) weights_.push_back(std::exp(c.log_evidence - top)), total += weights_.back();
     for (double& w : weights_) w /= total;
   }
 
-  /// Nothing where a rival has no balance there, or can't be asked.
+  /// Nothing where a candidate has no balance there, or can't be asked.
   std::optional<Prospect> at(const OperatingCondition& condition) const try {
     std::vector<std::pair<Vector4d, Matrix4d>> predictions;
-    for (const Contender& c : rivals_) predictions.push_back(predict(c, condition));
+    for (const Contender& c : candidates_) predictions.push_back(predict(c, condition));
     Prospect p;
     double most = 0.0;
-    for (std::size_t i = 0; i < rivals_.size(); ++i)
+    for (std::size_t i = 0; i < candidates_.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
         const double d = squared_distance(predictions[i], predictions[j], noise_);
         p.worth += weights_[i] * std::min(1.0, d / needed(i, j)) + weights_[j] * std::min(1.0, d / needed(j, i));
         if (j > 0) continue;
-        constexpr double any = 0.1;  // what a rival counts for, however unlikely
+        constexpr double any = 0.1;  // what a candidate counts for, however unlikely
         const double bears = std::min(1.0, d / needed(0, i)) * (any + weights_[i]);
         if (bears > most) most = bears, p.against = i, p.distance = d, p.runs = std::ceil(needed(0, i) / d);
       }
@@ -184,16 +185,16 @@ class Contest {
     return std::nullopt;
   }
 
-  const Contender& rival(std::size_t i) const { return rivals_[i]; }
+  const Contender& candidate(std::size_t i) const { return candidates_[i]; }
 
  private:
   /// Squared distance that puts j out where i is true.
   double needed(std::size_t i, std::size_t j) const {
     constexpr double least = 0.5;  // ln evidence: one that stands at the very edge
-    return 2 * std::max(least, rivals_[j].allowed - (rivals_[i].log_evidence - rivals_[j].log_evidence));
+    return 2 * std::max(least, candidates_[j].allowed - (candidates_[i].log_evidence - candidates_[j].log_evidence));
   }
 
-  std::vector<Contender> rivals_;
+  std::vector<Contender> candidates_;
   std::vector<double> weights_;
   const NoiseFloor& noise_;
 };
@@ -240,24 +241,24 @@ Limits limits_of(const Observations& observations) {
 
 std::optional<NextTest> next_test(const Campaign& campaign, const Identification& id,
                                   const std::vector<Competitor>& competitors, const Limits& limits) {
-  std::vector<Contender> rivals;
+  std::vector<Contender> candidates;
   const auto add = [&](const std::vector<Term>& terms, const Fit& fit, std::set<std::string> ids, double evidence,
                        double allowed) {
-    rivals.push_back(contender(campaign, id, terms, fit, std::move(ids)));
-    rivals.back().log_evidence = evidence, rivals.back().allowed = allowed;
+    candidates.push_back(contender(campaign, id, terms, fit, std::move(ids)));
+    candidates.back().log_evidence = evidence, candidates.back().allowed = allowed;
   };
   const auto add_set = [&](const Weighted& w, double allowed) {
-    add(id.rivals[w.best_rival].terms, id.rivals[w.best_rival].fit, w.ids, w.log_evidence, allowed);
+    add(id.candidates[w.best_candidate].terms, id.candidates[w.best_candidate].fit, w.ids, w.log_evidence, allowed);
   };
   for (const Competitor& c : competitors) add_set(id.weights[c.weighted], c.allowed);
-  if (rivals.size() < 2) {
+  if (candidates.size() < 2) {
     const Competitor& alone = competitors.front();
     if (const Weighted* next = next_standing(id, id.weights[alone.weighted]))
       add_set(*next, alone.allowed);
     else
       add({}, id.base, {}, id.base_log_evidence, alone.allowed);
   }
-  const Contest contest(std::move(rivals), id.noise);
+  const Contest contest(std::move(candidates), id.noise);
   Search search(contest);
   for (const OperatingCondition& at : grid(id.observations, limits)) search.ask(at);
   refine(search, limits);
@@ -266,7 +267,7 @@ std::optional<NextTest> next_test(const Campaign& campaign, const Identification
   NextTest next{.at = at,
                 .quantities = {},
                 .beyond = beyond(id.observations, at),
-                .separates = {contest.rival(0).ids, contest.rival(told.against).ids},
+                .separates = {contest.candidate(0).ids, contest.candidate(told.against).ids},
                 .runs = static_cast<int>(told.runs),
                 .distance = told.distance};
   for (const auto& [name, range] : limits) next.quantities.push_back(name);

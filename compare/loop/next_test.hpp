@@ -1,4 +1,4 @@
-// The next run to make: where the rivals disagree most, in units of what a run can tell.
+// The next run to make: where the candidates disagree most, in units of what a run can tell.
 #pragma once
 
 #include <map>
@@ -15,26 +15,25 @@ namespace soilbin::compare {
 using Limits = std::map<std::string, std::pair<double, double>>;
 
 /// Where a campaign's rig can go as long as nobody says otherwise: the ranges that the campaign spans; loads from 0.7
-/// to 1.4 times them; slip at least -0.2 .. 0.8. Rivals that fit the same runs part best a little beyond them.
+/// to 1.4 times them; slip at least -0.2 .. 0.8. Candidates that fit the same runs part best a little beyond them.
 Limits limits_of(const Observations& observations);
 
 struct NextTest {
   OperatingCondition at;
   std::vector<std::string> quantities;  ///< names (ConditionView) of the conditions that matter: those that limits hold
   std::vector<std::string> beyond;      ///< those of them that lie outside what the campaign has run
-  std::vector<std::set<std::string>> separates;  ///< the best rival, and the one that these runs bear most upon
+  std::vector<std::set<std::string>> separates;  ///< the best candidate, and the one that these runs bear most upon
   int runs = 0;           ///< until that one is expected to be out of the set, if the best is true
   double distance = 0.0;  ///< squared distance of the two predictions a run, in sd
 };
 
-/// The condition within limits that is expected to put most rivals out: sum over rivals i, by their weight, of what one
-/// run would do against each other one j if i were true, min(1, d/d_needed). d is the squared distance between their
-/// predictions over noise plus the predictions' own uncertainty and the tolerance of their forms (Buzzi-Ferraris and
-/// Forzatti 1983, Chem. Eng. Sci. 38:225); a run adds d/2 to the ln evidence between them, and j is out where it stands
-/// further behind than allowed. On a grid, then one condition after the other on a finer one.
-/// competitors: the best one first. A single one is decided: it is set against the set that stands next behind it (the
-/// base model where there is none), to be surer still. Nothing where no condition within limits sets them apart in 50
-/// runs.
+/// The condition within limits that is expected to put most candidates out: sum over candidates i, by their weight, of
+/// what one run would do against each other one j if i were true, min(1, d/d_needed). d is the squared distance between
+/// their predictions over noise plus the predictions' own uncertainty and the tolerance of their forms (Buzzi-Ferraris
+/// and Forzatti 1983, Chem. Eng. Sci. 38:225); a run adds d/2 to the ln evidence between them, and j is out where it
+/// stands further behind than allowed. On a grid, then one condition after the other on a finer one. competitors: the
+/// best one first. A single one is decided: it is set against the set that stands next behind it (the base model where
+/// there is none), to be surer still. Nothing where no condition within limits sets them apart in 50 runs.
 std::optional<NextTest> next_test(const Campaign& campaign, const Identification& id,
                                   const std::vector<Competitor>& competitors, const Limits& limits);
 

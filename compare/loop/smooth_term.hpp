@@ -1,5 +1,5 @@
 // A smooth term without a name: what any function of the conditions would do for the residual. A yardstick beside the
-// named effects, not a rival of theirs.
+// named effects, not a candidate of theirs.
 #pragma once
 
 #include <Eigen/Dense>

@@ -39,15 +39,15 @@ bool stands(const PredictiveGain& gain, double log_odds) {
 bool confirmed(const LoopAnswer& answer) {
   const Identification& id = answer.details;
   return id.best &&
-         stands(answer.choice_gain, weighed(id, id.rivals[*id.best].ids).log_evidence - id.base_log_evidence);
+         stands(answer.choice_gain, weighed(id, id.candidates[*id.best].ids).log_evidence - id.base_log_evidence);
 }
 
-/// Share of the base model's excess over the noise that the best named rival leaves.
+/// Share of the base model's excess over the noise that the best named candidate leaves.
 double unexplained(const Identification& id) {
   const double cells = static_cast<double>(id.observations.cells.size());
   const double excess = id.base.chi2 - cells;
   if (!(excess > 0)) return 0.0;
-  return std::max(0.0, id.rivals[*id.best].fit.chi2 - cells) / excess;
+  return std::max(0.0, id.candidates[*id.best].fit.chi2 - cells) / excess;
 }
 
 /// Whether a single effect is the best set, and no other set comes near it.
@@ -102,15 +102,15 @@ std::optional<std::string> more_than_named(const LoopAnswer& answer) {
 void confirm(const Campaign& campaign, LoopAnswer& answer, const IdentifyOptions& options) {
   Identification& id = answer.details;
   for (auto fewer = best_subset(id, *id.best); fewer; fewer = best_subset(id, *id.best)) {
-    const Rival &more = id.rivals[*id.best], &less = id.rivals[*fewer];
+    const CandidateModel &more = id.candidates[*id.best], &less = id.candidates[*fewer];
     const PredictiveGain gain = predictive_gain(campaign, id, more.terms, more.fit, less.terms, less.fit, choice_folds,
-                                                options.seed, options.crew);
+                                                options.seed, options.pool);
     if (stands(gain, weighed(id, more.ids).log_evidence - weighed(id, less.ids).log_evidence)) break;
     prefer(campaign, id, *fewer);
   }
-  const Rival& best = id.rivals[*id.best];
+  const CandidateModel& best = id.candidates[*id.best];
   answer.choice_gain =
-      predictive_gain(campaign, id, best.terms, best.fit, {}, id.base, choice_folds, options.seed, options.crew);
+      predictive_gain(campaign, id, best.terms, best.fit, {}, id.base, choice_folds, options.seed, options.pool);
   answer.after = lack_of_fit(best.fit, id.noise, static_cast<Eigen::Index>(id.observations.cells.size()));
   answer.reruns_after = rerun_test(id.observations, id.noise, best.fit);
 }
@@ -147,12 +147,12 @@ void decide(const Campaign& campaign, LoopAnswer& answer) {
   answer.reason = fmt::format("p = {:.2g} among the whole catalogue", id.p_value);
 }
 
-void decide_beside_inadequacy(const Campaign& campaign, LoopAnswer& answer) {
+void decide_with_model_discrepancy(const Campaign& campaign, LoopAnswer& answer) {
   const Identification& id = answer.details;
   answer.reason = fmt::format(
       "the base model is off by what a smooth function of load and slip makes good, and beside that {} stands out most "
       "(p = {:.2g})",
-      joined(id.rivals[*id.best].ids), id.p_value);
+      joined(id.candidates[*id.best].ids), id.p_value);
   answer.stand_in.clear(), answer.dependences_after.clear(), answer.soil_shifts.clear();
   if (confirmed(answer)) answer.stand_in = take_best(campaign, answer);
 }

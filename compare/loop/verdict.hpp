@@ -17,6 +17,6 @@ bool explains_all(const LoopAnswer& answer);
 void decide(const Campaign& campaign, LoopAnswer& answer);
 
 /// The same for an unknown effect where the reading beside a base model that may be off by itself decides.
-void decide_beside_inadequacy(const Campaign& campaign, LoopAnswer& answer);
+void decide_with_model_discrepancy(const Campaign& campaign, LoopAnswer& answer);
 
 }  // namespace soilbin::compare

@@ -63,12 +63,12 @@ TEST(Loop, NamesSlipSinkageAndItsSize) {
   EXPECT_LT(answer.validation.overall.after, 1.3);
   ASSERT_EQ(answer.effects.size(), 1u);
   EXPECT_NEAR(dug(campaign, answer.effects.front().choice), dug(campaign, truth), 0.1 * dug(campaign, truth));
-  const auto& rivals = answer.details.rivals;
-  const auto own = std::find_if(rivals.begin(), rivals.end(), [](const Rival& rival) {
-    return rival.terms.size() == 1 && rival.terms.front().form->id == "slip_sinkage" &&
-           rival.terms.front().form->form == "lyasko";
+  const auto& candidates = answer.details.candidates;
+  const auto own = std::find_if(candidates.begin(), candidates.end(), [](const CandidateModel& candidate) {
+    return candidate.terms.size() == 1 && candidate.terms.front().form->id == "slip_sinkage" &&
+           candidate.terms.front().form->form == "lyasko";
   });
-  ASSERT_NE(own, rivals.end());
+  ASSERT_NE(own, candidates.end());
   const WheelPredictor predictor(campaign, answer.details.observations, own->terms);
   const Eigen::Index amplitude = predictor.amplitude_index(0);
   const double error = standard_errors(own->fit, predictor)[amplitude];
@@ -83,7 +83,7 @@ TEST(SlowLoop, TellsErrorsInTheNoiseBesideTheEffect) {
   measure(campaign, sweep(), {{"multipass", "stiffer", {{"a", 1.5}}}}, fine_noise, 33);
   const LoopAnswer answer = run_loop(campaign, quick());
   ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
-  const Eigen::VectorXd& f = answer.details.rivals[*answer.details.best].fit.prediction;
+  const Eigen::VectorXd& f = answer.details.candidates[*answer.details.best].fit.prediction;
   for (int c = 0; c < 3; ++c)
     EXPECT_NEAR(
         std::log(answer.noise.channels[static_cast<std::size_t>(c)].sd(f[c]) / fine_noise[static_cast<std::size_t>(c)]),
@@ -255,10 +255,10 @@ TEST(SlowLoop, ALargerSetOfEffectsLeavesNoMore) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {{"slip_sinkage", "lyasko", {{"a", 1.2}}}, {"bulldozing", "", {}}}, fine_noise, 31);
   const LoopAnswer answer = run_loop(campaign, quick());
-  const auto& rivals = answer.details.rivals;
+  const auto& candidates = answer.details.candidates;
   int nested = 0;
-  for (const auto& more : rivals)
-    for (const auto& less : rivals) {
+  for (const auto& more : candidates)
+    for (const auto& less : candidates) {
       const bool holds = more.terms.size() == less.terms.size() + 1 &&
                          std::equal(less.terms.begin(), less.terms.end(), more.terms.begin(),
                                     [](const auto& a, const auto& b) { return a.form == b.form; });
@@ -331,7 +331,7 @@ TEST(SlowLoop, ResolvedModelReproducesTheFit) {
   Scenario scenario = model.scenario;
   scenario.effects = model.study.models.front().effects;
   const Identification& id = answer.details;
-  const Rival& best = id.rivals[*id.best];
+  const CandidateModel& best = id.candidates[*id.best];
   for (std::size_t i = 0; i < id.observations.cells.size(); i += 7) {
     const Cell& cell = id.observations.cells[i];
     if (cell.channel != drawbar_pull) continue;

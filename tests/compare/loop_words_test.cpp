@@ -44,7 +44,7 @@ TEST(WorseChannels, AreThoseOfAModelWithEffects) {
 }
 
 // A set's forms stand in the order of its ids, whichever was fitted first.
-TEST(RivalsTable, NamesFormsInTheOrderOfTheEffects) {
+TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {}, fine_noise, 3);
   const Observations observations = observe(campaign);
@@ -52,17 +52,17 @@ TEST(RivalsTable, NamesFormsInTheOrderOfTheEffects) {
     return make_term(bekker_wong::find_form({id, form, {}}), observations, true);
   };
   LoopAnswer answer;
-  Rival rival{.ids = {"bulldozing", "slip_sinkage"},
-              .terms = {term("slip_sinkage", "lyasko"), term("bulldozing", "")},
-              .fit = {},
-              .log_evidence = 0.0};
-  answer.details.rivals = {rival};
-  answer.details.weights = {{.ids = rival.ids, .weight = 1.0}};
-  const std::vector<std::string> row = rivals_table(answer).rows.front();
+  CandidateModel candidate{.ids = {"bulldozing", "slip_sinkage"},
+                           .terms = {term("slip_sinkage", "lyasko"), term("bulldozing", "")},
+                           .fit = {},
+                           .log_evidence = 0.0};
+  answer.details.candidates = {candidate};
+  answer.details.weights = {{.ids = candidate.ids, .weight = 1.0}};
+  const std::vector<std::string> row = candidates_table(answer).rows.front();
   EXPECT_EQ(row[0], "bulldozing + slip_sinkage");
-  EXPECT_EQ(row[1], rival.terms[1].form->form + " + lyasko");
+  EXPECT_EQ(row[1], candidate.terms[1].form->form + " + lyasko");
   const auto forms = details_json(answer).at("sets").at(0).at("forms");
-  EXPECT_EQ(forms.at(0), "bulldozing/" + rival.terms[1].form->form);
+  EXPECT_EQ(forms.at(0), "bulldozing/" + candidate.terms[1].form->form);
   EXPECT_EQ(forms.at(1), "slip_sinkage/lyasko");
 }
 

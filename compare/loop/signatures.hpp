@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "compare/loop/crew.hpp"
 #include "compare/loop/evidence.hpp"
+#include "compare/loop/thread_pool.hpp"
 
 namespace soilbin::compare {
 
@@ -44,7 +44,7 @@ struct TracedModel {
 /// Signatures of all forms of the catalogue that are not of an effect among the declared or accepted ones; secants at
 /// two sizes each, because some effects have no derivative at 0. Forms without any trace are listed with
 /// projected_norm 0.
-std::vector<Signature> trace(const TracedModel& model, const Crew& crew = {});
+std::vector<Signature> residual_signatures(const TracedModel& model, const ThreadPool& pool = {});
 
 /// Probability that the largest strength of all signatures would reach `observed` if nothing were missing: simulated
 /// maximum over normal residuals, with the noise's scale known to `freedom` degrees of freedom.

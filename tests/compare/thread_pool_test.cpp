@@ -1,5 +1,5 @@
 // Pieces of work that several threads share.
-#include "compare/loop/crew.hpp"
+#include "compare/loop/thread_pool.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,23 +11,23 @@
 namespace soilbin::compare {
 namespace {
 
-TEST(Crew, DoesEveryPieceOnce) {
+TEST(ThreadPool, DoesEveryPieceOnce) {
   for (const int threads : {0, 1, 2, 7}) {
     std::vector<std::atomic<int>> done(100);
-    Crew{.threads = threads}.each(100, [&](int i, const Pulse& pulse) {
+    ThreadPool{.threads = threads}.each(100, [&](int i, const Pulse& pulse) {
       pulse();
       ++done[static_cast<std::size_t>(i)];
     });
     for (const auto& times : done) EXPECT_EQ(times, 1);
   }
-  Crew{.threads = 3}.each(0, [](int, const Pulse&) { FAIL(); });
+  ThreadPool{.threads = 3}.each(0, [](int, const Pulse&) { FAIL(); });
 }
 
 // Five folds on two cores: the fifth has both. On sixteen each has three.
-TEST(Crew, GivesThePiecesOfALastRoundTheThreadsThatAreIdle) {
+TEST(ThreadPool, GivesThePiecesOfALastRoundTheThreadsThatAreIdle) {
   const auto shares = [](int threads) {
     std::vector<int> of;
-    for (int i = 0; i < 5; ++i) of.push_back(Crew{.threads = threads}.share_of(i, 5));
+    for (int i = 0; i < 5; ++i) of.push_back(ThreadPool{.threads = threads}.share_of(i, 5));
     return of;
   };
   EXPECT_EQ(shares(2), (std::vector<int>{1, 1, 1, 1, 2}));
@@ -36,37 +36,37 @@ TEST(Crew, GivesThePiecesOfALastRoundTheThreadsThatAreIdle) {
 }
 
 // Progress is written by one thread.
-TEST(Crew, CallsItsPulseOnTheCallersThreadAlone) {
+TEST(ThreadPool, CallsItsPulseOnTheCallersThreadAlone) {
   const std::thread::id caller = std::this_thread::get_id();
   int pulses = 0;
-  const Crew crew{3, [&] {
-                    EXPECT_EQ(std::this_thread::get_id(), caller);
-                    ++pulses;
-                  }};
-  crew.each(50, [](int, const Pulse& pulse) {
+  const ThreadPool pool{3, [&] {
+                          EXPECT_EQ(std::this_thread::get_id(), caller);
+                          ++pulses;
+                        }};
+  pool.each(50, [](int, const Pulse& pulse) {
     for (int k = 0; k < 3; ++k) pulse();
   });
   EXPECT_LE(pulses, 150);
 }
 
-TEST(Crew, ThrowsThePieceThatFailedAndStartsNoMore) {
+TEST(ThreadPool, ThrowsThePieceThatFailedAndStartsNoMore) {
   std::atomic<int> started{0};
   const auto work = [&](int i, const Pulse&) {
     ++started;
     if (i == 3) throw std::runtime_error("the fourth");
   };
-  EXPECT_THROW(Crew{.threads = 1}.each(1000, work), std::runtime_error);
+  EXPECT_THROW(ThreadPool{.threads = 1}.each(1000, work), std::runtime_error);
   EXPECT_EQ(started, 4);
 }
 
 // Ctrl-C: what the caller's pulse throws ends the pieces of all threads at their next pulse.
-TEST(Crew, EndsEveryThreadWhenThePulseThrows) {
+TEST(ThreadPool, EndsEveryThreadWhenThePulseThrows) {
   struct Interrupted {};
-  const Crew crew{3, [] { throw Interrupted(); }};
+  const ThreadPool pool{3, [] { throw Interrupted(); }};
   const auto until_stopped = [](int, const Pulse& pulse) {
     while (true) pulse();
   };
-  EXPECT_THROW(crew.each(3, until_stopped), Interrupted);
+  EXPECT_THROW(pool.each(3, until_stopped), Interrupted);
 }
 
 }  // namespace

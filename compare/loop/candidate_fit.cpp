@@ -1,4 +1,4 @@
-#include "compare/loop/rival_fit.hpp"
+#include "compare/loop/candidate_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -84,15 +84,15 @@ LinearProblem problem_of(const Identification& id, const WheelPredictor& predict
 }
 
 double evidence_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit) {
-  if (id.foreign) return foreign_log_evidence(fit, cells_of(id));
+  if (id.none_near_noise) return schwarz_log_evidence(fit, cells_of(id));
   const LinearProblem exact = linear_problem(predictor, fit, cells_of(id), MatrixXd(cells_of(id), 0));
   return log_evidence(exact, tolerances_of(id, predictor, fit));
 }
 
-std::optional<Rival> refit(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms,
-                           const RivalStart& from) {
+std::optional<CandidateModel> refit(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms,
+                                    const CandidateStart& from) {
   const WheelPredictor predictor(campaign, id.observations, terms);
-  std::optional<Rival> best;
+  std::optional<CandidateModel> best;
   for (const double share : {1.0, 0.3, 0.0}) {
     if (best && best->fit.chi2 < from.chi2 - (share > 0.0 ? 0.5 * from.promised : 0.0)) break;
     VectorXd start = start_from(predictor, from.known);
@@ -103,7 +103,7 @@ std::optional<Rival> refit(const Campaign& campaign, const Identification& id, c
       for (const auto& [term, values] : from.traced) start[predictor.amplitude_index(term)] *= 0.5;
     auto found = fit(predictor, id.observations.values(), *id.whitening, start);
     if (!found || (best && found->chi2 >= best->fit.chi2)) continue;
-    best = Rival{.ids = {}, .terms = terms, .fit = std::move(*found), .log_evidence = 0.0};
+    best = CandidateModel{.ids = {}, .terms = terms, .fit = std::move(*found), .log_evidence = 0.0};
     for (const Term& term : terms) best->ids.insert(term.form->id);
   }
   if (best) best->log_evidence = evidence_of(id, predictor, best->fit);

@@ -15,11 +15,12 @@ LinearProblem problem_of(const Identification& id, const WheelPredictor& predict
 /// Whether a fit leaves so much that it is no noise: then neither is it a form's own doing.
 bool far_from_noise(const Identification& id, const Fit& fit);
 
-/// ln evidence of a rival's fit; where no rival comes near the noise, by what it leaves alone (foreign_log_evidence).
+/// ln evidence of a candidate's fit; where no candidate comes near the noise, by what it leaves alone
+/// (schwarz_log_evidence).
 double evidence_of(const Identification& id, const WheelPredictor& predictor, const Fit& fit);
 
 /// Where a fit starts.
-struct RivalStart {
+struct CandidateStart {
   Eigen::VectorXd known;  ///< values of the soil, and of the first terms; the others start at their defaults
   double chi2 = 0.0;      ///< that these leave
   std::map<int, std::vector<double>> traced;  ///< a term's parameters, amplitude first, where the trace puts them [SI]
@@ -29,7 +30,7 @@ struct RivalStart {
 /// Fits the terms in full; again from smaller amplitudes where that gained less than half of what was promised, and
 /// from next to none where it gained nothing: an effect that joins others leaves no more than they did. Nothing where
 /// no start balances.
-std::optional<Rival> refit(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms,
-                           const RivalStart& from);
+std::optional<CandidateModel> refit(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms,
+                                    const CandidateStart& from);
 
 }  // namespace soilbin::compare

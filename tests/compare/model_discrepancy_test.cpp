@@ -1,5 +1,5 @@
 // The loop's second reading: a base model whose form isn't the soil's, and an effect beside that.
-#include "compare/loop/inadequacy.hpp"
+#include "compare/loop/model_discrepancy.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ Identification settled() {
 TEST(Whitening, BesideATermIsThatOfTheirJointCovariance) {
   const Identification id = settled();
   const Eigen::Index cells = id.base.prediction.size();
-  const Eigen::MatrixXd term = 0.5 * inadequacy_columns(id);
+  const Eigen::MatrixXd term = 0.5 * model_discrepancy_columns(id);
   const Eigen::VectorXd v = Eigen::VectorXd::LinSpaced(cells, -1.0, 2.0), white = (*id.whitening)(v);
   const Eigen::MatrixXd joint = Eigen::MatrixXd::Identity(cells, cells) + term * term.transpose();
   EXPECT_NEAR(id.whitening->beside(term)(v).squaredNorm(), white.dot(joint.ldlt().solve(white)),
@@ -57,7 +57,7 @@ TEST(Whitening, BesideATermIsThatOfTheirJointCovariance) {
 TEST(JoinedColumns, GainTheRatioOfNormalDensities) {
   const Identification id = settled();
   const Eigen::Index cells = id.base.prediction.size();
-  const Eigen::MatrixXd columns = inadequacy_columns(id);
+  const Eigen::MatrixXd columns = model_discrepancy_columns(id);
   LinearProblem problem;
   problem.cells = cells;
   problem.residual = 2 * columns.col(1) + Eigen::VectorXd::LinSpaced(cells, -1.0, 1.0);
@@ -91,7 +91,7 @@ std::string all_words(const LoopAnswer& answer) {
 /// Each set's share is one number: in the list, the JSON with its details, the table and the sentence.
 void expect_same_shares(const LoopAnswer& answer) {
   const auto sets = to_json(answer).at("ambiguity_set");
-  const HtmlTable table = rivals_table(answer);
+  const HtmlTable table = candidates_table(answer);
   const std::string words = all_words(answer);
   const std::size_t decided = answer.ambiguity_set.size();
   ASSERT_EQ(sets.size(), decided + answer.noted_sets.size());
@@ -127,15 +127,15 @@ void expect_the_decided_model(const Campaign& campaign, const LoopAnswer& answer
 }
 
 // Beside the odd soil a second pass bears more. Read by the base model alone, named effects are bent to make up for the
-// soil; read beside its inadequacy, what is left is the rut that was compacted. That reading explains the data better,
-// so it decides all that is told; the other one is a note.
-TEST(SlowInadequacy, ShowsTheEffectBesideAnOddSoil) {
+// soil; read with a model discrepancy, what is left is the rut that was compacted. That reading explains the data
+// better, so it decides all that is told; the other one is a note.
+TEST(SlowModelDiscrepancy, ShowsTheEffectBesideAnOddSoil) {
   const Campaign campaign = odd_soil({{"multipass", "", {{"a", 0.3}}}});
   const LoopAnswer answer = asked(campaign);
   ASSERT_EQ(answer.verdict, Verdict::unknown_effect) << answer.reason;
-  ASSERT_TRUE(decided_beside_inadequacy(answer));
+  ASSERT_TRUE(decided_with_model_discrepancy(answer));
   ASSERT_TRUE(answer.details.best);
-  EXPECT_EQ(answer.details.rivals[*answer.details.best].ids, std::set<std::string>{"multipass"});
+  EXPECT_EQ(answer.details.candidates[*answer.details.best].ids, std::set<std::string>{"multipass"});
   EXPECT_LT(answer.details.p_value, 0.01);
   EXPECT_EQ(answer.ambiguity_set.front().ids, std::set<std::string>{"multipass"});
   EXPECT_NE(verdict_sentence(answer).find("a smooth function of load and slip makes good, and beside that multipass"),
@@ -155,7 +155,7 @@ TEST(SlowInadequacy, ShowsTheEffectBesideAnOddSoil) {
 }
 
 // What the list puts first need not fit best: then the words say why it is taken.
-TEST(SlowInadequacy, SaysWhyASetIsTakenThatAnotherOneOutweighs) {
+TEST(SlowModelDiscrepancy, SaysWhyASetIsTakenThatAnotherOneOutweighs) {
   const LoopAnswer answer = asked(odd_soil({}));
   const Weighted& taken = answer.ambiguity_set.front();
   const Weighted& heaviest =
@@ -171,7 +171,7 @@ TEST(SlowInadequacy, SaysWhyASetIsTakenThatAnotherOneOutweighs) {
 }
 
 // Where there is nothing but the odd soil, the second reading names nothing, and the verdict says that it is unknown.
-TEST(SlowInadequacy, NamesNothingBesideAnOddSoilAlone) {
+TEST(SlowModelDiscrepancy, NamesNothingBesideAnOddSoilAlone) {
   const Campaign campaign = odd_soil({});
   const LoopAnswer answer = asked(campaign);
   ASSERT_EQ(answer.verdict, Verdict::unknown_effect) << answer.reason;

@@ -9,7 +9,7 @@ namespace soilbin::compare {
 using Pulse = std::function<void()>;
 
 /// How many threads work at once, and what they call meanwhile.
-struct Crew {
+struct ThreadPool {
   int threads = 1;
   Pulse pulse = [] {};  ///< on the caller's thread alone
   /// work(i, pulse) for every i from 0 to count - 1. The first exception of any stops the others at their next pulse

@@ -1,10 +1,10 @@
-#include "compare/loop/inadequacy.hpp"
+#include "compare/loop/model_discrepancy.hpp"
 
 #include <cmath>
 #include <limits>
 
+#include "compare/loop/candidate_fit.hpp"
 #include "compare/loop/condition_functions.hpp"
-#include "compare/loop/rival_fit.hpp"
 
 namespace soilbin::compare {
 
@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-MatrixXd inadequacy_columns(const Identification& id) {
+MatrixXd model_discrepancy_columns(const Identification& id) {
   constexpr int most = 9;  // up to the third order in slip, the second in load, and their products
   Observations own = id.observations;
   for (OperatingCondition& at : own.rows) {
@@ -37,23 +37,23 @@ double best_size(const Campaign& campaign, const Identification& id, const Matri
   };
   weigh(id.base_log_evidence, {}, id.base);
   for (const Weighted& w : id.weights)
-    weigh(w.log_evidence, id.rivals[w.best_rival].terms, id.rivals[w.best_rival].fit);
+    weigh(w.log_evidence, id.candidates[w.best_candidate].terms, id.candidates[w.best_candidate].fit);
   return best;
 }
 
 void lower_evidence(Identification& id, double by) {
   id.base_log_evidence -= by;
-  for (Rival& rival : id.rivals) rival.log_evidence -= by;
+  for (CandidateModel& candidate : id.candidates) candidate.log_evidence -= by;
   for (Weighted& w : id.weights) w.log_evidence -= by;
 }
 
 }  // namespace
 
-std::optional<InadequateReading> read_beside_inadequacy(const Campaign& campaign, const Identification& first,
-                                                        const IdentifyOptions& options) {
-  if (first.foreign) return std::nullopt;
-  MatrixXd columns = inadequacy_columns(first);
-  InadequateReading reading;
+std::optional<DiscrepancyReading> read_with_model_discrepancy(const Campaign& campaign, const Identification& first,
+                                                              const IdentifyOptions& options) {
+  if (first.none_near_noise) return std::nullopt;
+  MatrixXd columns = model_discrepancy_columns(first);
+  DiscrepancyReading reading;
   reading.size = best_size(campaign, first, columns);
   columns *= reading.size;
   Identification& id = reading.identification;
@@ -66,7 +66,7 @@ std::optional<InadequateReading> read_beside_inadequacy(const Campaign& campaign
   if (!found) return std::nullopt;
   id.base = std::move(*found);
   name_effects(campaign, options, id);
-  if (id.foreign) return std::nullopt;
+  if (id.none_near_noise) return std::nullopt;
   const double narrowed = log_narrowing(columns.transpose() * columns, VectorXd::Ones(columns.cols()));
   lower_evidence(id, narrowed + std::log(static_cast<double>(term_sizes.size())));
   return reading;

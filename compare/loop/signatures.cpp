@@ -1,4 +1,4 @@
-#include "compare/loop/trace.hpp"
+#include "compare/loop/signatures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -106,14 +106,14 @@ void add_signatures(const TracedModel& model, const Projector& off, const Term& 
 
 }  // namespace
 
-std::vector<Signature> trace(const TracedModel& model, const Crew& crew) {
+std::vector<Signature> residual_signatures(const TracedModel& model, const ThreadPool& pool) {
   const Projector off(model.problem.nuisance);
   std::vector<Term> terms;
   for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue())
     if (!named_already(model, form.id))
       for (Term& term : placed(form, model.observations)) terms.push_back(std::move(term));
   std::vector<std::vector<Signature>> of_term(terms.size());
-  crew.each(static_cast<int>(terms.size()), [&](int t, const Pulse& pulse) {
+  pool.each(static_cast<int>(terms.size()), [&](int t, const Pulse& pulse) {
     pulse();
     add_signatures(model, off, terms[static_cast<std::size_t>(t)], of_term[static_cast<std::size_t>(t)]);
   });

@@ -1,4 +1,4 @@
-#include "compare/loop/crew.hpp"
+#include "compare/loop/thread_pool.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -8,7 +8,7 @@
 
 namespace soilbin::compare {
 
-void Crew::each(int count, const std::function<void(int, const Pulse&)>& work) const {
+void ThreadPool::each(int count, const std::function<void(int, const Pulse&)>& work) const {
   std::atomic<int> next{0};
   std::atomic<bool> stopped{false};
   std::exception_ptr failure;
@@ -34,7 +34,7 @@ void Crew::each(int count, const std::function<void(int, const Pulse&)>& work) c
   if (failure) std::rethrow_exception(failure);
 }
 
-int Crew::share_of(int i, int count) const {
+int ThreadPool::share_of(int i, int count) const {
   const int all = std::max(1, threads), full_rounds = count / all * all;
   return i < full_rounds ? 1 : std::max(1, all / (count - full_rounds));
 }
