@@ -48,22 +48,28 @@ void print_table(const std::vector<VerificationRow>& rows) {
   fmt::print("{}", table.text());
 }
 
-/// Throws InputError with the nearest name where no case's name contains the text.
-void keep_named(std::vector<VerificationRow>& rows, const std::string& containing) {
+/// The cases of which a name contains the text. Throws InputError with the nearest name where there is none.
+std::vector<dem::VerificationCase> cases_named(const std::string& containing) {
+  std::vector<dem::VerificationCase> chosen;
   std::vector<std::string> names;
-  for (const VerificationRow& row : rows) names.push_back(row.name.substr(0, row.name.find_first_of(":,")));
-  std::erase_if(rows, [&](const VerificationRow& row) { return row.name.find(containing) == std::string::npos; });
-  if (!rows.empty()) return;
-  names.erase(std::unique(names.begin(), names.end()), names.end());
+  for (const dem::VerificationCase& one : dem::verification_cases()) {
+    names.insert(names.end(), one.names.begin(), one.names.end());
+    if (std::any_of(one.names.begin(), one.names.end(),
+                    [&](const std::string& name) { return name.find(containing) != std::string::npos; }))
+      chosen.push_back(one);
+  }
+  if (!chosen.empty()) return chosen;
   throw InputError(fmt::format("--case: no case's name contains '{}'{}\n  hint: there are {}", clipped(containing),
                                did_you_mean(containing, names), listed(names)));
 }
 
 int verify(bool json, std::optional<std::uint64_t> incline, const std::string& containing) {
   std::vector<VerificationRow> rows =
-      incline ? dem::incline_rows(*incline, show_dem_progress) : dem::verification_rows(dem::start_fast_engine);
+      incline ? dem::incline_rows(*incline, show_dem_progress)
+              : dem::rows_of(cases_named(containing), dem::start_fast_engine, shown_progress());
   clear_progress_line();
-  keep_named(rows, containing);
+  if (!incline)
+    std::erase_if(rows, [&](const VerificationRow& row) { return row.name.find(containing) == std::string::npos; });
   const auto passed = std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.pass(); });
   if (json) {
     print_json(rows);
@@ -81,9 +87,13 @@ void add_verify(CLI::App& app, Session& session) {
   const auto containing = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
   const auto incline = std::make_shared<std::optional<std::uint64_t>>();
-  command->add_option("--incline", *incline, "instead: layers on a rough incline, of this seed (a quarter of an hour)")
-      ->type_name("SEED");
-  command->add_option("--case", *containing, "only cases whose name contains this")->type_name("TEXT");
+  CLI::Option* const layers =
+      command
+          ->add_option("--incline", *incline, "instead: layers on a rough incline, of this seed (a quarter of an hour)")
+          ->type_name("SEED");
+  command->add_option("--case", *containing, "only cases whose name contains this")
+      ->type_name("TEXT")
+      ->excludes(layers);
   command->add_flag("--json", *json, "soilbin-verify/1, for programs");
   command->callback([=, &session] { session.action = [=] { return verify(*json, *incline, *containing); }; });
 }

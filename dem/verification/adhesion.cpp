@@ -40,10 +40,7 @@ double swing() {
          std::sqrt(verification::sphere_mass(density, radius) / (2 * reduced_modulus * std::sqrt(radius * rest())));
 }
 
-}  // namespace
-
-std::vector<VerificationRow> adhesion_rows(const StartEngine& start) {
-  std::vector<VerificationRow> rows;
+void jkr_rows(std::vector<VerificationRow>& rows, const StartEngine& start) {
   const double pull_off = 1.5 * pi * work * radius, mass = verification::sphere_mass(density, radius);
   const double made = start(at_wall(CohesionLaw::jkr, work, 1, 1e-9 * radius, 0, 1e-9))->normal_force(0, first_plane);
   rows.push_back({"jkr: force where the contact is made", -8.0 / 9 * pull_off * 1e6, made * 1e6, 1e-4 * pull_off * 1e6,
@@ -79,7 +76,9 @@ std::vector<VerificationRow> adhesion_rows(const StartEngine& start) {
   for (int i = 0; i < 400000 && hits->position(0).z < 1.2 * radius; ++i) hits->step(1);
   rows.push_back({"jkr: speed after an impact", std::sqrt(fast * fast - 2 * lost / mass), hits->velocity(0).z,
                   1e-3 * fast, "m/s", verification::closed_form});
+}
 
+void linear_rows(std::vector<VerificationRow>& rows, const StartEngine& start) {
   const double overlap = 0.01 * radius, density_of_energy = 1e4;
   const double linear =
       start(at_wall(CohesionLaw::linear, density_of_energy, 1, overlap, 0, 1e-9))->normal_force(0, first_plane);
@@ -87,7 +86,10 @@ std::vector<VerificationRow> adhesion_rows(const StartEngine& start) {
                           density_of_energy * pi * radius * overlap;
   rows.push_back({"linear cohesion: force", expected * 1e6, linear * 1e6, 1e-6 * std::abs(expected) * 1e6, "uN",
                   verification::closed_form});
-  return rows;
 }
+
+}  // namespace
+
+std::vector<VerificationCase> adhesion_cases() { return {{{"jkr"}, jkr_rows}, {{"linear cohesion"}, linear_rows}}; }
 
 }  // namespace soilbin::dem

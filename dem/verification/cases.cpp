@@ -1,17 +1,21 @@
 #include "dem/verification/cases.hpp"
 
-#include <iterator>
-
 namespace soilbin::dem {
 
-std::vector<VerificationRow> verification_rows(const StartEngine& start) {
-  auto rows = chung_ooi_rows(start);
-  for (auto* more : {&motion_rows, &adhesion_rows, &mercury_rows}) {
-    auto added = (*more)(start);
-    rows.insert(rows.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
+std::vector<VerificationCase> verification_cases() {
+  std::vector<VerificationCase> all;
+  for (const auto& cases : {chung_ooi_cases(), motion_cases(), adhesion_cases(), mercury_cases(), mesh_cases()})
+    all.insert(all.end(), cases.begin(), cases.end());
+  return all;
+}
+
+std::vector<VerificationRow> rows_of(const std::vector<VerificationCase>& cases, const StartEngine& start,
+                                     const std::function<void(std::size_t, std::size_t)>& progress) {
+  std::vector<VerificationRow> rows;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    cases[i].add_rows(rows, start);
+    if (progress) progress(i + 1, cases.size());
   }
-  auto meshes = mesh_rows();
-  rows.insert(rows.end(), std::make_move_iterator(meshes.begin()), std::make_move_iterator(meshes.end()));
   return rows;
 }
 

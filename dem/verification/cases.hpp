@@ -67,17 +67,29 @@ class VerificationEngine {
 
 using StartEngine = std::function<std::unique_ptr<VerificationEngine>(const VerificationSetup&)>;
 
+/// A set-up or a few alike, and the rows that come of them. Each row's name begins with one of `names`, so that a case
+/// can be chosen by name before anything is computed.
+struct VerificationCase {
+  std::vector<std::string> names;
+  std::function<void(std::vector<VerificationRow>& rows, const StartEngine& start)> add_rows;
+};
+
 /// Chung and Ooi 2011, Granular Matter 13:643, tests 1 to 8.
-std::vector<VerificationRow> chung_ooi_rows(const StartEngine& start);
+std::vector<VerificationCase> chung_ooi_cases();
 /// Closed forms of a grain that slides, rolls, stands on a slope or bounces.
-std::vector<VerificationRow> motion_rows(const StartEngine& start);
+std::vector<VerificationCase> motion_cases();
 /// Closed forms of a grain that sticks.
-std::vector<VerificationRow> adhesion_rows(const StartEngine& start);
+std::vector<VerificationCase> adhesion_cases();
 /// End states that MercuryDPM keeps for its own tests.
-std::vector<VerificationRow> mercury_rows(const StartEngine& start);
-/// Plates, ridges, corners, a turntable and a drum of triangles, on the engine itself.
-std::vector<VerificationRow> mesh_rows();
+std::vector<VerificationCase> mercury_cases();
+/// Plates, ridges, corners, a turntable and a drum of triangles, on the fast engine whichever is started.
+std::vector<VerificationCase> mesh_cases();
 /// All of them.
-std::vector<VerificationRow> verification_rows(const StartEngine& start);
+std::vector<VerificationCase> verification_cases();
+
+/// The rows of these cases, in order. `progress`, where there is any, hears how many cases are done and of how many,
+/// after each; it may throw to stop.
+std::vector<VerificationRow> rows_of(const std::vector<VerificationCase>& cases, const StartEngine& start,
+                                     const std::function<void(std::size_t, std::size_t)>& progress = {});
 
 }  // namespace soilbin::dem

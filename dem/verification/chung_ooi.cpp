@@ -293,18 +293,16 @@ void test_8(Rows& rows, const StartEngine& start) {
 
 }  // namespace
 
-std::vector<VerificationRow> chung_ooi_rows(const StartEngine& start) {
-  Rows rows;
-  test_1(rows, start);
-  test_2(rows, start);
-  test_3(rows, start);
-  test_4(rows, start);
-  test_4_sliding(rows, start);
-  test_5(rows, start);
-  test_6(rows, start);
-  test_7(rows, start);
-  test_8(rows, start);
-  return rows;
+std::vector<VerificationCase> chung_ooi_cases() {
+  return {{{"T1"}, test_1},
+          {{"T2"}, test_2},
+          {{"T3"}, test_3},
+          {{"T4 restitution along the wall", "T4 spin", "T4 angle of the patch"}, test_4},
+          {{"T4 sliding"}, test_4_sliding},
+          {{"T5"}, test_5},
+          {{"T6"}, test_6},
+          {{"T7"}, test_7},
+          {{"T8"}, test_8}};
 }
 
 }  // namespace soilbin::dem

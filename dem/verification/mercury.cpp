@@ -25,10 +25,7 @@ VerificationSetup sphere_on(const Material& sphere, const Material& wall, double
 
 const Material m1{"M1", 2500, 1e9, 0.2}, steel{"steel", 7200, 210e9, 0.2};
 
-}  // namespace
-
-std::vector<VerificationRow> mercury_rows(const StartEngine& start) {
-  std::vector<VerificationRow> rows;
+void impact_on_steel(std::vector<VerificationRow>& rows, const StartEngine& start) {
   // It touches after 20 steps to the last bit, so rounding decides whether step 20 counts: 3e-6 in the speed.
   auto setup = sphere_on(m1, steel, 0.00101, -1);
   auto engine = start(setup);
@@ -43,16 +40,24 @@ std::vector<VerificationRow> mercury_rows(const StartEngine& start) {
     rows.push_back({"impact on steel, step of " + std::string(finer == 10 ? "50" : "5") + " ns: speed", 0.4,
                     engine->velocity(0).z, 4e-3 / finer, "m/s", "restitution"});
   }
+}
+
+void starts_to_slide(std::vector<VerificationRow>& rows, const StartEngine& start) {
   // MercuryDPM's shear stiffness is 2/3 of ours (Di Maio and Di Renzo 2005), which moves the last two digits.
-  setup = sphere_on(steel, m1, sphere_radius, 0);
+  auto setup = sphere_on(steel, m1, sphere_radius, 0);
   setup.gravity = {5, 0, -5};
   setup.laws.tangential_damping = 0;
-  engine = start(setup);
+  const auto engine = start(setup);
   engine->step(10001);
   const char* mindlin = "MercuryDPM OSMindlinSelfTest";
   rows.push_back({"steel starts to slide, 5.0005 ms: speed", 0.0200031, engine->velocity(0).x, 1e-6, "m/s", mindlin});
   rows.push_back({"steel starts to slide, 5.0005 ms: spin", 12.49832, engine->spin(0).y, 2e-3, "rad/s", mindlin});
-  return rows;
+}
+
+}  // namespace
+
+std::vector<VerificationCase> mercury_cases() {
+  return {{{"impact on steel"}, impact_on_steel}, {{"steel starts to slide"}, starts_to_slide}};
 }
 
 }  // namespace soilbin::dem

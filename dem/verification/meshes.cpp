@@ -262,14 +262,16 @@ void drum(Rows& rows) {
 
 }  // namespace
 
-std::vector<VerificationRow> mesh_rows() {
-  Rows rows;
-  plates(rows);
-  ridge(rows);
-  corners(rows);
-  for (const Meshing& way : meshings()) turntable(rows, way);
-  drum(rows);
-  return rows;
+std::vector<VerificationCase> mesh_cases() {
+  const auto turntables = [](Rows& rows) {
+    for (const Meshing& way : meshings()) turntable(rows, way);
+  };
+  const auto on_the_engine = [](auto add) { return [add](Rows& rows, const StartEngine&) { add(rows); }; };
+  return {{{"plate of", "rests on"}, on_the_engine(plates)},
+          {{"convex ridge"}, on_the_engine(ridge)},
+          {{"valley of two planes", "corner of three planes"}, on_the_engine(corners)},
+          {{"turntable"}, on_the_engine(turntables)},
+          {{"carried by a drum"}, on_the_engine(drum)}};
 }
 
 }  // namespace soilbin::dem

@@ -110,7 +110,7 @@ void slowing(Rows& rows, const StartEngine& start) {
 }
 
 /// On a slope: rolls down, or stands where the rolling friction is above its tangent.
-void slope(Rows& rows, const StartEngine& start) {
+void on_a_slope(Rows& rows, const StartEngine& start) {
   const double alpha = 20 * degree, t = 0.1;
   const auto down = [&](RollingLaw law, double mu_r) {
     Floor floor = floor_of(0.8, law, mu_r);
@@ -194,15 +194,13 @@ void swinging(Rows& rows, const StartEngine& start) {
 
 }  // namespace
 
-std::vector<VerificationRow> motion_rows(const StartEngine& start) {
-  Rows rows;
-  sliding(rows, start);
-  slowing(rows, start);
-  slope(rows, start);
-  bounces(rows, start);
-  no_gain(rows, start);
-  swinging(rows, start);
-  return rows;
+std::vector<VerificationCase> motion_cases() {
+  return {{{"slides", "rolls at last"}, sliding},
+          {{"spins without friction", "rolls"}, slowing},
+          {{"slope of 20 deg"}, on_a_slope},
+          {{"bounces"}, bounces},
+          {{"frictional impacts at 5 to 85 deg"}, no_gain},
+          {{"torsion_spring", "elastic_plastic"}, swinging}};
 }
 
 }  // namespace soilbin::dem

@@ -7,7 +7,7 @@ namespace soilbin::dem {
 namespace {
 
 TEST(SlowEngineMeshes, AreThePlanesAndCornersThatTheyStandFor) {
-  for (const VerificationRow& row : mesh_rows())
+  for (const VerificationRow& row : rows_of(mesh_cases(), {}))
     EXPECT_TRUE(row.pass()) << row.name << ": expected " << row.published << ", ours " << row.ours << ", tolerance "
                             << row.tolerance << ' ' << row.unit;
 }
