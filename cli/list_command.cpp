@@ -9,6 +9,7 @@
 #include "cli/commands.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/result_json.hpp"
+#include "scenario/contents.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/unit.hpp"
@@ -24,98 +25,145 @@ struct Listing {
   Json json = Json::array();
 };
 
-/// Reads an entry and adds its row; a file that can't be read is listed with its error.
-template <class Add>
-void add_entry(Listing& listing, const std::string& name, std::size_t columns, const Add& add) {
+/// What a shelf tells of a name: cells of the table between the name and what it is, keys beside "name".
+struct ShelfRow {
+  std::vector<std::string> cells;
+  Json json;
+  std::string question = {};  ///< what it is, in its own file's words
+};
+
+/// A shelf as `soilbin list` shows it.
+struct ShelfView {
+  Shelf shelf;
+  std::string title;                 ///< over its names in the list of all shelves
+  std::vector<std::string> columns;  ///< of `row`
+  ShelfRow (*row)(const std::string& name, const Workplace& place);
+};
+
+ShelfRow soil_row(const std::string& name, const Workplace& place) {
+  const Soil soil = find_soil(name, place.library);
+  ShelfRow row;
+  for (const SoilParameter& p : bevameter_parameters) {
+    row.cells.push_back(soil.semi_empirical ? number((*soil.semi_empirical).*p.value, p.per_si) : "-");
+    if (soil.semi_empirical) row.json[p.name] = ((*soil.semi_empirical).*p.value).value;
+  }
+  row.cells.emplace_back(soil.granular ? "yes" : "no");
+  row.json["granular"] = soil.granular.has_value(), row.json["source"] = soil.source;
+  return row;
+}
+
+ShelfRow tire_row(const std::string& name, const Workplace& place) {
+  const Tire tire = find_tire(name, place.library);
+  std::string lugs = "none";
+  if (is_lugged(tire))
+    lugs = fmt::format("{} of {} mm", tire.lugs.count ? std::to_string(*tire.lugs.count) : "some",
+                       number(1000 * tire.lugs.height));
+  ShelfRow row{{number(1000 * tire.radius), number(1000 * tire.width), lugs,
+                tire.inflation_pressure ? number(*tire.inflation_pressure / 1000) : "-"},
+               {{"radius", tire.radius}, {"width", tire.width}, {"lug_height", tire.lugs.height}}};
+  if (tire.lugs.count) row.json["lug_count"] = *tire.lugs.count;
+  if (tire.inflation_pressure) row.json["inflation_pressure"] = *tire.inflation_pressure;
+  row.json["source"] = tire.source;
+  return row;
+}
+
+ShelfRow study_row(const std::string& name, const Workplace& place) {
+  const Case question = find_case(place, name);
+  const bool drive_alone = question.study.conditions.empty();
+  return {{question.scenario.tire.name, question.scenario.soil.name,
+           drive_alone ? "drive" : std::to_string(question.study.models.size()),
+           drive_alone ? "-" : std::to_string(question.study.conditions.size())},
+          {{"tire", question.scenario.tire.name},
+           {"soil", question.scenario.soil.name},
+           {"models", question.study.models.size()},
+           {"conditions", question.study.conditions.size()},
+           {"drive", question.drive.has_value()}},
+          question.description};
+}
+
+ShelfRow campaign_row(const std::string& name, const Workplace& place) {
+  const compare::Campaign campaign = find_campaign(place, name);
+  std::vector<std::string> channels;
+  for (const compare::ChannelView& channel : compare::channel_views)
+    for (const compare::Run& run : campaign.runs)
+      if (run.*channel.measured) {
+        channels.emplace_back(channel.title);
+        break;
+      }
+  return {{std::to_string(campaign.runs.size()), listed(channels)},
+          {{"runs", campaign.runs.size()}, {"channels", channels}}};
+}
+
+const std::vector<ShelfView>& shelf_views() {
+  static const std::vector<ShelfView> views = [] {
+    std::vector<std::string> soil_columns;
+    for (const SoilParameter& p : bevameter_parameters) soil_columns.push_back(with_unit(p));
+    soil_columns.emplace_back("grains");
+    return std::vector<ShelfView>{
+        {Shelf::soils, "Soils", soil_columns, soil_row},
+        {Shelf::tires, "Tires and wheels", {"radius [mm]", "width [mm]", "lugs", "pressure [kPa]"}, tire_row},
+        {Shelf::studies, "Studies", {"tire", "soil", "models", "conditions"}, study_row},
+        {Shelf::measured, "Measured campaigns", {"runs", "measured"}, campaign_row}};
+  }();
+  return views;
+}
+
+/// Adds the row of a name; a file that can't be read is listed with its error.
+void add_row(Listing& listing, const ShelfView& view, const std::string& section, const ContentsLine& line,
+             const Workplace& place) {
   try {
-    add();
+    ShelfRow row = view.row(line.name, place);
+    const std::string meaning = line.meaning.empty() ? row.question : line.meaning;
+    row.cells.insert(row.cells.begin(), line.name);
+    row.cells.push_back(meaning);
+    listing.table.add(std::move(row.cells));
+    Json entry = {{"name", line.name}};
+    entry.update(row.json);
+    entry["section"] = section, entry["description"] = meaning;
+    listing.json.push_back(std::move(entry));
   } catch (const InputError& error) {
     const std::string what = error.what();
-    std::vector<std::string> row = {name, "unreadable: " + what.substr(0, what.find('\n'))};
-    row.resize(columns);
-    listing.table.add(std::move(row));
-    listing.json.push_back({{"name", name}, {"error", what}});
+    std::vector<std::string> cells = {line.name, "unreadable: " + what.substr(0, what.find('\n'))};
+    cells.resize(view.columns.size() + 2);
+    listing.table.add(std::move(cells));
+    listing.json.push_back({{"name", line.name}, {"error", what}});
   }
 }
 
-Listing soils(const Workplace& place) {
-  std::vector<std::string> header = {"soil"};
-  for (const SoilParameter& p : bevameter_parameters) header.push_back(with_unit(p));
-  header.emplace_back("source");
-  Listing all{TextTable(header)};
-  for (const std::string& name : place.library.names(Shelf::soils))
-    add_entry(all, name, header.size(), [&] {
-      const Soil soil = find_soil(name, place.library);
-      std::vector<std::string> row = {name};
-      Json entry = {{"name", name}};
-      for (const SoilParameter& p : bevameter_parameters) {
-        row.push_back(soil.semi_empirical ? number((*soil.semi_empirical).*p.value, p.per_si) : "-");
-        if (soil.semi_empirical) entry[p.name] = ((*soil.semi_empirical).*p.value).value;
+Listing listing_of(const ShelfView& view, const Workplace& place) {
+  std::vector<std::string> header = view.columns;
+  header.insert(header.begin(), "name");
+  header.emplace_back("what it is");
+  Listing listing{TextTable(header)};
+  for (const ContentsSection& section : contents_of(place.folders, view.shelf)) {
+    listing.table.add_title(section.title);
+    for (const ContentsLine& line : section.lines) add_row(listing, view, section.title, line, place);
+  }
+  return listing;
+}
+
+/// Every name of every shelf, with a line on what it is.
+int print_shelves(bool json, const Workplace& place) {
+  Json document = {{"format", "soilbin-list/1"}};
+  std::string text;
+  for (const ShelfView& view : shelf_views()) {
+    TextTable table({"", "", ""});
+    Json names = Json::array();
+    for (const ContentsSection& section : contents_of(place.folders, view.shelf)) {
+      table.add_title("  " + section.title);
+      for (const ContentsLine& line : section.lines) {
+        const std::string meaning = line.meaning.empty() ? view.row(line.name, place).question : line.meaning;
+        table.add({"  ", line.name, meaning});
+        names.push_back({{"name", line.name}, {"section", section.title}, {"description", meaning}});
       }
-      row.push_back(clipped(soil.source));
-      all.table.add(std::move(row));
-      if (!soil.semi_empirical) return;
-      entry["granular"] = soil.granular.has_value(), entry["source"] = soil.source;
-      all.json.push_back(std::move(entry));
-    });
-  return all;
-}
-
-Listing tires(const Workplace& place) {
-  Listing all{TextTable({"tire", "radius [mm]", "width [mm]", "lugs", "source"})};
-  for (const std::string& name : place.library.names(Shelf::tires))
-    add_entry(all, name, 5, [&] {
-      const Tire tire = find_tire(name, place.library);
-      std::string lugs = "none";
-      if (is_lugged(tire))
-        lugs = fmt::format("{} of {} mm", tire.lugs.count ? std::to_string(*tire.lugs.count) : "some",
-                           number(1000 * tire.lugs.height));
-      all.table.add({name, number(1000 * tire.radius), number(1000 * tire.width), lugs, clipped(tire.source)});
-      all.json.push_back({{"name", name},
-                          {"radius", tire.radius},
-                          {"width", tire.width},
-                          {"lug_height", tire.lugs.height},
-                          {"source", tire.source}});
-    });
-  return all;
-}
-
-Listing studies(const Workplace& place) {
-  Listing all{TextTable({"study", "tire", "soil", "models", "conditions", "question"})};
-  for (const std::string& name : place.library.names(Shelf::studies))
-    add_entry(all, name, 6, [&] {
-      const Case question = find_case(place, name);
-      const bool drive_alone = question.study.conditions.empty();
-      all.table.add({name, question.scenario.tire.name, question.scenario.soil.name,
-                     drive_alone ? "drive" : std::to_string(question.study.models.size()),
-                     drive_alone ? "-" : std::to_string(question.study.conditions.size()), question.description});
-      all.json.push_back({{"name", name},
-                          {"tire", question.scenario.tire.name},
-                          {"soil", question.scenario.soil.name},
-                          {"models", question.study.models.size()},
-                          {"conditions", question.study.conditions.size()},
-                          {"drive", question.drive.has_value()},
-                          {"description", question.description}});
-    });
-  return all;
-}
-
-Listing campaigns(const Workplace& place) {
-  Listing all{TextTable({"campaign", "runs", "measured"})};
-  for (const std::string& name : place.library.names(Shelf::measured))
-    add_entry(all, name, 3, [&] {
-      const compare::Campaign campaign = find_campaign(place, name);
-      std::vector<std::string> channels;
-      for (const compare::ChannelView& channel : compare::channel_views)
-        for (const compare::Run& run : campaign.runs)
-          if (run.*channel.measured) {
-            channels.emplace_back(channel.title);
-            break;
-          }
-      all.table.add({name, std::to_string(campaign.runs.size()), listed(channels)});
-      all.json.push_back({{"name", name}, {"runs", campaign.runs.size()}, {"channels", channels}});
-    });
-  return all;
+    }
+    const std::string folder(folder_of(view.shelf));
+    text += fmt::format("{}{} (soilbin list {}){}", text.empty() ? "" : "\n", view.title, folder, table.text());
+    document[folder] = std::move(names);
+  }
+  text += fmt::format("\nEffects: {} forms (soilbin list effects)\n", bekker_wong::effect_catalogue().size());
+  fmt::print("{}", json ? compare::json_text(document) : text);
+  return done;
 }
 
 Json effect_json(const bekker_wong::EffectForm& form) {
@@ -172,14 +220,14 @@ int print_effects(bool json) {
 }
 
 int list(const std::string& what, bool json, const Session& session) {
-  static const std::vector<std::pair<std::string, Listing (*)(const Workplace&)>> shelves = {
-      {"soils", soils}, {"tires", tires}, {"studies", studies}, {"measured", campaigns}};
+  if (what.empty()) return print_shelves(json, session.place);
   if (what == "effects") return print_effects(json);
   std::vector<std::string> right = {"effects"};
-  for (const auto& [name, make] : shelves) {
+  for (const ShelfView& view : shelf_views()) {
+    const std::string name(folder_of(view.shelf));
     right.push_back(name);
     if (name != what) continue;
-    const Listing listing = make(session.place);
+    const Listing listing = listing_of(view, session.place);
     if (json)
       fmt::print("{}", compare::json_text({{"format", "soilbin-list/1"}, {name, listing.json}}));
     else
@@ -196,7 +244,10 @@ void add_list(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("list", "what there is: soils, tires, effects, studies, measured");
   const auto what = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
-  command->add_option("what", *what, "soils, tires, effects, studies or measured")->type_name("WHAT")->required();
+  command
+      ->add_option("what", *what,
+                   "soils, tires, effects, studies or measured; without it: every name, with a line on what it is")
+      ->type_name("WHAT");
   command->add_flag("--json", *json, "as JSON, in SI");
   command->callback([=, &session] { session.action = [=, &session] { return list(*what, *json, session); }; });
 }

@@ -69,13 +69,18 @@ std::string with_unit(const SoilParameter& parameter) {
 std::string TextTable::text() const {
   std::vector<std::size_t> widths(rows_.front().size(), 0);
   std::vector<bool> right(widths.size(), true);
+  const auto is_title = [&](const std::vector<std::string>& row) { return row.size() < rows_.front().size(); };
   for (std::size_t r = 0; r < rows_.size(); ++r)
-    for (std::size_t c = 0; c < rows_[r].size(); ++c) {
+    for (std::size_t c = 0; c < rows_[r].size() && !is_title(rows_[r]); ++c) {
       widths[c] = std::max(widths[c], width(rows_[r][c]));
       if (r > 0 && !is_number(rows_[r][c])) right[c] = false;
     }
   std::string text;
   for (const std::vector<std::string>& row : rows_) {
+    if (is_title(row)) {
+      text += "\n" + row.front() + "\n";
+      continue;
+    }
     std::string line;
     for (std::size_t c = 0; c < row.size(); ++c) {
       const std::string blanks(widths[c] - width(row[c]), ' ');

@@ -19,6 +19,8 @@ class TextTable {
  public:
   explicit TextTable(std::vector<std::string> header) : rows_{std::move(header)} {}
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  /// A line across the columns over the rows that follow.
+  void add_title(std::string title) { rows_.push_back({std::move(title)}); }
   std::string text() const;
 
  private:

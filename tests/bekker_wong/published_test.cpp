@@ -51,7 +51,15 @@ constexpr TableRow wong_table[] = {{"dry-sand", 1.1, 0.99, 1528.43, 1.04, 28},
                                    {"sandy-loam", 0.7, 5.27, 1515.04, 1.72, 29},
                                    {"clayey-soil", 0.5, 13.19, 692.15, 4.14, 13},
                                    {"upland-sandy-loam", 1.10, 74.6, 2080, 3.3, 33.7},
-                                   {"snow", 1.6, 4.37, 196.72, 1.03, 19.7}};
+                                   {"snow", 1.6, 4.37, 196.72, 1.03, 19.7},
+                                   {"lete-sand", 0.79, 102, 5301, 1.3, 31.1},
+                                   {"sandy-loam-wet", 0.2, 2.56, 43.12, 1.38, 38},
+                                   {"rubicon-sandy-loam", 0.66, 6.9, 752, 3.7, 29.8},
+                                   {"north-gower-clayey-loam", 0.73, 41.6, 2471, 6.1, 26.6},
+                                   {"grenville-loam", 1.01, 0.06, 5880, 3.1, 29.8},
+                                   {"heavy-clay", 0.11, 1.84, 103.27, 20.69, 6},
+                                   {"lean-clay", 0.15, 1.52, 119.61, 13.79, 11},
+                                   {"snow-sweden", 1.44, 10.55, 66.08, 6, 20.7}};
 
 TEST(Published, WongsSoilsAreTheCases) {
   for (const TableRow& row : wong_table) {

@@ -93,6 +93,17 @@ TEST(List, EveryShelfAndTheCatalogue) {
   EXPECT_THAT(soilbin("list soil").err, HasSubstr("did you mean 'soils'?"));
 }
 
+TEST(List, WithoutAWordTellsWhatEachNameIs) {
+  const Outcome r = soilbin("list");
+  EXPECT_EQ(r.status, 0) << r.err;
+  for (const char* line : {"Tires and wheels (soilbin list tires)", "Wheels of planetary rovers",
+                           "Mars rover Curiosity", "Straight driving: drawbar pull"})
+    EXPECT_THAT(r.out, HasSubstr(line));
+  const nlohmann::json shelves = soilbin("list --json").json();
+  for (const char* shelf : {"soils", "tires", "studies", "measured"})
+    for (const auto& entry : shelves[shelf]) EXPECT_NE(entry["description"], "") << entry["name"];
+}
+
 TEST(Schema, IsJsonForEachFormat) {
   for (const char* what : {"case", "tire", "soil", "campaign"}) {
     const Outcome r = soilbin(std::string("schema ") + what);

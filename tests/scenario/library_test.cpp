@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 
 #include "scenario/case.hpp"
@@ -48,7 +49,7 @@ TEST(Library, FindsTheFileBehindANameOrAPath) {
               HasSubstr("no study 'rover-wheel' in the library: that is a tire\n  hint: --tire rover-wheel takes it"));
   EXPECT_THAT(
       test::refusal([] { find_file(library(), Shelf::measured, "rover-climb"); }),
-      HasSubstr("no campaign 'rover-climb' in the library: that is a study\n  hint: soilbin list measured shows the "));
+      HasSubstr("no campaign 'rover-climb' in the library: that is a study\n  hint: there are cmu-grousered, "));
 }
 
 TEST(Library, SearchesTheUsersFoldersFirst) {
@@ -59,26 +60,32 @@ TEST(Library, SearchesTheUsersFoldersFirst) {
   EXPECT_THAT(case_folders("", cases), ElementsAre(cases)) << "nothing installed";
 }
 
+/// The library, and that of the bench in which grains are nature.
+std::array<Library, 2> libraries() { return {library(), Library({SOILBIN_SOURCE_DIR "/bench/dem_nature"})}; }
+
 TEST(Library, EveryTireAndSoilIsReadAndNamesItsSource) {
-  for (const std::string& name : library().names(Shelf::tires)) {
-    const Tire tire = find_tire(name, library());
-    EXPECT_EQ(tire.name, name);
-    EXPECT_NE(tire.source, "") << name;
-  }
-  for (const std::string& name : library().names(Shelf::soils)) {
-    const Soil soil = find_soil(name, library());
-    EXPECT_EQ(soil.name, name);
-    EXPECT_NE(soil.source, "") << name;
+  for (const Library& cases : libraries()) {
+    for (const std::string& name : cases.names(Shelf::tires)) {
+      const Tire tire = find_tire(name, cases);
+      EXPECT_EQ(tire.name, name);
+      EXPECT_NE(tire.source, "") << name;
+    }
+    for (const std::string& name : cases.names(Shelf::soils)) {
+      const Soil soil = find_soil(name, cases);
+      EXPECT_EQ(soil.name, name);
+      EXPECT_NE(soil.source, "") << name;
+    }
   }
 }
 
 TEST(Library, EveryStudyIsRead) {
-  for (const std::string& name : library().names(Shelf::studies)) {
-    const Case c = read_case(*library().find(Shelf::studies, name), library(), test::FakeVocabulary());
-    EXPECT_EQ(c.name, name);
-    EXPECT_NE(c.source, "") << name;
-    EXPECT_TRUE(!c.study.conditions.empty() || c.drive) << name << " asks something: conditions, or a drive";
-  }
+  for (const Library& cases : libraries())
+    for (const std::string& name : cases.names(Shelf::studies)) {
+      const Case c = read_case(*cases.find(Shelf::studies, name), cases, test::FakeVocabulary());
+      EXPECT_EQ(c.name, name);
+      EXPECT_NE(c.source, "") << name;
+      EXPECT_TRUE(!c.study.conditions.empty() || c.drive) << name << " asks something: conditions, or a drive";
+    }
 }
 
 TEST(Library, ThePapersStraightStudyIsItsTwentyEightPoints) {
