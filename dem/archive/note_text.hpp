@@ -15,7 +15,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "dem/engine/vec3.hpp"
+#include "dem/surface/vec3.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {

@@ -11,7 +11,7 @@
 
 #include "dem/archive/hdf5.hpp"
 #include "dem/engine/laws/triple.hpp"
-#include "dem/engine/vec3.hpp"
+#include "dem/surface/vec3.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {

@@ -1,4 +1,7 @@
+// Where the energy of a run is, and where it went.
 #pragma once
+
+#include "dem/engine/kernels/grain_rows.hpp"
 
 namespace soilbin::dem {
 
@@ -15,22 +18,21 @@ struct Ledger {
   double adhesion = 0;       ///< left in contacts of jkr when they broke
   double added = 0;          ///< brought by what was added, removed or changed between steps, and at the start
 
-  /// Takes powers [W] in the order of Losses, for a step.
-  void add(const double (&powers)[5], double dt) {
-    damping += powers[0] * dt;
-    shear_damping += powers[1] * dt;
-    sliding += powers[2] * dt;
-    into_slide += powers[3] * dt;
-    into_roll += powers[4] * dt;
+  /// Adds what was lost in a step of dt [s].
+  void add(const LostPower& lost, double dt) {
+    damping += lost.damping * dt;
+    shear_damping += lost.shear_damping * dt;
+    sliding += lost.sliding * dt;
+    into_slide += lost.into_slide * dt;
+    into_roll += lost.into_roll * dt;
   }
 };
 
 /// Where the energy is [J].
 struct EnergyBalance {
-  double kinetic = 0;  ///< of grains, and of bodies where they move freely
-  double potential =
-      0;               ///< of grains, and of bodies that weigh and are free to fall, from z = 0 of gravity's direction
-  double elastic = 0;  ///< of normal springs, cohesion included
+  double kinetic = 0;         ///< of grains, and of bodies where they move freely
+  double potential = 0;       ///< of grains, and of bodies that weigh and are free to fall; 0 at z = 0
+  double elastic = 0;         ///< of normal springs, cohesion included
   double tangential = 0;      ///< of tangential springs
   double rolling = 0;         ///< of rolling springs
   double work_of_drives = 0;  ///< done since the start by what drives bodies, and by what is applied to them

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "dem/engine/grain_rows.hpp"
+#include "dem/engine/kernels/grain_rows.hpp"
 
 namespace soilbin::dem {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dem/engine/positive.hpp"
+#include "dem/surface/positive.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "dem/engine/periodic.hpp"
+#include "dem/engine/domain.hpp"
 
 namespace soilbin::dem {
 namespace {

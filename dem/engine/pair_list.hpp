@@ -3,16 +3,32 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <new>
 #include <span>
 #include <vector>
 
-#include "dem/engine/aligned.hpp"
 #include "dem/engine/cells.hpp"
 #include "dem/engine/grains.hpp"
-#include "dem/engine/kernels/near_kernel.hpp"
+#include "dem/engine/kernels/kernels.hpp"
 
 namespace soilbin::dem {
+
+/// Gives memory on cache lines, so that packs load without straddling two.
+template <class T>
+struct CacheLines {
+  using value_type = T;
+  CacheLines() = default;
+  template <class U>
+  CacheLines(const CacheLines<U>&) {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(64))); }
+  void deallocate(T* at, std::size_t) { ::operator delete(at, std::align_val_t(64)); }
+  bool operator==(const CacheLines&) const { return true; }
+};
+
+template <class T>
+using AlignedVector = std::vector<T, CacheLines<T>>;
 
 inline constexpr int batch_size = 8;
 /// Numbers that a contact remembers: slide x, y, z [m], roll x, y, z [rad], of the first grain against the second.

@@ -1,4 +1,4 @@
-// Simulation's search for pairs and for grains near surfaces: when it is due, and what is carried over.
+// The stage that searches for pairs and for grains near surfaces: when it is due, and what is carried over.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "dem/engine/cells.hpp"
-#include "dem/engine/periodic.hpp"
-#include "dem/engine/simulation.hpp"
+#include "dem/engine/step.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -55,95 +54,114 @@ std::vector<std::uint32_t> new_rows(std::span<const std::uint32_t> order, std::s
   return all;
 }
 
+/// A grain that is not in the domain any more.
+[[noreturn]] void stop_for_loss(const State& s, std::size_t row) {
+  const Vec3& at = s.grains.motion[row].position;
+  throw RunStopped(
+      fmt::format("grain {} left the domain at ({:.4g}, {:.4g}, {:.4g}) m, time {:.6g} s"
+                  "\n  hint: close the bin, or remove grains that leave it",
+                  s.grains.id[row], at.x, at.y, at.z, s.time));
+}
+
+/// Brings grains that have crossed a periodic side in by the other one. Those that are `gone` may be anywhere.
+void wrap_grains(World& world, std::span<const std::uint8_t> gone) {
+  State& s = world.state;
+  const Domain& domain = world.setup.domain;
+  const Periods periods(domain);
+  for (std::size_t k = 0; k < s.grains.count(); ++k) {
+    Vec3& at = s.grains.motion[k].position;
+    const Vec3 from = at;
+    at.x = wrapped(at.x, domain.lower.x, periods.length.x);
+    at.y = wrapped(at.y, domain.lower.y, periods.length.y);
+    at.z = wrapped(at.z, domain.lower.z, periods.length.z);
+    if (world.setup.numerics.ledger && !s.grains.motion[k].held())
+      s.ledger.added += dot(s.gravity, from - at) / s.grains.motion[k].inverse_mass;
+    if ((gone.empty() || !gone[k]) && !domain.contains(at)) stop_for_loss(s, k);
+  }
+}
+
+Extents extents_of(const State& s) {
+  Extents out;
+  for (const Body& body : s.bodies) out.bodies.push_back(extent(body));
+  if (s.searched_at.empty()) return out;
+  Vec3 low{1e300, 1e300, 1e300}, high = -low;
+  for (const Vec3& at : s.searched_at) {
+    low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
+    high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
+  }
+  out.middle = 0.5 * (low + high);
+  out.around_middle = length(high - low) / 2;
+  return out;
+}
+
 }  // namespace
 
-bool Simulation::search_is_due() {
-  State& s = state_;
-  if (s.travel < reach_ / 2) return false;
+bool search_is_due(World& world) {
+  State& s = world.state;
+  const double margin = world.margins.motion;
+  if (s.travel < margin / 2) return false;
   // The bound is reached; now see how far each has really come.
   double farthest = 0;
   for (std::size_t k = 0; k < s.grains.count(); ++k)
     farthest = std::max(farthest, squared(s.grains.motion[k].position - s.searched_at[k]));
   farthest = std::sqrt(farthest);
-  for (std::size_t b = 0; b < s.bodies.size(); ++b) farthest = std::max(farthest, s.bodies[b].travel);
+  for (const Body& body : s.bodies) farthest = std::max(farthest, body.travel);
   s.travel = farthest;
   // Less than a hundredth of the margin left would be checked at each step.
-  return farthest > 0.49 * reach_;
+  return farthest > 0.49 * margin;
 }
 
-void Simulation::search(std::span<const std::uint8_t> gone) {
-  State& s = state_;
-  const Periods periods(setup_.domain);
-  for (std::size_t k = 0; k < s.grains.count(); ++k) {
-    Vec3& at = s.grains.motion[k].position;
-    const Vec3 from = at;
-    at.x = wrapped(at.x, setup_.domain.lower.x, periods.length.x);
-    at.y = wrapped(at.y, setup_.domain.lower.y, periods.length.y);
-    at.z = wrapped(at.z, setup_.domain.lower.z, periods.length.z);
-    if (setup_.numerics.ledger && !s.grains.motion[k].held())
-      s.ledger.added += dot(s.gravity, from - at) / s.grains.motion[k].inverse_mass;
-    if ((gone.empty() || !gone[k]) && !setup_.domain.contains(at)) stop_for_loss(k);
-  }
+void search(World& world, std::span<const std::uint8_t> gone) {
+  State& s = world.state;
+  const Setup& setup = world.setup;
+  wrap_grains(world, gone);
   const KeptOnSurfaces kept_on_surfaces = by_id(s.surfaces, s.grains);
-
   const std::size_t rows_before = s.grains.count();
   if (!gone.empty()) s.grains.remove(gone);
-  Cells cells(setup_.domain, {s.grains.motion.data(), s.grains.count()},
-              std::max(2 * s.grains.largest_radius() + reach_ + adhesion_reach_, 1e-12));
-  const std::vector<std::uint32_t> order = cells.order(s.grains), calm = calm_by_row(order);
-  kept_.take(s.pairs, new_rows(order, gone, rows_before), order.size());
+  const double reach = world.margins.both();
+  Cells cells(setup.domain, {s.grains.motion.data(), s.grains.count()},
+              std::max(2 * s.grains.largest_radius() + world.margins.motion + world.margins.adhesion, 1e-12));
+  const std::vector<std::uint32_t> order = cells.order(s.grains), calm = calm_by_row(s, order);
+  world.kept.take(s.pairs, new_rows(order, gone, rows_before), order.size());
   s.grains.reorder(order);
   cells.index(s.grains);
-  find_pairs(cells, s.grains, setup_.domain, kept_,
-             {.kernel = near_kernel_,
-              .skin = reach_ + adhesion_reach_,
-              .holds_apart = setup_.laws.cohesion == CohesionLaw::jkr,
-              .materials = static_cast<int>(setup_.materials.all.size()),
-              .threads = threads_},
+  find_pairs(cells, s.grains, setup.domain, world.kept,
+             {.kernel = world.kernels.near,
+              .skin = reach,
+              .holds_apart = setup.laws.cohesion == CohesionLaw::jkr,
+              .materials = world.laws.materials(),
+              .threads = world.threads},
              s.pairs);
 
   const int slabs = cells.slab_count();
   s.slab_rows.assign(1, 0);
   for (int slab = 0; slab < slabs; ++slab) s.slab_rows.push_back(cells.slab(slab)[1]);
   s.surfaces.assign(slabs, {});
-#pragma omp parallel for schedule(dynamic) num_threads(threads_)
+#pragma omp parallel for schedule(dynamic) num_threads(world.threads)
   for (int slab = 0; slab < slabs; ++slab) {
     SurfaceContacts& here = s.surfaces[slab];
-    here.near = find_near(s.bodies, s.grains, s.slab_rows[slab], s.slab_rows[slab + 1], reach_ + adhesion_reach_);
+    here.near = find_near(s.bodies, s.grains, s.slab_rows[slab], s.slab_rows[slab + 1], reach);
     hand_out(kept_on_surfaces, s.grains, here);
   }
-  s.calm.assign(slabs, calm_enough());
-  for (int slab = 0; slab < slabs; ++slab)
-    for (std::uint32_t row = s.slab_rows[slab]; row < s.slab_rows[slab + 1]; ++row)
-      s.calm[slab] = std::min(s.calm[slab], calm[row]);
+  take_calm(s, setup.numerics, calm);
   s.body_loads.assign(slabs * s.bodies.size(), {});
-  searched_now_ = true;
   s.searched_at.resize(s.grains.count());
   for (std::size_t k = 0; k < s.grains.count(); ++k) s.searched_at[k] = s.grains.motion[k].position;
   for (Body& body : s.bodies) body.travel = 0;
   s.travel = 0;
-  make_room(slabs);
+  world.searched_now = true;
+  make_room(world);
 }
 
-void Simulation::make_room(int slabs) {
-  found_.assign(slabs, {});
-  fastest_.assign(slabs, 0.0);
-  made_.resize(slabs);
-  if (setup_.numerics.ledger) taking_.assign(state_.grains.motion.size(), {});
-  asleep_.assign(slabs, 0);
-  cut_blocks();
-  near_.assign(slabs * state_.bodies.size(), 0);
-  for (int slab = 0; slab < slabs; ++slab)
-    for (const NearSurface& near : state_.surfaces[slab].near) near_[slab * state_.bodies.size() + near.body] = 1;
-  extents_.clear();
-  Vec3 low{1e300, 1e300, 1e300}, high = -low;
-  for (const Vec3& at : state_.searched_at) {
-    low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
-    high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
-  }
-  middle_ = state_.searched_at.empty() ? Vec3{} : 0.5 * (low + high);
-  around_middle_ = state_.searched_at.empty() ? 0 : length(high - low) / 2;
-  for (const Body& body : state_.bodies) extents_.push_back(extent(body));
+void make_room(World& world) {
+  const int slabs = world.slabs();
+  world.found.assign(slabs, {});
+  world.fastest.assign(slabs, 0.0);
+  world.made.resize(slabs);
+  world.ledger.begin(world.setup, world.state);
+  world.sleeping.begin(world.state);
+  cut_blocks(world);
+  world.extents = extents_of(world.state);
 }
 
 }  // namespace soilbin::dem

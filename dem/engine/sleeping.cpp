@@ -1,9 +1,7 @@
-// Slabs that sleep: what is left out while nothing moves there, and when it is taken up again (Sleep in
-// simulation.hpp).
+#include "dem/engine/sleeping.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "dem/engine/simulation.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -14,33 +12,63 @@ bool may_move(const Body& body) {
          squared(body.velocity) > 0 || squared(body.spin) > 0;
 }
 
-}  // namespace
-
-void Simulation::wake_all() { std::fill(state_.calm.begin(), state_.calm.end(), 0u); }
-
-std::uint32_t Simulation::calm_enough() const {
-  const Numerics& n = setup_.numerics;
+/// Steps after which a slab may sleep.
+std::uint32_t calm_enough(const Numerics& n) {
   return n.sleep.speed > 0 ? static_cast<std::uint32_t>(std::ceil(n.sleep.time / n.dt)) : ~0u;
 }
 
-/// A slab sleeps where it and both its neighbours have been calm for long enough.
-bool Simulation::may_sleep(int slab) const {
-  const int slabs = static_cast<int>(state_.calm.size());
-  for (int k = slab - 1; k <= slab + 1; ++k)
-    if (state_.calm[(k + slabs) % slabs] < calm_enough()) return false;
+}  // namespace
+
+void Sleeping::begin(const State& state) {
+  const std::size_t bodies = state.bodies.size();
+  asleep_.assign(state.surfaces.size(), 0);
+  near_.assign(asleep_.size() * bodies, 0);
+  for (std::size_t slab = 0; slab < asleep_.size(); ++slab)
+    for (const NearSurface& near : state.surfaces[slab].near) near_[slab * bodies + near.body] = 1;
+}
+
+bool Sleeping::choose(const State& state, const Numerics& numerics) {
+  if (numerics.sleep.speed == 0) return false;
+  const std::size_t slabs = asleep_.size();
+  const std::uint32_t enough = calm_enough(numerics);
+  std::vector<std::uint8_t> now(slabs);
+  std::uint32_t before = state.calm.back();
+  for (std::size_t slab = 0; slab < slabs; ++slab) {
+    const std::uint32_t here = state.calm[slab], after = state.calm[slab + 1 < slabs ? slab + 1 : 0];
+    now[slab] = before >= enough && here >= enough && after >= enough;
+    before = here;
+  }
+  if (now == asleep_) return false;
+  asleep_.swap(now);
   return true;
 }
 
-/// Whether grains of the slab are near a body that moves or may move.
-bool Simulation::is_driven(int slab) const {
-  for (std::size_t b = 0; b < state_.bodies.size(); ++b)
-    if (near_[slab * state_.bodies.size() + b] && may_move(state_.bodies[b])) return true;
+bool Sleeping::is_driven(const State& state, int slab) const {
+  for (std::size_t b = 0; b < state.bodies.size(); ++b)
+    if (near_[slab * state.bodies.size() + b] && may_move(state.bodies[b])) return true;
   return false;
 }
 
-/// How calm the slab of each grain was, for the rows of an order that sorts them anew. Nobody is calm after a change.
-std::vector<std::uint32_t> Simulation::calm_by_row(std::span<const std::uint32_t> order) const {
-  const State& s = state_;
+void Sleeping::count_calm(State& state, const Numerics& numerics, std::span<const double> fastest) const {
+  const double limit = numerics.sleep.speed;
+  if (limit == 0) return;
+  const std::uint32_t enough = calm_enough(numerics);
+  for (int slab = 0; slab < static_cast<int>(asleep_.size()); ++slab) {
+    std::uint32_t& calm = state.calm[slab];
+    calm = fastest[slab] < limit && !is_driven(state, slab) ? std::min(calm + 1, enough) : 0;
+  }
+}
+
+double Sleeping::share(const State& state) const {
+  std::size_t sum = 0;
+  for (std::size_t slab = 0; slab < asleep_.size(); ++slab)
+    if (asleep_[slab]) sum += state.slab_rows[slab + 1] - state.slab_rows[slab];
+  return state.grains.count() == 0 ? 0 : static_cast<double>(sum) / static_cast<double>(state.grains.count());
+}
+
+void wake_all(State& state) { std::fill(state.calm.begin(), state.calm.end(), 0u); }
+
+std::vector<std::uint32_t> calm_by_row(const State& s, std::span<const std::uint32_t> order) {
   std::vector<std::uint32_t> before(order.size()), after(order.size());
   if (!s.slab_rows.empty() && s.slab_rows.back() == order.size() && s.calm.size() + 1 == s.slab_rows.size())
     for (std::size_t slab = 0; slab < s.calm.size(); ++slab)
@@ -49,52 +77,11 @@ std::vector<std::uint32_t> Simulation::calm_by_row(std::span<const std::uint32_t
   return after;
 }
 
-void Simulation::choose_sleepers() {
-  if (setup_.numerics.sleep.speed == 0) return;
-  const int slabs = static_cast<int>(asleep_.size());
-  std::vector<std::uint8_t> now(slabs);
-  for (int slab = 0; slab < slabs; ++slab) now[slab] = may_sleep(slab);
-  if (now == asleep_) return;
-  asleep_.swap(now);
-  cut_blocks();
-  accounted([&] {
-    for (int slab = 0; slab < slabs; ++slab)
-      if (asleep_[slab]) stop_grains(slab);
-  });
-}
-
-void Simulation::stop_grains(int slab) {
-  for (std::uint32_t k = state_.slab_rows[slab]; k < state_.slab_rows[slab + 1]; ++k) {
-    state_.grains.motion[k].velocity = {};
-    state_.grains.spin[k].rate = {};
-  }
-  fastest_[slab] = 0;
-}
-
-/// What neighbours that are awake, and surfaces after a search, press on a slab asleep is let go.
-void Simulation::drop_loads(int slab) {
-  const int slabs = static_cast<int>(asleep_.size());
-  if (asleep_[(slab + 1) % slabs] && asleep_[(slab + slabs - 1) % slabs] && !searched_now_) return;
-  Load* loads = state_.grains.load.data();
-  std::fill(loads + state_.slab_rows[slab], loads + state_.slab_rows[slab + 1], Load{});
-  if (!setup_.numerics.ledger) return;
-  std::fill(taking_.begin() + state_.slab_rows[slab], taking_.begin() + state_.slab_rows[slab + 1], Taking{});
-}
-
-void Simulation::count_calm() {
-  const double limit = setup_.numerics.sleep.speed;
-  if (limit == 0) return;
-  for (int slab = 0; slab < static_cast<int>(asleep_.size()); ++slab) {
-    std::uint32_t& calm = state_.calm[slab];
-    calm = fastest_[slab] < limit && !is_driven(slab) ? std::min(calm + 1, calm_enough()) : 0;
-  }
-}
-
-double Simulation::share_asleep() const {
-  std::size_t sum = 0;
-  for (std::size_t slab = 0; slab < asleep_.size(); ++slab)
-    if (asleep_[slab]) sum += state_.slab_rows[slab + 1] - state_.slab_rows[slab];
-  return state_.grains.count() == 0 ? 0 : static_cast<double>(sum) / static_cast<double>(state_.grains.count());
+void take_calm(State& state, const Numerics& numerics, std::span<const std::uint32_t> by_row) {
+  state.calm.assign(state.slab_rows.size() - 1, calm_enough(numerics));
+  for (std::size_t slab = 0; slab < state.calm.size(); ++slab)
+    for (std::uint32_t row = state.slab_rows[slab]; row < state.slab_rows[slab + 1]; ++row)
+      state.calm[slab] = std::min(state.calm[slab], by_row[row]);
 }
 
 }  // namespace soilbin::dem

@@ -57,6 +57,13 @@ const SurfaceContact* remembered(std::span<const SurfaceContact> before, std::sp
   return old >= 0 && nearest(made, before[old].normal) == k ? &before[old] : nullptr;
 }
 
+PlacedSurface place(const Body& body, const Surface& surface) {
+  if (const auto* mesh = std::get_if<MeshSurface>(&surface.shape)) return {.body = &body, .mesh = mesh, .normal = {}};
+  const Plane& plane = std::get<Plane>(surface.shape);
+  const Vec3 normal = body.rotation(plane.normal);
+  return {.body = &body, .normal = normal, .offset = dot(body.to_bin(plane.point), normal)};
+}
+
 }  // namespace
 
 std::vector<NearSurface> find_near(std::span<const Body> bodies, const Grains& grains, std::uint32_t first,
@@ -104,13 +111,6 @@ Touch<double> touch_of(const Body& body, const SurfaceTouch& at, const Motion& g
           .inertia = 1 / spin.inverse_inertia};
 }
 
-PlacedSurface place(const Body& body, const Surface& surface) {
-  if (const auto* mesh = std::get_if<MeshSurface>(&surface.shape)) return {.body = &body, .mesh = mesh, .normal = {}};
-  const Plane& plane = std::get<Plane>(surface.shape);
-  const Vec3 normal = body.rotation(plane.normal);
-  return {.body = &body, .normal = normal, .offset = dot(body.to_bin(plane.point), normal)};
-}
-
 void Placed::place(std::span<const Body> bodies) {
   surfaces_.clear();
   begin_.clear();
@@ -118,25 +118,6 @@ void Placed::place(std::span<const Body> bodies) {
     begin_.push_back(surfaces_.size());
     for (const Surface& surface : body.surfaces) surfaces_.push_back(dem::place(body, surface));
   }
-}
-
-void put(TouchBatch& batch, int k, const Body& body, const SurfaceTouch& at, const Motion& grain, const Spin& spin,
-         const Memory<double>& memory) {
-  const auto column = [k](double(*columns)[8], const Triple<double>& a) {
-    columns[0][k] = a.x;
-    columns[1][k] = a.y;
-    columns[2][k] = a.z;
-  };
-  const Touch<double> touch = touch_of(body, at, grain, spin);
-  column(batch.normal, touch.normal);
-  column(batch.velocity, touch.velocity);
-  column(batch.rotation, touch.rotation);
-  column(batch.memory, memory.slide);
-  column(batch.memory + 3, memory.roll);
-  batch.overlap[k] = touch.overlap;
-  batch.radius[k] = touch.radius;
-  batch.inverse_mass[k] = grain.inverse_mass;
-  batch.inverse_inertia[k] = spin.inverse_inertia;
 }
 
 }  // namespace soilbin::dem

@@ -5,10 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "dem/engine/body.hpp"
 #include "dem/engine/grains.hpp"
-#include "dem/engine/kernels/touch_kernel.hpp"
 #include "dem/engine/laws/contact_law.hpp"
+#include "dem/surface/body.hpp"
 
 namespace soilbin::dem {
 
@@ -45,8 +44,6 @@ struct PlacedSurface {
   Vec3 normal;                        ///< of the plane, in the frame of the bin
   double offset = 0;                  ///< normal . x on the plane [m]
 };
-
-PlacedSurface place(const Body& body, const Surface& surface);
 
 /// What the grains of a slab do to a body.
 struct BodyLoad {
@@ -92,9 +89,5 @@ class Placed {
   std::vector<PlacedSurface> surfaces_;
   std::vector<std::size_t> begin_;
 };
-
-/// Writes a touch into column k of a batch; its memory and kind too.
-void put(TouchBatch& batch, int k, const Body& body, const SurfaceTouch& at, const Motion& grain, const Spin& spin,
-         const Memory<double>& memory);
 
 }  // namespace soilbin::dem

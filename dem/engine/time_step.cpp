@@ -18,15 +18,4 @@ double rayleigh_time(const Materials& materials, const Grains& grains) {
   return shortest;
 }
 
-double hertz_time(const Materials& materials, const Grains& grains, double speed) {
-  double shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < grains.count(); ++k) {
-    const Material& m = materials.all[grains.material[k]];
-    const double young = reduced_young(m, m), radius = grains.motion[k].radius / 2;
-    const double mass = 0.5 / grains.motion[k].inverse_mass;
-    shortest = std::min(shortest, 2.87 * std::pow(mass * mass / (radius * young * young * speed), 0.2));
-  }
-  return shortest;
-}
-
 }  // namespace soilbin::dem

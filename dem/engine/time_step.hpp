@@ -10,8 +10,4 @@ namespace soilbin::dem {
 /// Rayleigh wave speed.
 double rayleigh_time(const Materials& materials, const Grains& grains);
 
-/// T_H = 2.87 (m*^2/(R* E*^2 v))^(1/5): how long the shortest impact of two equal grains at `speed` [m/s] lasts [s].
-/// Infinite at rest.
-double hertz_time(const Materials& materials, const Grains& grains, double speed);
-
 }  // namespace soilbin::dem

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dem/engine/grains.hpp"
-#include "dem/engine/vec3.hpp"
 #include "dem/rig/wheel_outcome.hpp"
+#include "dem/surface/vec3.hpp"
 
 namespace soilbin::dem {
 

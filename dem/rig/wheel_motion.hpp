@@ -3,7 +3,7 @@
 // gravity, not the bin. Signs: docs/conventions.md.
 #pragma once
 
-#include "dem/engine/vec3.hpp"
+#include "dem/surface/vec3.hpp"
 #include "scenario/operating_condition.hpp"
 
 namespace soilbin::dem {

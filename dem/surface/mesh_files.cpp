@@ -17,7 +17,7 @@
 #include <system_error>
 #include <vector>
 
-#include "dem/engine/positive.hpp"
+#include "dem/surface/positive.hpp"
 #include "dem/surface/mesh_checks.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"

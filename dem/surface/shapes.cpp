@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 
-#include "dem/engine/positive.hpp"
+#include "dem/surface/positive.hpp"
 #include "dem/surface/mesh_checks.hpp"
 
 namespace soilbin::dem {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "dem/engine/positive.hpp"
+#include "dem/surface/positive.hpp"
 #include "dem/surface/closest_point.hpp"
 
 namespace soilbin::dem {

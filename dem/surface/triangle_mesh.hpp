@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dem/engine/vec3.hpp"
+#include "dem/surface/vec3.hpp"
 
 namespace soilbin::dem {
 

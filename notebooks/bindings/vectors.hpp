@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "dem/engine/vec3.hpp"
+#include "dem/surface/vec3.hpp"
 #include "notebooks/bindings/bindings.hpp"
 
 namespace soilbin::python {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dem/engine/materials.hpp"
-#include "dem/engine/vec3.hpp"
+#include "dem/surface/vec3.hpp"
 
 namespace soilbin::dem::test {
 

@@ -4,14 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "dem/engine/kernels/near_kernel.hpp"
-#include "dem/engine/kernels/pair_kernel.hpp"
-#include "dem/engine/kernels/touch_kernel.hpp"
+#include "dem/engine/kernels/kernels.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
 
-// As pair_kernel.cpp names them, by what Highway calls each instruction set.
+// As the kernels' files name them, by what Highway calls each instruction set.
 namespace N_AVX3 {
 void run_pairs(const PairSweep&, std::size_t, std::size_t, PairFindings&);
 void run_touches(const TouchSweep&, TouchBatch&, int);
@@ -33,26 +31,13 @@ namespace {
 struct Choice {
   std::string_view name;
   std::int64_t target;
-  PairKernel pairs;
-  TouchKernel touches;
-  NearKernel near;
+  Kernels kernels;
 };
 
 constexpr std::array<Choice, 3> choices = {
-    {{"avx512", HWY_AVX3, N_AVX3::run_pairs, N_AVX3::run_touches, N_AVX3::find_near_rows},
-     {"avx2", HWY_AVX2, N_AVX2::run_pairs, N_AVX2::run_touches, N_AVX2::find_near_rows},
-     {"sse4", HWY_SSE4, N_SSE4::run_pairs, N_SSE4::run_touches, N_SSE4::find_near_rows}}};
-
-const Choice& choice_of(std::string_view instruction_set) {
-  std::string known;
-  for (const std::string_view name : instruction_sets()) {
-    for (const Choice& choice : choices)
-      if (choice.name == name && name == instruction_set) return choice;
-    known += known.empty() ? "" : ", ";
-    known += name;
-  }
-  throw InputError("no instruction set '" + std::string(instruction_set) + "' here\n  hint: this machine has " + known);
-}
+    {{"avx512", HWY_AVX3, {N_AVX3::run_pairs, N_AVX3::run_touches, N_AVX3::find_near_rows}},
+     {"avx2", HWY_AVX2, {N_AVX2::run_pairs, N_AVX2::run_touches, N_AVX2::find_near_rows}},
+     {"sse4", HWY_SSE4, {N_SSE4::run_pairs, N_SSE4::run_touches, N_SSE4::find_near_rows}}}};
 
 }  // namespace
 
@@ -66,10 +51,15 @@ std::span<const std::string_view> instruction_sets() {
   return here;
 }
 
-PairKernel pair_kernel(std::string_view instruction_set) { return choice_of(instruction_set).pairs; }
-
-TouchKernel touch_kernel(std::string_view instruction_set) { return choice_of(instruction_set).touches; }
-
-NearKernel near_kernel(std::string_view instruction_set) { return choice_of(instruction_set).near; }
+Kernels kernels_for(std::string_view instruction_set) {
+  std::string known;
+  for (const std::string_view name : instruction_sets()) {
+    for (const Choice& choice : choices)
+      if (choice.name == name && name == instruction_set) return choice.kernels;
+    known += known.empty() ? "" : ", ";
+    known += name;
+  }
+  throw InputError("no instruction set '" + std::string(instruction_set) + "' here\n  hint: this machine has " + known);
+}
 
 }  // namespace soilbin::dem

@@ -1,7 +1,6 @@
 // Compiled once for each instruction set (dem/CMakeLists.txt), each in a namespace of its own.
-#include "dem/engine/kernels/near_kernel.hpp"
-
-#include "dem/engine/grain_rows.hpp"
+#include "dem/engine/kernels/grain_rows.hpp"
+#include "dem/engine/kernels/kernels.hpp"
 #include "dem/engine/kernels/pack.hpp"
 
 namespace soilbin::dem::HWY_NAMESPACE {

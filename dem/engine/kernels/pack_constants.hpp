@@ -1,10 +1,12 @@
-// The law's constants for a pack of contacts, from a table with a row of 16 doubles for each kind of pair.
+// What a pack of contacts takes from tables and adds to sums: the law's constants, from a table with a row of 16
+// doubles for each kind of pair, and the powers lost.
 #pragma once
 
 #include <cstdint>
 
+#include "dem/engine/kernels/grain_rows.hpp"
 #include "dem/engine/kernels/pack.hpp"
-#include "dem/engine/laws/law_constants.hpp"
+#include "dem/engine/laws/contact_law.hpp"
 
 namespace soilbin::dem::HWY_NAMESPACE {
 
@@ -27,6 +29,15 @@ HWY_INLINE LawConstants<Pack> constants_of(const double* table, const std::uint8
   for (int k = 1; k < lanes; ++k)
     if (kind[k] != kind[0]) return gather(table, kind);
   return broadcast(table + 16 * kind[0]);
+}
+
+/// Adds the losses of the contacts `counted`.
+HWY_INLINE void add_up(const Losses<Pack>& of, PackMask counted, LostPower& sum) {
+  sum.damping = add_up(sum.damping, where(counted, of.damping));
+  sum.shear_damping = add_up(sum.shear_damping, where(counted, of.shear_damping));
+  sum.sliding = add_up(sum.sliding, where(counted, of.sliding));
+  sum.into_slide = add_up(sum.into_slide, where(counted, of.into_slide));
+  sum.into_roll = add_up(sum.into_roll, where(counted, of.into_roll));
 }
 
 }  // namespace soilbin::dem::HWY_NAMESPACE

@@ -1,7 +1,5 @@
 // Compiled once for each instruction set (dem/CMakeLists.txt), each in a namespace of its own.
-#include "dem/engine/kernels/pair_kernel.hpp"
-
-#include "dem/engine/grain_rows.hpp"
+#include "dem/engine/kernels/kernels.hpp"
 #include "dem/engine/kernels/pack_constants.hpp"
 #include "dem/engine/laws/contact_law.hpp"
 
@@ -65,8 +63,7 @@ HWY_INLINE void meet(const Grain& i, const Grain& j, Pack distance, bool with_in
 /// Where losses are counted: adds them up, and adds the parts of the loads that make them.
 HWY_INLINE void count(const PairSweep& sweep, bool rolls, std::size_t pair, PackMask touching, const Touch<Pack>& touch,
                       const Response<Pack>& does, const Losses<Pack>& losses, PairFindings& found) {
-  const Pack all[] = {losses.damping, losses.shear_damping, losses.sliding, losses.into_slide, losses.into_roll};
-  for (int k = 0; k < 5; ++k) found.losses[k] = add_up(found.losses[k], where(touching, all[k]));
+  add_up(losses, touching, found.lost);
   const Triad dashpot = where(touching, losses.dashpot * touch.normal), slide = where(touching, does.tangential);
   const SixPacks forces{dashpot.x, dashpot.y, dashpot.z, slide.x, slide.y, slide.z};
   add_rows(forces, [&](int k) { return &sweep.taking[sweep.first[pair + k]].dashpot.x; });

@@ -1,6 +1,5 @@
 // Compiled once for each instruction set (dem/CMakeLists.txt), each in a namespace of its own.
-#include "dem/engine/kernels/touch_kernel.hpp"
-
+#include "dem/engine/kernels/kernels.hpp"
 #include "dem/engine/kernels/pack_constants.hpp"
 #include "dem/engine/laws/contact_law.hpp"
 
@@ -41,9 +40,7 @@ void run_touches(const TouchSweep& sweep, TouchBatch& batch, int count) {
     if (!sweep.ledger) continue;
     store_triad(losses.dashpot * touch.normal, batch.dashpot, first);
     store_triad(does.tangential, batch.slide, first);
-    const Pack all[] = {losses.damping, losses.shear_damping, losses.sliding, losses.into_slide, losses.into_roll};
-    const PackMask used = mask_of((1u << (count - first)) - 1);
-    for (int k = 0; k < 5; ++k) batch.losses[k] = add_up(batch.losses[k], where(used, all[k]));
+    add_up(losses, mask_of((1u << (count - first)) - 1), batch.lost);
   }
 }
 

@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "dem/engine/vec3.hpp"
 #include "dem/surface/triangle_grid.hpp"
+#include "dem/surface/vec3.hpp"
 
 namespace soilbin::dem {
 

@@ -1,7 +1,7 @@
-// The rows that hot loops read and write; plain data.
+// What hot loops read and write of a grain, a row each, and what they add up beside it. Plain data.
 #pragma once
 
-#include "dem/engine/vec3.hpp"
+#include "dem/surface/vec3.hpp"
 
 namespace soilbin::dem {
 
@@ -32,6 +32,16 @@ struct alignas(64) Taking {
   Vec3 dashpot;             ///< of normal dashpots [N]
   Vec3 slide;               ///< tangential [N]
   alignas(64) Vec3 couple;  ///< of rolling resistance [N m]
+};
+
+/// Powers that contacts take from the motion, summed [W]; parts as in Losses of the law and in Ledger.
+struct LostPower {
+  double damping = 0, shear_damping = 0, sliding = 0, into_slide = 0, into_roll = 0;
+  LostPower& operator+=(const LostPower& other) {
+    damping += other.damping, shear_damping += other.shear_damping, sliding += other.sliding;
+    into_slide += other.into_slide, into_roll += other.into_roll;
+    return *this;
+  }
 };
 
 }  // namespace soilbin::dem

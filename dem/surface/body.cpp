@@ -1,11 +1,11 @@
-#include "dem/engine/body.hpp"
+#include "dem/surface/body.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "dem/engine/positive.hpp"
+#include "dem/surface/positive.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {

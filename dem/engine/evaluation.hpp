@@ -1,0 +1,48 @@
+// What holds at the present time: contacts, motion at whole steps, energy. Forces are those that the next step will
+// find; nothing is changed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dem/engine/energy.hpp"
+#include "dem/engine/grains.hpp"
+
+namespace soilbin::dem {
+
+struct World;
+
+/// A contact as it is now.
+struct Contact {
+  GrainId first;
+  std::int64_t second;    ///< id of a grain; or -1 - index of a body
+  std::int32_t triangle;  ///< of the body's mesh, -1 for none
+  Vec3 point, normal;     ///< normal toward `first`
+  double overlap;         ///< [m]
+  Vec3 force, couple;     ///< on `first` [N], [N m]
+  double pressing;        ///< F_N [N]
+};
+
+/// Motion of a grain at a whole step.
+struct GrainNow {
+  Vec3 position, velocity, spin;
+  double radius;
+};
+
+/// What a load and gravity change in a grain's motion within some time.
+struct Kick {
+  Vec3 velocity, spin;
+};
+
+std::vector<Contact> contacts_of(const World& world);
+/// Of the contacts on each grain, row by row.
+std::vector<Load> loads_of(const World& world);
+EnergyBalance energy_of(const World& world);
+
+/// Whether the velocity of the grain in this row is still at a whole step.
+bool is_new(const World& world, std::size_t row);
+/// Within `time` [s].
+Kick kick_of(const World& world, std::size_t row, const Load& load, double time);
+GrainNow motion_at(const World& world, std::size_t row, const Load& load);
+
+}  // namespace soilbin::dem

@@ -1,0 +1,78 @@
+// What a run is made of: the setup, which stays as it is given, and the state, which changes and which a restart keeps.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "dem/engine/domain.hpp"
+#include "dem/engine/energy.hpp"
+#include "dem/engine/materials.hpp"
+#include "dem/engine/pair_list.hpp"
+#include "dem/engine/surface_contacts.hpp"
+#include "dem/surface/body.hpp"
+
+namespace soilbin::dem {
+
+/// When grains are left out of the work because they rest. A slab of cells whose grains, and those of both slabs beside
+/// it, have all been slower than `speed` for `time` stands still: its grains keep their places, and what its contacts
+/// remember stays, until a grain beside it is faster again or gravity, grains, bodies or materials change. Slabs near a
+/// body that moves or may move never sleep. So no grain is held that was faster than `speed`, but creep slower than
+/// that is lost (docs/dem-performance.md has what this does to a wheel).
+struct Sleep {
+  double speed = 0;    ///< [m/s]; 0: no grain ever sleeps
+  double time = 0.05;  ///< [s]
+};
+
+/// How it is computed. Results depend on skin and instruction set by rounding alone.
+struct Numerics {
+  double dt = 1e-5;              ///< [s]
+  double skin = 0;               ///< margin of the search for pairs [m]; 0: a fifth of the largest radius
+  double deepest_overlap = 0.3;  ///< of the smaller radius; deeper stops the run
+  double safe_share = 0.2;       ///< of the Rayleigh time; a longer step is refused
+  bool force_step = false;       ///< takes a longer one all the same
+  int threads = 0;               ///< 0: one a core; at most most_threads()
+  std::string instruction_set;   ///< of instruction_sets(); empty: the widest
+  bool ledger = false;           ///< counts where the energy goes; a step takes about twice as long
+  Sleep sleep;
+};
+
+/// 256, or the machine's cores where there are more.
+int most_threads();
+
+/// What doesn't change during a run.
+struct Setup {
+  Materials materials;
+  ContactLaws laws;
+  Domain domain;
+  Numerics numerics;
+};
+
+/// All that changes; what an archive keeps.
+struct State {
+  std::int64_t step = 0;
+  double time = 0;  ///< of positions [s]
+  Vec3 gravity;     ///< [m/s^2]
+  Grains grains;
+  std::vector<Body> bodies;
+  PairList pairs;
+  std::vector<std::uint32_t> slab_rows;   ///< first row of each slab, and the end
+  std::vector<SurfaceContacts> surfaces;  ///< a slab each
+  std::vector<std::uint32_t> calm;   ///< of each slab: steps in a row in which no grain was fast, as far as counted
+  std::vector<BodyLoad> body_loads;  ///< of each slab on each body, slab by slab; those asleep go on pressing
+  std::vector<Vec3> searched_at;     ///< positions at the last search for pairs
+  double travel = 0;                 ///< bound on what any grain or body has moved since [m]; infinite: it is due
+  std::uint32_t next_id = 0;
+  std::vector<GrainId> new_grains;  ///< whose velocity is still at a whole step
+  Ledger ledger;
+};
+
+/// A run that can't go on: an overlap too deep, a grain lost or not finite. what() names the grain and the time. A
+/// grain lost is noticed at a search, so it may be half the skin outside.
+class RunStopped : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace soilbin::dem
