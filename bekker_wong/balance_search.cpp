@@ -51,7 +51,7 @@ FirstRoot first_rising_root(gsl::FunctionRef f, double upper) {
     if (high.f >= 0.0) return root_between(low.x, high.x);
     note(high);
     if (low.f >= high.f && low.f > before.f && std::isfinite(before.x)) {  // low is the highest of three: a hump
-      const Sample top = gsl::bracketed_top(f, before, low, high, 1e-9, 0.0, "the balance of the load");
+      const Sample top = gsl::bracketed_maximum(f, {before, low, high}, 1e-9, 0.0, "the balance of the load");
       note(top);
       if (top.f >= 0.0) return root_between(before.x, top.x);
     }
@@ -65,7 +65,7 @@ Sample climb(gsl::FunctionRef f, double about, double upper) {
   const auto at = [&](double x) { return Sample{std::min(x, upper), f(std::min(x, upper))}; };
   const auto top = [&](const Sample& a, const Sample& middle, const Sample& b) {
     const auto [left, right] = std::minmax(a, b, [](const Sample& l, const Sample& r) { return l.x < r.x; });
-    return gsl::bracketed_top(f, left, middle, right, known_to, 0.0, "the most that the soil carries");
+    return gsl::bracketed_maximum(f, {left, middle, right}, known_to, 0.0, "the most that the soil carries");
   };
   double step = first_step;
   Sample behind = at(about), here = at(behind.x + step);

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "bekker_wong/gsl.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::bekker_wong {
@@ -29,19 +28,6 @@ double critical_ground_pressure(const SoilValues& soil, double radius, double wi
 }
 
 namespace paper {
-
-double drawbar_pull(double (*shear)(double), double (*normal)(double), double radius, double width, double theta_1) {
-  const auto density = [&](double t) { return shear(t) * std::cos(t) - normal(t) * std::sin(t); };
-  return radius * width * gsl::integrate(density, 0.0, theta_1, 1e-10, "the paper's Eq. 1");
-}
-
-double axle_torque(double driving_couple, double friction_couple) { return driving_couple - friction_couple; }
-
-double tractive_efficiency(double drawbar_pull, double torque, double radius, double slip) {
-  return drawbar_pull * radius / torque * (1 - slip);
-}
-
-double slip(double speed, double spin, double radius) { return 1 - speed / (spin * radius); }
 
 double sinkage(const SoilValues& soil, double radius, double width, double load, double slip, double theta_m) {
   return bekker_static_sinkage(soil, radius, width, load) + radius * (1 - slip) * theta_m;

@@ -1,4 +1,4 @@
-// Answers on the back of an envelope: closed forms that need no balance, and the source paper's own equations.
+// Answers on the back of an envelope: closed forms that need no balance, and the source paper's estimate of sinkage.
 #pragma once
 
 #include "bekker_wong/contact_patch.hpp"
@@ -20,24 +20,14 @@ double rolling_resistance(const SoilValues& soil, double radius, double width, d
 /// pressure exceeds it rolls as if rigid (Wong, Theory of Ground Vehicles, ch. 2).
 double critical_ground_pressure(const SoilValues& soil, double radius, double width, double load);
 
-/// The source paper's equations as they stand in it, with their faults named. None is used by the model.
+/// The source paper's equations as they stand in it. Of its Eqs. 1 to 4, which are those of the model or of
+/// docs/conventions.md, two have a fault: Eq. 1 takes the drawbar pull's integral from 0 on, not from theta_2, so soil
+/// behind the axle is left out; Eq. 3 prints '(4i)' for the efficiency's (1 - i).
 namespace paper {
-
-/// Eq. 1: drawbar pull [N] with the integral from 0 to theta_1. Fault: the contact starts at theta_2, so soil behind
-/// the axle is left out; equal to the base model's only where theta_2 = 0. shear and normal: tau, sigma [Pa] of theta.
-double drawbar_pull(double (*shear)(double), double (*normal)(double), double radius, double width, double theta_1);
-
-/// Eq. 2: axle torque [N m] = driving couple less the ground's friction couple.
-double axle_torque(double driving_couple, double friction_couple);
-
-/// Eq. 3, TE = F_DP r/M (1 - i). Printed as '(4i)', a misprint: (1 - i) is what the definition gives.
-double tractive_efficiency(double drawbar_pull, double torque, double radius, double slip);
-
-/// Eq. 4: slip i = 1 - v/(w0 r).
-double slip(double speed, double spin, double radius);
 
 /// Eq. 5: z = Bekker's static sinkage + (D/2)(1 - i) theta_m [m]. Faults: the second term, called slip sinkage, falls
 /// with slip where measured slip sinkage rises; and it is the arc length that rolls past theta_m, not a depth.
+/// `soilbin explain` shows it beside the model's.
 double sinkage(const SoilValues& soil, double radius, double width, double load, double slip, double theta_m);
 
 }  // namespace paper

@@ -1,5 +1,5 @@
-// The contact between wheel and soil, as arrays over quadrature nodes. The stages that fill it (wheel_balance.cpp)
-// read in this order: geometry, pressure, displacement, strength, shear. Effects change the arrays in place between
+// The contact between wheel and soil, as arrays over quadrature nodes. The stages that fill it (contact_stages.hpp)
+// run in this order: geometry, pressure, displacement, strength, shear. Effects change the arrays in place between
 // the stages; one virtual call handles all nodes.
 #pragma once
 

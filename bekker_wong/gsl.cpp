@@ -114,8 +114,10 @@ double bracketed_root(FunctionRef f, double lower, double upper, double rel_tol,
   throw std::domain_error(what + ": no convergence in 200 iterations");
 }
 
-Sample bracketed_top(FunctionRef f, Sample before, Sample top, Sample after, double x_tol, double enough,
-                     const std::string& what) {
+Sample bracketed_maximum(FunctionRef f, const MaximumBracket& within, double x_tol, double enough,
+                         const std::string& what) {
+  const auto& [before, highest, after] = within;
+  Sample top = highest;
   for (const Sample& side : {before, after}) {
     if (top.f != side.f) continue;  // as high: higher between the two, or nowhere
     const double between = 0.5 * (top.x + side.x), value = f(between);

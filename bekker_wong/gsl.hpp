@@ -38,11 +38,17 @@ struct Sample {
   double x = 0.0, f = 0.0;
 };
 
-/// Highest point of a continuous f between two samples of it either side of a higher one, by Brent's method
-/// (gsl_min_fminimizer_brent): done where x is known to x_tol or 6e-8 |x|, or f reaches `enough`; `top` itself where it
-/// is not higher than both. Throws std::domain_error with `what` where f is not finite.
-Sample bracketed_top(FunctionRef f, Sample before, Sample top, Sample after, double x_tol, double enough,
-                     const std::string& what);
+/// Three points of a curve from left to right, between which its highest one lies where `top` is higher than the
+/// others.
+struct MaximumBracket {
+  Sample before, top, after;
+};
+
+/// Highest point of a continuous f within a bracket, by Brent's method (gsl_min_fminimizer_brent): done where x is
+/// known to x_tol or 6e-8 |x|, or f reaches `enough`; `top` itself where it is not higher than both. Throws
+/// std::domain_error with `what` where f is not finite.
+Sample bracketed_maximum(FunctionRef f, const MaximumBracket& within, double x_tol, double enough,
+                         const std::string& what);
 
 /// Integral over [a, b] by QAGS to rel_tol. Throws std::runtime_error with `what` where it does not converge.
 double integrate(FunctionRef f, double a, double b, double rel_tol, const std::string& what);

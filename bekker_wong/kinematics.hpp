@@ -1,3 +1,4 @@
+// How the wheel moves over the soil: its slip in its own plane, and its forward and lateral speeds over the rim's.
 #pragma once
 
 #include "scenario/operating_condition.hpp"

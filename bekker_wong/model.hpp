@@ -1,3 +1,5 @@
+// The analytic wheel (Bekker 1969; Wong and Reece 1967) as a Model: results with standard errors, budget and stresses.
+// The wheel itself: rolling_wheel.hpp.
 #pragma once
 
 #include "bekker_wong/contact_patch.hpp"

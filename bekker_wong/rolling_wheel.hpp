@@ -1,3 +1,8 @@
+// The analytic wheel in balance with its load: the angles at which the soil carries it, and the stresses and forces
+// then.
+//
+//   const RolledWheel wheel = RollingWheel(tire, soil_values, effects).roll({.load = 4000, .slip = 0.2});
+//   wheel.reading.drawbar_pull, wheel.sinkage, wheel.patch.normal
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// The motor of a drive: the torque that a controller of speed or of torque gives at each moment.
 #pragma once
 
 #include <array>

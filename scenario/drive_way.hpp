@@ -1,3 +1,4 @@
+// The way of a drive: slope, yaw, drawbar load and soil at each place along it, from the waypoints of a case.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// A number that knows how sure it is: what every result and every measured input is made of.
 #pragma once
 
 #include <limits>

@@ -1,3 +1,4 @@
+// "did you mean ...?": the right word nearest to a misspelt one, for error messages.
 #pragma once
 
 #include <string>

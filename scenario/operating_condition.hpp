@@ -1,3 +1,4 @@
+// One operating point of a wheel: load, slip, speed, inclines, yaw. What a model is asked, and a run was made at.
 #pragma once
 
 #include <compare>

@@ -1,3 +1,7 @@
+// A question without its operating point (tire, soil, bin, effects), and the interface that every model answers by:
+//
+//   const TractionResult result = bekker_wong::BekkerWong().evaluate(scenario, {.load = 4000, .slip = 0.2});
+//   result.drawbar_pull.value  // [N], with result.drawbar_pull.std_error
 #pragma once
 
 #include <map>

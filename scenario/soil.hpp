@@ -1,3 +1,4 @@
+// A soil, as the analytic model needs it (pressure, sinkage and shear values), as grains, or both.
 #pragma once
 
 #include <map>

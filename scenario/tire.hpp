@@ -1,3 +1,4 @@
+// A tire or rigid wheel: its outside measures, lugs and inflation pressure.
 #pragma once
 
 #include <map>

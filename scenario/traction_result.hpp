@@ -1,3 +1,5 @@
+// What a model or a measurement says of a wheel at one operating point: pull, torque, sinkage, side force, each with
+// its standard error, and what they are made of.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// Arithmetic in small finite fields, from which orthogonal arrays are made (orthogonal_array.hpp).
 #pragma once
 
 #include <vector>

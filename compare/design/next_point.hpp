@@ -1,4 +1,4 @@
-// Which point to look at next.
+// Which point to look at next, where runs are dear and a surrogate knows how sure it is (gaussian_process.hpp).
 #pragma once
 
 #include <Eigen/Dense>
@@ -11,19 +11,12 @@ namespace soilbin::compare {
 /// What each rule likes best; all are largest at the point to choose, for a function that the surrogate predicts as
 /// value +- std_error there.
 
-/// Where the surrogate is least sure: std_error.
-double uncertainty(const Estimate& predicted);
-
-/// By how much the point is expected to come out below `lowest`, the least value seen [the value's unit]
-/// (Jones, Schonlau and Welch 1998, J. Global Optim. 13:455).
-double expected_improvement(const Estimate& predicted, double lowest);
-
 /// How likely the function lies within `half_width` of `target`.
 double chance_within(const Estimate& predicted, double target, double half_width);
 
-/// Where the boundary |function| = limit of an excess set may be: 1.96 std_error - distance of the value to the nearer
-/// of
-/// +-limit (the straddle of Bryan et al. 2005, Active learning for identifying function threshold boundaries).
+/// Where the boundary |function| = limit of an excess set may be: 1.96 std_error - distance of the value to the
+/// nearer of +-limit (the straddle of Bryan et al. 2005, Active learning for identifying function threshold
+/// boundaries).
 double straddle(const Estimate& predicted, double limit);
 
 /// The candidate (a row each) of which `score` likes the prediction best; the first of equals. Throws

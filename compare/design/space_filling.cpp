@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -66,13 +65,6 @@ MatrixXd maximin_latin_hypercube(int points, int dimensions, std::uint64_t seed,
     if (crowding(cube, a) + crowding(cube, b) >= before) std::swap(cube(a, j), cube(b, j));
   }
   return cube;
-}
-
-double smallest_distance(const MatrixXd& points) {
-  double least = std::numeric_limits<double>::infinity();
-  for (Index i = 0; i < points.rows(); ++i)
-    for (Index j = i + 1; j < points.rows(); ++j) least = std::min(least, (points.row(i) - points.row(j)).norm());
-  return least;
 }
 
 }  // namespace soilbin::compare

@@ -16,7 +16,4 @@ Eigen::MatrixXd latin_hypercube(int points, int dimensions, std::uint64_t seed);
 /// 43:381). Points lie in the middle of their slices. Work grows as points * swaps.
 Eigen::MatrixXd maximin_latin_hypercube(int points, int dimensions, std::uint64_t seed, int swaps = 2000);
 
-/// Smallest distance between two rows; infinite for one.
-double smallest_distance(const Eigen::MatrixXd& points);
-
 }  // namespace soilbin::compare

@@ -3,7 +3,9 @@
 
 #include <fmt/core.h>
 
+#include "bekker_wong/effect.hpp"
 #include "compare/loop/answer_words.hpp"
+#include "compare/loop/held_out_words.hpp"
 #include "compare/report/result_json.hpp"
 #include "notebooks/bindings/bindings.hpp"
 #include "scenario/case.hpp"
@@ -48,6 +50,23 @@ void bind_loop_parts(py::module_& module) {
       .def_readonly("runs", &NextTest::runs);
 }
 
+/// Names of the channels that are predicted worse with the effects of the model than without.
+std::vector<std::string> worse(const LoopAnswer& answer) {
+  std::vector<std::string> names;
+  for (const int channel : compare::worse_channels(answer))
+    names.emplace_back(compare::channel_views[static_cast<std::size_t>(channel)].name);
+  return names;
+}
+
+/// What each effect of the answer's model takes for values that its wheel does not declare, by the effect's id.
+std::map<std::string, std::vector<bekker_wong::Presumed>> presumes(const LoopAnswer& answer) {
+  std::map<std::string, std::vector<bekker_wong::Presumed>> all;
+  for (const auto& effects : {answer.effects, answer.stand_in})
+    for (const AcceptedEffect& effect : effects)
+      all[effect.choice.id] = bekker_wong::presumed(bekker_wong::find_form(effect.choice), answer.wheel);
+  return all;
+}
+
 py::dict held_out(const LoopAnswer& answer) {
   py::dict out;
   const auto row = [](const compare::ErrorPair& pair) {
@@ -84,6 +103,12 @@ void bind_answer(py::module_& module) {
       .def_property_readonly("held_out", &held_out,
                              "root mean square errors on conditions that neither choice nor fit has seen, by channel "
                              "[SI] and 'all' [sigma]: cells, before, after, noise_floor; empty without validation")
+      .def_property_readonly("worse", &worse,
+                             "channels whose held-out error is larger with the effects of the model than without; "
+                             "empty for a model without effects and without validation")
+      .def_property_readonly("presumes", &presumes,
+                             "of each effect of the model, by id: what it takes for values that the campaign's wheel "
+                             "does not declare (lugs, inflation pressure); an empty list where it presumes nothing")
       .def_property_readonly(
           "sentences",
           [](const LoopAnswer& a) {

@@ -2,9 +2,11 @@
 #include <fmt/core.h>
 
 #include "bekker_wong/closed_forms.hpp"
+#include "bekker_wong/effect.hpp"
 #include "bekker_wong/limits.hpp"
 #include "bekker_wong/model.hpp"
 #include "notebooks/bindings/bindings.hpp"
+#include "notebooks/bindings/scenario.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::python {
@@ -125,9 +127,27 @@ void bind_closed_forms(py::module_& module) {
        "Wong's critical ground pressure [Pa]: a tire harder than this rolls as if rigid.");
 }
 
+void bind_presumptions(py::module_& module) {
+  py::class_<bekker_wong::Presumed>(module, "Presumed",
+                                    "A value that an effect takes although the wheel does not declare it.")
+      .def_readonly("key", &bekker_wong::Presumed::key, "as in a tire file: 'lugs.height'")
+      .def_readonly("value", &bekker_wong::Presumed::value, "[SI]")
+      .def_readonly("words", &bekker_wong::Presumed::words, "'lugs.height = 12.5 mm (5 % of the radius)'");
+  module.def(
+      "presumed",
+      [](const EffectName& effect, const Tire& tire) {
+        return bekker_wong::presumed(bekker_wong::find_form(effect_of(effect)), tire);
+      },
+      py::arg("effect"), py::arg("tire"),
+      "What an effect takes for values that the tire does not declare; empty where the tire declares all that it "
+      "reads. "
+      "effect: 'lug_thrust', 'lug_thrust:FORM' or an EffectChoice.");
+}
+
 }  // namespace
 
 void bind_wheel(py::module_& module) {
+  bind_presumptions(module);
   bind_rolled(module);
   bind_limits(module);
   bind_closed_forms(module);

@@ -14,18 +14,7 @@ from pathlib import Path
 SOILBIN = os.path.abspath(sys.argv.pop(1))
 NOBODY = 65534
 
-PEBBLES = """format: soilbin-soil/1
-name: pebbles
-source: chosen
-granular:
-  radius_min: 16 mm
-  radius_max: 20 mm
-  grain_density: 2500 kg/m^3
-  youngs_modulus: 2 MPa
-  poisson_ratio: 0.2
-  grain_grain: {restitution: 0.4, sliding_friction: 0.5, rolling_friction: 0.1}
-  grain_tire: {restitution: 0.4, sliding_friction: 0.5, rolling_friction: 0.1}
-"""
+PEBBLES = (Path(__file__).resolve().parents[1] / "fixtures/pebbles.yaml").read_text(encoding="utf-8")
 CASE = """format: soilbin-case/1
 name: pebbles
 tire: {radius: 150 mm, width: 100 mm}

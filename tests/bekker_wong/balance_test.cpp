@@ -36,14 +36,7 @@ std::string refusal(const RollingWheel& wheel, const OperatingCondition& at) {
   return "(answered)";
 }
 
-const SoilValues snow{.exponent = 1.6,
-                      .k_c = 4370,
-                      .k_phi = 196720,
-                      .cohesion = 1030,
-                      .friction_angle = 19.7 * degree,
-                      .shear_modulus = 0.04,
-                      .c1 = 0.2,
-                      .c2 = 0.3};
+const SoilValues snow = values_of(test::snow());
 
 /// A soil on which a braked wheel carries most at a middling depth: friction of 45 deg against z^0.5.
 const SoilValues gripping{.exponent = 0.5,
@@ -228,13 +221,14 @@ TEST(BalanceSearch, ATopIsHighEnoughOrTheHighest) {
   int calls = 0;
   const auto wave = [&](double x) { return ++calls, std::cos(x); };
   const auto at = [](double x) { return gsl::Sample{x, std::cos(x)}; };
-  EXPECT_NEAR(gsl::bracketed_top(wave, at(-1), at(0.5), at(2), 1e-7, 2.0, "").x, 0.0, 1e-7);
-  EXPECT_GE(gsl::bracketed_top(wave, at(-1), at(0.5), at(2), 1e-7, 0.95, "").f, 0.95);
-  EXPECT_NEAR(gsl::bracketed_top(wave, at(5), at(6), at(8), 1e-5, 2.0, "").x, 2 * std::numbers::pi, 1e-5);
-  EXPECT_NEAR(gsl::bracketed_top(wave, at(-1), at(1), at(1.5), 1e-7, 2.0, "").x, 0.0, 1e-7) << "as high as before";
+  EXPECT_NEAR(gsl::bracketed_maximum(wave, {at(-1), at(0.5), at(2)}, 1e-7, 2.0, "").x, 0.0, 1e-7);
+  EXPECT_GE(gsl::bracketed_maximum(wave, {at(-1), at(0.5), at(2)}, 1e-7, 0.95, "").f, 0.95);
+  EXPECT_NEAR(gsl::bracketed_maximum(wave, {at(5), at(6), at(8)}, 1e-5, 2.0, "").x, 2 * std::numbers::pi, 1e-5);
+  EXPECT_NEAR(gsl::bracketed_maximum(wave, {at(-1), at(1), at(1.5)}, 1e-7, 2.0, "").x, 0.0, 1e-7)
+      << "as high as before";
   EXPECT_LT(calls, 100);
   calls = 0;
-  EXPECT_EQ(gsl::bracketed_top(wave, at(-1), at(-0.5), at(0), 1e-7, 2.0, "").x, -0.5);
+  EXPECT_EQ(gsl::bracketed_maximum(wave, {at(-1), at(-0.5), at(0)}, 1e-7, 2.0, "").x, -0.5);
   EXPECT_EQ(calls, 0);
 }
 

@@ -6,38 +6,21 @@
 #include <cmath>
 
 #include "bekker_wong/effect.hpp"
+#include "bekker_wong/model.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "scenario/unit.hpp"
+#include "tests/fixtures.hpp"
 
 namespace soilbin::bekker_wong::bed {
 
 inline constexpr double radius = 0.25, width = 0.1;
 
 /// Wong's dry sand.
-inline SoilValues sand() {
-  return {.exponent = 1.1,
-          .k_c = 990,
-          .k_phi = 1.52843e6,
-          .cohesion = 1040,
-          .friction_angle = 28 * degree,
-          .shear_modulus = 0.02,
-          .c1 = 0.18,
-          .c2 = 0.32,
-          .density = 1600};
-}
+inline SoilValues sand() { return values_of(test::dry_sand()); }
 
-inline OperatingCondition driven(double load = 800, double slip = 0.2) {
-  OperatingCondition at;
-  at.load = load;
-  at.slip = slip;
-  return at;
-}
+inline OperatingCondition driven(double load = 800, double slip = 0.2) { return test::condition(load, slip); }
 
-inline Tire smooth_tire(double r = radius, double b = width) {
-  Tire tire;
-  tire.radius = r, tire.width = b;
-  return tire;
-}
+inline Tire smooth_tire(double r = radius, double b = width) { return test::smooth_wheel(r, b); }
 
 inline RollingWheel wheel_on(const SoilValues& soil, const EffectList& effects = {}, std::optional<Bin> bin = {}) {
   return {smooth_tire(), soil, effects, bin};

@@ -98,19 +98,6 @@ TEST(ClosedForms, BekkersSinkageIsTheShallowLimit) {
   EXPECT_NEAR(lighter, 1.0, 0.03);  // his series in theta_1 is cut after its second term: 2 % low at n = 0.8
 }
 
-TEST(PaperEquations, DrawbarPullFromZeroToTheEntryAngle) {
-  const auto one = [](double) { return 1.0; };
-  const auto none = [](double) { return 0.0; };
-  EXPECT_NEAR(paper::drawbar_pull(one, none, r, b, entry), r * b * std::sin(entry), 1e-15);
-  EXPECT_NEAR(paper::drawbar_pull(none, one, r, b, entry), -r * b * (1 - std::cos(entry)), 1e-15);
-}
-
-TEST(PaperEquations, EfficiencyAndSlip) {
-  EXPECT_NEAR(paper::slip(0.8, 2.0, 0.5), 0.2, 1e-15);
-  EXPECT_NEAR(paper::tractive_efficiency(500, 400, 0.5, 0.2), 500 * 0.5 / 400 * 0.8, 1e-15);
-  EXPECT_EQ(paper::axle_torque(300, 120), 180);
-}
-
 // Eq. 5's fault, kept as it stands in the paper: its 'slip sinkage' falls with slip.
 TEST(PaperEquations, SinkageFallsWithSlip) {
   const SoilValues soil = pressure_only(1.0);

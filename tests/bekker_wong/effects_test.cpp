@@ -62,18 +62,7 @@ const std::vector<Setting>& settings() {
         .c2 = 0.2,
         .density = 1700},
        9000},
-      {"snow",
-       tire(0.4, 0.25, 0, 60e3),
-       {.exponent = 1.6,
-        .k_c = 4370,
-        .k_phi = 196720,
-        .cohesion = 1030,
-        .friction_angle = 19.7 * degree,
-        .shear_modulus = 0.04,
-        .c1 = 0.2,
-        .c2 = 0.3,
-        .density = 400},
-       1200},
+      {"snow", tire(0.4, 0.25, 0, 60e3), values_of(test::snow()), 1200},
   };
   return all;
 }

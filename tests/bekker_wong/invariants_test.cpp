@@ -8,9 +8,11 @@
 #include <thread>
 #include <vector>
 
+#include "bekker_wong/model.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
+#include "tests/fixtures.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
@@ -186,17 +188,7 @@ TEST(Invariants, LimitsAreReachedWithoutAJump) {
 }
 
 TEST(Invariants, ThreadsDoNotChangeABit) {
-  Tire tire;
-  tire.radius = 0.25, tire.width = 0.1;
-  const SoilValues soil{.exponent = 1.1,
-                        .k_c = 990,
-                        .k_phi = 1.52843e6,
-                        .cohesion = 1040,
-                        .friction_angle = 28 * degree,
-                        .shear_modulus = 0.02,
-                        .c1 = 0.18,
-                        .c2 = 0.32};
-  const RollingWheel wheel(tire, soil);
+  const RollingWheel wheel(test::smooth_wheel(0.25, 0.1), values_of(test::dry_sand()));
   const auto sweep = [&] {
     std::vector<double> numbers;
     for (int i = -20; i <= 20; ++i) {

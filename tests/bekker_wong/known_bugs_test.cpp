@@ -17,21 +17,12 @@ using bed::smooth_tire;
 
 /// Wong's dry sand with an exponent of choice.
 SoilValues sand(double n = 1.1) {
-  return {.exponent = n,
-          .k_c = 990,
-          .k_phi = 1.52843e6,
-          .cohesion = 1040,
-          .friction_angle = 28 * degree,
-          .shear_modulus = 0.02,
-          .c1 = 0.18,
-          .c2 = 0.32};
+  SoilValues soil = bed::sand();
+  soil.exponent = n;
+  return soil;
 }
 
-OperatingCondition at_slip(double slip, double load = 800) {
-  OperatingCondition at;
-  at.load = load, at.slip = slip;
-  return at;
-}
+OperatingCondition at_slip(double slip, double load = 800) { return test::condition(load, slip); }
 
 RolledWheel roll(double slip, const SoilValues& soil = sand()) {
   return RollingWheel(smooth_tire(), soil).roll(at_slip(slip));

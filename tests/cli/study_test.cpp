@@ -114,24 +114,14 @@ study:
   EXPECT_THAT(labels, ElementsAre("bekker_wong + slip_sinkage:lyasko + exit_angle", "bekker_wong + slip_sinkage:ding"));
 }
 
-constexpr const char* pebbles = R"(format: soilbin-soil/1
-name: pebbles
-source: chosen
-granular:
-  radius_min: 16 mm
-  radius_max: 20 mm
-  grain_density: 2500 kg/m^3
-  youngs_modulus: 2 MPa
-  poisson_ratio: 0.2
-  grain_grain: {restitution: 0.4, sliding_friction: 0.5, rolling_friction: 0.1}
-  grain_tire: {restitution: 0.4, sliding_friction: 0.5, rolling_friction: 0.1}
-)";
+/// Coarse soft grains.
+std::string pebbles() { return text_of(SOILBIN_SOURCE_DIR "/tests/fixtures/pebbles.yaml"); }
 
 // Minutes of grains in seconds: a light wheel on a shallow bed of pebbles. It drives, carries its load at some depth
 // between the tops and the floor, and a bed that is there already is taken again: same numbers.
 TEST(SlowRun, DrivesAWheelOverGrains) {
   const Scratch scratch;
-  scratch.write("pebbles.yaml", pebbles);
+  scratch.write("pebbles.yaml", pebbles());
   const fs::path file = scratch.write("case.yaml", R"(format: soilbin-case/1
 name: pebbles
 tire: {radius: 150 mm, width: 100 mm}
@@ -158,7 +148,7 @@ study:
 // What is recorded is shown again without running, and a file for another question is refused.
 TEST(SlowRun, KeepsItsRunsInARecord) {
   const Scratch scratch;
-  scratch.write("pebbles.yaml", pebbles);
+  scratch.write("pebbles.yaml", pebbles());
   const fs::path file = scratch.write("case.yaml", R"(format: soilbin-case/1
 name: pebbles
 tire: {radius: 150 mm, width: 100 mm}

@@ -11,6 +11,7 @@
 
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
+#include "tests/compare/stand_in_board.hpp"
 #include "tests/dem/archive_scene.hpp"
 
 namespace soilbin::compare {
@@ -29,11 +30,8 @@ double board_angle(const VectorXd& v) {
 }
 
 VirtualTest board(double noise = 0.2 * degree, int* calls = nullptr) {
-  VirtualTest test;
-  test.identity = "stand-in board";
-  test.factors = {
-      {"restitution", 0.3, 0.7, "-"}, {"sliding_friction", 0.3, 0.9, "-"}, {"rolling_friction", 0.1, 0.7, "-"}};
-  test.targets = {{"board_angle", {31.47 * degree, 0}, "deg"}};
+  VirtualTest test = stand_in_board(
+      {{"restitution", 0.3, 0.7, "-"}, {"sliding_friction", 0.3, 0.9, "-"}, {"rolling_friction", 0.1, 0.7, "-"}});
   test.run = [=](const VectorXd& v, std::uint64_t seed) -> std::vector<Estimate> {
     if (calls != nullptr) ++*calls;
     std::mt19937_64 random(seed + static_cast<std::uint64_t>(1e6 * v.sum()));

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -17,6 +18,15 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+
+/// Smallest distance between two rows.
+double smallest_distance(const Eigen::MatrixXd& points) {
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    for (Eigen::Index j = i + 1; j < points.rows(); ++j)
+      least = std::min(least, (points.row(i) - points.row(j)).norm());
+  return least;
+}
 
 class Field : public testing::TestWithParam<int> {};
 

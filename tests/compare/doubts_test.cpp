@@ -8,10 +8,14 @@
 
 #include "compare/sweep/grain_doubts.hpp"
 #include "compare/sweep/unheard.hpp"
+#include "tests/fixtures.hpp"
 
 namespace soilbin::compare {
 namespace {
 
+using test::condition;
+using test::dry_sand;
+using test::wheel_on_sand;
 using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
@@ -20,32 +24,7 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-OperatingCondition condition(double load, double slip) {
-  OperatingCondition at;
-  at.load = load, at.slip = slip;
-  return at;
-}
-
-SemiEmpiricalSoil sand() {
-  return {.exponent = {1.1, 0},
-          .k_c = {990, 0},
-          .k_phi = {1528.43e3, 0},
-          .cohesion = {1040, 0},
-          .friction_angle = {0.4887, 0},
-          .shear_modulus = {0.02, 0.006},
-          .stress_angle_c1 = {0.18, 0},
-          .stress_angle_c2 = {0.32, 0},
-          .density = 1600};
-}
-
-Scenario wheel_on_sand() {
-  Scenario scenario;
-  scenario.tire.radius = 0.11, scenario.tire.width = 0.1;
-  scenario.soil.semi_empirical = sand();
-  return scenario;
-}
-
-TEST(Doubts, NothingToSayOfAnOrdinarySoil) { EXPECT_TRUE(doubts(sand()).empty()); }
+TEST(Doubts, NothingToSayOfAnOrdinarySoil) { EXPECT_TRUE(doubts(dry_sand()).empty()); }
 
 TEST(Doubts, EachKindOfWarningIsSaidOnce) {
   Case question;
@@ -127,7 +106,7 @@ TEST(Doubts, WarningsOfOneKindOfManyRowsAreOneLine) {
 }
 
 TEST(Doubts, ASoilThatCarriesNothingIsTold) {
-  SemiEmpiricalSoil soil = sand();
+  SemiEmpiricalSoil soil = dry_sand();
   soil.k_c.value = 0.0, soil.k_phi.value = -5.0;
   EXPECT_THAT(doubts(soil), ElementsAre(HasSubstr("carries nothing")));
 }
@@ -151,7 +130,7 @@ TEST(Doubts, WhatAnEffectPresumesOfTheTireIsToldUntilItIsDeclared) {
   Case question;
   question.scenario.tire.radius = 0.25;
   question.scenario.tire.width = 0.1;
-  question.scenario.soil.semi_empirical = sand();
+  question.scenario.soil.semi_empirical = dry_sand();
   question.study.models = {{ModelKind::bekker_wong, {{.id = "lug_thrust", .form = "", .parameters = {}}}, ""}};
   OperatingCondition& at = question.study.conditions.emplace_back();
   at.load = 1000, at.slip = 0.2;

@@ -12,6 +12,7 @@
 
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
+#include "tests/compare/stand_in_board.hpp"
 #include "tests/dem/archive_scene.hpp"
 
 namespace soilbin::compare {
@@ -22,13 +23,7 @@ using Eigen::VectorXd;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-VirtualTest board_test() {
-  VirtualTest test;
-  test.identity = "stand-in board, step 1e-5";
-  test.factors = {{"sliding_friction", 0.3, 0.9, "-"}};
-  test.targets = {{"board_angle", {0.5, 0}, "deg"}};
-  return test;
-}
+VirtualTest board_test() { return stand_in_board({{"sliding_friction", 0.3, 0.9, "-"}}, "stand-in board, step 1e-5"); }
 
 VectorXd at(double friction) { return VectorXd::Constant(1, friction); }
 

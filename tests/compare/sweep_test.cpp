@@ -6,10 +6,13 @@
 #include "compare/sweep/prediction.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
+#include "tests/fixtures.hpp"
 
 namespace soilbin::compare {
 namespace {
 
+using test::condition;
+using test::wheel_on_sand;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -26,36 +29,11 @@ struct Linear final : Model {
   }
 };
 
-OperatingCondition condition(double load, double slip, double yaw = 0.0) {
-  OperatingCondition at;
-  at.load = load, at.slip = slip, at.yaw = yaw;
-  return at;
-}
-
 Run measured(double slip, std::optional<double> pull, std::optional<double> sinkage) {
   Run run;
   run.at = condition(100, slip);
   run.drawbar_pull = pull, run.sinkage = sinkage;
   return run;
-}
-
-SemiEmpiricalSoil sand() {
-  return {.exponent = {1.1, 0},
-          .k_c = {990, 0},
-          .k_phi = {1528.43e3, 0},
-          .cohesion = {1040, 0},
-          .friction_angle = {0.4887, 0},
-          .shear_modulus = {0.02, 0.006},
-          .stress_angle_c1 = {0.18, 0},
-          .stress_angle_c2 = {0.32, 0},
-          .density = 1600};
-}
-
-Scenario wheel_on_sand() {
-  Scenario scenario;
-  scenario.tire.radius = 0.11, scenario.tire.width = 0.1;
-  scenario.soil.semi_empirical = sand();
-  return scenario;
 }
 
 TEST(Sweep, AConditionWithoutSolutionDoesNotStopTheOthers) {

@@ -389,6 +389,16 @@ class Loop(unittest.TestCase):
         self.assertEqual(json.loads(answer.json()), known)
         self.assertEqual(answer.verdict, compare.Verdict.effect_found)
         self.assertEqual(answer.effects[0].choice.id, "multipass")
+        self.assertEqual(answer.worse, known["worse"])
+        self.assertEqual(answer.presumes, {"multipass": []}, "it reads nothing of a wheel")
+
+    def test_an_effect_tells_what_it_presumes_of_the_wheel(self):
+        smooth = soilbin.Tire(radius=0.25, width=0.1)
+        height, *_ = bekker_wong.presumed("lug_thrust", smooth)
+        self.assertEqual(height.key, "lugs.height")
+        self.assertAlmostEqual(height.value, 0.05 * smooth.radius)
+        self.assertIn("5 % of the radius", height.words)
+        self.assertEqual(bekker_wong.presumed("slip_sinkage", smooth), [])
 
     def test_a_model_beside_itself_differs_by_nothing(self):
         comparison = compare.compare_case("rover-slip", measured=None)

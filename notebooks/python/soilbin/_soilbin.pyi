@@ -817,6 +817,23 @@ def doubts(case: Case) -> list[str]:
 def in_words(at: OperatingCondition) -> str:
     """A condition in words, without what is at its default."""
 
+class Presumed:
+    """A value that an effect takes although the wheel does not declare it."""
+    @property
+    def key(self) -> str:
+        """as in a tire file: 'lugs.height'"""
+    @property
+    def value(self) -> float:
+        """[SI]"""
+    @property
+    def words(self) -> str:
+        """'lugs.height = 12.5 mm (5 % of the radius)'"""
+
+def presumed(effect: Union[EffectChoice, str], tire: Tire) -> list[Presumed]:
+    """What an effect takes for values that the tire does not declare; empty where the tire declares all that it reads.
+    effect: 'lug_thrust', 'lug_thrust:FORM' or an EffectChoice.
+    """
+
 class RolledWheel:
     """A wheel at one sinkage: contact and forces, in the wheel's axes."""
     @property
@@ -1845,6 +1862,16 @@ class LoopAnswer:
     def held_out(self) -> dict[str, dict[str, float]]:
         """root mean square errors on conditions that neither choice nor fit has seen, by channel [SI] and 'all' [sigma]:
         cells, before, after, noise_floor; empty without validation
+        """
+    @property
+    def worse(self) -> list[str]:
+        """channels whose held-out error is larger with the effects of the model than without; empty for a model without
+        effects and without validation
+        """
+    @property
+    def presumes(self) -> dict[str, list[Presumed]]:
+        """of each effect of the model, by id: what it takes for values that the campaign's wheel does not declare (lugs,
+        inflation pressure); an empty list where it presumes nothing
         """
     @property
     def sentences(self) -> list[str]:

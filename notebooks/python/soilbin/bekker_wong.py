@@ -16,6 +16,7 @@ from soilbin._soilbin import (
     PlateExponent,
     PlateFit,
     PlateTest,
+    Presumed,
     RolledWheel,
     RollingWheel,
     Scenario,
@@ -26,6 +27,7 @@ from soilbin._soilbin import (
     fit_plates_at,
     largest_pull,
     mean_curve,
+    presumed,
     rolling_resistance,
     slip_for_pull,
     steepest_slope,
@@ -34,9 +36,9 @@ from soilbin.progress import Progress, told_to
 
 __all__ = [
     "BekkerWong", "Drive", "DriveEnd", "DriveRecord", "Explanation", "PlateCurve", "PlateExponent", "PlateFit",
-    "PlateTest", "RolledWheel", "RollingWheel", "bekker_static_sinkage", "critical_ground_pressure", "drive_frame",
-    "drive_wheel", "explain", "fit_plates", "fit_plates_at", "largest_pull", "mean_curve", "rolling_resistance",
-    "slip_for_pull", "steepest_slope",
+    "PlateTest", "Presumed", "RolledWheel", "RollingWheel", "bekker_static_sinkage", "critical_ground_pressure",
+    "drive_frame", "drive_wheel", "explain", "fit_plates", "fit_plates_at", "largest_pull", "mean_curve", "presumed",
+    "rolling_resistance", "slip_for_pull", "steepest_slope",
 ]
 
 
