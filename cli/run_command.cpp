@@ -156,6 +156,9 @@ void add_run(CLI::App& app, Session& session) {
   command->add_option("--replay", options->soil_bin.replay, "dem: keep the first run that is made, to look at it in 3D")
       ->type_name("FILE")
       ->check(writable_file());
+  command->add_option("--paraview", options->soil_bin.paraview, "dem: keep each run that is made, for ParaView")
+      ->type_name("DIR")
+      ->check(writable_folder());
   command->footer(
       "Each condition flag keeps the study's conditions that agree with it; where none does, it overrides them. Where\n"
       "the study gives 'rotation' it stays, and the speed follows.\n"

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include "compare/measured/channels.hpp"
 #include "compare/sweep/alike.hpp"
 #include "compare/sweep/varying.hpp"
+#include "dem/archive/paraview.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/quantity.hpp"
 
@@ -44,39 +46,55 @@ void tell_beside_progress(const std::string& words) {
 
 namespace {
 
-/// Runs conditions, and keeps a replay of the first run that is made.
+/// A condition and its packing as the name of a file: "load-75-N-slip-20-packing-1".
+std::string file_name_of(const OperatingCondition& at, std::uint64_t packing) {
+  std::string name;
+  for (const char c : fmt::format("{} packing {}", compare::in_words(at), packing))
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-')
+      name += c;
+    else if (!name.empty() && name.back() != '-')
+      name += '-';
+  return name;
+}
+
+/// Runs conditions, and keeps what can be looked at of them.
 class WatchedRuns {
  public:
-  WatchedRuns(dem::DemSettings settings, fs::path replay)
-      : replay_(std::move(replay)), runs_(watched(std::move(settings)), source_state()) {}
+  WatchedRuns(dem::DemSettings settings, Views views)
+      : views_(std::move(views)), runs_(watched(std::move(settings)), source_state()) {}
   WatchedRuns(const WatchedRuns&) = delete;
   WatchedRuns& operator=(const WatchedRuns&) = delete;
 
   compare::RecordedRun operator()(const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
+    name_ = file_name_of(at, packing);
     compare::RecordedRun run = runs_(scenario, at, packing);
     keep_replay(at, packing);
+    if (!views_.paraview.empty())
+      fmt::print(stderr, "wrote {}: ParaView opens it\n", (views_.paraview / (name_ + ".pvd")).string());
     return run;
   }
 
  private:
   dem::DemSettings watched(dem::DemSettings settings) {
-    if (replay_.empty()) return settings;
+    if (views_.replay.empty() && views_.paraview.empty()) return settings;
     settings.rig.onlooker.look = [this](const dem::Simulation& simulation, int wheel, double surface) {
-      if (!done_) recorder_.look(simulation, wheel, surface);
+      if (!views_.replay.empty() && !done_) recorder_.look(simulation, wheel, surface);
+      if (!views_.paraview.empty()) dem::export_to_paraview(views_.paraview, name_, simulation.state());
     };
-    settings.rig.onlooker.keeper = recorder_.keeper();
+    if (!views_.replay.empty()) settings.rig.onlooker.keeper = recorder_.keeper();
     return settings;
   }
 
   void keep_replay(const OperatingCondition& at, std::uint64_t packing) {
     if (done_ || !recorder_.has_frames()) return;
     done_ = true;
-    recorder_.write(replay_, compare::in_words(at),
+    recorder_.write(views_.replay, compare::in_words(at),
                     {{"packing", std::to_string(packing)}, {"sources", source_state()}});
-    fmt::print(stderr, "wrote {}: soilbin compare --replay shows it\n", replay_.string());
+    fmt::print(stderr, "wrote {}: soilbin compare --replay shows it\n", views_.replay.string());
   }
 
-  fs::path replay_;
+  Views views_;
+  std::string name_;  ///< of the run that is made, for its files
   ReplayRecorder recorder_;
   bool done_ = false;
   compare::SoilBinRuns runs_;
@@ -112,7 +130,7 @@ std::unique_ptr<const Model> running(const SoilBinFlags& flags, const Case& ques
   std::vector<std::uint64_t> packings;
   for (int k = 0; k < flags.packings; ++k) packings.push_back(settings.packing + static_cast<std::uint64_t>(k));
   return std::make_unique<const compare::RunOnPackings>(
-      "dem", packings, run_with(settings, question, effects, flags.record, flags.replay),
+      "dem", packings, run_with(settings, question, effects, flags.record, {flags.replay, flags.paraview}),
       [log](const compare::RecordedRun& told) { log->push_back(told); });
 }
 
@@ -213,8 +231,8 @@ compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, 
 }
 
 compare::RunOnce run_with(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
-                          const fs::path& file, const fs::path& replay) {
-  compare::RunOnce run = [runs = std::make_shared<WatchedRuns>(settings, replay)](
+                          const fs::path& file, const Views& views) {
+  compare::RunOnce run = [runs = std::make_shared<WatchedRuns>(settings, views)](
                              const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
     return (*runs)(scenario, at, packing);
   };

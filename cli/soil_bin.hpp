@@ -38,6 +38,7 @@ struct SoilBinFlags {
   std::string record;    ///< file that keeps each run as it is finished, and is gone on with
   std::string recorded;  ///< file to answer from, without running
   std::string replay;    ///< file for a replay of the first run that is made; flag of those who add it
+  std::string paraview;  ///< folder for each run that is made, as ParaView opens it; flag of those who add it
   int packing = 1, packings = 1, threads = 0;
 
   void add_to(CLI::App& command);
@@ -60,10 +61,15 @@ using RunLog = std::shared_ptr<std::vector<compare::RecordedRun>>;
 compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, const EffectVocabulary& effects,
                                const RunLog& log);
 
-/// Runs conditions with these settings; where a file is given, keeps them there (kept_in), and in `replay` the first
-/// run that is made, to look at.
+/// Where runs that are made can be looked at; empty: they are not kept.
+struct Views {
+  std::filesystem::path replay;    ///< file, of the first run
+  std::filesystem::path paraview;  ///< folder, of each run
+};
+
+/// Runs conditions with these settings; where a file is given, keeps them there (kept_in).
 compare::RunOnce run_with(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
-                          const std::filesystem::path& file, const std::filesystem::path& replay = {});
+                          const std::filesystem::path& file, const Views& views = {});
 
 /// compare::read_record; says so where no seal vouches for a run.
 compare::Record read_record_aloud(const std::filesystem::path& file);

@@ -18,8 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include "dem/archive/checkpoints.hpp"
 #include "dem/archive/note_text.hpp"
-#include "dem/archive/resumable_run.hpp"
 #include "dem/bed/work_options.hpp"
 #include "dem/engine/simulation.hpp"
 #include "scenario/file_lock.hpp"

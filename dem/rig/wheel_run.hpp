@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "dem/archive/resumable_run.hpp"
+#include "dem/archive/checkpoints.hpp"
 #include "dem/bed/settled_bed.hpp"
 #include "dem/rig/tread_stress.hpp"
 #include "dem/rig/wheel_motion.hpp"

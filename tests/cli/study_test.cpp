@@ -118,7 +118,8 @@ study:
 std::string pebbles() { return text_of(SOILBIN_SOURCE_DIR "/tests/fixtures/pebbles.yaml"); }
 
 // Minutes of grains in seconds: a light wheel on a shallow bed of pebbles. It drives, carries its load at some depth
-// between the tops and the floor, and a bed that is there already is taken again: same numbers.
+// between the tops and the floor, and a bed that is there already is taken again: same numbers, kept for ParaView or
+// not.
 TEST(SlowRun, DrivesAWheelOverGrains) {
   const Scratch scratch;
   scratch.write("pebbles.yaml", pebbles());
@@ -133,7 +134,8 @@ study:
   const std::string run = "run '" + file.string() + "' --bed-length 1.2m --bed-width 0.25m --bed-depth 0.09m --json";
   const fs::path beds = scratch / "beds";
   setenv("SOILBIN_BEDS", beds.c_str(), 1);
-  const Outcome first = soilbin(run), again = soilbin(run);
+  const fs::path views = scratch / "views";
+  const Outcome first = soilbin(run), again = soilbin(run + " --paraview '" + views.string() + "'");
   unsetenv("SOILBIN_BEDS");
   ASSERT_EQ(first.status, 0) << first.err;
   EXPECT_EQ(first.out, again.out);
@@ -143,6 +145,11 @@ study:
   EXPECT_LT(row["torque"], 60 * 0.15 * 0.5 * 1.3);  // sliding on all its load would take W r mu
   EXPECT_LT(row["sinkage"], 0.09);
   EXPECT_FALSE(fs::is_empty(beds));
+  const std::string name = "load-60-N-slip-20-0.6-m-s-packing-1";
+  EXPECT_THAT(again.err, HasSubstr(name + ".pvd: ParaView opens it"));
+  const std::string frames = text_of(views / (name + ".pvd"));
+  EXPECT_THAT(frames, HasSubstr("name=\"grains\" file=\"" + name + "-grains-"));
+  EXPECT_THAT(frames, HasSubstr("name=\"wheel\" file=\"" + name + "-body-1-"));
 }
 
 // What is recorded is shown again without running, and a file for another question is refused.

@@ -1,4 +1,6 @@
-// Frames in H5MD, and what ParaView reads.
+// What ParaView reads.
+#include "dem/archive/paraview.hpp"
+
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,11 +10,6 @@
 #include <memory>
 #include <sstream>
 
-#include "dem/archive/hdf5.hpp"
-#include "dem/archive/paraview.hpp"
-#include "dem/archive/restart.hpp"
-#include "dem/archive/trajectory.hpp"
-#include "scenario/errors.hpp"
 #include "tests/dem/archive_scene.hpp"
 
 namespace soilbin::dem {
@@ -23,65 +20,6 @@ using test::read_bytes;
 using test::scene;
 using test::write_bytes;
 using ::testing::HasSubstr;
-
-TEST(Trajectory, GivesFramesBack) {
-  Simulation simulation = scene(40);
-  const Folder folder;
-  for (int k = 0; k < 3; ++k) {
-    write_frame(folder / "frames", simulation.setup(), simulation.state());
-    simulation.run(100);
-  }
-  const auto frames = frames_of(folder / "frames");
-  ASSERT_EQ(frames.size(), 3u);
-  Simulation again = scene(40);
-  again.run(200);
-  const Frame frame = read_frame(frames[2]);
-  const State& state = again.state();
-  EXPECT_EQ(frame.step, 200);
-  EXPECT_EQ(frame.time, state.time);
-  ASSERT_EQ(frame.grains.count(), state.grains.count());
-  for (std::size_t k = 0; k < frame.grains.count(); ++k) {
-    EXPECT_EQ(frame.grains.motion[k].position, state.grains.motion[k].position);
-    EXPECT_EQ(frame.grains.motion[k].velocity, state.grains.motion[k].velocity);
-    EXPECT_EQ(frame.grains.motion[k].radius, state.grains.motion[k].radius);
-  }
-  EXPECT_EQ(frame.grains.id, state.grains.id);
-  EXPECT_EQ(frame.grains.material, state.grains.material);
-  ASSERT_EQ(frame.bodies.size(), 3u);
-  EXPECT_EQ(frame.bodies[1].name, "wheel");
-  EXPECT_EQ(frame.bodies[1].position, state.bodies[1].position);
-  EXPECT_EQ(frame.bodies[1].rotation, state.bodies[1].rotation);
-  EXPECT_EQ(frame.bodies[2].force, state.bodies[2].force);
-}
-
-TEST(Trajectory, IsLaidOutAsH5md) {
-  const Simulation simulation = scene(40);
-  const Folder folder;
-  write_frame(folder.path(), simulation.setup(), simulation.state());
-  const std::string bytes = read_bytes(frame_path(folder.path(), 0));
-  const hdf5::InputFile file(std::string_view(bytes).substr(512), "frame");
-  const hdf5::Group bodies = file.root().open("particles").open("bodies");
-  EXPECT_EQ(bodies.open("position").shape("value"), (hdf5::Shape{1, 3, 3}));
-  EXPECT_EQ(bodies.open("orientation").shape("value"), (hdf5::Shape{1, 3, 4}));
-  EXPECT_TRUE(bodies.has("box"));
-}
-
-TEST(Trajectory, RefusesDamagedFrames) {
-  Simulation simulation = scene(20);
-  const Folder folder;
-  write_frame(folder.path(), simulation.setup(), simulation.state());
-  const auto path = frame_path(folder.path(), 0);
-  const std::string good = read_bytes(path);
-  write_bytes(path, good.substr(0, good.size() - 1));
-  EXPECT_THROW(read_frame(path), InputError);
-  std::string bad = good;
-  bad[good.size() / 2] ^= 1;
-  write_bytes(path, bad);
-  EXPECT_THROW(read_frame(path), InputError);
-  write_restart(path, simulation.setup(), simulation.state());
-  EXPECT_THROW(read_frame(path), InputError);
-  EXPECT_TRUE(frames_of(folder / "none").empty());
-}
 
 /// Reads .vtp and .pvd by Python's XML parser: a line a piece of data, name and numbers.
 std::string by_python(const std::filesystem::path& path) {
