@@ -1,0 +1,88 @@
+"""The documents as a site: docs/site/make, output in build/docs. Sphinx, MyST (Markdown) and Furo, all of Debian 12.
+
+The pages are the Markdown files as they lie in the project; nothing is written a second time. Added here: the table of
+contents, from the folders; formulas as MathML, which browsers draw without a script or a network; and links to
+files that are no pages, which become their names.
+"""
+import re
+from pathlib import Path
+
+from docutils.utils.math import latex2mathml
+
+ROOT = Path(__file__).resolve().parents[2]
+project, author, language = "soilbin", "the soilbin authors", "en"
+extensions = ["myst_parser"]
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 4  # links to headings, by the names that GitHub gives them
+suppress_warnings = ["myst.header"]
+root_doc = "README"
+include_patterns = ["*.md", "docs/**.md"]
+exclude_patterns = ["build/**", "**/NOTICE.md"]
+html_theme = "furo"
+html_title = "soilbin"
+html_copy_source = html_show_sourcelink = False
+html_math_renderer = "mathml"
+html_theme_options = {"sidebar_hide_name": False}
+highlight_language = "text"
+
+SHELVES = (("Guide", "docs/guide"), ("Theory", "docs/theory"), ("Reference", "docs/reference"), ("Lab book", "docs/lab"),
+           ("More", "docs"), ("The project", "."))
+
+
+def contents():
+    """Hidden tables of contents, a shelf each, for the sidebar: first the pages that docs/index.md names, in its order."""
+    index = (ROOT / "docs/index.md").read_text(encoding="utf-8")
+    named = [link.split("#")[0] for link in re.findall(r"\]\(([^)]+\.md[^)]*)\)", index)]
+    order = {(ROOT / "docs" / link).resolve(): place for place, link in reversed(list(enumerate(named)))}
+    for title, folder in SHELVES:
+        pages = sorted((ROOT / folder).glob("*.md"), key=lambda page: (order.get(page, len(order)), page.name))
+        names = [page.relative_to(ROOT).with_suffix("").as_posix() for page in pages if page != ROOT / "README.md"]
+        if names:
+            yield "\n".join(["```{toctree}", ":hidden:", f":caption: {title}", "", *("/" + name for name in names), "```"])
+
+
+def prepare(app, name, source):
+    """Links to what is no page become its name; the front page gets the table of contents."""
+    page = ROOT / f"{name}.md"
+
+    def link(match):
+        target = (page.parent / match[2].split("#")[0]).resolve()
+        is_page = target.suffix == ".md" and target.name != "NOTICE.md" and (target.parent == ROOT or ROOT / "docs" in target.parents)
+        return match[1] if target.exists() and not is_page and not match[2].startswith("#") else match[0]
+
+    # code in blocks stays as it is
+    parts = re.split(r"(^```.*?^```[^\n]*$)", source[0], flags=re.S | re.M)
+    parts[::2] = [re.sub(r"(?<!!)\[([^\]]+)\]\(((?!https?:)[^)\s]+)\)", link, part) for part in parts[::2]]
+    source[0] = "".join(parts)
+    if name == root_doc:
+        source[0] += "\n\n" + "\n\n".join(contents()) + "\n"
+
+
+def mathml(code, display):
+    tree = latex2mathml.math(**({"display": "block"} if display else {}))
+    latex2mathml.parse_latex_math(tree, code)
+    return tree.toprettyxml()
+
+
+def inline_formula(writer, node):
+    write_formula(writer, node, False)
+
+
+def displayed_formula(writer, node):
+    write_formula(writer, node, True)
+
+
+def write_formula(writer, node, display):
+    from docutils.nodes import SkipNode
+    from sphinx.util import logging
+    try:
+        writer.body.append(mathml(node.astext(), display))
+    except (SyntaxError, KeyError, AttributeError) as error:
+        logging.getLogger(__name__).warning("no MathML of %r: %s", node.astext(), error, location=node)
+    raise SkipNode
+
+
+def setup(app):
+    app.connect("source-read", prepare)
+    app.add_html_math_renderer("mathml", (inline_formula, None), (displayed_formula, None))
+    return {"parallel_read_safe": True}
