@@ -1,4 +1,4 @@
-// A checksum that tells damage, not intent.
+// A checksum that shows whether a file is damaged; it is no protection against somebody who wants to change it.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// What a drive tells, whichever model drove it (docs/drive.md).
+// The record of a drive: samples over time, energy, how it ended. The analytic wheel and the grains fill the same one
+// (docs/drive.md).
 #pragma once
 
 #include <optional>

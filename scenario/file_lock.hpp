@@ -1,4 +1,4 @@
-// That only one process at a time does something with a file or in a folder.
+// A lock on a file or a folder, so that one process at a time works on it.
 #pragma once
 
 #include <filesystem>

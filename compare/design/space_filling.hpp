@@ -1,4 +1,4 @@
-// Points that fill the unit cube.
+// Designs of experiments that fill the unit cube evenly: Latin hypercubes.
 #pragma once
 
 #include <Eigen/Dense>

@@ -1,4 +1,5 @@
-// The four channels where they stand in a measured run.
+// The four measured channels (drawbar pull, torque, sinkage, lateral force) as members of a run, so that code can go
+// over them.
 #pragma once
 
 #include <array>

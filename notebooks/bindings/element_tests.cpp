@@ -59,40 +59,21 @@ void bind_shear_results(py::module_& module) {
       .def_readonly("mean_diameter", &DirectShearResult::mean_diameter, "[m]");
 }
 
-struct BoxSize {
-  double length, width, height;
-};
-
-DirectShearResult shear_box(const GranularSoil& soil, const std::vector<double>& stresses, int packings,
-                            std::uint64_t packing, const BoxSize& size, double travel, double settling_friction,
-                            dem::RollingLaw rolling, double inertial, int threads, const py::object& progress) {
-  dem::DirectShearSettings settings;
-  settings.stresses = stresses, settings.packings = packings;
-  settings.length = size.length, settings.width = size.width, settings.height = size.height;
-  settings.travel = travel, settings.inertial = inertial;
-  settings.specimen = specimen_of(packing, settling_friction, rolling);
-  return tested(threads, progress, [&](const dem::WorkOptions& how) { return dem::direct_shear(soil, settings, how); });
-}
-
 void bind_shear_box(py::module_& module) {
-  const dem::DirectShearSettings usual;
-  module.def(
-      "direct_shear",
-      [](const GranularSoil& soil, const std::vector<double>& stresses, int packings, std::uint64_t packing,
-         double length, double width, double height, double travel, double settling_friction, dem::RollingLaw rolling,
-         double inertial, int threads, const py::object& progress) {
-        return shear_box(soil, stresses, packings, packing, {length, width, height}, travel, settling_friction, rolling,
-                         inertial, threads, progress);
-      },
-      py::arg("soil"), py::arg("stresses") = usual.stresses, py::arg("packings") = usual.packings,
-      py::arg("packing") = usual.specimen.packing, py::arg("length") = usual.length, py::arg("width") = usual.width,
-      py::arg("height") = usual.height, py::arg("travel") = usual.travel, py::arg("settling_friction") = 1.0,
-      py::arg("rolling") = usual.specimen.laws.rolling, py::arg("inertial") = usual.inertial, py::arg("threads") = 0,
-      py::arg("progress") = py::none(),
+  using S = dem::DirectShearSettings;
+  def_test<S>(
+      module, "direct_shear",
+      [](const auto& soil, const auto& settings, const auto& how) { return dem::direct_shear(soil, settings, how); },
       "The shear box (docs/element-tests.md). stresses: normal, on the lid [Pa], at least two for c and phi. packings: "
       "specimens, of seeds packing, +1, ... length, width, height, travel: in mean diameters. settling_friction: 0 "
       "(densest) .. 1 (loose). inertial: number that sets the speed. Same settings, same bits, for any number of "
-      "threads. Raises InputError, RunStopped.");
+      "threads. Raises InputError, RunStopped.",
+      keyword("stresses", &S::stresses), keyword("packings", &S::packings),
+      keyword("packing", &S::specimen, &dem::SpecimenSettings::packing), keyword("length", &S::length),
+      keyword("width", &S::width), keyword("height", &S::height), keyword("travel", &S::travel),
+      keyword("settling_friction", &S::specimen, &dem::SpecimenSettings::settling_friction),
+      keyword("rolling", &S::specimen, &dem::SpecimenSettings::laws, &dem::ContactLaws::rolling),
+      keyword("inertial", &S::inertial));
 }
 
 void bind_heap(py::module_& module) {
@@ -106,22 +87,14 @@ void bind_heap(py::module_& module) {
       .def_readonly("settling_time", &R::settling_time, "from the start of the lift until rest [s]")
       .def_readonly("mean_diameter", &R::mean_diameter, "[m]")
       .def_property_readonly("profile", &profile_of, "arrays radius, height [m], views");
-  const dem::AngleOfReposeSettings usual;
-  module.def(
-      "angle_of_repose",
-      [](const GranularSoil& soil, std::uint64_t packing, double radius, double height, dem::RollingLaw rolling,
-         int threads, const py::object& progress) {
-        dem::AngleOfReposeSettings settings;
-        settings.packing = packing, settings.radius = radius, settings.height = height;
-        settings.laws.rolling = rolling;
-        return tested(threads, progress,
-                      [&](const dem::WorkOptions& how) { return dem::angle_of_repose(soil, settings, how); });
-      },
-      py::arg("soil"), py::arg("packing") = usual.packing, py::arg("radius") = usual.radius,
-      py::arg("height") = usual.height, py::arg("rolling") = usual.laws.rolling, py::arg("threads") = 0,
-      py::arg("progress") = py::none(),
+  using S = dem::AngleOfReposeSettings;
+  def_test<S>(
+      module, "angle_of_repose",
+      [](const auto& soil, const auto& settings, const auto& how) { return dem::angle_of_repose(soil, settings, how); },
       "A cylinder of grains (radius and height in mean diameters) on a floor is lifted; the heap's slope, with its "
-      "error by eight sectors. Raises InputError, RunStopped where no rest is found.");
+      "error by eight sectors. Raises InputError, RunStopped where no rest is found.",
+      keyword("packing", &S::packing), keyword("radius", &S::radius), keyword("height", &S::height),
+      keyword("rolling", &S::laws, &dem::ContactLaws::rolling));
 }
 
 }  // namespace
@@ -132,12 +105,6 @@ dem::WorkOptions watched(Watch& watch, int threads) {
   how.threads = threads;
   how.progress = [&watch](const dem::Progress& p) { watch(p.done, p.stage); };
   return how;
-}
-
-dem::SpecimenSettings specimen_of(std::uint64_t packing, double settling_friction, dem::RollingLaw rolling) {
-  dem::SpecimenSettings specimen;
-  specimen.packing = packing, specimen.settling_friction = settling_friction, specimen.laws.rolling = rolling;
-  return specimen;
 }
 
 void bind_element_tests(py::module_& module) {

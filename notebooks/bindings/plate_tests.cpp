@@ -43,48 +43,34 @@ void bind_runs(py::module_& module) {
 }
 
 void bind_plate(py::module_& module) {
-  const dem::PlateSettings usual;
-  module.def(
-      "plate_sinkage",
-      [](const GranularSoil& soil, const std::vector<double>& diameters, double sinkage, double width, double depth,
-         std::uint64_t packing, double settling_friction, dem::RollingLaw rolling, int threads,
-         const py::object& progress) {
-        dem::PlateSettings settings;
-        settings.bed = {specimen_of(packing, settling_friction, rolling), width, depth};
-        settings.diameters = diameters, settings.sinkage = sinkage;
-        return tested(threads, progress,
-                      [&](const dem::WorkOptions& how) { return dem::plate_sinkage(soil, settings, how); });
-      },
-      py::arg("soil"), py::arg("diameters") = usual.diameters, py::arg("sinkage") = usual.sinkage,
-      py::arg("width") = usual.bed.width, py::arg("depth") = usual.bed.depth,
-      py::arg("packing") = usual.bed.specimen.packing, py::arg("settling_friction") = 1.0,
-      py::arg("rolling") = usual.bed.specimen.laws.rolling, py::arg("threads") = 0, py::arg("progress") = py::none(),
+  using S = dem::PlateSettings;
+  def_test<S>(
+      module, "plate_sinkage",
+      [](const auto& soil, const auto& settings, const auto& how) { return dem::plate_sinkage(soil, settings, how); },
       "Round plates pressed into a bed of the grains, each into a fresh copy (docs/element-tests.md). diameters, "
       "sinkage: in mean diameters of the grains. width, depth: of the bed, in diameters of the widest plate. Raises "
-      "InputError for a plate under five grains wide, RunStopped.");
+      "InputError for a plate under five grains wide, RunStopped.",
+      keyword("diameters", &S::diameters), keyword("sinkage", &S::sinkage),
+      keyword("width", &S::bed, &dem::TestBed::width), keyword("depth", &S::bed, &dem::TestBed::depth),
+      keyword("packing", &S::bed, &dem::TestBed::specimen, &dem::SpecimenSettings::packing),
+      keyword("settling_friction", &S::bed, &dem::TestBed::specimen, &dem::SpecimenSettings::settling_friction),
+      keyword("rolling", &S::bed, &dem::TestBed::specimen, &dem::SpecimenSettings::laws, &dem::ContactLaws::rolling));
 }
 
 void bind_ring(py::module_& module) {
-  const dem::AnnulusSettings usual;
-  module.def(
-      "annular_shear",
-      [](const GranularSoil& soil, const std::vector<double>& stresses, double inner, double outer, double travel,
-         double width, double depth, std::uint64_t packing, double settling_friction, dem::RollingLaw rolling,
-         int threads, const py::object& progress) {
-        dem::AnnulusSettings settings;
-        settings.bed = {specimen_of(packing, settling_friction, rolling), width, depth};
-        settings.stresses = stresses, settings.inner = inner, settings.outer = outer, settings.travel = travel;
-        return tested(threads, progress,
-                      [&](const dem::WorkOptions& how) { return dem::annular_shear(soil, settings, how); });
-      },
-      py::arg("soil"), py::arg("stresses") = usual.stresses, py::arg("inner") = usual.inner,
-      py::arg("outer") = usual.outer, py::arg("travel") = usual.travel, py::arg("width") = usual.bed.width,
-      py::arg("depth") = usual.bed.depth, py::arg("packing") = usual.bed.specimen.packing,
-      py::arg("settling_friction") = 1.0, py::arg("rolling") = usual.bed.specimen.laws.rolling, py::arg("threads") = 0,
-      py::arg("progress") = py::none(),
+  using S = dem::AnnulusSettings;
+  def_test<S>(
+      module, "annular_shear",
+      [](const auto& soil, const auto& settings, const auto& how) { return dem::annular_shear(soil, settings, how); },
       "A ring with grousers turned on a bed of the grains under each stress [Pa] (docs/element-tests.md). inner, "
       "outer: its radii; travel: at the mean radius; all in mean diameters. width, depth: of the bed, in diameters of "
-      "the ring. Raises InputError for a ring under five grains wide, RunStopped.");
+      "the ring. Raises InputError for a ring under five grains wide, RunStopped.",
+      keyword("stresses", &S::stresses), keyword("inner", &S::inner), keyword("outer", &S::outer),
+      keyword("travel", &S::travel), keyword("width", &S::bed, &dem::TestBed::width),
+      keyword("depth", &S::bed, &dem::TestBed::depth),
+      keyword("packing", &S::bed, &dem::TestBed::specimen, &dem::SpecimenSettings::packing),
+      keyword("settling_friction", &S::bed, &dem::TestBed::specimen, &dem::SpecimenSettings::settling_friction),
+      keyword("rolling", &S::bed, &dem::TestBed::specimen, &dem::SpecimenSettings::laws, &dem::ContactLaws::rolling));
 }
 
 }  // namespace

@@ -52,27 +52,19 @@ void bind_triaxial_results(py::module_& module) {
 }
 
 void bind_triaxial(py::module_& module) {
-  const dem::TriaxialSettings usual;
-  module.def(
-      "triaxial",
-      [](const GranularSoil& soil, const std::vector<double>& stresses, int packings, std::uint64_t packing,
-         double side, double height, double strain, double settling_friction, dem::RollingLaw rolling, double inertial,
-         int threads, const py::object& progress) {
-        dem::TriaxialSettings settings;
-        settings.specimen = specimen_of(packing, settling_friction, rolling);
-        settings.stresses = stresses, settings.packings = packings;
-        settings.side = side, settings.height = height, settings.strain = strain, settings.inertial = inertial;
-        return tested(threads, progress,
-                      [&](const dem::WorkOptions& how) { return dem::triaxial(soil, settings, how); });
-      },
-      py::arg("soil"), py::arg("stresses") = usual.stresses, py::arg("packings") = usual.packings,
-      py::arg("packing") = usual.specimen.packing, py::arg("side") = usual.side, py::arg("height") = usual.height,
-      py::arg("strain") = usual.strain, py::arg("settling_friction") = 1.0,
-      py::arg("rolling") = usual.specimen.laws.rolling, py::arg("inertial") = usual.inertial, py::arg("threads") = 0,
-      py::arg("progress") = py::none(),
+  using S = dem::TriaxialSettings;
+  def_test<S>(
+      module, "triaxial",
+      [](const auto& soil, const auto& settings, const auto& how) { return dem::triaxial(soil, settings, how); },
       "True triaxial compression between six smooth walls (docs/element-tests.md). stresses: confining [Pa], at least "
       "two for c and phi. side, height: of the specimen, in mean diameters. strain: axial, at the end. inertial: "
-      "number that sets the rate. Raises InputError, RunStopped.");
+      "number that sets the rate. Raises InputError, RunStopped.",
+      keyword("stresses", &S::stresses), keyword("packings", &S::packings),
+      keyword("packing", &S::specimen, &dem::SpecimenSettings::packing), keyword("side", &S::side),
+      keyword("height", &S::height), keyword("strain", &S::strain),
+      keyword("settling_friction", &S::specimen, &dem::SpecimenSettings::settling_friction),
+      keyword("rolling", &S::specimen, &dem::SpecimenSettings::laws, &dem::ContactLaws::rolling),
+      keyword("inertial", &S::inertial));
 }
 
 void bind_board(py::module_& module) {
@@ -85,23 +77,15 @@ void bind_board(py::module_& module) {
       .def_readonly("mean_diameter", &R::mean_diameter, "[m]")
       .def_property_readonly("curve", &tilt_of,
                              "arrays, views: angle [rad], slide down the board [m], turn: how far grains rolled [rad]");
-  const dem::TiltingBoardSettings usual;
-  module.def(
-      "tilting_board",
-      [](const GranularSoil& soil, std::uint64_t packing, int across, double layers, double dt, dem::RollingLaw rolling,
-         int threads, const py::object& progress) {
-        dem::TiltingBoardSettings settings;
-        settings.packing = packing, settings.across = across, settings.layers = layers, settings.dt = dt;
-        settings.laws.rolling = rolling;
-        return tested(threads, progress,
-                      [&](const dem::WorkOptions& how) { return dem::tilting_board(soil, settings, how); });
-      },
-      py::arg("soil"), py::arg("packing") = usual.packing, py::arg("across") = usual.across,
-      py::arg("layers") = usual.layers, py::arg("dt") = usual.dt, py::arg("rolling") = usual.laws.rolling,
-      py::arg("threads") = 0, py::arg("progress") = py::none(),
+  using S = dem::TiltingBoardSettings;
+  def_test<S>(
+      module, "tilting_board",
+      [](const auto& soil, const auto& settings, const auto& how) { return dem::tilting_board(soil, settings, how); },
       "The paper's friction test: sand on a board of the tire's material, tilted until it slides. across: grains along "
       "a side. layers: height in mean diameters. dt: time step [s]; 0: the longest that is safe, at which directional "
-      "rolling resistance lets grains creep. Raises InputError, RunStopped.");
+      "rolling resistance lets grains creep. Raises InputError, RunStopped.",
+      keyword("packing", &S::packing), keyword("across", &S::across), keyword("layers", &S::layers),
+      keyword("dt", &S::dt), keyword("rolling", &S::laws, &dem::ContactLaws::rolling));
 }
 
 }  // namespace

@@ -4,8 +4,8 @@ import numpy as np
 from . import wheel as base
 
 FACTORS = ("speed", "pass", "position", "moisture", "longitudinal", "transverse", "yaw")
-# name: n, k_c kN/m^(n+1), k_phi kN/m^(n+2), c kPa, phi deg, K m. Rows 1, 2, 4, 5, 9 stand in Wong's table as the
-# team's reference/analytic-verification.md gives it; the others are soils of that kind, from memory, not citable.
+# name: n, k_c kN/m^(n+1), k_phi kN/m^(n+2), c kPa, phi deg, K m. Rows 1, 2, 4, 5, 9 stand in Wong's table
+# (cases/soils); the others are soils of that kind, from memory, not citable.
 # Every one is changed at random before use, so none is the nature of a campaign as it stands.
 SOILS = (
     ("dry sand", 1.1, 0.99, 1528.43, 1.04, 28.0, 0.020),
