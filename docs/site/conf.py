@@ -77,7 +77,7 @@ def write_formula(writer, node, display):
     from sphinx.util import logging
     try:
         writer.body.append(mathml(node.astext(), display))
-    except (SyntaxError, KeyError, AttributeError) as error:
+    except (SyntaxError, LookupError, AttributeError) as error:
         logging.getLogger(__name__).warning("no MathML of %r: %s", node.astext(), error, location=node)
     raise SkipNode
 
