@@ -113,6 +113,8 @@ struct EffectParameter {
   /// [SI]. 0: half the default or 1 % of its range. Of a reference value: in half the campaign's range of that
   /// condition; 0: not fitted.
   double spread = 0.0;
+  /// Whether the depth of the bin, where that is declared, is taken in place of this parameter.
+  bool is_the_bins = false;
 };
 
 /// One form of an effect. parameters[0] is its amplitude: at 0 the form is the base model.

@@ -15,7 +15,7 @@
 namespace soilbin::bekker_wong {
 
 SoilValues values_of(const SemiEmpiricalSoil& soil) {
-  SoilValues values{.density = soil.density};
+  SoilValues values{.density = bulk_density(soil)};
   for (std::size_t i = 0; i < soil_parameters.size(); ++i)
     values.*soil_members[i] = (soil.*soil_parameters[i].value).value;
   return values;

@@ -75,7 +75,8 @@ void print_answer(const compare::LoopAnswer& answer, bool only_next) {
 
 int loop(const LoopOptions& asked, const Session& session) {
   const compare::Campaign campaign = find_campaign(session.place, asked.campaign, compare::CampaignUse::fit);
-  print_warnings(compare::doubts_before_fit(campaign));
+  const std::vector<std::string> doubts = compare::doubts_before_fit(campaign);
+  print_warnings(doubts);
   compare::LoopOptions options;
   options.folds = asked.folds;
   options.identify.seed = asked.seed;
@@ -84,12 +85,13 @@ int loop(const LoopOptions& asked, const Session& session) {
   options.progress = shown_progress();
   const compare::LoopAnswer answer = compare::run_loop(campaign, options);
   Outputs outputs;
-  outputs.file(asked.report, [&] { return compare::loop_page(campaign, answer, session.command); });
+  outputs.file(asked.report, [&] { return compare::loop_page(campaign, answer, doubts, session.command); });
   outputs.file(asked.model,
                [&] { return write_case(compare::resolved_model(campaign, answer), session.place.effects); });
   if (asked.json) {
     nlohmann::ordered_json document = compare::to_json(answer);
     if (asked.details) document["details"] = compare::details_json(answer);
+    compare::tell_doubts(document, doubts);
     fmt::print("{}", compare::json_text(document));
   } else {
     print_answer(without_given_limits(answer, options.limits), asked.next);

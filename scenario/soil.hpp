@@ -21,9 +21,15 @@ struct SemiEmpiricalSoil {
   Estimate shear_modulus;                        ///< Janosi's shear deformation modulus K [m]
   Estimate stress_angle_c1;                      ///< c1 [-]: theta_m = (c1 + c2 |s|) theta_1
   Estimate stress_angle_c2;                      ///< c2 [-]
-  double density = 1500.0;                       ///< bulk density [kg/m^3]
+  std::optional<double> density;                 ///< bulk density [kg/m^3]; absent: bulk_density() presumes one
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "k_c"
 };
+
+/// Of a soil that declares no density, some sand's [kg/m^3].
+inline constexpr double presumed_bulk_density = 1500.0;
+
+/// What effects that weigh soil read [kg/m^3].
+inline double bulk_density(const SemiEmpiricalSoil& soil) { return soil.density.value_or(presumed_bulk_density); }
 
 /// Contact of two materials in the discrete element model.
 struct ContactPair {

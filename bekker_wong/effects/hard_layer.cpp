@@ -70,7 +70,13 @@ class Transition final : public Effect {
 
 std::vector<EffectForm> hard_layer_forms() {
   const std::string id = "hard_layer";
-  const EffectParameter z_w = {"depth", "m", 0.2, 0.01, 5.0, "z_w, depth of what is hard; the bin's where known"};
+  const EffectParameter z_w = {.name = "depth",
+                               .unit = "m",
+                               .fallback = 0.2,
+                               .lower = 0.01,
+                               .upper = 5.0,
+                               .meaning = "z_w, depth of what is hard; the bin's where known",
+                               .is_the_bins = true};
   return {
       {.id = id,
        .form = "hyperbolic",

@@ -208,11 +208,13 @@ HtmlTable soil_table(const LoopAnswer& answer) {
 
 }  // namespace
 
-std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const std::string& command) {
+std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const std::vector<std::string>& doubts,
+                      const std::string& command) {
   Page page("The loop on " + campaign.name, "residual, cause, effect added, error before and after");
   std::vector<std::pair<std::string, std::string>> summary = {{"Verdict", verdict_sentence(answer)}};
   for (const std::string& sentence : explanation(answer)) summary.emplace_back("", sentence);
   page.summary(summary);
+  page.doubts(doubts);
   if (answer.verdict != Verdict::not_enough_data || !answer.details.weights.empty()) {
     const Identification& id = answer.details;
     const Eigen::VectorXd before = standardised(answer, id.base.prediction);

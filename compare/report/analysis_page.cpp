@@ -99,7 +99,8 @@ HtmlTable soil_table(const std::string& name, const SemiEmpiricalSoil& soil, con
                   {true, false, true, true}};
   for (const SoilParameter& p : soil_parameters)
     table.rows.push_back({p.title, number(soil.*p.value, p.per_si), p.unit, source_of(soil.sources, p.name)});
-  table.rows.push_back({"density", number(soil.density), "kg/m^3", source_of(soil.sources, "density")});
+  table.rows.push_back({"density", number(bulk_density(soil)), "kg/m^3",
+                        soil.density ? source_of(soil.sources, "density") : "presumed: the soil declares none"});
   return table;
 }
 

@@ -138,7 +138,7 @@ Warnings doubts(const SemiEmpiricalSoil& soil) {
   expect(warnings, "c", c, 0, 100, "kPa", "soft soils have 0 .. 70 kPa");
   expect(warnings, "phi", phi, 0, 50, "deg", "the densest sand has some 45 deg");
   expect(warnings, "K", 1000 * soil.shear_modulus.value, 0.5, 120, "mm", "6 mm in firm clay, 25 mm in loose sand");
-  expect(warnings, "density", soil.density, 200, 2400, "kg/m^3", "fresh snow has some 250, dense gravel 2200");
+  expect(warnings, "density", bulk_density(soil), 200, 2400, "kg/m^3", "fresh snow has some 250, dense gravel 2200");
   if (c == 0.0 && phi == 0.0)
     warnings.push_back("c and phi are both 0: this soil has no strength and gives no traction");
   const double most = soil.stress_angle_c1.value + std::max(0.0, soil.stress_angle_c2.value);
@@ -192,6 +192,24 @@ Case as_study(Case question) {
   return question;
 }
 
+/// Whether an answer of the analytic models, at the first condition or the last, hangs on the soil's density.
+bool weighs_soil(const Case& question) {
+  Case asked = question;
+  std::vector<OperatingCondition>& at = asked.study.conditions;
+  if (at.size() > 2) at = {at.front(), at.back()};
+  const std::vector<ModelAnswers> as_it_is = quick_answers(asked);
+  asked.scenario.soil.semi_empirical->density = 1.01 * bulk_density(*question.scenario.soil.semi_empirical);
+  const std::vector<ModelAnswers> heavier = quick_answers(asked);
+  for (std::size_t m = 0; m < heavier.size(); ++m)
+    for (std::size_t i = 0; i < heavier[m].answers.size(); ++i) {
+      const auto &one = as_it_is[m].answers[i].result, &other = heavier[m].answers[i].result;
+      if (one.has_value() != other.has_value()) return true;
+      for (const TractionChannel& channel : traction_channels)
+        if (one && (one.value().*channel.predicted).value != (other.value().*channel.predicted).value) return true;
+    }
+  return false;
+}
+
 /// What is declared and has no influence, and what has influence and is not declared.
 Warnings doubts_of_declarations(const Case& question) {
   Warnings words;
@@ -200,6 +218,10 @@ Warnings doubts_of_declarations(const Case& question) {
   for (const ModelChoice& model : question.study.models)
     effects.insert(effects.end(), model.effects.begin(), model.effects.end());
   append(words, bekker_wong::presumptions(effects, question.scenario.tire));
+  const std::optional<SemiEmpiricalSoil>& soil = question.scenario.soil.semi_empirical;
+  if (soil && !soil->density && !effects.empty() && weighs_soil(question))
+    words.push_back(fmt::format("the soil declares no density: {:g} kg/m^3 is presumed, and the answers hang on it",
+                                presumed_bulk_density));
   return words;
 }
 

@@ -83,6 +83,21 @@ std::vector<std::string> in_need(const std::vector<ModelChoice>& models, const D
   return ids;
 }
 
+/// Depths that an effect has and does not take, since the bin's is declared.
+void add_depths_of_the_bin(const Case& question, std::vector<Unheard>& all) {
+  if (!question.scenario.bin || question.scenario.bin->depth <= 0) return;
+  const double bin = question.scenario.bin->depth;
+  for (const ModelChoice& choice : question.study.models)
+    for (const EffectChoice& effect : choice.effects)
+      for (const bekker_wong::EffectParameter& parameter : bekker_wong::find_form(effect).parameters) {
+        const auto own = effect.parameters.find(parameter.name);
+        if (!parameter.is_the_bins || own == effect.parameters.end() || own->second == bin) continue;
+        all.push_back({parameter.name, fmt::format("effect {} takes the bin's depth, {:g} mm: its own '{}' of {:g} mm "
+                                                   "changes nothing",
+                                                   effect.id, 1000 * bin, parameter.name, 1000 * own->second)});
+      }
+}
+
 }  // namespace
 
 bool hears_of(const bekker_wong::EffectForm& form, const std::string& key) {
@@ -106,6 +121,7 @@ std::vector<Unheard> unheard(const Case& question) {
         all.push_back({"effect", fmt::format("effect {} changes nothing: {}", id, declared.needs)});
     }
   }
+  add_depths_of_the_bin(question, all);
   return all;
 }
 

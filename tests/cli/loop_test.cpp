@@ -37,6 +37,34 @@ TEST(LoopCommand, AnswersInTheContractsForm) {
   EXPECT_LT(overall.at("after").get<double>(), overall.at("before").get<double>());
 }
 
+// Rows that repeat each other, in a campaign too small to fit: told beside the verdict, in JSON and on the page.
+TEST(LoopCommand, TellsItsDoubtsInJsonAndOnThePage) {
+  const Scratch scratch;
+  const fs::path folder = scratch / "small", page = scratch / "loop.html";
+  fs::create_directory(folder);
+  scratch.write("small/campaign.yaml", R"(format: soilbin-campaign/1
+name: small
+wheel: {radius: 110 mm, width: 100 mm}
+soil:
+  exponent: {value: 1.1, sd: 0.1}
+  k_c: {value: 1 kN/m^(n+1), sd: 0.2 kN/m^(n+1)}
+  k_phi: {value: 1500 kN/m^(n+2), sd: 300 kN/m^(n+2)}
+  cohesion: {value: 1 kPa, sd: 0.2 kPa}
+  friction_angle: {value: 28 deg, sd: 2 deg}
+  shear_modulus: {value: 20 mm, sd: 5 mm}
+  stress_angle_c1: {value: 0.2, sd: 0.05}
+  stress_angle_c2: {value: 0.3, sd: 0.05}
+model: {effects: []}
+data: runs.csv
+)");
+  scratch.write("small/runs.csv", "load_N,slip,speed_m_s,drawbar_pull_N\n80,0.1,0.1,5\n80,0.1,0.1,5\n90,0.2,0.1,6\n");
+  const Outcome outcome = soilbin("loop '" + folder.string() + "' --json --report '" + page.string() + "'");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.json().at("verdict"), "not_enough_data");
+  EXPECT_THAT(outcome.json().at("warnings").dump(), HasSubstr("repeat"));
+  EXPECT_THAT(text_of(page), AllOf(HasSubstr("What is doubtful"), HasSubstr("repeat")));
+}
+
 TEST(LoopCommand, RefusesALimitThatIsNone) {
   const Outcome outcome = soilbin("loop made-lesson --limit lod=1..2");
   EXPECT_EQ(outcome.status, 2);

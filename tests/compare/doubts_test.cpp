@@ -37,6 +37,33 @@ TEST(Doubts, EachKindOfWarningIsSaidOnce) {
   EXPECT_THAT(warnings[0], HasSubstr("2 other conditions"));
 }
 
+// The wedge in front of a bulldozing wheel weighs what its soil does; a wheel without effects asks no density.
+TEST(Doubts, APresumedDensityIsToldWhereAnAnswerHangsOnIt) {
+  Case question;
+  question.scenario = wheel_on_sand();
+  question.scenario.soil.semi_empirical->density.reset();
+  question.study.models = {ModelChoice{}};
+  question.study.conditions = {condition(80, 0.2)};
+  EXPECT_TRUE(doubts(question).empty());
+  const EffectChoice bulldozing{"bulldozing", "hegedus", {{"a", 1.0}}};
+  question.study.models[0].effects = {bulldozing};
+  EXPECT_THAT(doubts(question), ElementsAre(HasSubstr("declares no density: 1500 kg/m^3")));
+  question.scenario.soil.semi_empirical->density = 1600;
+  EXPECT_TRUE(doubts(question).empty());
+}
+
+TEST(Doubts, AHardLayersDepthIsTheBinsWhereThatIsDeclared) {
+  Case question;
+  question.scenario = wheel_on_sand();
+  question.scenario.bin = Bin{.depth = 0.09};
+  question.study.models = {ModelChoice{}};
+  question.study.models[0].effects = {{"hard_layer", "hyperbolic", {{"a", 1.0}, {"depth", 0.2}}}};
+  question.study.conditions = {condition(80, 0.2)};
+  EXPECT_THAT(doubts(question), Contains(HasSubstr("takes the bin's depth, 90 mm: its own 'depth' of 200 mm")));
+  question.scenario.bin.reset();
+  EXPECT_TRUE(doubts(question).empty());
+}
+
 std::vector<std::string> keys_of_unheard(const Case& question) {
   std::vector<std::string> keys;
   for (const Unheard& one : unheard(question)) keys.push_back(one.key);

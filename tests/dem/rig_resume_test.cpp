@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -105,7 +106,9 @@ TEST(SlowRigResume, ADriveThatIsStoppedAgainAndAgainTellsTheSame) {
   std::vector<std::string> told;
   const Checkpoints kept{folder / "drive.h5", 0, 0, [&](const std::string& words) { told.push_back(words); }};
   const auto work = [&](const WorkOptions& how) { return driven(small_drive(), short_rig(), how, kept); };
+  const auto began = std::chrono::steady_clock::now();
   const auto [bits, stops] = stopped_again_and_again(work, 4);
+  const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   EXPECT_GE(stops, 4);
   EXPECT_TRUE(bits == whole);
   ASSERT_GE(told.size(), 2U);
@@ -114,7 +117,10 @@ TEST(SlowRigResume, ADriveThatIsStoppedAgainAndAgainTellsTheSame) {
   // Its last restart answers at once.
   WorkOptions quick = with_threads(1);
   quick.progress = [](const Progress& progress) { EXPECT_EQ(progress.done, 1); };
-  EXPECT_TRUE(bits_of(driven(small_drive(), short_rig(), quick, kept)) == whole);
+  const GrainDriveRecord again = driven(small_drive(), short_rig(), quick, kept);
+  EXPECT_TRUE(bits_of(again) == whole);
+  EXPECT_GT(again.earlier, 0) << "the seconds of all pieces add up";
+  EXPECT_LT(again.earlier, took);
 }
 
 TEST(SlowRigResume, OfTwoAtOneRunOneKeepsIt) {

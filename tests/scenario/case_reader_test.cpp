@@ -77,7 +77,8 @@ TEST(CaseReader, ReadsEveryPartInSi) {
   EXPECT_EQ(soil.k_phi.std_error, 150e3);
   EXPECT_DOUBLE_EQ(soil.friction_angle.value, 28 * degree);
   EXPECT_EQ(soil.stress_angle_c1.value, 0.18);
-  EXPECT_EQ(soil.density, 1500.0) << "the default";
+  EXPECT_FALSE(soil.density);
+  EXPECT_EQ(bulk_density(soil), presumed_bulk_density);
   EXPECT_EQ(c.scenario.bin->depth, 0.5);
   ASSERT_EQ(c.study.conditions.size(), 2u);
   EXPECT_EQ(c.study.conditions[1].slip, 0.2);
