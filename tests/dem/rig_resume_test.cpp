@@ -145,11 +145,11 @@ TEST(SlowRigResume, ADiskThatRefusesStopsNoRun) {
   const Folder folder;
   Drive brief = small_drive();
   brief.duration = 0.1;
-  const std::string whole = bits_of(driven(brief, small_rig(), with_threads(1), {}));
+  const std::string whole = bits_of(driven(brief, short_rig(), with_threads(1), {}));
   std::ofstream(folder / "file") << "in the way";
   std::string told;
   const Checkpoints nowhere{folder / "file/drive.h5", 0, 100, [&](const std::string& words) { told += words; }};
-  EXPECT_TRUE(bits_of(driven(brief, small_rig(), with_threads(1), nowhere)) == whole);
+  EXPECT_TRUE(bits_of(driven(brief, short_rig(), with_threads(1), nowhere)) == whole);
   EXPECT_THAT(told, testing::StartsWith("warning: "));
   EXPECT_THAT(told, HasSubstr("can't be gone on with"));
 
@@ -157,7 +157,7 @@ TEST(SlowRigResume, ADiskThatRefusesStopsNoRun) {
   const Checkpoints later{folder / "drive.h5", 0, 100, nowhere.tell};
   WorkOptions how = with_threads(1);
   how.progress = [&](const Progress&) { std::filesystem::create_directories(later.restart / "in the way"); };
-  EXPECT_TRUE(bits_of(driven(brief, small_rig(), how, later)) == whole);
+  EXPECT_TRUE(bits_of(driven(brief, short_rig(), how, later)) == whole);
   EXPECT_THAT(told, HasSubstr("drive.h5: can't write: Is a directory\n  the run goes on without"));
 }
 
@@ -165,7 +165,7 @@ TEST(SlowRigResume, ADiskThatRefusesStopsNoRun) {
 TEST(SlowRigResume, AFinishedRunStaysUntilItIsForgotten) {
   const Folder folder;
   DemSettings settings;
-  settings.size = {0.8, 0.16, 0.06}, settings.rig = small_rig(), settings.how = with_threads(1);
+  settings.size = {0.8, 0.16, 0.06}, settings.rig = short_rig(), settings.how = with_threads(1);
   settings.checkpoints.restart = folder / "";
   settings.forget_finished = false;
   std::string told;
