@@ -8,7 +8,7 @@
 
 #include "compare/experiments/element_experiments.hpp"
 #include "compare/report/result_json.hpp"
-#include "notebooks/bindings/bindings.hpp"
+#include "notebooks/bindings/keywords.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::python {
@@ -23,7 +23,7 @@ using compare::VarianceRow;
 using compare::VirtualTest;
 
 /// Question and answer.
-struct ToldCalibration {
+struct NamedCalibration {
   Soil soil;
   ContactKind kind = ContactKind::grain_grain;
   VirtualTest test;
@@ -49,7 +49,7 @@ ByName<Value> by_name(const std::vector<Named>& named, const std::vector<Value>&
 }
 
 /// The library's values with their names.
-struct ToldRun {
+struct NamedRun {
   std::string stage;
   std::uint64_t seed;
   ByName<double> values;
@@ -58,45 +58,45 @@ struct ToldRun {
   double seconds;
   bool from_store;
 };
-struct ToldCandidate {
+struct NamedCandidate {
   ByName<double> values;
   ByName<Estimate> predicted;
   double chi_square, chance;
   int runs;
 };
-struct ToldRow {
+struct NamedRow {
   VarianceRow row;
   std::vector<double> level_means{};
   double range = std::numeric_limits<double>::quiet_NaN();
 };
 
-std::vector<ToldRun> runs_of(const ToldCalibration& told) {
-  std::vector<ToldRun> out;
-  for (const CalibrationRun& run : told.found.runs) {
+std::vector<NamedRun> runs_of(const NamedCalibration& answer) {
+  std::vector<NamedRun> out;
+  for (const CalibrationRun& run : answer.found.runs) {
     const compare::Experiment& e = run.experiment;
-    out.push_back({compare::stage_name(run.stage), e.seed, by_name(told.test.factors, e.values),
-                   by_name(told.test.targets, e.results), e.error, e.seconds, run.from_store});
+    out.push_back({compare::stage_name(run.stage), e.seed, by_name(answer.test.factors, e.values),
+                   by_name(answer.test.targets, e.results), e.error, e.seconds, run.from_store});
   }
   return out;
 }
 
-ToldCandidate named(const ToldCalibration& told, const Candidate& c) {
-  return {by_name(told.test.factors, c.values), by_name(told.test.targets, c.predicted), c.chi_square, c.chance,
+NamedCandidate named(const NamedCalibration& answer, const Candidate& c) {
+  return {by_name(answer.test.factors, c.values), by_name(answer.test.targets, c.predicted), c.chi_square, c.chance,
           c.runs};
 }
 
-std::vector<ToldCandidate> candidates_of(const ToldCalibration& told) {
-  std::vector<ToldCandidate> out;
-  for (const Candidate& candidate : told.found.candidates) out.push_back(named(told, candidate));
+std::vector<NamedCandidate> candidates_of(const NamedCalibration& answer) {
+  std::vector<NamedCandidate> out;
+  for (const Candidate& candidate : answer.found.candidates) out.push_back(named(answer, candidate));
   return out;
 }
 
 /// Rows of each target: factors with their range analysis, then what is left.
-ByName<std::vector<ToldRow>> variance_of(const ToldCalibration& told) {
-  ByName<std::vector<ToldRow>> out;
-  for (std::size_t t = 0; t < told.found.analyses.size(); ++t) {
-    const compare::TargetAnalysis& analysis = told.found.analyses[t];
-    std::vector<ToldRow>& rows = out[told.test.targets[t].name];
+ByName<std::vector<NamedRow>> variance_of(const NamedCalibration& answer) {
+  ByName<std::vector<NamedRow>> out;
+  for (std::size_t t = 0; t < answer.found.analyses.size(); ++t) {
+    const compare::TargetAnalysis& analysis = answer.found.analyses[t];
+    std::vector<NamedRow>& rows = out[answer.test.targets[t].name];
     for (std::size_t j = 0; j < analysis.variance.factors.size(); ++j)
       rows.push_back(
           {analysis.variance.factors[j], analysis.ranges.factors[j].means, analysis.ranges.factors[j].range});
@@ -107,11 +107,11 @@ ByName<std::vector<ToldRow>> variance_of(const ToldCalibration& told) {
 
 py::array_t<double> copied(const Eigen::VectorXd& values) { return py::array_t<double>(values.size(), values.data()); }
 
-py::dict left_out_of(const ToldCalibration& told) {
+py::dict left_out_of(const NamedCalibration& answer) {
   py::dict out;
-  for (std::size_t t = 0; t < told.found.held_out.size(); ++t) {
-    const compare::LeaveOneOut& test = told.found.held_out[t];
-    out[told.test.targets[t].name.c_str()] = dict_of(
+  for (std::size_t t = 0; t < answer.found.held_out.size(); ++t) {
+    const compare::LeaveOneOut& test = answer.found.held_out[t];
+    out[answer.test.targets[t].name.c_str()] = dict_of(
         {{"residual", copied(test.residual)}, {"sd", copied(test.sd)}, {"standardised", copied(test.standardised)}});
   }
   return out;
@@ -155,8 +155,8 @@ std::vector<compare::Factor> factors_of(ContactKind kind, const Bounds& vary, co
 }
 
 /// Calibrates; tells progress over all runs that there may be.
-ToldCalibration calibrate(const Soil& soil, ContactQuestion question, compare::CalibrationOptions options,
-                          const std::filesystem::path& store, const py::object& progress) {
+NamedCalibration calibrate(const Soil& soil, ContactQuestion question, compare::CalibrationOptions options,
+                           const std::filesystem::path& store, const py::object& progress) {
   Watch watch(progress);
   CalibrationProgress at{compare::Stage::design, 0, options.most_runs, 0, 0};
   const auto tell = [&](double share, std::string_view doing) {
@@ -165,36 +165,37 @@ ToldCalibration calibrate(const Soil& soil, ContactQuestion question, compare::C
   };
   question.how.progress = [&](const dem::Progress& p) { tell(std::min(p.done, 0.999), fmt::format(", {}", p.stage)); };
   options.progress = [&](const CalibrationProgress& now) { at = now, tell(0, ""); };
-  ToldCalibration told{soil, question.kind, compare::contact_test(soil, question), options, {}};
+  NamedCalibration answer{soil, question.kind, compare::contact_test(soil, question), options, {}};
   unlocked([&] {
     compare::ExperimentStore kept(store);
-    told.found = compare::calibrate(told.test, options, kept);
+    answer.found = compare::calibrate(answer.test, options, kept);
   });
-  told.test.run = nullptr, told.options.progress = nullptr;
-  return told;
+  answer.test.run = nullptr, answer.options.progress = nullptr;
+  return answer;
 }
 
 void bind_calibration_parts(py::module_& module) {
-  py::class_<ToldRun>(module, "CalibrationRun", "One experiment of a calibration. SI.")
-      .def_readonly("stage", &ToldRun::stage, "'design', 'candidates' or 'refinement'")
-      .def_readonly("seed", &ToldRun::seed, "of its packings")
-      .def_readonly("values", &ToldRun::values, "of the factors")
-      .def_readonly("results", &ToldRun::results, "of the targets; empty where it failed")
-      .def_readonly("error", &ToldRun::error, "why it failed")
-      .def_readonly("seconds", &ToldRun::seconds, "that it took on the clock on the wall")
-      .def_readonly("from_store", &ToldRun::from_store, "whether it had been made before");
-  py::class_<ToldCandidate>(module, "CalibrationCandidate", "A point between the bounds, and what is known of it. SI.")
-      .def_readonly("values", &ToldCandidate::values, "of the factors")
-      .def_readonly("predicted", &ToldCandidate::predicted, "of the targets, by the surrogates of all runs")
-      .def_readonly("chi_square", &ToldCandidate::chi_square,
+  py::class_<NamedRun>(module, "CalibrationRun", "One experiment of a calibration. SI.")
+      .def_readonly("stage", &NamedRun::stage, "'design', 'candidates' or 'refinement'")
+      .def_readonly("seed", &NamedRun::seed, "of its packings")
+      .def_readonly("values", &NamedRun::values, "of the factors")
+      .def_readonly("results", &NamedRun::results, "of the targets; empty where it failed")
+      .def_readonly("error", &NamedRun::error, "why it failed")
+      .def_readonly("seconds", &NamedRun::seconds, "that it took on the clock on the wall")
+      .def_readonly("from_store", &NamedRun::from_store, "whether it had been made before");
+  py::class_<NamedCandidate>(module, "CalibrationCandidate", "A point between the bounds, and what is known of it. SI.")
+      .def_readonly("values", &NamedCandidate::values, "of the factors")
+      .def_readonly("predicted", &NamedCandidate::predicted, "of the targets, by the surrogates of all runs")
+      .def_readonly("chi_square", &NamedCandidate::chi_square,
                     "sum over targets of (predicted - measured)^2/(both errors squared)")
-      .def_readonly("chance", &ToldCandidate::chance, "that every target is met within the share asked for [-]")
-      .def_readonly("runs", &ToldCandidate::runs, "made at this very point");
-  const auto of = [](auto member) { return [member](const ToldRow& r) { return r.row.*member; }; };
-  py::class_<ToldRow>(module, "VarianceRow", "A factor in the analyses of an orthogonal design; or what none explains.")
+      .def_readonly("chance", &NamedCandidate::chance, "that every target is met within the share asked for [-]")
+      .def_readonly("runs", &NamedCandidate::runs, "made at this very point");
+  const auto of = [](auto member) { return [member](const NamedRow& r) { return r.row.*member; }; };
+  py::class_<NamedRow>(module, "VarianceRow",
+                       "A factor in the analyses of an orthogonal design; or what none explains.")
       .def_property_readonly("source", of(&VarianceRow::source), "the factor's name")
-      .def_readonly("range", &ToldRow::range, "R: largest level mean less smallest [SI]; NaN of what is left")
-      .def_readonly("level_means", &ToldRow::level_means, "k_i: mean of the runs at each level [SI]")
+      .def_readonly("range", &NamedRow::range, "R: largest level mean less smallest [SI]; NaN of what is left")
+      .def_readonly("level_means", &NamedRow::level_means, "k_i: mean of the runs at each level [SI]")
       .def_property_readonly("sum_of_squares", of(&VarianceRow::sum_of_squares), "about the mean [SI, squared]")
       .def_property_readonly("freedom", of(&VarianceRow::freedom), "degrees of it")
       .def_property_readonly("mean_square", of(&VarianceRow::mean_square), "[SI, squared]")
@@ -203,20 +204,20 @@ void bind_calibration_parts(py::module_& module) {
       .def_property_readonly("pooled", of(&VarianceRow::pooled), "whether it was taken for error");
 }
 
-Bounds bounds_of(const ToldCalibration& told) {
+Bounds bounds_of(const NamedCalibration& answer) {
   Bounds out;
-  for (const compare::Factor& factor : told.test.factors) out[factor.name] = {factor.lower, factor.upper};
+  for (const compare::Factor& factor : answer.test.factors) out[factor.name] = {factor.lower, factor.upper};
   return out;
 }
 
-Targets measured_of(const ToldCalibration& told) {
+Targets measured_of(const NamedCalibration& answer) {
   Targets out;
-  for (const compare::Target& target : told.test.targets) out[target.name] = target.measured;
+  for (const compare::Target& target : answer.test.targets) out[target.name] = target.measured;
   return out;
 }
 
 void bind_calibration_answer(py::module_& module) {
-  using C = ToldCalibration;
+  using C = NamedCalibration;
   py::class_<C>(module, "Calibration",
                 "What a calibration found (docs/calibration.md). SI; by names of factors, targets.")
       .def_property_readonly("targets", &measured_of, "what was to be reached")
@@ -255,40 +256,48 @@ void bind_calibration_answer(py::module_& module) {
       });
 }
 
+/// What Python asks of a calibration, member by member a keyword argument.
+struct CalibrationQuestion {
+  std::string contact = "sand";
+  std::optional<Targets> targets;
+  Bounds vary;
+  std::vector<std::string> keep;
+  std::string strength = "peak";
+  std::optional<std::filesystem::path> store;
+  ContactQuestion contact_test;  ///< stresses, settling friction, grains across, packings
+  compare::CalibrationOptions options;
+};
+
 }  // namespace
 
 void bind_calibration(py::module_& module) {
   bind_calibration_parts(module);
   bind_calibration_answer(module);
-  const compare::CalibrationOptions usual;
-  module.def(
-      "calibrate",
-      [](const Soil& soil, const std::string& contact, const std::optional<Targets>& targets, const Bounds& vary,
-         const std::vector<std::string>& keep, const std::string& design, int runs, double near, double within,
-         double probability, const std::string& strength, const std::vector<double>& stresses, double settling_friction,
-         int across, int packings, std::uint64_t seed, int threads, const std::optional<std::filesystem::path>& store,
-         const py::object& progress) {
-        ContactQuestion question;
-        question.kind = kind_of(contact);
-        question.factors = factors_of(question.kind, vary, keep);
-        question.targets = targets_of(soil, question.kind, targets);
-        if (strength != "peak" && strength != "residual") throw InputError("strength: 'peak' or 'residual'");
-        question.strength = strength == "peak" ? compare::Strength::peak : compare::Strength::residual;
-        question.stresses = stresses, question.settling_friction = settling_friction, question.across = across;
-        question.packings = packings, question.how.threads = threads;
-        compare::CalibrationOptions options;
-        options.design = design, options.most_runs = runs, options.near = near, options.within = within;
-        options.probability = probability, options.seed = seed;
-        return calibrate(soil, std::move(question), std::move(options), store.value_or(""), progress);
-      },
-      py::arg("soil"), py::arg("contact") = "sand", py::arg("targets") = py::none(), py::arg("vary") = Bounds{},
-      py::arg("keep") = std::vector<std::string>{}, py::arg("design") = usual.design, py::arg("runs") = usual.most_runs,
-      py::arg("near") = usual.near, py::arg("within") = usual.within, py::arg("probability") = usual.probability,
-      py::arg("strength") = "peak", py::arg("stresses") = ContactQuestion{}.stresses,
-      py::arg("settling_friction") = 1.0, py::arg("across") = 16, py::arg("packings") = 0, py::arg("seed") = usual.seed,
-      py::arg("threads") = 0, py::arg("store") = py::none(), py::arg("progress") = py::none(),
+  using Q = CalibrationQuestion;
+  using Options = compare::CalibrationOptions;
+  const auto run = [](const Soil& soil, const Q& asked, int threads, const py::object& progress) {
+    ContactQuestion question = asked.contact_test;
+    question.kind = kind_of(asked.contact);
+    question.factors = factors_of(question.kind, asked.vary, asked.keep);
+    question.targets = targets_of(soil, question.kind, asked.targets);
+    if (asked.strength != "peak" && asked.strength != "residual") throw InputError("strength: 'peak' or 'residual'");
+    question.strength = asked.strength == "peak" ? compare::Strength::peak : compare::Strength::residual;
+    question.how.threads = threads;
+    return calibrate(soil, std::move(question), asked.options, asked.store.value_or(""), progress);
+  };
+  def_with_settings<Soil, Q>(
+      module, "calibrate", run,
       "Contacts of grains from virtual tests: soilbin.compare.calibrate tells the arguments. Raises InputError for a "
-      "question that makes no sense, NoSolution where too many experiments fail to learn from the rest.");
+      "question that makes no sense, NoSolution where too many experiments fail to learn from the rest.",
+      keyword("contact", &Q::contact), keyword("targets", &Q::targets), keyword("vary", &Q::vary),
+      keyword("keep", &Q::keep), keyword("design", &Q::options, &Options::design),
+      keyword("runs", &Q::options, &Options::most_runs), keyword("near", &Q::options, &Options::near),
+      keyword("within", &Q::options, &Options::within), keyword("probability", &Q::options, &Options::probability),
+      keyword("strength", &Q::strength), keyword("stresses", &Q::contact_test, &ContactQuestion::stresses),
+      keyword("settling_friction", &Q::contact_test, &ContactQuestion::settling_friction),
+      keyword("across", &Q::contact_test, &ContactQuestion::across),
+      keyword("packings", &Q::contact_test, &ContactQuestion::packings), keyword("seed", &Q::options, &Options::seed),
+      keyword("store", &Q::store));
 }
 
 }  // namespace soilbin::python

@@ -2092,7 +2092,7 @@ class Calibration:
     def json(self) -> str:
         """soilbin-calibration/1"""
 
-def calibrate(soil: Soil, contact: str = ..., targets: Optional[dict[str, Union[Estimate, float]]] = ..., vary: dict[str, tuple[float, float]] = ..., keep: Sequence[str] = ..., design: str = ..., runs: int = ..., near: float = ..., within: float = ..., probability: float = ..., strength: str = ..., stresses: Sequence[float] = ..., settling_friction: float = ..., across: int = ..., packings: int = ..., seed: int = ..., threads: int = ..., store: Optional[Union[str, PathLike[str]]] = ..., progress: Optional[Told] = ...) -> Calibration:
+def calibrate(soil: Soil, contact: str = ..., targets: Optional[dict[str, Union[Estimate, float]]] = ..., vary: dict[str, tuple[float, float]] = ..., keep: Sequence[str] = ..., design: str = ..., runs: int = ..., near: float = ..., within: float = ..., probability: float = ..., strength: str = ..., stresses: Sequence[float] = ..., settling_friction: float = ..., across: int = ..., packings: int = ..., seed: int = ..., store: Optional[Union[str, PathLike[str]]] = ..., threads: int = ..., progress: Optional[Told] = ...) -> Calibration:
     """Contacts of grains from virtual tests: soilbin.compare.calibrate tells the arguments. Raises InputError for a
     question that makes no sense, NoSolution where too many experiments fail to learn from the rest.
     """

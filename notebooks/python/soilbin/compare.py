@@ -147,9 +147,10 @@ def calibrate(soil: Union[Soil, str], contact: str = "sand", *,
     """
     known = find_soil(soil) if isinstance(soil, str) else soil
     asked = None if targets is None else dict(targets)
-    return _soilbin.calibrate(known, contact, asked, dict(vary), list(keep), design, runs, near, within, probability,
-                              strength, list(stresses), settling_friction, across, packings, seed, threads, store,
-                              told_to(progress))
+    return _soilbin.calibrate(known, contact=contact, targets=asked, vary=dict(vary), keep=list(keep), design=design,
+                              runs=runs, near=near, within=within, probability=probability, strength=strength,
+                              stresses=list(stresses), settling_friction=settling_friction, across=across,
+                              packings=packings, seed=seed, store=store, threads=threads, progress=told_to(progress))
 
 
 def calibration_frame(calibration: Calibration) -> pd.DataFrame:
