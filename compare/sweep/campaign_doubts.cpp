@@ -39,7 +39,8 @@ void add_row_doubts(const Campaign& campaign, Warnings& warnings) {
 /// Wheels stand above the undisturbed surface here and there; not in most runs.
 void add_flipped_sinkage(const std::vector<Run>& runs, Warnings& warnings) {
   const auto measured = std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.sinkage.has_value(); });
-  const auto above = std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.sinkage < 0.0; });
+  const auto above =
+      std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.sinkage.value_or(0.0) < 0.0; });
   if (2 * above > measured)
     warnings.push_back(
         fmt::format("{} of {} measured sinkages are negative: is their sign flipped? Below the undisturbed surface is "

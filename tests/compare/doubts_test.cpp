@@ -205,6 +205,8 @@ TEST(Doubts, MostSinkagesNegativeMeansAFlippedSign) {
               ElementsAre(HasSubstr("8 of 8 measured sinkages are negative: is their sign flipped?")));
   for (std::size_t i = 0; i < 4; ++i) *campaign.runs[i].sinkage *= -1;
   EXPECT_THAT(doubts(campaign), IsEmpty()) << "half of them may stand above the surface";
+  for (auto& run : campaign.runs) run.sinkage.reset();
+  EXPECT_THAT(doubts(campaign), IsEmpty()) << "what was not measured has no sign";
 }
 
 TEST(Doubts, OfACampaignAreThoseOfTheModelThatAnswers) {

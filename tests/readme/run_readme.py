@@ -9,8 +9,8 @@ A comment before the block changes that:
     <!-- exit 2 -->            the last command of the block ends with this status, not with 0
     <!-- not run: why -->      the block is left alone
 
-Commands run in order in a fresh folder that holds cases/, the folder that lies beside the document under its name
-(docs/guide/first-campaign of docs/guide/first-campaign.md), and, as build/release/soilbin and in the PATH, the command.
+Commands run in order in a fresh folder that holds cases/, the tutorial's data (docs/guide/first-campaign) and, as
+build/release/soilbin and in the PATH, the command.
 """
 import os
 import re
@@ -93,9 +93,8 @@ def run(root, soilbin, document):
     faults = []
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
-        for needed in (root / "cases", document.with_suffix("")):
-            if needed.is_dir():
-                shutil.copytree(needed, folder / needed.relative_to(root))
+        for needed in ("cases", "docs/guide/first-campaign"):
+            shutil.copytree(root / needed, folder / needed)
         (folder / "build/release").mkdir(parents=True)
         (folder / "build/release/soilbin").symlink_to(soilbin)
         environment = {"PATH": f"{folder / 'build/release'}:/usr/bin:/bin", "LC_ALL": "C.UTF-8"}
