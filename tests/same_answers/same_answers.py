@@ -57,8 +57,10 @@ def questions(quick, campaigns):
     if not quick:
         yield "drive.json", ["run", "rover-climb", "--json"]
         yield "bevameter.json", ["bevameter", "paper-sand", "--json"]
-        yield "grains.json", ["run", "bench/dem_nature/studies/dem-null.yaml", "--model", "dem", "--limit", "slip=20%", "--limit", "load=75N", "--packings", "1",
-                              "--json", "--record", "{out}/grains-record.json"]
+        yield "grains.json", ["run", "bench/dem_nature/studies/dem-null.yaml", "--model", "dem", "--load", "70N", "--slip", "20%",
+                              "--packings", "1", "--settling-friction", "0.2", "--bed-length", "0.5m", "--behind", "0.12m",
+                              "--ahead", "0.12m", "--lowering", "0.2s", "--resting", "0.1s", "--starting", "0.1s", "--sleep", "0",
+                              "--threads", "1", "--json", "--record", "{out}/grains-record.json"]
 
 
 def ask(binary, out, quick, campaigns, jobs):
