@@ -1,3 +1,4 @@
+// What a restart must hold to before the engine goes on from it.
 #pragma once
 
 #include <string>

@@ -1,5 +1,4 @@
-// What a bed is like: measured from its grains and contacts, away from walls,
-// floor and surface.
+// What a bed is like: void ratio, density, coordination, measured away from walls, floor and surface.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,4 @@
+// Random numbers that come out the same on every machine: for the places and radii of poured grains.
 #pragma once
 
 #include <cstdint>

@@ -118,7 +118,7 @@ void level(Simulation& simulation, const BedSize& size, double radius) {
     Grains kept;
     for (std::size_t k = 0; k < grains.count(); ++k) {
       const Motion& grain = grains.motion[k];
-      if (grain.position.z + grain.radius <= cut) kept.add(0, grain.position, {}, {}, grain.radius, 1, 0);
+      if (grain.position.z + grain.radius <= cut) kept.add({.radius = grain.radius, .position = grain.position});
     }
     return surface_height(kept, over, radius / 4).mean();
   };
@@ -171,7 +171,7 @@ double longest_step(const GranularSoil& soil) {
   Materials materials;
   materials.add({"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio});
   Grains grains;
-  grains.add(0, {}, {}, {}, soil.radius_min, 1, 0);
+  grains.add({.radius = soil.radius_min});
   return 0.999 * Numerics{}.safe_share * rayleigh_time(materials, grains);
 }
 

@@ -1,5 +1,4 @@
-// A bed of grains in a box, come to rest under gravity: what every run starts
-// from.
+// A bed of grains in a box, come to rest under gravity: what every run starts from.
 #pragma once
 
 #include <cstdint>

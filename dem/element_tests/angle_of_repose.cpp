@@ -18,9 +18,7 @@ using std::numbers::pi;
 constexpr double loose = 0.55;  // share of grains in the poured cylinder, about
 
 void check(const AngleOfReposeSettings& s) {
-  const auto require = [](bool holds, const char* what) {
-    if (!holds) throw InputError(fmt::format("angle of repose: {}", what));
-  };
+  const Requirements require("angle of repose");
   require(s.radius >= 3 && s.height >= 3, "the cylinder must be at least 3 grains in radius and height");
   require(s.lift > 0 && s.lift <= 1, "the lift must lie in 0 .. 1");
   require(s.from >= 0 && s.to > s.from && s.to <= 1, "the part that is fitted must rise within 0 .. 1");
@@ -67,16 +65,9 @@ class Heap {
 };
 
 Setup Heap::setup_for(const WorkOptions& how) const {
-  Setup setup;
-  setup.materials.add({"grains", soil_.grain_density, soil_.youngs_modulus, soil_.poisson_ratio},
-                      interaction_of(soil_.grain_grain));
+  Setup setup = loose_setup(soil_, settings_.dt, 40 * (settings_.radius + settings_.height) * d_, how);
   add_wall_material(setup, soil_, settings_.floor_friction);
   setup.laws = settings_.laws;
-  const double room = 40 * (settings_.radius + settings_.height) * d_;
-  setup.domain = {{-room, -room, -d_}, {room, room, room}};
-  setup.numerics.dt = settings_.dt > 0 ? settings_.dt : longest_step(soil_);
-  setup.numerics.skin = 0.2 * soil_.radius_max;
-  setup.numerics.threads = how.threads;
   return setup;
 }
 

@@ -14,9 +14,7 @@ namespace {
 using std::numbers::pi;
 
 void check(const AnnulusSettings& s) {
-  const auto require = [](bool holds, const std::string& what) {
-    if (!holds) throw InputError("annular shear: " + what);
-  };
+  const Requirements require("annular shear");
   require(s.inner > 0 && s.outer - s.inner >= narrowest_tool,
           fmt::format("the ring must be at least {:.3g} grains wide", narrowest_tool));
   require(s.grousers >= 3 && s.grouser_height > 0 && s.grouser_width > 0, "3 grousers or more, of sizes above 0");
@@ -55,13 +53,7 @@ MeshSurface grouser(const AnnulusSettings& s, double d, double angle) {
   const double length = (s.outer - s.inner) * d * 0.98, middle = (s.outer + s.inner) / 2 * d;
   const TriangleMesh bar = box({length, s.grouser_width * d, s.grouser_height * d});
   const Rotation turn = rotation_by({0, 0, angle});
-  std::vector<Vec3> vertices;
-  for (const Vec3& vertex : bar.vertices())
-    vertices.push_back(turn(vertex + Vec3{middle, 0, -s.grouser_height * d / 2}));
-  MeshOptions options;
-  options.closed = true;
-  options.name = "grouser";
-  return {std::make_shared<TriangleMesh>(std::move(vertices), bar.triangles(), options), nullptr};
+  return surface_of(bar, [&](const Vec3& vertex) { return turn(vertex + Vec3{middle, 0, -s.grouser_height * d / 2}); });
 }
 
 AnnulusRun turn_ring(const SettledBed& bed, double stress, const AnnulusSettings& s, const WorkOptions& how,
@@ -85,7 +77,7 @@ AnnulusRun turn_ring(const SettledBed& bed, double stress, const AnnulusSettings
   run.packing = bed.recipe.packing;
   simulation.body(index).spin = {0, 0, run.speed / mean_radius};
   const double rest = simulation.body(index).position.z;
-  const auto steps = std::max<std::int64_t>(1, std::llround(s.travel * d / (run.speed * dt * s.samples)));
+  const auto steps = steps_of_sample(s.travel * d, run.speed * dt, s.samples);
   work.begin("turning");
   for (int k = 0; k < s.samples; ++k) {
     AnnulusSample sample;

@@ -13,9 +13,7 @@ namespace soilbin::dem {
 namespace {
 
 void check(const DirectShearSettings& s) {
-  const auto require = [](bool holds, const char* what) {
-    if (!holds) throw InputError(fmt::format("direct shear: {}", what));
-  };
+  const Requirements require("direct shear");
   require(s.length >= 4 && s.width >= 3 && s.height >= 4,
           "the box must be at least 4 x 3 x 4 grains\n  hint: 10 grains and more along each side are sound");
   require(!s.stresses.empty() && std::all_of(s.stresses.begin(), s.stresses.end(), [](double p) { return p > 0; }),
@@ -141,8 +139,7 @@ DirectShearRun ShearBox::run() {
   const double before = settings_.ledger ? simulation_.energy().total() : 0;
   const double worked = body(lid_).work + body(upper_).work;
   const double dt = simulation_.setup().numerics.dt;
-  const std::int64_t steps =
-      std::max<std::int64_t>(1, std::llround(settings_.travel * d_ / (out.speed * dt * settings_.samples)));
+  const std::int64_t steps = steps_of_sample(settings_.travel * d_, out.speed * dt, settings_.samples);
   for (int k = 0; k < settings_.samples; ++k) out.curve.push_back(sample(steps, out));
   out.work = body(lid_).work + body(upper_).work - worked;
   if (settings_.ledger) out.energy_error = (simulation_.energy().total() - before) / out.work;
@@ -167,13 +164,11 @@ void ShearBox::summarise(DirectShearRun& run) const {
 /// A line through the strengths, at the stresses asked for; none for a single stress.
 StrengthLine line_of(const std::vector<DirectShearRun>& runs, Estimate DirectShearRun::*strength) {
   std::vector<StrengthPoint> points;
-  bool two = false;
   for (const DirectShearRun& run : runs) {
     const Estimate ratio = run.*strength;
     points.push_back({run.stress, {run.stress * ratio.value, run.stress * ratio.std_error}});
-    two |= run.stress != runs.front().stress;
   }
-  return two ? fit_strength(points) : StrengthLine{};
+  return under_two_stresses(runs) ? fit_strength(points) : StrengthLine{};
 }
 
 }  // namespace

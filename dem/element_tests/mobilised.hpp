@@ -1,4 +1,4 @@
-// Peak and residual of a curve that fluctuates.
+// Peak and residual strength of a measured curve that fluctuates.
 #pragma once
 
 #include <cstddef>

@@ -14,9 +14,7 @@ namespace {
 using std::numbers::pi;
 
 void check(const PlateSettings& s) {
-  const auto require = [](bool holds, const std::string& what) {
-    if (!holds) throw InputError("plate sinkage: " + what);
-  };
+  const Requirements require("plate sinkage");
   require(!s.diameters.empty(), "at least one plate");
   for (const double diameter : s.diameters)
     require(diameter >= narrowest_tool,
@@ -46,7 +44,7 @@ PlateRun press_plate(const SettledBed& bed, double diameter, const PlateSettings
 
   const double way = base - surface + settings.sinkage * d, area = pi * diameter * diameter / 4;
   const double dt = simulation.setup().numerics.dt;
-  const auto steps = std::max<std::int64_t>(1, std::llround(way / (run.speed * dt * settings.samples)));
+  const auto steps = steps_of_sample(way, run.speed * dt, settings.samples);
   work.begin("pressing");
   for (int k = 0; k < settings.samples; ++k) {
     PlateSample sample;

@@ -11,6 +11,10 @@
 
 namespace soilbin::dem {
 
+void Requirements::operator()(bool holds, const std::string& what) const {
+  if (!holds) throw InputError(fmt::format("{}: {}", test_, what));
+}
+
 double mean_diameter(const GranularSoil& soil) { return soil.radius_min + soil.radius_max; }
 
 BedRecipe specimen_recipe(const GranularSoil& soil, const BedSize& size, const SpecimenSettings& settings) {
@@ -38,6 +42,17 @@ Setup specimen_setup(const SettledBed& bed, const WorkOptions& how) {
   setup.domain.lower = {-room, -room, -room};
   setup.domain.upper = {size.length + room, size.width + room, size.depth + room};
   setup.numerics.skin = 0.2 * bed.recipe.soil.radius_max;
+  setup.numerics.threads = how.threads;
+  return setup;
+}
+
+Setup loose_setup(const GranularSoil& soil, double dt, double room, const WorkOptions& how) {
+  Setup setup;
+  setup.materials.add({"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio},
+                      interaction_of(soil.grain_grain));
+  setup.domain = {{-room, -room, -mean_diameter(soil)}, {room, room, room}};
+  setup.numerics.dt = dt > 0 ? dt : longest_step(soil);
+  setup.numerics.skin = 0.2 * soil.radius_max;
   setup.numerics.threads = how.threads;
   return setup;
 }
@@ -96,13 +111,21 @@ double void_ratio_within(const Simulation& simulation, const BedSize& size, doub
   return 1 / solid_fraction(grains, core(size, height, 2 * radius), radius / 6) - 1;
 }
 
-MeshSurface surface_at(const TriangleMesh& mesh, const Vec3& by) {
-  std::vector<Vec3> vertices = mesh.vertices();
-  for (Vec3& vertex : vertices) vertex += by;
+MeshSurface surface_of(const TriangleMesh& mesh, const std::function<Vec3(const Vec3&)>& place) {
+  std::vector<Vec3> vertices;
+  for (const Vec3& vertex : mesh.vertices()) vertices.push_back(place(vertex));
   MeshOptions options;
   options.closed = mesh.closed();
   options.name = mesh.name();
   return {std::make_shared<TriangleMesh>(std::move(vertices), mesh.triangles(), options), nullptr};
+}
+
+MeshSurface surface_at(const TriangleMesh& mesh, const Vec3& by) {
+  return surface_of(mesh, [&](const Vec3& vertex) { return vertex + by; });
+}
+
+std::int64_t steps_of_sample(double way, double way_of_step, int samples) {
+  return std::max<std::int64_t>(1, std::llround(way / (way_of_step * samples)));
 }
 
 void SteppedWork::step(Simulation& simulation) {

@@ -4,14 +4,26 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
 #include "dem/bed/bed_store.hpp"
 
 namespace soilbin::dem {
+
+/// What a test asks of its settings: throws InputError "TEST: what" where that doesn't hold.
+class Requirements {
+ public:
+  explicit Requirements(const char* test) : test_(test) {}
+  void operator()(bool holds, const std::string& what) const;
+
+ private:
+  const char* test_;
+};
 
 /// How the grains of a specimen are put together; as in BedRecipe.
 struct SpecimenSettings {
@@ -33,6 +45,10 @@ std::shared_ptr<const SettledBed> specimen_bed(const BedRecipe& recipe, const Wo
 /// A setup with the bed's material and laws, a domain that leaves walls room to move, and no bodies. Other materials
 /// are added to it before the grains.
 Setup specimen_setup(const SettledBed& bed, const WorkOptions& how);
+
+/// A setup for grains that are put in loosely, on a floor in z = 0: their material, a domain that reaches `room` [m]
+/// to all sides, and dt [s], 0: longest_step.
+Setup loose_setup(const GranularSoil& soil, double dt, double room, const WorkOptions& how);
 
 /// Adds a material of walls, as stiff as the grains, that rubs on them with this share of the grains' own sliding and
 /// rolling friction and that of their cohesion; gives its index.
@@ -56,8 +72,20 @@ double shear_rate(double inertial_number, double pressure, const GranularSoil& s
 /// Void ratio of the grains away from the bounds of a box of this size, filled to `height` [m].
 double void_ratio_within(const Simulation& simulation, const BedSize& size, double height);
 
-/// A mesh moved by a vector, as the surface of a body.
+/// A mesh whose vertices are placed anew, or moved by a vector, as the surface of a body.
+MeshSurface surface_of(const TriangleMesh& mesh, const std::function<Vec3(const Vec3&)>& place);
 MeshSurface surface_at(const TriangleMesh& mesh, const Vec3& by);
+
+/// Steps of one of so many samples over a way [m], `way_of_step` each; at least 1.
+std::int64_t steps_of_sample(double way, double way_of_step, int samples);
+
+/// Whether a line of strength can be laid through runs.
+template <class Run>
+bool under_two_stresses(const std::vector<Run>& runs) {
+  for (const Run& run : runs)
+    if (run.stress != runs.front().stress) return true;
+  return false;
+}
 
 /// A test on every packing under every stress: run_one(bed, stress) gives the result, which keeps its packing. Each
 /// packing's bed is taken once.

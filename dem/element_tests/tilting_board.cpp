@@ -11,9 +11,7 @@ namespace soilbin::dem {
 namespace {
 
 void check(const TiltingBoardSettings& s) {
-  const auto require = [](bool holds, const char* what) {
-    if (!holds) throw InputError(std::string("tilting board: ") + what);
-  };
+  const Requirements require("tilting board");
   require(s.across >= 1, "at least one grain across");
   require(s.layers >= 1 && s.layers <= 100, "1 to 100 layers");
   require(s.rate > 0 && s.steepest > 0 && s.steepest < std::numbers::pi / 2, "tilt at a rate above 0, below 90 deg");
@@ -47,17 +45,11 @@ class Board {
 };
 
 Setup Board::setup_for(const GranularSoil& soil, const WorkOptions& how) const {
-  Setup setup;
-  setup.materials.add({"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio},
-                      interaction_of(soil.grain_grain));
+  const double room = (settings_.across + settings_.layers + 100) * d_ * 2;
+  Setup setup = loose_setup(soil, settings_.dt, room, how);
   const int board = setup.materials.add({"board", 1100, 1e9, 0.3});  // as the tire of a run
   setup.materials.set(grain_material, board, interaction_of(soil.grain_tire));
   setup.laws = with_cohesion_of(soil.grain_tire, with_cohesion_of(soil.grain_grain, settings_.laws));
-  const double room = (settings_.across + settings_.layers + 100) * d_ * 2;
-  setup.domain = {{-room, -room, -d_}, {room, room, room}};
-  setup.numerics.dt = settings_.dt > 0 ? settings_.dt : longest_step(soil);
-  setup.numerics.skin = 0.2 * soil.radius_max;
-  setup.numerics.threads = how.threads;
   return setup;
 }
 

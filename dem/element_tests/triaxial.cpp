@@ -13,9 +13,7 @@ namespace soilbin::dem {
 namespace {
 
 void check(const TriaxialSettings& s) {
-  const auto require = [](bool holds, const char* what) {
-    if (!holds) throw InputError(fmt::format("triaxial: {}", what));
-  };
+  const Requirements require("triaxial");
   require(s.side >= 4 && s.height >= 4,
           "the specimen must be at least 4 grains wide and high\n  hint: 10 grains and more along each side are sound");
   require(!s.stresses.empty() && std::all_of(s.stresses.begin(), s.stresses.end(), [](double p) { return p > 0; }),
@@ -144,7 +142,7 @@ void PressedSpecimen::compress(TriaxialRun& run) {
   simulation_.body(5).velocity = {0, 0, -speed};
   const double way = height * (1 - std::exp(-settings_.strain)), before = work_of_walls();
   const double total = settings_.ledger ? simulation_.energy().total() : 0;
-  const auto steps = std::max<std::int64_t>(1, std::llround(way / (speed * dt * settings_.samples)));
+  const auto steps = steps_of_sample(way, speed * dt, settings_.samples);
   std::array<double, 2> lateral{};
   for (int k = 0; k < settings_.samples; ++k) {
     TriaxialSample sample;
@@ -202,14 +200,12 @@ TriaxialRun PressedSpecimen::run() {
 /// sine).
 StrengthLine line_of(const std::vector<TriaxialRun>& runs, Estimate TriaxialRun::*strength) {
   std::vector<StrengthPoint> points;
-  bool two = false;
   for (const TriaxialRun& run : runs) {
     const Estimate sine = run.*strength;
     const double s = run.stress / (1 - sine.value);
     points.push_back({s, {s * sine.value, s * sine.std_error}});
-    two |= run.stress != runs.front().stress;
   }
-  return two ? fit_circles(points) : StrengthLine{};
+  return under_two_stresses(runs) ? fit_circles(points) : StrengthLine{};
 }
 
 }  // namespace

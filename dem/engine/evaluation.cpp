@@ -90,8 +90,13 @@ void for_each_surface_contact(const World& world, const Visit& visit) {
       const Motion& grain = s.grains.motion[near.grain];
       const LawConstants<double>& constants = world.laws[world.kind(near)];
       made.clear();
-      const int count = find_contacts(placed.at(near), near, grain, {constants, world.margins.adhesion},
-                                      {slab.made.data() + begin, old - begin}, made, touches);
+      const GrainOnSurface at{.who = near,
+                              .grain = grain,
+                              .surface = placed.at(near),
+                              .constants = constants,
+                              .adhesion_reach = world.margins.adhesion,
+                              .before = {slab.made.data() + begin, old - begin}};
+      const int count = find_contacts(at, made, touches);
       for (int k = 0; k < count; ++k) {
         Evaluated c{.first = near.grain,
                     .second = -1 - near.body,

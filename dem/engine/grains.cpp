@@ -26,16 +26,15 @@ void Grains::close() {
   load.resize(count() + 2);
 }
 
-void Grains::add(GrainId new_id, const Vec3& position, const Vec3& velocity, const Vec3& rate, double radius,
-                 double mass, std::uint8_t of_material) {
+void Grains::add(const NewGrain& grain) {
   motion.resize(count());
   spin.resize(count());
   load.resize(count());
-  motion.push_back({position, radius, velocity, 1 / mass});
-  spin.push_back({rate, 1 / (0.4 * mass * radius * radius)});
+  motion.push_back({grain.position, grain.radius, grain.velocity, 1 / grain.mass});
+  spin.push_back({grain.spin, 1 / (0.4 * grain.mass * grain.radius * grain.radius)});
   load.push_back({});
-  id.push_back(new_id);
-  material.push_back(of_material);
+  id.push_back(grain.id);
+  material.push_back(grain.material);
   close();
 }
 

@@ -13,6 +13,15 @@ namespace soilbin::dem {
 
 using GrainId = std::uint32_t;
 
+/// A grain to be added.
+struct NewGrain {
+  GrainId id = 0;
+  double radius = 0;  ///< [m]
+  double mass = 1;    ///< [kg]
+  std::uint8_t material = 0;
+  Vec3 position{}, velocity{}, spin{};
+};
+
 /// All grains, in the order in which they lie in the cells; a grain's id stays with it.
 struct Grains {
   std::vector<Motion> motion;  ///< count() rows, then two that nobody touches: they fill up batches of contacts
@@ -25,8 +34,7 @@ struct Grains {
   /// [m]; 0 where there are none.
   double largest_radius() const;
   /// Adds a grain at the end; its row may move at the next sorting.
-  void add(GrainId new_id, const Vec3& position, const Vec3& velocity, const Vec3& rate, double radius, double mass,
-           std::uint8_t of_material);
+  void add(const NewGrain& grain);
   /// Takes away the rows marked.
   void remove(std::span<const std::uint8_t> gone);
   /// Row k becomes what row order[k] was; a permutation.

@@ -171,7 +171,7 @@ GrainId Simulation::add_grain(const Vec3& position, double radius, int material,
         fmt::format("a grain at ({:.4g}, {:.4g}, {:.4g}) m is outside the domain", position.x, position.y, position.z));
   const double mass = materials.all[material].density * 4 / 3 * std::numbers::pi * radius * radius * radius;
   const GrainId id = state.next_id++;
-  state.grains.add(id, position, velocity, spin, radius, mass, static_cast<std::uint8_t>(material));
+  state.grains.add({id, radius, mass, static_cast<std::uint8_t>(material), position, velocity, spin});
   state.new_grains.push_back(id);
   note_change(state);
   return id;

@@ -79,19 +79,17 @@ std::vector<NearSurface> find_near(std::span<const Body> bodies, const Grains& g
   return near;
 }
 
-int find_contacts(const PlacedSurface& surface, const NearSurface& who, const Motion& grain, const SurfaceLaw& law,
-                  std::span<const SurfaceContact> before, std::vector<SurfaceContact>& made,
-                  std::span<SurfaceTouch, 8> touches) {
-  const int found = find_touches(surface, grain, law.adhesion_reach, touches);
+int find_contacts(const GrainOnSurface& at, std::vector<SurfaceContact>& made, std::span<SurfaceTouch, 8> touches) {
+  const int found = find_touches(at.surface, at.grain, at.adhesion_reach, touches);
   const std::size_t begin = made.size();
-  for (int k = 0; k < found; ++k) made.push_back({who, touches[k].triangle, touches[k].normal, {}});
+  for (int k = 0; k < found; ++k) made.push_back({at.who, touches[k].triangle, touches[k].normal, {}});
   int kept = 0;
   for (int k = 0; k < found; ++k) {
     SurfaceContact contact = made[begin + k];
-    const SurfaceContact* old = remembered(before, {made.data() + begin, static_cast<std::size_t>(found)}, k);
+    const SurfaceContact* old = remembered(at.before, {made.data() + begin, static_cast<std::size_t>(found)}, k);
     if (old) contact.memory = old->memory;
     const double overlap = touches[k].overlap;
-    if (overlap <= 0 && !(old && still_adheres(law.constants, overlap, grain.radius))) continue;
+    if (overlap <= 0 && !(old && still_adheres(at.constants, overlap, at.grain.radius))) continue;
     touches[kept] = touches[k];
     made[begin + kept++] = contact;
   }

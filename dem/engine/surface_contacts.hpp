@@ -62,19 +62,21 @@ struct SurfaceTouch {
 std::vector<NearSurface> find_near(std::span<const Body> bodies, const Grains& grains, std::uint32_t first,
                                    std::uint32_t last, double margin);
 
-/// Laws of a grain on a surface, and how far beyond its radius a grain that adheres may be held [m].
-struct SurfaceLaw {
+/// A grain near a surface, and what its contacts there follow from.
+struct GrainOnSurface {
+  const NearSurface& who;
+  const Motion& grain;
+  const PlacedSurface& surface;
   const LawConstants<double>& constants;
-  double adhesion_reach;
+  double adhesion_reach;                   ///< how far beyond its radius a grain that adheres may be held [m]
+  std::span<const SurfaceContact> before;  ///< its contacts there a step ago
 };
 
 /// Finds all points where a grain touches a surface (none, one, or up to eight in the corners of a mesh), adds a
 /// contact for each to `made` and tells the points in the same order. Each takes the memory of the one among `before`
 /// whose normal is nearest, within 45 degrees and nearest the other way round too; the others start anew. A contact
 /// that adheres is kept beyond the radius.
-int find_contacts(const PlacedSurface& surface, const NearSurface& who, const Motion& grain, const SurfaceLaw& law,
-                  std::span<const SurfaceContact> before, std::vector<SurfaceContact>& made,
-                  std::span<SurfaceTouch, 8> touches);
+int find_contacts(const GrainOnSurface& at, std::vector<SurfaceContact>& made, std::span<SurfaceTouch, 8> touches);
 
 /// What contact_response needs to know of it.
 Touch<double> touch_of(const Body& body, const SurfaceTouch& at, const Motion& grain, const Spin& spin);

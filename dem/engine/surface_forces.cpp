@@ -89,8 +89,13 @@ void surface_forces(World& world, int slab) {
     const Motion& grain = s.grains.motion[near.grain];
     const Spin& spin = s.grains.spin[near.grain];
     const int kind = world.kind(near);
-    const int found = find_contacts(world.placed.at(near), near, grain, {world.laws[kind], adhesion},
-                                    {here.made.data() + begin, old - begin}, made, touches);
+    const GrainOnSurface at{.who = near,
+                            .grain = grain,
+                            .surface = world.placed.at(near),
+                            .constants = world.laws[kind],
+                            .adhesion_reach = adhesion,
+                            .before = {here.made.data() + begin, old - begin}};
+    const int found = find_contacts(at, made, touches);
     for (int k = 0; k < found; ++k) {
       if (touches[k].overlap > deepest * grain.radius) world.found[slab].too_deep = true;
       work.add(touch_of(s.bodies[near.body], touches[k], grain, spin), made[first + k].memory, grain, spin);

@@ -1,4 +1,4 @@
-// How long a step may be.
+// The Rayleigh time, of which a time step may be a share (Numerics::safe_share).
 #pragma once
 
 #include "dem/engine/grains.hpp"

@@ -39,7 +39,7 @@ TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondi
   };
   WheelRun run;
   try {
-    run = run_wheel(*bed, scenario.tire, contact, at, settings_.rig, settings_.how, kept);
+    run = run_wheel({*bed, scenario.tire, contact, settings_.rig}, at, settings_.how, kept);
   } catch (const NoSolution&) {
     finished();
     throw;
@@ -60,7 +60,7 @@ TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondi
 GrainDriveRecord DemModel::drive(const Scenario& scenario, const Drive& drive, int samples) const {
   check_drive(drive);
   const auto bed = beds_.bed(recipe(scenario), settings_.how);
-  return drive_freely(*bed, scenario.tire, scenario.soil.granular->grain_tire, drive, settings_.rig, samples,
+  return drive_freely({*bed, scenario.tire, scenario.soil.granular->grain_tire, settings_.rig}, drive, samples,
                       settings_.how, checkpoints_of(scenario, drive, samples));
 }
 

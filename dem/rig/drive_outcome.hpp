@@ -1,4 +1,4 @@
-// What a free drive of the virtual soil bin tells: plain values.
+// What a free drive of the virtual soil bin gives: samples, happenings and the steady part, as plain values.
 #pragma once
 
 #include <cstdint>

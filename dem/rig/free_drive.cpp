@@ -25,25 +25,25 @@ OperatingCondition condition_at(const Place& place, double load) {
   return at;
 }
 
-Rig rig_of(Rig rig, const Drive& drive, double radius) {
-  rig.mass = mass_of(drive), rig.inertia = inertia_of(drive, radius);
-  return rig;
+/// The rig takes mass and inertia from the drive.
+WheelOnBed with_masses_of(const Drive& drive, WheelOnBed on) {
+  on.rig.mass = mass_of(drive), on.rig.inertia = inertia_of(drive, on.tire.radius);
+  return on;
 }
 
 /// A drive from the first step to its end.
 class FreeDrive {
  public:
-  FreeDrive(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact, const Drive& drive,
-            const Rig& rig, int samples, const WorkOptions& how, const Checkpoints& checkpoints)
-      : tire_(tire),
+  FreeDrive(const WheelOnBed& on, const Drive& drive, int samples, const WorkOptions& how,
+            const Checkpoints& checkpoints)
+      : on_(with_masses_of(drive, on)),
         drive_(drive),
-        rig_(rig_of(rig, drive, tire.radius)),
         samples_(samples),
-        gravity_(bed.recipe.gravity),
-        way_(drive.profile, tire.radius),
+        gravity_(on.bed.recipe.gravity),
+        way_(drive.profile, on.tire.radius),
         place_(way_.at(0)),
-        bin_(bed, tire, tire_contact, condition_at(place_, drive.load), rig_, how, checkpoints,
-             inputs_text(bed.recipe, tire, tire_contact, rig, drive, samples)) {
+        bin_(on_, condition_at(place_, drive.load), how, checkpoints,
+             inputs_text(on.bed.recipe, on.tire, on.contact, on.rig, drive, samples)) {
     bin_.run().keep("drive", *this);
     if (rig_.onlooker.keeper) bin_.run().keep("onlooker", *rig_.onlooker.keeper);
   }
@@ -85,9 +85,10 @@ class FreeDrive {
   double spin() { return dot(bin_.wheel().spin, stance_.axle); }
   double dt() const { return bin_.simulation().setup().numerics.dt; }
 
-  const Tire& tire_;
+  WheelOnBed on_;
   const Drive& drive_;
-  Rig rig_;
+  const Tire& tire_ = on_.tire;
+  const Rig& rig_ = on_.rig;
   int samples_;
   double gravity_;
   Way way_;
@@ -320,12 +321,11 @@ double bed_length_for(const Drive& drive, const Rig& rig) {
   return drive.distance ? rig.behind + *drive.distance + rig.ahead : 0.0;
 }
 
-GrainDriveRecord drive_freely(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact,
-                              const Drive& drive, const Rig& rig, int samples, const WorkOptions& how,
+GrainDriveRecord drive_freely(const WheelOnBed& on, const Drive& drive, int samples, const WorkOptions& how,
                               const Checkpoints& checkpoints) {
   check_drive(drive);
   try {
-    return FreeDrive(bed, tire, tire_contact, drive, rig, samples, how, checkpoints).run();
+    return FreeDrive(on, drive, samples, how, checkpoints).run();
   } catch (const NoSolution&) {
     forget_run(checkpoints.restart);
     throw;

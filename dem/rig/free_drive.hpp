@@ -1,6 +1,6 @@
 // A wheel driven freely over a settled bed: its motor turns it, and the grains alone say how far it gets.
 //
-//   const GrainDriveRecord record = drive_freely(bed, tire, soil.grain_tire, drive, rig, how);
+//   const GrainDriveRecord record = drive_freely({bed, tire, soil.grain_tire, rig}, drive, 400, how);
 //   record.end == DriveEnd::stuck, record.samples.back().travelled, record.samples.back().energy.unaccounted()
 #pragma once
 
@@ -21,8 +21,7 @@ namespace soilbin::dem {
 /// Throws InputError for what the bin can't do (other soils on the way, a yaw that changes, later passes) and a bed too
 /// short or narrow; NoSolution where the grains or the motor can't hold the wheel at its start; RunStopped where a
 /// grain is lost; Stopped. `checkpoints`: as for run_wheel.
-GrainDriveRecord drive_freely(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact,
-                              const Drive& drive, const Rig& rig = {}, int samples = 400, const WorkOptions& how = {},
+GrainDriveRecord drive_freely(const WheelOnBed& on, const Drive& drive, int samples = 400, const WorkOptions& how = {},
                               const Checkpoints& checkpoints = {});
 
 /// Throws InputError for a drive that the bin can't do, before a bed is made for it.

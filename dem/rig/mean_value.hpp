@@ -1,5 +1,4 @@
-// Means of what fluctuates, with honest errors: samples that follow each other
-// are not independent.
+// Means of samples that fluctuate, with errors that allow for samples following each other: they are not independent.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What a wheel leaves behind it.
+// The rut that a wheel leaves: how it changed the bed's surface.
 #pragma once
 
 #include "dem/bed/bed_report.hpp"

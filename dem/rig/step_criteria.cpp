@@ -37,7 +37,7 @@ StepCriteria step_criteria(const BedRecipe& recipe, const Rig& rig, double rim_s
   Grains grains;
   const double radius = soil.radius_min,
                mass = 4.0 / 3 * std::numbers::pi * radius * radius * radius * soil.grain_density;
-  grains.add(0, {}, {}, {}, radius, mass, 0);
+  grains.add({.radius = radius, .mass = mass});
   return {.step = step_of(recipe, rig),
           .rayleigh = rayleigh_time(materials, grains),
           .speed = rim_speed,

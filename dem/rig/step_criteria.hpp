@@ -1,4 +1,5 @@
-// How the time step of a run compares with what grains need.
+// How the time step of a run compares with the two times that bound it: the Rayleigh time, and how long an impact
+// lasts.
 #pragma once
 
 #include "dem/bed/settled_bed.hpp"

@@ -1,5 +1,4 @@
-// Stresses under a wheel against the angle from the vertical, from the contacts
-// of grains with it.
+// Stresses under a wheel against the angle from the vertical, from the contacts of grains with it.
 #pragma once
 
 #include <vector>

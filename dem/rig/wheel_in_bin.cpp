@@ -11,16 +11,15 @@
 
 namespace soilbin::dem {
 
-WheelInBin::WheelInBin(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact,
-                       const OperatingCondition& at, const Rig& rig, const WorkOptions& how,
+WheelInBin::WheelInBin(const WheelOnBed& on, const OperatingCondition& at, const WorkOptions& how,
                        const Checkpoints& checkpoints, std::string inputs)
-    : bed_(bed),
-      tire_(tire),
+    : bed_(on.bed),
+      tire_(on.tire),
       at_(at),
-      rig_(rig),
+      rig_(on.rig),
       stance_(wheel_stance(at)),
       run_(checkpoints, std::move(inputs), how,
-           [&] { return Simulation(setup_for(tire_contact, how.threads), bed.state); }) {
+           [&] { return Simulation(setup_for(on.contact, how.threads), bed_.state); }) {
   run_.keep("bin", *this);
 }
 

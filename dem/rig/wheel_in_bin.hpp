@@ -53,12 +53,12 @@ void parts(Notes& notes, SampleUnderWay& s) {
 /// That the axle may go [m]. Throws InputError for a bed too short or narrow.
 double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig);
 
-/// The stages before a wheel is driven, its steps and its samples. Bed, tire, rig and options must outlive it. Of the
-/// condition load, inclines and yaw are read. `inputs`: what the whole run follows from (StagedRun).
+/// The stages before a wheel is driven, its steps and its samples. `on` and options must outlive it. Of the condition
+/// load, inclines and yaw are read. `inputs`: what the whole run follows from (StagedRun).
 class WheelInBin {
  public:
-  WheelInBin(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact, const OperatingCondition& at,
-             const Rig& rig, const WorkOptions& how, const Checkpoints& checkpoints, std::string inputs);
+  WheelInBin(const WheelOnBed& on, const OperatingCondition& at, const WorkOptions& how, const Checkpoints& checkpoints,
+             std::string inputs);
 
   /// way_in_bin of this bed, tire and rig.
   double way() const { return way_in_bin(bed_.recipe.size, tire_, rig_); }

@@ -1,6 +1,5 @@
-// An operating condition as vectors in the frame of the bin: x the direction of
-// travel, y to its left, z the normal of the undisturbed surface. Inclines turn
-// gravity, not the bin. Signs: docs/conventions.md.
+// An operating condition as vectors in the frame of the bin: x the direction of travel, y to its left, z the normal of
+// the undisturbed surface. Inclines turn gravity, not the bin. Signs: docs/conventions.md.
 #pragma once
 
 #include "dem/surface/vec3.hpp"
@@ -10,10 +9,9 @@ namespace soilbin::dem {
 
 /// How a wheel stands in the bin.
 struct WheelStance {
-  Vec3 up;    ///< against gravity, unit
-  Vec3 load;  ///< the load as a force, W down [N]
-  Vec3 heading,
-      axle;  ///< of the wheel: forward in its plane, and to its left; unit
+  Vec3 up;             ///< against gravity, unit
+  Vec3 load;           ///< the load as a force, W down [N]
+  Vec3 heading, axle;  ///< of the wheel: forward in its plane, and to its left; unit
 };
 
 /// Reads load, inclines and yaw. Throws InputError for a load that isn't above 0, a yaw or inclines of 90 deg or more.

@@ -1,4 +1,4 @@
-// What a run tells beside its result: plain values that a record keeps.
+// What a run gives beside its result: power, rut, and flow of the soil, as plain values that a record keeps.
 #pragma once
 
 #include <vector>

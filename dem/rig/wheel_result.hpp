@@ -1,4 +1,4 @@
-// From a run's samples to its answer.
+// A run's answer from its samples: the steady part, means with errors, stresses under the wheel, the balance of power.
 #pragma once
 
 #include "dem/rig/wheel_run.hpp"

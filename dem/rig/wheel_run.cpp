@@ -18,16 +18,15 @@ namespace {
 /// The run's stages, from the first step to the last sample.
 class Ride {
  public:
-  Ride(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact, const OperatingCondition& at,
-       const Rig& rig, const WorkOptions& how, const Checkpoints& checkpoints)
-      : bed_(bed),
-        tire_(tire),
+  Ride(const WheelOnBed& on, const OperatingCondition& at, const WorkOptions& how, const Checkpoints& checkpoints)
+      : bed_(on.bed),
+        tire_(on.tire),
         at_(at),
-        rig_(rig),
-        motion_(wheel_motion(at, tire.radius)),
-        bin_(bed, tire, tire_contact, at, rig, how, checkpoints, inputs_text(bed.recipe, tire, tire_contact, rig, at)) {
+        rig_(on.rig),
+        motion_(wheel_motion(at, tire_.radius)),
+        bin_(on, at, how, checkpoints, inputs_text(bed_.recipe, tire_, on.contact, rig_, at)) {
     bin_.run().keep("ride", *this);
-    if (rig.onlooker.keeper) bin_.run().keep("onlooker", *rig.onlooker.keeper);
+    if (rig_.onlooker.keeper) bin_.run().keep("onlooker", *rig_.onlooker.keeper);
   }
 
   WheelRun run();
@@ -186,10 +185,9 @@ WheelRun Ride::run() {
 
 }  // namespace
 
-WheelRun run_wheel(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact,
-                   const OperatingCondition& at, const Rig& rig, const WorkOptions& how,
+WheelRun run_wheel(const WheelOnBed& on, const OperatingCondition& at, const WorkOptions& how,
                    const Checkpoints& checkpoints) {
-  return Ride(bed, tire, tire_contact, at, rig, how, checkpoints).run();
+  return Ride(on, at, how, checkpoints).run();
 }
 
 }  // namespace soilbin::dem

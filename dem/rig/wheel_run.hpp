@@ -1,5 +1,5 @@
-// A wheel driven over a settled bed: lowered gently, set going, and measured
-// until the bed ends.
+// A wheel driven over a settled bed at a given slip or torque: lowered gently, set going, and measured until the bed
+// ends. What the rig does and gives: docs/soil-bin.md.
 #pragma once
 
 #include <functional>
@@ -72,6 +72,14 @@ struct Rig {
   Onlooker onlooker;  ///< for replays
 };
 
+/// A wheel, the bed that it runs on, and how it is held there. Bed and tire must outlive the run.
+struct WheelOnBed {
+  const SettledBed& bed;
+  const Tire& tire;
+  ContactPair contact;  ///< of tire and grains
+  Rig rig{};
+};
+
 /// Means over the steps of one sampling time. Force and moment are the soil's on the wheel, in the frame of the bin.
 struct WheelSample {
   double time = 0;       ///< at its end [s]
@@ -111,8 +119,7 @@ struct WheelRun {
 /// `checkpoints` the run is kept now and then, at its end too, and goes on from
 /// there: with the same bits, where all arguments but how and checkpoints are
 /// the same; InputError where they aren't.
-WheelRun run_wheel(const SettledBed& bed, const Tire& tire, const ContactPair& tire_contact,
-                   const OperatingCondition& at, const Rig& rig = {}, const WorkOptions& how = {},
+WheelRun run_wheel(const WheelOnBed& on, const OperatingCondition& at, const WorkOptions& how = {},
                    const Checkpoints& checkpoints = {});
 
 }  // namespace soilbin::dem

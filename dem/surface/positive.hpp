@@ -1,3 +1,4 @@
+// The check that sizes, masses and times go through.
 #pragma once
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Vectors and rotations: what all of dem computes places, forces and spins with.
 #pragma once
 
 #include <cmath>

@@ -21,7 +21,7 @@ using test::with_threads;
 
 Grains one_grain(const Vec3& at, double radius) {
   Grains grains;
-  grains.add(0, at, {}, {}, radius, 1, 0);
+  grains.add({.radius = radius, .position = at});
   return grains;
 }
 
@@ -46,7 +46,7 @@ TEST(SurfaceHeight, OfOneGrainIsItsUpperHalf) {
 
 TEST(SurfaceHeight, HidesWhatLiesUnderneath) {
   Grains grains = one_grain({0, 0, 0.05}, 0.02);
-  grains.add(1, {0, 0, 0.01}, {}, {}, 0.01, 1, 0);
+  grains.add({.id = 1, .radius = 0.01, .position = {0, 0, 0.01}});
   EXPECT_EQ(surface_height(grains, {-0.02, 0.02, -0.02, 0.02}, 1e-3).mean(),
             surface_height(one_grain({0, 0, 0.05}, 0.02), {-0.02, 0.02, -0.02, 0.02}, 1e-3).mean());
 }

@@ -77,9 +77,9 @@ TEST(SlowFreeDrive, OnCobblesTheTorqueMovesMassAndInertia) {
     drive.inertia = share * carried_mass * r * r;
     Rig rig = small_rig();
     rig.meshing.edge = 0.003;
-    const GrainDriveRecord record =
-        drive_freely(cobbles(), small_wheel(), {.restitution = 0.9, .sliding_friction = 1, .rolling_friction = 0},
-                     drive, rig, 50, with_threads(1));
+    const GrainDriveRecord record = drive_freely(
+        {cobbles(), small_wheel(), {.restitution = 0.9, .sliding_friction = 1, .rolling_friction = 0}, rig}, drive, 50,
+        with_threads(1));
     ASSERT_EQ(record.end, DriveEnd::time_is_up);
     const GrainDriveSample& end = record.samples.back();
     double rolled = 0;
@@ -104,7 +104,8 @@ class SlowFreeDriveOnGrains : public ::testing::Test {
     return bed;
   }
   static GrainDriveRecord run(const Drive& drive, const Rig& rig = small_rig(), int samples = 200, int threads = 1) {
-    return drive_freely(bed(), small_wheel(), bed().recipe.soil.grain_tire, drive, rig, samples, with_threads(threads));
+    return drive_freely({bed(), small_wheel(), bed().recipe.soil.grain_tire, rig}, drive, samples,
+                        with_threads(threads));
   }
 };
 
@@ -132,7 +133,7 @@ GrainDriveRecord told_drive(const SettledBed& bed, double duration, double dt) {
   drive.profile.push_back(up);
   Rig rig = small_rig();
   rig.ledger = true, rig.dt = dt;
-  return drive_freely(bed, small_wheel(), bed.recipe.soil.grain_tire, drive, rig, 60, with_threads(1));
+  return drive_freely({bed, small_wheel(), bed.recipe.soil.grain_tire, rig}, drive, 60, with_threads(1));
 }
 
 // The wheel's own balance is counted step by step as it moves: rounding alone is left.
@@ -175,7 +176,7 @@ TEST_F(SlowFreeDriveOnGrains, PullsWhatTheGuidedWheelPullsAtItsSlip) {
   at.load = load, at.slip = free.slip.value, at.speed = free.speed.value;
   Rig rig = small_rig();
   rig.mass = carried_mass;
-  const WheelRun guided = run_wheel(bed(), small_wheel(), bed().recipe.soil.grain_tire, at, rig, with_threads(1));
+  const WheelRun guided = run_wheel({bed(), small_wheel(), bed().recipe.soil.grain_tire, rig}, at, with_threads(1));
   const Estimate& pull = guided.result.drawbar_pull;
   EXPECT_NEAR(pull.value, drawbar, 3 * std::hypot(pull.std_error, free.forward.std_error) + 0.016 * load);
   const Estimate& torque = guided.result.torque;
@@ -230,7 +231,7 @@ TEST_F(SlowFreeDriveOnGrains, StopsWhenAskedAndSaysWhatItCannotHold) {
   source.request_stop();
   how.stop = source.get_token();
   EXPECT_THROW(
-      drive_freely(bed(), small_wheel(), bed().recipe.soil.grain_tire, even_drive(0, 0, 1), small_rig(), 10, how),
+      drive_freely({bed(), small_wheel(), bed().recipe.soil.grain_tire, small_rig()}, even_drive(0, 0, 1), 10, how),
       Stopped);
   Rig patient = small_rig();
   patient.lowering = 0.5;

@@ -21,7 +21,10 @@ Grains made_bed() {
   for (int iz = 0; iz < 5; ++iz)
     for (int iy = 0; iy < 20; ++iy)
       for (int ix = 0; ix < 50; ++ix)
-        grains.add(id++, {0.01 + 0.02 * ix, 0.01 + 0.02 * iy, 0.01 + 0.02 * iz}, {}, {}, 0.01, 1e-3, 0);
+        grains.add({.id = id++,
+                    .radius = 0.01,
+                    .mass = 1e-3,
+                    .position = {0.01 + 0.02 * ix, 0.01 + 0.02 * iy, 0.01 + 0.02 * iz}});
   return grains;
 }
 
@@ -143,7 +146,7 @@ TEST(SlowRigOutputs, OfAWheelOnGrains) {
   rig.lowering = 0.1, rig.resting = 0.02, rig.starting = 0.05;
   OperatingCondition at;
   at.load = 20, at.slip = 0.3, at.speed = 0.3;
-  const WheelRun run = run_wheel(bed, tire, bed.recipe.soil.grain_tire, at, rig, test::with_threads(1));
+  const WheelRun run = run_wheel({bed, tire, bed.recipe.soil.grain_tire, rig}, at, test::with_threads(1));
 
   const Rut& rut = run.rut;
   EXPECT_NEAR(rut.axle, 0.5 - 0.12, 0.01);

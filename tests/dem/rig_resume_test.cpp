@@ -51,7 +51,7 @@ Drive small_drive() {
 }
 
 GrainDriveRecord driven(const Drive& drive, const Rig& rig, const WorkOptions& how, const Checkpoints& checkpoints) {
-  return drive_freely(bed(), small_wheel(), bed().recipe.soil.grain_tire, drive, rig, 30, how, checkpoints);
+  return drive_freely({bed(), small_wheel(), bed().recipe.soil.grain_tire, rig}, drive, 30, how, checkpoints);
 }
 
 /// Everything that a drive tells.
@@ -70,7 +70,7 @@ OperatingCondition two_passes_uphill() {
 }
 
 WheelRun run(const WorkOptions& how, const Checkpoints& checkpoints) {
-  return run_wheel(bed(), small_wheel(), bed().recipe.soil.grain_tire, two_passes_uphill(), short_rig(), how,
+  return run_wheel({bed(), small_wheel(), bed().recipe.soil.grain_tire, short_rig()}, two_passes_uphill(), how,
                    checkpoints);
 }
 

@@ -101,7 +101,7 @@ class SlowSmallWheel : public ::testing::Test {
     return rig;
   }
   static WheelRun run(const OperatingCondition& at, const ContactPair& contact, const Rig& with = rig()) {
-    return run_wheel(bed(), wheel(), contact, at, with, with_threads(1));
+    return run_wheel({bed(), wheel(), contact, with}, at, with_threads(1));
   }
   /// On level ground at 30 % slip; several tests look at it.
   static const WheelRun& level() {
@@ -199,7 +199,7 @@ TEST_F(SlowSmallWheel, GivesTheSameForAnyNumberOfThreadsAndStopsWhenAsked) {
     EXPECT_GE(progress.done, last);
     last = progress.done;
   };
-  const WheelRun other = run_wheel(bed(), wheel(), rough(), at, brief, two);
+  const WheelRun other = run_wheel({bed(), wheel(), rough(), brief}, at, two);
   EXPECT_EQ(one.result.torque.value, other.result.torque.value);
   EXPECT_EQ(one.result.sinkage.value, other.result.sinkage.value);
   EXPECT_GT(last, 0.9);
@@ -207,7 +207,7 @@ TEST_F(SlowSmallWheel, GivesTheSameForAnyNumberOfThreadsAndStopsWhenAsked) {
   std::stop_source source;
   source.request_stop();
   two.stop = source.get_token();
-  EXPECT_THROW(run_wheel(bed(), wheel(), rough(), at, brief, two), Stopped);
+  EXPECT_THROW(run_wheel({bed(), wheel(), rough(), brief}, at, two), Stopped);
 }
 
 TEST_F(SlowSmallWheel, RefusesABedTooShortOrNarrow) {
@@ -216,7 +216,7 @@ TEST_F(SlowSmallWheel, RefusesABedTooShortOrNarrow) {
   EXPECT_THROW(run(condition(load, 0.3, 0.3), rough(), far), InputError);
   Tire wide = wheel();
   wide.width = 0.15;
-  EXPECT_THROW(run_wheel(bed(), wide, rough(), condition(load, 0.3, 0.3), rig()), InputError);
+  EXPECT_THROW(run_wheel({bed(), wide, rough(), rig()}, condition(load, 0.3, 0.3)), InputError);
 }
 
 TEST_F(SlowSmallWheel, AnswersAsAModel) {

@@ -3,6 +3,11 @@
 #include <fmt/core.h>
 
 #include "dem/archive/restart.hpp"
+#include "dem/element_tests/angle_of_repose.hpp"
+#include "dem/element_tests/direct_shear.hpp"
+#include "dem/element_tests/plate_tests.hpp"
+#include "dem/element_tests/tilting_board.hpp"
+#include "dem/element_tests/triaxial.hpp"
 #include "tests/dem/archive_scene.hpp"
 #include "tests/dem/small_bed.hpp"
 #include "tests/dem/worlds.hpp"
@@ -72,10 +77,49 @@ void sleeping_channel(int threads, bool ledger) {
   print_bits(fmt::format("ploughed, ledger {}, {} threads", ledger, threads), simulation);
 }
 
+template <class Sample>
+void print_curve(const char* name, const std::vector<Sample>& curve) {
+  std::uint64_t hash = 0;
+  test::mix(hash, curve.data(), curve.size() * sizeof(Sample));
+  fmt::print("{} {:016x}\n", name, hash);
+}
+
+/// Each element test, as small and as fast as it can be.
+void element_tests() {
+  const GranularSoil soil = test::soft_soil();
+  const WorkOptions how = test::with_threads(1);
+  DirectShearSettings box;
+  box.length = 6, box.width = 4, box.height = 5, box.travel = 0.5, box.inertial = 1e-2, box.samples = 20;
+  box.stresses = {10e3, 20e3}, box.ledger = true;
+  const DirectShearResult shear = direct_shear(soil, box, how);
+  for (const DirectShearRun& run : shear.runs) print_curve("direct shear", run.curve);
+  fmt::print("phi {}, energy {}\n", shear.peak.friction_angle.value, shear.runs.front().energy_error);
+  TriaxialSettings cube;
+  cube.side = 5, cube.height = 6, cube.strain = 0.05, cube.inertial = 1e-2, cube.samples = 20;
+  cube.stresses = {10e3, 20e3};
+  const TriaxialResult pressed = triaxial(soil, cube, how);
+  for (const TriaxialRun& run : pressed.runs) print_curve("triaxial", run.curve);
+  fmt::print("phi {}\n", pressed.residual.friction_angle.value);
+  TiltingBoardSettings board;
+  board.across = 5, board.rate = 1;
+  print_curve("tilting board", tilting_board(soil, board, how).curve);
+  AngleOfReposeSettings heap;
+  heap.radius = 3, heap.height = 4, heap.lift = 0.5, heap.sectors = 3;
+  print_curve("angle of repose", angle_of_repose(soil, heap, how).profile);
+  PlateSettings plate;
+  plate.diameters = {5}, plate.bed.width = 1.6, plate.bed.depth = 0.6, plate.speed = 0.5, plate.sinkage = 0.5;
+  print_curve("plate", plate_sinkage(soil, plate, how).front().curve);
+  AnnulusSettings ring;
+  ring.inner = 1, ring.outer = 6, ring.travel = 0.5, ring.speed = 0.5, ring.samples = 20;
+  ring.bed.width = 1.4, ring.bed.depth = 0.3, ring.stresses = {5e3};
+  print_curve("ring", annular_shear(soil, ring, how).front().curve);
+}
+
 }  // namespace
 }  // namespace soilbin::dem
 
 int main() {
+  soilbin::dem::element_tests();
   for (const int threads : {1, 2}) {
     soilbin::dem::wheel_on_grains(threads);
     for (const bool ledger : {false, true})

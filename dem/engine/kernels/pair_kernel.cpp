@@ -40,10 +40,29 @@ HWY_INLINE void scatter(const PairSweep& sweep, std::size_t pair, const Triad& f
            [&](int k) { return &sweep.load[sweep.second[pair + k]].force.x; });
 }
 
-/// The touch of a pack of contacts, but for its normal and overlap, which `out` has already. Where no law asks for the
-/// inertia it is left out.
-HWY_INLINE void meet(const Grain& i, const Grain& j, Pack distance, bool with_inertia, Touch<Pack>& out, Pack& arm_i,
-                     Pack& arm_j) {
+/// Places of a pack's contacts in the list.
+struct Place {
+  std::size_t pair, batch;
+  unsigned within, mask;  ///< first lane in the batch, and the lanes' bits there
+  explicit Place(std::size_t first)
+      : pair(first), batch(first / 8), within(first % 8), mask((lanes == 8 ? 0xffu : (1u << lanes) - 1) << within) {}
+};
+
+/// A pack of contacts on its way through the law.
+struct Meeting {
+  Place at;
+  Grain i, j;
+  PackMask touching;
+  Pack distance, arm_i, arm_j;
+  Touch<Pack> touch;
+  HWY_INLINE explicit Meeting(const Place& place) : at(place) {}
+};
+
+/// The touch but for its normal and overlap, which it has already. Where no law asks for the inertia it is left out.
+HWY_INLINE void meet(Meeting& m, bool with_inertia) {
+  const Grain &i = m.i, &j = m.j;
+  const Pack distance = m.distance;
+  Touch<Pack>& out = m.touch;
   const Pack radii = i.radius + j.radius, masses = i.inverse_mass + j.inverse_mass;
   const Pack lengths = distance * radii;
   const Pack inertias = with_inertia ? i.inverse_inertia + j.inverse_inertia : Pack(1.0);
@@ -54,17 +73,19 @@ HWY_INLINE void meet(const Grain& i, const Grain& j, Pack distance, bool with_in
   out.mass = inverse * lengths * inertias;
   out.inertia = inverse * lengths * masses;
   const Pack half = Pack(0.5) * out.overlap;
-  arm_i = i.radius - half;
-  arm_j = j.radius - half;
-  out.velocity = i.velocity - j.velocity - cross(arm_i * i.rate + arm_j * j.rate, out.normal);
+  m.arm_i = i.radius - half;
+  m.arm_j = j.radius - half;
+  out.velocity = i.velocity - j.velocity - cross(m.arm_i * i.rate + m.arm_j * j.rate, out.normal);
   out.rotation = i.rate - j.rate;
 }
 
 /// Where losses are counted: adds them up, and adds the parts of the loads that make them.
-HWY_INLINE void count(const PairSweep& sweep, bool rolls, std::size_t pair, PackMask touching, const Touch<Pack>& touch,
-                      const Response<Pack>& does, const Losses<Pack>& losses, PairFindings& found) {
+HWY_INLINE void count(const PairSweep& sweep, bool rolls, const Meeting& m, const Response<Pack>& does,
+                      const Losses<Pack>& losses, PairFindings& found) {
+  const PackMask touching = m.touching;
+  const std::size_t pair = m.at.pair;
   add_up(losses, touching, found.lost);
-  const Triad dashpot = where(touching, losses.dashpot * touch.normal), slide = where(touching, does.tangential);
+  const Triad dashpot = where(touching, losses.dashpot * m.touch.normal), slide = where(touching, does.tangential);
   const SixPacks forces{dashpot.x, dashpot.y, dashpot.z, slide.x, slide.y, slide.z};
   add_rows(forces, [&](int k) { return &sweep.taking[sweep.first[pair + k]].dashpot.x; });
   add_rows({-forces.a, -forces.b, -forces.c, -forces.d, -forces.e, -forces.f},
@@ -89,14 +110,6 @@ HWY_INLINE void keep(const Triad& what, PackMask where_touching, double* to) {
   store(where(where_touching, what.z), to + 16);
 }
 
-/// Places of a pack's contacts in the list.
-struct Place {
-  std::size_t pair, batch;
-  unsigned within, mask;  ///< first lane in the batch, and the lanes' bits there
-  explicit Place(std::size_t first)
-      : pair(first), batch(first / 8), within(first % 8), mask((lanes == 8 ? 0xffu : (1u << lanes) - 1) << within) {}
-};
-
 /// What a sweep is asked for: where these are known to the compiler, the rest of the laws is no part of the loop.
 struct Asked {
   LawFlags laws;
@@ -104,56 +117,55 @@ struct Asked {
 };
 
 /// Laws and scattering, for contacts that touch.
-HWY_INLINE void respond(const PairSweep& sweep, const Asked& asked, const LawConstants<Pack>& constants,
-                        const Place& at, PackMask touching, Pack distance, Grain& i, Grain& j, Touch<Pack>& touch,
+HWY_INLINE void respond(const PairSweep& sweep, const Asked& asked, const LawConstants<Pack>& constants, Meeting& m,
                         PairFindings& found) {
-  read_motion(sweep.motion, sweep.spin, sweep.first + at.pair, i);
-  read_motion(sweep.motion, sweep.spin, sweep.second + at.pair, j);
+  const Place& at = m.at;
+  read_motion(sweep.motion, sweep.spin, sweep.first + at.pair, m.i);
+  read_motion(sweep.motion, sweep.spin, sweep.second + at.pair, m.j);
   const RollingLaw rolling = asked.laws.rolling;
-  const bool with_inertia = rolling == RollingLaw::directional || rolling == RollingLaw::elastic_plastic;
-  Pack arm_i, arm_j;
-  meet(i, j, distance, with_inertia, touch, arm_i, arm_j);
+  meet(m, rolling == RollingLaw::directional || rolling == RollingLaw::elastic_plastic);
 
   double* memory = sweep.memory + at.batch * 48 + at.within;
   Memory<Pack> kept = recall(memory);
   Losses<Pack> losses;
   const Response<Pack> does =
-      contact_response(asked.laws, constants, touch, kept, sweep.dt, asked.losses ? &losses : nullptr);
-  if (asked.losses) count(sweep, rolling != RollingLaw::none, at.pair, touching, touch, does, losses, found);
-  keep(kept.slide, touching, memory);
-  if (law::keeps_roll(rolling)) keep(kept.roll, touching, memory + 24);
+      contact_response(asked.laws, constants, m.touch, kept, sweep.dt, asked.losses ? &losses : nullptr);
+  if (asked.losses) count(sweep, rolling != RollingLaw::none, m, does, losses, found);
+  keep(kept.slide, m.touching, memory);
+  if (law::keeps_roll(rolling)) keep(kept.roll, m.touching, memory + 24);
 
-  const Triad lever = cross(touch.normal, does.tangential);
-  scatter(sweep, at.pair, where(touching, does.force), where(touching, does.couple - arm_i * lever),
-          where(touching, -(does.couple + arm_j * lever)));
+  const Triad lever = cross(m.touch.normal, does.tangential);
+  scatter(sweep, at.pair, where(m.touching, does.force), where(m.touching, does.couple - m.arm_i * lever),
+          where(m.touching, -(does.couple + m.arm_j * lever)));
 }
 
 /// One pack of contacts. `one` holds the constants where all contacts are of one kind.
 HWY_INLINE void work_on(const PairSweep& sweep, const Asked& asked, const LawConstants<Pack>* one, const Place& at,
                         PairFindings& found) {
-  Grain i, j;
-  read_place(sweep.motion, sweep.first + at.pair, i);
-  read_place(sweep.motion, sweep.second + at.pair, j);
-  Touch<Pack> touch;
-  touch.normal = i.position - j.position;
-  touch.normal.x = nearest_image(touch.normal.x, sweep.period[0]);
-  touch.normal.y = nearest_image(touch.normal.y, sweep.period[1]);
-  touch.normal.z = nearest_image(touch.normal.z, sweep.period[2]);
-  const Pack distance2 = dot(touch.normal, touch.normal), sum = i.radius + j.radius;
+  Meeting m(at);
+  read_place(sweep.motion, sweep.first + at.pair, m.i);
+  read_place(sweep.motion, sweep.second + at.pair, m.j);
+  Triad& normal = m.touch.normal;
+  normal = m.i.position - m.j.position;
+  normal.x = nearest_image(normal.x, sweep.period[0]);
+  normal.y = nearest_image(normal.y, sweep.period[1]);
+  normal.z = nearest_image(normal.z, sweep.period[2]);
+  const Pack distance2 = dot(normal, normal), sum = m.i.radius + m.j.radius;
 
-  PackMask touching = distance2 < sum * sum;
+  m.touching = distance2 < sum * sum;
   std::uint8_t& made = sweep.touching[at.batch];
   const unsigned before = made & at.mask;
-  if (before == 0 && none(touching)) return;
+  if (before == 0 && none(m.touching)) return;
   const LawConstants<Pack> constants = one ? *one : constants_of(sweep.constants, sweep.kind + at.pair);
-  const Pack distance = sqrt(distance2);
-  touch.overlap = sum - distance;
+  m.distance = sqrt(distance2);
+  m.touch.overlap = sum - m.distance;
   if (asked.laws.cohesion == CohesionLaw::jkr)
-    touching =
-        touching | (mask_of(before >> at.within) & still_adheres(constants, touch.overlap, i.radius * j.radius / sum));
-  made = static_cast<std::uint8_t>((made & ~at.mask) | bits(touching) << at.within);
-  if (!none(Pack(sweep.deepest) * min(i.radius, j.radius) < where(touching, touch.overlap))) found.too_deep = true;
-  respond(sweep, asked, constants, at, touching, distance, i, j, touch, found);
+    m.touching = m.touching | (mask_of(before >> at.within) &
+                               still_adheres(constants, m.touch.overlap, m.i.radius * m.j.radius / sum));
+  made = static_cast<std::uint8_t>((made & ~at.mask) | bits(m.touching) << at.within);
+  if (!none(Pack(sweep.deepest) * min(m.i.radius, m.j.radius) < where(m.touching, m.touch.overlap)))
+    found.too_deep = true;
+  respond(sweep, asked, constants, m, found);
 }
 
 /// So many contacts ahead the rows of second grains that touch are called for: those of big beds lie in memory, and no
