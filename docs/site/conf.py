@@ -1,17 +1,23 @@
 """The documents as a site: docs/site/make, output in build/docs. Sphinx, MyST (Markdown) and Furo, all of Debian 12.
 
 The pages are the Markdown files as they lie in the project; nothing is written a second time. Added here: the table of
-contents, from the folders; formulas as MathML, which browsers draw without a script or a network; and links to
-files that are no pages, which become their names.
+contents, from the folders; formulas as MathML, which browsers draw without a script or a network; the Python
+reference, from the docstrings, where the package is built; and links to files that are no pages, which become their names.
 """
+import importlib.util
 import re
+import sys
 from pathlib import Path
 
 from docutils.utils.math import latex2mathml
 
 ROOT = Path(__file__).resolve().parents[2]
 project, author, language = "soilbin", "the soilbin authors", "en"
-extensions = ["myst_parser"]
+extensions = ["myst_parser", "sphinx.ext.autodoc"]
+sys.path.insert(0, str(ROOT / "build/release/python"))
+MODULES = ("soilbin", "soilbin.bekker_wong", "soilbin.dem", "soilbin.compare")
+HAS_PACKAGE = importlib.util.find_spec("soilbin") is not None and importlib.util.find_spec("pandas") is not None
+nitpick_ignore_regex = [("py:.*", ".*")]  # signatures name types that are not documented by themselves
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4  # links to headings, by the names that GitHub gives them
 suppress_warnings = ["myst.header"]
@@ -54,6 +60,15 @@ def prepare(app, name, source):
     parts = re.split(r"(^```.*?^```[^\n]*$)", source[0], flags=re.S | re.M)
     parts[::2] = [re.sub(r"(?<!!)\[([^\]]+)\]\(((?!https?:)[^)\s]+)\)", link, part) for part in parts[::2]]
     source[0] = "".join(parts)
+    if name.endswith("python-api") and HAS_PACKAGE:
+        seen = set()
+        for module in MODULES:
+            of = importlib.import_module(module)
+            public = {member: getattr(of, member) for member in of.__all__ if not member.startswith("_")}
+            ours = {member: (getattr(value, "__module__", ""), getattr(value, "__qualname__", member)) for member, value in public.items()}
+            public = [member for member in public if ours[member] not in seen]
+            seen.update(ours.values())
+            source[0] += f"\n\n## {module}\n\n```{{eval-rst}}\n.. automodule:: {module}\n   :members: {', '.join(public)}\n```\n"
     if name == root_doc:
         source[0] += "\n\n" + "\n\n".join(contents()) + "\n"
 
@@ -82,7 +97,19 @@ def write_formula(writer, node, display):
     raise SkipNode
 
 
+def as_it_stands(app, what, name, obj, options, lines):
+    """Docstrings are plain text, not reStructuredText: they keep their lines."""
+    lines[:] = ["| " + re.sub(r"([*`_|\\])", r"\\\1", line.strip()) if line.strip() else "" for line in lines] + [""]
+
+
+def shorter(app, what, name, obj, options, signature, answer):
+    """Signatures name soilbin.Tire, not the extension that it lies in."""
+    return tuple(text and text.replace("soilbin._soilbin.", "") for text in (signature, answer))
+
+
 def setup(app):
+    app.connect("autodoc-process-docstring", as_it_stands)
+    app.connect("autodoc-process-signature", shorter)
     app.connect("source-read", prepare)
     app.add_html_math_renderer("mathml", (inline_formula, None), (displayed_formula, None))
     return {"parallel_read_safe": True}
