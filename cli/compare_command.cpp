@@ -124,7 +124,7 @@ void run_loop_on(const compare::Comparison& comparison, const CompareOptions& as
   if (asked.no_loop || reference.kind == compare::SideKind::analytic) return;
   about.looped = compare::as_campaign(reference, comparison.question);
   compare::LoopOptions options;
-  options.identify.seed = asked.seed;
+  options.attribution.seed = asked.seed;
   options.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   options.progress = shown_progress();
   try {

@@ -64,7 +64,7 @@ void print_answer(const compare::LoopAnswer& answer, bool only_next) {
   if (!only_next) {
     fmt::print("{}: {}\n\n", answer.campaign, compare::verdict_sentence(answer));
     for (const std::string& sentence : compare::explanation(answer)) fmt::print("{}\n", sentence);
-    if (!answer.details.weights.empty()) fmt::print("\n{}", as_text(compare::candidates_table(answer)));
+    if (answer.has_candidates()) fmt::print("\n{}", as_text(compare::candidates_table(answer)));
     if (answer.validation.overall.cells > 0) fmt::print("\n{}", as_text(compare::error_table(answer)));
     return;
   }
@@ -79,7 +79,7 @@ int loop(const LoopOptions& asked, const Session& session) {
   print_warnings(doubts);
   compare::LoopOptions options;
   options.folds = asked.folds;
-  options.identify.seed = asked.seed;
+  options.attribution.seed = asked.seed;
   options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   options.limits = read_limits(asked.limits);
   options.progress = shown_progress();

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "compare/loop/answer_words.hpp"
-#include "compare/loop/held_out_words.hpp"
 #include "compare/loop/loop.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/json_fields.hpp"
@@ -59,9 +58,9 @@ ordered_json soil_json(const LoopAnswer& answer) {
 ordered_json error_json(const LoopAnswer& answer) {
   ordered_json error = ordered_json::object();
   for (int c = 0; c < channel_count; ++c) {
-    const ChannelView& channel = channel_views[static_cast<std::size_t>(c)];
+    const ChannelView& channel = channel_views[c];
     const std::string name(channel.name);
-    const ErrorPair& e = answer.validation.channels[static_cast<std::size_t>(c)];
+    const ErrorPair& e = answer.validation.channels[c];
     error[name] = ordered_json::object();
     if (e.cells == 0) continue;
     error[name] = {{"unit", channel.si_unit},
@@ -108,11 +107,11 @@ ordered_json next_json(const LoopAnswer& answer) {
 }
 
 /// Sets of effects with their shares, and what their best forms presume of the wheel.
-ordered_json sets_json(const Identification& id, const std::vector<Weighted>& sets, const Tire& wheel) {
+ordered_json sets_json(const Attribution& found, const std::vector<Weighted>& sets, const Tire& wheel) {
   ordered_json list = ordered_json::array();
   for (const Weighted& w : sets) {
     std::vector<const bekker_wong::EffectForm*> forms;
-    for (const Term& term : id.candidates[w.best_candidate].terms) forms.push_back(term.form);
+    for (const Term& term : found.candidates.models[w.best_candidate].terms()) forms.push_back(term.form);
     list.push_back({{"effects", w.ids}, {"weight", finite(w.weight)}, {"presumes", presumes_json(forms, wheel)}});
   }
   return list;
@@ -120,12 +119,12 @@ ordered_json sets_json(const Identification& id, const std::vector<Weighted>& se
 
 /// What stands out where the base model may be off by itself, and whether that decides what else is told.
 ordered_json model_discrepancy_json(const LoopAnswer& answer) {
-  const Identification* id = with_model_discrepancy(answer);
-  if (!id) return nullptr;
+  const Attribution* found = answer.with_model_discrepancy();
+  if (!found) return nullptr;
   ordered_json effects = ordered_json::array();
-  if (id->best) effects = id->candidates[*id->best].ids;
+  if (found->candidates.best) effects = found->best().ids;
   return {{"effects", effects},
-          {"p_value", finite(id->p_value)},
+          {"p_value", finite(found->signatures.p_value)},
           {"size", finite(answer.second->size)},
           {"decides", answer.second->decides}};
 }
@@ -133,7 +132,8 @@ ordered_json model_discrepancy_json(const LoopAnswer& answer) {
 /// What the data can't tell apart: the sets of the reading that decides, with their shares, then those that only the
 /// other one leaves, without.
 ordered_json ambiguity_json(const LoopAnswer& answer) {
-  ordered_json all = sets_json(answer.details, answer.ambiguity_set, answer.wheel);
+  if (answer.ambiguity_set.empty()) return ordered_json::array();
+  ordered_json all = sets_json(answer.found(), answer.ambiguity_set, answer.wheel);
   if (answer.noted_sets.empty()) return all;
   for (ordered_json& set : sets_json(answer.second->note, answer.noted_sets, answer.wheel)) {
     set["of_other_reading"] = true;
@@ -144,8 +144,7 @@ ordered_json ambiguity_json(const LoopAnswer& answer) {
 
 ordered_json worse_json(const LoopAnswer& answer) {
   ordered_json names = ordered_json::array();
-  for (const int channel : worse_channels(answer))
-    names.push_back(channel_views[static_cast<std::size_t>(channel)].name);
+  for (const int channel : worse_channels(answer)) names.push_back(channel_views[channel].name);
   return names;
 }
 
@@ -175,35 +174,40 @@ ordered_json to_json(const LoopAnswer& answer) {
 }
 
 ordered_json details_json(const LoopAnswer& answer) {
-  const Identification& id = answer.details;
+  if (!answer.judgement)
+    return {{"p_value", 1.0}, {"values", 0},         {"chi2_base", 0.0},         {"parameters_base", 0},
+            {"sets", {}},     {"unnamed_gain", 0.0}, {"error_smooth_term", 0.0}, {"folds", {}}};
+  const Attribution& found = answer.found();
+  const Candidates& all = found.candidates;
+  const ResidualTests &before = answer.judgement->before, after = answer.choice().after;
   ordered_json sets = ordered_json::array();
-  for (const Weighted& w : id.weights) {
-    const CandidateModel& candidate = id.candidates[w.best_candidate];
+  for (const Weighted& w : all.sets) {
+    const CandidateModel& candidate = all.models[w.best_candidate];
     const std::vector<std::string> in_order = forms_in_order(candidate);
     ordered_json forms = ordered_json::array();
     auto form = in_order.begin();
     for (const std::string& effect : candidate.ids) forms.push_back(effect + "/" + *form++);
-    const auto told = std::find_if(answer.ambiguity_set.begin(), answer.ambiguity_set.end(),
-                                   [&](const Weighted& one) { return one.ids == w.ids; });
+    const auto listed = std::find_if(answer.ambiguity_set.begin(), answer.ambiguity_set.end(),
+                                     [&](const Weighted& one) { return one.ids == w.ids; });
     sets.push_back({{"effects", w.ids},
                     {"forms", forms},
-                    {"weight", finite(told == answer.ambiguity_set.end() ? 0.0 : told->weight)},
+                    {"weight", finite(listed == answer.ambiguity_set.end() ? 0.0 : listed->weight)},
                     {"log_evidence", finite(candidate.log_evidence)},
-                    {"chi2", finite(candidate.fit.chi2)},
-                    {"parameters", candidate.fit.theta.size()}});
+                    {"chi2", finite(candidate.fit().chi2)},
+                    {"parameters", candidate.fit().theta.size()}});
   }
-  return {{"p_value", finite(id.p_value)},
-          {"values", id.observations.cells.size()},
-          {"chi2_base", finite(id.base.chi2)},
-          {"parameters_base", id.base.theta.size()},
-          {"log_evidence_base", finite(id.base_log_evidence)},
-          {"unnamed_gain", finite(id.unnamed_gain)},
-          {"residual_unnamed_gain", finite(id.residual_unnamed_gain)},
+  return {{"p_value", finite(found.signatures.p_value)},
+          {"values", found.base.data().cells()},
+          {"chi2_base", finite(found.base.fit().chi2)},
+          {"parameters_base", found.base.fit().theta.size()},
+          {"log_evidence_base", finite(all.base_log_evidence)},
+          {"unnamed_gain", finite(found.unnamed_gain)},
+          {"residual_unnamed_gain", finite(answer.choice().unnamed_gain)},
           {"reruns",
-           {{finite(answer.reruns_before.p_value), finite(answer.reruns_before.excess)},
-            {finite(answer.reruns_after.p_value), finite(answer.reruns_after.excess)}}},
-          {"lack_of_fit_p", {finite(answer.before.p_value), finite(answer.after.p_value)}},
-          {"choice_gain", {finite(answer.choice_gain.mean), finite(answer.choice_gain.std_error)}},
+           {{finite(before.reruns.p_value), finite(before.reruns.excess)},
+            {finite(after.reruns.p_value), finite(after.reruns.excess)}}},
+          {"lack_of_fit_p", {finite(before.lack_of_fit.p_value), finite(after.lack_of_fit.p_value)}},
+          {"choice_gain", {finite(answer.choice().gain.mean), finite(answer.choice().gain.std_error)}},
           {"error_smooth_term", finite(answer.validation.overall.smooth)},
           {"sets", sets},
           {"folds", answer.validation.chosen}};

@@ -11,7 +11,6 @@
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/sweep/unheard.hpp"
 
 namespace soilbin::compare {
 
@@ -24,8 +23,7 @@ std::string joined(const std::set<std::string>& ids) {
 std::string verdict_sentence(const LoopAnswer& answer) {
   switch (answer.verdict) {
     case Verdict::effect_found:
-      return fmt::format("The model lacks {}: {}.", joined(answer.details.candidates[*answer.details.best].ids),
-                         answer.reason);
+      return fmt::format("The model lacks {}: {}.", joined(answer.found().best().ids), answer.reason);
     case Verdict::nothing_missing:
       return fmt::format("Nothing is missing that these data show: {}.", answer.reason);
     case Verdict::unknown_effect:
@@ -46,7 +44,8 @@ std::vector<const Weighted*> sets_shown(const LoopAnswer& answer) {
   const auto listed = [&](const Weighted& w) {
     return std::any_of(sets.begin(), sets.end(), [&](const Weighted* one) { return one->ids == w.ids; });
   };
-  for (const Weighted& w : answer.details.weights)
+  if (!answer.has_candidates()) return sets;
+  for (const Weighted& w : answer.found().candidates.sets)
     if (sets.size() < most && !listed(w)) sets.push_back(&w);
   return sets;
 }
@@ -75,7 +74,7 @@ std::string effect_sentence(const AcceptedEffect& effect) {
 
 constexpr double little = 0.005;  // of the evidence
 
-/// A set's share of the evidence, the same wherever it is told: "81 %".
+/// A set's share of the evidence, the same in every place: "81 %".
 std::string share_words(double weight) { return weight < little ? "< 1 %" : fmt::format("{:.0f} %", 100 * weight); }
 
 /// The sets with their weights; those of next to none are only counted.
@@ -100,13 +99,13 @@ std::string why_taken(const std::vector<Weighted>& sets) {
                      joined(taken.ids), joined(heaviest.ids));
 }
 
-/// What the reading says that does not decide.
-std::string note_on_the_other_reading(const LoopAnswer& answer) {
-  const Identification& note = answer.second->note;
+/// What the attribution says that does not decide.
+std::string note_on_the_other_attribution(const LoopAnswer& answer) {
+  const Attribution& note = answer.second->note;
   std::string names = "no named effect stands out", others;
-  if (note.best) {
-    const std::set<std::string>& best = note.candidates[*note.best].ids;
-    names = fmt::format("{} stands out most (p = {:.2g})", joined(best), note.p_value);
+  if (note.candidates.best) {
+    const std::set<std::string>& best = note.best().ids;
+    names = fmt::format("{} stands out most (p = {:.2g})", joined(best), note.signatures.p_value);
     for (const Weighted& w : answer.noted_sets)
       if (w.ids != best) others += (others.empty() ? "" : ", ") + joined(w.ids);
   }
@@ -114,19 +113,20 @@ std::string note_on_the_other_reading(const LoopAnswer& answer) {
   const char* other = answer.second->decides
                           ? "a base model that is taken as exact"
                           : "a base model that may itself be off by any smooth function of load and slip";
-  return fmt::format("Note: read with {}{}, {}.", other, note.best ? ", which explains the data less well" : "", names);
+  return fmt::format("Note: read with {}{}, {}.", other,
+                     note.candidates.best ? ", which explains the data less well" : "", names);
 }
 
-/// The forms that the answer tells: of the effects in the model, and of the sets that compete.
-std::vector<EffectChoice> forms_told(const LoopAnswer& answer) {
+/// The forms that the answer names: of the effects in the model, and of the sets that compete.
+std::vector<EffectChoice> forms_named(const LoopAnswer& answer) {
   std::vector<EffectChoice> forms;
   for (const std::vector<AcceptedEffect>* effects : {&answer.effects, &answer.stand_in})
     for (const AcceptedEffect& effect : *effects) forms.push_back(effect.choice);
   for (const Weighted* w : sets_shown(answer))
-    for (const Term& term : answer.details.candidates[w->best_candidate].terms)
+    for (const Term& term : answer.found().candidates.models[w->best_candidate].terms())
       forms.push_back({term.form->id, term.form->form, {}});
   for (const Weighted& w : answer.noted_sets)
-    for (const Term& term : answer.second->note.candidates[w.best_candidate].terms)
+    for (const Term& term : answer.second->note.candidates.models[w.best_candidate].terms())
       forms.push_back({term.form->id, term.form->form, {}});
   return forms;
 }
@@ -162,7 +162,7 @@ std::string to_show_its_shape(const LoopAnswer& answer) {
   const std::string how = on->variable == "run" ? "repeat one setpoint through the whole campaign"
                                                 : fmt::format("vary the {} alone, with re-runs", spaced(on->variable));
   return fmt::format("{}to see its shape, {}: on that the {} that is left depends most (p = {:.2g}).", lack, how,
-                     channel_views[static_cast<std::size_t>(on->channel)].title, on->p_value);
+                     channel_views[on->channel].title, on->p_value);
 }
 
 /// What was set aside, and whether anything hangs on it.
@@ -207,10 +207,10 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
   if (next.beyond.empty()) return sentences;
   std::vector<std::string> names = next.beyond;
   for (std::string& name : names) name = spaced(name);
-  sentences.push_back(
-      fmt::format("That is beyond what was run (in {}), where candidates differ most. What the rig can't reach: --limit "
-                  "{}=LOW..HIGH.",
-                  listed_words(names), next.beyond.front()));
+  sentences.push_back(fmt::format(
+      "That is beyond what was run (in {}), where candidates differ most. What the rig can't reach: --limit "
+      "{}=LOW..HIGH.",
+      listed_words(names), next.beyond.front()));
   return sentences;
 }
 
@@ -223,8 +223,8 @@ std::vector<std::string> explanation(const LoopAnswer& answer) {
     sentences.push_back("These data can't tell apart: " + ambiguity_words(answer.ambiguity_set) + ".");
     if (std::string why = why_taken(answer.ambiguity_set); !why.empty()) sentences.push_back(std::move(why));
   }
-  if (answer.second) sentences.push_back(note_on_the_other_reading(answer));
-  for (std::string& sentence : bekker_wong::presumptions(forms_told(answer), answer.wheel))
+  if (answer.second) sentences.push_back(note_on_the_other_attribution(answer));
+  for (std::string& sentence : bekker_wong::presumptions(forms_named(answer), answer.wheel))
     sentences.push_back(std::move(sentence));
   const ErrorPair& all = answer.validation.overall;
   if (all.cells > 0)
@@ -232,7 +232,7 @@ std::vector<std::string> explanation(const LoopAnswer& answer) {
         "On conditions that neither choice nor fit has seen the error is {} sigma before and {} after; the "
         "squared error falls by {} +- {} sigma^2 a value.",
         number(all.before), number(all.after), number(answer.validation.gain), number(answer.validation.gain_error)));
-  if (answer.details.noise.rerun_freedom == 0 && answer.verdict != Verdict::not_enough_data)
+  if (answer.verdict != Verdict::not_enough_data && answer.found().base.data().noise.rerun_freedom == 0)
     sentences.push_back("No setpoint was run twice: the noise was estimated together with the fit.");
   if (answer.outliers > 0) sentences.push_back(outlier_sentence(answer));
   if (!answer.not_testable.empty())
@@ -245,7 +245,7 @@ std::vector<std::string> explanation(const LoopAnswer& answer) {
 
 std::vector<std::string> forms_in_order(const CandidateModel& candidate) {
   std::map<std::string, std::string> by_id;
-  for (const Term& term : candidate.terms) by_id[term.form->id] = term.form->form;
+  for (const Term& term : candidate.terms()) by_id[term.form->id] = term.form->form;
   std::vector<std::string> forms;
   for (const std::string& id : candidate.ids) forms.push_back(by_id.at(id));
   return forms;
@@ -259,11 +259,11 @@ HtmlTable candidates_table(const LoopAnswer& answer) {
                   {"effects", "form", "share", "odds to the first", "chi2", "values"},
                   {},
                   {true, true}};
-  const std::string values = std::to_string(answer.details.observations.cells.size());
+  const std::string values = std::to_string(answer.found().base.data().cells());
   const std::vector<const Weighted*> sets = sets_shown(answer);
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const Weighted& w = *sets[i];
-    const CandidateModel& candidate = answer.details.candidates[w.best_candidate];
+    const CandidateModel& candidate = answer.found().candidates.models[w.best_candidate];
     std::string forms;
     for (const std::string& form : forms_in_order(candidate)) forms += (forms.empty() ? "" : " + ") + form;
     const double behind = sets.front()->log_evidence - w.log_evidence;
@@ -271,9 +271,9 @@ HtmlTable candidates_table(const LoopAnswer& answer) {
                              : behind > 0 ? "1 : " + number(std::exp(behind))
                                           : number(std::exp(-behind)) + " : 1";
     table.rows.push_back({joined(w.ids), forms, i < answer.ambiguity_set.size() ? share_words(w.weight) : "-", odds,
-                          number(candidate.fit.chi2), values});
+                          number(candidate.fit().chi2), values});
   }
-  table.rows.push_back({"base model", "-", "-", "-", number(answer.details.base.chi2), values});
+  table.rows.push_back({"base model", "-", "-", "-", number(answer.found().base.fit().chi2), values});
   return table;
 }
 
@@ -298,46 +298,49 @@ HtmlTable error_table(const LoopAnswer& answer) {
 
 namespace {
 
-/// The conditions of a campaign's runs, each once. When and where a run was made counts where an effect hears of it.
-std::vector<OperatingCondition> asked_of(const Campaign& campaign, const std::vector<EffectChoice>& effects) {
-  const auto heard = [&](const char* key) {
-    return std::any_of(effects.begin(), effects.end(),
-                       [&](const EffectChoice& effect) { return hears_of(bekker_wong::find_form(effect), key); });
-  };
-  std::vector<OperatingCondition> conditions;
-  std::set<OperatingCondition> seen;
-  for (const Run& run : campaign.runs) {
-    OperatingCondition at = run.at;
-    if (!heard("run")) at.run.reset();
-    if (!heard("position")) at.position.reset();
-    if (seen.insert(at).second) conditions.push_back(at);
+constexpr double third_digit = 1.005;
+
+bool falls(const ErrorPair& error) { return error.before > third_digit * error.after; }
+
+/// "sinkage (20.6 to 7.04 mm), torque (3.1 to 2.2 N m)": the channels of which `moves` holds.
+std::string channels_that(bool (*moves)(const ErrorPair&), const CrossValidation& validation) {
+  std::string text;
+  for (std::size_t c = 0; c < channel_views.size(); ++c) {
+    const ErrorPair& e = validation.channels[c];
+    const ChannelView& view = channel_views[c];
+    if (e.cells > 0 && moves(e))
+      text += fmt::format("{}{} ({:.3g} to {:.3g} {})", text.empty() ? "" : ", ", view.title, e.before * view.per_si,
+                          e.after * view.per_si, view.unit);
   }
-  return conditions;
+  return text;
 }
 
 }  // namespace
 
-Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
-  Case model;
-  model.name = campaign.name + "-model";
-  model.source = "fitted to campaign " + campaign.name;
-  model.scenario = scenario_of(campaign);
-  model.scenario.effects.clear();
-  model.scenario.tire.name = campaign.name + "-wheel";
-  model.scenario.soil.name = campaign.name + "-soil";
-  model.scenario.soil.semi_empirical = answer.soil;
-  model.study.name = model.name;
-  ModelChoice choice;
-  choice.effects = campaign.effects;
-  for (const AcceptedEffect& effect : answer.effects) choice.effects.push_back(effect.choice);
-  for (const AcceptedEffect& effect : answer.stand_in) choice.effects.push_back(effect.choice);
-  model.description = "Made by soilbin loop: " + verdict_sentence(answer);
-  for (const std::string& sentence : bekker_wong::presumptions(choice.effects, campaign.wheel))
-    model.description += " " + sentence;
-  choice.label = "fitted";
-  model.study.models = {choice};
-  model.study.conditions = asked_of(campaign, choice.effects);
-  return model;
+bool rises(const ErrorPair& error) { return error.after > third_digit * error.before; }
+
+std::vector<int> worse_channels(const LoopAnswer& answer) {
+  std::vector<int> worse;
+  if (answer.effects.empty() && answer.stand_in.empty()) return worse;
+  for (int c = 0; c < channel_count; ++c)
+    if (rises(answer.validation.channels[c])) worse.push_back(c);
+  return worse;
+}
+
+std::string held_out_words(const CrossValidation& validation) {
+  const std::string better = channels_that(falls, validation), worse = channels_that(rises, validation);
+  std::string text =
+      fmt::format("held-out error {} by {:.2g} +- {:.2g} sigma^2 a value", validation.gain < 0 ? "rises" : "falls",
+                  std::abs(validation.gain), validation.gain_error);
+  if (!better.empty()) text += "; predicted better: " + better;
+  if (!worse.empty()) text += "; predicted worse: " + worse;
+  return text;
+}
+
+std::string held_out_clause(const LoopAnswer& answer) {
+  if (answer.validation.overall.cells == 0) return "";
+  if (!answer.effects.empty()) return "; " + held_out_words(answer.validation);
+  return answer.stand_in.empty() ? "" : "; with the model that is saved, " + held_out_words(answer.validation);
 }
 
 }  // namespace soilbin::compare

@@ -1,4 +1,4 @@
-// What the loop answers, in plain words, as a page, and as a model that other commands use.
+// Stage 8 of the loop: its answer in plain words, as tables and as a page.
 #pragma once
 
 #include <string>
@@ -6,7 +6,6 @@
 
 #include "compare/loop/loop.hpp"
 #include "compare/report/page.hpp"
-#include "scenario/case.hpp"
 
 namespace soilbin::compare {
 
@@ -20,6 +19,20 @@ std::string verdict_sentence(const LoopAnswer& answer);
 /// measure next. One string a sentence.
 std::vector<std::string> explanation(const LoopAnswer& answer);
 
+/// Whether a held-out error is larger with the effects than without, by more than its third digit.
+bool rises(const ErrorPair& error);
+
+/// The channels whose held-out error rises with the effects that the answer's model takes (Channel); none where it
+/// takes none.
+std::vector<int> worse_channels(const LoopAnswer& answer);
+
+/// "held-out error falls by 28 +- 5 sigma^2 a value; predicted better: sinkage (20.6 to 7.04 mm); predicted worse:
+/// drawbar pull (5.95 to 6.3 N)".
+std::string held_out_words(const CrossValidation& validation);
+
+/// The same as the end of a reason; empty where the model takes no effects or nothing was held out.
+std::string held_out_clause(const LoopAnswer& answer);
+
 /// What to measure next, or why no run is proposed; empty where no question is open.
 std::vector<std::string> what_next(const LoopAnswer& answer);
 
@@ -30,10 +43,6 @@ std::vector<std::string> forms_in_order(const CandidateModel& candidate);
 /// tables for a page or a terminal.
 HtmlTable candidates_table(const LoopAnswer& answer);
 HtmlTable error_table(const LoopAnswer& answer);
-
-/// The campaign's wheel on the refitted soil with the accepted effects, at each of its conditions: what estimate, run
-/// and predict --model take.
-Case resolved_model(const Campaign& campaign, const LoopAnswer& answer);
 
 /// The report: verdict, residuals against every variable before and after, the accepted effect's signature over the
 /// residual, candidates, what is not testable, what to measure next. `doubts`: in the campaign (compare/sweep/doubts.hpp).

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "compare/loop/descent.hpp"
-#include "compare/loop/evidence.hpp"
 
 namespace soilbin::compare {
 
@@ -26,7 +24,7 @@ std::optional<Index> k_phi_of(const std::vector<FreeParameter>& parameters) {
 std::vector<int> free_of_bounds(const WheelPredictor& predictor, const VectorXd& theta, const VectorXd& downhill) {
   std::vector<int> free;
   for (Index i = 0; i < theta.size(); ++i) {
-    const FreeParameter& p = predictor.parameters()[static_cast<std::size_t>(i)];
+    const FreeParameter& p = predictor.parameters()[i];
     const bool held = (theta[i] <= p.lower && downhill[i] < 0) || (theta[i] >= p.upper && downhill[i] > 0);
     if (!held) free.push_back(static_cast<int>(i));
   }
@@ -40,7 +38,7 @@ bool put_near(Descent& descent, const WheelPredictor& predictor, VectorXd start)
   for (int attempt = 0; attempt < 21; ++attempt) {
     if (descent.put(start, true)) return true;
     if (!k_phi) return false;
-    const double sd = predictor.parameters()[static_cast<std::size_t>(*k_phi)].prior_sd;
+    const double sd = predictor.parameters()[*k_phi].prior_sd;
     start[*k_phi] = std::max(start[*k_phi] * 1.25, start[*k_phi] + 0.25 * sd);
   }
   return false;
@@ -51,14 +49,12 @@ bool put_near(Descent& descent, const WheelPredictor& predictor, VectorXd start)
 VectorXd way_to_firmer(const Descent& descent, const WheelPredictor& predictor) {
   const std::vector<FreeParameter>& parameters = predictor.parameters();
   if (const auto k_phi = k_phi_of(parameters)) {
-    const double length =
-        std::max(std::abs(descent.theta()[*k_phi]), parameters[static_cast<std::size_t>(*k_phi)].scale);
+    const double length = std::max(std::abs(descent.theta()[*k_phi]), parameters[*k_phi].scale);
     return length * VectorXd::Unit(descent.theta().size(), *k_phi);
   }
   VectorXd way = descent.firmer();
   double longest = 0.0;
-  for (Index i = 0; i < way.size(); ++i)
-    longest = std::max(longest, std::abs(way[i]) / parameters[static_cast<std::size_t>(i)].scale);
+  for (Index i = 0; i < way.size(); ++i) longest = std::max(longest, std::abs(way[i]) / parameters[i].scale);
   return longest > 0.0 ? VectorXd(way / longest) : VectorXd();
 }
 
@@ -99,27 +95,6 @@ std::optional<Fit> fit(const WheelPredictor& predictor, const VectorXd& values, 
   end.chi2 = line.residual.squaredNorm();
   end.chi2_cells = line.residual.head(values.size()).squaredNorm();
   return end;
-}
-
-VectorXd standard_errors(const Fit& fit, const WheelPredictor& predictor) {
-  VectorXd errors = VectorXd::Zero(fit.theta.size());
-  MatrixXd gram = fit.columns.transpose() * fit.columns;
-  gram.diagonal().array() += 1e-12;
-  const MatrixXd covariance = gram.ldlt().solve(MatrixXd::Identity(gram.rows(), gram.cols()));
-  for (std::size_t i = 0; i < fit.column_parameter.size(); ++i) {
-    const int p = fit.column_parameter[i];
-    errors[p] = std::sqrt(std::max(0.0, covariance(static_cast<Index>(i), static_cast<Index>(i)))) *
-                predictor.parameters()[static_cast<std::size_t>(p)].scale;
-  }
-  return errors;
-}
-
-double held_error(const Fit& fit, const WheelPredictor& predictor, const Whitening& whitening, Index parameter) {
-  const FreeParameter& p = predictor.parameters()[static_cast<std::size_t>(parameter)];
-  VectorXd column = VectorXd::Zero(fit.columns.rows());
-  column.head(fit.jacobian.rows()) = whitening(VectorXd(fit.jacobian.col(parameter)));
-  const double told = Projector(fit.columns).vector(column).squaredNorm() + 1 / (p.prior_sd * p.prior_sd);
-  return told > 0 ? 1 / std::sqrt(told) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace soilbin::compare

@@ -31,10 +31,4 @@ struct Fit {
 std::optional<Fit> fit(const WheelPredictor& predictor, const Eigen::VectorXd& values, const Whitening& whitening,
                        const Eigen::VectorXd& start);
 
-/// 1 sd of each parameter from the inverse of the columns' Gram matrix; 0 for those held by a bound.
-Eigen::VectorXd standard_errors(const Fit& fit, const WheelPredictor& predictor);
-
-/// 1 sd that a parameter held by a bound would have if it could move, the others free as they are.
-double held_error(const Fit& fit, const WheelPredictor& predictor, const Whitening& whitening, Eigen::Index parameter);
-
 }  // namespace soilbin::compare

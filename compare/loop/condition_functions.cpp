@@ -29,8 +29,8 @@ class BasisBuilder {
     columns_.push_back(std::move(column));
   }
   MatrixXd build() const {
-    MatrixXd basis(rows_, static_cast<Index>(columns_.size()));
-    for (std::size_t i = 0; i < columns_.size(); ++i) basis.col(static_cast<Index>(i)) = columns_[i];
+    MatrixXd basis(rows_, columns_.size());
+    for (std::size_t i = 0; i < columns_.size(); ++i) basis.col(i) = columns_[i];
     return basis;
   }
 
@@ -54,7 +54,7 @@ MatrixXd with_constant(const MatrixXd& functions) {
 }
 
 MatrixXd smooth_basis(const Observations& observations, int max_columns) {
-  BasisBuilder basis(static_cast<Index>(observations.rows.size()), max_columns);
+  BasisBuilder basis(observations.rows.size(), max_columns);
   std::vector<VectorXd> u;
   for (const Covariate& c : covariates(observations)) u.push_back(to_unit_interval(c.values));
   for (const VectorXd& x : u) basis.add(x);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/loop/thresholds.hpp"
+
 namespace soilbin::compare {
 
 using Eigen::Index;
@@ -11,23 +13,21 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double carried_to = 0.005;  // sd of ln(load/most carried) of a row in which the soil gives way
-
 /// Rows of the priors: (prior - theta)/sd.
 VectorXd prior_residual(const std::vector<FreeParameter>& parameters, const VectorXd& theta) {
   std::vector<double> rows;
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (std::isfinite(parameters[i].prior_sd))
-      rows.push_back((parameters[i].prior - theta[static_cast<Index>(i)]) / parameters[i].prior_sd);
-  return Eigen::Map<VectorXd>(rows.data(), static_cast<Index>(rows.size()));
+      rows.push_back((parameters[i].prior - theta[i]) / parameters[i].prior_sd);
+  return Eigen::Map<VectorXd>(rows.data(), rows.size());
 }
 
 MatrixXd prior_columns(const std::vector<FreeParameter>& parameters) {
-  const Index n = static_cast<Index>(parameters.size());
+  const Index n = parameters.size();
   MatrixXd rows = MatrixXd::Zero(n, n);
   Index row = 0;
   for (Index i = 0; i < n; ++i) {
-    const FreeParameter& p = parameters[static_cast<std::size_t>(i)];
+    const FreeParameter& p = parameters[i];
     if (std::isfinite(p.prior_sd)) rows(row++, i) = p.scale / p.prior_sd;
   }
   return rows.topRows(row);
@@ -96,14 +96,14 @@ double promised_gain(const AugmentedLine& l, const VectorXd& step) {
 
 Descent::Descent(const WheelPredictor& predictor, const VectorXd& values, const Whitening& whitening)
     : predictor_(predictor), values_(values), whitening_(whitening) {
-  const Index n = static_cast<Index>(predictor.parameters().size());
+  const Index n = predictor.parameters().size();
   scale_.resize(n);
-  for (Index i = 0; i < n; ++i) scale_[i] = predictor.parameters()[static_cast<std::size_t>(i)].scale;
+  for (Index i = 0; i < n; ++i) scale_[i] = predictor.parameters()[i].scale;
   const std::vector<Wall> walls = predictor.walls();
-  walls_.resize(static_cast<Index>(walls.size()), n);
+  walls_.resize(walls.size(), n);
   limits_.resize(walls_.rows());
   for (Index w = 0; w < limits_.size(); ++w) {
-    const Wall& wall = walls[static_cast<std::size_t>(w)];
+    const Wall& wall = walls[w];
     const VectorXd normal = wall.normal.cwiseProduct(scale_);
     walls_.row(w) = normal.transpose() / normal.norm();
     limits_[w] = wall.limit / normal.norm();
@@ -114,8 +114,8 @@ VectorXd Descent::residual(const Point& at) const {
   const VectorXd cells = whitening_(VectorXd(values_ - at.prediction));
   const VectorXd prior = prior_residual(predictor_.parameters(), at.theta);
   const std::vector<double>& s = at.memory.shortfall;
-  VectorXd residual(cells.size() + prior.size() + static_cast<Index>(s.size()));
-  residual << cells, prior, Eigen::Map<const VectorXd>(s.data(), static_cast<Index>(s.size())) / -carried_to;
+  VectorXd residual(cells.size() + prior.size() + s.size());
+  residual << cells, prior, Eigen::Map<const VectorXd>(s.data(), s.size()) / -thresholds::carried_to;
   return residual;
 }
 
@@ -160,7 +160,7 @@ AugmentedLine Descent::line() const {
   l.residual = residual(here_);
   l.columns.resize(l.residual.size(), scale_.size());
   l.columns << whitening_(MatrixXd(jacobian_ * scale_.asDiagonal())), prior_columns(predictor_.parameters()),
-      short_of_ * (scale_ / carried_to).asDiagonal();
+      short_of_ * (scale_ / thresholds::carried_to).asDiagonal();
   return l;
 }
 

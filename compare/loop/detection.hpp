@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/loop/bounded_fit.hpp"
+#include "compare/loop/fitted_model.hpp"
 
 namespace soilbin::compare {
 
@@ -16,7 +16,7 @@ struct LackOfFit {
   double noise_freedom = 0.0;  ///< behind the noise estimate
   double p_value = 1.0;
 };
-LackOfFit lack_of_fit(const Fit& fit, const NoiseFloor& noise, Eigen::Index cells);
+LackOfFit lack_of_fit(const FittedModel& model);
 
 /// The same against re-runs alone, channel by channel: the scatter of the setpoints' mean residuals over that within
 /// setpoints (pure error; Draper and Smith, ch. 2), the setpoint farthest off left out, for it may be an outlier. It
@@ -26,7 +26,7 @@ struct RerunTest {
   double p_value = 1.0;  ///< least of the channels', times their number; 1 where no channel has re-runs enough
   double excess = 0.0;   ///< squares of setpoints' means beyond what the re-runs explain, in theirs, over the channels
 };
-RerunTest rerun_test(const Observations& observations, const NoiseFloor& noise, const Fit& fit);
+RerunTest rerun_test(const FittedModel& model);
 
 /// Does a channel's residual depend on a variable? Share of its variance that a parabola in the variable explains,
 /// with its p-value from permutations that keep the re-runs of a setpoint together (SetpointPermutation): what they

@@ -13,31 +13,22 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-MatrixXd orthonormal(const MatrixXd& columns) {
-  if (columns.cols() == 0) return MatrixXd(columns.rows(), 0);
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
-  return qr.householderQ() * MatrixXd::Identity(columns.rows(), qr.rank());
-}
-
-Projector::Projector(const MatrixXd& columns) : q_(orthonormal(columns)) {}
-
-MatrixXd form_columns(const Observations& observations, const Whitening& whitening, const VectorXd& contribution,
-                      double tolerance) {
+MatrixXd form_columns(const Dataset& data, const VectorXd& contribution, double tolerance) {
   constexpr int smooth_columns = 6;
-  const MatrixXd basis = with_constant(smooth_basis(observations, smooth_columns));
+  const MatrixXd basis = with_constant(smooth_basis(data.observations, smooth_columns));
   const Index cells = contribution.size();
   MatrixXd columns = MatrixXd::Zero(cells, channel_count * basis.cols());
   Index used = 0;
   for (int channel = 0; channel < channel_count; ++channel)
     for (Index b = 0; b < basis.cols(); ++b) {
       for (Index i = 0; i < cells; ++i) {
-        const Cell& cell = observations.cells[static_cast<std::size_t>(i)];
+        const Cell& cell = data.observations.cells[i];
         if (cell.channel == channel) columns(i, used) = contribution[i] * basis(cell.row, b);
       }
       if (columns.col(used).squaredNorm() > 0) ++used;
     }
   const double each = tolerance / std::sqrt(static_cast<double>(basis.cols()));
-  return each * whitening(MatrixXd(columns.leftCols(used)));
+  return each * data.whitening(MatrixXd(columns.leftCols(used)));
 }
 
 VectorXd LinearProblem::padded(const VectorXd& signature) const {
@@ -46,27 +37,66 @@ VectorXd LinearProblem::padded(const VectorXd& signature) const {
   return full;
 }
 
-LinearProblem linear_problem(const WheelPredictor& predictor, const Fit& fit, Index cells, const MatrixXd& tolerance) {
+namespace {
+
+LinearProblem linear_problem(const FittedModel& model, const MatrixXd& tolerance) {
+  const Fit& fit = model.fit();
   const Index rows = fit.residual.size(), extra = tolerance.cols();
   LinearProblem p;
-  p.cells = cells;
-  for (std::size_t c = 0; c < fit.column_parameter.size(); ++c)
-    for (int t = 0; t < static_cast<int>(predictor.terms().size()); ++t)
-      if (fit.column_parameter[c] == predictor.amplitude_index(t)) p.amplitudes.push_back(static_cast<Index>(c));
+  p.cells = model.data().cells();
+  for (Index c = 0; c < fit.columns.cols(); ++c)
+    for (int t = 0; t < std::ssize(model.terms()); ++t)
+      if (fit.column_parameter[c] == model.predictor().amplitude_index(t)) p.amplitudes.push_back(c);
   p.residual = VectorXd::Zero(rows + extra);
   p.residual.head(rows) = fit.residual;
   p.nuisance = MatrixXd::Zero(rows + extra, fit.columns.cols() + extra);
   p.nuisance.topLeftCorner(rows, fit.columns.cols()) = fit.columns;
   if (extra > 0) {
-    p.nuisance.topRightCorner(cells, extra) = tolerance;
+    p.nuisance.topRightCorner(p.cells, extra) = tolerance;
     p.nuisance.bottomRightCorner(extra, extra).setIdentity();
   }
   return p;
 }
 
-namespace {
+/// Share of a contribution that the soil's values, as far as their priors let them, could not have made.
+double share_kept(const FittedModel& model, const VectorXd& contribution) {
+  const Fit& fit = model.fit();
+  std::vector<Index> soil;
+  for (Index c = 0; c < fit.columns.cols(); ++c)
+    if (fit.column_parameter[c] < model.predictor().soil_parameters()) soil.push_back(c);
+  VectorXd whole = VectorXd::Zero(fit.columns.rows());
+  whole.head(contribution.size()) = model.data().whitening(contribution);
+  const double size = whole.norm();
+  return size > 0 ? Projector(fit.columns(Eigen::all, soil)).vector(whole).norm() / size : 0.0;
+}
 
-constexpr double amplitude_range = 12.0;  // sd: effects worth naming are a few to a few tens of sd in all
+/// Form tolerance of every term, shrunk by the root of the share that the soil's values could not have made: a form
+/// that is almost a change of soil would else be free to be anything.
+std::vector<Tolerance> tolerances_of(const FittedModel& model) {
+  const std::span<const double> all(thresholds::tolerance_scales), narrow(thresholds::narrow_tolerance_scales);
+  const bool far = far_from_noise(model);
+  std::vector<Tolerance> each;
+  for (int t = 0; t < std::ssize(model.terms()); ++t) {
+    const bekker_wong::EffectForm& form = *model.terms()[t].form;
+    const VectorXd contribution = model.contribution(t);
+    const double tolerance = form.form_tolerance * std::sqrt(share_kept(model, contribution));
+    each.push_back({form_columns(model.data(), contribution, tolerance), far || form.measurement ? narrow : all});
+  }
+  return each;
+}
+
+/// The columns of all tolerances as one matrix.
+MatrixXd side_by_side(Index cells, const std::vector<Tolerance>& tolerances) {
+  Index width = 0;
+  for (const Tolerance& t : tolerances) width += t.columns.cols();
+  MatrixXd all(cells, width);
+  Index first = 0;
+  for (const Tolerance& t : tolerances) {
+    all.middleCols(first, t.columns.cols()) = t.columns;
+    first += t.columns.cols();
+  }
+  return all;
+}
 
 /// Columns but those of amplitudes: with an amplitude's column scaled to unit length off the others, the determinant
 /// of all is that of the others.
@@ -100,6 +130,8 @@ MatrixXd padded_columns(const LinearProblem& problem, const MatrixXd& columns) {
   return full;
 }
 
+}  // namespace
+
 double log_mean_exp(const std::vector<double>& logs) {
   const double top = *std::max_element(logs.begin(), logs.end());
   double sum = 0.0;
@@ -107,22 +139,8 @@ double log_mean_exp(const std::vector<double>& logs) {
   return top + std::log(sum / static_cast<double>(logs.size()));
 }
 
-}  // namespace
-
 double log_narrowing(const MatrixXd& gram, const VectorXd& sd) {
   return widening(gram, sd).matrixLLT().diagonal().array().log().sum();
-}
-
-MatrixXd side_by_side(Index cells, const std::vector<Tolerance>& tolerances) {
-  Index width = 0;
-  for (const Tolerance& t : tolerances) width += t.columns.cols();
-  MatrixXd all(cells, width);
-  Index first = 0;
-  for (const Tolerance& t : tolerances) {
-    all.middleCols(first, t.columns.cols()) = t.columns;
-    first += t.columns.cols();
-  }
-  return all;
 }
 
 double log_evidence(const LinearProblem& exact, const std::vector<Tolerance>& tolerances) {
@@ -143,113 +161,22 @@ double log_evidence(const LinearProblem& exact, const std::vector<Tolerance>& to
     densities.push_back(joined.taken(sd) - log_narrowing(gram, sd));
   }
   return log_mean_exp(densities) - 0.5 * joined.chi2() - 0.5 * log_determinant(others) -
-         static_cast<double>(tolerances.size()) * std::log(amplitude_range);
+         static_cast<double>(tolerances.size()) * std::log(thresholds::amplitude_range);
 }
 
-double schwarz_log_evidence(const Fit& fit, Index cells) {
-  const double n = static_cast<double>(cells), k = static_cast<double>(fit.column_parameter.size());
-  return -0.5 * n * std::log(fit.chi2) - 0.5 * k * std::log(n);
+LinearProblem problem_of(const FittedModel& model) {
+  return linear_problem(model, side_by_side(model.data().cells(), tolerances_of(model)));
 }
 
-MatrixXd in_every_channel(const Observations& observations, const NoiseFloor& noise, const Whitening& whitening,
-                          const VectorXd& prediction, const MatrixXd& functions) {
-  const Index cells = prediction.size(), width = functions.cols();
-  MatrixXd columns = MatrixXd::Zero(cells, channel_count * width);
-  for (Index i = 0; i < cells; ++i) {
-    const Cell& cell = observations.cells[static_cast<std::size_t>(i)];
-    const double sd = noise.channels[static_cast<std::size_t>(cell.channel)].sd(prediction[i]);
-    columns.row(i).segment(cell.channel * width, width) = sd * functions.row(cell.row);
-  }
-  return whitening(columns);
+bool far_from_noise(const FittedModel& model) {
+  return model.fit().chi2_cells > thresholds::far_from_noise * static_cast<double>(model.data().cells());
 }
 
-namespace {
-
-/// Functions of the rows, family by family.
-std::vector<MatrixXd> row_families(const Observations& observations) {
-  const int most = std::clamp(static_cast<int>(observations.rows.size()) / 4, 2, 14);
-  std::vector<MatrixXd> families = {with_constant(smooth_basis(observations, most))};
-  for (const Covariate& c : covariates(observations))
-    if (c.name == "slip" || c.name == "load" || c.name == "position" || c.name == "run")
-      families.push_back(waves(c.values));
-  return families;
-}
-
-/// Each channel's prediction in the run before, less that of the run: what a lagging instrument or bed would carry
-/// over. Two sd of the channel's noise, at the mean size of its predictions, where it is largest.
-MatrixXd carried_over(const Observations& observations, const NoiseFloor& noise, const Whitening& whitening,
-                      const VectorXd& prediction) {
-  const Index cells = prediction.size();
-  MatrixXd columns = MatrixXd::Zero(cells, channel_count);
-  std::array<double, channel_count> before{}, sizes{}, counts{};
-  for (Index i = 0; i < cells; ++i) {
-    const std::size_t c = static_cast<std::size_t>(observations.cells[static_cast<std::size_t>(i)].channel);
-    if (counts[c] > 0) columns(i, static_cast<Index>(c)) = before[c] - prediction[i];
-    before[c] = prediction[i];
-    sizes[c] += std::abs(prediction[i]);
-    ++counts[c];
-  }
-  for (std::size_t c = 0; c < channel_count; ++c) {
-    auto column = columns.col(static_cast<Index>(c));
-    const double largest = column.cwiseAbs().maxCoeff();
-    if (largest > 0) column *= 2 * noise.channels[c].sd(sizes[c] / counts[c]) / largest;
-  }
-  return whitening(columns);
-}
-
-/// A gain of all forces that waves with a covariate: an amplifier warming from day to day, a frame that gives way.
-MatrixXd common_gain(const Observations& observations, const Whitening& whitening, const VectorXd& prediction,
-                     const VectorXd& values) {
-  const MatrixXd functions = waves(values);
-  MatrixXd columns = MatrixXd::Zero(prediction.size(), functions.cols());
-  for (Index i = 0; i < prediction.size(); ++i) {
-    const Cell& cell = observations.cells[static_cast<std::size_t>(i)];
-    if (cell.channel != sinkage) columns.row(i) = prediction[i] * functions.row(cell.row);
-  }
-  const MatrixXd white = whitening(columns);
-  const double size = std::sqrt(white.squaredNorm() / static_cast<double>(white.size()));
-  return size > 0 ? MatrixXd(white / size) : white;
-}
-
-/// Each channel bent over its own range: Legendre's polynomials of the prediction of order 2 to 4. An instrument that
-/// is not linear, whatever the conditions.
-MatrixXd bent(const Observations& observations, const NoiseFloor& noise, const Whitening& whitening,
-              const VectorXd& prediction) {
-  constexpr int bends = 3;
-  std::array<double, channel_count> low, high;
-  low.fill(std::numeric_limits<double>::infinity()), high.fill(-std::numeric_limits<double>::infinity());
-  const auto channel_of = [&](Index i) {
-    return static_cast<std::size_t>(observations.cells[static_cast<std::size_t>(i)].channel);
-  };
-  for (Index i = 0; i < prediction.size(); ++i) {
-    double &least = low[channel_of(i)], &most = high[channel_of(i)];
-    least = std::min(least, prediction[i]), most = std::max(most, prediction[i]);
-  }
-  MatrixXd columns = MatrixXd::Zero(prediction.size(), channel_count * bends);
-  for (Index i = 0; i < prediction.size(); ++i) {
-    const std::size_t c = channel_of(i);
-    if (!(high[c] > low[c])) continue;
-    const double x = 2 * (prediction[i] - low[c]) / (high[c] - low[c]) - 1;
-    for (int k = 0; k < bends; ++k)
-      columns(i, static_cast<Index>(c) * bends + k) =
-          noise.channels[c].sd(prediction[i]) * std::sqrt(2.0 * k + 5) * std::legendre(static_cast<unsigned>(k) + 2, x);
-  }
-  return whitening(columns);
-}
-
-}  // namespace
-
-std::vector<MatrixXd> unnamed_families(const Observations& observations, const NoiseFloor& noise,
-                                       const Whitening& whitening, const VectorXd& prediction) {
-  std::vector<MatrixXd> families;
-  for (const MatrixXd& functions : row_families(observations))
-    families.push_back(in_every_channel(observations, noise, whitening, prediction, functions));
-  families.push_back(carried_over(observations, noise, whitening, prediction));
-  families.push_back(bent(observations, noise, whitening, prediction));
-  for (const Covariate& c : covariates(observations))
-    if (c.name == "run" || c.name == "load")
-      families.push_back(common_gain(observations, whitening, prediction, c.values));
-  return families;
+double log_evidence(const FittedModel& model, bool none_near_noise) {
+  if (!none_near_noise)
+    return log_evidence(linear_problem(model, MatrixXd(model.data().cells(), 0)), tolerances_of(model));
+  const double n = static_cast<double>(model.data().cells()), k = static_cast<double>(model.fit().columns.cols());
+  return -0.5 * n * std::log(model.fit().chi2) - 0.5 * k * std::log(n);
 }
 
 JoinedColumns::JoinedColumns(const LinearProblem& problem, const MatrixXd& columns) {
@@ -267,15 +194,6 @@ double JoinedColumns::taken(const VectorXd& sd) const {
 double JoinedColumns::gain(double size) const {
   const VectorXd sd = VectorXd::Constant(seen_.size(), size);
   return taken(sd) - log_narrowing(gram_, sd);
-}
-
-double unnamed_gain(const LinearProblem& problem, const std::vector<MatrixXd>& families) {
-  std::vector<double> gains;
-  for (const MatrixXd& columns : families) {
-    const JoinedColumns joined(problem, columns);
-    for (const double size : term_sizes) gains.push_back(joined.gain(size));
-  }
-  return log_mean_exp(gains);
 }
 
 }  // namespace soilbin::compare

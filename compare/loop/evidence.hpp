@@ -1,36 +1,25 @@
-// A fitted model as a linear-Gaussian problem: projection off what the soil absorbs, signatures, scores, evidence.
+// A fitted model as a linear problem with normal errors, and the evidence for it.
+//
+// About its fit a model is f = f0 + J (theta - theta0). With normal noise and normal priors everything that a test asks
+// is then linear algebra: r, the whitened residual over rows of cells and priors, and N, the columns of all that may
+// move beside what is tested (docs/theory/loop.md).
 #pragma once
 
 #include <Eigen/Dense>
-#include <array>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "compare/loop/bounded_fit.hpp"
+#include "compare/loop/fitted_model.hpp"
+#include "compare/loop/projector.hpp"
+#include "compare/loop/thresholds.hpp"
 
 namespace soilbin::compare {
-
-/// Orthonormal columns that span these; fewer where some are combinations of others.
-Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
-
-/// One column orthonormal basis of the nuisance columns: P = I - Q Q^T.
-class Projector {
- public:
-  explicit Projector(const Eigen::MatrixXd& columns);
-  Eigen::MatrixXd operator()(const Eigen::MatrixXd& v) const { return v - q_ * (q_.transpose() * v); }
-  Eigen::VectorXd vector(const Eigen::VectorXd& v) const { return v - q_ * (q_.transpose() * v); }
-
- private:
-  Eigen::MatrixXd q_;
-};
 
 /// Freedom that an effect's form may be wrong: its contribution, channel by channel, times a smooth factor 1 + g of the
 /// conditions, with g of the relative size `tolerance`. Such columns enter every later test with a unit normal prior,
 /// so that what a wrong form leaves over is not taken for a second effect. Whitened; contribution: of the effect to
 /// each cell, unwhitened.
-Eigen::MatrixXd form_columns(const Observations& observations, const Whitening& whitening,
-                             const Eigen::VectorXd& contribution, double tolerance);
+Eigen::MatrixXd form_columns(const Dataset& data, const Eigen::VectorXd& contribution, double tolerance);
 
 /// A fitted model with the form tolerance of its terms, ready for tests.
 struct LinearProblem {
@@ -42,15 +31,8 @@ struct LinearProblem {
   Eigen::VectorXd padded(const Eigen::VectorXd& signature) const;
 };
 
-/// tolerance: whitened columns over the cells (form_columns), with unit prior; may have no column.
-LinearProblem linear_problem(const WheelPredictor& predictor, const Fit& fit, Eigen::Index cells,
-                             const Eigen::MatrixXd& tolerance);
-
-/// How far nature's equation may be from ours, in units of a form's tolerance. Nobody knows, so each is tried; the
-/// narrow ones for an instrument's zero or a tilt, which is what it is said to be, and for fits that are far from the
-/// noise, where twice the tolerance would let any form take over what is left.
-inline constexpr std::array<double, 3> tolerance_scales = {0.3, 1.0, 2.0};
-inline constexpr std::array<double, 2> narrow_tolerance_scales = {0.3, 1.0};
+/// The model's, with the tolerance of its terms' forms.
+LinearProblem problem_of(const FittedModel& model);
 
 /// Freedom of one term's form.
 struct Tolerance {
@@ -64,25 +46,13 @@ struct Tolerance {
 /// tolerances: of each term, averaged over every choice of a scale for each.
 double log_evidence(const LinearProblem& exact, const std::vector<Tolerance>& tolerances);
 
-/// The same where no model comes near the noise: what is left is then not noise of a known size, and forms that could
-/// take it over within their tolerance say nothing. With the residual's variance unknown: -N/2 ln(chi2) - k/2 ln N
-/// (Schwarz 1978), k free parameters.
-double schwarz_log_evidence(const Fit& fit, Eigen::Index cells);
+/// Whether a fit leaves so much that it is no noise: then neither is it a form's own doing.
+bool far_from_noise(const FittedModel& model);
 
-/// The columns of all tolerances as one matrix.
-Eigen::MatrixXd side_by_side(Eigen::Index cells, const std::vector<Tolerance>& tolerances);
-
-/// What an unnamed effect could look like: families of functions of the conditions (smooth; waves in slip, in position,
-/// in time; what the run before left behind), each in every channel, whitened to about 1 sd a cell.
-std::vector<Eigen::MatrixXd> unnamed_families(const Observations& observations, const NoiseFloor& noise,
-                                              const Whitening& whitening, const Eigen::VectorXd& prediction);
-
-/// Functions of the rows as whitened columns of the cells: each in every channel, of 1 sd of its noise a cell.
-Eigen::MatrixXd in_every_channel(const Observations& observations, const NoiseFloor& noise, const Whitening& whitening,
-                                 const Eigen::VectorXd& prediction, const Eigen::MatrixXd& functions);
-
-/// Sizes that an unnamed term is tried at: sd of its columns' weights.
-inline constexpr std::array<double, 6> term_sizes = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0};
+/// ln evidence of a fitted model. none_near_noise: no candidate comes near the noise, so what is left is not noise of a
+/// known size, and forms that could take it over within their tolerance say nothing. Then, the residual's variance
+/// unknown: -N/2 ln(chi2) - k/2 ln N, N cells, k free parameters (Schwarz 1978, Ann. Stat. 6:461).
+double log_evidence(const FittedModel& model, bool none_near_noise);
 
 /// Whitened columns over the cells that join a problem, with weights that are normal about 0.
 class JoinedColumns {
@@ -105,8 +75,7 @@ class JoinedColumns {
 /// sd, join its unit covariance: ln det(1 + S G S)/2.
 double log_narrowing(const Eigen::MatrixXd& gram, const Eigen::VectorXd& sd);
 
-/// ln evidence that an unnamed term adds to the problem: the mean over families and sizes, so that it is a Bayes factor
-/// whose price is paid (reached by chance with probability at most its inverse).
-double unnamed_gain(const LinearProblem& problem, const std::vector<Eigen::MatrixXd>& families);
+/// ln of the mean of these, given as logarithms.
+double log_mean_exp(const std::vector<double>& logs);
 
 }  // namespace soilbin::compare

@@ -1,43 +1,25 @@
 #include "compare/loop/loop.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <cmath>
 #include <map>
 
-#include "compare/loop/accepted_model.hpp"
-#include "compare/loop/base_fit.hpp"
-#include "compare/loop/held_out_words.hpp"
-#include "compare/loop/verdict.hpp"
-#include "scenario/errors.hpp"
+#include "compare/loop/answer_words.hpp"
+#include "compare/loop/model_discrepancy.hpp"
 
 namespace soilbin::compare {
 
-std::string_view word(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::effect_found:
-      return "effect_found";
-    case Verdict::nothing_missing:
-      return "nothing_missing";
-    case Verdict::unknown_effect:
-      return "unknown_effect";
-    case Verdict::not_enough_data:
-      return "not_enough_data";
-  }
-  return "";
-}
-
 namespace {
 
-constexpr double least_noise_freedom = 5.0;  // a channel; below it a residual can't be told from noise
+/// Shares of the progress: until the attribution, the choice, and the validation are done.
+constexpr std::size_t all_steps = 100, attributed = 30, chosen = 40, pulses_a_step = 10;
 
-std::vector<std::string> not_testable(const Campaign& campaign, const Identification& id) {
+/// Effects of the catalogue, but for the declared ones, that no form of theirs would show.
+std::vector<std::string> not_testable(const Attribution& found) {
   std::map<std::string, bool> testable;
   for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue()) testable[form.id] = false;
-  for (const Signature& s : id.signatures)
+  for (const Signature& s : found.signatures.all)
     if (s.testable) testable[s.term.form->id] = true;
-  for (const EffectChoice& declared : campaign.effects) testable.erase(declared.id);
+  for (const EffectChoice& declared : found.base.data().campaign->effects) testable.erase(declared.id);
   std::vector<std::string> hidden;
   for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue())
     if (testable.count(form.id) && !testable[form.id] && (hidden.empty() || hidden.back() != form.id))
@@ -45,67 +27,50 @@ std::vector<std::string> not_testable(const Campaign& campaign, const Identifica
   return hidden;
 }
 
-bool too_small(const Campaign& campaign, const Observations& observations, std::string& reason) {
-  const WheelPredictor base(campaign, observations);
-  const int spare = static_cast<int>(observations.cells.size()) - base.soil_parameters();
-  if (spare >= 6 && observations.conditions >= 6) return false;
-  reason = fmt::format("{} measured values of {} conditions for {} soil values leave too little to judge by",
-                       observations.cells.size(), observations.conditions, base.soil_parameters());
-  return true;
+double evidence_of_best(const Attribution& found) { return found.candidates.weighed(found.best().ids).log_evidence; }
+
+/// Whether the second attribution names effects and, the price of its freedom paid, explains the data better.
+bool explains_better(const Attribution& second, const Attribution& first) {
+  return second.candidates.best && (!first.candidates.best || evidence_of_best(second) > evidence_of_best(first));
 }
 
-/// Steps of the progress: what the identification and the choice take of all.
-constexpr std::size_t all_steps = 100, identified = 30, chosen = 40, pulses_a_step = 10;
-
-/// What the reading that decides finds before any effect is judged.
-void describe_base(const Campaign& campaign, LoopAnswer& answer) {
-  const Identification& id = answer.details;
-  const Eigen::Index cells = static_cast<Eigen::Index>(id.observations.cells.size());
-  answer.noise = id.noise;
-  answer.before = lack_of_fit(id.base, id.noise, cells);
-  answer.reruns_before = rerun_test(id.observations, id.noise, id.base);
-  answer.dependences_before = dependences(id.observations, id.base.residual.head(cells), 999, 7);
-  answer.soil = fitted_soil(campaign, WheelPredictor(campaign, id.observations), id.base);
+/// An unknown effect may be the base model's own form: then effects can stand out that nothing but a change with load
+/// and slip, taken for another effect, had hidden. The attribution that explains the data better decides; the other is
+/// a note.
+std::optional<SecondAttribution> attribute_again(Judgement& judgement, const AttributionOptions& options) {
+  if (judgement.verdict != Verdict::unknown_effect) return std::nullopt;
+  auto beside = attribute_with_model_discrepancy(judgement.found, options);
+  if (!beside) return std::nullopt;
+  if (!explains_better(beside->found, judgement.found))
+    return SecondAttribution{false, beside->size, std::move(beside->found)};
+  Attribution first = std::move(judgement.found);
+  judgement = judge_with_model_discrepancy(std::move(beside->found), options);
+  return SecondAttribution{true, beside->size, std::move(first)};
 }
 
-/// Whether the data allow to judge any effect; else the reason.
-bool judgeable(LoopAnswer& answer) {
-  const Identification& id = answer.details;
-  if (id.noise.typical_freedom() < least_noise_freedom) {
-    answer.reason = fmt::format("the noise of a channel rests on {:.1f} degrees of freedom only, too few to judge by",
-                                id.noise.typical_freedom());
-    return false;
-  }
-  if (std::none_of(id.signatures.begin(), id.signatures.end(), [](const Signature& s) { return s.testable; })) {
-    answer.reason = "no effect of the catalogue would show in these data, whatever its size";
-    return false;
-  }
-  return true;
+/// The choice within a fold: fewer simulations, its outliers set aside by the whole.
+AttributionOptions of_a_fold(AttributionOptions options) {
+  options.simulations = std::max(500, options.simulations / 4);
+  options.drop_outliers = false;
+  return options;
 }
 
-/// The run that would best set the competing sets of a reading apart.
-std::optional<NextTest> proposed(const Campaign& campaign, const Identification& id, const Limits& limits) {
-  Limits reach = limits;  // what is given comes before what the campaign spans
-  reach.merge(limits_of(id.observations));
-  return next_test(campaign, id, competitors(id), reach);
+/// The conclusion with every value kept: a choice by the rest must not be the doing of what was set aside.
+WithOutliers keep_outliers(const Campaign& campaign, const Observations& observations, AttributionOptions options) {
+  options.drop_outliers = false;
+  const Judgement kept = judge(attribute(fit_base(campaign, observations, options), options), options);
+  if (kept.verdict != Verdict::effect_found) return {kept.verdict, {}};
+  return {kept.verdict, kept.found.best().ids};
 }
 
-double evidence_of_best(const Identification& id) { return weighed(id, id.candidates[*id.best].ids).log_evidence; }
-
-/// Whether the second reading names effects and, the price of its freedom paid, explains the data better.
-bool explains_better(const Identification& second, const Identification& first) {
-  return second.best && (!first.best || evidence_of_best(second) > evidence_of_best(first));
-}
-
-/// What only the reading that does not decide leaves. An exact base model's sets always: an effect of load and slip
+/// What only the attribution that does not decide leaves. An exact base model's sets always: an effect of load and slip
 /// alone looks like what the other one lets go. The other one's where it explains the data nearly as well.
 std::vector<Weighted> noted_sets(const LoopAnswer& answer) {
-  if (!answer.second || !answer.second->note.best) return {};
-  const Identification& note = answer.second->note;
-  const std::vector<Competitor> all = competitors(note);
-  const double behind = evidence_of_best(answer.details) - evidence_of_best(note);
-  if (!answer.second->decides && behind > all.front().allowed) return {};
-  std::vector<Weighted> noted = weighted_sets(note, all);
+  if (!answer.second || !answer.second->note.candidates.best) return {};
+  const Attribution& note = answer.second->note;
+  const double behind = evidence_of_best(answer.found()) - evidence_of_best(note);
+  if (!answer.second->decides && behind > competitors(note.candidates).front().allowed) return {};
+  std::vector<Weighted> noted = ambiguity_set(note.candidates);
   std::erase_if(noted, [&](const Weighted& w) {
     return std::any_of(answer.ambiguity_set.begin(), answer.ambiguity_set.end(),
                        [&](const Weighted& decided) { return decided.ids == w.ids; });
@@ -114,60 +79,42 @@ std::vector<Weighted> noted_sets(const LoopAnswer& answer) {
   return noted;
 }
 
-/// An unknown effect may be the base model's own form: then effects can stand out that nothing but a change with load
-/// and slip, taken for another effect, had hidden. The reading that explains the data better decides all that is told;
-/// the other is a note.
-void read_again(const Campaign& campaign, LoopAnswer& answer, const IdentifyOptions& options) {
-  auto beside = read_with_model_discrepancy(campaign, answer.details, options);
-  if (!beside) return;
-  const bool decides = explains_better(beside->identification, answer.details);
-  answer.second = SecondReading{decides, beside->size, std::move(beside->identification)};
-  if (!decides) return;
-  std::swap(answer.details, answer.second->note);
-  describe_base(campaign, answer);
-  confirm(campaign, answer, options);
-  decide_with_model_discrepancy(campaign, answer);
+std::vector<Dependence> dependences_of(const FittedModel& model, std::uint64_t seed) {
+  constexpr int permutations = 999;
+  return dependences(model.data().observations, model.cell_residual(), permutations, seed);
 }
 
-/// The choice within a fold: fewer simulations, its outliers set aside by the whole.
-IdentifyOptions of_a_fold(IdentifyOptions options) {
-  options.simulations = std::max(500, options.simulations / 4);
-  options.drop_outliers = false;
-  return options;
-}
-
-/// Noise to verdict on these observations, the base model taken as exact; false where they are too few, with the
-/// reason.
-bool judge(const Campaign& campaign, const Observations& observations, const IdentifyOptions& options,
-           LoopAnswer& answer) {
-  answer.details = identify(campaign, observations, options);
-  const Identification& id = answer.details;
-  answer.outliers = static_cast<int>(std::count(id.outlier.begin(), id.outlier.end(), true));
-  answer.not_testable = not_testable(campaign, id);
-  describe_base(campaign, answer);
-  if (!judgeable(answer)) return false;
-  if (id.best) {
-    confirm(campaign, answer, options);
-    if (explains_all(answer)) answer.noise = noise_beside(campaign, id, id.candidates[*id.best]);
-  }
-  decide(campaign, answer);
-  return true;
-}
-
-/// The conclusion with every value kept: a choice by the rest must not be the doing of what was set aside.
-WithOutliers keep_outliers(const Campaign& campaign, const Observations& observations, IdentifyOptions options) {
-  options.drop_outliers = false;
+/// What a judgement says by itself: verdict, noise, soil.
+LoopAnswer answer_of(const Campaign& campaign, Judgement judgement) {
+  const Attribution& found = judgement.found;
+  const bool takes_best = judgement.takes_best();
+  const FittedModel& model = takes_best ? found.best().model : found.base;
   LoopAnswer answer;
-  judge(campaign, observations, options, answer);
-  return {answer.verdict, ids_of(answer.effects)};
+  answer.campaign = campaign.name;
+  answer.wheel = campaign.wheel;
+  answer.verdict = judgement.verdict;
+  answer.reason = judgement.reason;
+  answer.noise = judgement.verdict == Verdict::effect_found ? noise_beside(model) : found.base.data().noise;
+  answer.soil = model.soil();
+  answer.dependences_before = dependences_of(found.base, 7);
+  if (takes_best) {
+    answer.soil_shifts = soil_shifts(found);
+    answer.dependences_after = dependences_of(model, 11);
+    if (judgement.verdict == Verdict::unknown_effect) answer.stand_in = effects_of(found.best());
+  }
+  const std::vector<bool>& outlier = found.base.data().outlier;
+  answer.outliers = static_cast<int>(std::count(outlier.begin(), outlier.end(), true));
+  answer.judgement = std::move(judgement);
+  return answer;
 }
 
-/// What the effects gain on conditions left out, and where they lose, goes into the verdict.
-void tell_errors(LoopAnswer& answer) {
-  if (answer.validation.overall.cells == 0) return;
-  const std::string words = held_out_words(answer.validation);
-  if (!answer.effects.empty()) answer.reason += "; " + words;
-  if (!answer.stand_in.empty()) answer.reason += "; with the model that is saved, " + words;
+LoopAnswer too_small_to_judge(const Campaign& campaign, std::string reason) {
+  LoopAnswer answer;
+  answer.campaign = campaign.name;
+  answer.wheel = campaign.wheel;
+  answer.soil = campaign.soil;
+  answer.reason = std::move(reason);
+  return answer;
 }
 
 }  // namespace
@@ -178,46 +125,45 @@ std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects) {
   return ids;
 }
 
-bool decided_with_model_discrepancy(const LoopAnswer& answer) { return answer.second && answer.second->decides; }
-
-const Identification* with_model_discrepancy(const LoopAnswer& answer) {
-  if (!answer.second) return nullptr;
-  return answer.second->decides ? &answer.details : &answer.second->note;
-}
-
 LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
-  const auto say = [&](std::size_t step) {
+  const auto report = [&](std::size_t step) {
     if (options.progress) options.progress(step, all_steps);
   };
-  LoopAnswer answer;
-  answer.campaign = campaign.name;
-  answer.wheel = campaign.wheel;
-  answer.soil = campaign.soil;
-  const Observations observations = observe(campaign);
-  if (too_small(campaign, observations, answer.reason)) return answer;
-  IdentifyOptions whole = options.identify;
+  AttributionOptions whole = options.attribution;
   std::size_t pulses = 0;
-  whole.pool = {options.threads, [&] { say(std::min(++pulses / pulses_a_step, identified)); }};
-  if (!judge(campaign, observations, whole, answer)) return answer;
-  if (answer.verdict == Verdict::unknown_effect) read_again(campaign, answer, whole);
-  say(chosen);
-  const IdentifyOptions inner = of_a_fold(options.identify);
+  whole.pool = {options.threads, [&] { report(std::min(++pulses / pulses_a_step, attributed)); }};
+
+  const Observations observations = observe(campaign);
+  if (auto reason = too_small(campaign, observations)) return too_small_to_judge(campaign, std::move(*reason));
+  const FittedModel base = fit_base(campaign, observations, whole);
+  Judgement judgement = judge(attribute(base, whole), whole);
+  std::vector<std::string> hidden = not_testable(judgement.found);
+  auto second = attribute_again(judgement, whole);
+
+  LoopAnswer answer = answer_of(campaign, std::move(judgement));
+  answer.second = std::move(second);
+  answer.not_testable = std::move(hidden);
+  if (answer.verdict == Verdict::not_enough_data) return answer;
+  report(chosen);
   if (options.validate)
-    answer.validation = cross_validate(campaign, answer.details, answer.noise, decided_with_model_discrepancy(answer),
-                                       inner, options.folds, options.threads, [&](std::size_t done, std::size_t folds) {
-                                         say(chosen + (all_steps - 1 - chosen) * done / folds);
-                                       });
-  tell_errors(answer);
-  whole.pool.pulse = [&] { say(all_steps - 1); };
-  describe_effects(campaign, answer, whole);
-  const bool compete = answer.verdict == Verdict::effect_found || answer.verdict == Verdict::unknown_effect;
-  if (compete && answer.details.best) {
-    answer.ambiguity_set = weighted_sets(answer.details, competitors(answer.details));
+    answer.validation = cross_validate(base.data(), answer.noise,
+                                       {.attribution = of_a_fold(options.attribution),
+                                        .with_model_discrepancy = answer.decided_with_model_discrepancy(),
+                                        .folds = options.folds,
+                                        .threads = options.threads,
+                                        .progress = [&](std::size_t done, std::size_t folds) {
+                                          report(chosen + (all_steps - 1 - chosen) * done / folds);
+                                        }});
+  whole.pool.pulse = [&] { report(all_steps - 1); };
+  if (answer.verdict == Verdict::effect_found) answer.effects = accepted_effects(answer.found(), whole);
+  answer.reason += held_out_clause(answer);
+  if (answer.verdict != Verdict::nothing_missing && answer.found().candidates.best) {
+    answer.ambiguity_set = ambiguity_set(answer.found().candidates);
     answer.noted_sets = noted_sets(answer);
-    answer.next = proposed(campaign, answer.details, options.limits);
+    answer.next = next_test(answer.found(), options.limits);
   }
   if (answer.outliers > 0) answer.with_outliers = keep_outliers(campaign, observations, whole);
-  say(all_steps);
+  report(all_steps);
   return answer;
 }
 

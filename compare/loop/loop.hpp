@@ -1,4 +1,14 @@
 // The loop on measured data: residual, cause, effect added, error before and after (docs/loop.md).
+//
+// Stages, each a value that the next one takes:
+//   1 observe            Campaign -> Observations                       observations.hpp
+//   2 fit_base           -> FittedModel: noise, outliers, base fit      base_fit.hpp, fitted_model.hpp
+//   3 residual_signatures, 4 candidates: attribute -> Attribution       signatures.hpp, candidates.hpp
+//   5 choose, judge      -> ChosenCandidate, Judgement: the verdict              choice.hpp, verdict.hpp
+//   6 cross_validate     -> CrossValidation: honest errors              validation.hpp
+//   7 next_test          -> NextTest                                    next_test.hpp
+//   8 LoopAnswer: JSON, sentences, page, saved model                    answer_json.cpp, answer_words.hpp,
+//   loop_page.cpp
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,39 +17,21 @@
 #include <string>
 #include <vector>
 
-#include "compare/loop/cross_validation.hpp"
-#include "compare/loop/detection.hpp"
-#include "compare/loop/model_discrepancy.hpp"
+#include "compare/loop/accepted_model.hpp"
 #include "compare/loop/next_test.hpp"
+#include "compare/loop/validation.hpp"
+#include "compare/loop/verdict.hpp"
+#include "scenario/case.hpp"
 
 namespace soilbin::compare {
 
-enum class Verdict { effect_found, nothing_missing, unknown_effect, not_enough_data };
-std::string_view word(Verdict verdict);
-
 struct LoopOptions {
-  IdentifyOptions identify;
+  AttributionOptions attribution;
   int folds = 5;
   int threads = 2;       ///< changes the time, never the answer
   Limits limits;         ///< of the next test; where there is none, the campaign's own range
   bool validate = true;  ///< honest errors by the whole procedure redone in each fold; without it they are absent
   Progress progress;     ///< share of the work done, from the calling thread; may throw to stop
-};
-
-/// An effect that the loop accepts, in the form that fits best.
-struct AcceptedEffect {
-  EffectChoice choice;                          ///< with fitted parameters [SI]
-  std::vector<std::string> fitted;              ///< names of the parameters that were fitted
-  std::vector<std::pair<double, double>> ci95;  ///< of each fitted parameter, cut off at its bounds
-  std::vector<bool> at_bound;                   ///< of each: the fit ended at a bound, where its form ends
-  double p_value = 1.0;                         ///< family-wise, beside the other accepted effects
-  std::map<std::string, double> cosines;        ///< of its trace with each other effect's: what separates them
-};
-
-/// A soil value refitted with the accepted effects and without: the difference is the bias of leaving them out.
-struct SoilShift {
-  std::string name;
-  Estimate with, without;  ///< [SI]
 };
 
 /// What the loop would say with no value set aside.
@@ -48,12 +40,13 @@ struct WithOutliers {
   std::set<std::string> effects;
 };
 
-/// Of an unknown effect: the data read twice, with a base model that is exact and with one that may be off by itself.
-struct SecondReading {
+/// Of an unknown effect: the residual attributed twice, with a base model that is exact and with one that may be off by
+/// itself (model_discrepancy.hpp).
+struct SecondAttribution {
   bool decides =
-      false;            ///< whether the base model that may be off explains the data better; else the exact one decides
-  double size = 0.0;    ///< DiscrepancyReading::size
-  Identification note;  ///< the reading that does not decide; the one that does is LoopAnswer::details
+      false;          ///< whether the base model that may be off explains the data better; else the exact one decides
+  double size = 0.0;  ///< DiscrepancyAttribution::size
+  Attribution note;   ///< the attribution that does not decide; the one that does is LoopAnswer::judgement
 };
 
 struct LoopAnswer {
@@ -66,35 +59,42 @@ struct LoopAnswer {
   /// for it in the model that is saved, and explain nothing.
   std::vector<AcceptedEffect> stand_in;
   std::vector<Weighted> ambiguity_set;  ///< best first; empty unless effects compete
-  /// Sets that only the reading which does not decide leaves: indices are those of SecondReading::note, weights 0.
+  /// Sets that only the attribution which does not decide leaves: indices are those of its candidates, weights 0.
   std::vector<Weighted> noted_sets;
-  std::optional<SecondReading> second;
+  std::optional<SecondAttribution> second;
   std::vector<std::string> not_testable;
   std::optional<NextTest> next;  ///< also of an unknown effect: between the named sets that come nearest
-  PredictiveGain choice_gain;    ///< of the best candidate over the base model
   CrossValidation validation;
-  LackOfFit before, after;
-  RerunTest reruns_before, reruns_after;
+  /// The attribution that decides and what is made of it: verdict, shares, tables, saved model and next test are its.
+  /// Absent where the campaign is too small to fit.
+  std::optional<Judgement> judgement;
   std::vector<Dependence> dependences_before, dependences_after;
-  Identification details;  ///< the reading that decides: verdict, shares, tables, saved model and next test are its
-  NoiseFloor noise;        ///< beside the accepted effects where there are any: what errors are told in
+  NoiseFloor noise;                    ///< beside the accepted effects where there are any: the unit of errors
   std::vector<SoilShift> soil_shifts;  ///< of the free values, where effects are accepted
   SemiEmpiricalSoil soil;  ///< refitted with the accepted effects or those that stand in, with standard errors
   int outliers = 0;        ///< cells set aside
   std::optional<WithOutliers> with_outliers;  ///< where any were
+
+  const Attribution& found() const { return judgement->found; }
+  /// Whether any set of effects was fitted.
+  bool has_candidates() const { return judgement && !found().candidates.sets.empty(); }
+  /// What the chosen candidate leaves, and what it gains over the base model; without one nothing.
+  ChosenCandidate choice() const { return judgement && judgement->choice ? *judgement->choice : ChosenCandidate{}; }
+  /// Whether the attribution with a model discrepancy decides; and that attribution, null where there was none.
+  bool decided_with_model_discrepancy() const { return second && second->decides; }
+  const Attribution* with_model_discrepancy() const {
+    return !second ? nullptr : second->decides ? &found() : &second->note;
+  }
 };
-
-/// Whether the reading beside a base model that may be off by itself decides.
-bool decided_with_model_discrepancy(const LoopAnswer& answer);
-
-/// That reading, whether it decides or not; null where there was none.
-const Identification* with_model_discrepancy(const LoopAnswer& answer);
 
 /// Ids of effects that stand together.
 std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects);
 
 /// Runs the loop. Throws InputError for a campaign that can't be used; a campaign too small to say anything is a
 /// verdict, not an error.
+///
+///     const LoopAnswer answer = run_loop(campaign, {});
+///     if (answer.verdict == Verdict::effect_found) answer.effects.front().choice;   // {"slip_sinkage", "linear", ...}
 LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options);
 
 /// The answer in the contract's form, soilbin-loop/1.
@@ -102,5 +102,9 @@ nlohmann::ordered_json to_json(const LoopAnswer& answer);
 
 /// What stands behind it: p-values, chi2, evidence, every set of effects that competed, the choice of each fold.
 nlohmann::ordered_json details_json(const LoopAnswer& answer);
+
+/// The campaign's wheel on the refitted soil with the accepted effects, at each of its conditions: what estimate, run
+/// and predict --model take.
+Case resolved_model(const Campaign& campaign, const LoopAnswer& answer);
 
 }  // namespace soilbin::compare

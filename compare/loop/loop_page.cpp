@@ -17,11 +17,11 @@ namespace {
 
 /// (measured - predicted)/sd of each cell.
 Eigen::VectorXd standardised(const LoopAnswer& answer, const Eigen::VectorXd& prediction) {
-  const Identification& id = answer.details;
-  Eigen::VectorXd r = id.observations.values() - prediction;
+  const Observations& observations = answer.found().base.data().observations;
+  Eigen::VectorXd r = observations.values() - prediction;
   for (Eigen::Index i = 0; i < r.size(); ++i) {
-    const Cell& cell = id.observations.cells[static_cast<std::size_t>(i)];
-    r[i] /= answer.noise.channels[static_cast<std::size_t>(cell.channel)].sd(prediction[i]);
+    const Cell& cell = observations.cells[i];
+    r[i] /= answer.noise.channels[cell.channel].sd(prediction[i]);
   }
   return r;
 }
@@ -39,7 +39,7 @@ Series over(const Observations& observations, const Eigen::VectorXd& y, const Co
   std::vector<std::pair<double, double>> points;
   for (std::size_t i = 0; i < observations.cells.size(); ++i)
     if (observations.cells[i].channel == channel)
-      points.emplace_back(per_si * x.values[observations.cells[i].row], y[static_cast<Eigen::Index>(i)]);
+      points.emplace_back(per_si * x.values[observations.cells[i].row], y[i]);
   std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [at, value] : points) series.x.push_back(at), series.y.push_back(value);
   return series;
@@ -50,17 +50,15 @@ bool has_cells(const Observations& observations, int channel) {
                      [&](const Cell& c) { return c.channel == channel; });
 }
 
-Sheet residual_sheet(const Identification& id, const Covariate& x, const Eigen::VectorXd& before,
+Sheet residual_sheet(const Observations& observations, const Covariate& x, const Eigen::VectorXd& before,
                      const Eigen::VectorXd* after) {
   Sheet sheet{fmt::format("Residuals against {}", condition_view(x.name).title), {}, Palette::named};
   for (int channel = 0; channel < channel_count; ++channel) {
-    if (!has_cells(id.observations, channel)) continue;
-    Plot plot{std::string(channel_views[static_cast<std::size_t>(channel)].title),
-              {axis_title(x), {}, {}},
-              {"residual [sd of the noise]", {}, {}},
-              {}};
-    plot.series.push_back(over(id.observations, before, x, channel, "before", 0, Mark::points));
-    if (after != nullptr) plot.series.push_back(over(id.observations, *after, x, channel, "after", 1, Mark::points));
+    if (!has_cells(observations, channel)) continue;
+    Plot plot{
+        std::string(channel_views[channel].title), {axis_title(x), {}, {}}, {"residual [sd of the noise]", {}, {}}, {}};
+    plot.series.push_back(over(observations, before, x, channel, "before", 0, Mark::points));
+    if (after != nullptr) plot.series.push_back(over(observations, *after, x, channel, "after", 1, Mark::points));
     sheet.plots.push_back(std::move(plot));
   }
   return sheet;
@@ -68,40 +66,37 @@ Sheet residual_sheet(const Identification& id, const Covariate& x, const Eigen::
 
 /// What the accepted effects change in the prediction, soil refitted, in sd of the noise.
 Eigen::VectorXd signature_of_best(const LoopAnswer& answer) {
-  const Identification& id = answer.details;
-  Eigen::VectorXd change = id.candidates[*id.best].fit.prediction - id.base.prediction;
+  const FittedModel& base = answer.found().base;
+  Eigen::VectorXd change = answer.found().best().fit().prediction - base.fit().prediction;
   for (Eigen::Index i = 0; i < change.size(); ++i) {
-    const Cell& cell = id.observations.cells[static_cast<std::size_t>(i)];
-    change[i] /= answer.noise.channels[static_cast<std::size_t>(cell.channel)].sd(id.base.prediction[i]);
+    const Cell& cell = base.data().observations.cells[i];
+    change[i] /= answer.noise.channels[cell.channel].sd(base.fit().prediction[i]);
   }
   return change;
 }
 
 /// The variable that a change depends on most: of the largest share of a channel's variance, by size of the change.
-const Covariate& telling_variable(const Identification& id, const Eigen::VectorXd& change,
-                                  const std::vector<Covariate>& variables) {
+const Covariate& main_variable(const Observations& observations, const Eigen::VectorXd& change,
+                               const std::vector<Covariate>& variables) {
   std::array<double, channel_count> size{};
-  for (std::size_t i = 0; i < id.observations.cells.size(); ++i)
-    size[static_cast<std::size_t>(id.observations.cells[i].channel)] +=
-        std::pow(change[static_cast<Eigen::Index>(i)], 2);
-  std::map<std::string, double> told;
-  for (const Dependence& d : dependences(id.observations, change, 0, 1))
-    told[d.variable] += d.share * size[static_cast<std::size_t>(d.channel)];
-  return *std::max_element(variables.begin(), variables.end(),
-                           [&](const Covariate& a, const Covariate& b) { return told[a.name] < told[b.name]; });
+  for (std::size_t i = 0; i < observations.cells.size(); ++i)
+    size[observations.cells[i].channel] += std::pow(change[i], 2);
+  std::map<std::string, double> explained;
+  for (const Dependence& d : dependences(observations, change, 0, 1))
+    explained[d.variable] += d.share * size[d.channel];
+  return *std::max_element(variables.begin(), variables.end(), [&](const Covariate& a, const Covariate& b) {
+    return explained[a.name] < explained[b.name];
+  });
 }
 
-Sheet signature_sheet(const Identification& id, const Eigen::VectorXd& before, const Eigen::VectorXd& change,
+Sheet signature_sheet(const Observations& observations, const Eigen::VectorXd& before, const Eigen::VectorXd& change,
                       const Covariate& x) {
   Sheet sheet{"The effect's signature over the residual", {}, Palette::named};
   for (int channel = 0; channel < channel_count; ++channel) {
-    if (!has_cells(id.observations, channel)) continue;
-    Plot plot{std::string(channel_views[static_cast<std::size_t>(channel)].title),
-              {axis_title(x), {}, {}},
-              {"[sd of the noise]", {}, {}},
-              {}};
-    plot.series.push_back(over(id.observations, before, x, channel, "residual of the base model", 0, Mark::points));
-    plot.series.push_back(over(id.observations, change, x, channel, "with the effect less without", 1, Mark::points));
+    if (!has_cells(observations, channel)) continue;
+    Plot plot{std::string(channel_views[channel].title), {axis_title(x), {}, {}}, {"[sd of the noise]", {}, {}}, {}};
+    plot.series.push_back(over(observations, before, x, channel, "residual of the base model", 0, Mark::points));
+    plot.series.push_back(over(observations, change, x, channel, "with the effect less without", 1, Mark::points));
     sheet.plots.push_back(std::move(plot));
   }
   return sheet;
@@ -114,7 +109,7 @@ HtmlTable dependence_table(const LoopAnswer& answer) {
                   {true, true}};
   for (std::size_t i = 0; i < answer.dependences_before.size(); ++i) {
     const Dependence& b = answer.dependences_before[i];
-    std::vector<std::string> row = {std::string(channel_views[static_cast<std::size_t>(b.channel)].title),
+    std::vector<std::string> row = {std::string(channel_views[b.channel].title),
                                     std::string(condition_view(b.variable).title),
                                     number(100 * b.share),
                                     number(b.p_value),
@@ -147,7 +142,7 @@ HtmlTable noise_table(const LoopAnswer& answer) {
 std::vector<const Signature*> strongest_signatures(const LoopAnswer& answer) {
   constexpr std::size_t most = 15;
   std::vector<const Signature*> order, strongest;
-  for (const Signature& s : answer.details.signatures)
+  for (const Signature& s : answer.found().signatures.all)
     if (s.projected_norm > 0) order.push_back(&s);
   std::stable_sort(order.begin(), order.end(), [](auto a, auto b) { return a->strength() > b->strength(); });
   std::set<const bekker_wong::EffectForm*> shown;
@@ -169,14 +164,14 @@ HtmlTable signature_table(const std::vector<const Signature*>& signatures) {
   return table;
 }
 
-/// What the traced forms presume of the wheel, a paragraph below their table.
-void tell_presumptions(Page& page, const std::vector<const Signature*>& signatures, const Tire& wheel) {
+/// What the forms presume of the wheel, a paragraph below their table.
+void add_presumptions(Page& page, const std::vector<const Signature*>& signatures, const Tire& wheel) {
   std::vector<EffectChoice> forms;
   for (const Signature* s : signatures) forms.push_back({s->term.form->id, s->term.form->form, {}});
   for (const std::string& sentence : bekker_wong::presumptions(forms, wheel)) page.paragraph(sentence);
 }
 
-/// The effects whose traces look most like an accepted one's.
+/// The effects whose signatures look most like an accepted one's.
 HtmlTable likeness_table(const LoopAnswer& answer) {
   HtmlTable table{"What looks most like the accepted effects: cosine of the traces off what the soil's values absorb",
                   {"effect", "p-value", "most alike", "cosine"},
@@ -215,32 +210,34 @@ std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const 
   for (const std::string& sentence : explanation(answer)) summary.emplace_back("", sentence);
   page.summary(summary);
   page.doubts(doubts);
-  if (answer.verdict != Verdict::not_enough_data || !answer.details.weights.empty()) {
-    const Identification& id = answer.details;
-    const Eigen::VectorXd before = standardised(answer, id.base.prediction);
+  if (answer.verdict != Verdict::not_enough_data || answer.has_candidates()) {
+    const Attribution& found = answer.found();
+    const Observations& observations = found.base.data().observations;
+    const Eigen::VectorXd before = standardised(answer, found.base.fit().prediction);
     std::optional<Eigen::VectorXd> after;
     if (!answer.effects.empty() || !answer.stand_in.empty())
-      after = standardised(answer, id.candidates[*id.best].fit.prediction);
+      after = standardised(answer, found.best().fit().prediction);
     page.section("Error before and after");
     page.table(error_table(answer));
-    const std::vector<Covariate> variables = covariates(id.observations);
+    const std::vector<Covariate> variables = covariates(observations);
     if (after && !variables.empty()) {
       page.section(answer.effects.empty() ? "What stands in for the effect, over the residual"
                                           : "The effect over the residual");
       const Eigen::VectorXd change = signature_of_best(answer);
-      page.figure(signature_sheet(id, before, change, telling_variable(id, change, variables)),
+      page.figure(signature_sheet(observations, before, change, main_variable(observations, change, variables)),
                   "Points: what the base model, refitted, leaves; and what the effect changes in the prediction.");
     }
     page.section("Candidates");
     page.table(candidates_table(answer));
     const std::vector<const Signature*> signatures = strongest_signatures(answer);
     page.table(signature_table(signatures));
-    tell_presumptions(page, signatures, answer.wheel);
+    add_presumptions(page, signatures, answer.wheel);
     if (!answer.effects.empty()) page.table(likeness_table(answer));
     if (!answer.soil_shifts.empty()) page.table(soil_table(answer));
     page.section("Residuals against every variable");
     for (const Covariate& x : variables)
-      page.figure(residual_sheet(id, x, before, after ? &*after : nullptr), "In standard deviations of the noise.");
+      page.figure(residual_sheet(observations, x, before, after ? &*after : nullptr),
+                  "In standard deviations of the noise.");
     page.table(dependence_table(answer));
     page.section("Noise");
     page.table(noise_table(answer));

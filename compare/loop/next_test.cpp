@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "compare/measured/condition_views.hpp"
-#include "scenario/errors.hpp"
 
 namespace soilbin::compare {
 
@@ -17,92 +16,80 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// A candidate's predictor with its fit, and the covariance of its parameters.
+/// A candidate, or the base model, that takes part.
 struct Contender {
   std::set<std::string> ids;
-  WheelPredictor predictor;
-  VectorXd theta;
-  std::vector<int> free;
-  MatrixXd covariance;  ///< of the free parameters [SI]
-  double log_evidence = 0.0, allowed = 0.0;
+  FittedModel model;
+  double log_evidence = 0.0;
+  double allowed = 0.0;  ///< ln evidence by which it may stand behind the best one
 };
 
-Contender contender(const Campaign& campaign, const Identification& id, const std::vector<Term>& terms, const Fit& fit,
-                    std::set<std::string> ids) {
-  Contender c{std::move(ids), WheelPredictor(campaign, id.observations, terms), fit.theta, fit.column_parameter, {}};
-  MatrixXd gram = fit.columns.transpose() * fit.columns;
-  gram.diagonal().array() += 1e-9;
-  c.covariance = gram.ldlt().solve(MatrixXd::Identity(gram.rows(), gram.cols()));
-  for (Index i = 0; i < gram.rows(); ++i)
-    for (Index j = 0; j < gram.cols(); ++j)
-      c.covariance(i, j) *=
-          c.predictor.parameters()[static_cast<std::size_t>(c.free[static_cast<std::size_t>(i)])].scale *
-          c.predictor.parameters()[static_cast<std::size_t>(c.free[static_cast<std::size_t>(j)])].scale;
-  return c;
+/// What a model predicts of one run, by channel.
+struct RunForecast {
+  Vector4d mean;
+  Matrix4d covariance;
+};
+
+/// One row whose four channels are all measured.
+Observations single_run(const OperatingCondition& at) {
+  Observations run{.rows = {at}, .condition = {0}, .source_row = {0}, .cells = {}, .conditions = 1};
+  for (int channel = 0; channel < channel_count; ++channel) run.cells.push_back({0, channel, 0.0});
+  return run;
 }
 
-Vector4d as_vector(const bekker_wong::Reading& reading) {
-  Vector4d vector;
-  for (int channel = 0; channel < channel_count; ++channel) vector[channel] = channel_of(reading, channel);
-  return vector;
-}
-
-/// Variance that each term's form may be wrong by: its contribution times the form's tolerance, channel by channel.
-Matrix4d form_variance(const Contender& c, const OperatingCondition& at, const Vector4d& here) {
-  Matrix4d variance = Matrix4d::Zero();
-  for (int t = 0; t < static_cast<int>(c.predictor.terms().size()); ++t) {
-    VectorXd theta = c.theta;
-    theta[c.predictor.amplitude_index(t)] = 0.0;
-    const double tolerance = c.predictor.terms()[static_cast<std::size_t>(t)].form->form_tolerance;
-    const Vector4d contribution = here - as_vector(c.predictor.reading(theta, at));
-    variance.diagonal() += tolerance * tolerance * contribution.cwiseAbs2();
+/// Prediction and its covariance from the parameters' uncertainty and from the tolerance of its terms' forms: their
+/// contribution times the tolerance, channel by channel. Nothing where there is no balance.
+std::optional<RunForecast> predict(const FittedModel& model, const Observations& run) {
+  const auto forecast = model.forecast(run);
+  if (!forecast) return std::nullopt;
+  RunForecast predicted{forecast->prediction, forecast->covariance()};
+  const WheelPredictor predictor = model.predictor().over(run);
+  for (int t = 0; t < std::ssize(model.terms()); ++t) {
+    VectorXd theta = model.fit().theta, without;
+    theta[predictor.amplitude_index(t)] = 0.0;
+    if (!predictor.predict(theta, without)) return std::nullopt;
+    const double tolerance = model.terms()[t].form->form_tolerance;
+    predicted.covariance.diagonal() += tolerance * tolerance * (forecast->prediction - without).cwiseAbs2();
   }
-  return variance;
-}
-
-/// Prediction and its covariance from the parameters' uncertainty, by one-sided differences of 0.1 sd, and from the
-/// tolerance of its forms.
-std::pair<Vector4d, Matrix4d> predict(const Contender& c, const OperatingCondition& at) {
-  const Vector4d here = as_vector(c.predictor.reading(c.theta, at));
-  MatrixXd jacobian(4, static_cast<Index>(c.free.size()));
-  for (std::size_t i = 0; i < c.free.size(); ++i) {
-    const FreeParameter& p = c.predictor.parameters()[static_cast<std::size_t>(c.free[i])];
-    double step = 1e-3 * p.scale;
-    if (c.theta[c.free[i]] + step > p.upper) step = -step;
-    VectorXd theta = c.theta;
-    theta[c.free[i]] += step;
-    jacobian.col(static_cast<Index>(i)) = (as_vector(c.predictor.reading(theta, at)) - here) / step;
-  }
-  return {here, jacobian * c.covariance * jacobian.transpose() + form_variance(c, at, here)};
+  return predicted;
 }
 
 /// Squared distance of two predictions over noise and their uncertainties, over the measured channels.
-double squared_distance(const std::pair<Vector4d, Matrix4d>& a, const std::pair<Vector4d, Matrix4d>& b,
-                        const NoiseFloor& noise) {
+double squared_distance(const RunForecast& a, const RunForecast& b, const NoiseFloor& noise) {
   std::vector<int> measured;
   for (int c = 0; c < channel_count; ++c)
-    if (noise.channels[static_cast<std::size_t>(c)].measured) measured.push_back(c);
-  const Index n = static_cast<Index>(measured.size());
-  VectorXd gap(n);
-  MatrixXd spread(n, n);
-  for (Index i = 0; i < n; ++i) {
-    const int ci = measured[static_cast<std::size_t>(i)];
-    gap[i] = a.first[ci] - b.first[ci];
-    for (Index j = 0; j < n; ++j) {
-      const int cj = measured[static_cast<std::size_t>(j)];
-      spread(i, j) = a.second(ci, cj) + b.second(ci, cj) +
-                     noise.correlation(ci, cj) * noise.channels[static_cast<std::size_t>(ci)].sd(a.first[ci]) *
-                         noise.channels[static_cast<std::size_t>(cj)].sd(a.first[cj]);
-    }
-  }
+    if (noise.channels[c].measured) measured.push_back(c);
+  const auto sd = [&](int c) { return noise.channels[c].sd(a.mean[c]); };
+  MatrixXd spread = (a.covariance + b.covariance)(measured, measured);
+  for (Index i = 0; i < spread.rows(); ++i)
+    for (Index j = 0; j < spread.cols(); ++j)
+      spread(i, j) += noise.correlation(measured[i], measured[j]) * sd(measured[i]) * sd(measured[j]);
+  const VectorXd gap = (a.mean - b.mean)(measured);
   return gap.dot(spread.ldlt().solve(gap));
 }
 
-/// The set that stands next behind the best one and doesn't hold it; nullptr where none was refitted.
-const Weighted* next_standing(const Identification& id, const Weighted& best) {
-  for (const Weighted& w : id.weights)
-    if (w.weight > 0 && !std::includes(w.ids.begin(), w.ids.end(), best.ids.begin(), best.ids.end())) return &w;
+/// The set that stands next behind the best one and doesn't hold it; nullptr where none was fitted.
+const Weighted* next_standing(const Candidates& candidates, const std::set<std::string>& best) {
+  for (const Weighted& w : candidates.sets)
+    if (w.weight > 0 && !std::includes(w.ids.begin(), w.ids.end(), best.begin(), best.end())) return &w;
   return nullptr;
+}
+
+/// Who takes part, the best one first.
+std::vector<Contender> contenders(const Attribution& found) {
+  const Candidates& all = found.candidates;
+  std::vector<Contender> contenders;
+  const auto add = [&](const Weighted& w, double allowed) {
+    contenders.push_back({w.ids, all.models[w.best_candidate].model, w.log_evidence, allowed});
+  };
+  for (const Competitor& c : competitors(all)) add(all.sets[c.set], c.allowed);
+  if (contenders.size() > 1) return contenders;
+  const Contender best = contenders.front();
+  if (const Weighted* next = next_standing(all, best.ids))
+    add(*next, best.allowed);
+  else
+    contenders.push_back({{}, found.base, all.base_log_evidence, best.allowed});
+  return contenders;
 }
 
 /// What the campaign spans, by name.
@@ -132,7 +119,7 @@ std::vector<OperatingCondition> grid(const Observations& observations, const Lim
   for (const auto& [name, range] : limits) {
     const int levels = name == "slip" ? 6 : name == "pass" ? static_cast<int>(range.second - range.first) + 1 : 3;
     std::vector<OperatingCondition> more;
-    const int used = points.size() * static_cast<std::size_t>(levels) > 1000 ? 1 : levels;
+    const int used = points.size() * levels > 1000 ? 1 : levels;
     for (const OperatingCondition& p : points)
       for (int k = 0; k < used; ++k) {
         OperatingCondition at = p;
@@ -145,7 +132,7 @@ std::vector<OperatingCondition> grid(const Observations& observations, const Lim
   return points;
 }
 
-/// What a run at a condition would tell.
+/// What a run at a condition would decide.
 struct Prospect {
   double worth = 0.0;               ///< expected number of pairs that one run decides
   std::size_t against = 0;          ///< the candidate that it bears most upon, if the first is true
@@ -155,54 +142,54 @@ struct Prospect {
 /// The candidates with their weights, the best first.
 class Contest {
  public:
-  Contest(std::vector<Contender> candidates, const NoiseFloor& noise)
-      : candidates_(std::move(candidates)), noise_(noise) {
+  Contest(std::vector<Contender> contenders, const NoiseFloor& noise)
+      : contenders_(std::move(contenders)), noise_(noise) {
     double top = -std::numeric_limits<double>::infinity(), total = 0.0;
-    for (const Contender& c : candidates_) top = std::max(top, c.log_evidence);
-    for (const Contender& c : candidates_) weights_.push_back(std::exp(c.log_evidence - top)), total += weights_.back();
+    for (const Contender& c : contenders_) top = std::max(top, c.log_evidence);
+    for (const Contender& c : contenders_) weights_.push_back(std::exp(c.log_evidence - top)), total += weights_.back();
     for (double& w : weights_) w /= total;
   }
 
   /// Nothing where a candidate has no balance there, or can't be asked.
-  std::optional<Prospect> at(const OperatingCondition& condition) const try {
-    std::vector<std::pair<Vector4d, Matrix4d>> predictions;
-    for (const Contender& c : candidates_) predictions.push_back(predict(c, condition));
+  std::optional<Prospect> at(const OperatingCondition& condition) const {
+    const Observations run = single_run(condition);
+    std::vector<RunForecast> forecasts;
+    for (const Contender& c : contenders_) {
+      const auto forecast = predict(c.model, run);
+      if (!forecast) return std::nullopt;
+      forecasts.push_back(*forecast);
+    }
     Prospect p;
     double most = 0.0;
-    for (std::size_t i = 0; i < candidates_.size(); ++i)
+    for (std::size_t i = 0; i < contenders_.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
-        const double d = squared_distance(predictions[i], predictions[j], noise_);
+        const double d = squared_distance(forecasts[i], forecasts[j], noise_);
         p.worth += weights_[i] * std::min(1.0, d / needed(i, j)) + weights_[j] * std::min(1.0, d / needed(j, i));
         if (j > 0) continue;
-        constexpr double any = 0.1;  // what a candidate counts for, however unlikely
-        const double bears = std::min(1.0, d / needed(0, i)) * (any + weights_[i]);
+        const double bears = std::min(1.0, d / needed(0, i)) * (thresholds::least_weight + weights_[i]);
         if (bears > most) most = bears, p.against = i, p.distance = d, p.runs = std::ceil(needed(0, i) / d);
       }
     return p.distance > 0 ? std::optional(p) : std::nullopt;
-  } catch (const NoSolution&) {
-    return std::nullopt;
-  } catch (const InputError&) {
-    return std::nullopt;
   }
 
-  const Contender& candidate(std::size_t i) const { return candidates_[i]; }
+  const std::set<std::string>& ids(std::size_t i) const { return contenders_[i].ids; }
 
  private:
   /// Squared distance that puts j out where i is true.
   double needed(std::size_t i, std::size_t j) const {
-    constexpr double least = 0.5;  // ln evidence: one that stands at the very edge
-    return 2 * std::max(least, candidates_[j].allowed - (candidates_[i].log_evidence - candidates_[j].log_evidence));
+    const double ahead = contenders_[i].log_evidence - contenders_[j].log_evidence;
+    return 2 * std::max(thresholds::least_fall, contenders_[j].allowed - ahead);
   }
 
-  std::vector<Contender> candidates_;
+  std::vector<Contender> contenders_;
   std::vector<double> weights_;
   const NoiseFloor& noise_;
 };
 
-/// The most telling condition so far.
-class Search {
+/// The condition so far that decides most.
+class ConditionSearch {
  public:
-  explicit Search(const Contest& contest) : contest_(contest) {}
+  explicit ConditionSearch(const Contest& contest) : contest_(contest) {}
   void ask(const OperatingCondition& at) {
     if (const auto p = contest_.at(at); p && (!best_ || p->worth > best_->second.worth)) best_.emplace(at, *p);
   }
@@ -214,7 +201,7 @@ class Search {
 };
 
 /// One condition after the other on finer levels, from the best so far.
-void refine(Search& search, const Limits& limits) {
+void refine(ConditionSearch& search, const Limits& limits) {
   constexpr int levels = 13;
   for (const auto& [name, range] : limits) {
     if (name == "pass" || !search.best()) continue;
@@ -232,44 +219,29 @@ void refine(Search& search, const Limits& limits) {
 Limits limits_of(const Observations& observations) {
   Limits limits = ranges_of(observations);
   auto& slip = limits.try_emplace("slip", 0.0, 0.0).first->second;
-  slip = {std::min(slip.first, -0.2), std::max(slip.second, 0.8)};
+  slip = {std::min(slip.first, thresholds::lowest_slip), std::max(slip.second, thresholds::highest_slip)};
   const double load = observations.rows.front().load;
   auto& loads = limits.try_emplace("load", load, load).first->second;
-  loads = {0.7 * loads.first, 1.4 * loads.second};
+  loads = {thresholds::lowest_load_share * loads.first, thresholds::highest_load_share * loads.second};
   return limits;
 }
 
-std::optional<NextTest> next_test(const Campaign& campaign, const Identification& id,
-                                  const std::vector<Competitor>& competitors, const Limits& limits) {
-  std::vector<Contender> candidates;
-  const auto add = [&](const std::vector<Term>& terms, const Fit& fit, std::set<std::string> ids, double evidence,
-                       double allowed) {
-    candidates.push_back(contender(campaign, id, terms, fit, std::move(ids)));
-    candidates.back().log_evidence = evidence, candidates.back().allowed = allowed;
-  };
-  const auto add_set = [&](const Weighted& w, double allowed) {
-    add(id.candidates[w.best_candidate].terms, id.candidates[w.best_candidate].fit, w.ids, w.log_evidence, allowed);
-  };
-  for (const Competitor& c : competitors) add_set(id.weights[c.weighted], c.allowed);
-  if (candidates.size() < 2) {
-    const Competitor& alone = competitors.front();
-    if (const Weighted* next = next_standing(id, id.weights[alone.weighted]))
-      add_set(*next, alone.allowed);
-    else
-      add({}, id.base, {}, id.base_log_evidence, alone.allowed);
-  }
-  const Contest contest(std::move(candidates), id.noise);
-  Search search(contest);
-  for (const OperatingCondition& at : grid(id.observations, limits)) search.ask(at);
+std::optional<NextTest> next_test(const Attribution& found, const Limits& given) {
+  const Dataset& data = found.base.data();
+  Limits limits = given;  // what is given comes before what the campaign spans
+  limits.merge(limits_of(data.observations));
+  const Contest contest(contenders(found), data.noise);
+  ConditionSearch search(contest);
+  for (const OperatingCondition& at : grid(data.observations, limits)) search.ask(at);
   refine(search, limits);
-  if (!search.best() || search.best()->second.runs > 50) return std::nullopt;
-  const auto& [at, told] = *search.best();
+  if (!search.best() || search.best()->second.runs > thresholds::most_runs) return std::nullopt;
+  const auto& [at, prospect] = *search.best();
   NextTest next{.at = at,
                 .quantities = {},
-                .beyond = beyond(id.observations, at),
-                .separates = {contest.candidate(0).ids, contest.candidate(told.against).ids},
-                .runs = static_cast<int>(told.runs),
-                .distance = told.distance};
+                .beyond = beyond(data.observations, at),
+                .separates = {contest.ids(0), contest.ids(prospect.against)},
+                .runs = static_cast<int>(prospect.runs),
+                .distance = prospect.distance};
   for (const auto& [name, range] : limits) next.quantities.push_back(name);
   return next;
 }

@@ -1,4 +1,4 @@
-// The next run to make: where the candidates disagree most, in units of what a run can tell.
+// Stage 7 of the loop: the next run to make, where the candidates disagree most in units of what a run can tell.
 #pragma once
 
 #include <map>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/loop/ambiguity.hpp"
+#include "compare/loop/choice.hpp"
 
 namespace soilbin::compare {
 
@@ -31,10 +31,10 @@ struct NextTest {
 /// what one run would do against each other one j if i were true, min(1, d/d_needed). d is the squared distance between
 /// their predictions over noise plus the predictions' own uncertainty and the tolerance of their forms (Buzzi-Ferraris
 /// and Forzatti 1983, Chem. Eng. Sci. 38:225); a run adds d/2 to the ln evidence between them, and j is out where it
-/// stands further behind than allowed. On a grid, then one condition after the other on a finer one. competitors: the
-/// best one first. A single one is decided: it is set against the set that stands next behind it (the base model where
-/// there is none), to be surer still. Nothing where no condition within limits sets them apart in 50 runs.
-std::optional<NextTest> next_test(const Campaign& campaign, const Identification& id,
-                                  const std::vector<Competitor>& competitors, const Limits& limits);
+/// stands further behind than allowed. On a grid, then one condition after the other on a finer one.
+/// The candidates are those that compete with the best one (competitors); where it stands by itself, the set that
+/// stands next behind it (the base model where there is none), to be surer still. limits: where nothing is given,
+/// limits_of the observations. Nothing where no condition within limits sets them apart in 50 runs.
+std::optional<NextTest> next_test(const Attribution& found, const Limits& limits);
 
 }  // namespace soilbin::compare

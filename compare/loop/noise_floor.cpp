@@ -7,6 +7,7 @@
 
 #include "compare/loop/condition_functions.hpp"
 #include "compare/loop/setpoint_squares.hpp"
+#include "compare/loop/thresholds.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
@@ -33,15 +34,14 @@ Whitening::Whitening(const Observations& observations, const NoiseFloor& noise, 
   for (std::size_t first = 0; first < cells.size();) {
     std::size_t last = first;
     while (last < cells.size() && cells[last].row == cells[first].row) ++last;
-    const Index n = static_cast<Index>(last - first);
+    const Index n = (last - first);
     MatrixXd covariance(n, n);
     for (Index i = 0; i < n; ++i)
       for (Index j = 0; j < n; ++j) {
-        const Cell &a = cells[first + static_cast<std::size_t>(i)], &b = cells[first + static_cast<std::size_t>(j)];
-        covariance(i, j) =
-            noise.correlation(a.channel, b.channel) *
-            noise.channels[static_cast<std::size_t>(a.channel)].sd(prediction[static_cast<Index>(first) + i]) *
-            noise.channels[static_cast<std::size_t>(b.channel)].sd(prediction[static_cast<Index>(first) + j]);
+        const Cell &a = cells[first + i], &b = cells[first + j];
+        covariance(i, j) = noise.correlation(a.channel, b.channel) *
+                           noise.channels[a.channel].sd(prediction[first + i]) *
+                           noise.channels[b.channel].sd(prediction[first + j]);
       }
     const MatrixXd factor = covariance.llt().matrixL();
     blocks_.push_back(
@@ -148,7 +148,7 @@ ChannelCells gather(const Observations& observations, int channel) {
   ChannelCells found;
   for (std::size_t i = 0; i < observations.cells.size(); ++i)
     if (observations.cells[i].channel == channel) {
-      found.cell.push_back(static_cast<Index>(i));
+      found.cell.push_back(i);
       found.row.push_back(observations.cells[i].row);
     }
   return found;
@@ -157,7 +157,7 @@ ChannelCells gather(const Observations& observations, int channel) {
 double pooled_rerun_sd(const Observations& observations, const ChannelCells& cells, const VectorXd& residual) {
   SetpointSquares squares(observations.conditions);
   for (std::size_t i = 0; i < cells.cell.size(); ++i)
-    squares.add(observations.condition[static_cast<std::size_t>(cells.row[i])], residual[cells.cell[i]]);
+    squares.add(observations.condition[cells.row[i]], residual[cells.cell[i]]);
   return squares.reruns() > 0 ? std::sqrt(squares.within() / squares.reruns()) : 0.0;
 }
 
@@ -166,7 +166,7 @@ double pooled_rerun_sd(const Observations& observations, const ChannelCells& cel
 double typical_noise(const VectorXd& residual, const VectorXd& prediction) {
   const double range = std::max(prediction.maxCoeff() - prediction.minCoeff(), 0.2 * prediction.cwiseAbs().maxCoeff());
   const double spread = std::sqrt(residual.squaredNorm() / static_cast<double>(residual.size()));
-  return std::max(spread > range ? spread : 0.02 * range, 1e-12);
+  return std::max(spread > range ? spread : thresholds::typical_noise_share * range, 1e-12);
 }
 
 /// What the cells of one channel are made of, and the columns that may explain them.
@@ -176,7 +176,7 @@ struct ChannelData {
 };
 
 ChannelData channel_data(const ChannelCells& cells, const NoiseData& data, const MatrixXd& basis) {
-  const Index n = static_cast<Index>(cells.cell.size());
+  const Index n = cells.cell.size();
   const MatrixXd functions = basis(cells.row, Eigen::seqN(0, std::clamp<Index>(n / 3 - 1, 0, basis.cols())));
   return {.e = data.residual(cells.cell),
           .f = data.prediction(cells.cell),
@@ -238,16 +238,16 @@ NoiseEstimate estimate_noise(const Observations& observations, const NoiseData& 
   estimate.floor.rerun_freedom = observations.rerun_freedom();
   estimate.outlier_score.assign(observations.cells.size(), 0.0);
   const MatrixXd basis = smooth_basis(observations, 40);
-  const Index rows = static_cast<Index>(observations.rows.size());
+  const Index rows = observations.rows.size();
   MatrixXd standard = MatrixXd::Constant(rows, channel_count, not_a_number);
   for (int channel = 0; channel < channel_count; ++channel) {
     const ChannelCells cells = gather(observations, channel);
     if (cells.cell.size() < 3) continue;
     const ChannelFit fit = fit_channel(observations, data, cells, basis);
-    estimate.floor.channels[static_cast<std::size_t>(channel)] = fit.noise;
+    estimate.floor.channels[channel] = fit.noise;
     for (std::size_t i = 0; i < cells.cell.size(); ++i) {
-      const Index k = static_cast<Index>(i);
-      estimate.outlier_score[static_cast<std::size_t>(cells.cell[i])] = std::abs(fit.score[k]);
+      const Index k = i;
+      estimate.outlier_score[cells.cell[i]] = std::abs(fit.score[k]);
       standard(cells.row[i], channel) = fit.plain[k] / fit.noise.sd(data.prediction[cells.cell[i]]);
     }
   }
@@ -259,7 +259,7 @@ NoiseEstimate estimate_noise(const Observations& observations, const NoiseData& 
         if (!std::isfinite(x) || !std::isfinite(y)) continue;
         ab += x * y, aa += x * x, bb += y * y, n += 1;
       }
-      const double shrink = n / (n + 10);  // toward independence, where few runs tell
+      const double shrink = n / (n + thresholds::correlation_shrinkage);  // toward independence, where few runs tell
       const double rho = aa > 0 && bb > 0 ? std::clamp(shrink * ab / std::sqrt(aa * bb), -0.9, 0.9) : 0.0;
       estimate.floor.correlation(a, b) = estimate.floor.correlation(b, a) = rho;
     }

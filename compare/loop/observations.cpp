@@ -12,8 +12,8 @@
 namespace soilbin::compare {
 
 Eigen::VectorXd Observations::values() const {
-  Eigen::VectorXd y(static_cast<Eigen::Index>(cells.size()));
-  for (std::size_t i = 0; i < cells.size(); ++i) y[static_cast<Eigen::Index>(i)] = cells[i].value;
+  Eigen::VectorXd y(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) y[i] = cells[i].value;
   return y;
 }
 
@@ -44,8 +44,7 @@ Observations observe(const Campaign& campaign) {
     all.condition.push_back(condition);
     all.source_row.push_back(static_cast<int>(i));
     for (int c = 0; c < channel_count; ++c)
-      if (const auto& value = run.*channel_views[static_cast<std::size_t>(c)].measured)
-        all.cells.push_back({row, c, *value});
+      if (const auto& value = run.*channel_views[c].measured) all.cells.push_back({row, c, *value});
   }
   return all;
 }
@@ -56,7 +55,7 @@ Observations of_conditions(const Observations& all, const std::vector<bool>& kee
   for (std::size_t c = 0; c < keep.size(); ++c)
     if (keep[c]) renumbered[c] = part.conditions++;
   for (std::size_t i = 0; i < all.rows.size(); ++i) {
-    const int condition = renumbered[static_cast<std::size_t>(all.condition[i])];
+    const int condition = renumbered[all.condition[i]];
     if (condition < 0) continue;
     new_row[i] = static_cast<int>(part.rows.size());
     part.rows.push_back(all.rows[i]);
@@ -64,8 +63,7 @@ Observations of_conditions(const Observations& all, const std::vector<bool>& kee
     part.source_row.push_back(all.source_row[i]);
   }
   for (const Cell& cell : all.cells)
-    if (const int row = new_row[static_cast<std::size_t>(cell.row)]; row >= 0)
-      part.cells.push_back({row, cell.channel, cell.value});
+    if (const int row = new_row[cell.row]; row >= 0) part.cells.push_back({row, cell.channel, cell.value});
   return part;
 }
 
@@ -80,9 +78,8 @@ Observations without_cells(const Observations& all, const std::vector<bool>& dro
 std::vector<Covariate> covariates(const Observations& observations) {
   std::vector<Covariate> varying;
   for (const ConditionView& view : condition_views) {
-    Eigen::VectorXd values(static_cast<Eigen::Index>(observations.rows.size()));
-    for (Eigen::Index i = 0; i < values.size(); ++i)
-      values[i] = view.get(observations.rows[static_cast<std::size_t>(i)]);
+    Eigen::VectorXd values(observations.rows.size());
+    for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = view.get(observations.rows[i]);
     if (values.size() == 0 || !values.allFinite()) continue;
     const double spread = values.maxCoeff() - values.minCoeff();
     const double scale = values.cwiseAbs().maxCoeff();

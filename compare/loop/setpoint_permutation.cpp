@@ -20,7 +20,7 @@ void shuffle_all(std::vector<Index>& items, std::mt19937_64& random) {
 
 SetpointPermutation::SetpointPermutation(const std::vector<int>& setpoint) {
   std::map<int, std::vector<Index>> places;
-  for (std::size_t i = 0; i < setpoint.size(); ++i) places[setpoint[i]].push_back(static_cast<Index>(i));
+  for (std::size_t i = 0; i < setpoint.size(); ++i) places[setpoint[i]].push_back(i);
   std::map<std::size_t, Alike> by_size;
   for (const auto& [name, own] : places) {
     Alike& alike = by_size[own.size()];
@@ -38,7 +38,7 @@ VectorXd SetpointPermutation::operator()(const VectorXd& values, std::mt19937_64
     shuffle_all(setpoints, random);
     auto to = alike.places.begin();
     for (const Index from : setpoints) {
-      std::copy_n(alike.places.begin() + from * static_cast<Index>(alike.size), alike.size, own.begin());
+      std::copy_n(alike.places.begin() + from * alike.size, alike.size, own.begin());
       shuffle_all(own, random);
       for (const Index place : own) moved[*to++] = values[place];
     }

@@ -4,10 +4,10 @@
 
 namespace soilbin::compare {
 
-SetpointSquares::SetpointSquares(int conditions) : sums_(static_cast<std::size_t>(conditions)) {}
+SetpointSquares::SetpointSquares(int conditions) : sums_(conditions) {}
 
 void SetpointSquares::add(int condition, double residual) {
-  Sums& s = sums_[static_cast<std::size_t>(condition)];
+  Sums& s = sums_[condition];
   s.sum += residual, s.squares += residual * residual, s.count += 1;
 }
 

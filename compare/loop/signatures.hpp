@@ -1,7 +1,9 @@
-// Tracing a residual: what each form of each effect would do to the cells, seen off what the soil's values absorb.
+// Stage 3 of the loop: the signature that each form of each effect would leave in the residual, seen off what the
+// soil's values absorb.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,27 +30,31 @@ struct Signature {
   double strength() const { return one_sided ? score : (score < 0 ? -score : score); }
 };
 
-/// Noncentrality at which a form is detected in 80 % of repetitions against a family of about fifty: (3.29 + 0.84)^2.
-inline constexpr double detectable_noncentrality = 17.0;
-
-/// What a traced model stands on: predictor with the terms accepted so far, its fit, whitening, and the linear problem.
-struct TracedModel {
-  const Campaign& campaign;
-  const Observations& observations;
-  const Whitening& whitening;
-  const WheelPredictor& predictor;
-  const Fit& fit;
-  const LinearProblem& problem;
+/// What stands out of a model's residual.
+struct ResidualSignatures {
+  std::vector<Signature> all;
+  double p_value = 1.0;  ///< family-wise, of the strongest
 };
 
-/// Signatures of all forms of the catalogue that are not of an effect among the declared or accepted ones; secants at
-/// two sizes each, because some effects have no derivative at 0. Forms without any trace are listed with
-/// projected_norm 0.
-std::vector<Signature> residual_signatures(const TracedModel& model, const ThreadPool& pool = {});
+/// Signatures of all forms of the catalogue that are not of an effect among the declared or the model's own; secants at
+/// two sizes each, because some effects have no derivative at 0. Forms that leave no trace are listed with
+/// projected_norm 0. problem: the model's (problem_of).
+///
+///     const std::vector<Signature> all = residual_signatures(base, problem_of(base));
+///     const double p = family_wise_p(all, strongest(all), base.data().noise.typical_freedom(), 4000, 1);
+std::vector<Signature> residual_signatures(const FittedModel& model, const LinearProblem& problem,
+                                           const ThreadPool& pool = {});
+
+/// The largest strength of all; 0 where none leaves a trace.
+double strongest(const std::vector<Signature>& signatures);
 
 /// Probability that the largest strength of all signatures would reach `observed` if nothing were missing: simulated
 /// maximum over normal residuals, with the noise's scale known to `freedom` degrees of freedom.
 double family_wise_p(const std::vector<Signature>& signatures, double observed, double freedom, int simulations,
                      std::uint64_t seed);
+
+/// How alike the signatures of an effect and of each other effect are in these data, off what the soil's values absorb:
+/// the largest |cosine| over their forms, by id. 1: nothing tells them apart.
+std::map<std::string, double> cosines(const std::vector<Signature>& signatures, const std::string& effect);
 
 }  // namespace soilbin::compare

@@ -42,23 +42,22 @@ VectorXd smooth_term(const Observations& all, const std::vector<bool>& kept, con
   for (int channel = 0; channel < channel_count; ++channel) {
     std::vector<Index> training;
     for (Index i = 0; i < prediction.size(); ++i) {
-      const Cell& cell = all.cells[static_cast<std::size_t>(i)];
-      if (cell.channel == channel && kept[static_cast<std::size_t>(cell.row)] && std::isfinite(prediction[i]))
-        training.push_back(i);
+      const Cell& cell = all.cells[i];
+      if (cell.channel == channel && kept[cell.row] && std::isfinite(prediction[i])) training.push_back(i);
     }
-    MatrixXd columns(static_cast<Index>(training.size()), basis.cols());
+    MatrixXd columns(training.size(), basis.cols());
     VectorXd residual(columns.rows());
-    const auto sd = [&](Index i) { return noise.channels[static_cast<std::size_t>(channel)].sd(prediction[i]); };
+    const auto sd = [&](Index i) { return noise.channels[channel].sd(prediction[i]); };
     for (Index k = 0; k < columns.rows(); ++k) {
-      const Index i = training[static_cast<std::size_t>(k)];
-      const Cell& cell = all.cells[static_cast<std::size_t>(i)];
+      const Index i = training[k];
+      const Cell& cell = all.cells[i];
       columns.row(k) = basis.row(cell.row);
       residual[k] = (cell.value - prediction[i]) / sd(i);
     }
     if (training.empty()) continue;
     const VectorXd weights = ridge(columns, residual);
     for (Index i = 0; i < prediction.size(); ++i) {
-      const Cell& cell = all.cells[static_cast<std::size_t>(i)];
+      const Cell& cell = all.cells[i];
       if (cell.channel == channel) term[i] = sd(i) * basis.row(cell.row).dot(weights);
     }
   }

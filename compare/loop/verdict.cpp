@@ -3,158 +3,151 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <optional>
-#include <string>
 
-#include "compare/loop/accepted_model.hpp"
 #include "compare/loop/answer_words.hpp"
 
 namespace soilbin::compare {
 
+std::string_view word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::effect_found:
+      return "effect_found";
+    case Verdict::nothing_missing:
+      return "nothing_missing";
+    case Verdict::unknown_effect:
+      return "unknown_effect";
+    case Verdict::not_enough_data:
+      return "not_enough_data";
+  }
+  return "";
+}
+
 namespace {
 
-constexpr int choice_folds = 10;
-
-/// Thresholds of the verdict, set once on the tuning sets of bench/loop (docs/loop.md), never on those reported.
-constexpr double odds_enough = 3.0;         // ln 20 to 1 over the base model, price paid
-constexpr double second_test_level = 0.1;   // of lack of fit after the best named effects: the noise was estimated
-                                            // beside a smooth function, so that it seldom falls under 0.3 by chance
-constexpr double unexplained_share = 0.15;  // of the base model's excess chi2 that a form 40 % off would leave
-constexpr double first_test_level = 0.02;   // of lack of fit where no effect is named
-constexpr double rerun_level = 0.005;       // of the same against re-runs alone, of the channel where it is least
-constexpr double rerun_share = 0.5;         // of the base model's excess over the re-runs that is left then
-constexpr double unnamed_alone = 2.0;       // ln evidence over the base model where no effect is named
-constexpr double unnamed_after = 1.0;       // ln evidence beyond the best named effects
-constexpr double alone_share = 0.9;         // of the sets' weight: then one effect stands alone, and what it leaves is
-constexpr double alone_test_level = 0.03;   // likelier to be its form's; the same two thresholds in that case
-constexpr double alone_unnamed_after = 3.0;
-
-/// Conditions left out are predicted better by a standard error; or better at all, where the odds are twenty to one:
-/// with a dozen conditions a standard error is more than a real effect reaches.
-bool stands(const PredictiveGain& gain, double log_odds) {
-  return gain.mean > gain.std_error || (gain.mean > 0 && log_odds > odds_enough);
-}
-
-/// Whether the best set stands against the base model.
-bool confirmed(const LoopAnswer& answer) {
-  const Identification& id = answer.details;
-  return id.best &&
-         stands(answer.choice_gain, weighed(id, id.candidates[*id.best].ids).log_evidence - id.base_log_evidence);
-}
-
-/// Share of the base model's excess over the noise that the best named candidate leaves.
-double unexplained(const Identification& id) {
-  const double cells = static_cast<double>(id.observations.cells.size());
-  const double excess = id.base.chi2 - cells;
+/// Share of the base model's excess over the noise that the chosen candidate leaves.
+double unexplained(const Attribution& found) {
+  const double cells = static_cast<double>(found.base.data().cells());
+  const double excess = found.base.fit().chi2 - cells;
   if (!(excess > 0)) return 0.0;
-  return std::max(0.0, id.candidates[*id.best].fit.chi2 - cells) / excess;
+  return std::max(0.0, found.best().fit().chi2 - cells) / excess;
 }
 
 /// Whether a single effect is the best set, and no other set comes near it.
-bool stands_alone(const Identification& id) {
-  const Weighted best = weighted_sets(id, competitors(id)).front();
-  return best.ids.size() == 1 && best.weight >= alone_share;
+bool one_effect_dominates(const Candidates& candidates) {
+  const Weighted best = ambiguity_set(candidates).front();
+  return best.ids.size() == 1 && best.weight >= thresholds::dominant_share;
 }
 
-/// Where no effect is accepted: whether the residual is real all the same. Then the verdict is `unknown_effect`.
-bool unnamed_residual(LoopAnswer& answer) {
-  const Identification& id = answer.details;
-  const bool patterned = id.unnamed_gain > unnamed_alone, beyond_noise = answer.before.p_value <= first_test_level;
-  if (!patterned && !beyond_noise && answer.reruns_before.p_value > rerun_level) return false;
-  answer.verdict = Verdict::unknown_effect;
-  answer.reason = fmt::format("no effect of the catalogue is accepted (p = {:.3g}), but ", id.p_value);
-  if (patterned)
-    answer.reason += fmt::format(
+struct Conclusion {
+  Verdict verdict;
+  std::string reason;
+};
+
+/// Where no effect is accepted: the residual may be real all the same, the work of an unknown effect. Else `nothing`.
+Conclusion without_effect(const Attribution& found, const ResidualTests& before, std::string nothing) {
+  const double p = before.lack_of_fit.p_value, p_reruns = before.reruns.p_value;
+  std::string why;
+  if (found.unnamed_gain > thresholds::unnamed_instead)
+    why = fmt::format(
         "a function of the conditions that none of them makes explains the residual e^{:.1f} times better than noise",
-        id.unnamed_gain);
-  else if (beyond_noise)
-    answer.reason += fmt::format("the residual is more than noise (p = {:.2g})", answer.before.p_value);
+        found.unnamed_gain);
+  else if (p <= thresholds::first_test_level)
+    why = fmt::format("the residual is more than noise (p = {:.2g})", p);
+  else if (p_reruns <= thresholds::rerun_level)
+    why = fmt::format("the setpoints are off by more than their re-runs differ (p = {:.2g})", p_reruns);
   else
-    answer.reason += fmt::format("the setpoints are off by more than their re-runs differ (p = {:.2g})",
-                                 answer.reruns_before.p_value);
-  return true;
+    return {Verdict::nothing_missing, std::move(nothing)};
+  return {Verdict::unknown_effect,
+          fmt::format("no effect of the catalogue is accepted (p = {:.3g}), but {}", found.signatures.p_value, why)};
 }
 
-/// Why what the best named effects leave is the work of another one; nothing where it may be noise or their form's.
-std::optional<std::string> more_than_named(const LoopAnswer& answer) {
-  const Identification& id = answer.details;
-  const double left = unexplained(id);
-  const bool alone = stands_alone(id);
-  if (answer.after.p_value < (alone ? alone_test_level : second_test_level) && left > unexplained_share)
+/// Why what the chosen candidate leaves is the work of another effect; nothing where it may be noise or its form's.
+std::optional<std::string> more_than_named(const Attribution& found, const ResidualTests& before,
+                                           const ChosenCandidate& choice) {
+  const double left = unexplained(found);
+  const bool one = one_effect_dominates(found.candidates);
+  const double test_level = one ? thresholds::dominant_test_level : thresholds::second_test_level;
+  const double unnamed_level = one ? thresholds::dominant_unnamed_beside : thresholds::unnamed_beside;
+  if (choice.after.lack_of_fit.p_value < test_level && left > thresholds::unexplained_share)
     return fmt::format("but the best set of named effects leaves {:.0f} % of it", 100 * left);
-  if (id.residual_unnamed_gain > (alone ? alone_unnamed_after : unnamed_after))
+  if (choice.unnamed_gain > unnamed_level)
     return fmt::format(
         "and after the best set of named effects a function of the conditions that none of them makes explains "
-        "e^{:.0f} "
-        "times more than chance would",
-        id.residual_unnamed_gain);
-  if (answer.reruns_after.p_value < rerun_level &&
-      answer.reruns_after.excess > rerun_share * answer.reruns_before.excess)
+        "e^{:.0f} times more than chance would",
+        choice.unnamed_gain);
+  if (choice.after.reruns.p_value < thresholds::rerun_level &&
+      choice.after.reruns.excess > thresholds::rerun_share * before.reruns.excess)
     return fmt::format(
         "and after the best set of named effects the setpoints are still off by more than their re-runs differ "
         "(p = {:.2g})",
-        answer.reruns_after.p_value);
+        choice.after.reruns.p_value);
   return std::nullopt;
+}
+
+/// Why the data do not allow to judge any effect; nothing where they do.
+std::optional<std::string> not_judgeable(const Attribution& found) {
+  const double freedom = found.base.data().noise.typical_freedom();
+  if (freedom < thresholds::least_noise_freedom)
+    return fmt::format("the noise of a channel rests on {:.1f} degrees of freedom only, too few to judge by", freedom);
+  const std::vector<Signature>& all = found.signatures.all;
+  if (std::none_of(all.begin(), all.end(), [](const Signature& s) { return s.testable; }))
+    return "no effect of the catalogue would show in these data, whatever its size";
+  return std::nullopt;
+}
+
+Conclusion conclude(const Attribution& found, const ResidualTests& before,
+                    const std::optional<ChosenCandidate>& choice) {
+  const double p = found.signatures.p_value;
+  if (!choice)
+    return without_effect(found, before,
+                          fmt::format("the strongest of all effects reaches p = {:.3g} among the whole catalogue", p));
+  if (const auto more = more_than_named(found, before, *choice))
+    return {Verdict::unknown_effect, fmt::format("the residual is real (p = {:.2g}), {}", p, *more)};
+  if (!choice->stands)
+    return without_effect(
+        found, before,
+        fmt::format("the best effect fits (p = {:.2g}) but does not predict held-out conditions better "
+                    "(gain in ln density a condition {:.2g} +- {:.2g})",
+                    p, choice->gain.mean, choice->gain.std_error));
+  return {Verdict::effect_found, fmt::format("p = {:.2g} among the whole catalogue", p)};
+}
+
+/// Chooses among the candidates, where any may stand; the choice is the best from then on.
+std::optional<ChosenCandidate> settle(Attribution& found, const AttributionOptions& options) {
+  if (!found.candidates.best) return std::nullopt;
+  ChosenCandidate choice = choose(found, options);
+  found.candidates.best = choice.candidate;
+  return choice;
 }
 
 }  // namespace
 
-void confirm(const Campaign& campaign, LoopAnswer& answer, const IdentifyOptions& options) {
-  Identification& id = answer.details;
-  for (auto fewer = best_subset(id, *id.best); fewer; fewer = best_subset(id, *id.best)) {
-    const CandidateModel &more = id.candidates[*id.best], &less = id.candidates[*fewer];
-    const PredictiveGain gain = predictive_gain(campaign, id, more.terms, more.fit, less.terms, less.fit, choice_folds,
-                                                options.seed, options.pool);
-    if (stands(gain, weighed(id, more.ids).log_evidence - weighed(id, less.ids).log_evidence)) break;
-    prefer(campaign, id, *fewer);
-  }
-  const CandidateModel& best = id.candidates[*id.best];
-  answer.choice_gain =
-      predictive_gain(campaign, id, best.terms, best.fit, {}, id.base, choice_folds, options.seed, options.pool);
-  answer.after = lack_of_fit(best.fit, id.noise, static_cast<Eigen::Index>(id.observations.cells.size()));
-  answer.reruns_after = rerun_test(id.observations, id.noise, best.fit);
+std::optional<std::string> too_small(const Campaign& campaign, const Observations& observations) {
+  const int values = static_cast<int>(observations.cells.size());
+  const int free = WheelPredictor(campaign, observations).soil_parameters();
+  if (values - free >= thresholds::least_spare_values && observations.conditions >= thresholds::least_conditions)
+    return std::nullopt;
+  return fmt::format("{} measured values of {} conditions for {} soil values leave too little to judge by", values,
+                     observations.conditions, free);
 }
 
-bool explains_all(const LoopAnswer& answer) { return confirmed(answer) && !more_than_named(answer); }
-
-void decide(const Campaign& campaign, LoopAnswer& answer) {
-  const Identification& id = answer.details;
-  const bool improves = confirmed(answer);
-  if (!id.best) {
-    if (unnamed_residual(answer)) return;
-    answer.verdict = Verdict::nothing_missing;
-    answer.reason =
-        fmt::format("the strongest of all effects reaches p = {:.3g} among the whole catalogue", id.p_value);
-    return;
-  }
-  if (const auto more = more_than_named(answer)) {
-    answer.verdict = Verdict::unknown_effect;
-    answer.reason = fmt::format("the residual is real (p = {:.2g}), {}", id.p_value, *more);
-    if (improves) answer.stand_in = take_best(campaign, answer);
-    return;
-  }
-  if (!improves) {
-    if (unnamed_residual(answer)) return;
-    answer.verdict = Verdict::nothing_missing;
-    answer.reason = fmt::format(
-        "the best effect fits (p = {:.2g}) but does not predict held-out conditions better "
-        "(gain in ln density a condition {:.2g} +- {:.2g})",
-        id.p_value, answer.choice_gain.mean, answer.choice_gain.std_error);
-    return;
-  }
-  answer.verdict = Verdict::effect_found;
-  answer.effects = take_best(campaign, answer);
-  answer.reason = fmt::format("p = {:.2g} among the whole catalogue", id.p_value);
+Judgement judge(Attribution found, const AttributionOptions& options) {
+  const ResidualTests before = test_residual(found.base);
+  if (auto reason = not_judgeable(found))
+    return {std::move(found), before, std::nullopt, Verdict::not_enough_data, std::move(*reason)};
+  auto choice = settle(found, options);
+  Conclusion conclusion = conclude(found, before, choice);
+  return {std::move(found), before, std::move(choice), conclusion.verdict, std::move(conclusion.reason)};
 }
 
-void decide_with_model_discrepancy(const Campaign& campaign, LoopAnswer& answer) {
-  const Identification& id = answer.details;
-  answer.reason = fmt::format(
+Judgement judge_with_model_discrepancy(Attribution found, const AttributionOptions& options) {
+  const ResidualTests before = test_residual(found.base);
+  auto choice = settle(found, options);
+  std::string reason = fmt::format(
       "the base model is off by what a smooth function of load and slip makes good, and beside that {} stands out most "
       "(p = {:.2g})",
-      joined(id.candidates[*id.best].ids), id.p_value);
-  answer.stand_in.clear(), answer.dependences_after.clear(), answer.soil_shifts.clear();
-  if (confirmed(answer)) answer.stand_in = take_best(campaign, answer);
+      joined(found.best().ids), found.signatures.p_value);
+  return {std::move(found), before, std::move(choice), Verdict::unknown_effect, std::move(reason)};
 }
 
 }  // namespace soilbin::compare

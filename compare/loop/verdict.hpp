@@ -1,22 +1,36 @@
-// From the best set of effects to a verdict: whether it stands on conditions left out, and what it leaves.
+// Stage 5 of the loop, its end: from an attribution to a verdict.
 #pragma once
 
-#include "compare/loop/loop.hpp"
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "compare/loop/choice.hpp"
 
 namespace soilbin::compare {
 
-/// Backward: an effect of the best set (LoopAnswer::details must have one) stays only if the set with it predicts
-/// conditions left out better than the set without. Then what the set that stays gains over the base model, and what it
-/// leaves.
-void confirm(const Campaign& campaign, LoopAnswer& answer, const IdentifyOptions& options);
+enum class Verdict { effect_found, nothing_missing, unknown_effect, not_enough_data };
+std::string_view word(Verdict verdict);
 
-/// Whether the best set stands and what it leaves may be noise or its form's.
-bool explains_all(const LoopAnswer& answer);
+/// An attribution and what is made of it.
+struct Judgement {
+  Attribution found;                      ///< its best candidate is the choice
+  ResidualTests before;                   ///< of what the base model leaves
+  std::optional<ChosenCandidate> choice;  ///< where any candidate may stand
+  Verdict verdict = Verdict::not_enough_data;
+  std::string reason;  ///< one plain sentence
+  /// The model takes the best candidate's effects: accepted (effect_found), or as stand-ins for an unknown one.
+  bool takes_best() const { return choice && choice->stands && verdict != Verdict::nothing_missing; }
+};
 
-/// Verdict, reason, and the effects that are accepted or stand in.
-void decide(const Campaign& campaign, LoopAnswer& answer);
+/// Why a campaign is too small to fit anything; nothing where it isn't.
+std::optional<std::string> too_small(const Campaign& campaign, const Observations& observations);
 
-/// The same for an unknown effect where the reading beside a base model that may be off by itself decides.
-void decide_with_model_discrepancy(const Campaign& campaign, LoopAnswer& answer);
+/// Whether an effect is missing, the base model taken as exact.
+Judgement judge(Attribution found, const AttributionOptions& options);
+
+/// The same for an unknown effect, with an attribution that has a model discrepancy and a candidate that stands out:
+/// the verdict stays unknown_effect.
+Judgement judge_with_model_discrepancy(Attribution found, const AttributionOptions& options);
 
 }  // namespace soilbin::compare

@@ -73,7 +73,7 @@ bool all_finite(const bekker_wong::Reading& r) {
 }  // namespace
 
 double channel_of(const bekker_wong::Reading& reading, int channel) {
-  return reading.*bekker_wong::reading_members.at(static_cast<std::size_t>(channel));
+  return reading.*bekker_wong::reading_members.at(channel);
 }
 
 Term make_term(const bekker_wong::EffectForm& form, const Observations& observations, bool free_shape) {
@@ -107,32 +107,38 @@ WheelPredictor::WheelPredictor(const Campaign& campaign, const Observations& obs
   for (const Term& term : terms_) {
     first_of_term_.push_back(static_cast<int>(parameters_.size()));
     for (const int i : term.free) {
-      const EffectParameter& p = term.form->parameters[static_cast<std::size_t>(i)];
-      const double start = term.defaults[static_cast<std::size_t>(i)];
+      const EffectParameter& p = term.form->parameters[i];
+      const double start = term.defaults[i];
       const double reach = std::max(std::abs(p.fallback), 0.02 * (p.upper - p.lower));
-      const double stated = term.spread[static_cast<std::size_t>(i)];
+      const double stated = term.spread[i];
       const double sd = i == 0 ? unbounded : stated > 0.0 ? stated : std::min(0.5 * reach, 0.25 * (p.upper - p.lower));
       parameters_.push_back({term.form->id + "." + p.name, start, sd, p.lower, p.upper, i == 0 ? reach : sd});
     }
   }
 }
 
+WheelPredictor WheelPredictor::with(const std::vector<Term>& more) const {
+  std::vector<Term> terms = terms_;
+  terms.insert(terms.end(), more.begin(), more.end());
+  return {*campaign_, *observations_, std::move(terms)};
+}
+
 Eigen::VectorXd WheelPredictor::start() const {
-  Eigen::VectorXd theta(static_cast<Eigen::Index>(parameters_.size()));
-  for (Eigen::Index i = 0; i < theta.size(); ++i) theta[i] = parameters_[static_cast<std::size_t>(i)].prior;
+  Eigen::VectorXd theta(parameters_.size());
+  for (Eigen::Index i = 0; i < theta.size(); ++i) theta[i] = parameters_[i].prior;
   return within_bounds(std::move(theta));
 }
 
 Eigen::VectorXd WheelPredictor::within_bounds(Eigen::VectorXd theta) const {
   for (Eigen::Index i = 0; i < theta.size(); ++i) {
-    const FreeParameter& p = parameters_[static_cast<std::size_t>(i)];
+    const FreeParameter& p = parameters_[i];
     theta[i] = std::clamp(theta[i], p.lower, p.upper);
   }
   return theta;
 }
 
 std::vector<Wall> WheelPredictor::walls() const {
-  const Eigen::Index n = static_cast<Eigen::Index>(parameters_.size());
+  const Eigen::Index n = parameters_.size();
   std::vector<Wall> walls;
   double slip = 0.0;
   for (const OperatingCondition& at : observations_->rows)
@@ -140,7 +146,7 @@ std::vector<Wall> WheelPredictor::walls() const {
   Eigen::VectorXd share = Eigen::VectorXd::Zero(n);  // what theta_m/theta_1 at that slip gains from each
   double fixed = campaign_->soil.stress_angle_c1.value + slip * campaign_->soil.stress_angle_c2.value;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const FreeParameter& p = parameters_[static_cast<std::size_t>(i)];
+    const FreeParameter& p = parameters_[i];
     const Eigen::VectorXd along = Eigen::VectorXd::Unit(n, i);
     if (std::isfinite(p.lower)) walls.push_back({-along, -p.lower});
     if (std::isfinite(p.upper)) walls.push_back({along, p.upper});
@@ -156,14 +162,14 @@ std::vector<Wall> WheelPredictor::walls() const {
 
 SoilValues WheelPredictor::soil(const Eigen::VectorXd& theta) const {
   SoilValues values = bekker_wong::values_of(campaign_->soil);
-  for (std::size_t i = 0; i < soil_members_.size(); ++i) values.*soil_members_[i] = theta[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < soil_members_.size(); ++i) values.*soil_members_[i] = theta[i];
   return values;
 }
 
 std::vector<double> WheelPredictor::term_values(std::size_t term, const Eigen::VectorXd& theta) const {
   std::vector<double> values = terms_[term].defaults;
   for (std::size_t k = 0; k < terms_[term].free.size(); ++k)
-    values[static_cast<std::size_t>(terms_[term].free[k])] = theta[first_of_term_[term] + static_cast<Eigen::Index>(k)];
+    values[terms_[term].free[k]] = theta[first_of_term_[term] + k];
   return values;
 }
 
@@ -198,14 +204,14 @@ bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& pred
   const RollingWheel wheel = wheel_at(theta);
   const std::vector<Cell>& cells = observations_->cells;
   const int rows = this->rows();
-  prediction.resize(static_cast<Eigen::Index>(cells.size()));
-  std::vector<double> angles(static_cast<std::size_t>(rows)), shortfall(static_cast<std::size_t>(rows));
+  prediction.resize(cells.size());
+  std::vector<double> angles(rows), shortfall(rows);
   for (int k = 0, first = memory.weakest; k < rows; ++k) {
     const int row = (first + k) % rows;
     auto cell = std::lower_bound(cells.begin(), cells.end(), row, [](const Cell& c, int r) { return c.row < r; });
     if (cell == cells.end() || cell->row != row) continue;
     memory.weakest = row;
-    const std::size_t r = static_cast<std::size_t>(row);
+    const std::size_t r = row;
     const OperatingCondition& at = observations_->rows[r];
     const RolledWheel rolled =
         memory.gives_way ? wheel.roll_or_give_way(at, memory.angles.empty() ? 0.0 : memory.angles[r]) : wheel.roll(at);
@@ -237,7 +243,7 @@ WheelPredictor::Moved WheelPredictor::moved_from(const Eigen::VectorXd& theta) c
   Moved moved;
   const std::vector<Wall> walls = this->walls();
   for (Eigen::Index p = 0; p < theta.size(); ++p) {
-    double step = 1e-5 * parameters_[static_cast<std::size_t>(p)].scale;
+    double step = 1e-5 * parameters_[p].scale;
     const auto crosses = [&](const Wall& w) {
       return w.normal[p] * step > 0.0 && w.normal.dot(theta) + w.normal[p] * step > w.limit;
     };
@@ -255,11 +261,11 @@ bool WheelPredictor::linearise(const Eigen::VectorXd& theta, Eigen::MatrixXd& ja
   const RollingWheel wheel = wheel_at(theta);
   const Moved moved = moved_from(theta);
   const std::vector<Cell>& cells = observations_->cells;
-  jacobian.resize(static_cast<Eigen::Index>(cells.size()), theta.size());
+  jacobian.resize(cells.size(), theta.size());
   if (short_of) short_of->setZero(rows(), theta.size());
   std::size_t cell = 0;
   for (int row = 0; row < rows(); ++row) {
-    const std::size_t first = cell, r = static_cast<std::size_t>(row);
+    const std::size_t first = cell, r = row;
     while (cell < cells.size() && cells[cell].row == row) ++cell;
     if (cell == first) continue;
     const OperatingCondition& at = observations_->rows[r];
@@ -271,7 +277,7 @@ bool WheelPredictor::linearise(const Eigen::VectorXd& theta, Eigen::MatrixXd& ja
     const double stiffness = (here.forces.vertical - turned.forces.vertical) / turn;
     const bool gives_way = known.shortfall[r] > 0.0;
     for (Eigen::Index p = 0; p < theta.size(); ++p) {
-      const std::size_t q = static_cast<std::size_t>(p);
+      const std::size_t q = p;
       const RolledWheel there = moved.wheels[q].at_entry_angle(at, theta_1, nodes);
       const double carries_more = there.forces.vertical - here.forces.vertical;
       const double roll_by = gives_way ? 0.0 : -carries_more / stiffness;
@@ -280,8 +286,7 @@ bool WheelPredictor::linearise(const Eigen::VectorXd& theta, Eigen::MatrixXd& ja
         const int c = cells[i].channel;
         const double value = channel_of(here.reading, c);
         const double by_angle = (value - channel_of(turned.reading, c)) / turn;
-        jacobian(static_cast<Eigen::Index>(i), p) =
-            (channel_of(there.reading, c) - value + by_angle * roll_by) / moved.steps[q];
+        jacobian(i, p) = (channel_of(there.reading, c) - value + by_angle * roll_by) / moved.steps[q];
       }
     }
   }

@@ -65,12 +65,17 @@ class WheelPredictor {
  public:
   WheelPredictor(const Campaign& campaign, const Observations& observations, std::vector<Term> terms = {});
 
+  /// The same runs with these terms beside those there are.
+  WheelPredictor with(const std::vector<Term>& more) const;
+  /// The same model over other runs, which outlive it.
+  WheelPredictor over(const Observations& runs) const { return {*campaign_, runs, terms_}; }
+
   const std::vector<FreeParameter>& parameters() const { return parameters_; }
   int soil_parameters() const { return static_cast<int>(soil_members_.size()); }
   const std::vector<Term>& terms() const { return terms_; }
   int rows() const { return static_cast<int>(observations_->rows.size()); }
   /// Index in theta of a term's amplitude.
-  int amplitude_index(int term) const { return first_of_term_[static_cast<std::size_t>(term)]; }
+  int amplitude_index(int term) const { return first_of_term_[term]; }
   Eigen::VectorXd start() const;
   /// theta with each parameter that is beyond a bound put on it, to the last digit.
   Eigen::VectorXd within_bounds(Eigen::VectorXd theta) const;

@@ -114,7 +114,7 @@ void write_markdown(const fs::path& folder, const Comparison& comparison, const 
     md.text("## What the analytic model lacks");
     md.text(plain(verdict_sentence(*about.loop)));
     if (about.loop->validation.overall.cells > 0) md.table(error_table(*about.loop));
-    if (!about.loop->details.weights.empty()) md.table(candidates_table(*about.loop));
+    if (about.loop->has_candidates()) md.table(candidates_table(*about.loop));
   }
   md.text("## Every point");
   for (const Side& side : comparison.sides) md.table(points_table(comparison, side));

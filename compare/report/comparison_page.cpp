@@ -133,7 +133,7 @@ void add_loop(Page& page, const ComparisonAbout& about) {
   page.paragraph(verdict_sentence(*about.loop));
   page.list(explanation(*about.loop));
   if (about.loop->validation.overall.cells > 0) page.table(error_table(*about.loop));
-  if (!about.loop->details.weights.empty()) page.table(candidates_table(*about.loop));
+  if (about.loop->has_candidates()) page.table(candidates_table(*about.loop));
 }
 
 void add_replay(Page& page, const ComparisonAbout& about) {

@@ -5,7 +5,6 @@
 
 #include "bekker_wong/effect.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/loop/held_out_words.hpp"
 #include "compare/report/result_json.hpp"
 #include "notebooks/bindings/bindings.hpp"
 #include "scenario/case.hpp"
@@ -94,12 +93,15 @@ void bind_answer(py::module_& module) {
       .def_readonly("ambiguity_set", &LoopAnswer::ambiguity_set, "best first; empty unless effects compete")
       .def_readonly("not_testable", &LoopAnswer::not_testable)
       .def_readonly("next", &LoopAnswer::next)
-      .def_readonly("before", &LoopAnswer::before)
-      .def_readonly("after", &LoopAnswer::after)
+      .def_property_readonly(
+          "before", [](const LoopAnswer& a) { return a.judgement ? a.judgement->before.lack_of_fit : LackOfFit(); })
+      .def_property_readonly("after", [](const LoopAnswer& a) { return a.choice().after.lack_of_fit; })
       .def_readonly("soil", &LoopAnswer::soil, "refitted with the accepted effects, with standard errors")
       .def_readonly("outliers", &LoopAnswer::outliers, "values set aside")
       .def_property_readonly(
-          "weights", [](const LoopAnswer& a) { return a.details.weights; }, "over sets of effects, best first")
+          "weights",
+          [](const LoopAnswer& a) { return a.judgement ? a.found().candidates.sets : std::vector<Weighted>(); },
+          "over sets of effects, best first")
       .def_property_readonly("held_out", &held_out,
                              "root mean square errors on conditions that neither choice nor fit has seen, by channel "
                              "[SI] and 'all' [sigma]: cells, before, after, noise_floor; empty without validation")
@@ -137,7 +139,7 @@ void bind_loop(py::module_& module) {
         if (folds < 2 || folds > 50) throw InputError("folds: 2 .. 50");
         if (threads < 1) throw InputError("threads: 1 or more");
         compare::LoopOptions options;
-        options.folds = folds, options.identify.seed = seed, options.validate = validate, options.threads = threads;
+        options.folds = folds, options.attribution.seed = seed, options.validate = validate, options.threads = threads;
         Watch watch(progress);
         options.progress = [&watch](std::size_t done, std::size_t total) {
           watch(static_cast<double>(done) / static_cast<double>(total));

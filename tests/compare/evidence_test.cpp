@@ -7,6 +7,7 @@
 #include <random>
 
 #include "compare/loop/loop.hpp"
+#include "compare/loop/unnamed.hpp"
 #include "compare/loop_fixture.hpp"
 
 namespace soilbin::compare {
@@ -47,11 +48,12 @@ TEST(Evidence, IsTheMeanOverTheTolerancesOfTheJointDensity) {
                  second = normal_matrix(12, 4, 4);
   const MatrixXd bare = MatrixXd::Identity(12, 12) + soil * soil.transpose();
   double mean = 0.0;
-  for (const double a : tolerance_scales)
-    for (const double b : narrow_tolerance_scales)
+  for (const double a : thresholds::tolerance_scales)
+    for (const double b : thresholds::narrow_tolerance_scales)
       mean += std::exp(log_density(r, bare + a * a * first * first.transpose() + b * b * second * second.transpose()));
-  mean /= static_cast<double>(tolerance_scales.size() * narrow_tolerance_scales.size());
-  EXPECT_NEAR(log_evidence(problem_with(r, soil), {{first, tolerance_scales}, {second, narrow_tolerance_scales}}),
+  mean /= static_cast<double>(thresholds::tolerance_scales.size() * thresholds::narrow_tolerance_scales.size());
+  EXPECT_NEAR(log_evidence(problem_with(r, soil),
+                           {{first, thresholds::tolerance_scales}, {second, thresholds::narrow_tolerance_scales}}),
               std::log(mean) - 2 * std::log(12.0), 1e-9);
   EXPECT_NEAR(log_evidence(problem_with(r, soil), {}), log_density(r, bare), 1e-9);
 }
@@ -63,9 +65,9 @@ TEST(Evidence, OfAnAmplitudeDoesNotHangOnItsUnit) {
   problem.nuisance.bottomRows(3).col(0).setZero();
   problem.amplitudes = {0};
   const MatrixXd tolerance = normal_matrix(12, 2, 7);
-  const double in_metres = log_evidence(problem, {{tolerance, tolerance_scales}});
+  const double in_metres = log_evidence(problem, {{tolerance, thresholds::tolerance_scales}});
   problem.nuisance.col(0) *= 1e3;
-  EXPECT_NEAR(log_evidence(problem, {{tolerance, tolerance_scales}}), in_metres, 1e-7);
+  EXPECT_NEAR(log_evidence(problem, {{tolerance, thresholds::tolerance_scales}}), in_metres, 1e-7);
 }
 
 // A family of functions is the same whatever the units that a channel is told in: what it may be off by is measured in
@@ -73,18 +75,20 @@ TEST(Evidence, OfAnAmplitudeDoesNotHangOnItsUnit) {
 TEST(UnnamedFamilies, DoNotHangOnTheUnitsOfAChannel) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {}, fine_noise, 8);
+  const auto shared = std::make_shared<const Campaign>(campaign);
   const Observations observations = observe(campaign);
   NoiseFloor noise;
   for (int c = 0; c < 3; ++c)
     noise.channels[static_cast<std::size_t>(c)] = {
         .measured = true, .floor = fine_noise[static_cast<std::size_t>(c)], .growth = 0.05};
   const auto families = [&](double sinkage_unit) {
-    NoiseFloor told = noise;
-    told.channels[sinkage].floor *= sinkage_unit;
+    NoiseFloor scaled = noise;
+    scaled.channels[sinkage].floor *= sinkage_unit;
     VectorXd prediction = observations.values();
     for (Index i = 0; i < prediction.size(); ++i)
       if (observations.cells[static_cast<std::size_t>(i)].channel == sinkage) prediction[i] *= sinkage_unit;
-    return unnamed_families(observations, told, Whitening(observations, told, prediction), prediction);
+    return unnamed_families({shared, observations, {}, scaled, Whitening(observations, scaled, prediction)},
+                            prediction);
   };
   const std::vector<MatrixXd> in_metres = families(1.0), in_millimetres = families(1000.0);
   ASSERT_EQ(in_metres.size(), in_millimetres.size());
@@ -111,7 +115,7 @@ TEST(UnnamedFamilies, CarryOverTwoStandardDeviationsAtTheMost) {
   observations.conditions = 6;
   int carried = 0;
   for (const MatrixXd& family :
-       unnamed_families(observations, noise, Whitening(observations, noise, prediction), prediction))
+       unnamed_families({nullptr, observations, {}, noise, Whitening(observations, noise, prediction)}, prediction))
     if (family.cols() == channel_count) {
       ++carried;
       EXPECT_NEAR(family.col(torque).cwiseAbs().maxCoeff(), 2.0, 1e-9);
@@ -134,11 +138,11 @@ TEST(SlowEvidence, AFormThatIsAThirdOffIsStillOneEffect) {
     *run.sinkage += share * (*run.sinkage - *bare.runs[i].sinkage);
   }
   LoopOptions options;
-  options.identify.simulations = 1000;
+  options.attribution.simulations = 1000;
   options.validate = false;
   const LoopAnswer answer = run_loop(campaign, options);
-  ASSERT_TRUE(answer.details.best);
-  EXPECT_EQ(answer.details.weights.front().ids, std::set<std::string>{"slip_sinkage"}) << answer.reason;
+  ASSERT_TRUE(answer.judgement && answer.found().candidates.best);
+  EXPECT_EQ(answer.found().candidates.sets.front().ids, std::set<std::string>{"slip_sinkage"}) << answer.reason;
 }
 
 }  // namespace

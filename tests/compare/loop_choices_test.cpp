@@ -15,7 +15,7 @@ LoopAnswer answer_to(double slip_sinkage, std::uint64_t seed) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {{"slip_sinkage", "lyasko", {{"a", slip_sinkage}}}}, fine_noise, seed);
   LoopOptions options;
-  options.identify.simulations = 1000;
+  options.attribution.simulations = 1000;
   options.validate = false;
   return run_loop(campaign, options);
 }
@@ -25,7 +25,8 @@ LoopAnswer answer_to(double slip_sinkage, std::uint64_t seed) {
 // nothing is named. Among campaigns drawn so the first such one is looked at; about one in thirty is.
 TEST(LoopChoices, AnEffectThatPredictsNothingIsNotNamed) {
   const auto seen_but_useless = [](const LoopAnswer& a) {
-    return a.details.best && a.details.p_value < 0.05 && a.choice_gain.mean < a.choice_gain.std_error;
+    return a.judgement && a.judgement->choice && a.found().signatures.p_value < 0.05 &&
+           a.choice().gain.mean < a.choice().gain.std_error;
   };
   LoopAnswer answer;
   for (std::uint64_t seed = 23; seed < 150 && !seen_but_useless(answer); ++seed) answer = answer_to(0.03, seed);
@@ -42,7 +43,7 @@ TEST(LoopChoices, TheNextRunLiesWithinTheLimitsAndSetsTheBestAgainstAnother) {
   ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
   ASSERT_TRUE(answer.next);
   const NextTest& next = *answer.next;
-  const Limits limits = limits_of(answer.details.observations);
+  const Limits limits = limits_of(answer.found().base.data().observations);
   ASSERT_EQ(next.quantities.size(), limits.size());
   for (const std::string& name : next.quantities) {
     const double value = condition_view(name).get(next.at);

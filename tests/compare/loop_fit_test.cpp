@@ -10,8 +10,8 @@
 #include "bekker_wong/effect_vocabulary.hpp"
 #include "compare/loop/base_fit.hpp"
 #include "compare/loop/bounded_fit.hpp"
+#include "compare/loop/candidates.hpp"
 #include "compare/loop/descent.hpp"
-#include "compare/loop/identify.hpp"
 #include "compare/loop_fixture.hpp"
 
 namespace soilbin::compare {
@@ -93,7 +93,7 @@ TEST(WheelPredictor, SlopesOfWhatTheSoilFallsShortOf) {
 }
 
 /// Fits from soils drawn about the declared one; the terms' parameters up to three times their scale.
-std::vector<Fit> scattered_fits(const WheelPredictor& predictor, const Identification& id, int starts) {
+std::vector<Fit> scattered_fits(const WheelPredictor& predictor, const Dataset& data, int starts) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
@@ -106,7 +106,8 @@ std::vector<Fit> scattered_fits(const WheelPredictor& predictor, const Identific
           std::isfinite(p.prior_sd) ? p.prior + normal(random) * p.prior_sd : 3 * uniform(random) * p.scale;
       start[i] = std::clamp(drawn, p.lower, p.upper);
     }
-    if (auto found = fit(predictor, id.observations.values(), *id.whitening, start)) fits.push_back(std::move(*found));
+    if (auto found = fit(predictor, data.observations.values(), data.whitening, start))
+      fits.push_back(std::move(*found));
   }
   return fits;
 }
@@ -115,25 +116,24 @@ std::vector<Fit> scattered_fits(const WheelPredictor& predictor, const Identific
 // 0.
 TEST(SlowFit, EndsAtTheSameChi2FromAnySoilAboutTheDeclaredOne) {
   const Campaign campaign = braked_campaign();
-  Identification id;
-  settle_base(campaign, observe(campaign), {}, id);
-  const WheelPredictor base(campaign, id.observations);
-  const std::vector<Fit> alone = scattered_fits(base, id, 8);
-  ASSERT_EQ(alone.size(), 8U);
+  const FittedModel model = fit_base(campaign, observe(campaign), {});
+  const Observations& observations = model.data().observations;
+  const WheelPredictor& base = model.predictor();
+  const std::vector<Fit> without_effects = scattered_fits(base, model.data(), 8);
+  ASSERT_EQ(without_effects.size(), 8U);
   VectorXd prediction;
-  for (const Fit& fit : alone) {
-    EXPECT_NEAR(fit.chi2, id.base.chi2, 1e-3 * id.base.chi2);
+  for (const Fit& fit : without_effects) {
+    EXPECT_NEAR(fit.chi2, model.fit().chi2, 1e-3 * model.fit().chi2);
     EXPECT_TRUE(base.predict(fit.theta, prediction)) << "a row that is not carried";
   }
-  const WheelPredictor two(campaign, id.observations,
-                           {term_of(id.observations, "sidewall_bulldozing", "passive_wedge"),
-                            term_of(id.observations, "slip_sinkage", "sliding")});
+  const WheelPredictor two = base.with({term_of(observations, "sidewall_bulldozing", "passive_wedge"),
+                                        term_of(observations, "slip_sinkage", "sliding")});
   std::vector<double> ends;
-  for (const Fit& fit : scattered_fits(two, id, 6)) ends.push_back(fit.chi2);
+  for (const Fit& fit : scattered_fits(two, model.data(), 6)) ends.push_back(fit.chi2);
   std::sort(ends.begin(), ends.end());
   ASSERT_GE(ends.size(), 5U);
   EXPECT_LT(ends[3], ends[0] * (1 + 5e-3));
-  EXPECT_LT(ends[0], 0.3 * id.base.chi2);
+  EXPECT_LT(ends[0], 0.3 * model.fit().chi2);
 }
 
 // The bounds, and theta_m's law up to the largest slip run: c1 + c2 between 0 and max_stress_share where a wheel is
@@ -157,9 +157,8 @@ TEST(WheelPredictor, WallsOfTheStressAnglesLaw) {
 // theta_m = (c1 + c2 |s|) theta_1 is held at 0 for a locked wheel where c1 + c2 < 0: a kink that no fit may hang on.
 TEST(SlowFit, KeepsTheStressAngleWhereItsLawPutsIt) {
   const Campaign campaign = braked_campaign();
-  Identification id;
-  settle_base(campaign, observe(campaign), {}, id);
-  const bekker_wong::SoilValues soil = WheelPredictor(campaign, id.observations).soil(id.base.theta);
+  const FittedModel base = fit_base(campaign, observe(campaign), {});
+  const bekker_wong::SoilValues soil = base.predictor().soil(base.fit().theta);
   EXPECT_GE(soil.c1 + soil.c2, -1e-9);
   EXPECT_LE(soil.c1 + soil.c2, bekker_wong::max_stress_share + 1e-9);
 }
@@ -237,10 +236,9 @@ TEST(Fit, StopsAtBounds) {
   campaign.soil.cohesion.value = 0.0, campaign.soil.friction_angle.value = 25 * degree;
   measure(campaign, sweep(), {}, fine_noise, 5, 0.0);
   campaign.soil.cohesion = {200.0, 300}, campaign.soil.friction_angle = {28 * degree, 0.01 * degree};
-  const Identification id = identify(campaign, observe(campaign), {.simulations = 200});
-  const WheelPredictor predictor(campaign, id.observations);
-  ASSERT_EQ(predictor.parameters()[3].name, "cohesion");
-  EXPECT_EQ(id.base.theta[3], 0.0);
+  const FittedModel base = fit_base(campaign, observe(campaign), {});
+  ASSERT_EQ(base.predictor().parameters()[3].name, "cohesion");
+  EXPECT_EQ(base.fit().theta[3], 0.0);
 }
 
 // What a bound holds has the error that it would have if it could move: that of the inverse Gram matrix with its
@@ -248,22 +246,21 @@ TEST(Fit, StopsAtBounds) {
 TEST(Fit, TellsTheErrorOfWhatABoundHolds) {
   constexpr int cohesion = 3;
   Campaign campaign = sand_campaign();
-  Identification id;
-  for (std::uint64_t seed = 1; seed < 10 && (id.base.theta.size() == 0 || id.base.theta[cohesion] > 0.0); ++seed) {
+  std::optional<FittedModel> base;
+  for (std::uint64_t seed = 1; seed < 10 && (!base || base->fit().theta[cohesion] > 0.0); ++seed) {
     campaign.soil.cohesion = {0.0, 300};
     measure(campaign, sweep(), {}, fine_noise, seed, 0.0);  // noise pulls half of them below 0
     campaign.soil.cohesion = {10.0, 300};
-    id = Identification();
-    settle_base(campaign, observe(campaign), {}, id);
+    base = fit_base(campaign, observe(campaign), {});
   }
-  const WheelPredictor predictor(campaign, id.observations);
-  ASSERT_EQ(standard_errors(id.base, predictor)[cohesion], 0.0);
-  VectorXd column = VectorXd::Zero(id.base.columns.rows());
-  column.head(id.base.jacobian.rows()) = (*id.whitening)(VectorXd(id.base.jacobian.col(cohesion)));
-  MatrixXd all(column.size() + 1, id.base.columns.cols() + 1);  // and the row of its own prior
-  all << id.base.columns, column, Eigen::RowVectorXd::Zero(id.base.columns.cols()), 1.0 / 300;
+  ASSERT_EQ(base->standard_errors()[cohesion], 0.0);
+  const Fit& fit = base->fit();
+  VectorXd column = VectorXd::Zero(fit.columns.rows());
+  column.head(fit.jacobian.rows()) = base->data().whitening(VectorXd(fit.jacobian.col(cohesion)));
+  MatrixXd all(column.size() + 1, fit.columns.cols() + 1);  // and the row of its own prior
+  all << fit.columns, column, Eigen::RowVectorXd::Zero(fit.columns.cols()), 1.0 / 300;
   const double variance = (all.transpose() * all).inverse().diagonal().tail(1)[0];
-  EXPECT_NEAR(held_error(id.base, predictor, *id.whitening, cohesion), std::sqrt(variance), 1e-6 * std::sqrt(variance));
+  EXPECT_NEAR(base->held_error(cohesion), std::sqrt(variance), 1e-6 * std::sqrt(variance));
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "compare/loop/base_fit.hpp"
+#include "compare/loop/candidates.hpp"
 #include "compare/loop/detection.hpp"
-#include "compare/loop/identify.hpp"
 #include "compare/loop/setpoint_permutation.hpp"
 #include "compare/loop_fixture.hpp"
 #include "compare/measured/condition_views.hpp"
@@ -42,23 +42,28 @@ TEST(ConditionViews, ReadWhatTheySet) {
 TEST(NoiseFloor, IsTheNoisePutIn) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {}, fine_noise, 7);
-  const Identification id = identify(campaign, observe(campaign), {.simulations = 200});
-  EXPECT_EQ(id.noise.rerun_freedom, 21);
+  const FittedModel base = fit_base(campaign, observe(campaign), {});
+  EXPECT_EQ(base.data().noise.rerun_freedom, 21);
   for (int c = 0; c < 3; ++c) {
-    const ChannelNoise& n = id.noise.channels[static_cast<std::size_t>(c)];
-    const double typical = n.sd(id.base.prediction.head(3)[c]);
+    const ChannelNoise& n = base.data().noise.channels[static_cast<std::size_t>(c)];
+    const double typical = n.sd(base.fit().prediction.head(3)[c]);
     EXPECT_NEAR(std::log(typical / fine_noise[static_cast<std::size_t>(c)]), 0.0, 0.35)
         << channel_views[static_cast<std::size_t>(c)].name;
   }
 }
 
-Identification settled(const Campaign& campaign) {
-  Identification id;
-  settle_base(campaign, observe(campaign), {}, id);
-  return id;
-}
+FittedModel settled(const Campaign& campaign) { return fit_base(campaign, observe(campaign), {}); }
 
-RerunTest against_reruns(const Identification& id) { return rerun_test(id.observations, id.noise, id.base); }
+/// The base model's signatures, and what they are taken off.
+struct Traced {
+  FittedModel base;
+  std::vector<Signature> signatures;
+};
+
+Traced traced(const Campaign& campaign) {
+  const FittedModel base = settled(campaign);
+  return {base, residual_signatures(base, problem_of(base))};
+}
 
 // Without anything missing it is reached by chance as seldom as it says (or seldomer: the setpoint farthest off is left
 // out, and the channels' least counts times their number). 3 standard errors of 120 campaigns allowed.
@@ -68,7 +73,7 @@ TEST(SlowRerunTest, KeepsItsLevel) {
   for (int k = 0; k < campaigns; ++k) {
     Campaign campaign = sand_campaign();
     measure(campaign, sweep(), {}, fine_noise, static_cast<std::uint64_t>(100 + k));
-    if (against_reruns(settled(campaign)).p_value < 0.05) ++under_five;
+    if (rerun_test(settled(campaign)).p_value < 0.05) ++under_five;
   }
   EXPECT_LE(under_five, 0.05 * campaigns + 3 * std::sqrt(0.05 * 0.95 * campaigns));
 }
@@ -82,26 +87,24 @@ TEST(RerunTest, SeesWhatNoSmoothFunctionFollows) {
     for (compare::Run& run : campaign.runs) *run.torque += moved(std::stoi(run.setpoint->substr(1)));
     return settled(campaign);
   };
-  const Identification scattered = made([](int s) { return 4 * fine_noise[1] * ((s * s + s / 3) % 3 - 1.0); });
-  const Identification one_off = made([](int s) { return s == 9 ? 4 * fine_noise[1] : 0.0; });
-  const Eigen::Index cells = static_cast<Eigen::Index>(scattered.observations.cells.size());
-  EXPECT_LT(against_reruns(scattered).p_value, 1e-4);
-  EXPECT_GT(lack_of_fit(scattered.base, scattered.noise, cells).p_value, 10 * against_reruns(scattered).p_value);
-  EXPECT_GT(against_reruns(one_off).p_value, 0.05);
+  const FittedModel scattered = made([](int s) { return 4 * fine_noise[1] * ((s * s + s / 3) % 3 - 1.0); });
+  const FittedModel one_off = made([](int s) { return s == 9 ? 4 * fine_noise[1] : 0.0; });
+  EXPECT_LT(rerun_test(scattered).p_value, 1e-4);
+  EXPECT_GT(lack_of_fit(scattered).p_value, 10 * rerun_test(scattered).p_value);
+  EXPECT_GT(rerun_test(one_off).p_value, 0.05);
 }
 
 // A signature's direction has nothing left that the soil could do, and unit length.
 TEST(Trace, DirectionsAreOffTheSoilsColumns) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {}, fine_noise, 9);
-  const Identification id = identify(campaign, observe(campaign), {.simulations = 200});
-  const WheelPredictor base(campaign, id.observations);
+  const auto [base, signatures] = traced(campaign);
   int seen = 0;
-  for (const Signature& s : id.signatures) {
+  for (const Signature& s : signatures) {
     if (s.projected_norm == 0.0) continue;
     ++seen;
     EXPECT_NEAR(s.direction.norm(), 1.0, 1e-9);
-    EXPECT_LT((id.base.columns.transpose() * s.direction).cwiseAbs().maxCoeff(), 1e-6 * id.base.columns.norm());
+    EXPECT_LT((base.fit().columns.transpose() * s.direction).cwiseAbs().maxCoeff(), 1e-6 * base.fit().columns.norm());
     // The prior's rows of d are 0, and P is a symmetric projector: (P d/|P d|)'d = |P d|.
     const double kept = s.direction.head(s.white.size()).dot(s.white);
     EXPECT_NEAR(kept, s.projected_norm, 1e-6 * s.white.norm());
@@ -117,10 +120,10 @@ TEST(Trace, SeesADriftFromTheFirstRun) {
   measure(campaign, sweep(), {}, fine_noise, 9);
   const double runs = static_cast<double>(campaign.runs.size());
   for (compare::Run& run : campaign.runs) *run.torque -= 25 * std::sqrt(*run.at.run / runs);
-  const Identification id = identify(campaign, observe(campaign), {.simulations = 200});
+  const auto [base, signatures] = traced(campaign);
   const auto strongest = [&](const std::string& effect, auto&& counts) {
     double most = 0.0;
-    for (const Signature& s : id.signatures)
+    for (const Signature& s : signatures)
       if (s.term.form->id == effect && s.projected_norm > 0 && counts(s)) most = std::max(most, s.strength());
     return most;
   };
@@ -135,21 +138,21 @@ TEST(Trace, SeesADriftFromTheFirstRun) {
 TEST(FamilyWiseP, IsUniformWithoutEffects) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {}, fine_noise, 9);
-  const Identification id = identify(campaign, observe(campaign), {.simulations = 200});
+  const auto [base, signatures] = traced(campaign);
   std::mt19937_64 random(4);
   std::normal_distribution<double> normal;
   int small = 0;
   constexpr int trials = 200;
   for (int k = 0; k < trials; ++k) {
-    VectorXd e(id.signatures.front().direction.size());
+    VectorXd e(signatures.front().direction.size());
     for (Eigen::Index i = 0; i < e.size(); ++i) e[i] = normal(random);
     double most = 0.0;
-    for (const Signature& s : id.signatures) {
+    for (const Signature& s : signatures) {
       if (s.projected_norm == 0.0) continue;
       const double t = s.direction.dot(e);
       most = std::max(most, s.one_sided ? t : std::abs(t));
     }
-    if (family_wise_p(id.signatures, most, 1e6, 300, 1000 + static_cast<std::uint64_t>(k)) < 0.05) ++small;
+    if (family_wise_p(signatures, most, 1e6, 300, 1000 + static_cast<std::uint64_t>(k)) < 0.05) ++small;
   }
   EXPECT_GE(small, 2);   // P(X <= 1) = 4e-4 for binomial(200, .05)
   EXPECT_LE(small, 20);  // P(X >= 21) = 1e-3

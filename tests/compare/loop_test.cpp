@@ -17,7 +17,7 @@ namespace {
 
 LoopOptions quick() {
   LoopOptions options;
-  options.identify.simulations = 1000;
+  options.attribution.simulations = 1000;
   options.folds = 3;
   return options;
 }
@@ -63,16 +63,15 @@ TEST(Loop, NamesSlipSinkageAndItsSize) {
   EXPECT_LT(answer.validation.overall.after, 1.3);
   ASSERT_EQ(answer.effects.size(), 1u);
   EXPECT_NEAR(dug(campaign, answer.effects.front().choice), dug(campaign, truth), 0.1 * dug(campaign, truth));
-  const auto& candidates = answer.details.candidates;
+  const auto& candidates = answer.found().candidates.models;
   const auto own = std::find_if(candidates.begin(), candidates.end(), [](const CandidateModel& candidate) {
-    return candidate.terms.size() == 1 && candidate.terms.front().form->id == "slip_sinkage" &&
-           candidate.terms.front().form->form == "lyasko";
+    return candidate.terms().size() == 1 && candidate.terms().front().form->id == "slip_sinkage" &&
+           candidate.terms().front().form->form == "lyasko";
   });
   ASSERT_NE(own, candidates.end());
-  const WheelPredictor predictor(campaign, answer.details.observations, own->terms);
-  const Eigen::Index amplitude = predictor.amplitude_index(0);
-  const double error = standard_errors(own->fit, predictor)[amplitude];
-  EXPECT_NEAR(own->fit.theta[amplitude], 0.5, 3 * error);
+  const Eigen::Index amplitude = own->model.predictor().amplitude_index(0);
+  const double error = own->model.standard_errors()[amplitude];
+  EXPECT_NEAR(own->fit().theta[amplitude], 0.5, 3 * error);
   EXPECT_LT(error, 0.1);
 }
 
@@ -83,7 +82,7 @@ TEST(SlowLoop, TellsErrorsInTheNoiseBesideTheEffect) {
   measure(campaign, sweep(), {{"multipass", "stiffer", {{"a", 1.5}}}}, fine_noise, 33);
   const LoopAnswer answer = run_loop(campaign, quick());
   ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
-  const Eigen::VectorXd& f = answer.details.candidates[*answer.details.best].fit.prediction;
+  const Eigen::VectorXd& f = answer.found().best().fit().prediction;
   for (int c = 0; c < 3; ++c)
     EXPECT_NEAR(
         std::log(answer.noise.channels[static_cast<std::size_t>(c)].sd(f[c]) / fine_noise[static_cast<std::size_t>(c)]),
@@ -113,7 +112,7 @@ TEST(Loop, SaysUnknownWhereSetpointsAreOffByMoreThanTheirRerunsDiffer) {
   }
   const LoopAnswer answer = run_loop(campaign, quick());
   EXPECT_EQ(answer.verdict, Verdict::unknown_effect) << answer.reason;
-  EXPECT_LT(answer.reruns_before.p_value, 1e-4);
+  EXPECT_LT(answer.judgement->before.reruns.p_value, 1e-4);
 }
 
 // A constant torque of the bearings and a torque sensor's offset are one and the same in these data: both are named.
@@ -255,15 +254,15 @@ TEST(SlowLoop, ALargerSetOfEffectsLeavesNoMore) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {{"slip_sinkage", "lyasko", {{"a", 1.2}}}, {"bulldozing", "", {}}}, fine_noise, 31);
   const LoopAnswer answer = run_loop(campaign, quick());
-  const auto& candidates = answer.details.candidates;
+  const auto& candidates = answer.found().candidates.models;
   int nested = 0;
   for (const auto& more : candidates)
     for (const auto& less : candidates) {
-      const bool holds = more.terms.size() == less.terms.size() + 1 &&
-                         std::equal(less.terms.begin(), less.terms.end(), more.terms.begin(),
+      const bool holds = more.terms().size() == less.terms().size() + 1 &&
+                         std::equal(less.terms().begin(), less.terms().end(), more.terms().begin(),
                                     [](const auto& a, const auto& b) { return a.form == b.form; });
       if (!holds) continue;
-      EXPECT_LE(more.fit.chi2, less.fit.chi2 * (1 + 1e-3) + 0.1);
+      EXPECT_LE(more.fit().chi2, less.fit().chi2 * (1 + 1e-3) + 0.1);
       ++nested;
     }
   EXPECT_GT(nested, 0);
@@ -291,7 +290,7 @@ TEST(Loop, IsNotMovedByOneOutlier) {
   EXPECT_EQ(answer.verdict, Verdict::nothing_missing) << answer.reason;
   EXPECT_TRUE(answer.effects.empty());
   LoopOptions all = quick();
-  all.identify.drop_outliers = false;
+  all.attribution.drop_outliers = false;
   const LoopAnswer kept = run_loop(campaign, all);
   EXPECT_EQ(kept.outliers, 0);
   EXPECT_FALSE(kept.with_outliers);
@@ -330,14 +329,14 @@ TEST(SlowLoop, ResolvedModelReproducesTheFit) {
   const Case model = parse_case({"model.yaml", write_case(resolved_model(campaign, answer), words)}, Library{}, words);
   Scenario scenario = model.scenario;
   scenario.effects = model.study.models.front().effects;
-  const Identification& id = answer.details;
-  const CandidateModel& best = id.candidates[*id.best];
-  for (std::size_t i = 0; i < id.observations.cells.size(); i += 7) {
-    const Cell& cell = id.observations.cells[i];
+  const Observations& observations = answer.found().base.data().observations;
+  const CandidateModel& best = answer.found().best();
+  for (std::size_t i = 0; i < observations.cells.size(); i += 7) {
+    const Cell& cell = observations.cells[i];
     if (cell.channel != drawbar_pull) continue;
     const TractionResult r = bekker_wong::BekkerWong({false, false})
-                                 .evaluate(scenario, id.observations.rows[static_cast<std::size_t>(cell.row)]);
-    EXPECT_NEAR(r.drawbar_pull.value, best.fit.prediction[static_cast<Eigen::Index>(i)],
+                                 .evaluate(scenario, observations.rows[static_cast<std::size_t>(cell.row)]);
+    EXPECT_NEAR(r.drawbar_pull.value, best.fit().prediction[static_cast<Eigen::Index>(i)],
                 1e-6 * campaign.runs[0].at.load);
   }
 }

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "compare/loop/answer_words.hpp"
-#include "compare/loop/held_out_words.hpp"
 #include "compare/loop_fixture.hpp"
 
 namespace soilbin::compare {
@@ -47,22 +46,25 @@ TEST(WorseChannels, AreThoseOfAModelWithEffects) {
 TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {}, fine_noise, 3);
-  const Observations observations = observe(campaign);
+  const auto data = std::make_shared<const Dataset>(Dataset{
+      std::make_shared<const Campaign>(campaign), observe(campaign), {}, {}, Whitening({}, {}, Eigen::VectorXd())});
+  const WheelPredictor predictor(*data->campaign, data->observations);
   const auto term = [&](const char* id, const char* form) {
-    return make_term(bekker_wong::find_form({id, form, {}}), observations, true);
+    return make_term(bekker_wong::find_form({id, form, {}}), data->observations, true);
   };
   LoopAnswer answer;
-  CandidateModel candidate{.ids = {"bulldozing", "slip_sinkage"},
-                           .terms = {term("slip_sinkage", "lyasko"), term("bulldozing", "")},
-                           .fit = {},
-                           .log_evidence = 0.0};
-  answer.details.candidates = {candidate};
-  answer.details.weights = {{.ids = candidate.ids, .weight = 1.0}};
+  const CandidateModel candidate{
+      .ids = {"bulldozing", "slip_sinkage"},
+      .model = FittedModel(data, predictor.with({term("slip_sinkage", "lyasko"), term("bulldozing", "")}), Fit())};
+  Attribution found{FittedModel(data, predictor, Fit()), {}, 0.0, {}};
+  found.candidates.models = {candidate};
+  found.candidates.sets = {{.ids = candidate.ids, .weight = 1.0}};
+  answer.judgement = Judgement{.found = found, .before = {}, .choice = {}, .reason = {}};
   const std::vector<std::string> row = candidates_table(answer).rows.front();
   EXPECT_EQ(row[0], "bulldozing + slip_sinkage");
-  EXPECT_EQ(row[1], candidate.terms[1].form->form + " + lyasko");
+  EXPECT_EQ(row[1], candidate.terms()[1].form->form + " + lyasko");
   const auto forms = details_json(answer).at("sets").at(0).at("forms");
-  EXPECT_EQ(forms.at(0), "bulldozing/" + candidate.terms[1].form->form);
+  EXPECT_EQ(forms.at(0), "bulldozing/" + candidate.terms()[1].form->form);
   EXPECT_EQ(forms.at(1), "slip_sinkage/lyasko");
 }
 

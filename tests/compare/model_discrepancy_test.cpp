@@ -30,39 +30,39 @@ Campaign odd_soil(const std::vector<EffectChoice>& effects) {
 
 LoopAnswer asked(const Campaign& campaign) {
   LoopOptions options;
-  options.identify.simulations = 1000;
+  options.attribution.simulations = 1000;
   options.validate = false;
   return run_loop(campaign, options);
 }
 
 /// Small data with a few cells a row, for identities.
-Identification settled() {
+FittedModel settled() {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {}, fine_noise, 43);
-  return identify(campaign, observe(campaign), {.simulations = 200});
+  return fit_base(campaign, observe(campaign), {});
 }
 
 // |W v|^2 = v' (C + U U')^-1 v, where U's columns had been whitened by C alone.
 TEST(Whitening, BesideATermIsThatOfTheirJointCovariance) {
-  const Identification id = settled();
-  const Eigen::Index cells = id.base.prediction.size();
-  const Eigen::MatrixXd term = 0.5 * model_discrepancy_columns(id);
-  const Eigen::VectorXd v = Eigen::VectorXd::LinSpaced(cells, -1.0, 2.0), white = (*id.whitening)(v);
+  const FittedModel base = settled();
+  const Eigen::Index cells = base.data().cells();
+  const Eigen::MatrixXd term = 0.5 * model_discrepancy_columns(base);
+  const Eigen::VectorXd v = Eigen::VectorXd::LinSpaced(cells, -1.0, 2.0), white = base.data().whitening(v);
   const Eigen::MatrixXd joint = Eigen::MatrixXd::Identity(cells, cells) + term * term.transpose();
-  EXPECT_NEAR(id.whitening->beside(term)(v).squaredNorm(), white.dot(joint.ldlt().solve(white)),
+  EXPECT_NEAR(base.data().whitening.beside(term)(v).squaredNorm(), white.dot(joint.ldlt().solve(white)),
               1e-9 * white.squaredNorm());
 }
 
 // ln N(r; 0, 1 + s^2 U U') - ln N(r; 0, 1), by the joint covariance itself.
 TEST(JoinedColumns, GainTheRatioOfNormalDensities) {
-  const Identification id = settled();
-  const Eigen::Index cells = id.base.prediction.size();
-  const Eigen::MatrixXd columns = model_discrepancy_columns(id);
+  const FittedModel base = settled();
+  const Eigen::Index cells = base.data().cells();
+  const Eigen::MatrixXd columns = model_discrepancy_columns(base);
   LinearProblem problem;
   problem.cells = cells;
   problem.residual = 2 * columns.col(1) + Eigen::VectorXd::LinSpaced(cells, -1.0, 1.0);
   problem.nuisance = Eigen::MatrixXd(cells, 0);
-  for (const double size : term_sizes) {
+  for (const double size : thresholds::term_sizes) {
     const Eigen::MatrixXd joint = Eigen::MatrixXd::Identity(cells, cells) + size * size * columns * columns.transpose();
     const Eigen::LLT<Eigen::MatrixXd> factor(joint);
     const double quadratic = problem.residual.dot(factor.solve(problem.residual));
@@ -133,10 +133,10 @@ TEST(SlowModelDiscrepancy, ShowsTheEffectBesideAnOddSoil) {
   const Campaign campaign = odd_soil({{"multipass", "", {{"a", 0.3}}}});
   const LoopAnswer answer = asked(campaign);
   ASSERT_EQ(answer.verdict, Verdict::unknown_effect) << answer.reason;
-  ASSERT_TRUE(decided_with_model_discrepancy(answer));
-  ASSERT_TRUE(answer.details.best);
-  EXPECT_EQ(answer.details.candidates[*answer.details.best].ids, std::set<std::string>{"multipass"});
-  EXPECT_LT(answer.details.p_value, 0.01);
+  ASSERT_TRUE(answer.decided_with_model_discrepancy());
+  ASSERT_TRUE(answer.judgement && answer.found().candidates.best);
+  EXPECT_EQ(answer.found().best().ids, std::set<std::string>{"multipass"});
+  EXPECT_LT(answer.found().signatures.p_value, 0.01);
   EXPECT_EQ(answer.ambiguity_set.front().ids, std::set<std::string>{"multipass"});
   EXPECT_NE(verdict_sentence(answer).find("a smooth function of load and slip makes good, and beside that multipass"),
             std::string::npos)
@@ -171,14 +171,14 @@ TEST(SlowModelDiscrepancy, SaysWhyASetIsTakenThatAnotherOneOutweighs) {
 }
 
 // Where there is nothing but the odd soil, the second reading names nothing, and the verdict says that it is unknown.
-TEST(SlowModelDiscrepancy, NamesNothingBesideAnOddSoilAlone) {
+TEST(SlowModelDiscrepancy, NamesNothingBesideNothingButAnOddSoil) {
   const Campaign campaign = odd_soil({});
   const LoopAnswer answer = asked(campaign);
   ASSERT_EQ(answer.verdict, Verdict::unknown_effect) << answer.reason;
   ASSERT_TRUE(answer.second);
   EXPECT_FALSE(answer.second->decides);
-  EXPECT_FALSE(answer.second->note.best);
-  EXPECT_GT(answer.second->note.p_value, 0.05);
+  EXPECT_FALSE(answer.second->note.candidates.best);
+  EXPECT_GT(answer.second->note.signatures.p_value, 0.05);
   expect_same_shares(answer);
   expect_the_decided_model(campaign, answer);
   EXPECT_EQ(to_json(answer).at("beside_inadequacy").at("effects").size(), 0u);

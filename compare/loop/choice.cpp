@@ -1,0 +1,84 @@
+#include "compare/loop/choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "compare/loop/unnamed.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// Conditions left out are predicted better by a standard error; or better at all, where the odds are twenty to one:
+/// with a dozen conditions a standard error is more than a real effect reaches.
+bool earns_its_place(const PredictiveGain& gain, double log_odds) {
+  return gain.mean > gain.std_error || (gain.mean > 0 && log_odds > thresholds::odds_enough);
+}
+
+/// The best candidate whose effects are one fewer of these; none for a single effect.
+std::optional<std::size_t> best_with_one_fewer(const Candidates& candidates, const std::set<std::string>& all) {
+  for (const Weighted& w : candidates.sets)
+    if (w.ids.size() + 1 == all.size() && std::includes(all.begin(), all.end(), w.ids.begin(), w.ids.end()))
+      return w.best_candidate;
+  return std::nullopt;
+}
+
+double allowed_behind(const Candidates& candidates, const Weighted& best, const std::set<std::string>& ids) {
+  if (ids.size() > best.ids.size() && std::includes(ids.begin(), ids.end(), best.ids.begin(), best.ids.end()))
+    return thresholds::superset_allowed;
+  const double values = static_cast<double>(candidates.models.front().model.data().cells());
+  return std::clamp(std::sqrt(thresholds::few_values / values), 1.0, thresholds::most_growth) *
+         (thresholds::allowed_behind +
+          thresholds::allowed_growth * std::max(0.0, best.log_evidence - candidates.base_log_evidence));
+}
+
+}  // namespace
+
+ResidualTests test_residual(const FittedModel& model) { return {lack_of_fit(model), rerun_test(model)}; }
+
+ChosenCandidate choose(const Attribution& found, const AttributionOptions& options) {
+  const Candidates& all = found.candidates;
+  const auto evidence = [&](std::size_t i) { return all.weighed(all.models[i].ids).log_evidence; };
+  const auto gain_over = [&](std::size_t i, const FittedModel& less) {
+    return predictive_gain(all.models[i].model, less, options.seed, options.pool);
+  };
+  std::size_t best = *all.best;
+  for (auto fewer = best_with_one_fewer(all, all.models[best].ids); fewer;
+       fewer = best_with_one_fewer(all, all.models[best].ids)) {
+    if (earns_its_place(gain_over(best, all.models[*fewer].model), evidence(best) - evidence(*fewer))) break;
+    best = *fewer;
+  }
+  const FittedModel& model = all.models[best].model;
+  const PredictiveGain gain = gain_over(best, found.base);
+  return {.candidate = best,
+          .gain = gain,
+          .after = test_residual(model),
+          .unnamed_gain = unnamed_gain(problem_of(model), unnamed_families(model.data(), found.base.fit().prediction)),
+          .stands = earns_its_place(gain, evidence(best) - all.base_log_evidence)};
+}
+
+std::vector<Competitor> competitors(const Candidates& candidates) {
+  const std::vector<Weighted>& sets = candidates.sets;
+  const Weighted& best = candidates.weighed(candidates.models[*candidates.best].ids);
+  std::vector<Competitor> all = {
+      {static_cast<std::size_t>(&best - sets.data()), allowed_behind(candidates, best, best.ids)}};
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    if (sets[i].ids == best.ids || !(sets[i].weight > 0)) continue;
+    const double allowed = allowed_behind(candidates, best, sets[i].ids);
+    if (best.log_evidence - sets[i].log_evidence <= allowed) all.push_back({i, allowed});
+  }
+  return all;
+}
+
+std::vector<Weighted> ambiguity_set(const Candidates& candidates) {
+  std::vector<Weighted> sets;
+  double total = 0.0;
+  for (const Competitor& c : competitors(candidates)) {
+    sets.push_back(candidates.sets[c.set]);
+    total += sets.back().weight;
+  }
+  for (Weighted& w : sets) w.weight /= total;
+  return sets;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,32 @@
+// How much better one model predicts conditions that it was not fitted to than another.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "compare/loop/fitted_model.hpp"
+#include "compare/loop/thread_pool.hpp"
+
+namespace soilbin::compare {
+
+/// The fold of each condition: dealt in turn, then shuffled.
+std::vector<int> deal_folds(int conditions, int folds, std::uint64_t seed);
+
+/// Mean and standard error over conditions of what the cells of each add up to.
+std::pair<double, double> over_conditions(const std::map<int, double>& sums);
+
+/// Gain of one model over another in the ln density that they give to conditions left out, mean over conditions.
+/// Densities include each model's own uncertainty, so that a bold extrapolation costs only what it claims to know.
+struct PredictiveGain {
+  double mean = 0.0;
+  double std_error = 0.0;
+  int conditions = 0;
+};
+
+/// Both models are of one data set, and are fitted anew to the conditions of all folds but one.
+PredictiveGain predictive_gain(const FittedModel& model, const FittedModel& over, std::uint64_t seed,
+                               const ThreadPool& pool = {});
+
+}  // namespace soilbin::compare

@@ -1,0 +1,54 @@
+// The loop's answer as a case that other commands take.
+#include <algorithm>
+#include <set>
+
+#include "compare/loop/answer_words.hpp"
+#include "compare/sweep/unheard.hpp"
+
+namespace soilbin::compare {
+
+namespace {
+
+/// The conditions of a campaign's runs, each once. When and where a run was made counts where an effect hears of it.
+std::vector<OperatingCondition> asked_of(const Campaign& campaign, const std::vector<EffectChoice>& effects) {
+  const auto heard = [&](const char* key) {
+    return std::any_of(effects.begin(), effects.end(),
+                       [&](const EffectChoice& effect) { return hears_of(bekker_wong::find_form(effect), key); });
+  };
+  std::vector<OperatingCondition> conditions;
+  std::set<OperatingCondition> seen;
+  for (const Run& run : campaign.runs) {
+    OperatingCondition at = run.at;
+    if (!heard("run")) at.run.reset();
+    if (!heard("position")) at.position.reset();
+    if (seen.insert(at).second) conditions.push_back(at);
+  }
+  return conditions;
+}
+
+}  // namespace
+
+Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
+  Case model;
+  model.name = campaign.name + "-model";
+  model.source = "fitted to campaign " + campaign.name;
+  model.scenario = scenario_of(campaign);
+  model.scenario.effects.clear();
+  model.scenario.tire.name = campaign.name + "-wheel";
+  model.scenario.soil.name = campaign.name + "-soil";
+  model.scenario.soil.semi_empirical = answer.soil;
+  model.study.name = model.name;
+  ModelChoice choice;
+  choice.effects = campaign.effects;
+  for (const AcceptedEffect& effect : answer.effects) choice.effects.push_back(effect.choice);
+  for (const AcceptedEffect& effect : answer.stand_in) choice.effects.push_back(effect.choice);
+  model.description = "Made by soilbin loop: " + verdict_sentence(answer);
+  for (const std::string& sentence : bekker_wong::presumptions(choice.effects, campaign.wheel))
+    model.description += " " + sentence;
+  choice.label = "fitted";
+  model.study.models = {choice};
+  model.study.conditions = asked_of(campaign, choice.effects);
+  return model;
+}
+
+}  // namespace soilbin::compare
