@@ -24,6 +24,9 @@ const Library& library() {
   return cases;
 }
 
+/// The library, and that of the bench in which grains are nature.
+std::array<Library, 2> libraries() { return {library(), Library({SOILBIN_SOURCE_DIR "/bench/dem_nature"})}; }
+
 TEST(Library, ListsNames) {
   EXPECT_THAT(library().names(Shelf::tires), Contains("paper-lugged"));
   EXPECT_THAT(library().names(Shelf::soils), Contains("dry-sand"));
@@ -52,6 +55,14 @@ TEST(Library, FindsTheFileBehindANameOrAPath) {
       HasSubstr("no campaign 'rover-climb' in the library: that is a study\n  hint: there are cmu-grousered, "));
 }
 
+TEST(Library, CountsItsNamesWhereALineDoesNotHoldThem) {
+  const Library many = libraries()[1];
+  EXPECT_THAT(test::refusal([&] { find_file(many, Shelf::studies, "dem-nul"); }),
+              testing::AllOf(HasSubstr("did you mean 'dem-null'?"), HasSubstr("soilbin list studies shows the 24 "),
+                             testing::Not(HasSubstr("dem-deep-incline"))))
+      << "names of three lines tell nobody anything";
+}
+
 TEST(Library, SearchesTheUsersFoldersFirst) {
   const std::filesystem::path source = SOILBIN_SOURCE_DIR, cases = source / "cases";
   setenv("SOILBIN_CASES", ("no/such/folder:" + (source / "docs").string()).c_str(), 1);
@@ -59,9 +70,6 @@ TEST(Library, SearchesTheUsersFoldersFirst) {
   unsetenv("SOILBIN_CASES");
   EXPECT_THAT(case_folders("", cases), ElementsAre(cases)) << "nothing installed";
 }
-
-/// The library, and that of the bench in which grains are nature.
-std::array<Library, 2> libraries() { return {library(), Library({SOILBIN_SOURCE_DIR "/bench/dem_nature"})}; }
 
 TEST(Library, EveryTireAndSoilIsReadAndNamesItsSource) {
   for (const Library& cases : libraries()) {
