@@ -11,7 +11,6 @@
 #include "cli/text_output.hpp"
 #include "compare/bevameter/bevameter.hpp"
 #include "compare/report/json_fields.hpp"
-#include "compare/report/result_json.hpp"
 #include "dem/element_tests/plate_tests.hpp"
 #include "scenario/errors.hpp"
 

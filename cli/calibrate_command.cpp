@@ -18,7 +18,7 @@
 #include "compare/calibrate/published_sets.hpp"
 #include "compare/experiments/element_experiments.hpp"
 #include "compare/measured/csv.hpp"
-#include "compare/report/result_json.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -202,7 +202,7 @@ void read_shares(CalibrateOptions& asked) {
 void add_decision(CalibrateOptions& asked, const Soil& soil, const compare::VirtualTest& test, ContactKind kind,
                   fs::path records, const Workplace& place, const std::shared_ptr<Shown>& shown) {
   if (!asked.decision.given()) return;
-  asked.decision.bin.settling_friction = asked.settling_friction, asked.decision.bin.threads = asked.threads;
+  asked.decision.bin.texts["--settling-friction"] = asked.settling_friction, asked.decision.bin.threads = asked.threads;
   compare::TrialQuestion question = asked.decision.question(place);
   question.soil = soil, question.kind = kind, question.factors = test.factors;
   compare::TrialSettings settings = asked.decision.settings(asked.options.seed, std::move(records));

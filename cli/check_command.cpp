@@ -6,9 +6,9 @@
 
 #include "cli/commands.hpp"
 #include "cli/text_output.hpp"
+#include "compare/doubts/doubts.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/report/result_json.hpp"
-#include "compare/sweep/doubts.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"

@@ -101,8 +101,8 @@ compare::TrialQuestion DecisionFlags::question(const Workplace& place) const {
   question.campaign = find_campaign(place, campaign);
   question.setpoints = picked(at, question.campaign);
   if (question.campaign.bin) {
-    set_where_given("--bed-depth", bin.depth, {"m", above_zero}, question.campaign.bin->depth);
-    set_where_given("--bed-width", bin.width, {"m", above_zero}, question.campaign.bin->width);
+    set_where_given("--bed-depth", bin.text("--bed-depth"), {"m", above_zero}, question.campaign.bin->depth);
+    set_where_given("--bed-width", bin.text("--bed-width"), {"m", above_zero}, question.campaign.bin->width);
   }
   return question;
 }

@@ -6,7 +6,7 @@
 #include "bekker_wong/agreed_points.hpp"
 #include "cli/commands.hpp"
 #include "cli/versions.hpp"
-#include "compare/report/result_json.hpp"
+#include "compare/report/json_fields.hpp"
 
 namespace soilbin::cli {
 namespace {

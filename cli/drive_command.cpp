@@ -7,14 +7,14 @@
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
-#include "cli/grain_drives.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
-#include "compare/report/drive_report.hpp"
-#include "compare/report/drive_sides.hpp"
-#include "compare/report/result_json.hpp"
+#include "compare/drives/drive.hpp"
+#include "compare/drives/drive_sides.hpp"
+#include "compare/experiments/grain_drives.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -118,7 +118,8 @@ int drive_analytically(const DriveOptions& options, const Case& question, const 
 dem::DemSettings settings_for(const DriveOptions& options, const Drive& drive) {
   dem::DemSettings settings = settings_of(options.soil_bin);
   settings.rig.ledger = options.ledger;
-  if (const double length = dem::bed_length_for(drive, settings.rig); options.soil_bin.length.empty() && length > 0.0)
+  if (const double length = dem::bed_length_for(drive, settings.rig);
+      options.soil_bin.text("--bed-length").empty() && length > 0.0)
     settings.size.length = length;
   return settings;
 }
@@ -169,8 +170,8 @@ std::string sides_text(const compare::DriveSides& drive) {
 }
 
 int drive_with_grains(const DriveOptions& options, const Case& question, const Session& session) {
-  GrainDrives grains(settings_for(options, *question.drive), question, options.samples, options.soil_bin.packings,
-                     options.soil_bin.replay);
+  compare::GrainDrives grains(settings_for(options, *question.drive), question, options.samples,
+                              options.soil_bin.packings, {options.soil_bin.replay, source_state()});
   std::vector<compare::DriveSide> sides;
   if (options.model == "both")
     sides.push_back(compare::analytic_side(compare::run_drive(question, options.samples, progress_in_time())));

@@ -10,7 +10,7 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
-#include "compare/report/result_json.hpp"
+#include "compare/report/json_fields.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 

@@ -7,8 +7,8 @@
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
 #include "cli/text_output.hpp"
-#include "compare/report/result_json.hpp"
-#include "compare/sweep/doubts.hpp"
+#include "compare/doubts/doubts.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/soil_parameters.hpp"
 

@@ -7,9 +7,9 @@
 #include "cli/commands.hpp"
 #include "cli/question.hpp"
 #include "cli/text_output.hpp"
-#include "compare/report/result_json.hpp"
-#include "compare/sweep/doubts.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/sweep/explanation.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 

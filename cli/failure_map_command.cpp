@@ -12,9 +12,9 @@
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/failure_map/map_report.hpp"
-#include "compare/report/result_json.hpp"
-#include "compare/sweep/doubts.hpp"
+#include "compare/report/json_fields.hpp"
 #include "dem/rig/run_inputs.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
@@ -83,8 +83,10 @@ compare::VirtualTest grains_test(const FailureMapOptions& asked, const compare::
   test.when_safe = [last] {
     if (last->when_safe) last->when_safe();
   };
-  test.run = [map, last, run = run_with(settings, question, place.effects, {})](const Eigen::VectorXd& values,
-                                                                                std::uint64_t seed) {
+  test.run = [map, last,
+              run =
+                  compare::run_once(settings, question, place.effects, {{}, {}, {}, SOILBIN_VERSION, source_state()})](
+                 const Eigen::VectorXd& values, std::uint64_t seed) {
     Scenario grains = scenario_at(map, values);
     grains.effects.clear();
     *last = run(grains, condition_at(map, values), seed);

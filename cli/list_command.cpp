@@ -8,7 +8,7 @@
 #include "bekker_wong/effects/provenance.hpp"
 #include "cli/commands.hpp"
 #include "cli/text_output.hpp"
-#include "compare/report/result_json.hpp"
+#include "compare/report/json_fields.hpp"
 #include "scenario/contents.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"

@@ -10,10 +10,10 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/measured/condition_views.hpp"
-#include "compare/report/result_json.hpp"
-#include "compare/sweep/doubts.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 

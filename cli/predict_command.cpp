@@ -8,10 +8,10 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
-#include "compare/report/curves.hpp"
-#include "compare/report/result_json.hpp"
-#include "compare/sweep/doubts.hpp"
+#include "compare/doubts/doubts.hpp"
+#include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/prediction.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {

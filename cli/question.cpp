@@ -6,8 +6,8 @@
 #include <set>
 #include <sstream>
 
-#include "compare/report/result_json.hpp"
-#include "compare/sweep/alike.hpp"
+#include "compare/sweep/result_json.hpp"
+#include "compare/sweep/varying.hpp"
 #include "scenario/condition_axes.hpp"
 #include "scenario/mapping_writer.hpp"
 

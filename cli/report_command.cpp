@@ -7,8 +7,8 @@
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
-#include "compare/report/analysis_page.hpp"
-#include "compare/sweep/doubts.hpp"
+#include "compare/doubts/doubts.hpp"
+#include "compare/sweep/answers_page.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 

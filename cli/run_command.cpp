@@ -5,16 +5,16 @@
 #include <memory>
 
 #include "cli/commands.hpp"
-#include "cli/converge.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
-#include "compare/report/curves.hpp"
-#include "compare/report/result_json.hpp"
-#include "compare/sweep/doubts.hpp"
+#include "compare/doubts/doubts.hpp"
+#include "compare/experiments/convergence.hpp"
+#include "compare/sweep/answer_sheets.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
 
@@ -67,7 +67,7 @@ nlohmann::ordered_json document_of(const Case& question, const Answered& answere
                                      {"soil", question.scenario.soil.name},
                                      {"rows", compare::rows_json(answered.study)}};
   compare::tell_doubts(document, answered.doubts);
-  if (answered.step) document["dem"] = to_json(*answered.step);
+  if (answered.step) document["dem"] = compare::to_json(*answered.step);
   return document;
 }
 
@@ -101,6 +101,24 @@ std::vector<compare::ModelAnswers> answers_to(const Case& question, const compar
   }
 }
 
+/// The study's only condition, again with each numerical choice changed.
+int converge(const RunOptions& options, const Case& question, const Session& session) {
+  const auto runs = compare::run_variants(settings_of(options.soil_bin), question, session.place.effects,
+                                          keeping_of(options.soil_bin));
+  if (options.json) {
+    fmt::print("{}", compare::json_text(compare::convergence_json(runs)));
+  } else {
+    fmt::print("{}: {}\n\n{}", question.study.name, compare::in_words(question.study.conditions.front()),
+               as_text(compare::convergence_table(runs)));
+    for (const auto& [name, run] : runs)
+      if (!run.answer.result) fmt::print("{}: {}\n", name, run.answer.error);
+  }
+  std::vector<compare::RecordedRun> finished;
+  for (const auto& [name, run] : runs) finished.push_back(run);
+  forget_runs(finished, {});
+  return finished.front().answer.result ? done : failed;
+}
+
 int run(RunOptions options, const Session& session) {
   if (!options.soil_bin.recorded.empty())
     options.soil_bin.recorded = find_record(session.place, options.study, options.soil_bin.recorded);
@@ -109,12 +127,14 @@ int run(RunOptions options, const Session& session) {
   if (!options.soil_bin.recorded.empty() && options.model.empty()) add_dem(question);
   if (options.converge) {
     options.conditions.pick(question.study, question.scenario.tire);
-    return converge(options.soil_bin, question, session.place.effects, options.json);
+    return converge(options, question, session);
   }
   const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
   const compare::MakeModel make = models_with(options.soil_bin, question, session.place.effects, log);
   options.conditions.pick(question.study, question.scenario.tire);
-  Answered answered{.study = {}, .doubts = {}, .step = step_of(options.soil_bin, question)};
+  const std::optional<dem::StepCriteria> step =
+      compare::step_of(settings_of(options.soil_bin), question, options.soil_bin.recorded);
+  Answered answered{.study = {}, .doubts = {}, .step = step};
   answered.study = answers_to(question, make, options, log);
   answered.doubts = compare::doubts(question, answered.study);
   Outputs outputs;
@@ -124,9 +144,9 @@ int run(RunOptions options, const Session& session) {
     fmt::print("{}", compare::json_text(document_of(question, answered)));
   } else {
     fmt::print("{}: {} on {}\n{}\n{}", question.study.name, in_words(question.scenario.tire),
-               compare::in_words(question.scenario.soil), answered.step ? in_words(*answered.step) : "",
+               compare::in_words(question.scenario.soil), answered.step ? compare::in_words(*answered.step) : "",
                study_text(answered.study));
-    if (const std::string notes = notes_on(*log); !notes.empty()) fmt::print("\n{}", notes);
+    if (const std::string notes = compare::notes_on(*log); !notes.empty()) fmt::print("\n{}", notes);
   }
   forget_runs(*log, outputs);
   if (compare::any_result(answered.study)) return outputs.status(done);

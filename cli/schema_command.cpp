@@ -6,7 +6,7 @@
 #include "cli/commands.hpp"
 #include "compare/measured/campaign_schema.hpp"
 #include "compare/recorded/record.hpp"
-#include "compare/report/result_json.hpp"
+#include "compare/report/json_fields.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/schema.hpp"

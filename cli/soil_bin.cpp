@@ -2,22 +2,12 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 
 #include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
-#include "cli/replay_recorder.hpp"
 #include "cli/versions.hpp"
-#include "cli/workplace.hpp"
-#include "compare/experiments/soil_bin_runs.hpp"
-#include "compare/measured/channels.hpp"
-#include "compare/sweep/alike.hpp"
-#include "compare/sweep/varying.hpp"
-#include "dem/archive/paraview.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/quantity.hpp"
 
@@ -46,92 +36,53 @@ void tell_beside_progress(const std::string& words) {
 
 namespace {
 
-/// A condition and its packing as the name of a file: "load-75-N-slip-20-packing-1".
-std::string file_name_of(const OperatingCondition& at, std::uint64_t packing) {
-  std::string name;
-  for (const char c : fmt::format("{} packing {}", compare::in_words(at), packing))
-    if (std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-')
-      name += c;
-    else if (!name.empty() && name.back() != '-')
-      name += '-';
-  return name;
+template <double dem::BedSize::*side>
+double& bed(dem::DemSettings& settings) {
+  return settings.size.*side;
+}
+template <double dem::Rig::*number>
+double& rig(dem::DemSettings& settings) {
+  return settings.rig.*number;
 }
 
-/// Runs conditions, and keeps what can be looked at of them.
-class WatchedRuns {
- public:
-  WatchedRuns(dem::DemSettings settings, Views views)
-      : views_(std::move(views)), runs_(watched(std::move(settings)), source_state()) {}
-  WatchedRuns(const WatchedRuns&) = delete;
-  WatchedRuns& operator=(const WatchedRuns&) = delete;
-
-  compare::RecordedRun operator()(const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
-    name_ = file_name_of(at, packing);
-    compare::RecordedRun run = runs_(scenario, at, packing);
-    keep_replay(at, packing);
-    if (!views_.paraview.empty())
-      fmt::print(stderr, "wrote {}: ParaView opens it\n", (views_.paraview / (name_ + ".pvd")).string());
-    return run;
-  }
-
- private:
-  dem::DemSettings watched(dem::DemSettings settings) {
-    if (views_.replay.empty() && views_.paraview.empty()) return settings;
-    settings.rig.onlooker.look = [this](const dem::Simulation& simulation, int wheel, double surface) {
-      if (!views_.replay.empty() && !done_) recorder_.look(simulation, wheel, surface);
-      if (!views_.paraview.empty()) dem::export_to_paraview(views_.paraview, name_, simulation.state());
-    };
-    if (!views_.replay.empty()) settings.rig.onlooker.keeper = recorder_.keeper();
-    return settings;
-  }
-
-  void keep_replay(const OperatingCondition& at, std::uint64_t packing) {
-    if (done_ || !recorder_.has_frames()) return;
-    done_ = true;
-    recorder_.write(views_.replay, compare::in_words(at),
-                    {{"packing", std::to_string(packing)}, {"sources", source_state()}});
-    fmt::print(stderr, "wrote {}: soilbin compare --replay shows it\n", views_.replay.string());
-  }
-
-  Views views_;
-  std::string name_;  ///< of the run that is made, for its files
-  ReplayRecorder recorder_;
-  bool done_ = false;
-  compare::SoilBinRuns runs_;
+/// A number of bed or rig that a flag sets.
+struct SettingFlag {
+  const char *flag, *type, *meaning;
+  double& (*of)(dem::DemSettings&);
+  Range range = above_zero;
+  Measure measure() const { return {*type == 'L' ? "m" : *type == 'T' ? "s" : "-", range}; }  // by the type's letter
 };
 
-/// A record's answers, with the runs behind them told to a log.
-class FromRecord : public Model {
- public:
-  FromRecord(compare::Record record, RunLog log) : model_(std::move(record)), log_(std::move(log)) {}
-  std::string name() const override { return model_.name(); }
-  TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override {
-    for (const compare::RecordedRun* run : model_.runs(at)) log_->push_back(*run);
-    return model_.evaluate(scenario, at);
-  }
+using R = dem::Rig;
+constexpr SettingFlag measure_flags[] = {
+    {"--bed-length", "LENGTH", "dem: length of the bed, 2.5 m", bed<&dem::BedSize::length>},
+    {"--bed-width", "LENGTH", "dem: its width, 0.8 m", bed<&dem::BedSize::width>},
+    {"--bed-depth", "LENGTH", "dem: its depth, 0.3 m", bed<&dem::BedSize::depth>},
+    {"--behind", "LENGTH", "dem: of the axle to the bin's rear end at the start, 0.35 m", rig<&R::behind>},
+    {"--ahead", "LENGTH", "dem: of the axle to its front end at the end, 0.5 m", rig<&R::ahead>},
+    {"--travel", "LENGTH", "dem: way of the axle, as far as the bin lets it", rig<&R::travel>},
+    {"--lowering", "TIME", "dem: time in which the load comes on, 0.5 s", rig<&R::lowering>},
+    {"--resting", "TIME", "dem: time under the whole load before the start, 0.2 s", rig<&R::resting>, zero_or_more},
+    {"--tilting", "TIME", "dem: time in which gravity turns to an incline, 0.3 s", rig<&R::tilting>},
+    {"--time-step", "TIME", "dem: of bed and run, a fifth of the Rayleigh time", rig<&R::dt>},
+    {"--sleep",
+     "SHARE",
+     "dem: grains far from the wheel rest that are slower than this share of sqrt(g d), 0.003; 0: none",
+     rig<&R::sleep_speed>,
+     {.lower = 0, .upper = 0.1}},
+    {"--deepest-overlap",
+     "SHARE",
+     "dem: of the smaller radius that grains may overlap, 0.5",
+     rig<&R::deepest_overlap>,
+     {.lower = 0.05, .upper = 2}}};
+constexpr SettingFlag starting_flag{"--starting", "TIME", "dem: time in which speed and rotation come on, 0.2 s",
+                                    rig<&R::starting>};
+constexpr SettingFlag settling_flag{"--settling-friction", "SHARE",
+                                    "dem: share of friction while the bed settles, 1; 0: densest",
+                                    [](dem::DemSettings& s) -> double& { return s.settling_friction; }, fractions};
 
- private:
-  compare::RecordedModel model_;
-  RunLog log_;
-};
-
-std::unique_ptr<const Model> from_record(const SoilBinFlags& flags, const Case& question, const RunLog& log) {
-  compare::Record record = read_record_aloud(flags.recorded);
-  // Bed and rig are the record's; tire and grains must be the study's.
-  compare::refuse_other_inputs(record, compare::inputs_of({}, question.scenario), flags.recorded,
-                               {"tire.", "soil.", "bed.radius", "bed.density", "bed.young", "bed.poisson",
-                                "bed.restitution", "bed.sliding", "bed.rolling"});
-  return std::make_unique<const FromRecord>(std::move(record), log);
-}
-
-std::unique_ptr<const Model> running(const SoilBinFlags& flags, const Case& question, const EffectVocabulary& effects,
-                                     const RunLog& log) {
-  const dem::DemSettings settings = settings_of(flags);
-  std::vector<std::uint64_t> packings;
-  for (int k = 0; k < flags.packings; ++k) packings.push_back(settings.packing + static_cast<std::uint64_t>(k));
-  return std::make_unique<const compare::RunOnPackings>(
-      "dem", packings, run_with(settings, question, effects, flags.record, {flags.replay, flags.paraview}),
-      [log](const compare::RecordedRun& told) { log->push_back(told); });
+void add(CLI::App& command, const SettingFlag& one, std::map<std::string, std::string>& texts) {
+  command.add_option(one.flag, texts[one.flag], one.meaning)->type_name(one.type);
 }
 
 }  // namespace
@@ -143,21 +94,11 @@ void check_threads(int threads) {
 
 dem::DemSettings settings_of(const SoilBinFlags& flags) {
   dem::DemSettings settings;
-  set_where_given("--bed-length", flags.length, {"m", above_zero}, settings.size.length);
-  set_where_given("--bed-width", flags.width, {"m", above_zero}, settings.size.width);
-  set_where_given("--bed-depth", flags.depth, {"m", above_zero}, settings.size.depth);
-  set_where_given("--behind", flags.behind, {"m", above_zero}, settings.rig.behind);
-  set_where_given("--ahead", flags.ahead, {"m", above_zero}, settings.rig.ahead);
-  set_where_given("--travel", flags.travel, {"m", above_zero}, settings.rig.travel);
-  set_where_given("--lowering", flags.lowering, {"s", above_zero}, settings.rig.lowering);
-  set_where_given("--resting", flags.resting, {"s", zero_or_more}, settings.rig.resting);
-  set_where_given("--starting", flags.starting, {"s", above_zero}, settings.rig.starting);
-  set_where_given("--tilting", flags.tilting, {"s", above_zero}, settings.rig.tilting);
-  set_where_given("--time-step", flags.time_step, {"s", above_zero}, settings.rig.dt);
-  set_where_given("--sleep", flags.sleep, {"-", {.lower = 0, .upper = 0.1}}, settings.rig.sleep_speed);
-  set_where_given("--deepest-overlap", flags.deepest_overlap, {"-", {.lower = 0.05, .upper = 2}},
-                  settings.rig.deepest_overlap);
-  set_where_given("--settling-friction", flags.settling_friction, {"-", fractions}, settings.settling_friction);
+  const auto set = [&](const SettingFlag& one) {
+    set_where_given(one.flag, flags.text(one.flag), one.measure(), one.of(settings));
+  };
+  for (const SettingFlag& one : measure_flags) set(one);
+  set(starting_flag), set(settling_flag);
   if (flags.packing < 0) throw InputError("--packing: a seed is 0 or more");
   if (flags.packings < 1) throw InputError("--packings: 1 or more");
   check_threads(flags.threads);
@@ -171,39 +112,23 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   return settings;
 }
 
+std::string SoilBinFlags::text(const std::string& flag) const {
+  const auto given = texts.find(flag);
+  return given == texts.end() ? "" : given->second;
+}
+
 void SoilBinFlags::add_measures_to(CLI::App& command) {
-  command.add_option("--bed-length", length, "dem: length of the bed, 2.5 m")->type_name("LENGTH");
-  command.add_option("--bed-width", width, "dem: its width, 0.8 m")->type_name("LENGTH");
-  command.add_option("--bed-depth", depth, "dem: its depth, 0.3 m")->type_name("LENGTH");
-  command.add_option("--behind", behind, "dem: of the axle to the bin's rear end at the start, 0.35 m")
-      ->type_name("LENGTH");
-  command.add_option("--ahead", ahead, "dem: of the axle to its front end at the end, 0.5 m")->type_name("LENGTH");
-  command.add_option("--travel", travel, "dem: way of the axle, as far as the bin lets it")->type_name("LENGTH");
-  command.add_option("--lowering", lowering, "dem: time in which the load comes on, 0.5 s")->type_name("TIME");
-  command.add_option("--resting", resting, "dem: time under the whole load before the start, 0.2 s")->type_name("TIME");
-  command.add_option("--tilting", tilting, "dem: time in which gravity turns to an incline, 0.3 s")->type_name("TIME");
-  command.add_option("--time-step", time_step, "dem: of bed and run, a fifth of the Rayleigh time")->type_name("TIME");
-  command
-      .add_option("--sleep", sleep,
-                  "dem: grains far from the wheel rest that are slower than this share of sqrt(g d), 0.003; 0: none")
-      ->type_name("SHARE");
-  command.add_option("--deepest-overlap", deepest_overlap, "dem: of the smaller radius that grains may overlap, 0.5")
-      ->type_name("SHARE");
+  for (const SettingFlag& one : measure_flags) add(command, one, texts);
 }
 
 void SoilBinFlags::add_rig_to(CLI::App& command) {
   add_measures_to(command);
   command.add_option("--packing", packing, "dem: seed of the bed, 1")->type_name("SEED");
-  command
-      .add_option("--settling-friction", settling_friction,
-                  "dem: share of friction while the bed settles, 1; 0: densest")
-      ->type_name("SHARE");
+  add(command, settling_flag, texts);
   command.add_option("--threads", threads, "dem: 0, one a core")->type_name("N");
 }
 
-void SoilBinFlags::add_starting_to(CLI::App& command) {
-  command.add_option("--starting", starting, "dem: time in which speed and rotation come on, 0.2 s")->type_name("TIME");
-}
+void SoilBinFlags::add_starting_to(CLI::App& command) { add(command, starting_flag, texts); }
 
 void SoilBinFlags::add_to(CLI::App& command) {
   add_rig_to(command);
@@ -222,52 +147,21 @@ void SoilBinFlags::add_to(CLI::App& command) {
       ->excludes("--record");
 }
 
+compare::RunKeeping keeping_of(const SoilBinFlags& flags) {
+  return {flags.record, flags.replay, flags.paraview, SOILBIN_VERSION, source_state()};
+}
+
 compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, const EffectVocabulary& effects,
                                const RunLog& log) {
   return [=, &effects](ModelKind kind) -> std::unique_ptr<const Model> {
+    const compare::RunListener listen = [log](const compare::RecordedRun& run) { log->push_back(run); };
     if (kind != ModelKind::dem) return compare::make_model(kind);
-    return flags.recorded.empty() ? running(flags, question, effects, log) : from_record(flags, question, log);
+    if (!flags.recorded.empty())
+      return compare::recorded_soil_bin(read_record_aloud(flags.recorded), question.scenario, flags.recorded, listen);
+    const dem::DemSettings settings = settings_of(flags);
+    return compare::soil_bin_model(settings, flags.packings,
+                                   compare::run_once(settings, question, effects, keeping_of(flags)), listen);
   };
-}
-
-compare::RunOnce run_with(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
-                          const fs::path& file, const Views& views) {
-  compare::RunOnce run = [runs = std::make_shared<WatchedRuns>(settings, views)](
-                             const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
-    return (*runs)(scenario, at, packing);
-  };
-  if (file.empty()) return run;
-  return compare::kept_runs(file, settings, question, effects, SOILBIN_VERSION, std::move(run));
-}
-
-std::optional<dem::StepCriteria> step_of(const SoilBinFlags& flags, const Case& question) {
-  const auto& models = question.study.models;
-  if (std::none_of(models.begin(), models.end(), [](const ModelChoice& c) { return c.model == ModelKind::dem; }))
-    return std::nullopt;
-  dem::DemSettings settings = settings_of(flags);
-  if (!flags.recorded.empty())
-    for (const auto& [name, value] : compare::read_record(flags.recorded).inputs)
-      if (name == "rig.time_step") settings.rig.dt = read_number(value).value_or(0.0);
-  double fastest = 0;
-  for (const OperatingCondition& at : question.study.conditions)
-    if (at.speed > 0 && std::abs(at.slip) < 1) fastest = std::max(fastest, dem::rim_speed(question.scenario.tire, at));
-  if (!(fastest > 0)) return std::nullopt;
-  return dem::step_criteria(dem::DemModel(settings).recipe(question.scenario), settings.rig, fastest);
-}
-
-std::string in_words(const dem::StepCriteria& step) {
-  return fmt::format(
-      "dem: time step {:.3g} s, {:.2g} of the Rayleigh time of {:.3g} s; an impact at the rim's {:.2g} m/s lasts "
-      "{:.3g} s, "
-      "{:.0f} steps\n",
-      step.step, step.step / step.rayleigh, step.rayleigh, step.speed, step.hertz, step.hertz / step.step);
-}
-
-nlohmann::ordered_json to_json(const dem::StepCriteria& step) {
-  return {{"time_step", step.step},
-          {"rayleigh_time", step.rayleigh},
-          {"impact_speed", step.speed},
-          {"hertz_time", step.hertz}};
 }
 
 compare::Record read_record_aloud(const fs::path& file) {
@@ -293,20 +187,6 @@ void forget_runs(const std::vector<compare::RecordedRun>& runs, const Outputs& o
   }
   for (const compare::RecordedRun& run : runs)
     if (run.when_safe) run.when_safe();
-}
-
-std::string notes_on(const std::vector<compare::RecordedRun>& runs) {
-  std::string notes;
-  double seconds = 0;
-  for (const compare::RecordedRun& run : runs) {
-    seconds += run.seconds;
-    if (run.answer.result && !run.steady)
-      notes +=
-          fmt::format("not steady at {}{}: halves differ by {:.3g} standard errors\n", compare::in_words(run.answer.at),
-                      run.packing == 1 ? "" : fmt::format(", packing {}", run.packing), run.drift);
-  }
-  if (runs.empty()) return "";
-  return notes + fmt::format("dem: {} run{}, {:.0f} s in all\n", runs.size(), runs.size() == 1 ? "" : "s", seconds);
 }
 
 }  // namespace soilbin::cli

@@ -1,8 +1,9 @@
-// The virtual soil bin as a model of the command: its flags, where it keeps settled beds and records, its progress.
+// The virtual soil bin as the command has it: its flags, where it keeps settled beds and records, its progress.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,11 +11,7 @@
 #include "cli/outputs.hpp"
 #include "cli/workplace.hpp"
 #include "compare/calibrate/experiment_store.hpp"
-#include "compare/recorded/recorded_model.hpp"
-#include "compare/sweep/answers.hpp"
-#include "dem/bed/work_options.hpp"
-#include "dem/rig/dem_model.hpp"
-#include "dem/rig/step_criteria.hpp"
+#include "compare/experiments/soil_bin_runs.hpp"
 
 namespace soilbin::cli {
 
@@ -32,14 +29,14 @@ void check_threads(int threads);
 
 /// Flags of the model dem, as typed; empty: the default.
 struct SoilBinFlags {
-  std::string length, width, depth, settling_friction;
-  std::string behind, ahead, travel, time_step, sleep, deepest_overlap;
-  std::string lowering, resting, starting, tilting;
-  std::string record;    ///< file that keeps each run as it is finished, and is gone on with
-  std::string recorded;  ///< file to answer from, without running
+  std::map<std::string, std::string> texts;  ///< of bed, rig and numerics, by flag
+  std::string record;                        ///< file that keeps each run as it is finished, and is gone on with
+  std::string recorded;                      ///< file to answer from, without running
   std::string replay;    ///< file for a replay of the first run that is made; flag of those who add it
   std::string paraview;  ///< folder for each run that is made, as ParaView opens it; flag of those who add it
   int packing = 1, packings = 1, threads = 0;
+
+  std::string text(const std::string& flag) const;  ///< "" where it wasn't given
 
   void add_to(CLI::App& command);
   /// Lengths, times and numerics of bed and rig alone: for who has flags of his own for the rest.
@@ -52,6 +49,9 @@ struct SoilBinFlags {
 /// Throws InputError that names the flag.
 dem::DemSettings settings_of(const SoilBinFlags& flags);
 
+/// What the flags have kept of runs, by this program.
+compare::RunKeeping keeping_of(const SoilBinFlags& flags);
+
 /// The runs behind a model's answers, in the order in which they came.
 using RunLog = std::shared_ptr<std::vector<compare::RecordedRun>>;
 
@@ -60,16 +60,6 @@ using RunLog = std::shared_ptr<std::vector<compare::RecordedRun>>;
 /// record that is begun keeps `question` whole.
 compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, const EffectVocabulary& effects,
                                const RunLog& log);
-
-/// Where runs that are made can be looked at; empty: they are not kept.
-struct Views {
-  std::filesystem::path replay;    ///< file, of the first run
-  std::filesystem::path paraview;  ///< folder, of each run
-};
-
-/// Runs conditions with these settings; where a file is given, keeps them there (kept_in).
-compare::RunOnce run_with(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
-                          const std::filesystem::path& file, const Views& views = {});
 
 /// compare::read_record; says so where no seal vouches for a run.
 compare::Record read_record_aloud(const std::filesystem::path& file);
@@ -80,14 +70,5 @@ void tell_unsealed(const compare::ExperimentStore& store, const std::filesystem:
 /// missing it stays, and the person is told.
 void forget_runs(const std::vector<compare::RecordedRun>& runs, const Outputs& outputs);
 inline constexpr const char* finished_runs_stay = "finished runs are kept: the same command goes on from there";
-
-/// The time step that runs of a question take beside the Rayleigh time and how long an impact lasts at the fastest
-/// rim; no value where none of the question's models is dem.
-std::optional<dem::StepCriteria> step_of(const SoilBinFlags& flags, const Case& question);
-std::string in_words(const dem::StepCriteria& step);
-nlohmann::ordered_json to_json(const dem::StepCriteria& step);
-
-/// What to know about runs beside their results: which did not become steady, how far packings differ, what it cost.
-std::string notes_on(const std::vector<compare::RecordedRun>& runs);
 
 }  // namespace soilbin::cli

@@ -1,4 +1,4 @@
-// A file's bytes, within bounds.
+// A file's bytes, within bounds: whatever a person names as an input is read through here.
 #pragma once
 
 #include <cstddef>

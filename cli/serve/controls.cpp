@@ -6,8 +6,8 @@
 #include "bekker_wong/effect.hpp"
 #include "cli/described_flags.hpp"
 #include "cli/text_output.hpp"
+#include "compare/doubts/unheard.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/sweep/unheard.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::cli {

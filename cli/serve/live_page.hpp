@@ -9,8 +9,8 @@
 
 namespace soilbin::cli {
 
-/// Its own script, from cli/serve/browser; made by the build.
-std::vector<compare::Script> live_scripts();
+/// Its script, style and body, from cli/serve/browser; made by the build.
+std::vector<compare::EmbeddedFile> live_files();
 
 /// Self-contained HTML with the reports' style, charts and d3; where d3 isn't installed the page says so, and shows
 /// numbers without curves.

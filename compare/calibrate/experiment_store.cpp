@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/report/json_file.hpp"
-#include "compare/report/result_json.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_lock.hpp"

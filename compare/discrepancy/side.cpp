@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/sweep/alike.hpp"
+#include "compare/sweep/varying.hpp"
 
 namespace soilbin::compare {
 namespace {

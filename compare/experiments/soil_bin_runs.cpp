@@ -1,10 +1,18 @@
 #include "compare/experiments/soil_bin_runs.hpp"
 
-#include <chrono>
+#include <fmt/core.h>
 
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+
+#include "compare/sweep/varying.hpp"
+#include "dem/archive/paraview.hpp"
 #include "dem/rig/run_inputs.hpp"
 #include "dem/rig/staged_run.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/quantity.hpp"
 
 namespace soilbin::compare {
 
@@ -38,6 +46,121 @@ const dem::DemModel& SoilBinRuns::model(std::uint64_t packing) {
   if (known != models_.end()) return *known->second;
   settings_.packing = packing;
   return *models_.emplace(packing, std::make_unique<dem::DemModel>(settings_)).first->second;
+}
+
+namespace {
+
+/// A condition and its packing as the name of a file: "load-75-N-slip-20-packing-1".
+std::string file_name_of(const OperatingCondition& at, std::uint64_t packing) {
+  std::string name;
+  for (const char c : fmt::format("{} packing {}", in_words(at), packing))
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-')
+      name += c;
+    else if (!name.empty() && name.back() != '-')
+      name += '-';
+  return name;
+}
+
+/// Runs conditions, and keeps what can be looked at of them.
+class WatchedRuns {
+ public:
+  WatchedRuns(const dem::DemSettings& settings, const RunKeeping& keeping)
+      : replay_{keeping.replay, keeping.source},
+        paraview_(keeping.paraview),
+        tell_(settings.how.tell),
+        runs_(watched(settings), keeping.source) {}
+  WatchedRuns(const WatchedRuns&) = delete;
+  WatchedRuns& operator=(const WatchedRuns&) = delete;
+
+  RecordedRun operator()(const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
+    name_ = file_name_of(at, packing);
+    RecordedRun run = runs_(scenario, at, packing);
+    if (recorder_.has_frames()) {
+      recorder_.write(replay_, in_words(at), packing);
+      tell(replay_.file, "soilbin compare --replay shows it");
+    }
+    if (!paraview_.empty()) tell(paraview_ / (name_ + ".pvd"), "ParaView opens it");
+    return run;
+  }
+
+ private:
+  dem::DemSettings watched(dem::DemSettings settings) {
+    dem::Onlooker& onlooker = settings.rig.onlooker;
+    if (!replay_.file.empty()) onlooker = recorder_.onlooker();
+    if (!paraview_.empty())
+      onlooker.look = [this, replayed = onlooker.look](const dem::Simulation& simulation, int wheel, double surface) {
+        if (replayed) replayed(simulation, wheel, surface);
+        dem::export_to_paraview(paraview_, name_, simulation.state());
+      };
+    return settings;
+  }
+
+  void tell(const std::filesystem::path& file, const char* what) const {
+    if (tell_) tell_(fmt::format("wrote {}: {}", file.string(), what));
+  }
+
+  ReplayKeeping replay_;
+  std::filesystem::path paraview_;
+  std::string name_;  ///< of the run that is made, for its files
+  std::function<void(const std::string&)> tell_;
+  ReplayRecorder recorder_;
+  SoilBinRuns runs_;
+};
+
+}  // namespace
+
+RunOnce run_once(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
+                 const RunKeeping& keeping) {
+  RunOnce run = [runs = std::make_shared<WatchedRuns>(settings, keeping)](
+                    const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
+    return (*runs)(scenario, at, packing);
+  };
+  if (keeping.record.empty()) return run;
+  return kept_runs(keeping.record, settings, question, effects, keeping.version, std::move(run));
+}
+
+std::unique_ptr<const Model> soil_bin_model(const dem::DemSettings& settings, int packings, RunOnce run,
+                                            RunListener on_run) {
+  std::vector<std::uint64_t> seeds;
+  for (int k = 0; k < packings; ++k) seeds.push_back(settings.packing + static_cast<std::uint64_t>(k));
+  return std::make_unique<const RunOnPackings>("dem", std::move(seeds), std::move(run), std::move(on_run));
+}
+
+std::unique_ptr<const Model> recorded_soil_bin(Record record, const Scenario& scenario,
+                                               const std::filesystem::path& file, RunListener on_run) {
+  refuse_other_inputs(record, inputs_of({}, scenario), file,
+                      {"tire.", "soil.", "bed.radius", "bed.density", "bed.young", "bed.poisson", "bed.restitution",
+                       "bed.sliding", "bed.rolling"});
+  return std::make_unique<const RecordedModel>(std::move(record), std::move(on_run));
+}
+
+std::optional<dem::StepCriteria> step_of(dem::DemSettings settings, const Case& question,
+                                         const std::filesystem::path& record) {
+  const auto& models = question.study.models;
+  if (std::none_of(models.begin(), models.end(), [](const ModelChoice& c) { return c.model == ModelKind::dem; }))
+    return std::nullopt;
+  if (!record.empty())
+    for (const auto& [name, value] : read_record(record).inputs)
+      if (name == "rig.time_step") settings.rig.dt = read_number(value).value_or(0.0);
+  double fastest = 0;
+  for (const OperatingCondition& at : question.study.conditions)
+    if (at.speed > 0 && std::abs(at.slip) < 1) fastest = std::max(fastest, dem::rim_speed(question.scenario.tire, at));
+  if (!(fastest > 0)) return std::nullopt;
+  return dem::step_criteria(dem::DemModel(settings).recipe(question.scenario), settings.rig, fastest);
+}
+
+std::string in_words(const dem::StepCriteria& step) {
+  return fmt::format(
+      "dem: time step {:.3g} s, {:.2g} of the Rayleigh time of {:.3g} s; an impact at the rim's {:.2g} m/s lasts "
+      "{:.3g} s, {:.0f} steps\n",
+      step.step, step.step / step.rayleigh, step.rayleigh, step.speed, step.hertz, step.hertz / step.step);
+}
+
+nlohmann::ordered_json to_json(const dem::StepCriteria& step) {
+  return {{"time_step", step.step},
+          {"rayleigh_time", step.rayleigh},
+          {"impact_speed", step.speed},
+          {"hertz_time", step.hertz}};
 }
 
 RunOnce kept_runs(const std::filesystem::path& file, const dem::DemSettings& settings, const Case& question,

@@ -1,13 +1,16 @@
-// Runs of the virtual soil bin for a record.
+// Runs of the virtual soil bin as answers: kept in a record, shown by a replay, taken from a record in their place.
 #pragma once
 
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "compare/experiments/replay_recorder.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "dem/rig/dem_model.hpp"
+#include "dem/rig/step_criteria.hpp"
 
 namespace soilbin::compare {
 
@@ -29,6 +32,35 @@ class SoilBinRuns {
   std::shared_ptr<dem::WheelRun> told_ = std::make_shared<dem::WheelRun>();
   std::map<std::uint64_t, std::unique_ptr<dem::DemModel>> models_;
 };
+
+/// What is kept of runs beside their answers, and who made them.
+struct RunKeeping {
+  std::filesystem::path
+      record;  ///< gets each run as it is finished, and is gone on with (kept_in); empty: none is kept
+  std::filesystem::path replay;    ///< file that gets the first run that is made, to look at; empty: none is kept
+  std::filesystem::path paraview;  ///< folder that gets each run that is made, as ParaView opens it; empty: none
+  std::string version, source;     ///< of soilbin and of the sources that it was built from
+};
+
+/// Runs conditions of a question with these settings, and keeps them. A record that is begun holds `question` whole.
+RunOnce run_once(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
+                 const RunKeeping& keeping);
+
+/// The model dem on `packings` beds of the seeds from settings.packing on.
+std::unique_ptr<const Model> soil_bin_model(const dem::DemSettings& settings, int packings, RunOnce run,
+                                            RunListener on_run);
+
+/// The model dem as a record has it, which was read from `file`. Throws InputError where its tire or its grains are not
+/// the scenario's; bed and rig are the record's.
+std::unique_ptr<const Model> recorded_soil_bin(Record record, const Scenario& scenario,
+                                               const std::filesystem::path& file, RunListener on_run);
+
+/// The time step that runs of a question take (that of the record, where it is given) beside the Rayleigh time and how
+/// long an impact lasts at the fastest rim; no value where none of the question's models is dem.
+std::optional<dem::StepCriteria> step_of(dem::DemSettings settings, const Case& question,
+                                         const std::filesystem::path& record);
+std::string in_words(const dem::StepCriteria& step);
+nlohmann::ordered_json to_json(const dem::StepCriteria& step);
 
 /// The runs of a case, kept in a file (kept_in) that is begun by `version` of soilbin.
 RunOnce kept_runs(const std::filesystem::path& file, const dem::DemSettings& settings, const Case& question,

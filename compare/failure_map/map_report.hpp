@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/failure_map/incline_map.hpp"
-#include "compare/report/analysis_page.hpp"
 #include "compare/report/heat_map.hpp"
 #include "compare/report/page.hpp"
 

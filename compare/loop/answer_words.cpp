@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "compare/doubts/unheard.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"

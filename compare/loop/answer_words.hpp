@@ -45,8 +45,8 @@ HtmlTable candidates_table(const LoopAnswer& answer);
 HtmlTable error_table(const LoopAnswer& answer);
 
 /// The report: verdict, residuals against every variable before and after, the accepted effect's signature over the
-/// residual, candidates, what is not testable, what to measure next. `doubts`: in the campaign (compare/sweep/doubts.hpp).
-/// `command`: how to repeat it.
+/// residual, candidates, what is not testable, what to measure next. `doubts`: in the campaign
+/// (compare/doubts/doubts.hpp). `command`: how to repeat it.
 std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const std::vector<std::string>& doubts,
                       const std::string& command);
 

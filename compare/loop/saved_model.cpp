@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <set>
 
+#include "compare/doubts/unheard.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/sweep/unheard.hpp"
 
 namespace soilbin::compare {
 

@@ -7,10 +7,12 @@
 #include "compare/recorded/record_fields.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/json_file.hpp"
-#include "compare/report/result_json.hpp"
-#include "compare/sweep/alike.hpp"
+#include "compare/sweep/result_json.hpp"
+#include "compare/sweep/varying.hpp"
+#include "scenario/atomic_file.hpp"
 #include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/file_lock.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::compare {
@@ -226,6 +228,33 @@ const RecordedRun* find_run(const Record& record, const OperatingCondition& at, 
     return run.packing == packing && alike(run.answer.at, at);
   });
   return found == record.runs.end() ? nullptr : &*found;
+}
+
+void add_run(const std::filesystem::path& file, const Record& empty, RecordedRun run) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  make_folder(folder);
+  // Several processes may fill one record: each holds the folder's lock while it reads and replaces the file.
+  const FileLock lock(folder, FileLock::Wait::until_free);
+  Record record = std::filesystem::exists(file) ? read_record(file) : empty;
+  refuse_other_inputs(record, empty.inputs, file);
+  if (find_run(record, run.answer.at, run.packing) == nullptr) {
+    record.runs.push_back(run);
+    write_file_atomically(file, record_text(record));
+  }
+  if (run.when_safe) run.when_safe();
+}
+
+std::string notes_on(const std::vector<RecordedRun>& runs) {
+  std::string notes;
+  double seconds = 0;
+  for (const RecordedRun& run : runs) {
+    seconds += run.seconds;
+    if (run.answer.result && !run.steady)
+      notes += fmt::format("not steady at {}{}: halves differ by {:.3g} standard errors\n", in_words(run.answer.at),
+                           run.packing == 1 ? "" : fmt::format(", packing {}", run.packing), run.drift);
+  }
+  if (runs.empty()) return "";
+  return notes + fmt::format("dem: {} run{}, {:.0f} s in all\n", runs.size(), runs.size() == 1 ? "" : "s", seconds);
 }
 
 }  // namespace soilbin::compare

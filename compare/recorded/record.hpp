@@ -79,4 +79,7 @@ const RecordedRun* find_run(const Record& record, const OperatingCondition& at, 
 /// With the run in the file, it is safe (when_safe).
 void add_run(const std::filesystem::path& file, const Record& empty, RecordedRun run);
 
+/// What to know about runs beside their results: which did not become steady, how far packings differ, what it cost.
+std::string notes_on(const std::vector<RecordedRun>& runs);
+
 }  // namespace soilbin::compare

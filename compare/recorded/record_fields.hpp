@@ -2,7 +2,7 @@
 #pragma once
 
 #include "compare/recorded/record.hpp"
-#include "compare/report/result_fields.hpp"
+#include "compare/sweep/result_fields.hpp"
 
 namespace soilbin::compare {
 

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "compare/measured/channels.hpp"
-#include "compare/sweep/alike.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 
@@ -144,6 +143,8 @@ std::vector<const RecordedRun*> RecordedModel::runs(const OperatingCondition& at
 
 TractionResult RecordedModel::evaluate(const Scenario&, const OperatingCondition& at) const {
   const Runs found = runs(at);
+  for (const RecordedRun* run : found)
+    if (on_run_) on_run_(*run);
   if (found.empty()) throw NoSolution("not in the record: no run at " + in_words(at));
   return mean_of_packings(found);
 }

@@ -11,6 +11,9 @@ namespace soilbin::compare {
 /// refused is an InputError.
 using RunOnce = std::function<RecordedRun(const Scenario&, const OperatingCondition&, std::uint64_t packing)>;
 
+/// Gets every run behind an answer, before the model's evaluate returns.
+using RunListener = std::function<void(const RecordedRun&)>;
+
 /// Takes a run from the file where it is there, else runs it and adds it at once. `empty` is the record that the file
 /// is begun with. Throws InputError where the file's inputs differ.
 RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run);
@@ -30,10 +33,7 @@ double scatter_between(const std::vector<const RecordedRun*>& runs, Estimate Tra
 /// Runs each condition on every packing.
 class RunOnPackings : public Model {
  public:
-  using Listener = std::function<void(const RecordedRun&)>;
-
-  /// `on_run` gets every run, before evaluate returns.
-  RunOnPackings(std::string name, std::vector<std::uint64_t> packings, RunOnce run, Listener on_run = {})
+  RunOnPackings(std::string name, std::vector<std::uint64_t> packings, RunOnce run, RunListener on_run = {})
       : name_(std::move(name)), packings_(std::move(packings)), run_(std::move(run)), on_run_(std::move(on_run)) {}
 
   std::string name() const override { return name_; }
@@ -44,13 +44,14 @@ class RunOnPackings : public Model {
   std::string name_;
   std::vector<std::uint64_t> packings_;
   RunOnce run_;
-  Listener on_run_;
+  RunListener on_run_;
 };
 
 /// Answers from a record alone. The scenario isn't looked at: refuse_other_inputs says whether it is the record's.
 class RecordedModel : public Model {
  public:
-  explicit RecordedModel(Record record) : record_(std::move(record)) {}
+  explicit RecordedModel(Record record, RunListener on_run = {})
+      : record_(std::move(record)), on_run_(std::move(on_run)) {}
 
   std::string name() const override { return record_.model; }
   const Record& record() const { return record_; }
@@ -61,6 +62,7 @@ class RecordedModel : public Model {
 
  private:
   Record record_;
+  RunListener on_run_;
 };
 
 }  // namespace soilbin::compare

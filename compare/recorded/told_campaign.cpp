@@ -8,7 +8,7 @@
 
 #include "compare/measured/channels.hpp"
 #include "compare/measured/run_columns.hpp"
-#include "compare/sweep/alike.hpp"
+#include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/source_text.hpp"

@@ -53,7 +53,4 @@ struct ReplayFile {
 /// Throws InputError for a file that can't be read or is no replay.
 ReplayFile read_replay(const std::filesystem::path& path);
 
-/// Bytes as base64 (RFC 4648).
-std::string base64(const std::string& bytes);
-
 }  // namespace soilbin::compare

@@ -1,10 +1,12 @@
 #include "compare/report/javascript.hpp"
 
 #include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 namespace soilbin::compare {
 namespace {
@@ -32,6 +34,12 @@ std::optional<std::string> text_of(const fs::path& file) {
 }
 
 }  // namespace
+
+std::string embedded(const std::vector<EmbeddedFile>& files, const std::string& name) {
+  for (const EmbeddedFile& file : files)
+    if (file.name == name) return file.text;
+  throw std::out_of_range("no file " + name + " in the program");
+}
 
 Libraries find_libraries() {
   Libraries libraries;
@@ -66,9 +74,24 @@ std::string script_elements(const Libraries& libraries, bool with_replay) {
   std::string own;
   // 'start.js' comes last: it uses the others.
   for (const bool last : {false, true})
-    for (const Script& script : own_scripts())
-      if ((script.name == "start.js") == last) own += "// " + script.name + "\n" + script.text;
+    for (const EmbeddedFile& script : own_files())
+      if (script.name.ends_with(".js") && (script.name == "start.js") == last)
+        own += "// " + script.name + "\n" + script.text;
   return html + "<script>\n" + in_script(own) + "</script>\n";
+}
+
+std::string base64(const std::string& bytes) {
+  static constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve(4 * ((bytes.size() + 2) / 3));
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) {
+      return i + k < bytes.size() ? static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i + k])) : 0U;
+    };
+    const std::uint32_t three = byte(0) << 16 | byte(1) << 8 | byte(2);
+    for (std::size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? letters[(three >> (18 - 6 * k)) & 63] : '=';
+  }
+  return out;
 }
 
 }  // namespace soilbin::compare

@@ -1,4 +1,5 @@
-// The scripts of a page: our own, which lie in this library, and two that Debian packages, read when a page is made.
+// What a page inlines: our own scripts and style, which lie in this library, and two libraries that Debian packages,
+// read when a page is made.
 #pragma once
 
 #include <optional>
@@ -7,13 +8,16 @@
 
 namespace soilbin::compare {
 
-/// A script's file name and text.
-struct Script {
+/// A file of a folder browser/ that the build put into the program: a script, a style sheet or a piece of HTML.
+struct EmbeddedFile {
   std::string name, text;
 };
 
-/// Our own, from compare/report/browser; made by the build.
-std::vector<Script> own_scripts();
+/// Those of compare/report/browser; made by the build.
+std::vector<EmbeddedFile> own_files();
+
+/// The text of one of the files. Throws std::out_of_range where there is none of that name.
+std::string embedded(const std::vector<EmbeddedFile>& files, const std::string& name);
 
 /// Libraries that a page inlines.
 struct Libraries {
@@ -35,5 +39,8 @@ std::string in_script(std::string text);
 
 /// JSON fit to stand in a script element: without a "<", which could begin a comment or an element that hides the rest.
 std::string json_in_script(std::string text);
+
+/// Bytes as base64 (RFC 4648), for a script to unpack.
+std::string base64(const std::string& bytes);
 
 }  // namespace soilbin::compare

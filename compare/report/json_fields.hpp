@@ -25,6 +25,16 @@ inline Json estimate_json(const Estimate& estimate) {
   return {{"value", finite(estimate.value)}, {"std_error", finite(estimate.std_error)}};
 }
 
+/// The text of a document: indented, and never an exception for bytes that are not UTF-8.
+inline std::string json_text(const Json& document) {
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// Adds "warnings" where there are doubts (compare/doubts/doubts.hpp).
+inline void tell_doubts(Json& document, const std::vector<std::string>& doubts) {
+  if (!doubts.empty()) document["warnings"] = doubts;
+}
+
 class WriteJson {
  public:
   explicit WriteJson(Json& to) : to_(to) {}

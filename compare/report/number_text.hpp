@@ -1,4 +1,4 @@
-// Numbers as people read them.
+// Numbers as people read them: digits that mean something, errors beside values, units.
 #pragma once
 
 #include <string>

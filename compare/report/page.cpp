@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include "compare/report/page_style.hpp"
 #include "compare/report/sheet_json.hpp"
 
 namespace soilbin::compare {
@@ -30,6 +29,40 @@ std::string prose(const std::string& text) {
 std::string numbered(std::size_t section) { return fmt::format("part-{}", section + 1); }
 
 std::string id_attribute(const std::string& anchor) { return anchor.empty() ? "" : " id=\"" + escaped(anchor) + "\""; }
+
+/// Colours of one scheme as custom properties.
+std::string palette_properties(const char* Color::*scheme) {
+  std::string css;
+  for (const auto& [palette, letter] : {std::pair{Palette::named, 'c'}, std::pair{Palette::ordered, 'q'}}) {
+    const std::vector<Color> all = colors(palette);
+    for (std::size_t i = 0; i < all.size(); ++i) css += fmt::format("--{}{}:{};", letter, i, all[i].*scheme);
+  }
+  return css;
+}
+
+/// Rules that give the marks of the plots their scheme's colour.
+std::string palette_rules() {
+  std::string css;
+  for (const auto& [palette, letter] : {std::pair{Palette::named, 'c'}, std::pair{Palette::ordered, 'q'}})
+    for (std::size_t i = 0; i < colors(palette).size(); ++i)
+      css += fmt::format(
+          ".s.{0}{1}{{stroke:var(--{0}{1})}}.f.{0}{1}{{fill:var(--{0}{1})}}.dot.{0}{1}{{background:var(--{0}{1})}}\n",
+          letter, i);
+  return css;
+}
+
+/// CSS for both colour schemes, the palettes of plot.hpp included.
+std::string page_style() {
+  const std::string light =
+      "--ground:#f6f7f9;--paper:#fff;--ink:#1a1d23;--quiet:#5a6270;--edge:#dfe3e8;--line:#8a919c;--link:#0b63a8;" +
+      palette_properties(&Color::light);
+  const std::string dark =
+      "--ground:#111418;--paper:#191d23;--ink:#e8eaee;--quiet:#a2abb8;--edge:#2d333c;--line:#6d7683;--link:#6cb6ff;" +
+      palette_properties(&Color::dark);
+  return fmt::format(
+      ":root{{color-scheme:light dark;{}}}\n@media screen and (prefers-color-scheme:dark){{:root{{{}}}}}\n{}{}", light,
+      dark, '\n' + embedded(own_files(), "page.css"), palette_rules());
+}
 
 }  // namespace
 
@@ -133,18 +166,18 @@ void Page::choices(const std::string& what, const std::vector<Choice>& parts, st
   body_ += "</div>\n";
 }
 
-void Page::replay(const ReplayFile& file, const std::string& caption) {
+void Page::replay(const std::string& title, const std::string& bytes, const std::string& caption) {
   has_replay_ = true;
   const bool can = libraries_ && libraries_->three && libraries_->orbit;
   body_ += fmt::format(
       "<figure><div class=\"replay\" role=\"group\" aria-label=\"Replay in 3D: {}\"><p "
       "class=\"replay-note\">{}</p></div>"
       "<figcaption>{}</figcaption></figure>\n",
-      escaped(file.title),
+      escaped(title),
       can ? "The replay needs scripts, which this browser doesn't run."
           : "The replay can't be shown: three.js was not installed where this page was made (package libjs-three).",
       escaped(caption));
-  if (can) body_ += "<script type=\"text/plain\" id=\"replay-data\">" + base64(file.bytes) + "</script>\n";
+  if (can) body_ += "<script type=\"text/plain\" id=\"replay-data\">" + base64(bytes) + "</script>\n";
 }
 
 void Page::open_fold(const std::string& title, const std::string& anchor) {

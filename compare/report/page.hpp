@@ -17,11 +17,18 @@
 #include <utility>
 #include <vector>
 
-#include "compare/replay/replay.hpp"
 #include "compare/report/javascript.hpp"
 #include "compare/report/plot.hpp"
 
 namespace soilbin::compare {
+
+/// What a page says about itself.
+struct PageAbout {
+  std::string title;
+  std::string command;  ///< that made the page
+  std::vector<std::pair<std::string, std::string>> versions;
+  std::vector<std::string> doubts{};  ///< in what the page says (compare/doubts/doubts.hpp)
+};
 
 /// A table of texts; cells are escaped.
 struct HtmlTable {
@@ -63,7 +70,7 @@ class Page {
   void subsection(const std::string& title);
   void paragraph(const std::string& text);
   void list(const std::vector<std::string>& items);
-  /// A section of what is doubtful in what the page tells (compare/sweep/doubts.hpp); none where there is nothing.
+  /// A section of what is doubtful in what the page tells (compare/doubts/doubts.hpp); none where there is nothing.
   void doubts(const std::vector<std::string>& doubts);
   void table(const HtmlTable& table);
   /// The sheet's panels side by side as the width allows, its legend above them, a caption below.
@@ -80,8 +87,8 @@ class Page {
   void enliven(Libraries libraries) { libraries_ = std::move(libraries); }
   /// A script of the caller's, after the page's own; needs `enliven`.
   void script(const std::string& text) { extra_scripts_ += text; }
-  /// A replay to look at in 3D; without scripts its title and facts alone.
-  void replay(const ReplayFile& file, const std::string& caption);
+  /// A replay to look at in 3D, the bytes of its file; without scripts its title and caption alone.
+  void replay(const std::string& title, const std::string& bytes, const std::string& caption);
   /// A folded part that a click opens: what `fill` adds to the page goes into it.
   template <class Fill>
   void folded(const std::string& title, const Fill& fill, const std::string& anchor = "") {

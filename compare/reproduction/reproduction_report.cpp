@@ -7,7 +7,7 @@
 
 #include "compare/report/json_fields.hpp"
 #include "compare/report/page.hpp"
-#include "compare/report/result_json.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/unit.hpp"

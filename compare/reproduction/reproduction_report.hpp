@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "compare/report/analysis_page.hpp"
+#include "compare/report/page.hpp"
 #include "compare/reproduction/reproduction.hpp"
 
 namespace soilbin::compare {

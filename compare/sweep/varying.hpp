@@ -1,4 +1,5 @@
-// Which conditions vary beside slip, and which answers therefore belong to one curve.
+// Conditions beside each other: alike or not, which vary beside slip and so which answers belong to one curve, in
+// words.
 #pragma once
 
 #include <string>
@@ -28,5 +29,8 @@ std::string in_words(const Soil& soil);
 
 /// The condition in words, with what is not at its default: "load 80 N, slip 20 %, yaw 5 deg".
 std::string in_words(const OperatingCondition& at);
+
+/// Whether two conditions agree as far as a person who types numbers can tell: to 1e-9 of each number.
+bool alike(const OperatingCondition& a, const OperatingCondition& b);
 
 }  // namespace soilbin::compare

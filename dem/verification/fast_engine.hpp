@@ -1,3 +1,4 @@
+// The engine under test, as the verification cases start it.
 #pragma once
 
 #include <memory>

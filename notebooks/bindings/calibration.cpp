@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "compare/experiments/element_experiments.hpp"
-#include "compare/report/result_json.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "notebooks/bindings/keywords.hpp"
 #include "scenario/errors.hpp"
 

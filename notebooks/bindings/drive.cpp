@@ -1,8 +1,9 @@
 // bekker_wong/transient: a wheel driven in time.
+#include "compare/drives/drive.hpp"
+
 #include <limits>
 
 #include "bekker_wong/transient/driving.hpp"
-#include "compare/report/drive_report.hpp"
 #include "notebooks/bindings/bindings.hpp"
 #include "scenario/errors.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "bekker_wong/effect.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/report/result_json.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "notebooks/bindings/bindings.hpp"
 #include "scenario/case.hpp"
 #include "scenario/errors.hpp"

@@ -2,8 +2,8 @@
 #include <fmt/core.h>
 
 #include "bekker_wong/model.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/sweep/answers.hpp"
-#include "compare/sweep/doubts.hpp"
 #include "compare/sweep/explanation.hpp"
 #include "compare/sweep/varying.hpp"
 #include "notebooks/bindings/bindings.hpp"

@@ -6,8 +6,8 @@
 
 #include "compare/comparison_fixture.hpp"
 #include "compare/discrepancy/causes.hpp"
+#include "compare/discrepancy/comparison_tables.hpp"
 #include "compare/discrepancy/summary.hpp"
-#include "compare/report/comparison_tables.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

@@ -1,13 +1,13 @@
 // The one list of doubts: what is told, in which words, and that ordinary questions raise none.
-#include "compare/sweep/doubts.hpp"
+#include "compare/doubts/doubts.hpp"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "compare/sweep/grain_doubts.hpp"
-#include "compare/sweep/unheard.hpp"
+#include "compare/doubts/grain_doubts.hpp"
+#include "compare/doubts/unheard.hpp"
 #include "tests/fixtures.hpp"
 
 namespace soilbin::compare {

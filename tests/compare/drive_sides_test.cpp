@@ -1,5 +1,5 @@
 // Errors of a drive's steady state, from the soil's standard deviations.
-#include "compare/report/drive_sides.hpp"
+#include "compare/drives/drive_sides.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "compare/recorded/recorded_model.hpp"
-#include "compare/report/result_json.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

@@ -3,7 +3,7 @@
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/plot.hpp"
-#include "compare/report/result_json.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {

@@ -1,4 +1,4 @@
-// What a refusal must say.
+// What a refusal must say: the place, what is wrong there, and what to write instead.
 #pragma once
 
 #include <gmock/gmock.h>

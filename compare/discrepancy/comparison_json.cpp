@@ -1,0 +1,115 @@
+#include <fmt/core.h>
+
+#include "compare/discrepancy/comparison_page.hpp"
+#include "compare/loop/loop.hpp"
+#include "compare/measured/csv.hpp"
+#include "compare/report/json_fields.hpp"
+#include "compare/sweep/result_json.hpp"
+#include "compare/sweep/varying.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+const char* word_of_kind(SideKind kind) {
+  switch (kind) {
+    case SideKind::analytic:
+      return "analytic";
+    case SideKind::grains:
+      return "grains";
+    case SideKind::measured:
+      return "measured";
+  }
+  return "";
+}
+
+Json side_json(const Side& side, const std::vector<OperatingCondition>& conditions) {
+  Json json = {{"label", side.label}, {"kind", word_of_kind(side.kind)}, {"points", Json::array()}};
+  for (std::size_t i = 0; i < side.points.size(); ++i) {
+    const SidePoint& point = side.points[i];
+    Json one = to_json(Answer{conditions[i], point.result, point.error});
+    one["runs"] = point.runs;
+    for (std::size_t c = 0; c < channel_views.size(); ++c)
+      one["scatter"][std::string(channel_views[c].name)] = finite(point.scatter[c]);
+    one["doubts"] = point.doubts;
+    json["points"].push_back(std::move(one));
+  }
+  return json;
+}
+
+Json difference_json(const Comparison& comparison, const Difference& d) {
+  return {{"side", comparison.sides[d.side].label},
+          {"reference", comparison.sides[d.reference].label},
+          {"channel", channel_views[d.channel].name},
+          {"condition", d.condition},
+          {"value", estimate_json(d.value)},
+          {"reference_value", estimate_json(d.reference_value)},
+          {"scatter", finite(d.scatter)},
+          {"difference", finite(d.difference)},
+          {"std_error", finite(d.std_error)},
+          {"freedom", finite(d.freedom)},
+          {"share_of_load", finite(d.share)},
+          {"sigma", finite(d.sigma)},
+          {"finding", word(d.finding)}};
+}
+
+Json tally_json(const Comparison& comparison, const Tally& t) {
+  return {{"side", comparison.sides[t.side].label},
+          {"reference", comparison.sides[t.reference].label},
+          {"channel", channel_views[t.channel].name},
+          {"values", t.values},
+          {"differ", t.differ},
+          {"within_scatter", t.in_scatter},
+          {"within_errors", t.in_errors},
+          {"not_judged", t.unknown},
+          {"bias", finite(t.bias)},
+          {"rms", finite(t.rms)},
+          {"rms_share", finite(t.rms_share)},
+          {"expected_rms", finite(t.expected_rms)},
+          {"worst_row", t.worst}};
+}
+
+}  // namespace
+
+Json comparison_json(const Comparison& comparison, const ComparisonAbout& about) {
+  const Study& study = comparison.question.study;
+  Json json = {{"format", "soilbin-compare/1"}, {"study", study.name}, {"summary", Json::array()}};
+  for (const Clause& clause : summary(comparison, about.loop ? &*about.loop : nullptr))
+    json["summary"].push_back(
+        {{"about", clause.about}, {"text", clause.text}, {"rows", clause.rows}, {"evidence", clause.evidence}});
+  json["sides"] = json["rows"] = json["tallies"] = json["joint_tests"] = Json::array();
+  for (const Side& side : comparison.sides) json["sides"].push_back(side_json(side, study.conditions));
+  for (const Difference& d : comparison.differences) json["rows"].push_back(difference_json(comparison, d));
+  for (const Tally& t : comparison.tallies) json["tallies"].push_back(tally_json(comparison, t));
+  for (const JointTest& test : comparison.joint)
+    json["joint_tests"].push_back({{"side", comparison.sides[test.side].label},
+                                   {"reference", comparison.sides[test.reference].label},
+                                   {"values", test.values},
+                                   {"chi2", finite(test.chi2)},
+                                   {"freedom", finite(test.freedom)},
+                                   {"chi2_soil_exact", finite(test.chi2_soil_exact)},
+                                   {"p_value", finite(test.p_value)},
+                                   {"soil", test.soil}});
+  if (about.loop) json["loop"] = to_json(*about.loop);
+  for (const auto& [name, value] : about.facts) json["facts"][name] = value;
+  for (const auto& [name, value] : about.page.versions) json["versions"][name] = value;
+  json["command"] = about.page.command;
+  tell_doubts(json, about.page.doubts);
+  return json;
+}
+
+std::string differences_csv(const Comparison& comparison) {
+  std::string text =
+      "side,reference,channel,condition,value,value_se,reference_value,reference_se,scatter,difference,std_error,"
+      "freedom,share_of_load,sigma,finding\n";
+  const auto cell = [](double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); };
+  for (const Difference& d : comparison.differences)
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(comparison.sides[d.side].label),
+                        csv_cell(comparison.sides[d.reference].label), channel_views[d.channel].name,
+                        csv_cell(in_words(comparison.question.study.conditions[d.condition])), cell(d.value.value),
+                        cell(d.value.std_error), cell(d.reference_value.value), cell(d.reference_value.std_error),
+                        cell(d.scatter), cell(d.difference), cell(d.std_error), cell(d.freedom), cell(d.share),
+                        cell(d.sigma), word(d.finding));
+  return text;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,202 @@
+#include "compare/discrepancy/comparison_page.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "compare/discrepancy/causes.hpp"
+#include "compare/discrepancy/comparison_sheets.hpp"
+#include "compare/discrepancy/comparison_tables.hpp"
+#include "compare/loop/answer_words.hpp"
+#include "compare/report/number_text.hpp"
+#include "compare/report/page.hpp"
+#include "compare/sweep/varying.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+std::string rows_anchor(std::size_t side, std::size_t reference, std::size_t channel) {
+  return fmt::format("rows-{}-{}-{}", side, reference, channel);
+}
+
+std::string named(const std::string& curve) { return curve.empty() ? "all conditions" : curve; }
+
+/// Links from a clause to the tables and sections that hold its rows.
+std::vector<std::pair<std::string, std::string>> evidence_of(const Comparison& comparison, const Clause& clause) {
+  std::vector<std::pair<std::string, std::string>> links;
+  if (!clause.rows.empty()) {
+    const Difference& first = comparison.differences[clause.rows.front()];
+    links.emplace_back(rows_anchor(first.side, first.reference, first.channel),
+                       fmt::format("{} row{}", clause.rows.size(), clause.rows.size() == 1 ? "" : "s"));
+  }
+  for (const std::string& evidence : clause.evidence) {
+    const std::string anchor = evidence == "budget"            ? "why"
+                               : evidence == "the loop"        ? "loop"
+                               : evidence == "rule"            ? "method"
+                               : evidence == "table of points" ? "points"
+                                                               : "tallies";
+    links.emplace_back(anchor, evidence);
+  }
+  return links;
+}
+
+void add_summary(Page& page, const Comparison& comparison, const ComparisonAbout& about) {
+  std::vector<BackedSentence> sentences;
+  for (const Clause& clause : summary(comparison, about.loop ? &*about.loop : nullptr))
+    sentences.push_back({clause.about, clause.text, evidence_of(comparison, clause)});
+  if (sentences.empty()) sentences.push_back({"", "There is nothing to compare: a single side.", {}});
+  page.backed_summary(sentences);
+  const auto count = [&](DifferenceFinding finding) {
+    return std::to_string(std::count_if(comparison.differences.begin(), comparison.differences.end(),
+                                        [&](const Difference& d) { return d.finding == finding; }));
+  };
+  page.figures_at_a_glance({{std::to_string(comparison.question.study.conditions.size()), "conditions"},
+                            {std::to_string(comparison.differences.size()), "rows compared"},
+                            {count(DifferenceFinding::difference), "differences"},
+                            {count(DifferenceFinding::within_scatter), "within the scatter of a run"},
+                            {count(DifferenceFinding::within_errors), "covered by the errors"}});
+  page.doubts(about.page.doubts);
+}
+
+void add_curves(Page& page, const Comparison& comparison) {
+  page.section("Curves", "curves");
+  page.paragraph("Lines: models, with a band of one standard error. Points on lines: grains. Points: measured.");
+  const std::vector<std::string> names = curve_names(comparison);
+  std::vector<Choice> parts;
+  for (std::size_t c = 0; c < names.size(); ++c)
+    parts.push_back({named(names[c]), [&page, &comparison, c] {
+                       page.figure(curve_sheet(comparison, c),
+                                   "Each side with its own uncertainty: of the soil's "
+                                   "values, of the grains' runs, of the measured runs.");
+                     }});
+  if (names.size() > 1)
+    parts.push_back({"all curves at once", [&page, &comparison] {
+                       page.figure(overview_sheet(comparison), "A colour for each curve, a dash for each side.");
+                     }});
+  page.choices("Curve", parts, (names.size() - 1) / 2);
+}
+
+void add_differences(Page& page, const Comparison& comparison) {
+  page.section("Where they differ", "differ");
+  page.table(tally_table(comparison));
+  if (!comparison.joint.empty()) page.table(joint_table(comparison));
+  std::vector<std::string> maps;
+  for (const Tally& tally : comparison.tallies) maps.push_back(heat_map_svg(heat_map_of(comparison, tally)));
+  page.heat_maps(maps, "Bold: a difference. Faint: within the scatter of a run, or covered by the errors.");
+  for (const Tally& tally : comparison.tallies)
+    page.folded(
+        fmt::format("Rows: {}, {} against {}", channel_views[tally.channel].title, comparison.sides[tally.side].label,
+                    comparison.sides[tally.reference].label),
+        [&] { page.table(rows_table(comparison, tally)); }, rows_anchor(tally.side, tally.reference, tally.channel));
+}
+
+void add_causes(Page& page, const Comparison& comparison) {
+  page.section("Why", "why");
+  page.paragraph(
+      "The pull is what shears the soil backward less what presses it down and away. Stresses lie under the wheel from "
+      "where the soil lets go (behind, negative) to where it meets the wheel.");
+  std::vector<Choice> parts;
+  const auto& conditions = comparison.question.study.conditions;
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    if (budget_at(comparison, i).rows.empty()) continue;
+    parts.push_back({in_words(conditions[i]), [&page, &comparison, i] {
+                       const auto [bars, side_colors] = budget_bars(comparison, i);
+                       page.drawing(bars_svg(bars, side_colors), "Parts that add up to the drawbar pull.");
+                       page.table(budget_table(comparison, i));
+                       const Sheet stresses = stress_sheet(comparison, i);
+                       if (!stresses.plots.empty())
+                         page.figure(stresses, "Stresses under the wheel, of grains over those of the analytic model.");
+                     }});
+  }
+  const std::string telling = in_words(conditions[telling_condition(comparison)]);
+  const auto first = std::find_if(parts.begin(), parts.end(), [&](const Choice& c) { return c.name == telling; });
+  page.choices("Condition", parts, first == parts.end() ? 0 : static_cast<std::size_t>(first - parts.begin()));
+  page.subsection("Contact and sinkage");
+  const std::vector<std::string> names = curve_names(comparison);
+  std::vector<Choice> contacts;
+  for (std::size_t c = 0; c < names.size(); ++c)
+    contacts.push_back({named(names[c]), [&page, &comparison, c] {
+                          page.figure(contact_sheet(comparison, c),
+                                      "Where the contact begins and ends, and the sinkage beyond that at slip 0.");
+                        }});
+  page.choices("Curve", contacts, (names.size() - 1) / 2);
+  if (const HtmlTable table = sinkage_table(comparison); !table.rows.empty()) page.table(table);
+}
+
+void add_loop(Page& page, const ComparisonAbout& about) {
+  if (!about.loop) return;
+  page.section("What the analytic model lacks", "loop");
+  page.paragraph(fmt::format(
+      "The loop takes the results of '{}' as if they had been measured: it refits the soil within its declared doubt, "
+      "tests every effect of the catalogue, and judges on conditions that neither choice nor fit has seen.",
+      about.loop->campaign));
+  page.paragraph(verdict_sentence(*about.loop));
+  page.list(explanation(*about.loop));
+  if (about.loop->validation.overall.cells > 0) page.table(error_table(*about.loop));
+  if (about.loop->has_candidates()) page.table(candidates_table(*about.loop));
+}
+
+void add_replay(Page& page, const ComparisonAbout& about) {
+  if (!about.replay) return;
+  const ReplayFile& file = *about.replay;
+  page.section("The grains at work", "replay");
+  std::string facts;
+  for (const auto& [name, value] : file.facts) facts += fmt::format("; {} {}", name, value);
+  page.replay(file.title, file.bytes,
+              fmt::format("{}: {} grains, {} frames over {:.2f} s{}. Drag to turn, Ctrl and the wheel to come nearer.",
+                          file.title, file.grains, file.frames, file.seconds, facts));
+}
+
+void add_method(Page& page, const Comparison& comparison, const ComparisonAbout& about) {
+  page.section("Every point", "points");
+  for (const Side& side : comparison.sides)
+    page.folded(side.label, [&] { page.table(points_table(comparison, side)); });
+  page.section("How it is judged", "method");
+  page.list(
+      {"A difference d with standard error u counts where |d| is above 2 u and above the scatter of one run; u is "
+       "the root of both sides' variances. Where u rests on few re-runs, Student's t takes the place of 2.",
+       "Analytic: the declared standard deviations of the soil's values, propagated to first order. They move all "
+       "conditions together; the joint test takes that in.",
+       "Grains: block averages of each run, or the spread between packings where that is larger. A point from one "
+       "packing says nothing of that spread, and its row carries the doubt.",
+       "Convergence of the balance: 1e-14 of the load; of its quadrature 1e-9. Of grains with their size, the time "
+       "step and the bed: not part of a comparison; see docs/soil-bin.md.",
+       "Measured: the noise of one run, pooled over all setpoints that were run twice or more, over the root of the "
+       "number of runs near a condition. Slips and forces are turned to the study's definitions by each run's yaw."});
+  page.section("How to repeat this", "repeat");
+  page.code(about.page.command);
+  HtmlTable facts{"", {"part", ""}, {}, {true, true}};
+  for (const auto* list : {&about.page.versions, &about.facts})
+    for (const auto& [name, value] : *list) facts.rows.push_back({name, value});
+  page.table(facts);
+  page.folded("The resolved case", [&] { page.code(about.resolved_case); });
+}
+
+}  // namespace
+
+std::string comparison_page(const Comparison& comparison, const ComparisonAbout& about) {
+  const Scenario& scenario = comparison.question.scenario;
+  Page page(about.page.title,
+            fmt::format("{} on {}: models and measurements side by side",
+                        scenario.tire.name.empty() ? "A wheel" : scenario.tire.name, scenario.soil.name));
+  page.enliven(about.libraries);
+  if (!about.libraries.missing.empty()) {
+    std::string packages;
+    for (const std::string& package : about.libraries.missing) packages += (packages.empty() ? "" : ", ") + package;
+    page.raw(
+        fmt::format("<p class=\"warning\" role=\"note\">Made without {}: the figures that need it are plain "
+                    "drawings. Install it and make the page again.</p>\n",
+                    escaped(packages)));
+  }
+  add_summary(page, comparison, about);
+  add_curves(page, comparison);
+  page.raw("<span id=\"tallies\"></span>");
+  add_differences(page, comparison);
+  add_causes(page, comparison);
+  add_loop(page, about);
+  add_replay(page, about);
+  add_method(page, comparison, about);
+  return page.html();
+}
+
+}  // namespace soilbin::compare

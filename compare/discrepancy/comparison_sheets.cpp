@@ -1,0 +1,208 @@
+#include "compare/discrepancy/comparison_sheets.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "compare/discrepancy/causes.hpp"
+#include "compare/discrepancy/summary.hpp"
+#include "compare/report/number_text.hpp"
+#include "compare/sweep/answer_sheets.hpp"
+#include "compare/sweep/varying.hpp"
+#include "scenario/estimate.hpp"
+#include "scenario/unit.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Reader = std::function<Estimate(const SidePoint&, std::size_t condition)>;
+
+Curves curves_of(const Comparison& comparison) {
+  return curves_against_slip(comparison.question.study.conditions, Spread::exact);
+}
+
+/// The conditions of one curve in rising order of slip.
+std::vector<std::size_t> members_of(const Comparison& comparison, std::size_t curve) {
+  const Curves curves = curves_of(comparison);
+  std::vector<std::size_t> members;
+  for (std::size_t i = 0; i < curves.curve_of.size(); ++i)
+    if (curves.curve_of[i] == curve) members.push_back(i);
+  const auto& conditions = comparison.question.study.conditions;
+  std::stable_sort(members.begin(), members.end(),
+                   [&](std::size_t a, std::size_t b) { return conditions[a].slip < conditions[b].slip; });
+  return members;
+}
+
+Mark mark_of(SideKind kind) {
+  if (kind == SideKind::measured) return Mark::points;
+  return kind == SideKind::grains ? Mark::line_and_points : Mark::line;
+}
+
+Series series_of(const Comparison& comparison, std::size_t side, const std::vector<std::size_t>& members,
+                 const Reader& read, double per_unit) {
+  const Side& one = comparison.sides[side];
+  Series series;
+  series.label = one.label;
+  series.color = static_cast<int>(side);
+  series.mark = mark_of(one.kind);
+  bool sure = true;
+  for (const std::size_t i : members) {
+    const Estimate y = one.points[i].result ? read(one.points[i], i) : Estimate{not_a_number, 0.0};
+    series.x.push_back(100 * comparison.question.study.conditions[i].slip);
+    series.y.push_back(y.value * per_unit);
+    series.error.push_back(y.std_error * per_unit);
+    sure = sure && y.std_error == 0.0;
+  }
+  if (sure) series.error.clear();
+  return series;
+}
+
+bool says_anything(const Series& series) {
+  return std::any_of(series.y.begin(), series.y.end(), [](double y) { return std::isfinite(y); });
+}
+
+/// A panel with a series for each side that has a value.
+void add_plot(Sheet& sheet, const Comparison& comparison, const std::string& title,
+              const std::vector<std::size_t>& members, const Reader& read, double per_unit) {
+  Plot plot{title, {"slip [%]", {}, {}}, {}, {}, false};
+  for (std::size_t s = 0; s < comparison.sides.size(); ++s) {
+    Series series = series_of(comparison, s, members, read, per_unit);
+    if (says_anything(series)) plot.series.push_back(std::move(series));
+  }
+  if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
+}
+
+}  // namespace
+
+Sheet overview_sheet(const Comparison& comparison) {
+  std::vector<ModelAnswers> study;
+  for (const Side& side : comparison.sides) {
+    ModelAnswers answers{{ModelKind::bekker_wong, {}, side.label}, {}};
+    for (std::size_t i = 0; i < side.points.size(); ++i)
+      answers.answers.push_back({comparison.question.study.conditions[i], side.points[i].result, side.points[i].error});
+    study.push_back(std::move(answers));
+  }
+  Sheet sheet = study_sheet(comparison.question, study);
+  const std::size_t curves = curve_names(comparison).size();  // a plot's series go by model, then by curve
+  for (Plot& plot : sheet.plots)
+    for (std::size_t k = 0; k < plot.series.size(); ++k)
+      plot.series[k].mark = mark_of(comparison.sides[k / curves].kind);
+  return sheet;
+}
+
+std::vector<std::string> curve_names(const Comparison& comparison) { return curves_of(comparison).labels; }
+
+Sheet curve_sheet(const Comparison& comparison, std::size_t curve) {
+  Sheet sheet{curve_names(comparison)[curve], {}, Palette::named};
+  const std::vector<std::size_t> members = members_of(comparison, curve);
+  for (std::size_t c = 0; c < channel_views.size(); ++c) {
+    const ChannelView& channel = channel_views[c];
+    const bool compared = std::any_of(comparison.tallies.begin(), comparison.tallies.end(),
+                                      [&](const Tally& t) { return t.channel == c; });
+    if (!compared && channel.name == "lateral_force") continue;
+    const auto read = [&, c](const SidePoint& point, std::size_t) {
+      return point.has[c] ? (*point.result).*channel_views[c].predicted : Estimate{not_a_number, 0.0};
+    };
+    add_plot(sheet, comparison, fmt::format("{} [{}]", capital(std::string(channel.title)), channel.unit), members,
+             read, channel.per_si);
+  }
+  add_plot(
+      sheet, comparison, "Tractive efficiency [%]", members,
+      [](const SidePoint& point, std::size_t) {
+        return has_efficiency(*point.result) ? efficiency_with_error(*point.result) : Estimate{not_a_number, 0.0};
+      },
+      100);
+  return sheet;
+}
+
+Sheet contact_sheet(const Comparison& comparison, std::size_t curve) {
+  Sheet sheet{curve_names(comparison)[curve], {}, Palette::named};
+  const std::vector<std::size_t> members = members_of(comparison, curve);
+  const std::pair<const char*, double TractionResult::*> angles[] = {
+      {"Entry angle [deg]", &TractionResult::entry_angle},
+      {"Exit angle [deg]", &TractionResult::exit_angle},
+      {"Angle of the largest stress [deg]", &TractionResult::max_stress_angle}};
+  for (const auto& [title, angle] : angles)
+    add_plot(
+        sheet, comparison, title, members,
+        [member = angle](const SidePoint& point, std::size_t) {
+          return Estimate{(*point.result).*member, 0.0};
+        },
+        1 / degree);
+  std::map<std::pair<std::size_t, std::size_t>, double> by_slip;
+  for (const SinkageSplit& split : sinkage_splits(comparison)) by_slip[{split.side, split.condition}] = split.by_slip;
+  Plot plot{"Sinkage that slip adds [mm]", {"slip [%]", {}, {}}, {}, {}, false};
+  for (std::size_t s = 0; s < comparison.sides.size(); ++s) {
+    const Reader read = [&, s](const SidePoint&, std::size_t i) {
+      const auto found = by_slip.find({s, i});
+      return Estimate{found == by_slip.end() ? not_a_number : found->second, 0.0};
+    };
+    Series series = series_of(comparison, s, members, read, 1000);
+    if (says_anything(series)) plot.series.push_back(std::move(series));
+  }
+  if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
+  return sheet;
+}
+
+Sheet stress_sheet(const Comparison& comparison, std::size_t condition) {
+  std::vector<LabelledPatch> patches;
+  for (std::size_t s = 0; s < comparison.sides.size(); ++s)
+    if (const auto& result = comparison.sides[s].points[condition].result)
+      patches.push_back({comparison.sides[s].label, static_cast<int>(s), result->patch});
+  return patch_sheet(in_words(comparison.question.study.conditions[condition]), patches);
+}
+
+HeatMap heat_map_of(const Comparison& comparison, const Tally& tally) {
+  const Curves curves = curves_of(comparison);
+  const auto& conditions = comparison.question.study.conditions;
+  std::vector<double> slips;
+  for (const OperatingCondition& at : conditions)
+    if (std::none_of(slips.begin(), slips.end(), [&](double s) { return std::abs(s - at.slip) < 1e-9; }))
+      slips.push_back(at.slip);
+  std::sort(slips.begin(), slips.end());
+  HeatMap map;
+  map.title = fmt::format("{} [% of {}]", capital(std::string(channel_views[tally.channel].title)),
+                          channel_views[tally.channel].name == "torque"    ? "load x radius"
+                          : channel_views[tally.channel].name == "sinkage" ? "radius"
+                                                                           : "load");
+  map.subtitle = fmt::format("{} less {}", comparison.sides[tally.side].label, comparison.sides[tally.reference].label);
+  map.x_title = "slip [%]";
+  map.y_title = curves.varying.empty() ? "curve" : curves.varying;
+  for (const double slip : slips) map.x.push_back(fmt::format("{:.4g}", 100 * slip));
+  for (const std::string& label : curves.labels) map.y.push_back(label.empty() ? "all" : label);
+  map.cells.assign(curves.labels.size(), std::vector<HeatCell>(slips.size(), HeatCell{not_a_number, "", "", true}));
+  for (const Difference& d : comparison.differences) {
+    if (d.side != tally.side || d.reference != tally.reference || d.channel != tally.channel) continue;
+    const auto column = std::find_if(slips.begin(), slips.end(),
+                                     [&](double s) { return std::abs(s - conditions[d.condition].slip) < 1e-9; }) -
+                        slips.begin();
+    const std::string sigma = std::isfinite(d.sigma) ? fmt::format(", {:.1f} standard errors", d.sigma) : "";
+    map.cells[curves.curve_of[d.condition]][static_cast<std::size_t>(column)] = {
+        100 * d.share, fmt::format("{:+.{}f}", 100 * d.share, std::abs(d.share) < 1.0 ? 1 : 0),
+        fmt::format("{}: {} ({:+.2f} %{}): {}", in_words(conditions[d.condition]), in_unit(d.channel, d.difference),
+                    100 * d.share, sigma, words(d.finding)),
+        d.finding == DifferenceFinding::difference};
+  }
+  return map;
+}
+
+std::pair<Bars, std::vector<int>> budget_bars(const Comparison& comparison, std::size_t condition) {
+  const BudgetTable table = budget_at(comparison, condition);
+  Bars bars{"What pulls and what holds back [N]", {}, {}};
+  std::vector<int> colors_of_sides;
+  for (const std::size_t s : table.sides) {
+    bars.sides.push_back(comparison.sides[s].label);
+    colors_of_sides.push_back(static_cast<int>(s % colors(Palette::named).size()));
+  }
+  for (const BudgetRow& row : table.rows) bars.groups.push_back({part_in_words(row.name), row.force});
+  BarGroup whole{"drawbar pull", {}};
+  for (const std::size_t s : table.sides)
+    whole.values.push_back(comparison.sides[s].points[condition].result->drawbar_pull.value);
+  if (!table.rows.empty()) bars.groups.push_back(std::move(whole));
+  return {bars, colors_of_sides};
+}
+
+}  // namespace soilbin::compare

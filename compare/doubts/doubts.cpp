@@ -1,0 +1,409 @@
+#include "compare/doubts/doubts.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "bekker_wong/closed_forms.hpp"
+#include "bekker_wong/contact_stages.hpp"
+#include "bekker_wong/model.hpp"
+#include "bekker_wong/presumption.hpp"
+#include "bekker_wong/rolling_wheel.hpp"
+#include "compare/doubts/grain_doubts.hpp"
+#include "compare/doubts/unheard.hpp"
+#include "compare/sweep/varying.hpp"
+#include "scenario/unit.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using Warnings = std::vector<std::string>;
+
+/// Of the radius. The base model has no balance beyond 0.9; its stresses are tested up to about this.
+constexpr double stretched_sinkage_share = 0.5;
+
+void append(Warnings& all, Warnings more) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+/// "n = 0.12 is outside 0.3 .. 1.6, ..." where it is.
+void expect(Warnings& warnings, const char* name, double value, double lower, double upper, const char* unit,
+            const char* why) {
+  if (value < lower || value > upper)
+    warnings.push_back(fmt::format("{} = {:.4g}{}{} is outside {:.4g} .. {:.4g}: {}", name, value, *unit ? " " : "",
+                                   unit, lower, upper, why));
+}
+
+/// What a wheel and a soil say together, before any condition.
+void add_wheel_doubts(const Tire& tire, const std::optional<SemiEmpiricalSoil>& soil, Warnings& warnings) {
+  expect(warnings, "the wheel's radius", tire.radius * 1000, 20, 2000, "mm", "the model is tested from 50 mm to 2 m");
+  if (tire.width > 2 * tire.radius)
+    warnings.push_back(fmt::format("the wheel is wider ({:.4g} mm) than its diameter ({:.4g} mm)", 1000 * tire.width,
+                                   2000 * tire.radius));
+  if (is_lugged(tire) && tire.lugs.height > 0.3 * tire.radius)
+    warnings.push_back(fmt::format("the lugs ({:.4g} mm) are higher than 30 % of the radius", 1000 * tire.lugs.height));
+  if (soil && !(bekker_wong::values_of(*soil).pressure_modulus(tire.width) > 0.0))
+    warnings.push_back("k_c/b + k_phi is not positive for this width: the soil carries nothing");
+}
+
+/// A wheel so deep that the stresses under it are a stretch, or none at all; "" where it isn't.
+std::string too_deep(const Scenario& scenario, const Answer& answer) {
+  const double share = answer.result->sinkage.value / scenario.tire.radius;
+  if (share > bekker_wong::max_sinkage_share)
+    return fmt::format(
+        "the wheel settles to {:.0f} % of its radius at {}: the stresses are not meant for more than {:.0f} %",
+        100 * share, in_words(answer.at), 100 * bekker_wong::max_sinkage_share);
+  if (!(share > stretched_sinkage_share)) return "";
+  return fmt::format("the wheel sinks {:.0f} % of its radius at {}: the model's rigid outline is a stretch there",
+                     100 * share, in_words(answer.at));
+}
+
+/// A steady wheel gives out no more than is put in; what instruments show may.
+void add_power_doubt(const Answer& answer, Warnings& warnings) {
+  if (answer.result->tractive_efficiency > 1.0)
+    warnings.push_back(
+        fmt::format("more power comes out at the drawbar than is put in at {}: an instrument's fault, or an effect "
+                    "that tells one; no efficiency is told",
+                    in_words(answer.at)));
+}
+
+/// What the analytic wheel answers at one condition.
+void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings& warnings) {
+  const std::string at = " at " + in_words(answer.at);
+  const Tire& tire = scenario.tire;
+  const TractionResult& r = *answer.result;
+  const double length = tire.radius * (r.entry_angle - r.exit_angle);
+  const double pressure = answer.at.load / (tire.width * tire.radius * std::sin(r.entry_angle));
+  if (pressure < 500.0 || pressure > 2e6)
+    warnings.push_back(fmt::format("mean ground pressure {:.3g} kPa{}: wheels on soil press with 0.5 .. 2000 kPa",
+                                   pressure / 1000, at));
+  if (std::string deep = too_deep(scenario, answer); !deep.empty()) warnings.push_back(std::move(deep));
+  if (scenario.bin && r.sinkage.value > 0.5 * scenario.bin->depth)
+    warnings.push_back(
+        fmt::format("the wheel sinks {:.0f} % of the bin's depth{}: its floor will be felt (effect hard_layer)",
+                    100 * r.sinkage.value / scenario.bin->depth, at));
+  const double modulus = scenario.soil.semi_empirical->shear_modulus.value;
+  if (modulus > length)
+    warnings.push_back(fmt::format("K ({:.3g} mm) is longer than the contact ({:.3g} mm){}: shear hardly develops",
+                                   1000 * modulus, 1000 * length, at));
+  if (tire.inflation_pressure) {
+    const double carried = *tire.inflation_pressure + tire.carcass_pressure.value_or(0.0);
+    const double critical = bekker_wong::critical_ground_pressure(bekker_wong::values_of(*scenario.soil.semi_empirical),
+                                                                  tire.radius, tire.width, answer.at.load);
+    const bool flexible = std::any_of(scenario.effects.begin(), scenario.effects.end(),
+                                      [](const EffectChoice& e) { return e.id == "tire_flexibility"; });
+    if (carried < critical && !flexible)
+      warnings.push_back(
+          fmt::format("inflation {:.3g} kPa lies under the critical ground pressure {:.3g} kPa{}: the tire "
+                      "flattens (effect tire_flexibility)",
+                      carried / 1000, critical / 1000, at));
+  }
+}
+
+}  // namespace
+
+/// The same kind of warning is one that differs in numbers alone, up to the condition or the line that it tells.
+Warnings once_each(const Warnings& warnings) {
+  Warnings shown;
+  std::vector<std::pair<std::string, std::size_t>> kinds;
+  for (const std::string& warning : warnings) {
+    std::string kind = warning.substr(0, warning.find(" at load"));
+    std::erase_if(kind, [](unsigned char c) { return std::isdigit(c) || c == '.' || c == '-'; });
+    const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.first == kind; });
+    if (known != kinds.end()) {
+      ++known->second;
+      continue;
+    }
+    kinds.emplace_back(kind, 0);
+    shown.push_back(warning);
+  }
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const std::size_t others = kinds[i].second;
+    if (others == 0) continue;
+    const std::string what = shown[i].starts_with("line ") ? "line" : "condition";
+    shown[i] += fmt::format(" (and at {} other {}{})", others, what, others > 1 ? "s" : "");
+  }
+  return shown;
+}
+
+Warnings doubts(const SemiEmpiricalSoil& soil) {
+  Warnings warnings;
+  if (!(soil.k_c.value > 0.0) && !(soil.k_phi.value > 0.0))
+    warnings.emplace_back("neither k_c nor k_phi is positive: this soil carries nothing, at any width of wheel");
+  const double phi = soil.friction_angle.value / degree, c = soil.cohesion.value / 1000;
+  expect(warnings, "n", soil.exponent.value, 0.3, 1.8, "", "plate tests give 0.5 .. 1.6");
+  expect(warnings, "c", c, 0, 100, "kPa", "soft soils have 0 .. 70 kPa");
+  expect(warnings, "phi", phi, 0, 50, "deg", "the densest sand has some 45 deg");
+  expect(warnings, "K", 1000 * soil.shear_modulus.value, 0.5, 120, "mm", "6 mm in firm clay, 25 mm in loose sand");
+  expect(warnings, "density", bulk_density(soil), 200, 2400, "kg/m^3", "fresh snow has some 250, dense gravel 2200");
+  if (c == 0.0 && phi == 0.0)
+    warnings.push_back("c and phi are both 0: this soil has no strength and gives no traction");
+  const double most = soil.stress_angle_c1.value + std::max(0.0, soil.stress_angle_c2.value);
+  if (most > bekker_wong::max_stress_share)
+    warnings.push_back(fmt::format("c1 + c2 = {:.3g}: at full slip theta_m would pass {} theta_1 and is held there",
+                                   most, bekker_wong::max_stress_share));
+  if (soil.stress_angle_c1.value + std::min(0.0, soil.stress_angle_c2.value) < 0.0)
+    warnings.push_back("c1 + c2 is negative: at full slip the largest stress would lie behind the axle");
+  for (const auto& [name, value] :
+       {std::pair{"n", soil.exponent}, {"phi", soil.friction_angle}, {"K", soil.shear_modulus}})
+    if (value.std_error > 0.6 * value.value)
+      warnings.push_back((value.value > 0.0
+                              ? fmt::format("the standard deviation of {} is {:.0f} % of its value", name,
+                                            100 * value.std_error / value.value)
+                              : fmt::format("{} is 0 with a standard deviation, and can only be larger", name)) +
+                         ": errors propagated to first order are a rough guide");
+  return warnings;
+}
+
+namespace {
+
+/// Of each answer, those alike once.
+Warnings doubts_of_answers(const Scenario& scenario, const std::vector<ModelAnswers>& study, bool unsolved) {
+  Warnings warnings;
+  for (const ModelAnswers& model : study) {
+    Scenario asked = scenario;
+    asked.effects = model.choice.effects;
+    for (const Answer& answer : model.answers) {
+      if (!answer.result) {
+        if (unsolved) warnings.push_back("no solution at " + in_words(answer.at) + ": " + answer.error);
+        continue;
+      }
+      add_power_doubt(answer, warnings);
+      if (model.choice.model == ModelKind::bekker_wong && asked.soil.semi_empirical)
+        add_answer_doubts(asked, answer, warnings);
+    }
+  }
+  return once_each(warnings);
+}
+
+bool asks(const Case& question, ModelKind kind) {
+  const std::vector<ModelChoice>& models = question.study.models;
+  return std::any_of(models.begin(), models.end(), [&](const ModelChoice& choice) { return choice.model == kind; });
+}
+
+/// A drive asks the analytic wheel, with effects of its own.
+Case as_study(Case question) {
+  question.study.models = {{ModelKind::bekker_wong, question.drive->effects, ""}};
+  OperatingCondition& at = question.study.conditions.emplace_back();
+  at.load = question.drive->load, at.pass = question.drive->pass;
+  return question;
+}
+
+/// The analytic models' answers without errors and stresses, which no doubt asks for.
+std::vector<ModelAnswers> quick_answers(const Case& question) {
+  Case analytic = question;
+  std::erase_if(analytic.study.models, [](const ModelChoice& c) { return c.model != ModelKind::bekker_wong; });
+  if (!question.scenario.soil.semi_empirical) return {};
+  return run_study(analytic, {}, [](ModelKind) {
+    return std::make_unique<const bekker_wong::BekkerWong>(bekker_wong::Detail{.errors = false, .patch = false});
+  });
+}
+
+/// Whether an answer of the analytic models, at the first condition or the last, hangs on the soil's density.
+bool weighs_soil(const Case& question) {
+  Case asked = question;
+  std::vector<OperatingCondition>& at = asked.study.conditions;
+  if (at.size() > 2) at = {at.front(), at.back()};
+  const std::vector<ModelAnswers> as_it_is = quick_answers(asked);
+  asked.scenario.soil.semi_empirical->density = 1.01 * bulk_density(*question.scenario.soil.semi_empirical);
+  const std::vector<ModelAnswers> heavier = quick_answers(asked);
+  for (std::size_t m = 0; m < heavier.size(); ++m)
+    for (std::size_t i = 0; i < heavier[m].answers.size(); ++i) {
+      const auto &one = as_it_is[m].answers[i].result, &other = heavier[m].answers[i].result;
+      if (one.has_value() != other.has_value()) return true;
+      for (const TractionChannel& channel : traction_channels)
+        if (one && (one.value().*channel.predicted).value != (other.value().*channel.predicted).value) return true;
+    }
+  return false;
+}
+
+/// What is declared and has no influence, and what has influence and is not declared.
+Warnings doubts_of_declarations(const Case& question) {
+  Warnings words;
+  for (Unheard& one : unheard(question)) words.push_back(std::move(one.words));
+  std::vector<EffectChoice> effects;
+  for (const ModelChoice& model : question.study.models)
+    effects.insert(effects.end(), model.effects.begin(), model.effects.end());
+  append(words, bekker_wong::presumptions(effects, question.scenario.tire));
+  const std::optional<SemiEmpiricalSoil>& soil = question.scenario.soil.semi_empirical;
+  if (soil && !soil->density && !effects.empty() && weighs_soil(question))
+    words.push_back(fmt::format("the soil declares no density: {:g} kg/m^3 is presumed, and the answers hang on it",
+                                presumed_bulk_density));
+  return words;
+}
+
+/// Whether answers stand beside the doubts: then what has none is told there, and grains that weren't asked are left
+/// aside.
+enum class Answered { no, yes };
+
+/// doubts(question, study) without what changes nothing.
+Warnings doubts_but_unheard(const Case& question, const std::vector<ModelAnswers>& study, Answered answered) {
+  const Scenario& scenario = question.scenario;
+  const bool open = answered == Answered::no;
+  Warnings warnings;
+  if (scenario.soil.semi_empirical && (open || asks(question, ModelKind::bekker_wong)))
+    append(warnings, doubts(*scenario.soil.semi_empirical));
+  add_wheel_doubts(scenario.tire, scenario.soil.semi_empirical, warnings);
+  append(warnings, doubts_of_answers(scenario, study, open));
+  if (open || asks(question, ModelKind::dem)) append(warnings, grain_doubts(scenario, study));
+  return warnings;
+}
+
+}  // namespace
+
+Warnings doubts(const Case& question, const std::vector<ModelAnswers>& study) {
+  Warnings warnings = doubts_but_unheard(question, study, Answered::yes);
+  append(warnings, doubts_of_declarations(question));
+  return warnings;
+}
+
+Warnings doubts(const Case& question) {
+  Warnings warnings = doubts_but_unheard(question, quick_answers(question), Answered::no);
+  append(warnings,
+         doubts_of_declarations(question.drive && question.study.conditions.empty() ? as_study(question) : question));
+  return warnings;
+}
+
+namespace {
+
+/// A campaign's runs as questions to a model.
+Case question_of(const Campaign& campaign, const Scenario& asked) {
+  Case question;
+  question.scenario = asked;
+  question.study.models = {{ModelKind::bekker_wong, asked.effects, ""}};
+  question.scenario.effects.clear();
+  for (const Run& run : campaign.runs) question.study.conditions.push_back(run.at);
+  return question;
+}
+
+void add_row_doubts(const Campaign& campaign, Warnings& warnings) {
+  for (const Run& run : campaign.runs) {
+    if (run.sinkage && std::abs(*run.sinkage) > 2 * campaign.wheel.radius)
+      warnings.push_back(fmt::format("line {}: a measured sinkage of {:.4g} mm is more than the wheel's diameter",
+                                     run.csv_line, 1000 * *run.sinkage));
+    if (run.drawbar_pull && std::abs(*run.drawbar_pull) > 3 * run.at.load)
+      warnings.push_back(fmt::format("line {}: a drawbar pull of {:.4g} N is more than three times the load",
+                                     run.csv_line, *run.drawbar_pull));
+  }
+}
+
+/// Wheels stand above the undisturbed surface here and there; not in most runs.
+void add_flipped_sinkage(const std::vector<Run>& runs, Warnings& warnings) {
+  const auto measured = std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.sinkage.has_value(); });
+  const auto above =
+      std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.sinkage.value_or(0.0) < 0.0; });
+  if (2 * above > measured)
+    warnings.push_back(
+        fmt::format("{} of {} measured sinkages are negative: is their sign flipped? Below the undisturbed surface is "
+                    "positive",
+                    above, measured));
+}
+
+/// All that was set and measured in a run, but for the line it stands in.
+auto values_of(const Run& run) {
+  return std::tie(run.setpoint, run.drawbar_pull, run.torque, run.sinkage, run.lateral_force, run.at);
+}
+
+/// Rows that were copied: a run's number that was there before, or every value equal to that of an earlier row.
+void add_repeated_rows(const std::vector<Run>& runs, Warnings& warnings) {
+  std::map<decltype(values_of(runs.front())), int> line_of_values;
+  std::map<int, int> line_of_number;
+  for (const Run& run : runs) {
+    const int same = line_of_values.try_emplace(values_of(run), run.csv_line).first->second;
+    const int numbered = run.at.run ? line_of_number.try_emplace(*run.at.run, run.csv_line).first->second : same;
+    const int earlier = std::min(same, numbered);
+    if (earlier == run.csv_line) continue;
+    warnings.push_back(
+        earlier == same
+            ? fmt::format("line {}: all its values are those of line {}: counted twice", run.csv_line, earlier)
+            : fmt::format("line {}: run {} stands in line {} already", run.csv_line, *run.at.run, earlier));
+  }
+}
+
+/// Correlation within groups of two columns; 0 where one of them doesn't vary.
+double correlation(const std::vector<double>& x, const std::vector<double>& y, const std::vector<std::size_t>& group) {
+  const std::size_t groups = group.empty() ? 0 : *std::max_element(group.begin(), group.end()) + 1;
+  std::vector<double> n(groups), sum_x(groups), sum_y(groups);
+  for (std::size_t i = 0; i < x.size(); ++i) n[group[i]] += 1, sum_x[group[i]] += x[i], sum_y[group[i]] += y[i];
+  double xx = 0, xy = 0, yy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const std::size_t g = group[i];
+    const double dx = x[i] - sum_x[g] / n[g], dy = y[i] - sum_y[g] / n[g];
+    xx += dx * dx, xy += dx * dy, yy += dy * dy;
+  }
+  return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0.0;
+}
+
+/// A pull whose sign is flipped falls along each curve against slip while the torque rises, and lies nearer to what the
+/// model says once it is turned round.
+void add_flipped_pull(const Campaign& campaign, const Case& question, const std::vector<Answer>& answers,
+                      Warnings& warnings) {
+  constexpr std::size_t fewest = 6;
+  constexpr double clearly = 0.7;
+  const std::vector<std::size_t> curve_of = curves_against_slip(question.study.conditions, Spread::measured).curve_of;
+  std::vector<double> slip, pull, torque;
+  std::vector<std::size_t> curve;
+  for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
+    const Run& run = campaign.runs[i];
+    if (!run.drawbar_pull || !run.torque) continue;
+    slip.push_back(run.at.slip), pull.push_back(*run.drawbar_pull), torque.push_back(*run.torque);
+    curve.push_back(curve_of[i]);
+  }
+  if (slip.size() < fewest ||
+      !(correlation(slip, pull, curve) < -clearly && correlation(slip, torque, curve) > clearly))
+    return;
+  double as_told = 0, turned_round = 0;
+  for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
+    const auto& measured = campaign.runs[i].drawbar_pull;
+    const auto& predicted = answers[i].result;
+    if (!measured || !predicted) continue;
+    as_told += std::pow(*measured - predicted->drawbar_pull.value, 2);
+    turned_round += std::pow(*measured + predicted->drawbar_pull.value, 2);
+  }
+  if (turned_round < as_told)
+    warnings.emplace_back(
+        "the drawbar pull falls as slip rises while the torque rises: is its sign flipped? Positive pulls forward");
+}
+
+/// Each row has a run and a place: so a campaign is told, whether or not its model asks for them.
+bool only_tells_the_row(const Unheard& one) { return one.key == "run" || one.key == "position"; }
+
+enum class NextIs { nothing, a_fit_for_effects };
+
+Warnings doubts_of(const Campaign& campaign, const Case& question, const std::vector<ModelAnswers>& study,
+                   Answered answered, NextIs next) {
+  Warnings warnings = doubts_but_unheard(question, study, answered), of_rows;
+  if (next == NextIs::nothing)
+    for (Unheard& one : unheard(question))
+      if (!only_tells_the_row(one)) warnings.push_back(std::move(one.words));
+  add_row_doubts(campaign, of_rows);
+  add_flipped_sinkage(campaign.runs, of_rows);
+  add_repeated_rows(campaign.runs, of_rows);
+  add_flipped_pull(campaign, question, study.front().answers, of_rows);
+  for (std::string& warning : once_each(of_rows)) warnings.push_back(std::move(warning));
+  return warnings;
+}
+
+Warnings doubts_as_declared(const Campaign& campaign, NextIs next) {
+  const Case question = question_of(campaign, scenario_of(campaign));
+  return doubts_of(campaign, question, quick_answers(question), Answered::no, next);
+}
+
+}  // namespace
+
+Warnings doubts(const Campaign& campaign) { return doubts_as_declared(campaign, NextIs::nothing); }
+
+Warnings doubts_before_fit(const Campaign& campaign) { return doubts_as_declared(campaign, NextIs::a_fit_for_effects); }
+
+Warnings doubts(const Campaign& campaign, const Scenario& asked, const Prediction& prediction) {
+  const Case question = question_of(campaign, asked);
+  ModelAnswers answers{question.study.models.front(), {}};
+  for (const PredictedRun& run : prediction.runs) answers.answers.push_back(run.predicted);
+  return doubts_of(campaign, question, {answers}, Answered::yes, NextIs::nothing);
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,50 @@
+// The one list of doubts: what a person should know before believing an answer. The readers rightly accept what stands
+// here; but it is hardly meant, has no influence, or lies beyond what a model can tell.
+//
+// Who answers a question asks `doubts` with the question and its answers and tells all that it gives: as lines
+// "warning: ..." beside the answer, as "warnings" in JSON (tell_doubts), as a list on a page (PageAbout::doubts).
+// What is doubtful is decided here and nowhere else, so that every command tells the same:
+//
+//   a soil by itself     values out of the usual, no strength, nothing carried     doubts.cpp
+//   a wheel on a soil    proportions, a width for which the soil carries nothing   doubts.cpp
+//   an answer            deep sinkage, odd pressure, more power out than in        doubts.cpp
+//   no influence         lugs, inflation, passes, ... that change no digit         unheard.cpp
+//   a presumption        what an effect takes the wheel to have, and nobody said   doubts.cpp
+//   grains               too coarse for the wheel, a law that hangs on the step    grain_doubts.cpp
+//   measured rows        repeated, flipped, impossible                             doubts.cpp
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/measured/campaign.hpp"
+#include "compare/sweep/answers.hpp"
+#include "compare/sweep/prediction.hpp"
+#include "scenario/case.hpp"
+
+namespace soilbin::compare {
+
+/// Of a soil by itself.
+std::vector<std::string> doubts(const SemiEmpiricalSoil& soil);
+
+/// Of a question and the answers to it, by any model. What no answer was found to is not among them: answers say that
+/// themselves. `study` may be empty, and its models need not be all of the question's.
+std::vector<std::string> doubts(const Case& question, const std::vector<ModelAnswers>& study);
+
+/// Of a question that nobody has answered yet: asks its analytic models, tells where they have no answer, and looks at
+/// the soil's grains too, which `--model dem` would take.
+std::vector<std::string> doubts(const Case& question);
+
+/// Of a campaign and a prediction of it by `asked`: the wheel with that soil and these effects, and the rows.
+std::vector<std::string> doubts(const Campaign& campaign, const Scenario& asked, const Prediction& prediction);
+
+/// Of a campaign, by the model that it declares; tells where that has no answer.
+std::vector<std::string> doubts(const Campaign& campaign);
+
+/// The same before a fit that looks for effects: without what the declared model alone doesn't hear of.
+std::vector<std::string> doubts_before_fit(const Campaign& campaign);
+
+/// Doubts that differ in numbers alone as one, with the number of the others: "(and at 3 other conditions)".
+std::vector<std::string> once_each(const std::vector<std::string>& doubts);
+
+}  // namespace soilbin::compare

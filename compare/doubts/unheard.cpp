@@ -1,0 +1,128 @@
+#include "compare/doubts/unheard.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace soilbin::compare {
+namespace {
+
+/// A thing that a case may declare, and what hears of it.
+struct Declared {
+  std::string key;
+  std::string of_wheel;  ///< why declaring it may change nothing of the analytic wheel; {}: the effects that hear of it
+  std::string of_grains;  ///< the same of grains; empty where they hear of it
+  std::string needs;      ///< what an effect that hears of it needs; empty where it does without
+  std::function<bool(const Case&)> given;
+};
+
+bool any_condition(const Case& question, const std::function<bool(const OperatingCondition&)>& has) {
+  return std::any_of(question.study.conditions.begin(), question.study.conditions.end(), has);
+}
+
+const std::vector<Declared>& declarable() {
+  using At = const OperatingCondition&;
+  const auto some = [](auto has) { return [has](const Case& question) { return any_condition(question, has); }; };
+  const auto of_condition = [&](const std::string& key, const std::string& of_grains, const std::string& needs,
+                                auto has) {
+    return Declared{key, "'" + key + "' changes nothing: the analytic model hears of it by {}", of_grains, needs,
+                    some(has)};
+  };
+  static const std::vector<Declared> all = {
+      {"lugs", "the tire's lugs change nothing: the analytic wheel is smooth without {}", "", "",
+       [](const Case& question) { return is_lugged(question.scenario.tire); }},
+      {"inflation", "the tire's inflation pressure changes nothing: the analytic wheel is rigid without {}",
+       "the tire's inflation pressure changes nothing: grains meet a rigid tire", "",
+       [](const Case& question) { return question.scenario.tire.inflation_pressure.has_value(); }},
+      of_condition("pass", "", "no condition has a 'pass' of 2 or more", [](At at) { return at.pass > 1; }),
+      of_condition("moisture", "'moisture' changes nothing of the grains", "no condition has a 'moisture'",
+                   [](At at) { return at.moisture.has_value(); }),
+      of_condition("position", "'position' changes nothing of the grains", "no condition has a 'position'",
+                   [](At at) { return at.position.has_value(); }),
+      of_condition("run", "'run' changes nothing of the grains", "no condition has a 'run'",
+                   [](At at) { return at.run.has_value(); }),
+  };
+  return all;
+}
+
+/// The effects of the catalogue of which some form hears of this, for a person: "effect soil_gradient or bed_tilt".
+std::string hearing_effects(const std::string& key) {
+  std::vector<std::string> ids;
+  for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue())
+    if (hears_of(form, key) && (ids.empty() || ids.back() != form.id)) ids.push_back(form.id);
+  std::string words;
+  for (const std::string& id : ids) words += (words.empty() ? "effect " : " or ") + id;
+  return words;
+}
+
+bool hears(const ModelChoice& choice, const Declared& declared) {
+  return std::any_of(choice.effects.begin(), choice.effects.end(), [&](const EffectChoice& effect) {
+    return hears_of(bekker_wong::find_form(effect), declared.key);
+  });
+}
+
+/// Why a thing that is given changes nothing, of the analytic models or, where these hear or aren't asked, of grains.
+std::string why_unheard(const std::vector<ModelChoice>& models, const Declared& declared) {
+  const auto is_grains = [](const ModelChoice& m) { return m.model == ModelKind::dem; };
+  const bool grains = std::any_of(models.begin(), models.end(), is_grains);
+  const bool wheel = !std::all_of(models.begin(), models.end(), is_grains);
+  if (wheel && std::none_of(models.begin(), models.end(), [&](const ModelChoice& m) { return hears(m, declared); }))
+    return fmt::format(fmt::runtime(declared.of_wheel), hearing_effects(declared.key));
+  return grains ? declared.of_grains : "";
+}
+
+/// The effects of the study's models that need this, each id once.
+std::vector<std::string> in_need(const std::vector<ModelChoice>& models, const Declared& declared) {
+  std::vector<std::string> ids;
+  for (const ModelChoice& choice : models)
+    for (const EffectChoice& effect : choice.effects)
+      if (hears_of(bekker_wong::find_form(effect), declared.key) &&
+          std::find(ids.begin(), ids.end(), effect.id) == ids.end())
+        ids.push_back(effect.id);
+  return ids;
+}
+
+/// Depths that an effect has and does not take, since the bin's is declared.
+void add_depths_of_the_bin(const Case& question, std::vector<Unheard>& all) {
+  if (!question.scenario.bin || question.scenario.bin->depth <= 0) return;
+  const double bin = question.scenario.bin->depth;
+  for (const ModelChoice& choice : question.study.models)
+    for (const EffectChoice& effect : choice.effects)
+      for (const bekker_wong::EffectParameter& parameter : bekker_wong::find_form(effect).parameters) {
+        const auto own = effect.parameters.find(parameter.name);
+        if (!parameter.is_the_bins || own == effect.parameters.end() || own->second == bin) continue;
+        all.push_back({parameter.name, fmt::format("effect {} takes the bin's depth, {:g} mm: its own '{}' of {:g} mm "
+                                                   "changes nothing",
+                                                   effect.id, 1000 * bin, parameter.name, 1000 * own->second)});
+      }
+}
+
+}  // namespace
+
+bool hears_of(const bekker_wong::EffectForm& form, const std::string& key) {
+  // A parameter about which a form is centred tells; passes, lugs and inflation have none.
+  if (key == "pass") return form.id == "multipass";
+  if (key == "lugs") return form.id == "lug_thrust";
+  if (key == "inflation") return form.id == "tire_flexibility";
+  return std::any_of(form.parameters.begin(), form.parameters.end(),
+                     [&](const bekker_wong::EffectParameter& parameter) { return parameter.centred_on == key; });
+}
+
+std::vector<Unheard> unheard(const Case& question) {
+  std::vector<Unheard> all;
+  const std::vector<ModelChoice>& models = question.study.models;
+  if (question.study.conditions.empty()) return all;
+  for (const Declared& declared : declarable()) {
+    if (declared.given(question)) {
+      if (const std::string why = why_unheard(models, declared); !why.empty()) all.push_back({declared.key, why});
+    } else if (!declared.needs.empty()) {
+      for (const std::string& id : in_need(models, declared))
+        all.push_back({"effect", fmt::format("effect {} changes nothing: {}", id, declared.needs)});
+    }
+  }
+  add_depths_of_the_bin(question, all);
+  return all;
+}
+
+}  // namespace soilbin::compare

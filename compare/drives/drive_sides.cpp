@@ -1,0 +1,309 @@
+#include "compare/drives/drive_sides.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "compare/recorded/recorded_model.hpp"
+#include "compare/report/number_text.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/soil_parameters.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// The values of a steady drive that are set side by side.
+struct SteadyValue {
+  const char* name;
+  const char* unit;
+  double per_si;
+  Estimate dem::SteadyDrive::*value;
+};
+constexpr std::array<SteadyValue, 5> steady_values = {{{"speed", "cm/s", 100, &dem::SteadyDrive::speed},
+                                                       {"slip", "%", 100, &dem::SteadyDrive::slip},
+                                                       {"sinkage", "mm", 1000, &dem::SteadyDrive::sinkage},
+                                                       {"torque", "N m", 1, &dem::SteadyDrive::torque},
+                                                       {"soil force", "N", 1, &dem::SteadyDrive::forward}}};
+
+using bekker_wong::DriveRecord;
+using Steady = std::optional<dem::SteadyDrive>;
+
+/// Why the end of an analytic drive is not a steady state, or nothing: the setpoint and the way have stopped changing,
+/// and so has the speed, to a thousandth over the last twentieth of the time.
+std::string unsteady(const DriveRecord& record, const Drive& drive) {
+  constexpr double same = 1e-3, part = 0.05;
+  const DriveState& end = record.samples.back();
+  if (record.end != DriveEnd::time_is_up && record.end != DriveEnd::arrived)
+    return fmt::format("the wheel is {}", word_of(record.end));
+  const double last_place = drive.profile.empty() ? 0.0 : drive.profile.back().at;
+  const double since = record.end_time * (1 - part);
+  for (const DriveState& s : record.samples) {
+    if (s.time < since) continue;
+    if (s.time < drive.controller.ramp || s.travelled < last_place || !s.slip ||
+        std::abs(s.speed - end.speed) > same * std::abs(end.speed))
+      return "it ended before its speed had stopped changing";
+  }
+  return "";
+}
+
+dem::SteadyDrive values_at(const DriveState& end) {
+  dem::SteadyDrive steady;
+  steady.from = steady.to = end.time;
+  steady.speed.value = end.speed, steady.rim_speed.value = end.rim_speed, steady.slip.value = end.slip.value_or(0.0);
+  steady.sinkage.value = end.sinkage, steady.torque.value = end.torque, steady.forward.value = end.forward;
+  steady.steady = true;
+  return steady;
+}
+
+/// The steady values of the drive with one parameter of the soil changed; nothing where it then has no steady state.
+Steady steady_with(const Case& question, const SoilParameter& parameter, double value) try {
+  Scenario scenario = question.scenario;
+  ((*scenario.soil.semi_empirical).*parameter.value).value = value;
+  const DriveRecord record = bekker_wong::drive_wheel(scenario, *question.drive, 40);
+  if (!unsteady(record, *question.drive).empty()) return std::nullopt;
+  return values_at(record.samples.back());
+} catch (const NoSolution&) {
+  return std::nullopt;
+}
+
+/// Adds errors: sd of each parameter of the soil times the difference of the steady values over it, central or, where
+/// one side passes a bound or has no steady state, one-sided. Names the parameters that are left out for want of both.
+std::string add_doubt(dem::SteadyDrive& steady, const Case& question) {
+  constexpr double nudge = 0.1;  // of the standard deviation
+  std::array<double, steady_values.size()> variance{};
+  std::string left_out;
+  for (const SoilParameter& parameter : soil_parameters) {
+    const Estimate of = (*question.scenario.soil.semi_empirical).*parameter.value;
+    if (!(of.std_error > 0.0)) continue;
+    const auto [below, above] = neighbours(of.value, nudge * of.std_error, parameter.range);
+    const Steady down = below < of.value ? steady_with(question, parameter, below) : std::nullopt;
+    const Steady up = above > of.value ? steady_with(question, parameter, above) : std::nullopt;
+    if (!down && !up) {
+      left_out += (left_out.empty() ? "" : ", ") + std::string(parameter.symbol);
+      continue;
+    }
+    const double width = (up ? above : of.value) - (down ? below : of.value);
+    for (std::size_t i = 0; i < variance.size(); ++i) {
+      const auto member = steady_values[i].value;
+      const double change = ((up ? *up : steady).*member).value - ((down ? *down : steady).*member).value;
+      variance[i] += std::pow(of.std_error * change / width, 2);
+    }
+  }
+  for (std::size_t i = 0; i < variance.size(); ++i) (steady.*steady_values[i].value).std_error = std::sqrt(variance[i]);
+  if (left_out.empty()) return "";
+  return "the standard errors leave out the soil's " + left_out + ": the drive has no steady state beside it";
+}
+
+template <class Sample>
+DriveSideSample side_sample(const Sample& sample, double soil) {
+  DriveSideSample out{static_cast<const DriveState&>(sample), {}, soil};
+  out.energy = sample.energy;
+  return out;
+}
+
+std::vector<DriveDifference> differences_of(const Steady& analytic, const Steady& grains) {
+  std::vector<DriveDifference> rows;
+  if (!analytic || !grains) return rows;
+  for (const SteadyValue& value : steady_values) {
+    DriveDifference row{value.name, value.unit, value.per_si, (*analytic).*value.value, (*grains).*value.value};
+    row.difference = row.analytic.value - row.grains.value;
+    row.std_error = std::hypot(row.analytic.std_error, row.grains.std_error);
+    row.finding = finding_of(row.difference, row.std_error, row.grains.std_error);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<const DriveSide*> grain_sides(const DriveSides& drive) {
+  std::vector<const DriveSide*> grains;
+  for (const DriveSide& side : drive.sides)
+    if (side.kind == SideKind::grains) grains.push_back(&side);
+  return grains;
+}
+
+template <class Value>
+Estimate over_packings_of(const std::vector<const DriveSide*>& grains, const Value& value) {
+  std::vector<Estimate> told;
+  for (const DriveSide* side : grains) told.push_back(value(*side));
+  return mean_over_packings(told);
+}
+
+Steady steady_over_packings(const std::vector<const DriveSide*>& grains) {
+  if (!std::all_of(grains.begin(), grains.end(), [](const DriveSide* side) { return side->steady.has_value(); }))
+    return std::nullopt;
+  dem::SteadyDrive mean = *grains.front()->steady;
+  for (const DriveSide* side : grains) {
+    const dem::SteadyDrive& one = *side->steady;
+    mean.from = std::min(mean.from, one.from), mean.to = std::max(mean.to, one.to);
+    mean.drift = std::max(mean.drift, one.drift), mean.steady = mean.steady && one.steady;
+  }
+  for (Estimate dem::SteadyDrive::*value :
+       {&dem::SteadyDrive::speed, &dem::SteadyDrive::rim_speed, &dem::SteadyDrive::slip, &dem::SteadyDrive::sinkage,
+        &dem::SteadyDrive::torque, &dem::SteadyDrive::forward})
+    mean.*value = over_packings_of(grains, [&](const DriveSide& side) { return (*side.steady).*value; });
+  return mean;
+}
+
+DriveOverPackings as_one(const std::vector<const DriveSide*>& grains) {
+  DriveOverPackings one;
+  for (const DriveSide* side : grains) one.ends.push_back(side->end);
+  one.end_time = over_packings_of(grains, [](const DriveSide& side) { return Estimate{side.end_time}; });
+  one.travelled =
+      over_packings_of(grains, [](const DriveSide& side) { return Estimate{side.samples.back().travelled}; });
+  one.steady = steady_over_packings(grains);
+  return one;
+}
+
+std::string steady_words(const dem::SteadyDrive& s) {
+  return fmt::format("; steady{} at a slip of {} %, {} mm deep, with {} N m",
+                     s.steady ? "" : " by its way and motor, but still drifting,", number(s.slip, 100),
+                     number(s.sinkage, 1000), number(s.torque));
+}
+
+/// "dem, mean of 3 packings: arrived on 2 and stuck on 1, ..."
+std::string sentence_of(const DriveOverPackings& one) {
+  std::string ends;
+  std::vector<DriveEnd> told;
+  for (const DriveEnd end : one.ends) {
+    if (std::find(told.begin(), told.end(), end) != told.end()) continue;
+    told.push_back(end);
+    ends += fmt::format("{}{} on {}", ends.empty() ? "" : ", ", word_of(end),
+                        std::count(one.ends.begin(), one.ends.end(), end));
+  }
+  std::string text = fmt::format("dem, mean of {} packings: {}, after {} s and {} m", one.ends.size(), ends,
+                                 number(one.end_time), number(one.travelled));
+  return text + (one.steady ? steady_words(*one.steady) : "; not all packings have a steady state") + ".";
+}
+
+std::string sentence_of(const DriveSide& side) {
+  const DriveState& end = side.samples.back();
+  std::string text =
+      fmt::format("{}: {} after {:.4g} s and {:.4g} m", side.label, word_of(side.end), side.end_time, end.travelled);
+  if (!side.steady) return text + fmt::format("; no steady state: {}.", side.not_steady);
+  text += steady_words(*side.steady);
+  return text + (side.not_steady.empty() ? "." : fmt::format(" ({}).", side.not_steady));
+}
+
+}  // namespace
+
+DriveSide analytic_side(const DrivePart& part) {
+  const DriveRecord& record = part.record;
+  DriveSide side{SideKind::analytic, "bekker_wong", {}, record.end, record.end_time, {}, record.happenings, {}, {}, {}};
+  for (const bekker_wong::DriveSample& s : record.samples)
+    side.samples.push_back(side_sample(s, s.energy.compaction + s.energy.shear + s.energy.added + s.energy.damping));
+  const bekker_wong::EnergyLedger& end = record.samples.back().energy;
+  side.soil_parts = {{"shears the soil", end.shear},
+                     {"presses the soil", end.compaction},
+                     {"added forces of effects", end.added},
+                     {"damps the heave", end.damping}};
+  side.not_steady = unsteady(record, *part.question.drive);
+  if (!side.not_steady.empty()) return side;
+  side.steady = values_at(record.samples.back());
+  side.not_steady = add_doubt(*side.steady, part.question);
+  return side;
+}
+
+DriveSide grain_side(const dem::GrainDriveRecord& record, std::optional<std::uint64_t> packing) {
+  const std::string label = packing ? fmt::format("dem packing {}", *packing) : "dem";
+  DriveSide side{SideKind::grains, label, packing, record.end, record.end_time, {}, record.happenings, {}, {}, {}};
+  for (const dem::GrainDriveSample& s : record.samples) side.samples.push_back(side_sample(s, s.energy.soil));
+  const dem::GrainDriveEnergy& end = record.samples.back().energy;
+  if (end.told)
+    side.soil_parts = {{"grains slide", end.sliding},
+                       {"grains roll", end.rolling},
+                       {"grains hit each other", end.damping},
+                       {"grains keep", end.stored},
+                       {"left over by the time step", end.soil_unaccounted()}};
+  side.steady = record.steady;
+  side.not_steady = record.not_steady;
+  return side;
+}
+
+DriveSides side_by_side(const Case& question, std::vector<DriveSide> sides, std::vector<std::string> notes) {
+  DriveSides drive{question, std::move(sides), {}, {}, std::move(notes)};
+  const std::vector<const DriveSide*> grains = grain_sides(drive);
+  if (grains.size() > 1) drive.over_packings = as_one(grains);
+  for (const DriveSide& side : drive.sides)
+    if (side.kind == SideKind::analytic) drive.differences = differences_of(side.steady, steady_of_grains(drive));
+  return drive;
+}
+
+std::optional<dem::SteadyDrive> steady_of_grains(const DriveSides& drive) {
+  if (drive.over_packings) return drive.over_packings->steady;
+  const std::vector<const DriveSide*> grains = grain_sides(drive);
+  return grains.empty() ? std::nullopt : grains.front()->steady;
+}
+
+HtmlTable packings_table(const DriveSides& drive) {
+  HtmlTable table{
+      "± is one standard error; of the mean from the scatter of packings or, where it is larger, from their own",
+      {"on each packing"},
+      {},
+      {true}};
+  if (!drive.over_packings) return table;
+  const DriveOverPackings& mean = *drive.over_packings;
+  const std::vector<const DriveSide*> grains = grain_sides(drive);
+  const auto add = [&](const std::string& name, const auto& of, const std::string& last) {
+    std::vector<std::string> row{name};
+    for (const DriveSide* side : grains) row.push_back(of(*side));
+    row.push_back(last);
+    table.rows.push_back(std::move(row));
+  };
+  for (const DriveSide* side : grains) table.header.push_back(side->label);
+  table.header.emplace_back("mean");
+  table.text_columns.resize(table.header.size(), false);
+  add(
+      "end", [](const DriveSide& s) { return std::string(word_of(s.end)); }, "");
+  add(
+      "after [s]", [](const DriveSide& s) { return number(s.end_time); }, number(mean.end_time));
+  add(
+      "travelled [m]", [](const DriveSide& s) { return number(s.samples.back().travelled); }, number(mean.travelled));
+  for (const SteadyValue& value : steady_values) {
+    const auto told = [&](const Steady& steady) { return steady ? number((*steady).*value.value, value.per_si) : "-"; };
+    add(
+        fmt::format("{} [{}]", value.name, value.unit), [&](const DriveSide& s) { return told(s.steady); },
+        told(mean.steady));
+  }
+  return table;
+}
+
+std::vector<std::string> in_words(const DriveSides& drive) {
+  std::vector<std::string> sentences;
+  for (const DriveSide& side : drive.sides) sentences.push_back(sentence_of(side));
+  if (drive.over_packings) sentences.push_back(sentence_of(*drive.over_packings));
+  std::string apart;
+  for (const DriveDifference& row : drive.differences)
+    if (row.finding == DifferenceFinding::difference)
+      apart += fmt::format("{}{} by {} {}", apart.empty() ? "" : ", ", row.name,
+                           number({row.difference, row.std_error}, row.per_si), row.unit);
+  if (!apart.empty())
+    sentences.push_back("Steadily the models part in " + apart + ".");
+  else if (!drive.differences.empty())
+    sentences.push_back("Steadily nothing parts the models beyond what they don't know.");
+  return sentences;
+}
+
+std::vector<DriveWorkRow> work_rows(const DriveSides& drive) {
+  std::vector<DriveWorkRow> rows;
+  const auto add = [&](const std::string& name, const auto& of) {
+    DriveWorkRow row{name, {}};
+    for (const DriveSide& side : drive.sides) row.joules.push_back(of(side.samples.back()));
+    rows.push_back(std::move(row));
+  };
+  add("lifts the load", [](const DriveSideSample& s) { return s.energy.height; });
+  add("pulls the drawbar", [](const DriveSideSample& s) { return s.energy.drawbar; });
+  add("is in motion", [](const DriveSideSample& s) { return s.energy.kinetic; });
+  add("is given to the soil", [](const DriveSideSample& s) { return s.soil; });
+  for (std::size_t i = 0; i < drive.sides.size(); ++i)
+    for (const auto& [name, joules] : drive.sides[i].soil_parts) {
+      DriveWorkRow row{"  of that: " + name, std::vector<std::optional<double>>(drive.sides.size())};
+      row.joules[i] = joules;
+      rows.push_back(std::move(row));
+    }
+  add("unaccounted for", [](const DriveSideSample& s) { return s.energy.left() - s.soil; });
+  return rows;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,126 @@
+#include "compare/experiments/convergence.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/measured/channels.hpp"
+#include "compare/report/number_text.hpp"
+#include "compare/sweep/result_json.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::size_t, 3> shown_channels = {0, 1, 2};  // pull, torque, sinkage
+
+fs::path file_of(const fs::path& record, std::string variant) {
+  if (record.empty()) return {};
+  std::replace(variant.begin(), variant.end(), ' ', '-');
+  return record.parent_path() / (record.stem().string() + "." + variant + record.extension().string());
+}
+
+/// Difference of a channel to the first run, in standard errors of the difference; nothing for the first itself, and
+/// where either has no result.
+std::optional<double> in_errors(const RecordedRun& first, const RecordedRun& run, const ChannelView& channel) {
+  if (&first == &run || !first.answer.result || !run.answer.result) return std::nullopt;
+  const Estimate &a = (*first.answer.result).*channel.predicted, &b = (*run.answer.result).*channel.predicted;
+  return (b.value - a.value) / std::hypot(a.std_error, b.std_error);
+}
+
+}  // namespace
+
+std::vector<Variant> variants_of(const dem::DemSettings& settings, const Scenario& scenario) {
+  std::vector<Variant> all = {{"as it is", settings, scenario}};
+  const auto add = [&](const char* name) -> Variant& { return all.emplace_back(name, settings, scenario); };
+  const auto size = [](Variant& variant, double dem::BedSize::*side, double factor) {
+    variant.settings.size.*side *= factor;
+    if (!variant.scenario.bin) return;
+    if (side == &dem::BedSize::width) variant.scenario.bin->width *= factor;
+    if (side == &dem::BedSize::depth) variant.scenario.bin->depth *= factor;
+  };
+  const auto warm_up = [](Variant& variant, double factor) {
+    dem::Rig& rig = variant.settings.rig;
+    rig.lowering *= factor, rig.resting *= factor, rig.starting *= factor;
+  };
+  add("another packing").settings.packing += 1;
+  size(add("bed twice as long"), &dem::BedSize::length, 2);
+  size(add("bed twice as wide"), &dem::BedSize::width, 2);
+  size(add("bed twice as deep"), &dem::BedSize::depth, 2);
+  size(add("bed half as deep"), &dem::BedSize::depth, 0.5);
+  warm_up(add("warm-up twice as long"), 2);
+  warm_up(add("warm-up half as long"), 0.5);
+  const dem::BedRecipe recipe = dem::DemModel(settings).recipe(scenario);
+  add("time step halved").settings.rig.dt = dem::step_of(recipe, settings.rig) / 2;
+  add("tire mesh twice as fine").settings.rig.meshing.edge /= 2;
+  add("tire mesh twice as coarse").settings.rig.meshing.edge *= 2;
+  add("samples twice as long").settings.rig.sampling *= 2;
+  add("samples half as long").settings.rig.sampling /= 2;
+  add("skin doubled").settings.rig.skin *= 2;
+  add("skin halved").settings.rig.skin /= 2;
+  return all;
+}
+
+std::vector<VariantRun> run_variants(const dem::DemSettings& settings, const Case& question,
+                                     const EffectVocabulary& effects, const RunKeeping& keeping) {
+  if (question.study.conditions.size() != 1)
+    throw InputError(
+        fmt::format("--converge takes one condition, not {}\n  hint: pick it, such as --load 4kN --slip 20%",
+                    question.study.conditions.size()));
+  const OperatingCondition at = question.study.conditions.front();
+  std::vector<VariantRun> runs;
+  for (const Variant& variant : variants_of(settings, question.scenario)) {
+    Case changed = question;
+    changed.scenario = variant.scenario;
+    RunKeeping its_own = keeping;
+    its_own.record = file_of(keeping.record, variant.name);
+    const RunOnce run = run_once(variant.settings, changed, effects, its_own);
+    try {
+      runs.push_back({variant.name, run(variant.scenario, at, variant.settings.packing)});
+    } catch (const InputError& refused) {
+      runs.push_back(
+          {variant.name,
+           {.answer = {at, std::nullopt, refused.what()}, .source = {}, .power = {}, .rut = {}, .flow = {}}});
+    }
+  }
+  return runs;
+}
+
+HtmlTable convergence_table(const std::vector<VariantRun>& runs) {
+  HtmlTable table{"", {"choice"}, {}, {}};
+  for (const std::size_t c : shown_channels)
+    table.header.insert(table.header.end(),
+                        {fmt::format("{} [{}]", channel_views[c].title, channel_views[c].unit), "differs [errors]"});
+  table.header.emplace_back("time [s]");
+  for (const auto& [name, run] : runs) {
+    std::vector<std::string> row = {name};
+    for (const std::size_t c : shown_channels) {
+      const ChannelView& channel = channel_views[c];
+      const auto& result = run.answer.result;
+      const std::optional<double> differs = in_errors(runs.front().run, run, channel);
+      row.push_back(result ? number((*result).*channel.predicted, channel.per_si) : "-");
+      row.push_back(differs ? fmt::format("{:.1f}", *differs) : "-");
+    }
+    row.push_back(fmt::format("{:.0f}", run.seconds));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+nlohmann::ordered_json convergence_json(const std::vector<VariantRun>& runs) {
+  Json rows = Json::array();
+  for (const auto& [name, run] : runs) {
+    Json row = {{"choice", name}, {"seconds", run.seconds}};
+    row.update(to_json(run.answer));
+    for (const std::size_t c : shown_channels)
+      if (const auto differs = in_errors(runs.front().run, run, channel_views[c]))
+        row["differs"][std::string(channel_views[c].name)] = finite(*differs);
+    rows.push_back(std::move(row));
+  }
+  return {{"format", "soilbin-convergence/1"}, {"rows", rows}};
+}
+
+}  // namespace soilbin::compare

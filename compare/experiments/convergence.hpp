@@ -1,0 +1,36 @@
+// What a run's numerical choices change: the same condition with each of them halved or doubled.
+#pragma once
+
+#include "compare/experiments/soil_bin_runs.hpp"
+#include "compare/report/page.hpp"
+
+namespace soilbin::compare {
+
+/// One choice changed.
+struct Variant {
+  std::string name;  ///< "bed twice as long"
+  dem::DemSettings settings;
+  Scenario scenario;
+};
+
+/// The choices as they are, first, then each changed: another packing, length, width and depth of the bed, warm-up,
+/// time step, mesh of the tire, sampling time, skin.
+std::vector<Variant> variants_of(const dem::DemSettings& settings, const Scenario& scenario);
+
+/// A variant and its run. A bed that would be too shallow or narrow is a run whose answer says so.
+struct VariantRun {
+  std::string name;
+  RecordedRun run;
+};
+
+/// Runs the variants of the question's only condition, the first as it is asked. With a record, each variant is kept in
+/// a file of its own beside it. Throws InputError for more than one condition.
+std::vector<VariantRun> run_variants(const dem::DemSettings& settings, const Case& question,
+                                     const EffectVocabulary& effects, const RunKeeping& keeping);
+
+/// What each variant changes, beside the standard error of the difference.
+HtmlTable convergence_table(const std::vector<VariantRun>& runs);
+/// soilbin-convergence/1.
+nlohmann::ordered_json convergence_json(const std::vector<VariantRun>& runs);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,90 @@
+#include "compare/experiments/replay_recorder.hpp"
+
+#include "dem/archive/note_text.hpp"
+#include "scenario/atomic_file.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+Point point_of(const dem::Vec3& v) { return {v.x, v.y, v.z}; }
+
+}  // namespace
+
+template <class Notes>
+void ReplayRecorder::state(Notes& notes) {
+  auto& [title, facts, radii, tire, triangles, surface, frames] = replay_;  // title and facts come with write
+  notes(ids_, radii, tire, triangles, surface);
+  std::size_t count = frames.size();
+  notes(count);
+  frames.resize(count);
+  for (auto& [time, wheel, rotation, grains] : frames) notes(time, wheel, rotation, grains);
+  if constexpr (Notes::reads) find_places();
+}
+
+dem::Onlooker ReplayRecorder::onlooker() {
+  dem::Onlooker onlooker;
+  onlooker.look = [this](const dem::Simulation& simulation, int wheel, double surface) {
+    if (!written_) look(simulation, wheel, surface);
+  };
+  onlooker.keeper = std::make_shared<dem::OnlookerKeeper>(
+      [this] {
+        dem::NoteWriter writer;
+        state(writer);
+        return writer.text();
+      },
+      [this](const std::string& seen) {
+        dem::NoteReader reader("replay", seen);
+        state(reader);
+      });
+  return onlooker;
+}
+
+void ReplayRecorder::find_places() {
+  place_.clear();
+  for (std::size_t row = 0; row < ids_.size(); ++row) place_.emplace(ids_[row], row);
+}
+
+void ReplayRecorder::begin(const dem::Simulation& simulation, int wheel, double surface) {
+  const dem::Grains& grains = simulation.state().grains;
+  replay_.surface = surface;
+  for (std::size_t row = 0; row < grains.count(); ++row) {
+    ids_.push_back(grains.id[row]);
+    replay_.radii.push_back(grains.motion[row].radius);
+  }
+  find_places();
+  for (const dem::Surface& part : simulation.body(wheel).surfaces) {
+    const auto* mesh = std::get_if<dem::MeshSurface>(&part.shape);
+    if (mesh == nullptr) continue;
+    const auto first = static_cast<std::uint32_t>(replay_.tire.size());
+    for (const dem::Vec3& vertex : mesh->mesh->vertices()) replay_.tire.push_back(point_of(vertex));
+    for (const auto& corners : mesh->mesh->triangles())
+      replay_.triangles.push_back({first + static_cast<std::uint32_t>(corners[0]),
+                                   first + static_cast<std::uint32_t>(corners[1]),
+                                   first + static_cast<std::uint32_t>(corners[2])});
+  }
+}
+
+void ReplayRecorder::look(const dem::Simulation& simulation, int wheel, double surface) {
+  if (replay_.frames.empty()) begin(simulation, wheel, surface);
+  const dem::Body& body = simulation.body(wheel);
+  ReplayFrame frame;
+  frame.time = simulation.time();
+  frame.wheel = point_of(body.position);
+  frame.rotation = {body.rotation.w, body.rotation.x, body.rotation.y, body.rotation.z};
+  frame.grains.resize(replay_.radii.size());
+  const dem::Grains& grains = simulation.state().grains;
+  for (std::size_t row = 0; row < grains.count(); ++row)
+    frame.grains[place_.at(grains.id[row])] = point_of(grains.motion[row].position);
+  replay_.frames.push_back(std::move(frame));
+}
+
+void ReplayRecorder::write(const ReplayKeeping& to, const std::string& title, std::uint64_t packing) {
+  written_ = true;
+  replay_.title = title;
+  replay_.facts = {{"packing", std::to_string(packing)}, {"sources", to.source}};
+  write_file_atomically(to.file, replay_bytes(replay_));
+  replay_ = {};
+  ids_.clear(), place_.clear();
+}
+
+}  // namespace soilbin::compare

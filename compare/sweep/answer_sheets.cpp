@@ -1,0 +1,207 @@
+#include "compare/sweep/answer_sheets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "compare/report/number_text.hpp"
+#include "compare/sweep/varying.hpp"
+#include "scenario/estimate.hpp"
+#include "scenario/unit.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+constexpr std::size_t most_bands = 3;  ///< curves of a panel beyond which bands only hide each other
+
+/// What a panel shows of a result.
+struct Shown {
+  std::string title, unit;
+  double per_unit = 1.0;
+  std::function<Estimate(const TractionResult&)> get;
+};
+
+std::vector<Shown> shown_of(const std::vector<ModelAnswers>& study, Panels panels) {
+  std::vector<Shown> all;
+  bool side = panels == Panels::all;
+  for (const ModelAnswers& model : study)
+    for (const Answer& answer : model.answers)
+      side = side || (answer.result && answer.result->lateral_force.value != 0.0);
+  for (const ChannelView& channel : channel_views)
+    if (side || channel.name != "lateral_force")
+      all.push_back({std::string(channel.title), std::string(channel.unit), channel.per_si,
+                     [member = channel.predicted](const TractionResult& r) { return r.*member; }});
+  all.push_back({"tractive efficiency", "%", 100.0, [](const TractionResult& r) {
+                   return Estimate{told_efficiency(r), 0.0};
+                 }});
+  return all;
+}
+
+Plot empty_plot(const Shown& shown) {
+  Plot plot{capital(shown.title) + " [" + shown.unit + "]", {"slip [%]", {}, {}}, {}, {}, false};
+  if (shown.title == "sinkage" || shown.title == "tractive efficiency") plot.y.lower = 0.0;
+  return plot;
+}
+
+std::string join(const std::string& a, const std::string& b) { return a.empty() || b.empty() ? a + b : a + ", " + b; }
+
+/// A curve's points, in rising order of slip.
+Series series_of(const std::vector<Answer>& answers, const Curves& curves, std::size_t curve, const Shown& shown,
+                 bool with_band) {
+  std::vector<const Answer*> members;
+  for (std::size_t i = 0; i < answers.size(); ++i)
+    if (curves.curve_of[i] == curve) members.push_back(&answers[i]);
+  std::stable_sort(members.begin(), members.end(),
+                   [](const Answer* a, const Answer* b) { return a->at.slip < b->at.slip; });
+  Series series;
+  for (const Answer* answer : members) {
+    const Estimate y = answer->result ? shown.get(*answer->result) : Estimate{not_a_number, 0.0};
+    series.x.push_back(100 * answer->at.slip);
+    series.y.push_back(y.value * shown.per_unit);
+    if (with_band) series.error.push_back(y.std_error * shown.per_unit);
+  }
+  return series;
+}
+
+std::vector<OperatingCondition> conditions_of(const Prediction& prediction) {
+  std::vector<OperatingCondition> all;
+  for (const PredictedRun& run : prediction.runs) all.push_back(run.measured.at);
+  return all;
+}
+
+/// Whether two runs belong to one setpoint: the same label or, without labels, nearly the same slip.
+bool same_setpoint(const PredictedRun& a, const PredictedRun& b) {
+  if (a.measured.setpoint && b.measured.setpoint) return *a.measured.setpoint == *b.measured.setpoint;
+  return std::abs(a.measured.at.slip - b.measured.at.slip) < 0.02;
+}
+
+Series stress_series(const LabelledPatch& from, double StressSample::*stress) {
+  constexpr std::size_t most = 128;
+  const std::size_t every = from.patch.size() / most + 1;
+  Series series;
+  series.label = from.label;
+  series.color = from.color;
+  for (std::size_t k = 0; k < from.patch.size(); k += every) {
+    series.x.push_back(from.patch[k].theta / degree);
+    series.y.push_back(from.patch[k].*stress / 1000);
+  }
+  return series;
+}
+
+/// Predictions of a curve as a line through the means of its setpoints.
+Series predicted_line(const std::vector<const PredictedRun*>& runs, const ChannelView& channel) {
+  struct Mean {
+    const PredictedRun* first;
+    double x = 0.0, y = 0.0, count = 0.0;
+  };
+  std::vector<Mean> means;
+  for (const PredictedRun* run : runs) {
+    if (!run->predicted.result) continue;
+    auto place = std::find_if(means.begin(), means.end(), [&](const Mean& m) { return same_setpoint(*m.first, *run); });
+    if (place == means.end()) place = means.insert(means.end(), Mean{run});
+    place->x += run->measured.at.slip;
+    place->y += ((*run->predicted.result).*channel.predicted).value;
+    place->count += 1;
+  }
+  std::sort(means.begin(), means.end(), [](const Mean& a, const Mean& b) { return a.x / a.count < b.x / b.count; });
+  Series line;
+  for (const Mean& mean : means) {
+    line.x.push_back(100 * mean.x / mean.count);
+    line.y.push_back(channel.per_si * mean.y / mean.count);
+  }
+  return line;
+}
+
+}  // namespace
+
+Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, Panels panels) {
+  Sheet sheet{question.study.name, {}, Palette::ordered};
+  const Curves curves = curves_against_slip(question.study.conditions, Spread::exact);
+  const bool alone = curves.labels.size() == 1;
+  if (alone) sheet.palette = Palette::named;
+  const bool bands = curves.labels.size() * study.size() <= most_bands;
+  for (const Shown& shown : shown_of(study, panels)) {
+    Plot plot = empty_plot(shown);
+    for (std::size_t m = 0; m < study.size(); ++m)
+      for (std::size_t curve = 0; curve < curves.labels.size(); ++curve) {
+        Series series = series_of(study[m].answers, curves, curve, shown, bands);
+        series.label = join(study.size() > 1 ? study[m].choice.label : "", curves.labels[curve]);
+        series.color = static_cast<int>(alone ? m : curve);
+        series.dash = alone ? 0 : static_cast<int>(m);
+        plot.series.push_back(std::move(series));
+      }
+    sheet.plots.push_back(std::move(plot));
+  }
+  return sheet;
+}
+
+Sheet patch_sheet(const std::string& title, const std::vector<LabelledPatch>& patches) {
+  Sheet sheet{title, {}, Palette::named};
+  const std::pair<const char*, double StressSample::*> stresses[] = {{"Normal stress [kPa]", &StressSample::normal},
+                                                                     {"Shear stress [kPa]", &StressSample::shear}};
+  for (const auto& [name, stress] : stresses) {
+    Plot plot{name, {"angle before the axle [deg]", {}, {}}, {}, {}, false};
+    for (const LabelledPatch& one : patches)
+      if (!one.patch.empty()) plot.series.push_back(stress_series(one, stress));
+    if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
+  }
+  return sheet;
+}
+
+Sheet campaign_sheet(const Campaign& campaign, const Prediction& prediction) {
+  const Curves curves = curves_against_slip(conditions_of(prediction), Spread::measured);
+  Sheet sheet{campaign.name + ": measured (points), predicted without fitting (lines)", {}, Palette::ordered};
+  if (curves.labels.size() == 1) sheet.palette = Palette::named;
+  for (const ChannelError& error : prediction.errors) {
+    const ChannelView& channel = channel_views[error.channel];
+    Plot plot = empty_plot({std::string(channel.title), std::string(channel.unit), channel.per_si, {}});
+    for (std::size_t curve = 0; curve < curves.labels.size(); ++curve) {
+      std::vector<const PredictedRun*> members;
+      Series points;
+      for (std::size_t i = 0; i < prediction.runs.size(); ++i) {
+        if (curves.curve_of[i] != curve) continue;
+        members.push_back(&prediction.runs[i]);
+        const auto& value = prediction.runs[i].measured.*channel.measured;
+        points.x.push_back(100 * prediction.runs[i].measured.at.slip);
+        points.y.push_back(value ? *value * channel.per_si : not_a_number);
+      }
+      Series line = predicted_line(members, channel);
+      points.mark = Mark::points;
+      points.color = line.color = static_cast<int>(curve);
+      points.label = line.label = curves.labels[curve].empty() ? "all runs" : curves.labels[curve];
+      plot.series.push_back(std::move(line));
+      plot.series.push_back(std::move(points));
+    }
+    sheet.plots.push_back(std::move(plot));
+  }
+  return sheet;
+}
+
+Sheet scatter_sheet(const Campaign& campaign, const Prediction& prediction) {
+  const Curves curves = curves_against_slip(conditions_of(prediction), Spread::measured);
+  Sheet sheet{campaign.name + ": predicted against measured", {}, Palette::ordered};
+  if (curves.labels.size() == 1) sheet.palette = Palette::named;
+  for (const ChannelError& error : prediction.errors) {
+    const ChannelView& channel = channel_views[error.channel];
+    const std::string unit = " [" + std::string(channel.unit) + "]";
+    Plot plot{capital(std::string(channel.title)) + unit, {"measured", {}, {}}, {"predicted", {}, {}}, {}, true};
+    for (std::size_t curve = 0; curve < curves.labels.size(); ++curve) {
+      Series points;
+      points.mark = Mark::points;
+      points.label = curves.labels[curve];
+      points.color = static_cast<int>(curve);
+      for (std::size_t i = 0; i < prediction.runs.size(); ++i) {
+        const PredictedRun& run = prediction.runs[i];
+        const auto& measured = run.measured.*channel.measured;
+        if (curves.curve_of[i] != curve || !measured || !run.predicted.result) continue;
+        points.x.push_back(*measured * channel.per_si);
+        points.y.push_back(((*run.predicted.result).*channel.predicted).value * channel.per_si);
+      }
+      plot.series.push_back(std::move(points));
+    }
+    sheet.plots.push_back(std::move(plot));
+  }
+  return sheet;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,298 @@
+#include "compare/sweep/answers_page.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/report/number_text.hpp"
+#include "compare/report/page.hpp"
+#include "compare/sweep/answer_sheets.hpp"
+#include "compare/sweep/varying.hpp"
+#include "scenario/soil_parameters.hpp"
+#include "scenario/unit.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// One curve of a model; the pointers go into the answers and are null where no condition has such a result.
+struct Peak {
+  std::string label;                           ///< of the curve: "4 kN"; "" for the only one
+  const TractionResult* pull = nullptr;        ///< largest drawbar pull
+  const TractionResult* efficiency = nullptr;  ///< largest tractive efficiency while driving and pulling
+  const TractionResult* last = nullptr;        ///< at the largest slip
+  std::size_t unsolved = 0;
+};
+
+/// A peak for each curve of a model's answers, in the order of curves_against_slip.
+std::vector<Peak> peaks(const ModelAnswers& model) {
+  std::vector<OperatingCondition> conditions;
+  for (const Answer& answer : model.answers) conditions.push_back(answer.at);
+  const Curves curves = curves_against_slip(conditions, Spread::exact);
+  std::vector<Peak> found(curves.labels.size());
+  for (std::size_t c = 0; c < found.size(); ++c) found[c].label = curves.labels[c];
+  for (std::size_t i = 0; i < model.answers.size(); ++i) {
+    Peak& peak = found[curves.curve_of[i]];
+    if (!model.answers[i].result) {
+      ++peak.unsolved;
+      continue;
+    }
+    const TractionResult& r = *model.answers[i].result;
+    if (!peak.pull || r.drawbar_pull.value > peak.pull->drawbar_pull.value) peak.pull = &r;
+    if (!peak.last || r.at.slip > peak.last->at.slip) peak.last = &r;
+    if (has_efficiency(r) && (!peak.efficiency || r.tractive_efficiency > peak.efficiency->tractive_efficiency))
+      peak.efficiency = &r;
+  }
+  return found;
+}
+
+std::string force(double newton) {
+  return std::abs(newton) >= 1000.0 ? fmt::format("{:.3g} kN", newton / 1000) : fmt::format("{:.3g} N", newton);
+}
+
+/// "1.32 ± 0.22 kN".
+std::string force(const Estimate& pull) {
+  const bool kilo = std::abs(pull.value) >= 1000.0;
+  return number(pull, kilo ? 1e-3 : 1.0) + (kilo ? " kN" : " N");
+}
+
+/// "The most it can pull rises from 817 N (2 kN) to 2.06 kN (8 kN)."
+std::string change(const Peak& first, const Peak& last) {
+  const double a = first.pull->drawbar_pull.value, b = last.pull->drawbar_pull.value;
+  if (std::abs(b - a) < 0.01 * std::abs(a))
+    return fmt::format("From {} to {} the most it can pull hardly changes.", first.label, last.label);
+  return fmt::format("The most it can pull {} from {} ({}) to {} ({}){}.", b > a ? "rises" : "falls", force(a),
+                     first.label, force(b), last.label, b < 0.0 ? ", where it has to be pushed" : "");
+}
+
+std::string largest_pull(const Peak& peak) {
+  const TractionResult& r = *peak.pull;
+  std::string text = fmt::format("The wheel pulls at most {}{}, {:.0f} % of its load, at {:.3g} % slip",
+                                 force(r.drawbar_pull), peak.label.empty() ? "" : " (" + peak.label + ")",
+                                 100 * r.drawbar_pull.value / r.at.load, 100 * r.at.slip);
+  if (peak.efficiency != nullptr)
+    text += fmt::format("; at best {:.0f} % of its power goes into pull, at {:.3g} % slip",
+                        100 * peak.efficiency->tractive_efficiency, 100 * peak.efficiency->at.slip);
+  return text + ".";
+}
+
+/// What another model of the study says of the same curve.
+std::string other_model(const std::string& label, const Peak& base, const Peak& other) {
+  return fmt::format(
+      "With {} it is {} at {:.3g} % slip, and at {:.3g} % slip the wheel sinks {:.0f} mm where the base "
+      "model says {:.0f} mm.",
+      label, force(other.pull->drawbar_pull.value), 100 * other.pull->at.slip, 100 * other.last->at.slip,
+      1000 * other.last->sinkage.value, 1000 * base.last->sinkage.value);
+}
+
+std::string percent_to_tenths(double share) { return fmt::format("{:.4g}", std::round(1000 * share) / 10); }
+
+/// The cells of one curve, without its model.
+std::vector<std::string> peak_row(const Peak& peak) {
+  std::vector<std::string> row = {peak.label.empty() ? "all" : peak.label};
+  if (peak.unsolved > 0) row[0] += fmt::format(" ({} without a solution)", peak.unsolved);
+  if (peak.pull != nullptr)
+    row.insert(row.end(), {number(peak.pull->drawbar_pull), percent_to_tenths(peak.pull->at.slip),
+                           number(peak.pull->torque), number(peak.pull->sinkage, 1000)});
+  else
+    row.insert(row.end(), 4, "-");
+  row.push_back(peak.efficiency != nullptr ? percent_to_tenths(peak.efficiency->tractive_efficiency) : "-");
+  row.push_back(peak.efficiency != nullptr ? percent_to_tenths(peak.efficiency->at.slip) : "-");
+  return row;
+}
+
+HtmlTable peak_table(const StudyPart& part) {
+  HtmlTable table{"Where each curve pulls most, and where it is most efficient",
+                  {"curve", "largest pull [N]", "at slip [%]", "torque [N m]", "sinkage [mm]", "best efficiency [%]",
+                   "at slip [%]"},
+                  {},
+                  {true}};
+  const bool several = part.study.size() > 1;
+  if (several) {
+    table.header.insert(table.header.begin(), "model");
+    table.text_columns.push_back(true);
+  }
+  for (const ModelAnswers& model : part.study)
+    for (const Peak& peak : peaks(model)) {
+      table.rows.push_back(peak_row(peak));
+      if (several) table.rows.back().insert(table.rows.back().begin(), model.choice.label);
+    }
+  return table;
+}
+
+HtmlTable answers_table(const StudyPart& part) {
+  HtmlTable table{
+      "",
+      {"model", "condition", "drawbar pull [N]", "torque [N m]", "sinkage [mm]", "lateral force [N]", "efficiency [%]"},
+      {},
+      {true, true}};
+  for (const ModelAnswers& model : part.study)
+    for (const Answer& answer : model.answers) {
+      std::vector<std::string> row = {model.choice.label, in_words(answer.at)};
+      if (!answer.result)
+        row.push_back("no solution: " + answer.error);
+      else
+        for (const ChannelView& channel : channel_views)
+          row.push_back(number((*answer.result).*channel.predicted, channel.per_si));
+      if (answer.result)
+        row.push_back(has_efficiency(*answer.result) ? number(100 * answer.result->tractive_efficiency) : "-");
+      row.resize(table.header.size());
+      table.rows.push_back(std::move(row));
+    }
+  return table;
+}
+
+HtmlTable error_table(const Prediction& prediction) {
+  HtmlTable table{"Predicted less measured, nothing fitted",
+                  {"channel", "runs", "root mean square", "bias", "range measured", "share of range [%]"},
+                  {},
+                  {}};
+  for (const ChannelError& error : prediction.errors) {
+    const ChannelView& channel = channel_views[error.channel];
+    const auto in_unit = [&](double si) { return fmt::format("{} {}", number(si * channel.per_si), channel.unit); };
+    table.rows.push_back({std::string(channel.title), std::to_string(error.runs), in_unit(error.rmse),
+                          in_unit(error.bias), in_unit(error.range), number(100 * error.share_of_range)});
+  }
+  return table;
+}
+
+std::string source_of(const std::map<std::string, std::string>& sources, const std::string& key) {
+  const auto found = sources.find(key);
+  return found == sources.end() ? "" : found->second;
+}
+
+HtmlTable soil_table(const std::string& name, const SemiEmpiricalSoil& soil, const std::string& source) {
+  HtmlTable table{"Soil " + name + (source.empty() ? "" : ": " + source),
+                  {"value", "", "unit", "source"},
+                  {},
+                  {true, false, true, true}};
+  for (const SoilParameter& p : soil_parameters)
+    table.rows.push_back({p.title, number(soil.*p.value, p.per_si), p.unit, source_of(soil.sources, p.name)});
+  table.rows.push_back({"density", number(bulk_density(soil)), "kg/m^3",
+                        soil.density ? source_of(soil.sources, "density") : "presumed: the soil declares none"});
+  return table;
+}
+
+std::string tire_words(const Tire& tire) {
+  std::string text = fmt::format("Wheel {}: radius {} mm, width {} mm, ", tire.name, number(1000 * tire.radius),
+                                 number(1000 * tire.width));
+  text += is_lugged(tire) ? fmt::format("lugs of {} mm", number(1000 * tire.lugs.height)) : "smooth";
+  return text + (tire.source.empty() ? "." : ". Source: " + tire.source + ".");
+}
+
+void add_study(Page& page, const StudyPart& part) {
+  page.section(part.question.study.name);
+  if (!part.question.description.empty()) page.paragraph(part.question.description + ".");
+  const Sheet sheet = study_sheet(part.question, part.study);
+  page.figure(sheet, fmt::format("{} on {}. Efficiency is drawn where the wheel both drives and pulls.{}",
+                                 part.question.scenario.tire.name, in_words(part.question.scenario.soil),
+                                 part.study.size() > 1 ? " Dashed: the model with its effect." : ""));
+  page.table(peak_table(part));
+  page.folded("All conditions as a table", [&] { page.table(answers_table(part)); });
+}
+
+void add_campaign(Page& page, const CampaignPart& part) {
+  page.section(part.campaign.name);
+  page.table(error_table(part.prediction));
+  page.figure(campaign_sheet(part.campaign, part.prediction),
+              "Points: measured runs. Lines: what the model says at the same load, slip and angle, with the soil as it "
+              "was declared beforehand.");
+  page.figure(scatter_sheet(part.campaign, part.prediction),
+              "On the dashed line the prediction equals the measurement.");
+}
+
+void add_provenance(Page& page, const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns) {
+  page.section("Where the numbers come from");
+  std::vector<std::string> told;
+  const auto once = [&](const std::string& what) {
+    const bool fresh = std::find(told.begin(), told.end(), what) == told.end();
+    if (fresh) told.push_back(what);
+    return fresh;
+  };
+  for (const StudyPart& part : studies) {
+    const Scenario& scenario = part.question.scenario;
+    if (once(tire_words(scenario.tire))) page.paragraph(tire_words(scenario.tire));
+    if (scenario.soil.semi_empirical && once("soil " + scenario.soil.name))
+      page.table(soil_table(in_words(scenario.soil), *scenario.soil.semi_empirical, scenario.soil.source));
+  }
+  for (const CampaignPart& part : campaigns) {
+    Tire wheel = part.campaign.wheel;
+    if (wheel.name.empty()) wheel.name = "of " + part.campaign.name;
+    if (once(tire_words(wheel))) page.paragraph(tire_words(wheel));
+    page.table(soil_table("declared by " + part.campaign.name, part.campaign.soil, ""));
+  }
+}
+
+}  // namespace
+
+std::string in_words(const StudyPart& part) {
+  if (part.study.empty()) return "";
+  const std::vector<Peak> base = peaks(part.study.front());
+  std::vector<std::size_t> solved;
+  for (std::size_t i = 0; i < base.size(); ++i)
+    if (base[i].pull != nullptr) solved.push_back(i);
+  if (solved.empty()) return "No condition has a solution.";
+  const std::size_t shown = solved[(solved.size() - 1) / 2];
+  std::string text = largest_pull(base[shown]);
+  for (std::size_t m = 1; m < part.study.size(); ++m) {
+    const std::vector<Peak> other = peaks(part.study[m]);
+    if (other[shown].pull != nullptr)
+      text.append(" ").append(other_model(part.study[m].choice.label, base[shown], other[shown]));
+  }
+  if (solved.size() > 1) text.append(" ").append(change(base[solved.front()], base[solved.back()]));
+  return text;
+}
+
+std::string in_words(const CampaignPart& part) {
+  std::string text = "Without any fitting the model misses";
+  const ChannelError* worst = nullptr;
+  for (std::size_t i = 0; i < part.prediction.errors.size(); ++i) {
+    const ChannelError& error = part.prediction.errors[i];
+    const ChannelView& channel = channel_views[error.channel];
+    text += fmt::format("{} {} by {:.3g} {} ({:.0f} % of the range measured)", i == 0 ? "" : ",", channel.title,
+                        error.rmse * channel.per_si, channel.unit, 100 * error.share_of_range);
+    if (worst == nullptr || error.share_of_range > worst->share_of_range) worst = &error;
+  }
+  text += fmt::format(", root mean square over {} runs", part.prediction.runs.size());
+  if (part.prediction.unsolved > 0) text += fmt::format(", of which {} have no solution", part.prediction.unsolved);
+  if (worst != nullptr) {
+    const ChannelView& channel = channel_views[worst->channel];
+    text += fmt::format(". Worst is {}, on average predicted {:.3g} {} too {}", channel.title,
+                        std::abs(worst->bias) * channel.per_si, channel.unit, worst->bias < 0 ? "small" : "large");
+  }
+  return text + ".";
+}
+
+std::string analysis_page(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns,
+                          const PageAbout& about) {
+  Page page(about.title,
+            "What does this tire do on this soil? Answers of the semi-empirical wheel model, and how they "
+            "compare with measurements.");
+  std::vector<std::pair<std::string, std::string>> summary;
+  for (const StudyPart& part : studies) summary.emplace_back(part.question.study.name, in_words(part));
+  for (const CampaignPart& part : campaigns) summary.emplace_back(part.campaign.name, in_words(part));
+  bool doubt = false;
+  for (const StudyPart& part : studies)
+    for (const ModelAnswers& model : part.study)
+      for (const Answer& answer : model.answers)
+        doubt = doubt || (answer.result && answer.result->drawbar_pull.std_error > 0.0);
+  if (doubt) summary.emplace_back("", "± is one standard error, from the standard deviations of the soil's values.");
+  page.summary(summary);
+  page.doubts(about.doubts);
+  for (const StudyPart& part : studies) add_study(page, part);
+  for (const CampaignPart& part : campaigns) add_campaign(page, part);
+  add_provenance(page, studies, campaigns);
+  page.section("How this page was made");
+  page.paragraph(
+      "The model is Bekker's pressure-sinkage law with Wong and Reece's stresses under a rigid wheel and "
+      "Janosi's shear law; effects named in a model's label are added to it. ± is one standard error, "
+      "propagated to first order from the standard deviations of the soil's values. The balance of the load "
+      "is solved to about 1e-14; the quadrature is good to 1e-9.");
+  page.code(about.command);
+  HtmlTable versions{"", {"part", "version"}, {}, {true, true}};
+  for (const auto& [name, version] : about.versions) versions.rows.push_back({name, version});
+  page.table(versions);
+  return page.html();
+}
+
+}  // namespace soilbin::compare

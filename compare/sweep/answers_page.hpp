@@ -1,0 +1,34 @@
+// Studies and campaigns as one HTML page that a person can read from the top: plain words, plots, tables, provenance.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/report/page.hpp"
+#include "compare/sweep/answers.hpp"
+#include "compare/sweep/prediction.hpp"
+
+namespace soilbin::compare {
+
+/// A study and what its models answer.
+struct StudyPart {
+  Case question;
+  std::vector<ModelAnswers> study;
+};
+
+/// A campaign and what the model predicts of it, without fitting.
+struct CampaignPart {
+  Campaign campaign;
+  Prediction prediction;
+};
+
+std::string analysis_page(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns,
+                          const PageAbout& about);
+
+/// Sentences about a study, computed from its answers: the largest pull, the best efficiency, what changes them.
+std::string in_words(const StudyPart& part);
+
+/// The same about a campaign: how far off the predictions are, and in which direction.
+std::string in_words(const CampaignPart& part);
+
+}  // namespace soilbin::compare
