@@ -26,6 +26,10 @@ class TheHouse(unittest.TestCase):
         with_sources = {name.parts[0] for name in rules.project_files(ROOT) if name.suffix in rules.CPP}
         self.assertLessEqual(with_sources, set(rules.FLOORS))
 
+    def test_has_every_interface_that_the_rules_name(self):
+        for place in rules.INTERFACES:
+            self.assertTrue((ROOT / place).is_file(), place)
+
     def test_has_every_single_file_that_a_rule_excepts(self):
         for places in rules.LIBRARIES.values():
             for place in places:
@@ -73,9 +77,49 @@ class TheRules(unittest.TestCase):
         self.assertEqual(len(self.breaches("folder names", scenario__utils__a_dot_hpp="")), 1)
         self.assertEqual(self.breaches("folder names", scenario__units_dot_hpp=""), [])
 
-    def test_a_long_file(self):
-        self.assertEqual(self.breaches("lengths of files", scenario__a_dot_cpp="\n" * 400), [])
-        self.assertEqual(len(self.breaches("lengths of files", scenario__a_dot_cpp="\n" * 401)), 1)
+    def test_folders_that_include_each_other(self):
+        one = {"dem__engine__a_dot_hpp": '#include "dem/bed/b.hpp"\n', "dem__bed__b_dot_hpp": "// no include\n"}
+        self.assertEqual(self.breaches("circles", **one), [])
+        self.assertEqual(
+            self.breaches("circles", **one, dem__bed__c_dot_cpp='#include "dem/engine/a.hpp"\n'),
+            ["dem/bed -> dem/engine -> dem/bed: a circle of folders "
+             "(dem/bed/c.cpp -> dem/engine/a.hpp, dem/engine/a.hpp -> dem/bed/b.hpp)"])
+
+    def test_a_circle_over_a_third_folder(self):
+        found = self.breaches("circles", compare__a__a_dot_hpp='#include "compare/b/b.hpp"\n',
+                              compare__b__b_dot_hpp='#include "compare/c/c.hpp"\n',
+                              compare__c__c_dot_hpp='#include "compare/a/a.hpp"\n')
+        self.assertEqual(len(found), 1)
+        self.assertTrue(found[0].startswith("compare/a -> compare/b -> compare/c -> compare/a: "), found)
+
+    def test_the_folders_of_compare_in_another_order_than_the_page_of_the_house(self):
+        def found(first, second):
+            return self.breaches("order of compare", compare__a__a_dot_hpp='#include "compare/b/b.hpp"\n',
+                                 compare__b__b_dot_hpp="", design_dot_md="Below compare/, in order:\n\n"
+                                 f"| folder | what |\n|---|---|\n| {first}/ | x |\n| {second}/ | y |\n\nend\n")
+        self.assertEqual(found("b", "a"), [])
+        self.assertEqual(found("a", "b"), ["design.md: compare/b/ stands below compare/a/, which includes it "
+                                           "(compare/a/a.hpp -> compare/b/b.hpp)"])
+        self.assertEqual(len(found("b", "gone")), 2)
+
+    def test_a_file_that_includes_half_the_house(self):
+        def including(count):
+            return "".join(f'#include "scenario/{k}.hpp"\n' for k in range(count)) + "#include <vector>\n"
+        self.assertEqual(self.breaches("includes", cli__a_dot_cpp=including(14)), [])
+        self.assertEqual(self.breaches("includes", cli__a_dot_cpp=including(15)),
+                         ["cli/a.cpp: includes 15 of the project's headers, more than 14: it does too much"])
+
+    def test_a_header_that_opens_without_a_word(self):
+        says = "// The soil as a case declares it: numbers with their sources.\n#pragma once\n"
+        self.assertEqual(self.breaches("opening comments", scenario__a_dot_hpp=says), [])
+        self.assertEqual(len(self.breaches("opening comments", scenario__a_dot_hpp="#pragma once\n// too late, too late, too late\n")), 1)
+        self.assertEqual(len(self.breaches("opening comments", scenario__a_dot_hpp="// The soil.\n#pragma once\n")), 1)
+
+    def test_an_interface_without_an_example(self):
+        says = "// Plots as drawings: axes with units, a legend, error bands.\n"
+        example = "//\n//   svg(sheet);\n"
+        self.assertEqual(len(self.breaches("opening comments", compare__report__page_dot_hpp=says)), 1)
+        self.assertEqual(self.breaches("opening comments", compare__report__page_dot_hpp=says + example), [])
 
     def test_a_machine_path(self):
         path = "/" + "tmp" + "/x"

@@ -46,7 +46,15 @@ LIBRARIES = {
 }
 
 VAGUE_FOLDERS = {"utils", "util", "common", "core", "misc", "helpers", "helper"}
-LONGEST_FILE = 400
+FEWEST_WORDS = 6  # of the comment that a header opens with
+MOST_INCLUDES = 14  # of the project's own headers, in one file
+# Headers that people outside their folder begin with: their opening comment shows how they are called.
+INTERFACES = [
+    "bekker_wong/transient/driving.hpp", "compare/discrepancy/comparison.hpp", "compare/doubts/doubts.hpp",
+    "compare/failure_map/failure_map.hpp", "compare/report/page.hpp", "dem/rig/free_drive.hpp",
+]
+# Files that include more than that from before the rule; the list only gets shorter.
+INCLUDE_TOO_MUCH = {"cli/calibrate_command.cpp", "cli/compare_command.cpp", "cli/serve/replies.cpp"}
 CPP = {".cpp", ".hpp", ".h", ".cc", ".ipp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 # Folders of one machine, or beside the checkout. Spelt in pieces, or this file would breach its own rule.
@@ -104,12 +112,93 @@ def folder_breaches(_, files):
             yield f"{folder}/: a folder's name says what is in it"
 
 
-def length_breaches(root, files):
+def folder_graph(root, files):
+    """{folder: {folder it includes: "file -> header" that says so}}, of the floors' own folders."""
+    graph = {}
+    for name, _, quoted, _ in includes(root, files):
+        if name.parts[0] in ("tests", "bench") or not quoted:
+            continue
+        folder, target = name.parent.as_posix(), Path(quoted).parent.as_posix()
+        if folder != target and target.split("/")[0] in FLOORS:
+            graph.setdefault(folder, {}).setdefault(target, f"{name} -> {quoted}")
+    return graph
+
+
+def circles(graph):
+    """Each circle of folders once, shortest first to close: [a, b, ..., a]."""
+    found, seen = [], set()
+    for start in sorted(graph):
+        if start in seen:
+            continue
+        ways, at = [[start]], {start}  # breadth first: the shortest way back to the start
+        while ways:
+            way = ways.pop(0)
+            for target in sorted(graph.get(way[-1], {})):
+                if target == start:
+                    found.append(way + [start])
+                    seen.update(way)
+                    ways = []
+                    break
+                if target not in at:
+                    at.add(target)
+                    ways.append(way + [target])
+    return found
+
+
+def circle_breaches(root, files):
+    graph = folder_graph(root, files)
+    for circle in circles(graph):
+        steps = ", ".join(graph[a][b] for a, b in zip(circle, circle[1:]))
+        yield f"{' -> '.join(circle)}: a circle of folders ({steps})"
+
+
+def order_breaches(root, files):
+    """The table of folders below compare/ in design.md names each, and each includes those above it alone."""
+    page = root / "design.md"
+    if not page.is_file():
+        return
+    rows = re.search(r"^Below `?compare/.*?\n\n(\|.*?)\n\n", page.read_text(encoding="utf-8"), re.M | re.S)
+    order = re.findall(r"^\| ([a-z_]+)/ \|", rows[1], re.M) if rows else []
+    places = {f"compare/{folder}": place for place, folder in enumerate(order)}
+    graph = {folder: targets for folder, targets in folder_graph(root, files).items() if folder.startswith("compare/")}
+    there = {"/".join(name.parts[:2]) for name in files if name.parts[0] == "compare" and len(name.parts) > 2}
+    for folder in sorted(there ^ set(places)):
+        yield f"design.md: the table of folders below compare/ and the tree differ in {folder}/"
+    for folder, targets in sorted(graph.items()):
+        for target, step in sorted(targets.items()):
+            if places.get(target, -1) > places.get(folder, len(places)):
+                yield f"design.md: {target}/ stands below {folder}/, which includes it ({step})"
+
+
+def include_breaches(root, files):
+    counts = {}
+    for name, _, quoted, _ in includes(root, files):
+        counts[name] = counts.get(name, 0) + bool(quoted)
+    for name, count in sorted(counts.items()):
+        if count > MOST_INCLUDES and str(name) not in INCLUDE_TOO_MUCH:
+            yield f"{name}: includes {count} of the project's headers, more than {MOST_INCLUDES}: it does too much"
+        elif count <= MOST_INCLUDES and str(name) in INCLUDE_TOO_MUCH:
+            yield f"{name}: includes {count} headers by now: take it out of INCLUDE_TOO_MUCH"
+
+
+def opening_comment(text):
+    lines = []
+    for line in text.splitlines():
+        if not line.startswith("//"):
+            break
+        lines.append(line[2:])
+    return lines
+
+
+def opening_breaches(root, files):
     for name in files:
-        if name.suffix in CPP and not str(name).startswith("bench/data/"):
-            lines = len((root / name).read_text(encoding="utf-8").splitlines())
-            if lines > LONGEST_FILE:
-                yield f"{name}: {lines} lines, more than {LONGEST_FILE}"
+        if name.suffix != ".hpp" or "consumer" in name.parts:
+            continue
+        comment = opening_comment((root / name).read_text(encoding="utf-8"))
+        if sum(len(line.split()) for line in comment) < FEWEST_WORDS:
+            yield f"{name}: opens without a comment that says what it holds, and why"
+        if str(name) in INTERFACES and not any(line.startswith("   ") for line in comment):
+            yield f"{name}: people call it: its opening comment shows an example"
 
 
 def machine_path_breaches(root, files):
@@ -141,7 +230,10 @@ RULES = {
     "floors": floor_breaches,
     "libraries": library_breaches,
     "folder names": folder_breaches,
-    "lengths of files": length_breaches,
+    "circles": circle_breaches,
+    "order of compare": order_breaches,
+    "includes": include_breaches,
+    "opening comments": opening_breaches,
     "machine paths": machine_path_breaches,
     "effects": effect_breaches,
 }
