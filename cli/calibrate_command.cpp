@@ -9,6 +9,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/decision_flags.hpp"
+#include "cli/element_test_flags.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
@@ -128,9 +129,7 @@ Soil soil_of(const CalibrateOptions& asked, const Workplace& place) {
   if (!soil.granular)
     throw InputError(fmt::format("soil '{}' has no grains\n  hint: it needs a section 'granular'", soil.name));
   if (asked.rolling.empty()) return soil;
-  named("--rolling", asked.rolling, {"directional", "elastic_plastic"});
-  soil.granular->rolling_resistance =
-      asked.rolling == "directional" ? RollingResistance::directional : RollingResistance::elastic_plastic;
+  soil.granular->rolling_resistance = rolling_named(asked.rolling);
   soil.granular->grain_grain.rolling_stiffness = soil.granular->grain_tire.rolling_stiffness = 0.0;
   return soil;
 }
@@ -273,7 +272,8 @@ void add_options(CLI::App& command, CalibrateOptions& asked) {
                   "share of friction while the sheared sample, or the soil bin's bed, settles; 1")
       ->type_name("SHARE");
   command
-      .add_option("--rolling", asked.rolling, "law of rolling resistance: directional, elastic_plastic; the soil's own")
+      .add_option("--rolling", asked.rolling,
+                  "law of rolling resistance: elastic_plastic, directional, directional_with_twist; the soil's own")
       ->type_name("LAW");
   command.add_option("--across", asked.across, "grains along a side of the board, 16")->type_name("N");
   command.add_option("--packings", asked.packings, "samples an experiment: shear box 1, board 4")->type_name("N");

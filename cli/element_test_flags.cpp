@@ -4,12 +4,23 @@
 
 #include "cli/flag_values.hpp"
 #include "cli/soil_bin.hpp"
+#include "scenario/description.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/quantity.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
+
+RollingResistance rolling_named(const std::string& text, std::vector<std::string> words) {
+  for (const auto& [word, law] : words_of(std::type_identity<RollingResistance>{})) {
+    if (law == RollingResistance::torsion_spring) continue;  // its stiffness is no flag's
+    if (word == text) return law;
+    words.emplace_back(word);
+  }
+  throw InputError(
+      fmt::format("--rolling: '{}' is none of {}{}", clipped(text), listed(words), did_you_mean(text, words)));
+}
 
 void ElementTestFlags::add_to(CLI::App& command) {
   command.add_option("--packing", packing, "seed of the first specimen, 1")->type_name("SEED");
@@ -18,7 +29,9 @@ void ElementTestFlags::add_to(CLI::App& command) {
                   "share of friction while the specimen settles, 1; 0: densest")
       ->type_name("SHARE");
   command
-      .add_option("--rolling", rolling, "law of rolling resistance: directional, elastic_plastic, none; the soil's own")
+      .add_option(
+          "--rolling", rolling,
+          "law of rolling resistance: elastic_plastic, directional, directional_with_twist, none; the soil's own")
       ->type_name("LAW");
   command.add_option("--size", size, "of specimens and beds, times the default; tools keep theirs")
       ->type_name("FACTOR");
@@ -27,21 +40,15 @@ void ElementTestFlags::add_to(CLI::App& command) {
 
 dem::SpecimenSettings ElementTestFlags::specimen(const GranularSoil& soil) const {
   dem::SpecimenSettings out;
-  out.laws.rolling = dem::rolling_law(soil.rolling_resistance);
+  static_cast<dem::LawFlags&>(out.laws) = dem::laws_of(soil);
   if (packing < 0) throw InputError("--packing: a seed is 0 or more");
   if (!(size >= 0.4 && size <= 10)) throw InputError("--size: a factor from 0.4 to 10");
   out.packing = static_cast<std::uint64_t>(packing);
   set_where_given("--settling-friction", settling_friction, {"-", fractions}, out.settling_friction);
-  if (rolling == "elastic_plastic") {
-    out.laws.rolling = dem::RollingLaw::elastic_plastic;
-  } else if (rolling == "none") {
+  if (rolling == "none")
     out.laws.rolling = dem::RollingLaw::none;
-  } else if (rolling == "directional") {
-    out.laws.rolling = dem::RollingLaw::directional;
-  } else if (!rolling.empty()) {
-    throw InputError(fmt::format("--rolling: unknown law '{}'{}", clipped(rolling),
-                                 did_you_mean(rolling, {"directional", "elastic_plastic", "none"})));
-  }
+  else if (!rolling.empty())
+    out.laws.rolling = dem::rolling_law(rolling_named(rolling, {"none"}));
   return out;
 }
 

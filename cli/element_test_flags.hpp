@@ -3,11 +3,15 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "dem/element_tests/specimen.hpp"
 #include "scenario/soil.hpp"
 
 namespace soilbin::cli {
+
+/// The law of --rolling; `words` are those that the caller takes beside them. Throws InputError for any other.
+RollingResistance rolling_named(const std::string& text, std::vector<std::string> words = {});
 
 /// Flags as typed; empty: the default.
 struct ElementTestFlags {

@@ -48,11 +48,16 @@ constexpr std::array<Word<ForceFrame>, 2> words_of(std::type_identity<ForceFrame
   return {{{"travel", ForceFrame::travel}, {"wheel", ForceFrame::wheel}}};
 }
 
-constexpr std::array<Word<RollingResistance>, 3> words_of(std::type_identity<RollingResistance>) {
+constexpr std::array<Word<RollingResistance>, 4> words_of(std::type_identity<RollingResistance>) {
   using R = RollingResistance;
-  return {{{"directional", R::directional},
-           {"elastic_plastic", R::elastic_plastic},
+  return {{{"elastic_plastic", R::elastic_plastic},
+           {"directional", R::directional},
+           {"directional_with_twist", R::directional_with_twist},
            {"torsion_spring", R::torsion_spring}}};
+}
+
+constexpr std::array<Word<TwistingResistance>, 2> words_of(std::type_identity<TwistingResistance>) {
+  return {{{"none", TwistingResistance::none}, {"marshall", TwistingResistance::marshall}}};
 }
 
 /// Largest yaw and (open) largest incline [rad].
@@ -104,6 +109,8 @@ void describe(Visitor& v, std::type_identity<ContactPair>) {
            "coefficient of sliding friction");
   v.number("rolling_friction", &ContactPair::rolling_friction, Measure{"-", zero_or_more}, Need::required,
            "coefficient of rolling friction");
+  v.number("rolling_damping", &ContactPair::rolling_damping, Measure{"-", fractions}, Need::optional,
+           "dashpot of rolling, a share of critical; 0: grains rock on. Of elastic_plastic alone");
   v.number("cohesion", &ContactPair::cohesion, Measure{"kJ/m^3", zero_or_more}, Need::optional,
            "energy density of linear cohesion: attraction over the contact's area; 0: none");
   v.number("rolling_stiffness", &ContactPair::rolling_stiffness, Measure{"N m", zero_or_more}, Need::optional,
@@ -120,7 +127,10 @@ void describe(Visitor& v, std::type_identity<GranularSoil>) {
   v.number("youngs_modulus", &G::youngs_modulus, Measure{"MPa", above_zero}, Need::required, "E of a grain");
   v.number("poisson_ratio", &G::poisson_ratio, Measure{"-", {.lower = -1.0, .upper = 0.5, .lower_open = true}},
            Need::required, "nu of a grain");
-  v.choice("rolling_resistance", &G::rolling_resistance, Need::optional, "how grains resist rolling");
+  v.choice("rolling_resistance", &G::rolling_resistance, Need::optional,
+           "how grains resist rolling; directional: the answer depends on the time step");
+  v.choice("twisting_resistance", &G::twisting_resistance, Need::optional,
+           "how grains resist spin about the normal of their contact");
   v.group("grain_grain", &G::grain_grain, Need::required, "contact of two grains");
   v.group("grain_tire", &G::grain_tire, Need::required, "contact of a grain and the tire");
 }

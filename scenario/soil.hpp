@@ -36,12 +36,16 @@ struct ContactPair {
   double restitution = 0.5;       ///< [-], 0 .. 1
   double sliding_friction = 0.5;  ///< [-], >= 0
   double rolling_friction = 0.1;  ///< [-], >= 0
+  double rolling_damping = 0.3;   ///< share of critical, 0 .. 1; read by elastic_plastic alone. Ai et al. 2011: 0.3
   double cohesion = 0.0;          ///< energy density of linear cohesion [J/m^3], >= 0; 0: none (docs/dem-laws.md)
   double rolling_stiffness = 0;   ///< [N m/rad], >= 0; read by torsion_spring alone
 };
 
 /// How grains resist rolling (docs/dem-laws.md).
-enum class RollingResistance { directional, elastic_plastic, torsion_spring };
+enum class RollingResistance { elastic_plastic, directional, directional_with_twist, torsion_spring };
+
+/// How grains resist twisting, spin about the normal of their contact (docs/dem-laws.md).
+enum class TwistingResistance { none, marshall };
 
 /// The same soil as grains, for the discrete element model.
 struct GranularSoil {
@@ -50,7 +54,8 @@ struct GranularSoil {
   double grain_density = 0.0;   ///< [kg/m^3]
   double youngs_modulus = 0.0;  ///< [Pa]
   double poisson_ratio = 0.25;  ///< [-], -1 .. 0.5
-  RollingResistance rolling_resistance = RollingResistance::directional;
+  RollingResistance rolling_resistance = RollingResistance::elastic_plastic;
+  TwistingResistance twisting_resistance = TwistingResistance::none;
   ContactPair grain_grain;
   ContactPair grain_tire;
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "grain_tire.restitution"

@@ -27,7 +27,8 @@ inline constexpr double grains_wanted = 10.0, grains_wanted_in_a_lug = 1.0;
 GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswers>& study);
 
 /// Sentences, each kind once: grains that are coarse for the wheel, with all counts and what that does to the answer;
-/// the rolling law `directional`, whose answers hang on the time step. Empty where the soil has no grains.
+/// the directional rolling laws, whose answers depend on the time step, with where they turn into a dashpot. Empty
+/// where the soil has no grains.
 std::vector<std::string> grain_doubts(const Scenario& scenario, const std::vector<ModelAnswers>& study);
 
 }  // namespace soilbin::compare

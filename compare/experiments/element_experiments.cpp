@@ -27,13 +27,15 @@ class Identity {
   }
   Identity& add(const char* name, const ContactPair& pair) {
     add(name, pair.restitution).add("", pair.sliding_friction).add("", pair.rolling_friction).add("", pair.cohesion);
+    add("rolling_damping", pair.rolling_damping);
     return pair.rolling_stiffness > 0 ? add("rolling_stiffness", pair.rolling_stiffness) : *this;
   }
   Identity& add(const dem::ContactLaws& laws) {
     return add("laws", static_cast<int>(laws.normal))
         .add("", static_cast<int>(laws.rolling))
         .add("", static_cast<int>(laws.cohesion))
-        .add("", laws.tangential_damping);
+        .add("", laws.tangential_damping)
+        .add("twisting", static_cast<int>(laws.twisting));
   }
   /// What is varied is set to 0.
   Identity& add(const ElementExperiment& experiment, ContactKind kind) {
@@ -128,7 +130,9 @@ namespace {
 /// with a quarter of the longest step, 37.1 with an eighth and 37.4 with a sixteenth; elastic_plastic: 37.5 with a
 /// quarter (paper-sand).
 double board_step(const GranularSoil& soil) {
-  return dem::longest_step(soil) / (soil.rolling_resistance == RollingResistance::directional ? 8 : 4);
+  const bool directional = soil.rolling_resistance == RollingResistance::directional ||
+                           soil.rolling_resistance == RollingResistance::directional_with_twist;
+  return dem::longest_step(soil) / (directional ? 8 : 4);
 }
 
 }  // namespace
@@ -140,14 +144,14 @@ VirtualTest contact_test(const Soil& soil, const ContactQuestion& question) {
   if (question.kind == ContactKind::grain_tire) {
     dem::TiltingBoardSettings settings;
     settings.across = question.across;
-    settings.laws.rolling = dem::rolling_law(soil.granular->rolling_resistance);
+    static_cast<dem::LawFlags&>(settings.laws) = dem::laws_of(*soil.granular);
     settings.dt = board_step(*soil.granular);
     return tilting_board_test(experiment, settings, question.packings > 0 ? question.packings : 4);
   }
   dem::DirectShearSettings settings;
   settings.packings = question.packings > 0 ? question.packings : 1;
   settings.specimen.settling_friction = question.settling_friction;
-  settings.specimen.laws.rolling = dem::rolling_law(soil.granular->rolling_resistance);
+  static_cast<dem::LawFlags&>(settings.specimen.laws) = dem::laws_of(*soil.granular);
   settings.stresses = question.stresses;
   return shear_box_test(experiment, settings, question.strength);
 }

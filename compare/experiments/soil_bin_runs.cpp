@@ -130,7 +130,7 @@ std::unique_ptr<const Model> recorded_soil_bin(Record record, const Scenario& sc
                                                const std::filesystem::path& file, RunListener on_run) {
   refuse_other_inputs(record, inputs_of({}, scenario), file,
                       {"tire.", "soil.", "bed.radius", "bed.density", "bed.young", "bed.poisson", "bed.restitution",
-                       "bed.sliding", "bed.rolling"});
+                       "bed.sliding", "bed.rolling", "bed.laws", "bed.twisting"});
   return std::make_unique<const RecordedModel>(std::move(record), std::move(on_run));
 }
 

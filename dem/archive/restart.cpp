@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const FileKind restart_kind{"restart", 1};
+const FileKind restart_kind{"restart", 2};
 
 void set_version(const hdf5::Group& group, std::int32_t major, std::int32_t minor) {
   const std::array<std::int32_t, 2> version{major, minor};

@@ -12,7 +12,9 @@
 namespace soilbin::dem {
 
 inline constexpr std::array normal_names{"hertz", "hooke"};
-inline constexpr std::array rolling_names{"none", "directional", "elastic_plastic", "spring_slider", "torsion_spring"};
+inline constexpr std::array rolling_names{"none",          "directional_with_twist", "elastic_plastic",
+                                          "spring_slider", "torsion_spring",         "directional"};
+inline constexpr std::array twisting_names{"none", "marshall"};
 inline constexpr std::array cohesion_names{"none", "linear", "jkr"};
 inline constexpr std::array turning_names{"prescribed", "about_axis", "free"};
 
@@ -68,11 +70,12 @@ void describe_setup(const Archive& a, T& setup) {
   for (std::size_t k = 0; k < interactions.size(); ++k)
     describe_interaction(of_pairs.inner(std::to_string(k)), interactions[k]);
 
-  static_assert(sizeof(ContactLaws) == 16 && sizeof(LawFlags) == 3);
+  static_assert(sizeof(ContactLaws) == 16 && sizeof(LawFlags) == 4);
   const auto of_laws = a.inner("laws");
   of_laws.choice("normal", laws.normal, normal_names);
   of_laws.choice("rolling", laws.rolling, rolling_names);
   of_laws.choice("cohesion", laws.cohesion, cohesion_names);
+  of_laws.choice("twisting", laws.twisting, twisting_names);
   of_laws.value("tangential_damping", laws.tangential_damping);
 
   auto& [lower, upper, periodic] = domain;

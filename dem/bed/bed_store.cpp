@@ -14,7 +14,7 @@ namespace soilbin::dem {
 namespace {
 
 /// To be raised when the same recipe gives another bed than before.
-constexpr int version = 1;
+constexpr int version = 2;
 
 constexpr const char* recipe_note = "bed_recipe";
 constexpr const char* time_note = "settling_time";
@@ -55,6 +55,8 @@ std::string recipe_text(const BedRecipe& recipe) {
   text += fmt::format("laws {} {} {}\n", static_cast<int>(recipe.laws.normal), static_cast<int>(recipe.laws.rolling),
                       static_cast<int>(recipe.laws.cohesion));
   add("tangential_damping", recipe.laws.tangential_damping);
+  if (recipe.laws.rolling == RollingLaw::elastic_plastic) add("rolling_damping", soil.grain_grain.rolling_damping);
+  if (recipe.laws.twisting != TwistingLaw::none) add("twisting", static_cast<int>(recipe.laws.twisting));
   if (soil.grain_grain.rolling_stiffness > 0) add("rolling_stiffness", soil.grain_grain.rolling_stiffness);
   add("kinetic", recipe.rest.kinetic), add("unbalanced", recipe.rest.unbalanced), add("every", recipe.rest.every);
   return text;

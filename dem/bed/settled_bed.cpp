@@ -147,9 +147,17 @@ RollingLaw rolling_law(RollingResistance resistance) {
     case RollingResistance::torsion_spring:
       return RollingLaw::torsion_spring;
     case RollingResistance::directional:
-      break;
+      return RollingLaw::directional;
+    case RollingResistance::directional_with_twist:
+      return RollingLaw::directional_with_twist;
   }
-  return RollingLaw::directional;
+  return RollingLaw::elastic_plastic;
+}
+
+LawFlags laws_of(const GranularSoil& soil) {
+  const bool twists = soil.twisting_resistance == TwistingResistance::marshall;
+  return {.rolling = rolling_law(soil.rolling_resistance),
+          .twisting = twists ? TwistingLaw::marshall : TwistingLaw::none};
 }
 
 Interaction interaction_of(const ContactPair& pair) {
@@ -157,6 +165,7 @@ Interaction interaction_of(const ContactPair& pair) {
   out.restitution = pair.restitution;
   out.sliding_friction = pair.sliding_friction;
   out.rolling_friction = pair.rolling_friction;
+  out.rolling_damping = pair.rolling_damping;
   out.cohesion = pair.cohesion;
   out.rolling_stiffness = pair.rolling_stiffness;
   return out;

@@ -26,7 +26,7 @@ struct BedRecipe {
   double settling_friction = 1;  ///< share of sliding and rolling friction while grains fall; less makes a denser bed
   double gravity = 9.81;         ///< [m/s^2]
   double dt = 0;                 ///< [s]; 0: longest_step
-  ContactLaws laws{{.rolling = RollingLaw::directional}, -1.0};
+  ContactLaws laws;
   RestTest rest;
 };
 
@@ -44,6 +44,8 @@ struct SettledBed {
 
 /// The engine's law for a soil's rolling resistance.
 RollingLaw rolling_law(RollingResistance resistance);
+/// The laws that a soil names; cohesion is switched on by with_cohesion_of.
+LawFlags laws_of(const GranularSoil& soil);
 
 /// What grains do to each other, and to tire, of a soil.
 Interaction interaction_of(const ContactPair& pair);

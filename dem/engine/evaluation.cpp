@@ -20,7 +20,7 @@ struct Evaluated {
   Response<double> does;
 };
 
-Touch<double> touch_of(const Grains& grains, std::uint32_t i, std::uint32_t j, const Vec3& between) {
+Touch<double> touch_of(const Grains& grains, std::uint32_t i, std::uint32_t j, const Vec3& between, double dt) {
   const Motion &a = grains.motion[i], &b = grains.motion[j];
   const Spin &wa = grains.spin[i], &wb = grains.spin[j];
   const Vec3 normal = unit(between);
@@ -32,7 +32,9 @@ Touch<double> touch_of(const Grains& grains, std::uint32_t i, std::uint32_t j, c
           .mass = 1 / (a.inverse_mass + b.inverse_mass),
           .velocity = triple(a.velocity - b.velocity - cross(turn, normal)),
           .rotation = triple(wa.rate - wb.rate),
-          .inertia = 1 / (wa.inverse_inertia + wb.inverse_inertia)};
+          .inertia = 1 / (wa.inverse_inertia + wb.inverse_inertia),
+          .turning = 0.5 * dot(wa.rate + wb.rate, normal),
+          .before = triple(unit(between - dt * (a.velocity - b.velocity)))};
 }
 
 Memory<double> memory_of(const PairList& pairs, std::size_t pair) {
@@ -59,7 +61,7 @@ void for_each_pair_contact(const World& world, const Visit& visit) {
                 .point = {},
                 .arm_second = 0,
                 .constants = world.laws[world.kind(i, j)],
-                .touch = touch_of(s.grains, i, j, between),
+                .touch = touch_of(s.grains, i, j, between, dt),
                 .memory = memory_of(s.pairs, pair),
                 .does = {}};
     const bool adheres = setup.laws.cohesion == CohesionLaw::jkr && s.pairs.touches(pair) &&

@@ -28,7 +28,7 @@ int touches_of_mesh(const Body& body, const MeshSurface& surface, const Motion& 
   for (const TouchingPoint& point : points) {
     const double overlap = point.overlap(grain.radius);
     const Vec3 normal = body.rotation(point.normal);
-    out[count++] = {point.triangle, grain.position - (grain.radius - overlap / 2) * normal, normal, overlap};
+    out[count++] = {point.triangle, grain.position - (grain.radius - overlap / 2) * normal, normal, overlap, normal};
   }
   return count;
 }
@@ -47,7 +47,8 @@ int find_touches(const PlacedSurface& surface, const Motion& grain, double reach
   if (surface.mesh) return touches_of_mesh(*surface.body, *surface.mesh, grain, reach, out);
   const double overlap = grain.radius - (dot(grain.position, surface.normal) - surface.offset);
   if (overlap <= -reach) return 0;
-  out[0] = {-1, grain.position - (grain.radius - overlap / 2) * surface.normal, surface.normal, overlap};
+  out[0] = {-1, grain.position - (grain.radius - overlap / 2) * surface.normal, surface.normal, overlap,
+            surface.normal};
   return 1;
 }
 
@@ -91,6 +92,7 @@ int find_contacts(const GrainOnSurface& at, std::vector<SurfaceContact>& made, s
     const double overlap = touches[k].overlap;
     if (overlap <= 0 && !(old && still_adheres(at.constants, overlap, at.grain.radius))) continue;
     touches[kept] = touches[k];
+    if (old) touches[kept].before = old->normal;
     made[begin + kept++] = contact;
   }
   made.resize(begin + kept);
@@ -106,7 +108,9 @@ Touch<double> touch_of(const Body& body, const SurfaceTouch& at, const Motion& g
           .mass = 1 / grain.inverse_mass,
           .velocity = triple(velocity),
           .rotation = triple(spin.rate - body.spin),
-          .inertia = 1 / spin.inverse_inertia};
+          .inertia = 1 / spin.inverse_inertia,
+          .turning = 0.5 * dot(spin.rate + body.spin, at.normal),
+          .before = triple(at.before)};
 }
 
 void Placed::place(std::span<const Body> bodies) {

@@ -56,6 +56,7 @@ struct SurfaceTouch {
   Vec3 point;  ///< in the middle of the overlap
   Vec3 normal;
   double overlap;
+  Vec3 before;  ///< the normal of the contact that it goes on with, else its own
 };
 
 /// Grains of rows [first, last) that come within `margin` of a surface; those that are held touch none.

@@ -24,9 +24,11 @@ void TouchWork::add(const Touch<double>& touch, const Memory<double>& memory, co
   put_column(touch.normal, batch.normal, count);
   put_column(touch.velocity, batch.velocity, count);
   put_column(touch.rotation, batch.rotation, count);
+  put_column(touch.before, batch.before, count);
   put_column(memory.slide, batch.memory, count);
   put_column(memory.roll, batch.memory + 3, count);
   batch.overlap[count] = touch.overlap;
+  batch.turning[count] = touch.turning;
   batch.radius[count] = touch.radius;
   batch.inverse_mass[count] = grain.inverse_mass;
   batch.inverse_inertia[count] = spin.inverse_inertia;

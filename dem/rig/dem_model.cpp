@@ -16,7 +16,7 @@ BedRecipe DemModel::recipe(const Scenario& scenario) const {
     throw InputError("soil '" + scenario.soil.name + "' has no granular values, which dem needs");
   BedRecipe recipe;
   recipe.soil = *scenario.soil.granular;
-  recipe.laws.rolling = rolling_law(recipe.soil.rolling_resistance);
+  static_cast<LawFlags&>(recipe.laws) = laws_of(recipe.soil);
   recipe.size = settings_.size;
   if (scenario.bin) recipe.size.depth = scenario.bin->depth, recipe.size.width = scenario.bin->width;
   recipe.packing = settings_.packing;

@@ -47,7 +47,7 @@ void add_rig(Inputs& to, const Rig& rig) {
 }
 
 /// To be raised when the same inputs give other bits, or a restart keeps something else.
-constexpr int version = 1;
+constexpr int version = 2;
 
 Inputs inputs_with_contact(BedRecipe recipe, const Tire& tire, const ContactPair& tire_contact, const Rig& rig) {
   recipe.soil.grain_tire = tire_contact;
@@ -74,6 +74,8 @@ Inputs run_inputs(const BedRecipe& recipe, const Tire& tire, const Rig& rig) {
   const ContactPair& contact = recipe.soil.grain_tire;
   add(inputs, "soil.tire_restitution", contact.restitution), add(inputs, "soil.tire_sliding", contact.sliding_friction);
   add(inputs, "soil.tire_rolling", contact.rolling_friction);
+  if (recipe.laws.rolling == RollingLaw::elastic_plastic)
+    add(inputs, "soil.tire_rolling_damping", contact.rolling_damping);
   if (contact.rolling_stiffness > 0) add(inputs, "soil.tire_rolling_stiffness", contact.rolling_stiffness);
   add_rig(inputs, rig);
   add(inputs, "rig.time_step", step_of(recipe, rig));

@@ -17,8 +17,8 @@
 #include <system_error>
 #include <vector>
 
-#include "dem/surface/positive.hpp"
 #include "dem/surface/mesh_checks.hpp"
+#include "dem/surface/positive.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 

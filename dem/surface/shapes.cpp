@@ -7,8 +7,8 @@
 #include <functional>
 #include <numbers>
 
-#include "dem/surface/positive.hpp"
 #include "dem/surface/mesh_checks.hpp"
+#include "dem/surface/positive.hpp"
 
 namespace soilbin::dem {
 namespace {

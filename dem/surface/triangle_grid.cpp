@@ -5,8 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "dem/surface/positive.hpp"
 #include "dem/surface/closest_point.hpp"
+#include "dem/surface/positive.hpp"
 
 namespace soilbin::dem {
 namespace {

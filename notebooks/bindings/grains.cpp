@@ -30,8 +30,9 @@ void bind_laws(py::module_& module) {
   bind_law<dem::NormalLaw>(module, "NormalLaw", {{"hertz", dem::NormalLaw::hertz}, {"hooke", dem::NormalLaw::hooke}});
   bind_law<dem::RollingLaw>(module, "RollingLaw",
                             {{"none", dem::RollingLaw::none},
-                             {"directional", dem::RollingLaw::directional},
                              {"elastic_plastic", dem::RollingLaw::elastic_plastic},
+                             {"directional", dem::RollingLaw::directional},
+                             {"directional_with_twist", dem::RollingLaw::directional_with_twist},
                              {"spring_slider", dem::RollingLaw::spring_slider},
                              {"torsion_spring", dem::RollingLaw::torsion_spring}});
   bind_law<dem::CohesionLaw>(

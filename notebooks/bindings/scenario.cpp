@@ -67,6 +67,7 @@ void bind_tire_and_soil(py::module_& module) {
   py::class_<ContactPair> pair(module, "ContactPair", "Contact of two materials in the discrete element model.");
   described(pair);
   bind_words<RollingResistance>(module, "RollingResistance", "How grains resist rolling (docs/dem-laws.md).");
+  bind_words<TwistingResistance>(module, "TwistingResistance", "How grains resist twisting (docs/dem-laws.md).");
   py::class_<GranularSoil> granular(module, "GranularSoil",
                                     "A soil as grains: spheres, radii uniform between two bounds.");
   described(granular);

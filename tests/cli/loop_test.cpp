@@ -47,13 +47,13 @@ name: small
 wheel: {radius: 110 mm, width: 100 mm}
 soil:
   exponent: {value: 1.1, sd: 0.1}
-  k_c: {value: 1 kN/m^(n+1), sd: 0.2 kN/m^(n+1)}
-  k_phi: {value: 1500 kN/m^(n+2), sd: 300 kN/m^(n+2)}
-  cohesion: {value: 1 kPa, sd: 0.2 kPa}
-  friction_angle: {value: 28 deg, sd: 2 deg}
-  shear_modulus: {value: 20 mm, sd: 5 mm}
-  stress_angle_c1: {value: 0.2, sd: 0.05}
-  stress_angle_c2: {value: 0.3, sd: 0.05}
+  k_c: 1 kN/m^(n+1)
+  k_phi: 1500 kN/m^(n+2)
+  cohesion: 1 kPa
+  friction_angle: 28 deg
+  shear_modulus: 20 mm
+  stress_angle_c1: 0.2
+  stress_angle_c2: 0.3
 model: {effects: []}
 data: runs.csv
 )");

@@ -115,12 +115,14 @@ struct LawCase {
   double cohesion;
 };
 
-ContactLaws laws(NormalLaw normal, RollingLaw rolling, CohesionLaw cohesion, double tangential_damping = -1) {
+ContactLaws laws(NormalLaw normal, RollingLaw rolling, CohesionLaw cohesion, double tangential_damping = -1,
+                 TwistingLaw twisting = TwistingLaw::none) {
   ContactLaws all;
   all.normal = normal;
   all.rolling = rolling;
   all.cohesion = cohesion;
   all.tangential_damping = tangential_damping;
+  all.twisting = twisting;
   return all;
 }
 
@@ -129,11 +131,15 @@ const LawCase law_cases[] = {
     {"hooke", laws(NormalLaw::hooke, RollingLaw::none, CohesionLaw::none), 0},
     {"lammps", laws(NormalLaw::hertz, RollingLaw::spring_slider, CohesionLaw::none, 1), 0},
     {"directional", laws(NormalLaw::hertz, RollingLaw::directional, CohesionLaw::none), 0},
+    {"directional_with_twist", laws(NormalLaw::hertz, RollingLaw::directional_with_twist, CohesionLaw::none), 0},
     {"elastic_plastic", laws(NormalLaw::hertz, RollingLaw::elastic_plastic, CohesionLaw::none), 0},
     {"torsion_spring", laws(NormalLaw::hertz, RollingLaw::torsion_spring, CohesionLaw::none), 0},
     {"linear", laws(NormalLaw::hertz, RollingLaw::elastic_plastic, CohesionLaw::linear), 2e5},
     {"hooke_linear", laws(NormalLaw::hooke, RollingLaw::elastic_plastic, CohesionLaw::linear), 2e5},
     {"jkr", laws(NormalLaw::hertz, RollingLaw::elastic_plastic, CohesionLaw::jkr), 2.0},
+    {"marshall", laws(NormalLaw::hertz, RollingLaw::elastic_plastic, CohesionLaw::none, -1, TwistingLaw::marshall), 0},
+    {"hooke_marshall", laws(NormalLaw::hooke, RollingLaw::none, CohesionLaw::none, -1, TwistingLaw::marshall), 0},
+    {"jkr_marshall", laws(NormalLaw::hertz, RollingLaw::none, CohesionLaw::jkr, -1, TwistingLaw::marshall), 2.0},
 };
 
 class Agreement : public testing::TestWithParam<LawCase> {};
@@ -162,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, Agreement, testing::ValuesIn(law_cases),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(AgreementOverTime, ManySearchesChangeNothing) {
-  Cloud cloud{.materials = sand_and_rubber(0), .laws = law_cases[4].laws, .seed = 3};
+  Cloud cloud{.materials = sand_and_rubber(0), .laws = law_cases[5].laws, .seed = 3};
   EXPECT_LT(difference_of_instructions(cloud, "", 2000), 1e-6);  // differences of rounding grow with each bump
 }
 

@@ -282,14 +282,14 @@ TEST(Seal, RefusesWhatIsNone) {
   EXPECT_THAT(file_refusal(path), HasSubstr("give a restart that soilbin wrote"));
   write_sealed(path, {"frame", 1}, "x", Keep::nothing);
   EXPECT_THAT(file_refusal(path), HasSubstr("is a soilbin frame, not a restart"));
-  write_sealed(path, {"restart", 2}, "x", Keep::nothing);
-  EXPECT_THAT(file_refusal(path), HasSubstr("is of version 2, this soilbin reads version 1"));
+  write_sealed(path, {"restart", 3}, "x", Keep::nothing);
+  EXPECT_THAT(file_refusal(path), HasSubstr("is of version 3, this soilbin reads version 2"));
   // A seal that fits, and no HDF5 under it; HDF5 of another program.
-  write_sealed(path, {"restart", 1}, "no HDF5", Keep::nothing);
+  write_sealed(path, {"restart", 2}, "no HDF5", Keep::nothing);
   EXPECT_THAT(file_refusal(path), HasSubstr("run.h5: can't be read"));
   hdf5::OutputFile other("other");
   other.root().create("particles");
-  write_sealed(path, {"restart", 1}, other.finish(), Keep::nothing);
+  write_sealed(path, {"restart", 2}, other.finish(), Keep::nothing);
   EXPECT_THAT(file_refusal(path), HasSubstr("/soilbin: can't be read"));
 }
 

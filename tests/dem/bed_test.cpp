@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -34,6 +35,25 @@ double weight_of(const SettledBed& bed) {
   double mass = 0;
   for (std::size_t k = 0; k < bed.state.grains.count(); ++k) mass += 1 / bed.state.grains.motion[k].inverse_mass;
   return mass * bed.recipe.gravity;
+}
+
+/// Nine grains of ten spin slower [rad/s]. One that spins about the normal of its only contact goes on: nothing twists.
+double spin_after(const SettledBed& bed, double time) {
+  Simulation simulation(bed.setup, bed.state);
+  simulation.run(std::llround(time / bed.setup.numerics.dt));
+  std::vector<double> spins;
+  for (const GrainNow& grain : simulation.grains()) spins.push_back(length(grain.spin));
+  std::sort(spins.begin(), spins.end());
+  return spins[spins.size() * 9 / 10];
+}
+
+TEST(SettledBed, StopsRockingByTheDashpotOfRolling) {
+  ASSERT_EQ(small_bed().setup.laws.rolling, RollingLaw::elastic_plastic);
+  const double early = spin_after(small_bed(), 0.25), late = spin_after(small_bed(), 1);
+  EXPECT_LT(late, 0.05 * early);
+  BedRecipe rocking = small_recipe();
+  rocking.soil.grain_grain.rolling_damping = 0;
+  EXPECT_GT(spin_after(settle_bed(rocking, with_threads(1)), 1), 20 * late);
 }
 
 TEST(SurfaceHeight, OfOneGrainIsItsUpperHalf) {

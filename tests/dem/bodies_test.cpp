@@ -216,7 +216,7 @@ TEST(SlowBody, FeelsWhatItsContactsSay) {
 
 TEST(Body, CarriesAGrainAlongOnABelt) {
   // Friction's impulse J gives v = J/m to the grain and w = J l/I to its spin until v + w l is the belt's u.
-  auto setup = soft_stone();
+  auto setup = soft_stone({{.rolling = RollingLaw::none}, -1});
   setup.numerics.dt = 5e-6;
   Simulation simulation(setup);
   simulation.set_gravity({0, 0, -g});

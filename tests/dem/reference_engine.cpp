@@ -17,11 +17,12 @@ double damping_ratio(double restitution) {
   return -ln / std::sqrt(ln * ln + pi * pi);
 }
 
-/// `kept` in the plane normal to n, its length kept to fourth order.
-Vec3 turned(const Vec3& kept, const Vec3& n) {
+/// `kept` in the plane normal to n, its length kept to fourth order, and turned in it.
+Vec3 turned(const Vec3& kept, const Vec3& n, double angle) {
   if (squared(kept) == 0) return kept;
   const double s = dot(kept, n);
-  return (1 + s * s / (2 * squared(kept))) * (kept - s * n);
+  const Vec3 in_plane = (1 + s * s / (2 * squared(kept))) * (kept - s * n);
+  return std::cos(angle) * in_plane + std::sin(angle) * cross(n, in_plane);
 }
 
 /// A spring beside a dashpot, behind a slider. What exceeds the limit is slip of the slider alone.
@@ -172,6 +173,7 @@ ReferenceEngine::Pair ReferenceEngine::stars(int i, int j, const Vec3& n, double
     p.radius = g.radius, p.mass = mi, p.inertia = ii, p.rolling_inertia = ji;
     p.velocity = g.v - arm * cross(g.w, n) - planes_[-1 - j].velocity;
     p.rotation = g.w;
+    p.turning = dot(g.w, n) / 2;
     return p;
   }
   const auto& h = grains_[j];
@@ -182,6 +184,7 @@ ReferenceEngine::Pair ReferenceEngine::stars(int i, int j, const Vec3& n, double
   p.rolling_inertia = 1 / (1 / ji + 1 / jj);
   p.velocity = g.v - h.v - cross(arm * g.w + arm2 * h.w, n);
   p.rotation = g.w - h.w;
+  p.turning = dot(g.w + h.w, n) / 2;
   return p;
 }
 
@@ -231,25 +234,37 @@ void ReferenceEngine::apply(ReferenceContact& contact, const Pair& p, History& h
   contact.pressing = std::max(elastic + damping + 2 * pull_off, 0.0);
   contact.tangential = tangential(p, contact.normal, p.of.sliding_friction * contact.pressing, k_t, g_t, history.slide);
   contact.force = (elastic + damping + cohesion) * contact.normal + contact.tangential;
-  contact.couple = rolling(p, contact.normal, contact.pressing, k_n, history.roll);
+  contact.couple = rolling(p, contact.normal, contact.pressing, k_n, history.roll) +
+                   twisting(p, contact.normal, contact.pressing, a, k_t, g_t, history.twist) * contact.normal;
 }
 
 Vec3 ReferenceEngine::tangential(const Pair& p, const Vec3& n, double limit, double stiffness, double damping,
                                  Vec3& slide) const {
-  slide = turned(slide, n);
+  slide = turned(slide, n, p.turning * dt_);
   return slider(slide, p.velocity - dot(p.velocity, n) * n, stiffness, damping, limit, dt_);
+}
+
+double ReferenceEngine::twisting(const Pair& p, const Vec3& n, double pressing, double a, double stiffness,
+                                 double damping, double& twist) const {
+  if (laws_.twisting == TwistingLaw::none) return 0;
+  Vec3 along{twist, 0, 0};
+  const double limit = 2.0 / 3 * a * p.of.sliding_friction * pressing;
+  const Vec3 couple = slider(along, {dot(p.rotation, n), 0, 0}, stiffness * a * a / 2, damping * a * a / 2, limit, dt_);
+  twist = along.x;
+  return couple.x;
 }
 
 Vec3 ReferenceEngine::rolling(const Pair& p, const Vec3& n, double pressing, double k_n, Vec3& roll) const {
   if (laws_.rolling == RollingLaw::none) return {};
   const double limit = p.of.rolling_friction * p.radius * pressing;
-  if (laws_.rolling == RollingLaw::directional) {
-    const double rate = length(p.rotation);
-    if (rate == 0) return {};
-    return -std::min(limit, p.inertia * rate / dt_) / rate * p.rotation;
-  }
   const Vec3 w_t = p.rotation - dot(p.rotation, n) * n;
-  roll = turned(roll, n);
+  if (laws_.rolling == RollingLaw::directional || laws_.rolling == RollingLaw::directional_with_twist) {
+    const Vec3 w = laws_.rolling == RollingLaw::directional ? w_t : p.rotation;
+    const double rate = length(w);
+    if (rate == 0) return {};
+    return -std::min(limit, p.inertia * rate / dt_) / rate * w;
+  }
+  roll = turned(roll, n, p.turning * dt_);
   if (laws_.rolling == RollingLaw::spring_slider) {
     const double r2 = p.radius * p.radius;
     return slider(roll, w_t, p.of.rolling_stiffness * r2, p.of.rolling_viscosity * r2, limit, dt_);

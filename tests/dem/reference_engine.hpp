@@ -61,6 +61,7 @@ class ReferenceEngine {
  private:
   struct History {
     Vec3 slide, roll;
+    double twist = 0;
   };
   /// What the laws need to know of a contact.
   struct Pair {
@@ -68,6 +69,7 @@ class ReferenceEngine {
     double young, shear;                            // E*, G*
     double radius, mass, inertia, rolling_inertia;  // R*, m*, I*, J*
     Vec3 velocity, rotation;                        // v, w_r
+    double turning;                                 // of both about n
   };
 
   void begin();
@@ -77,6 +79,8 @@ class ReferenceEngine {
   void touch(int i, int j, const Vec3& n, double overlap, std::map<std::pair<int, int>, History>& next);
   void apply(ReferenceContact& contact, const Pair& pair, History& history) const;
   Vec3 tangential(const Pair& pair, const Vec3& n, double limit, double stiffness, double damping, Vec3& slide) const;
+  double twisting(const Pair& pair, const Vec3& n, double pressing, double a, double stiffness, double damping,
+                  double& twist) const;
   Vec3 rolling(const Pair& pair, const Vec3& n, double pressing, double stiffness, Vec3& roll) const;
 
   Materials materials_;

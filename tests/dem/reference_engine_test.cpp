@@ -11,6 +11,7 @@
 
 #include "dem/verification/cases.hpp"
 #include "tests/dem/reference_verification.hpp"
+#include "tests/dem/worlds.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -108,18 +109,8 @@ std::pair<Vec3, Vec3> momenta(ReferenceEngine& engine) {
   return {linear, angular};
 }
 
-std::vector<ContactLaws> all_laws() {
-  std::vector<ContactLaws> laws;
-  for (const auto normal : {NormalLaw::hertz, NormalLaw::hooke})
-    for (const auto rolling : {RollingLaw::none, RollingLaw::directional, RollingLaw::elastic_plastic,
-                               RollingLaw::spring_slider, RollingLaw::torsion_spring})
-      for (const auto cohesion : {CohesionLaw::none, CohesionLaw::linear, CohesionLaw::jkr})
-        if (normal == NormalLaw::hertz || cohesion != CohesionLaw::jkr) laws.push_back({normal, rolling, cohesion, -1});
-  return laws;
-}
-
 TEST(ReferenceEngine, KeepsMomentumUnderEachLaw) {
-  for (const auto& laws : all_laws()) {
+  for (const auto& laws : test::all_laws()) {
     auto engine = crowd(laws);
     const auto [linear, angular] = momenta(engine);
     std::size_t most = 0;
@@ -135,7 +126,7 @@ TEST(ReferenceEngine, KeepsMomentumUnderEachLaw) {
 }
 
 TEST(ReferenceEngine, LosesEnergyInACrowd) {
-  for (const auto& laws : all_laws()) {
+  for (const auto& laws : test::all_laws()) {
     if (laws.cohesion == CohesionLaw::jkr) continue;  // making a contact gives energy
     auto engine = crowd(laws);
     const double before = engine.kinetic_energy();
@@ -159,7 +150,7 @@ TEST(ReferenceEngine, KnowsNoPreferredPlaceInAPeriodicBox) {
 }
 
 TEST(ReferenceEngine, CarriesAGrainOnAMovingPlane) {
-  ReferenceEngine engine(sticky_stone(), {}, 5e-6);
+  ReferenceEngine engine(sticky_stone(), {{.rolling = RollingLaw::none}, -1}, 5e-6);
   engine.gravity = {0, 0, -9.81};
   engine.add(ReferencePlane{{}, {0, 0, 1}, {0.01, 0, 0.02}, 0});
   engine.add(ReferenceGrain{{0, 0, 0.005}, {}, {}, 0.005, 0});

@@ -109,7 +109,7 @@ TEST(Sleep, NeverComesNearABodyThatMayMove) {
   plate.weighs = true;
   plate.free_translation = {false, false, true};
   simulation.add_body(plate);
-  simulation.run(steps_of(simulation, 0.3));
+  simulation.run(steps_of(simulation, 0.6));
   EXPECT_GT(simulation.share_asleep(), 0.6);
   EXPECT_LT(simulation.share_asleep(), 1);
   EXPECT_NEAR(simulation.body(1).force.z, 0.2 * 9.81, 0.05) << "it rests on grains that feel it";

@@ -15,20 +15,25 @@ namespace soilbin::dem::test {
 inline std::vector<ContactLaws> all_laws() {
   std::vector<ContactLaws> laws;
   for (const auto normal : {NormalLaw::hertz, NormalLaw::hooke})
-    for (const auto rolling : {RollingLaw::none, RollingLaw::directional, RollingLaw::elastic_plastic,
-                               RollingLaw::spring_slider, RollingLaw::torsion_spring})
+    for (const auto rolling : {RollingLaw::none, RollingLaw::directional, RollingLaw::directional_with_twist,
+                               RollingLaw::elastic_plastic, RollingLaw::spring_slider, RollingLaw::torsion_spring})
       for (const auto cohesion : {CohesionLaw::none, CohesionLaw::linear, CohesionLaw::jkr})
         if (normal == NormalLaw::hertz || cohesion != CohesionLaw::jkr)
           laws.push_back({{normal, rolling, cohesion}, -1});
+  for (const auto cohesion : {CohesionLaw::none, CohesionLaw::linear, CohesionLaw::jkr})
+    laws.push_back({{NormalLaw::hertz, RollingLaw::elastic_plastic, cohesion, TwistingLaw::marshall}, -1});
+  for (const auto rolling : {RollingLaw::none, RollingLaw::spring_slider})
+    laws.push_back({{NormalLaw::hooke, rolling, CohesionLaw::none, TwistingLaw::marshall}, -1});
   return laws;
 }
 
 inline std::string name_of(const LawFlags& laws) {
   const char* normal[] = {"hertz", "hooke"};
-  const char* rolling[] = {"none", "directional", "elastic_plastic", "spring_slider", "torsion_spring"};
+  const char* rolling[] = {"none",          "directional_with_twist", "elastic_plastic",
+                           "spring_slider", "torsion_spring",         "directional"};
   const char* cohesion[] = {"none", "linear", "jkr"};
   return std::string(normal[static_cast<int>(laws.normal)]) + ' ' + rolling[static_cast<int>(laws.rolling)] + ' ' +
-         cohesion[static_cast<int>(laws.cohesion)];
+         cohesion[static_cast<int>(laws.cohesion)] + (laws.twisting == TwistingLaw::marshall ? " marshall" : "");
 }
 
 /// What every law needs, in one interaction; grains of about a centimetre.

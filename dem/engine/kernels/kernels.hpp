@@ -43,6 +43,7 @@ using PairKernel = void (*)(const PairSweep&, std::size_t begin, std::size_t end
 struct alignas(64) TouchBatch {
   // In: Touch of each contact, but the inverses of m* and I*.
   double normal[3][8], overlap[8], radius[8], inverse_mass[8], velocity[3][8], rotation[3][8], inverse_inertia[8];
+  double turning[8], before[3][8];
   // In and out: slide and roll.
   double memory[6][8];
   // Out: on the grain.

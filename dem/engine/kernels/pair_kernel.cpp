@@ -58,11 +58,13 @@ struct Meeting {
   HWY_INLINE explicit Meeting(const Place& place) : at(place) {}
 };
 
-/// The touch but for its normal and overlap, which it has already. Where no law asks for the inertia it is left out.
-HWY_INLINE void meet(Meeting& m, bool with_inertia) {
+/// The touch but for its normal and overlap, which it has already. What no law asks for is left out.
+HWY_INLINE void meet(Meeting& m, const LawFlags& laws, double dt) {
+  const bool with_inertia = law::reads_inertia(laws.rolling);
   const Grain &i = m.i, &j = m.j;
   const Pack distance = m.distance;
   Touch<Pack>& out = m.touch;
+  const Triad between = out.normal;
   const Pack radii = i.radius + j.radius, masses = i.inverse_mass + j.inverse_mass;
   const Pack lengths = distance * radii;
   const Pack inertias = with_inertia ? i.inverse_inertia + j.inverse_inertia : Pack(1.0);
@@ -77,6 +79,10 @@ HWY_INLINE void meet(Meeting& m, bool with_inertia) {
   m.arm_j = j.radius - half;
   out.velocity = i.velocity - j.velocity - cross(m.arm_i * i.rate + m.arm_j * j.rate, out.normal);
   out.rotation = i.rate - j.rate;
+  out.turning = Pack(0.5) * dot(i.rate + j.rate, out.normal);
+  if (laws.twisting == TwistingLaw::none) return;
+  const Triad old = between - Pack(dt) * (i.velocity - j.velocity);
+  out.before = old * (Pack(1.0) / sqrt(law::size2(old)));
 }
 
 /// Where losses are counted: adds them up, and adds the parts of the loads that make them.
@@ -123,16 +129,17 @@ HWY_INLINE void respond(const PairSweep& sweep, const Asked& asked, const LawCon
   read_motion(sweep.motion, sweep.spin, sweep.first + at.pair, m.i);
   read_motion(sweep.motion, sweep.spin, sweep.second + at.pair, m.j);
   const RollingLaw rolling = asked.laws.rolling;
-  meet(m, rolling == RollingLaw::directional || rolling == RollingLaw::elastic_plastic);
+  meet(m, asked.laws, sweep.dt);
 
   double* memory = sweep.memory + at.batch * 48 + at.within;
   Memory<Pack> kept = recall(memory);
   Losses<Pack> losses;
   const Response<Pack> does =
       contact_response(asked.laws, constants, m.touch, kept, sweep.dt, asked.losses ? &losses : nullptr);
-  if (asked.losses) count(sweep, rolling != RollingLaw::none, m, does, losses, found);
+  const bool couples = rolling != RollingLaw::none || asked.laws.twisting != TwistingLaw::none;
+  if (asked.losses) count(sweep, couples, m, does, losses, found);
   keep(kept.slide, m.touching, memory);
-  if (law::keeps_roll(rolling)) keep(kept.roll, m.touching, memory + 24);
+  if (law::keeps_roll(asked.laws)) keep(kept.roll, m.touching, memory + 24);
 
   const Triad lever = cross(m.touch.normal, does.tangential);
   scatter(sweep, at.pair, where(m.touching, does.force), where(m.touching, does.couple - m.arm_i * lever),
@@ -192,22 +199,26 @@ HWY_INLINE void run_asked(const PairSweep& sweep, const Asked& asked, std::size_
   }
 }
 
-/// Hertz without cohesion, losses not counted: what long runs are made of.
+/// Hertz without cohesion or twisting, losses not counted: what long runs are made of.
 template <RollingLaw rolling>
 void run_plain(const PairSweep& sweep, std::size_t begin, std::size_t end, PairFindings& found) {
-  run_asked(sweep, {{NormalLaw::hertz, rolling, CohesionLaw::none}, false}, begin, end, found);
+  run_asked(sweep, {{NormalLaw::hertz, rolling, CohesionLaw::none, TwistingLaw::none}, false}, begin, end, found);
 }
 
 }  // namespace
 
 void run_pairs(const PairSweep& sweep, std::size_t begin, std::size_t end, PairFindings& found) {
-  if (sweep.laws.normal != NormalLaw::hertz || sweep.laws.cohesion != CohesionLaw::none || sweep.taking)
+  const LawFlags& laws = sweep.laws;
+  if (laws.normal != NormalLaw::hertz || laws.cohesion != CohesionLaw::none || laws.twisting != TwistingLaw::none ||
+      sweep.taking)
     return run_asked(sweep, {sweep.laws, sweep.taking != nullptr}, begin, end, found);
   switch (sweep.laws.rolling) {
     case RollingLaw::none:
       return run_plain<RollingLaw::none>(sweep, begin, end, found);
     case RollingLaw::directional:
       return run_plain<RollingLaw::directional>(sweep, begin, end, found);
+    case RollingLaw::directional_with_twist:
+      return run_plain<RollingLaw::directional_with_twist>(sweep, begin, end, found);
     case RollingLaw::elastic_plastic:
       return run_plain<RollingLaw::elastic_plastic>(sweep, begin, end, found);
     case RollingLaw::spring_slider:

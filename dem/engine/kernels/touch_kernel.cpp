@@ -28,7 +28,9 @@ void run_touches(const TouchSweep& sweep, TouchBatch& batch, int count) {
                             .mass = Pack(1.0) / load(batch.inverse_mass + first),
                             .velocity = load_triad(batch.velocity, first),
                             .rotation = load_triad(batch.rotation, first),
-                            .inertia = Pack(1.0) / load(batch.inverse_inertia + first)};
+                            .inertia = Pack(1.0) / load(batch.inverse_inertia + first),
+                            .turning = load(batch.turning + first),
+                            .before = load_triad(batch.before, first)};
     Memory<Pack> memory{load_triad(batch.memory, first), load_triad(batch.memory + 3, first)};
     Losses<Pack> losses;
     const Response<Pack> does = contact_response(sweep.laws, constants_of(sweep.constants, batch.kind + first), touch,

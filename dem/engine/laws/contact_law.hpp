@@ -19,14 +19,16 @@ struct Touch {
   Real mass;              ///< m* [kg]
   Triple<Real> velocity;  ///< v of i's surface against the other's [m/s]
   Triple<Real> rotation;  ///< w_r [rad/s]
-  Real inertia;           ///< I* [kg m^2]; J* is 3.5 times that. Read by directional and elastic_plastic rolling
+  Real inertia;           ///< I* [kg m^2]; J* is 3.5 times that. Read where law::reads_inertia
+  Real turning;           ///< of both about n: (w_i + w_j) . n/2 [rad/s]
+  Triple<Real> before;    ///< n a step ago. Read by laws of twisting
 };
 
 /// What a contact remembers.
 template <class Real>
 struct Memory {
   Triple<Real> slide;  ///< xi [m]
-  Triple<Real> roll;   ///< theta [rad]
+  Triple<Real> roll;   ///< theta, and phi n of twisting [rad]
 };
 
 /// What a contact does, and, on demand, where its energy goes.
@@ -72,11 +74,25 @@ template <class Real>
   return max(dot(a, a), Real(least_square));
 }
 
-/// Turns a remembered tangent vector into the plane normal to n; its length is kept to fourth order.
+/// How the tangent plane turns about its normal within a step: the angle's sine, and one less its cosine, to fifth
+/// order.
 template <class Real>
-[[gnu::always_inline]] inline Triple<Real> turned(const Triple<Real>& kept, const Triple<Real>& n, Real inverse_size2) {
+struct Turn {
+  Real sine, versine;
+  [[gnu::always_inline]] explicit Turn(Real angle) {
+    const Real square = angle * angle;
+    sine = angle * (Real(1.0) - square * Real(1.0 / 6));
+    versine = square * (Real(0.5) - square * Real(1.0 / 24));
+  }
+};
+
+/// Turns a remembered tangent vector into the plane normal to n, and in it; its length is kept to fourth order.
+template <class Real>
+[[gnu::always_inline]] inline Triple<Real> turned(const Triple<Real>& kept, const Triple<Real>& n, Real inverse_size2,
+                                                  const Turn<Real>& turn) {
   const Real s = dot(kept, n);
-  return (kept - s * n) * (Real(1.0) + Real(0.5) * s * s * inverse_size2);
+  const Triple<Real> in_plane = (kept - s * n) * (Real(1.0) + Real(0.5) * s * s * inverse_size2);
+  return in_plane + (cross(n, in_plane) * turn.sine - in_plane * turn.versine);
 }
 
 /// Spring and dashpot side by side, behind a slider: steps 2 and 3 of the page's history.
@@ -152,9 +168,31 @@ template <class Real>
   return out;
 }
 
-/// Whether a law of rolling remembers a rotation.
-[[gnu::always_inline]] inline bool keeps_roll(RollingLaw rolling) {
-  return rolling != RollingLaw::none && rolling != RollingLaw::directional;
+[[gnu::always_inline]] inline bool is_directional(RollingLaw rolling) {
+  return rolling == RollingLaw::directional || rolling == RollingLaw::directional_with_twist;
+}
+
+/// Whether a law remembers a rotation.
+[[gnu::always_inline]] inline bool keeps_roll(const LawFlags& laws) {
+  return laws.twisting != TwistingLaw::none || (laws.rolling != RollingLaw::none && !is_directional(laws.rolling));
+}
+
+/// Whether a law asks for I*.
+[[gnu::always_inline]] inline bool reads_inertia(RollingLaw rolling) {
+  return is_directional(rolling) || rolling == RollingLaw::elastic_plastic;
+}
+
+/// Marshall's couple along n on i, and the angle of twist after the step: spring and dashpot behind a slider, as those
+/// of the tangential force act over the circle of contact.
+template <class Real>
+[[gnu::always_inline]] inline Real twist(const LawConstants<Real>& c, const Touch<Real>& at, const Normal<Real>& normal,
+                                         Real pressing, double dt, Real& angle) {
+  const Real share = Real(0.5) * normal.a * normal.a, limit = Real(2.0 / 3) * normal.a * c.sliding * pressing;
+  const Real k = share * normal.shear, g = share * normal.shear_damping, rate = dot(at.rotation, at.normal);
+  angle = angle + rate * Real(dt);
+  const Real trial = -(k * angle + g * rate), couple = max(min(trial, limit), -limit);
+  angle = angle + (trial - couple) / max(k + g * Real(1 / dt), Real(least));
+  return couple;
 }
 
 /// Tangential force by `slide`, limited by friction, and the couple of rolling resistance on i.
@@ -164,11 +202,12 @@ template <class Real>
                                           Response<Real>& out) {
   const Real friction = c.sliding * out.pressing, limit = c.rolling * at.radius * out.pressing;
   const Triple<Real> rate = at.rotation - dot(at.rotation, at.normal) * at.normal;
-  if (laws.rolling == RollingLaw::directional) {
-    const Real speed = sqrt(size2(at.rotation));
+  if (is_directional(laws.rolling)) {
+    const Triple<Real>& turning = laws.rolling == RollingLaw::directional ? rate : at.rotation;
+    const Real speed = sqrt(size2(turning));
     const Inverses<Real> inverse = inverses(slide.divisor(), speed);
     out.tangential = slide.limited(friction, inverse.first, memory.slide);
-    out.couple = at.rotation * (-min(limit * inverse.second, at.inertia * Real(1 / dt)));
+    out.couple = turning * (-min(limit * inverse.second, at.inertia * Real(1 / dt)));
   } else if (laws.rolling == RollingLaw::spring_slider || laws.rolling == RollingLaw::elastic_plastic) {
     const bool viscous = laws.rolling == RollingLaw::elastic_plastic;
     const Real reach = viscous ? c.rolling * at.radius : at.radius;
@@ -209,22 +248,30 @@ template <class Real>
   if (laws.cohesion == CohesionLaw::jkr) out.pressing = out.pressing + c.pull_off * at.radius;
   out.pressing = max(out.pressing, Real(0.0));
 
-  if (law::keeps_roll(laws.rolling)) {
+  const bool twists = laws.twisting != TwistingLaw::none;
+  const law::Turn<Real> turn(at.turning * Real(dt));
+  Real twist = twists ? dot(memory.roll, at.before) : Real(0.0);
+  if (twists) memory.roll = memory.roll - twist * at.before;
+  if (law::keeps_roll(laws)) {
     const law::Inverses<Real> inverse = law::inverses(law::size2(memory.slide), law::size2(memory.roll));
-    memory.slide = law::turned(memory.slide, n, inverse.first);
-    memory.roll = law::turned(memory.roll, n, inverse.second);
+    memory.slide = law::turned(memory.slide, n, inverse.first, turn);
+    memory.roll = law::turned(memory.roll, n, inverse.second, turn);
   } else {
-    memory.slide = law::turned(memory.slide, n, Real(1.0) / law::size2(memory.slide));
+    memory.slide = law::turned(memory.slide, n, Real(1.0) / law::size2(memory.slide), turn);
   }
   const Triple<Real> before = memory.slide;
   const law::Slider<Real> slide(memory.slide, along, normal.shear, normal.shear_damping, dt);
   law::resist(laws, c, at, normal.stiffness, slide, memory, dt, out);
+  if (twists) {
+    out.couple = out.couple + law::twist(c, at, normal, out.pressing, dt, twist) * n;
+    memory.roll = memory.roll + twist * n;
+  }
   out.force = push * n + out.tangential;
   if (losses) {
     const Triple<Real> stretched = (memory.slide - before) * Real(1 / dt);
     losses->dashpot = -normal.damping * approach;
     losses->damping = normal.damping * approach * approach;
-    losses->shear_damping = normal.shear_damping * dot(along, stretched);
+    losses->shear_damping = normal.shear_damping * dot(stretched, stretched);
     losses->sliding = -dot(out.tangential, along - stretched);
     losses->into_slide = -dot(out.tangential, along);
     losses->into_roll = -dot(out.couple, at.rotation);
@@ -232,8 +279,8 @@ template <class Real>
   return out;
 }
 
-/// Energy stored in a contact's springs [J]: normal with cohesion, tangential, rolling. jkr counts from the moment at
-/// which the contact is made.
+/// Energy stored in a contact's springs [J]: normal with cohesion, tangential, rolling with twisting. jkr counts from
+/// the moment at which the contact is made.
 template <class Real>
 struct Stored {
   Real normal, tangential, rolling;
@@ -259,7 +306,9 @@ inline Stored<double> stored_energy(const LawFlags& laws, const LawConstants<dou
     stiffness = 2.25 * normal.stiffness * c.rolling * c.rolling * at.radius * at.radius;
   if (laws.rolling == RollingLaw::spring_slider) stiffness = c.roll_stiffness * at.radius * at.radius;
   if (laws.rolling == RollingLaw::torsion_spring) stiffness = c.roll_stiffness;
-  out.rolling = 0.5 * stiffness * dot(memory.roll, memory.roll);
+  const double twist = dot(memory.roll, at.normal);
+  if (laws.twisting == TwistingLaw::marshall) out.rolling = 0.25 * normal.shear * normal.a * normal.a * twist * twist;
+  out.rolling += 0.5 * stiffness * (dot(memory.roll, memory.roll) - twist * twist);
   return out;
 }
 

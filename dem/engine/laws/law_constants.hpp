@@ -6,14 +6,24 @@
 namespace soilbin::dem {
 
 enum class NormalLaw : std::uint8_t { hertz, hooke };
-enum class RollingLaw : std::uint8_t { none, directional, elastic_plastic, spring_slider, torsion_spring };
+/// The values stand in keys of beds and in records, so they stay what they are.
+enum class RollingLaw : std::uint8_t {
+  none,
+  directional_with_twist,
+  elastic_plastic,
+  spring_slider,
+  torsion_spring,
+  directional
+};
+enum class TwistingLaw : std::uint8_t { none, marshall };
 enum class CohesionLaw : std::uint8_t { none, linear, jkr };
 
 /// Which laws act, in the whole run: asked once a batch, never once a contact.
 struct LawFlags {
   NormalLaw normal = NormalLaw::hertz;
-  RollingLaw rolling = RollingLaw::none;
+  RollingLaw rolling = RollingLaw::elastic_plastic;
   CohesionLaw cohesion = CohesionLaw::none;
+  TwistingLaw twisting = TwistingLaw::none;
 };
 
 /// Of a pair of materials (double), or of a pack of contacts.

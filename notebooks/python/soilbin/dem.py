@@ -43,7 +43,7 @@ __all__ = [
 
 def direct_shear(soil: GranularSoil, stresses: Sequence[float] = (10e3, 20e3, 40e3), *, packings: int = 1,
                  packing: int = 1, length: float = 20, width: float = 6, height: float = 10, travel: float = 3,
-                 settling_friction: float = 1, rolling: RollingLaw = RollingLaw.directional, inertial: float = 1e-3,
+                 settling_friction: float = 1, rolling: RollingLaw = RollingLaw.elastic_plastic, inertial: float = 1e-3,
                  threads: int = 0, progress: Progress = "shown") -> DirectShearResult:
     """The shear box (docs/element-tests.md).
 
@@ -58,7 +58,7 @@ def direct_shear(soil: GranularSoil, stresses: Sequence[float] = (10e3, 20e3, 40
 
 def triaxial(soil: GranularSoil, stresses: Sequence[float] = (10e3, 20e3, 40e3), *, packings: int = 1,
              packing: int = 1, side: float = 9, height: float = 14, strain: float = 0.25,
-             settling_friction: float = 1, rolling: RollingLaw = RollingLaw.directional, inertial: float = 1e-3,
+             settling_friction: float = 1, rolling: RollingLaw = RollingLaw.elastic_plastic, inertial: float = 1e-3,
              threads: int = 0, progress: Progress = "shown") -> TriaxialResult:
     """True triaxial compression between six smooth walls (docs/element-tests.md).
 
@@ -70,7 +70,7 @@ def triaxial(soil: GranularSoil, stresses: Sequence[float] = (10e3, 20e3, 40e3),
 
 
 def tilting_board(soil: GranularSoil, *, packing: int = 1, across: int = 16, layers: float = 1, dt: float = 0,
-                  rolling: RollingLaw = RollingLaw.directional, threads: int = 0,
+                  rolling: RollingLaw = RollingLaw.elastic_plastic, threads: int = 0,
                   progress: Progress = "shown") -> TiltingBoardResult:
     """The paper's friction test: sand on a board of the tire's material, tilted until it slides.
 
@@ -82,7 +82,7 @@ def tilting_board(soil: GranularSoil, *, packing: int = 1, across: int = 16, lay
 
 def plate_sinkage(soil: GranularSoil, diameters: Sequence[float] = (5, 7, 9), *, sinkage: float = 2, width: float = 3,
                   depth: float = 1.2, packing: int = 1, settling_friction: float = 1,
-                  rolling: RollingLaw = RollingLaw.directional, threads: int = 0,
+                  rolling: RollingLaw = RollingLaw.elastic_plastic, threads: int = 0,
                   progress: Progress = "shown") -> list[PlateRun]:
     """Round plates pressed into a bed of the grains, each into a fresh copy (docs/element-tests.md).
 
@@ -95,7 +95,7 @@ def plate_sinkage(soil: GranularSoil, diameters: Sequence[float] = (5, 7, 9), *,
 
 def annular_shear(soil: GranularSoil, stresses: Sequence[float] = (5e3, 10e3, 20e3), *, inner: float = 4,
                   outer: float = 9, travel: float = 5, width: float = 1.6, depth: float = 0.55, packing: int = 1,
-                  settling_friction: float = 1, rolling: RollingLaw = RollingLaw.directional, threads: int = 0,
+                  settling_friction: float = 1, rolling: RollingLaw = RollingLaw.elastic_plastic, threads: int = 0,
                   progress: Progress = "shown") -> list[AnnulusRun]:
     """A ring with grousers turned on a bed of the grains, under each normal stress [Pa] (docs/element-tests.md).
 
@@ -107,7 +107,7 @@ def annular_shear(soil: GranularSoil, stresses: Sequence[float] = (5e3, 10e3, 20
 
 
 def angle_of_repose(soil: GranularSoil, *, packing: int = 1, radius: float = 6, height: float = 12,
-                    rolling: RollingLaw = RollingLaw.directional, threads: int = 0,
+                    rolling: RollingLaw = RollingLaw.elastic_plastic, threads: int = 0,
                     progress: Progress = "shown") -> AngleOfReposeResult:
     """A cylinder of grains on a floor is lifted; the slope of the heap, with its error by eight sectors.
 
