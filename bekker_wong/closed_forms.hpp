@@ -21,8 +21,8 @@ double rolling_resistance(const SoilValues& soil, double radius, double width, d
 double critical_ground_pressure(const SoilValues& soil, double radius, double width, double load);
 
 /// The source paper's equations as they stand in it. Of its Eqs. 1 to 4, which are those of the model or of
-/// docs/conventions.md, two have a fault: Eq. 1 takes the drawbar pull's integral from 0 on, not from theta_2, so soil
-/// behind the axle is left out; Eq. 3 prints '(4i)' for the efficiency's (1 - i).
+/// docs/reference/conventions.md, two have a fault: Eq. 1 takes the drawbar pull's integral from 0 on, not from
+/// theta_2, so soil behind the axle is left out; Eq. 3 prints '(4i)' for the efficiency's (1 - i).
 namespace paper {
 
 /// Eq. 5: z = Bekker's static sinkage + (D/2)(1 - i) theta_m [m]. Faults: the second term, called slip sinkage, falls

@@ -1,4 +1,5 @@
-// The base model's stages: each fills its arrays of the contact patch from those before it (docs/conventions.md).
+// The base model's stages: each fills its arrays of the contact patch from those before it
+// (docs/reference/conventions.md).
 #pragma once
 
 #include "bekker_wong/contact_patch.hpp"
@@ -20,7 +21,7 @@ struct NodeLayout {
 };
 
 /// The layout that gives the stress integrals to 2e-9 of their scale: more nodes for a hard shear curve (much shear
-/// displacement over K), for braking, and for the z^n of a small n. Found by measurement (docs/performance.md).
+/// displacement over K), for braking, and for the z^n of a small n. Found by measurement (docs/lab/performance.md).
 NodeLayout node_layout(const SoilValues& soil, const Outline& outline, const Kinematics& motion,
                        const ContactAngles& angles);
 

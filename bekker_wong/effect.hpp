@@ -1,6 +1,6 @@
 // An effect is a small value: its parameters and what it does at the joints that the wheel offers.
 // It never names another effect. Adding one: a file in effects/, a line in effects/catalogue.cpp, a test, a line in
-// docs/effects.md.
+// docs/reference/effects.md.
 #pragma once
 
 #include <array>

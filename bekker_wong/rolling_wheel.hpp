@@ -50,8 +50,9 @@ inline constexpr double max_sinkage_share = 0.9;
 /// Deepest sinkage to which an effect may settle the wheel: the contact then reaches above the axle.
 inline constexpr double max_settled_share = 1.5;
 
-/// The Bekker / Wong-Reece wheel: a rigid wheel on soil, with effects (Wong and Reece 1967; docs/conventions.md).
-/// A value without hidden state; const members may be called from any number of threads.
+/// The Bekker / Wong-Reece wheel: a rigid wheel on soil, with effects (Wong and Reece 1967;
+/// docs/reference/conventions.md). A value without hidden state; const members may be called from any number of
+/// threads.
 class RollingWheel {
  public:
   /// Throws InputError where a value is missing or outside its range (radius, width, K > 0; n > 0; 0 <= phi < 90 deg).

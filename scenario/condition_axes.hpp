@@ -23,9 +23,9 @@ struct ConditionGrid {
 /// speed_at_rotation for a rim of the tire's radius.
 ConditionGrid read_conditions(const YamlNode& node, const Tire& tire, const Reading& reading);
 
-/// The speed of travel [m/s] that slip and a speed of rotation w [rad/s] imply (docs/conventions.md): r w (1 - s)
-/// driven, r w/(1 + s) braked; that is the speed in the wheel's plane, v cos(yaw), or, where the condition's slip_by
-/// says so, the whole v. Throws InputError at slip -1, where the wheel does not turn, and at a yaw of 90 deg.
+/// The speed of travel [m/s] that slip and a speed of rotation w [rad/s] imply (docs/reference/conventions.md): r w (1
+/// - s) driven, r w/(1 + s) braked; that is the speed in the wheel's plane, v cos(yaw), or, where the condition's
+/// slip_by says so, the whole v. Throws InputError at slip -1, where the wheel does not turn, and at a yaw of 90 deg.
 double speed_at_rotation(const OperatingCondition& at, double rotation, const Tire& tire);
 
 }  // namespace soilbin

@@ -1,5 +1,5 @@
 // A wheel driven in time: what turns it, which way it goes, when it ends. The section `drive` of a case
-// (docs/drive.md).
+// (docs/guide/drive.md).
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // The record of a drive: samples over time, energy, how it ended. The analytic wheel and the grains fill the same one
-// (docs/drive.md).
+// (docs/guide/drive.md).
 #pragma once
 
 #include <optional>

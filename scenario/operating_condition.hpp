@@ -6,7 +6,7 @@
 
 namespace soilbin {
 
-/// Which speed the slip was computed from, where the wheel is yawed (docs/conventions.md).
+/// Which speed the slip was computed from, where the wheel is yawed (docs/reference/conventions.md).
 enum class SlipBy {
   wheel_plane_speed,  ///< s = 1 - v cos(yaw)/(r w): the speed's component in the wheel's plane
   travel_speed,       ///< s = 1 - v/(r w): the whole speed of travel
@@ -18,7 +18,7 @@ enum class ForceFrame {
   wheel,   ///< in the wheel's plane, and across it to the left
 };
 
-/// What the wheel is asked to do. Signs and symbols: docs/conventions.md.
+/// What the wheel is asked to do. Signs and symbols: docs/reference/conventions.md.
 struct OperatingCondition {
   double load = 0.0;                  ///< W [N], vertical, weight of the wheel included, > 0
   double slip = 0.0;                  ///< s [-], -1 .. 1; > 0 drives

@@ -37,14 +37,14 @@ struct ContactPair {
   double sliding_friction = 0.5;  ///< [-], >= 0
   double rolling_friction = 0.1;  ///< [-], >= 0
   double rolling_damping = 0.3;   ///< share of critical, 0 .. 1; read by elastic_plastic alone. Ai et al. 2011: 0.3
-  double cohesion = 0.0;          ///< energy density of linear cohesion [J/m^3], >= 0; 0: none (docs/dem-laws.md)
-  double rolling_stiffness = 0;   ///< [N m/rad], >= 0; read by torsion_spring alone
+  double cohesion = 0.0;         ///< energy density of linear cohesion [J/m^3], >= 0; 0: none (docs/theory/dem-laws.md)
+  double rolling_stiffness = 0;  ///< [N m/rad], >= 0; read by torsion_spring alone
 };
 
-/// How grains resist rolling (docs/dem-laws.md).
+/// How grains resist rolling (docs/theory/dem-laws.md).
 enum class RollingResistance { elastic_plastic, directional, directional_with_twist, torsion_spring };
 
-/// How grains resist twisting, spin about the normal of their contact (docs/dem-laws.md).
+/// How grains resist twisting, spin about the normal of their contact (docs/theory/dem-laws.md).
 enum class TwistingResistance { none, marshall };
 
 /// The same soil as grains, for the discrete element model.

@@ -1,5 +1,5 @@
-// What a yawed wheel's slip and forces are by either definition (docs/conventions.md): the speed of travel or its part
-// in the wheel's plane, the axes of travel or those of the wheel.
+// What a yawed wheel's slip and forces are by either definition (docs/reference/conventions.md): the speed of travel or
+// its part in the wheel's plane, the axes of travel or those of the wheel.
 #pragma once
 
 #include "scenario/operating_condition.hpp"

@@ -10,7 +10,7 @@
 namespace soilbin::bekker_wong {
 namespace {
 
-/// One line an effect, in the catalogue's order (docs/effects.md).
+/// One line an effect, in the catalogue's order (docs/reference/effects.md).
 constexpr std::vector<EffectForm> (*effects_of_the_catalogue[])() = {
     exit_angle_forms,      slip_sinkage_forms,
     lug_thrust_forms,      bulldozing_forms,

@@ -1,4 +1,4 @@
-// The equations of a wheel that is driven in time (docs/drive.md).
+// The equations of a wheel that is driven in time (docs/guide/drive.md).
 #pragma once
 
 #include <span>

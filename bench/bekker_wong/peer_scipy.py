@@ -1,6 +1,6 @@
 """The base model as one would write it with SciPy: quad over each side of theta_m, brentq for the balance.
 
-What operating_point.cpp is measured against. Written from docs/conventions.md, in plain floats (faster here than NumPy
+What operating_point.cpp is measured against. Written from docs/reference/conventions.md, in plain floats (faster here than NumPy
 scalars). quad to a relative 1e-8, brentq to a relative 1e-10.
 """
 

@@ -1,6 +1,6 @@
 // Calibration of contact parameters by virtual tests, after Zhou et al., section 3.2: an orthogonal design, range
 // analysis, candidates near the target; then, beyond the paper, a surrogate that knows how sure it is, and further runs
-// until the target is met with a stated probability. docs/calibration.md has the maths.
+// until the target is met with a stated probability. docs/theory/calibration.md has the maths.
 #pragma once
 
 #include <functional>

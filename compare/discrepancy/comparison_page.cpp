@@ -160,7 +160,7 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
        "Grains: block averages of each run, or the spread between packings where that is larger. A point from one "
        "packing says nothing of that spread, and its row carries the doubt.",
        "Convergence of the balance: 1e-14 of the load; of its quadrature 1e-9. Of grains with their size, the time "
-       "step and the bed: not part of a comparison; see docs/soil-bin.md.",
+       "step and the bed: not part of a comparison; see docs/guide/soil-bin.md.",
        "Measured: the noise of one run, pooled over all setpoints that were run twice or more, over the root of the "
        "number of runs near a condition. Slips and forces are turned to the study's definitions by each run's yaw."});
   page.section("How to repeat this", "repeat");

@@ -32,8 +32,8 @@ struct TrialSettings {
   dem::DemSettings bin;  ///< its packing is the first bed's seed
   int packings = 1;      ///< beds on which each candidate runs
   std::filesystem::path
-      records;                  ///< folder that gets a record of each candidate (docs/recorded.md); empty: none is kept
-  std::string version, source;  ///< of soilbin and of the sources that it was built from
+      records;  ///< folder that gets a record of each candidate (docs/guide/recorded.md); empty: none is kept
+  std::string version, source;                           ///< of soilbin and of the sources that it was built from
   std::function<void(const TrialProgress&)> progress{};  ///< may throw to stop; what is finished is in the records
 };
 

@@ -1,4 +1,4 @@
-// The loop on measured data: residual, cause, effect added, error before and after (docs/loop.md).
+// The loop on measured data: residual, cause, effect added, error before and after (docs/guide/loop.md).
 //
 // Stages, each a value that the next one takes:
 //   1 observe            Campaign -> Observations                       observations.hpp

@@ -3,7 +3,7 @@
 // it.
 //
 // 'Tuned' means: on synthetic campaigns whose truth is known (bench/loop: set `tune`, and report sets that became
-// tuning sets), never on the set that docs/loop-measured.md reports. 'Chosen' means: by argument, not by trial.
+// tuning sets), never on the set that docs/lab/loop-measured.md reports. 'Chosen' means: by argument, not by trial.
 // Where the effect of twice the value is not given, nobody has measured it. Counts are of right names unless said.
 #pragma once
 

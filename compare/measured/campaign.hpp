@@ -1,4 +1,4 @@
-// A measured campaign: campaign.yaml and a CSV of runs (docs/campaigns.md tells the contract).
+// A measured campaign: campaign.yaml and a CSV of runs (docs/reference/campaigns.md tells the contract).
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// A study's answers by a model that takes minutes a condition, kept in a file: soilbin-recorded/1, docs/recorded.md.
-// Whoever compares answers gets them from the file as if the model had run.
+// A study's answers by a model that takes minutes a condition, kept in a file: soilbin-recorded/1,
+// docs/guide/recorded.md. Whoever compares answers gets them from the file as if the model had run.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Stopping and going on: all of a run in one file, to the bit. Layout: docs/dem-archive.md.
+// Stopping and going on: all of a run in one file, to the bit. Layout: docs/reference/dem-archive.md.
 #pragma once
 
 #include <filesystem>

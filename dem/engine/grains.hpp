@@ -1,5 +1,5 @@
 // The grains: one row a grain, split by what reads it. Rows, not one array a quantity: a contact needs all of a grain's
-// motion at once, and a row is one or two cache lines (docs/performance.md has the figures).
+// motion at once, and a row is one or two cache lines (docs/lab/performance.md has the figures).
 #pragma once
 
 #include <cstddef>

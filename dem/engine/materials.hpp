@@ -1,5 +1,5 @@
 // What grains and surfaces are made of, and what each pair of materials does at a contact. The laws themselves, with
-// formulas and sources: docs/dem-laws.md.
+// formulas and sources: docs/theory/dem-laws.md.
 #pragma once
 
 #include <cstdint>

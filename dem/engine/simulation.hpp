@@ -1,4 +1,5 @@
-// Grains, bodies and what they do to each other, step by step. The laws: docs/dem-laws.md; a step's stages: step.hpp.
+// Grains, bodies and what they do to each other, step by step. The laws: docs/theory/dem-laws.md; a step's stages:
+// step.hpp.
 //
 //   Simulation simulation(setup);
 //   simulation.set_gravity({0, 0, -9.81});

@@ -19,7 +19,7 @@ namespace soilbin::dem {
 /// it, have all been slower than `speed` for `time` stands still: its grains keep their places, and what its contacts
 /// remember stays, until a grain beside it is faster again or gravity, grains, bodies or materials change. Slabs near a
 /// body that moves or may move never sleep. So no grain is held that was faster than `speed`, but creep slower than
-/// that is lost (docs/dem-performance.md has what this does to a wheel).
+/// that is lost (docs/lab/dem-performance.md has what this does to a wheel).
 struct Sleep {
   double speed = 0;    ///< [m/s]; 0: no grain ever sleeps
   double time = 0.05;  ///< [s]

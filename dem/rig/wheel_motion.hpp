@@ -1,5 +1,5 @@
 // An operating condition as vectors in the frame of the bin: x the direction of travel, y to its left, z the normal of
-// the undisturbed surface. Inclines turn gravity, not the bin. Signs: docs/conventions.md.
+// the undisturbed surface. Inclines turn gravity, not the bin. Signs: docs/reference/conventions.md.
 #pragma once
 
 #include "dem/surface/vec3.hpp"

@@ -1,5 +1,5 @@
 // A wheel driven over a settled bed at a given slip or torque: lowered gently, set going, and measured until the bed
-// ends. What the rig does and gives: docs/soil-bin.md.
+// ends. What the rig does and gives: docs/guide/soil-bin.md.
 #pragma once
 
 #include <functional>
@@ -62,7 +62,7 @@ struct Rig {
   double deepest_overlap = 0.5;  ///< of the smaller radius; chains of grains under a wheel are pressed hard
   /// Grains far from the wheel sleep (Sleep) that were slower than this share of sqrt(g d) for so many sqrt(d/g), d
   /// their mean diameter; 0: none does. The paper's wheel on grains of 40 mm then pulls within its errors of what it
-  /// pulls with all awake (docs/dem-performance.md).
+  /// pulls with all awake (docs/lab/dem-performance.md).
   double sleep_speed = 0.003, sleep_time = 0.8;
   bool ledger = false;      ///< tells where the power goes; a step takes about twice as long
   double steady_drift = 3;  ///< largest drift_over_error of a steady run

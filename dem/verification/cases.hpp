@@ -1,6 +1,6 @@
-// Cases with published or closed-form answers that an engine of docs/dem-laws.md must meet. A case knows its set-up,
-// what is measured and the answer; it drives any engine through VerificationEngine. `soilbin verify` runs them on the
-// fast engine, the tests on the reference engine too.
+// Cases with published or closed-form answers that an engine of docs/theory/dem-laws.md must meet. A case knows its
+// set-up, what is measured and the answer; it drives any engine through VerificationEngine. `soilbin verify` runs them
+// on the fast engine, the tests on the reference engine too.
 #pragma once
 
 #include <cmath>

@@ -219,7 +219,7 @@ Targets measured_of(const NamedCalibration& answer) {
 void bind_calibration_answer(py::module_& module) {
   using C = NamedCalibration;
   py::class_<C>(module, "Calibration",
-                "What a calibration found (docs/calibration.md). SI; by names of factors, targets.")
+                "What a calibration found (docs/theory/calibration.md). SI; by names of factors, targets.")
       .def_property_readonly("targets", &measured_of, "what was to be reached")
       .def_property_readonly("factors", &bounds_of, "lower and upper bound of what was varied")
       .def_property_readonly("runs", &runs_of, "every experiment, in order")

@@ -64,7 +64,8 @@ void bind_shear_box(py::module_& module) {
   def_test<S>(
       module, "direct_shear",
       [](const auto& soil, const auto& settings, const auto& how) { return dem::direct_shear(soil, settings, how); },
-      "The shear box (docs/element-tests.md). stresses: normal, on the lid [Pa], at least two for c and phi. packings: "
+      "The shear box (docs/guide/element-tests.md). stresses: normal, on the lid [Pa], at least two for c and phi. "
+      "packings: "
       "specimens, of seeds packing, +1, ... length, width, height, travel: in mean diameters. settling_friction: 0 "
       "(densest) .. 1 (loose). inertial: number that sets the speed. Same settings, same bits, for any number of "
       "threads. Raises InputError, RunStopped.",

@@ -22,7 +22,7 @@ constexpr std::int64_t steps_between_looks = 200;
 
 template <class E>
 void bind_law(py::module_& module, const char* name, std::initializer_list<std::pair<const char*, E>> words) {
-  py::enum_<E> bound(module, name, "Which law acts at the contacts (docs/dem-laws.md).");
+  py::enum_<E> bound(module, name, "Which law acts at the contacts (docs/theory/dem-laws.md).");
   for (const auto& [word, value] : words) bound.value(word, value);
 }
 
@@ -158,8 +158,9 @@ void bind_grains(py::module_& module) {
   bind_materials(module);
   bind_states(module);
   using dem::NormalLaw, dem::RollingLaw, dem::CohesionLaw;
-  py::class_<Simulation>(module, "Simulation",
-                         "Spheres of one material and what they do to each other, step by step (docs/dem-laws.md).")
+  py::class_<Simulation>(
+      module, "Simulation",
+      "Spheres of one material and what they do to each other, step by step (docs/theory/dem-laws.md).")
       .def(py::init(&make_simulation), py::arg("material"), py::arg("interaction"), py::arg("dt"),
            py::arg("gravity") = Triple{0, 0, 0}, py::arg("normal") = NormalLaw::hertz,
            py::arg("rolling") = RollingLaw::none, py::arg("cohesion") = CohesionLaw::none, py::arg("threads") = 1,

@@ -82,7 +82,7 @@ py::dict held_out(const LoopAnswer& answer) {
 }
 
 void bind_answer(py::module_& module) {
-  py::class_<LoopAnswer>(module, "LoopAnswer", "The loop's answer (docs/loop.md).")
+  py::class_<LoopAnswer>(module, "LoopAnswer", "The loop's answer (docs/guide/loop.md).")
       .def_readonly("campaign", &LoopAnswer::campaign)
       .def_readonly("verdict", &LoopAnswer::verdict)
       .def_readonly("reason", &LoopAnswer::reason, "one plain sentence")

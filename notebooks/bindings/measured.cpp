@@ -23,7 +23,8 @@ void bind_campaign(py::module_& module) {
   for (const compare::ChannelView& channel : compare::channel_views)
     run.def_readonly(channel.name.data(), channel.measured, fmt::format("[{}]", channel.si_unit).c_str());
   run.def_readonly("csv_line", &Run::csv_line);
-  py::class_<Campaign>(module, "Campaign", "What was measured, and what is known beforehand (docs/campaigns.md).")
+  py::class_<Campaign>(module, "Campaign",
+                       "What was measured, and what is known beforehand (docs/reference/campaigns.md).")
       .def_readonly("name", &Campaign::name)
       .def_readonly("wheel", &Campaign::wheel)
       .def_readonly("soil", &Campaign::soil, "declared, with what plate and shear tests leave open")

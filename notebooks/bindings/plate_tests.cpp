@@ -47,7 +47,7 @@ void bind_plate(py::module_& module) {
   def_test<S>(
       module, "plate_sinkage",
       [](const auto& soil, const auto& settings, const auto& how) { return dem::plate_sinkage(soil, settings, how); },
-      "Round plates pressed into a bed of the grains, each into a fresh copy (docs/element-tests.md). diameters, "
+      "Round plates pressed into a bed of the grains, each into a fresh copy (docs/guide/element-tests.md). diameters, "
       "sinkage: in mean diameters of the grains. width, depth: of the bed, in diameters of the widest plate. Raises "
       "InputError for a plate under five grains wide, RunStopped.",
       keyword("diameters", &S::diameters), keyword("sinkage", &S::sinkage),
@@ -62,7 +62,7 @@ void bind_ring(py::module_& module) {
   def_test<S>(
       module, "annular_shear",
       [](const auto& soil, const auto& settings, const auto& how) { return dem::annular_shear(soil, settings, how); },
-      "A ring with grousers turned on a bed of the grains under each stress [Pa] (docs/element-tests.md). inner, "
+      "A ring with grousers turned on a bed of the grains under each stress [Pa] (docs/guide/element-tests.md). inner, "
       "outer: its radii; travel: at the mean radius; all in mean diameters. width, depth: of the bed, in diameters of "
       "the ring. Raises InputError for a ring under five grains wide, RunStopped.",
       keyword("stresses", &S::stresses), keyword("inner", &S::inner), keyword("outer", &S::outer),

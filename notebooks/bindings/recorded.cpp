@@ -33,7 +33,7 @@ void bind_recorded(py::module_& module) {
       .def_readonly("power", &RecordedRun::power)
       .def_readonly("rut", &RecordedRun::rut)
       .def_readonly("flow", &RecordedRun::flow);
-  py::class_<Record>(module, "Record", "What a soilbin-recorded/1 file holds (docs/recorded.md).")
+  py::class_<Record>(module, "Record", "What a soilbin-recorded/1 file holds (docs/guide/recorded.md).")
       .def_readonly("soilbin", &Record::soilbin, "version that began it")
       .def_readonly("model", &Record::model)
       .def_readonly("inputs", &Record::inputs, "names and values that an answer follows from")

@@ -86,7 +86,7 @@ void bind_models(py::module_& module) {
           py::arg("scenario"), py::arg("at"),
           "Raises InputError where the scenario lacks what the model needs, NoSolution where it has no answer.");
   using bekker_wong::BekkerWong;
-  py::class_<BekkerWong, Model>(module, "BekkerWong", "The Bekker / Wong-Reece model (docs/conventions.md).")
+  py::class_<BekkerWong, Model>(module, "BekkerWong", "The Bekker / Wong-Reece model (docs/reference/conventions.md).")
       .def(py::init([](bool errors, bool patch) { return BekkerWong({.errors = errors, .patch = patch}); }),
            py::arg("errors") = true, py::arg("patch") = true,
            "errors: standard errors from the soil's standard deviations, to first order. patch: stresses under the "

@@ -66,8 +66,8 @@ void bind_tire_and_soil(py::module_& module) {
   described(semi_empirical);
   py::class_<ContactPair> pair(module, "ContactPair", "Contact of two materials in the discrete element model.");
   described(pair);
-  bind_words<RollingResistance>(module, "RollingResistance", "How grains resist rolling (docs/dem-laws.md).");
-  bind_words<TwistingResistance>(module, "TwistingResistance", "How grains resist twisting (docs/dem-laws.md).");
+  bind_words<RollingResistance>(module, "RollingResistance", "How grains resist rolling (docs/theory/dem-laws.md).");
+  bind_words<TwistingResistance>(module, "TwistingResistance", "How grains resist twisting (docs/theory/dem-laws.md).");
   py::class_<GranularSoil> granular(module, "GranularSoil",
                                     "A soil as grains: spheres, radii uniform between two bounds.");
   described(granular);
@@ -81,7 +81,7 @@ void bind_condition(py::module_& module) {
   bind_words<SlipBy>(module, "SlipBy", "The speed from which slip is computed where the wheel is yawed.");
   bind_words<ForceFrame>(module, "ForceFrame", "Axes in which drawbar pull and lateral force are given.");
   py::class_<OperatingCondition> at(module, "OperatingCondition",
-                                    "What the wheel is asked to do. Signs: docs/conventions.md.");
+                                    "What the wheel is asked to do. Signs: docs/reference/conventions.md.");
   described(at);
 }
 
@@ -133,7 +133,7 @@ void bind_drive_words(py::module_& module) {
                                 "A place along the way. Angles and drawbar load go linearly from one to the next; a "
                                 "soil holds from its place on.");
   described(waypoint);
-  py::class_<Drive> drive(module, "Drive", "A wheel with mass and inertia, driven from rest (docs/drive.md).");
+  py::class_<Drive> drive(module, "Drive", "A wheel with mass and inertia, driven from rest (docs/guide/drive.md).");
   drive.def_property(
       "effects", [](const Drive& d) { return d.effects; },
       [](Drive& d, const std::vector<EffectName>& effects) { d.effects = effects_of(effects); },

@@ -56,7 +56,8 @@ void bind_triaxial(py::module_& module) {
   def_test<S>(
       module, "triaxial",
       [](const auto& soil, const auto& settings, const auto& how) { return dem::triaxial(soil, settings, how); },
-      "True triaxial compression between six smooth walls (docs/element-tests.md). stresses: confining [Pa], at least "
+      "True triaxial compression between six smooth walls (docs/guide/element-tests.md). stresses: confining [Pa], at "
+      "least "
       "two for c and phi. side, height: of the specimen, in mean diameters. strain: axial, at the end. inertial: "
       "number that sets the rate. Raises InputError, RunStopped.",
       keyword("stresses", &S::stresses), keyword("packings", &S::packings),

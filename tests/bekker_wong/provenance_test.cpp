@@ -58,7 +58,7 @@ TEST(Provenance, IsWhatThePagesSay) {
   const std::string measurement = number_word(of_measurement.size()) + " of the measurement";
   const std::string forms = fmt::format("{} forms: {} as published, {} after a source, {} ours",
                                         effect_catalogue().size(), published, after, ours);
-  for (const char* name : {"README.md", "CHANGELOG.md", "docs/effects.md"})
+  for (const char* name : {"README.md", "CHANGELOG.md", "docs/reference/effects.md"})
     for (const std::string& said : {effects, wheel, measurement, forms})
       EXPECT_NE(page(name).find(said), std::string::npos) << name << " should say: " << said;
 }

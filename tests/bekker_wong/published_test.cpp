@@ -1,5 +1,5 @@
 // The base model where independent codes agree, on the soils of Wong's table, and against a closed form
-// (docs/verification.md).
+// (docs/lab/verification.md).
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// The base model against the reference wheel (extended precision, written from docs/conventions.md alone): 1e-8 of the
-// scale of each result, at random and at corner points.
+// The base model against the reference wheel (extended precision, written from docs/reference/conventions.md alone):
+// 1e-8 of the scale of each result, at random and at corner points.
 //
 // Scales: sinkage, its own value. Drawbar pull and lateral force, the larger of the force itself and thrust +
 // compaction resistance + side force without cancellation (b r Int |tau_x| cos + sigma sin + |tau_y|). Torque, the same

@@ -1,5 +1,5 @@
-// The base model a second time, for the tests: written from docs/conventions.md alone, in extended precision, with
-// Boost.Math's tanh-sinh quadrature and TOMS 748 root. Slow and plain; it shares no code with bekker_wong/.
+// The base model a second time, for the tests: written from docs/reference/conventions.md alone, in extended precision,
+// with Boost.Math's tanh-sinh quadrature and TOMS 748 root. Slow and plain; it shares no code with bekker_wong/.
 #pragma once
 
 #include "bekker_wong/contact_patch.hpp"

@@ -1,4 +1,5 @@
-// A user's program: a published point by the analytic model, two independent codes agree on it (docs/verification.md).
+// A user's program: a published point by the analytic model, two independent codes agree on it
+// (docs/lab/verification.md).
 #include <bekker_wong/model.hpp>
 #include <cmath>
 #include <cstdio>

@@ -35,7 +35,7 @@ TEST(SlowSlope, RisesWithBothFrictionsAndHardlyKnowsHowStiffGrainsAre) {
 TEST(SlowCrater, IsAsDeepAsTheLawOfLooseSand) {
   // Uehara, Ambroso, Ojha and Durian 2003, Phys. Rev. Lett. 90:194301: 0.14/mu (rho_b/rho_g)^(1/2) D^(2/3) H^(1/3), mu
   // the tangent of the angle of repose, here the engine's own. Their grains were much smaller than the ball; ours are a
-  // quarter of it across, so the prefactor is held to a fifth and the exponent to a tenth (docs/verification.md).
+  // quarter of it across, so the prefactor is held to a fifth and the exponent to a tenth (docs/lab/verification.md).
   BedMaterial sand;
   const double mu = std::tan(angle_of(sand) * degree);
   sand.radius = 0.006;

@@ -1,5 +1,5 @@
-// docs/dem-laws.md a second time, in the plainest way: every pair is looked at in every step, in double, with histories
-// in a map. Slow and independent of dem/engine on purpose; the fast engine is held against it.
+// docs/theory/dem-laws.md a second time, in the plainest way: every pair is looked at in every step, in double, with
+// histories in a map. Slow and independent of dem/engine on purpose; the fast engine is held against it.
 #pragma once
 
 #include <map>

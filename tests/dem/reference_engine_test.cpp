@@ -1,5 +1,5 @@
-// The laws of docs/dem-laws.md, as the reference engine has them, against published and closed-form answers; and the
-// reference engine's own honesty.
+// The laws of docs/theory/dem-laws.md, as the reference engine has them, against published and closed-form answers; and
+// the reference engine's own honesty.
 #include "tests/dem/reference_engine.hpp"
 
 #include <gtest/gtest.h>

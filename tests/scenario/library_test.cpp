@@ -106,11 +106,12 @@ TEST(Library, ThePapersStraightStudyIsItsTwentyEightPoints) {
 }
 
 TEST(Library, TheExampleOfTheDocumentationIsACase) {
-  const std::string page = read_source_text(SOILBIN_SOURCE_DIR "/docs/case-files.md", largest_yaml).text;
+  const std::string page = read_source_text(SOILBIN_SOURCE_DIR "/docs/reference/case-files.md", largest_yaml).text;
   const std::string fence = "```yaml\n";
   const std::size_t begin = page.find(fence) + fence.size();
   const std::string example = page.substr(begin, page.find("```", begin) - begin);
-  const Case c = parse_case(make_source_text(example, "docs/case-files.md"), Library(), test::FakeVocabulary());
+  const Case c =
+      parse_case(make_source_text(example, "docs/reference/case-files.md"), Library(), test::FakeVocabulary());
   EXPECT_EQ(c.study.models.size(), 3u);
   EXPECT_EQ(c.study.conditions.size(), 14u);
 }

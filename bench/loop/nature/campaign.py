@@ -1,4 +1,4 @@
-"""One campaign: draw it, write it as docs/campaigns.md says, keep its truth in a sidecar, make more runs of it."""
+"""One campaign: draw it, write it as docs/reference/campaigns.md says, keep its truth in a sidecar, make more runs of it."""
 import json
 import math
 from pathlib import Path

@@ -10,7 +10,7 @@ from . import wheel as base
 from .families import catalogue, unknown
 
 # r, b [m], k_c, k_phi [SI], n, c [Pa], phi [deg], K [m], c1, c2, W [N], s, lambda: z [m], F_DP [N], M [N m] (and digits)
-# Source: points on which two independent codes agree (bekker_wong/agreed_points.cpp, docs/verification.md).
+# Source: points on which two independent codes agree (bekker_wong/agreed_points.cpp, docs/lab/verification.md).
 PSI, INCH, POUND = 6894.757293168, 0.0254, 4.4482216152605
 POINTS = (
     ("r = b = .1", (.1, .1, 1.4e3, 8.2e5, 1, 170, 46, .018, .4, .2, 40, .6, 0), (.017789, 11.7861, 2.3489)),

@@ -1,5 +1,5 @@
-// docs/dem-laws.md as code: what a contact does, for one contact (Real = double) or for a pack of them at once. The
-// formulas stand here and nowhere else; grains, planes and meshes differ only in the Touch that they fill in.
+// docs/theory/dem-laws.md as code: what a contact does, for one contact (Real = double) or for a pack of them at once.
+// The formulas stand here and nowhere else; grains, planes and meshes differ only in the Touch that they fill in.
 //
 // Compiled once for each instruction set, so everything here is a template or always inlined, and no standard header
 // with code of its own is included.

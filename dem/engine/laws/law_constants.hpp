@@ -1,4 +1,4 @@
-// A pair of materials, boiled down to the factors that the laws multiply by. Symbols: docs/dem-laws.md.
+// A pair of materials, boiled down to the factors that the laws multiply by. Symbols: docs/theory/dem-laws.md.
 #pragma once
 
 #include <cstdint>

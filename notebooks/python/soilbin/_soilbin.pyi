@@ -212,7 +212,7 @@ class ContactPair:
         """A copy in which the attributes given are changed."""
 
 class RollingResistance:
-    """How grains resist rolling (docs/dem-laws.md)."""
+    """How grains resist rolling (docs/theory/dem-laws.md)."""
     directional: ClassVar[RollingResistance]
     elastic_plastic: ClassVar[RollingResistance]
     torsion_spring: ClassVar[RollingResistance]
@@ -342,7 +342,7 @@ class ForceFrame:
     def value(self) -> int: ...
 
 class OperatingCondition:
-    """What the wheel is asked to do. Signs: docs/conventions.md."""
+    """What the wheel is asked to do. Signs: docs/reference/conventions.md."""
     @property
     def load(self) -> float:
         """vertical load on the axle, weight of the wheel included [N], above 0 N"""
@@ -528,7 +528,7 @@ class Waypoint:
         """A copy in which the attributes given are changed."""
 
 class Drive:
-    """A wheel with mass and inertia, driven from rest (docs/drive.md)."""
+    """A wheel with mass and inertia, driven from rest (docs/guide/drive.md)."""
     @property
     def effects(self) -> list[EffectChoice]:
         """ids or EffectChoice; assign a new list to change them"""
@@ -769,7 +769,7 @@ class Model:
         """Raises InputError where the scenario lacks what the model needs, NoSolution where it has no answer."""
 
 class BekkerWong(Model):
-    """The Bekker / Wong-Reece model (docs/conventions.md)."""
+    """The Bekker / Wong-Reece model (docs/reference/conventions.md)."""
     def __init__(self, errors: bool = ..., patch: bool = ...) -> None:
         """errors: standard errors from the soil's standard deviations, to first order. patch: stresses under the wheel.
         Without them it is several times as fast.
@@ -1066,7 +1066,7 @@ def fit_janosi(displacement: Union[Array, Sequence[float]], shear_stress: Union[
     """
 
 class NormalLaw:
-    """Which law acts at the contacts (docs/dem-laws.md)."""
+    """Which law acts at the contacts (docs/theory/dem-laws.md)."""
     hertz: ClassVar[NormalLaw]
     hooke: ClassVar[NormalLaw]
     def __init__(self, value: int) -> None: ...
@@ -1077,7 +1077,7 @@ class NormalLaw:
     def value(self) -> int: ...
 
 class RollingLaw:
-    """Which law acts at the contacts (docs/dem-laws.md)."""
+    """Which law acts at the contacts (docs/theory/dem-laws.md)."""
     none: ClassVar[RollingLaw]
     directional: ClassVar[RollingLaw]
     elastic_plastic: ClassVar[RollingLaw]
@@ -1091,7 +1091,7 @@ class RollingLaw:
     def value(self) -> int: ...
 
 class CohesionLaw:
-    """Which law acts at the contacts (docs/dem-laws.md)."""
+    """Which law acts at the contacts (docs/theory/dem-laws.md)."""
     none: ClassVar[CohesionLaw]
     linear: ClassVar[CohesionLaw]
     jkr: ClassVar[CohesionLaw]
@@ -1227,7 +1227,7 @@ class EnergyBalance:
         """zero but for the error of the time step"""
 
 class Simulation:
-    """Spheres of one material and what they do to each other, step by step (docs/dem-laws.md)."""
+    """Spheres of one material and what they do to each other, step by step (docs/theory/dem-laws.md)."""
     @property
     def time(self) -> float:
         """[s]"""
@@ -1356,7 +1356,7 @@ class Run:
     def csv_line(self) -> int: ...
 
 class Campaign:
-    """What was measured, and what is known beforehand (docs/campaigns.md)."""
+    """What was measured, and what is known beforehand (docs/reference/campaigns.md)."""
     @property
     def name(self) -> str: ...
     @property
@@ -1445,7 +1445,7 @@ class RecordedRun:
     def flow(self) -> SoilFlow: ...
 
 class Record:
-    """What a soilbin-recorded/1 file holds (docs/recorded.md)."""
+    """What a soilbin-recorded/1 file holds (docs/guide/recorded.md)."""
     @property
     def soilbin(self) -> str:
         """version that began it"""
@@ -1482,7 +1482,7 @@ class WheelRun:
     def power(self) -> PowerBalance: ...
     @property
     def steady(self) -> bool:
-        """whether the run became steady (docs/soil-bin.md)"""
+        """whether the run became steady (docs/guide/soil-bin.md)"""
     @property
     def drift(self) -> float:
         """largest difference of halves over its standard error"""
@@ -1591,7 +1591,7 @@ class DirectShearResult:
         """[m]"""
 
 def direct_shear(soil: GranularSoil, stresses: Sequence[float] = ..., packings: int = ..., packing: int = ..., length: float = ..., width: float = ..., height: float = ..., travel: float = ..., settling_friction: float = ..., rolling: RollingLaw = ..., inertial: float = ..., threads: int = ..., progress: Optional[Told] = ...) -> DirectShearResult:
-    """The shear box (docs/element-tests.md). stresses: normal, on the lid [Pa], at least two for c and phi. packings:
+    """The shear box (docs/guide/element-tests.md). stresses: normal, on the lid [Pa], at least two for c and phi. packings:
     specimens, of seeds packing, +1, ... length, width, height, travel: in mean diameters. settling_friction: 0
     (densest) .. 1 (loose). inertial: number that sets the speed. Same settings, same bits, for any number of threads.
     Raises InputError, RunStopped.
@@ -1678,7 +1678,7 @@ class TriaxialResult:
         """[m]"""
 
 def triaxial(soil: GranularSoil, stresses: Sequence[float] = ..., packings: int = ..., packing: int = ..., side: float = ..., height: float = ..., strain: float = ..., settling_friction: float = ..., rolling: RollingLaw = ..., inertial: float = ..., threads: int = ..., progress: Optional[Told] = ...) -> TriaxialResult:
-    """True triaxial compression between six smooth walls (docs/element-tests.md). stresses: confining [Pa], at least two
+    """True triaxial compression between six smooth walls (docs/guide/element-tests.md). stresses: confining [Pa], at least two
     for c and phi. side, height: of the specimen, in mean diameters. strain: axial, at the end. inertial: number that
     sets the rate. Raises InputError, RunStopped.
     """
@@ -1749,13 +1749,13 @@ class AnnulusRun:
         """arrays, views: displacement, sinkage [m], shear_stress, normal_stress [Pa]"""
 
 def plate_sinkage(soil: GranularSoil, diameters: Sequence[float] = ..., sinkage: float = ..., width: float = ..., depth: float = ..., packing: int = ..., settling_friction: float = ..., rolling: RollingLaw = ..., threads: int = ..., progress: Optional[Told] = ...) -> list[PlateRun]:
-    """Round plates pressed into a bed of the grains, each into a fresh copy (docs/element-tests.md). diameters, sinkage:
+    """Round plates pressed into a bed of the grains, each into a fresh copy (docs/guide/element-tests.md). diameters, sinkage:
     in mean diameters of the grains. width, depth: of the bed, in diameters of the widest plate. Raises InputError for
     a plate under five grains wide, RunStopped.
     """
 
 def annular_shear(soil: GranularSoil, stresses: Sequence[float] = ..., inner: float = ..., outer: float = ..., travel: float = ..., width: float = ..., depth: float = ..., packing: int = ..., settling_friction: float = ..., rolling: RollingLaw = ..., threads: int = ..., progress: Optional[Told] = ...) -> list[AnnulusRun]:
-    """A ring with grousers turned on a bed of the grains under each stress [Pa] (docs/element-tests.md). inner, outer:
+    """A ring with grousers turned on a bed of the grains under each stress [Pa] (docs/guide/element-tests.md). inner, outer:
     its radii; travel: at the mean radius; all in mean diameters. width, depth: of the bed, in diameters of the ring.
     Raises InputError for a ring under five grains wide, RunStopped.
     """
@@ -1824,7 +1824,7 @@ class NextTest:
     def runs(self) -> int: ...
 
 class LoopAnswer:
-    """The loop's answer (docs/loop.md)."""
+    """The loop's answer (docs/guide/loop.md)."""
     @property
     def campaign(self) -> str: ...
     @property
@@ -1910,7 +1910,7 @@ class Side:
         """a result, or None, for each condition"""
 
 class Finding:
-    """What can be said of a difference (docs/compare.md)."""
+    """What can be said of a difference (docs/guide/compare.md)."""
     difference: ClassVar[Finding]
     within_scatter: ClassVar[Finding]
     within_errors: ClassVar[Finding]
@@ -2050,7 +2050,7 @@ class VarianceRow:
         """whether it was taken for error"""
 
 class Calibration:
-    """What a calibration found (docs/calibration.md). SI; by names of factors, targets."""
+    """What a calibration found (docs/theory/calibration.md). SI; by names of factors, targets."""
     @property
     def targets(self) -> dict[str, Estimate]:
         """what was to be reached"""

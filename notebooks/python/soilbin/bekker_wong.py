@@ -44,7 +44,7 @@ __all__ = [
 
 def drive_wheel(scenario: Scenario, drive: Optional[Drive], samples: int = 400,
                 progress: Progress = "shown") -> DriveRecord:
-    """Drives a wheel in time from rest (docs/drive.md); effects are those of the drive.
+    """Drives a wheel in time from rest (docs/guide/drive.md); effects are those of the drive.
 
     samples: intervals of time over the drive's whole duration. Raises InputError for an effect that a drive can't take
     and for a case that has no drive, NoSolution where the soil can't hold the wheel at its start.

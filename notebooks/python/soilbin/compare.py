@@ -89,7 +89,7 @@ def error_frame(prediction: pd.DataFrame) -> pd.DataFrame:
 
 def run_loop(campaign: Union[Campaign, str], *, folds: int = 5, seed: int = 1, validate: bool = True, threads: int = 1,
              progress: Progress = "shown") -> LoopAnswer:
-    """What the model lacks: residual, cause, effect added, error before and after (docs/loop.md).
+    """What the model lacks: residual, cause, effect added, error before and after (docs/guide/loop.md).
 
     folds: parts into which conditions are dealt for the honest errors, 2 .. 50. validate: redo the whole procedure in
     each fold; without it those errors are absent. threads change the time, never the answer. Raises InputError for a
@@ -113,7 +113,7 @@ def record_frame(record: Union[Record, str, Path]) -> pd.DataFrame:
 def tell_campaign(records: Union[Record, str, Path, Sequence[Union[Record, str, Path]]], *, hide: Sequence[str] = (),
                   effects: Sequence[Union[EffectChoice, str]] = (), soil: Optional[Soil] = None, name: str = "told",
                   only_steady: bool = False, seed: int = 1) -> Campaign:
-    """Recorded runs of grains as a measured campaign, as `soilbin campaign` tells them (docs/campaigns.md).
+    """Recorded runs of grains as a measured campaign, as `soilbin campaign` tells them (docs/reference/campaigns.md).
 
     hide: what the analyst is not told: conditions such as "longitudinal_incline", "lugs", "bin". effects: that his model
     already has. soil: whose semi-empirical values he is told; absent: those of the first record's case. only_steady:
@@ -133,7 +133,7 @@ def calibrate(soil: Union[Soil, str], contact: str = "sand", *,
               strength: str = "peak", stresses: Sequence[float] = (10e3, 20e3, 40e3), settling_friction: float = 1,
               across: int = 16, packings: int = 0, seed: int = 1, threads: int = 0,
               store: Union[str, Path, None] = None, progress: Progress = "shown") -> Calibration:
-    """Contacts of a soil's grains from virtual element tests (docs/calibration.md).
+    """Contacts of a soil's grains from virtual element tests (docs/theory/calibration.md).
 
     contact: "sand", grains on grains by the shear box, or "tire", grains on the tire by the tilting board. targets: what
     was measured, Estimates in SI: friction_angle [rad] and cohesion [Pa] of sand (absent: the soil's own), board_angle
@@ -176,7 +176,7 @@ def variance_frame(calibration: Calibration, target: str) -> pd.DataFrame:
 def compare_case(case: Union[Case, str], effects: Sequence[Union[EffectChoice, str]] = (),
                  record: Union[Record, Sequence[RecordedRun], None] = None,
                  measured: Union[Campaign, str, None] = None) -> Comparison:
-    """Models, grains and measurements of a study side by side (docs/compare.md).
+    """Models, grains and measurements of a study side by side (docs/guide/compare.md).
 
     The study's analytic models and the base model with each of `effects`; runs of grains, of a record; a campaign of
     the same wheel. Raises InputError where wheels or conditions don't meet.

@@ -45,7 +45,7 @@ def direct_shear(soil: GranularSoil, stresses: Sequence[float] = (10e3, 20e3, 40
                  packing: int = 1, length: float = 20, width: float = 6, height: float = 10, travel: float = 3,
                  settling_friction: float = 1, rolling: RollingLaw = RollingLaw.elastic_plastic, inertial: float = 1e-3,
                  threads: int = 0, progress: Progress = "shown") -> DirectShearResult:
-    """The shear box (docs/element-tests.md).
+    """The shear box (docs/guide/element-tests.md).
 
     stresses: normal stresses on the lid [Pa], at least two for c and phi. packings: specimens, of seeds packing,
     packing + 1, ... length, width, height, travel: in mean diameters of the grains. settling_friction: 0 (densest) .. 1
@@ -60,7 +60,7 @@ def triaxial(soil: GranularSoil, stresses: Sequence[float] = (10e3, 20e3, 40e3),
              packing: int = 1, side: float = 9, height: float = 14, strain: float = 0.25,
              settling_friction: float = 1, rolling: RollingLaw = RollingLaw.elastic_plastic, inertial: float = 1e-3,
              threads: int = 0, progress: Progress = "shown") -> TriaxialResult:
-    """True triaxial compression between six smooth walls (docs/element-tests.md).
+    """True triaxial compression between six smooth walls (docs/guide/element-tests.md).
 
     stresses: confining stresses [Pa], at least two for c and phi. side, height: of the specimen, in mean diameters of
     the grains. strain: axial, logarithmic, at the end. The rest as in direct_shear. Raises InputError, RunStopped.
@@ -84,7 +84,7 @@ def plate_sinkage(soil: GranularSoil, diameters: Sequence[float] = (5, 7, 9), *,
                   depth: float = 1.2, packing: int = 1, settling_friction: float = 1,
                   rolling: RollingLaw = RollingLaw.elastic_plastic, threads: int = 0,
                   progress: Progress = "shown") -> list[PlateRun]:
-    """Round plates pressed into a bed of the grains, each into a fresh copy (docs/element-tests.md).
+    """Round plates pressed into a bed of the grains, each into a fresh copy (docs/guide/element-tests.md).
 
     diameters of the plates and the sinkage that they reach: in mean diameters of the grains. width, depth: of the square
     bed, in diameters of the widest plate. Raises InputError for a plate under five grains wide, RunStopped.
@@ -97,7 +97,7 @@ def annular_shear(soil: GranularSoil, stresses: Sequence[float] = (5e3, 10e3, 20
                   outer: float = 9, travel: float = 5, width: float = 1.6, depth: float = 0.55, packing: int = 1,
                   settling_friction: float = 1, rolling: RollingLaw = RollingLaw.elastic_plastic, threads: int = 0,
                   progress: Progress = "shown") -> list[AnnulusRun]:
-    """A ring with grousers turned on a bed of the grains, under each normal stress [Pa] (docs/element-tests.md).
+    """A ring with grousers turned on a bed of the grains, under each normal stress [Pa] (docs/guide/element-tests.md).
 
     inner, outer: radii of the ring; travel: at its mean radius; in mean diameters of the grains. width, depth: of the
     square bed, in diameters of the ring. Raises InputError for a ring under five grains wide, RunStopped.
@@ -117,7 +117,7 @@ def angle_of_repose(soil: GranularSoil, *, packing: int = 1, radius: float = 6, 
 
 
 def run_wheel(bin: SoilBin, scenario: Scenario, at: OperatingCondition, progress: Progress = "shown") -> WheelRun:
-    """One run of the virtual soil bin (docs/soil-bin.md); the bed is settled once and kept by `bin`.
+    """One run of the virtual soil bin (docs/guide/soil-bin.md); the bed is settled once and kept by `bin`.
 
     Raises InputError for a bed too small and for what grains can't do (effects, a second pass), NoSolution where the
     wheel digs itself in, RunStopped.
@@ -127,7 +127,7 @@ def run_wheel(bin: SoilBin, scenario: Scenario, at: OperatingCondition, progress
 
 def record_runs(case: Union[Case, str], file: Union[str, Path], bin: Optional[SoilBin] = None, *, packings: int = 1,
                 progress: Progress = "shown") -> Record:
-    """Runs the conditions of a case's study in the virtual soil bin and keeps them in a file (docs/recorded.md).
+    """Runs the conditions of a case's study in the virtual soil bin and keeps them in a file (docs/guide/recorded.md).
 
     Each run is added as it is finished, and what the file has isn't run again: stopped work goes on by the same call, in
     the middle of a run too where `bin` has a folder for beds. bin: bed, rig, threads; absent: the usual ones. packings:
