@@ -36,7 +36,7 @@ struct ContactPair {
   double restitution = 0.5;       ///< [-], 0 .. 1
   double sliding_friction = 0.5;  ///< [-], >= 0
   double rolling_friction = 0.1;  ///< [-], >= 0
-  double rolling_damping = 0.3;   ///< share of critical, 0 .. 1; read by elastic_plastic alone. Ai et al. 2011: 0.3
+  double rolling_damping = 0.3;   ///< share of critical, 0 .. 1; read by elastic_plastic alone. 0.3: chosen
   double cohesion = 0.0;         ///< energy density of linear cohesion [J/m^3], >= 0; 0: none (docs/theory/dem-laws.md)
   double rolling_stiffness = 0;  ///< [N m/rad], >= 0; read by torsion_spring alone
 };

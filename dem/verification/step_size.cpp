@@ -56,7 +56,7 @@ std::string named(const std::string& what, int part) {
   return what + (part == 1 ? ", dt" : fmt::format(", dt/{}", part));
 }
 
-/// Rolls at v, is slowed by 5 mu_r g/7 and stands at v^2/(10 mu_r g/7); Ai et al. 2011, their first case.
+/// Rolls at v, is slowed by 5 mu_r g/7 and stands at v^2/(10 mu_r g/7); after Ai et al. 2011, a disc on a flat floor.
 void rolling_grain(StepRows& rows, const StartEngine& start) {
   const double v = 0.3, slowing = 5.0 / 7 * OnFloor::mu_r * g, t = 0.5 * v / slowing;
   for (const auto& [name, law] :
@@ -69,9 +69,9 @@ void rolling_grain(StepRows& rows, const StartEngine& start) {
       const auto rolls = at(t), stands = at(3 * v / slowing);
       const std::string rolling = fmt::format("a rolling grain, {}", name);
       rows.push_back({named(rolling + ": speed half way", part), v / 2, rolls->velocity(0).x, 4e-3, "m/s",
-                      "closed form; case 1 of Ai et al. 2011"});
+                      "closed form; after Ai et al. 2011"});
       rows.push_back({named(rolling + ": way to rest", part), v * v / (2 * slowing), stands->position(0).x, 2e-3, "m",
-                      "closed form; case 1 of Ai et al. 2011"});
+                      "closed form; after Ai et al. 2011"});
       rows.push_back({named(rolling + ": spin at rest", part), 0, stands->spin(0).y, 1e-3, "rad/s", closed_form});
     }
 }
