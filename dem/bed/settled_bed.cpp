@@ -176,14 +176,6 @@ ContactLaws with_cohesion_of(const ContactPair& pair, ContactLaws laws) {
   return laws;
 }
 
-double longest_step(const GranularSoil& soil) {
-  Materials materials;
-  materials.add({"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio});
-  Grains grains;
-  grains.add({.radius = soil.radius_min});
-  return 0.999 * Numerics{}.safe_share * rayleigh_time(materials, grains);
-}
-
 SettledBed settle_bed(const BedRecipe& recipe, const WorkOptions& how) {
   check(recipe);
   const GranularSoil& soil = recipe.soil;

@@ -6,6 +6,7 @@
 #include "dem/bed/bed_report.hpp"
 #include "dem/bed/work_options.hpp"
 #include "dem/engine/simulation.hpp"
+#include "dem/engine/time_step.hpp"
 #include "scenario/soil.hpp"
 
 namespace soilbin::dem {
@@ -52,15 +53,15 @@ Interaction interaction_of(const ContactPair& pair);
 /// The laws with linear cohesion switched on, where this pair has cohesion and no law of cohesion was chosen.
 ContactLaws with_cohesion_of(const ContactPair& pair, ContactLaws laws);
 
-/// The longest step for grains of this soil that the engine's check lets pass
-/// [s].
-double longest_step(const GranularSoil& soil);
+/// The longest step for grains of this soil that the engine's check lets pass [s].
+inline double longest_step(const GranularSoil& soil) {
+  const Material grains{"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio};
+  return 0.999 * Numerics{}.safe_share * rayleigh_time(grains, soil.radius_min);
+}
 
-/// Puts grains in loosely, lets them fall, takes away what stands above the
-/// depth so that the surface seen from above is on average there, and lets the
-/// rest settle again. The same recipe gives the same bed, for any number of
-/// threads. Throws InputError for sizes that make no sense, RunStopped where no
-/// rest is found, Stopped.
+/// Puts grains in loosely, lets them fall, takes away what stands above the depth so that the surface seen from above
+/// is on average there, and lets the rest settle again. The same recipe gives the same bed, for any number of threads.
+/// Throws InputError for sizes that make no sense, RunStopped where no rest is found, Stopped.
 SettledBed settle_bed(const BedRecipe& recipe, const WorkOptions& how = {});
 
 }  // namespace soilbin::dem

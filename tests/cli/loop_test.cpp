@@ -61,8 +61,8 @@ data: runs.csv
   const Outcome outcome = soilbin("loop '" + folder.string() + "' --json --report '" + page.string() + "'");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.json().at("verdict"), "not_enough_data");
-  EXPECT_THAT(outcome.json().at("warnings").dump(), HasSubstr("repeat"));
-  EXPECT_THAT(text_of(page), AllOf(HasSubstr("What is doubtful"), HasSubstr("repeat")));
+  EXPECT_THAT(outcome.json().at("warnings").dump(), HasSubstr("counted twice"));
+  EXPECT_THAT(text_of(page), AllOf(HasSubstr("What is doubtful"), HasSubstr("counted twice")));
 }
 
 TEST(LoopCommand, RefusesALimitThatIsNone) {

@@ -169,13 +169,13 @@ class SemiEmpiricalSoil:
     @stress_angle_c2.setter
     def stress_angle_c2(self, value: Estimate) -> None: ...
     @property
-    def density(self) -> float:
+    def density(self) -> Optional[float]:
         """bulk density [kg/m^3], above 0 kg/m^3"""
     @density.setter
-    def density(self, value: float) -> None: ...
-    def __init__(self, *, exponent: Union[Estimate, float], k_c: Union[Estimate, float], k_phi: Union[Estimate, float], cohesion: Union[Estimate, float], friction_angle: Union[Estimate, float], shear_modulus: Union[Estimate, float], stress_angle_c1: Union[Estimate, float], stress_angle_c2: Union[Estimate, float], density: float = ...) -> None:
+    def density(self, value: Optional[float]) -> None: ...
+    def __init__(self, *, exponent: Union[Estimate, float], k_c: Union[Estimate, float], k_phi: Union[Estimate, float], cohesion: Union[Estimate, float], friction_angle: Union[Estimate, float], shear_modulus: Union[Estimate, float], stress_angle_c1: Union[Estimate, float], stress_angle_c2: Union[Estimate, float], density: Optional[float] = ...) -> None:
         """By keywords: the attributes, in SI."""
-    def replace(self, *, exponent: Union[Estimate, float] = ..., k_c: Union[Estimate, float] = ..., k_phi: Union[Estimate, float] = ..., cohesion: Union[Estimate, float] = ..., friction_angle: Union[Estimate, float] = ..., shear_modulus: Union[Estimate, float] = ..., stress_angle_c1: Union[Estimate, float] = ..., stress_angle_c2: Union[Estimate, float] = ..., density: float = ...) -> SemiEmpiricalSoil:
+    def replace(self, *, exponent: Union[Estimate, float] = ..., k_c: Union[Estimate, float] = ..., k_phi: Union[Estimate, float] = ..., cohesion: Union[Estimate, float] = ..., friction_angle: Union[Estimate, float] = ..., shear_modulus: Union[Estimate, float] = ..., stress_angle_c1: Union[Estimate, float] = ..., stress_angle_c2: Union[Estimate, float] = ..., density: Optional[float] = ...) -> SemiEmpiricalSoil:
         """A copy in which the attributes given are changed."""
 
 class ContactPair:
@@ -196,6 +196,11 @@ class ContactPair:
     @rolling_friction.setter
     def rolling_friction(self, value: float) -> None: ...
     @property
+    def rolling_damping(self) -> float:
+        """dashpot of rolling, a share of critical; 0: grains rock on. Of elastic_plastic alone [-], 0 .. 1"""
+    @rolling_damping.setter
+    def rolling_damping(self, value: float) -> None: ...
+    @property
     def cohesion(self) -> float:
         """energy density of linear cohesion: attraction over the contact's area; 0: none [J/m^3], at least 0 J/m^3
         """
@@ -206,16 +211,28 @@ class ContactPair:
         """couple a radian of rolling; of torsion_spring alone [N m], at least 0 N m"""
     @rolling_stiffness.setter
     def rolling_stiffness(self, value: float) -> None: ...
-    def __init__(self, *, restitution: float, sliding_friction: float, rolling_friction: float, cohesion: float = ..., rolling_stiffness: float = ...) -> None:
+    def __init__(self, *, restitution: float, sliding_friction: float, rolling_friction: float, rolling_damping: float = ..., cohesion: float = ..., rolling_stiffness: float = ...) -> None:
         """By keywords: the attributes, in SI."""
-    def replace(self, *, restitution: float = ..., sliding_friction: float = ..., rolling_friction: float = ..., cohesion: float = ..., rolling_stiffness: float = ...) -> ContactPair:
+    def replace(self, *, restitution: float = ..., sliding_friction: float = ..., rolling_friction: float = ..., rolling_damping: float = ..., cohesion: float = ..., rolling_stiffness: float = ...) -> ContactPair:
         """A copy in which the attributes given are changed."""
 
 class RollingResistance:
     """How grains resist rolling (docs/theory/dem-laws.md)."""
-    directional: ClassVar[RollingResistance]
     elastic_plastic: ClassVar[RollingResistance]
+    directional: ClassVar[RollingResistance]
+    directional_with_twist: ClassVar[RollingResistance]
     torsion_spring: ClassVar[RollingResistance]
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class TwistingResistance:
+    """How grains resist twisting (docs/theory/dem-laws.md)."""
+    none: ClassVar[TwistingResistance]
+    marshall: ClassVar[TwistingResistance]
     def __init__(self, value: int) -> None: ...
     def __int__(self) -> int: ...
     @property
@@ -252,9 +269,14 @@ class GranularSoil:
     def poisson_ratio(self, value: float) -> None: ...
     @property
     def rolling_resistance(self) -> RollingResistance:
-        """how grains resist rolling"""
+        """how grains resist rolling; directional: the answer depends on the time step"""
     @rolling_resistance.setter
     def rolling_resistance(self, value: RollingResistance) -> None: ...
+    @property
+    def twisting_resistance(self) -> TwistingResistance:
+        """how grains resist spin about the normal of their contact"""
+    @twisting_resistance.setter
+    def twisting_resistance(self, value: TwistingResistance) -> None: ...
     @property
     def grain_grain(self) -> ContactPair:
         """contact of two grains"""
@@ -265,9 +287,9 @@ class GranularSoil:
         """contact of a grain and the tire"""
     @grain_tire.setter
     def grain_tire(self, value: ContactPair) -> None: ...
-    def __init__(self, *, radius_min: float, radius_max: float, grain_density: float, youngs_modulus: float, poisson_ratio: float, rolling_resistance: RollingResistance = ..., grain_grain: ContactPair, grain_tire: ContactPair) -> None:
+    def __init__(self, *, radius_min: float, radius_max: float, grain_density: float, youngs_modulus: float, poisson_ratio: float, rolling_resistance: RollingResistance = ..., twisting_resistance: TwistingResistance = ..., grain_grain: ContactPair, grain_tire: ContactPair) -> None:
         """By keywords: the attributes, in SI."""
-    def replace(self, *, radius_min: float = ..., radius_max: float = ..., grain_density: float = ..., youngs_modulus: float = ..., poisson_ratio: float = ..., rolling_resistance: RollingResistance = ..., grain_grain: ContactPair = ..., grain_tire: ContactPair = ...) -> GranularSoil:
+    def replace(self, *, radius_min: float = ..., radius_max: float = ..., grain_density: float = ..., youngs_modulus: float = ..., poisson_ratio: float = ..., rolling_resistance: RollingResistance = ..., twisting_resistance: TwistingResistance = ..., grain_grain: ContactPair = ..., grain_tire: ContactPair = ...) -> GranularSoil:
         """A copy in which the attributes given are changed."""
 
 class Soil:
@@ -1079,8 +1101,9 @@ class NormalLaw:
 class RollingLaw:
     """Which law acts at the contacts (docs/theory/dem-laws.md)."""
     none: ClassVar[RollingLaw]
-    directional: ClassVar[RollingLaw]
     elastic_plastic: ClassVar[RollingLaw]
+    directional: ClassVar[RollingLaw]
+    directional_with_twist: ClassVar[RollingLaw]
     spring_slider: ClassVar[RollingLaw]
     torsion_spring: ClassVar[RollingLaw]
     def __init__(self, value: int) -> None: ...
@@ -1591,10 +1614,10 @@ class DirectShearResult:
         """[m]"""
 
 def direct_shear(soil: GranularSoil, stresses: Sequence[float] = ..., packings: int = ..., packing: int = ..., length: float = ..., width: float = ..., height: float = ..., travel: float = ..., settling_friction: float = ..., rolling: RollingLaw = ..., inertial: float = ..., threads: int = ..., progress: Optional[Told] = ...) -> DirectShearResult:
-    """The shear box (docs/guide/element-tests.md). stresses: normal, on the lid [Pa], at least two for c and phi. packings:
-    specimens, of seeds packing, +1, ... length, width, height, travel: in mean diameters. settling_friction: 0
-    (densest) .. 1 (loose). inertial: number that sets the speed. Same settings, same bits, for any number of threads.
-    Raises InputError, RunStopped.
+    """The shear box (docs/guide/element-tests.md). stresses: normal, on the lid [Pa], at least two for c and phi.
+    packings: specimens, of seeds packing, +1, ... length, width, height, travel: in mean diameters.
+    settling_friction: 0 (densest) .. 1 (loose). inertial: number that sets the speed. Same settings, same bits, for
+    any number of threads. Raises InputError, RunStopped.
     """
 
 class AngleOfReposeResult:
@@ -1678,9 +1701,9 @@ class TriaxialResult:
         """[m]"""
 
 def triaxial(soil: GranularSoil, stresses: Sequence[float] = ..., packings: int = ..., packing: int = ..., side: float = ..., height: float = ..., strain: float = ..., settling_friction: float = ..., rolling: RollingLaw = ..., inertial: float = ..., threads: int = ..., progress: Optional[Told] = ...) -> TriaxialResult:
-    """True triaxial compression between six smooth walls (docs/guide/element-tests.md). stresses: confining [Pa], at least two
-    for c and phi. side, height: of the specimen, in mean diameters. strain: axial, at the end. inertial: number that
-    sets the rate. Raises InputError, RunStopped.
+    """True triaxial compression between six smooth walls (docs/guide/element-tests.md). stresses: confining [Pa], at
+    least two for c and phi. side, height: of the specimen, in mean diameters. strain: axial, at the end. inertial:
+    number that sets the rate. Raises InputError, RunStopped.
     """
 
 class TiltingBoardResult:
@@ -1749,15 +1772,15 @@ class AnnulusRun:
         """arrays, views: displacement, sinkage [m], shear_stress, normal_stress [Pa]"""
 
 def plate_sinkage(soil: GranularSoil, diameters: Sequence[float] = ..., sinkage: float = ..., width: float = ..., depth: float = ..., packing: int = ..., settling_friction: float = ..., rolling: RollingLaw = ..., threads: int = ..., progress: Optional[Told] = ...) -> list[PlateRun]:
-    """Round plates pressed into a bed of the grains, each into a fresh copy (docs/guide/element-tests.md). diameters, sinkage:
-    in mean diameters of the grains. width, depth: of the bed, in diameters of the widest plate. Raises InputError for
-    a plate under five grains wide, RunStopped.
+    """Round plates pressed into a bed of the grains, each into a fresh copy (docs/guide/element-tests.md). diameters,
+    sinkage: in mean diameters of the grains. width, depth: of the bed, in diameters of the widest plate. Raises
+    InputError for a plate under five grains wide, RunStopped.
     """
 
 def annular_shear(soil: GranularSoil, stresses: Sequence[float] = ..., inner: float = ..., outer: float = ..., travel: float = ..., width: float = ..., depth: float = ..., packing: int = ..., settling_friction: float = ..., rolling: RollingLaw = ..., threads: int = ..., progress: Optional[Told] = ...) -> list[AnnulusRun]:
-    """A ring with grousers turned on a bed of the grains under each stress [Pa] (docs/guide/element-tests.md). inner, outer:
-    its radii; travel: at the mean radius; all in mean diameters. width, depth: of the bed, in diameters of the ring.
-    Raises InputError for a ring under five grains wide, RunStopped.
+    """A ring with grousers turned on a bed of the grains under each stress [Pa] (docs/guide/element-tests.md). inner,
+    outer: its radii; travel: at the mean radius; all in mean diameters. width, depth: of the bed, in diameters of the
+    ring. Raises InputError for a ring under five grains wide, RunStopped.
     """
 
 class Verdict:
