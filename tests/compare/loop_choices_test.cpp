@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "compare/loop/evidence.hpp"
 #include "compare/loop/loop.hpp"
 #include "compare/loop_fixture.hpp"
 #include "compare/measured/condition_views.hpp"
@@ -35,6 +36,18 @@ TEST(LoopChoices, AnEffectThatPredictsNothingIsNotNamed) {
   EXPECT_THAT(answer.reason, testing::HasSubstr("does not predict held-out conditions better"));
   EXPECT_TRUE(answer.effects.empty());
   EXPECT_FALSE(answer.next);
+}
+
+// One candidate comes near the noise, so each is weighed against noise of a known size.
+TEST(LoopChoices, CandidatesAreWeighedByTheNoiseWhereOneComesNearIt) {
+  const LoopAnswer answer = answer_to(0.5, 22);
+  const Candidates& candidates = answer.found().candidates;
+  ASSERT_FALSE(candidates.none_near_noise);
+  ASSERT_GE(candidates.models.size(), 5U);
+  for (const CandidateModel& c : candidates.models) {
+    EXPECT_DOUBLE_EQ(c.log_evidence, log_evidence(c.model, false));
+    EXPECT_NE(c.log_evidence, log_evidence(c.model, true));
+  }
 }
 
 // Slip sinkage is found, alone. The next run sets it against the set behind, within what the campaign allows.
