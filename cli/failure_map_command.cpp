@@ -177,8 +177,13 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
   compare::VirtualTest grains;
   try {
     const compare::MapStory story = learn(asked, question, session.place, store, grains);
-    const compare::PageAbout about{"Failure map: " + name_of(story.map.incline), session.command, versions(),
-                                   doubts_of(story)};
+    compare::PageAbout about{"Failure map: " + name_of(story.map.incline), session.command, versions(),
+                             doubts_of(story)};
+    if (const std::size_t older = store.of_other_engines(grains); older > 0)
+      about.doubts.push_back(
+          fmt::format("{} of the experiments were made by an earlier engine, whose shear springs did "
+                      "not turn with the spin of a pair: this one's answers differ",
+                      older));
     print_warnings(about.doubts);
     outputs.file(asked.report,
                  [&] { return compare::failure_map_page(story, about, write_case(question, session.place.effects)); });

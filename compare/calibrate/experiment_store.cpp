@@ -64,6 +64,20 @@ StoredExperiment experiment_of(const Json& json, const std::string& place) {
   return stored;
 }
 
+/// The version of bits that a test's soil bin was of, "bed.version 1"; empty where it has none.
+std::string version_of_bed(const std::string& key) {
+  const std::size_t begin = key.find("\nbed.version ");
+  return begin == std::string::npos ? "" : key.substr(begin + 1, key.find('\n', begin + 1) - begin - 1);
+}
+
+/// Whether two tests differ in nothing, or in that version alone.
+bool same_but_for_version(const std::string& one, const std::string& other) {
+  std::string as_one = other;
+  if (const std::string version = version_of_bed(other); !version.empty())
+    as_one.replace(as_one.find(version), version.size(), version_of_bed(one));
+  return as_one == one;
+}
+
 bool same_question(const Experiment& experiment, const Eigen::VectorXd& values, std::uint64_t seed) {
   return experiment.seed == seed && experiment.values.size() == values.size() && experiment.values == values;
 }
@@ -103,11 +117,15 @@ void ExperimentStore::read() {
 std::optional<Experiment> ExperimentStore::find(const VirtualTest& test, const Eigen::VectorXd& values,
                                                 std::uint64_t seed) const {
   const std::string key = key_of(test);
+  std::optional<Experiment> older;
   for (const OfOneTest& known : tests_)
-    if (known.key == key)
+    if (same_but_for_version(key, known.key))
       for (const StoredExperiment& stored : known.experiments)
-        if (same_question(stored.experiment, values, seed)) return stored.experiment;
-  return std::nullopt;
+        if (same_question(stored.experiment, values, seed)) {
+          if (known.key == key) return stored.experiment;
+          older = stored.experiment;
+        }
+  return older;
 }
 
 void ExperimentStore::keep(const VirtualTest& test, const Experiment& experiment) {
@@ -134,6 +152,14 @@ std::size_t ExperimentStore::unsealed() const {
   for (const OfOneTest& test : tests_)
     sum += std::count_if(test.experiments.begin(), test.experiments.end(), [](const auto& one) { return !one.sealed; });
   return static_cast<std::size_t>(sum);
+}
+
+std::size_t ExperimentStore::of_other_engines(const VirtualTest& test) const {
+  const std::string key = key_of(test);
+  std::size_t sum = 0;
+  for (const OfOneTest& known : tests_)
+    if (known.key != key && same_but_for_version(key, known.key)) sum += known.experiments.size();
+  return sum;
 }
 
 std::size_t ExperimentStore::size() const {

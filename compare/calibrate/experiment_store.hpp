@@ -35,10 +35,13 @@ class ExperimentStore {
   /// an experiment that is damaged.
   explicit ExperimentStore(std::filesystem::path file = {});
 
+  /// The experiment; where there is none to the bit, one from an engine of other bits ("bed.version" of its identity).
   std::optional<Experiment> find(const VirtualTest& test, const Eigen::VectorXd& values, std::uint64_t seed) const;
   /// Keeps it beside what the file has by now, and writes the file. Throws std::runtime_error where that fails.
   void keep(const VirtualTest& test, const Experiment& experiment);
   std::size_t size() const;
+  /// Number of this test's experiments that an engine of other bits made.
+  std::size_t of_other_engines(const VirtualTest& test) const;
   /// Number of experiments that no seal vouches for.
   std::size_t unsealed() const;
 

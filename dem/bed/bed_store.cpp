@@ -55,7 +55,8 @@ std::string recipe_text(const BedRecipe& recipe) {
   text += fmt::format("laws {} {} {}\n", static_cast<int>(recipe.laws.normal), static_cast<int>(recipe.laws.rolling),
                       static_cast<int>(recipe.laws.cohesion));
   add("tangential_damping", recipe.laws.tangential_damping);
-  if (recipe.laws.rolling == RollingLaw::elastic_plastic) add("rolling_damping", soil.grain_grain.rolling_damping);
+  if (recipe.laws.rolling == RollingLaw::elastic_plastic && soil.grain_grain.rolling_damping > 0)
+    add("rolling_damping", soil.grain_grain.rolling_damping);  // keys of beds without it stay
   if (recipe.laws.twisting != TwistingLaw::none) add("twisting", static_cast<int>(recipe.laws.twisting));
   if (soil.grain_grain.rolling_stiffness > 0) add("rolling_stiffness", soil.grain_grain.rolling_stiffness);
   add("kinetic", recipe.rest.kinetic), add("unbalanced", recipe.rest.unbalanced), add("every", recipe.rest.every);

@@ -74,7 +74,7 @@ Inputs run_inputs(const BedRecipe& recipe, const Tire& tire, const Rig& rig) {
   const ContactPair& contact = recipe.soil.grain_tire;
   add(inputs, "soil.tire_restitution", contact.restitution), add(inputs, "soil.tire_sliding", contact.sliding_friction);
   add(inputs, "soil.tire_rolling", contact.rolling_friction);
-  if (recipe.laws.rolling == RollingLaw::elastic_plastic)
+  if (recipe.laws.rolling == RollingLaw::elastic_plastic && contact.rolling_damping > 0)
     add(inputs, "soil.tire_rolling_damping", contact.rolling_damping);
   if (contact.rolling_stiffness > 0) add(inputs, "soil.tire_rolling_stiffness", contact.rolling_stiffness);
   add_rig(inputs, rig);

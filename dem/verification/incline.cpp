@@ -41,7 +41,7 @@ Simulation empty(const InclineLayer& layer) {
   setup.materials.add({"base", 6 / pi}, contact);
   contact.restitution = restitution(1);  // the same dashpot, on a grain that is held
   setup.materials.set(loose, base, contact);
-  setup.laws.normal = NormalLaw::hooke;
+  setup.laws.normal = NormalLaw::hooke, setup.laws.rolling = RollingLaw::none;
   setup.laws.tangential_damping = 1;
   setup.domain = {
       {0, 0, -1}, {layer.length, layer.width, 4 * (layer.base_from + layer.layers) + 20}, {true, true, false}};
