@@ -6,23 +6,18 @@
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/transient/driving.hpp"
 #include "scenario/unit.hpp"
+#include "tests/fixtures.hpp"
 
 namespace soilbin::bekker_wong::rover {
 
 inline constexpr double load = 64.68, mass = load / 9.80665;
 
+/// The shared dry sand, all of it exact.
 inline Soil dry_sand() {
   Soil soil;
   soil.name = "dry-sand";
-  soil.semi_empirical = SemiEmpiricalSoil{.exponent = {1.1, 0},
-                                          .k_c = {990, 0},
-                                          .k_phi = {1.52843e6, 0},
-                                          .cohesion = {1040, 0},
-                                          .friction_angle = {28 * degree, 0},
-                                          .shear_modulus = {0.02, 0},
-                                          .stress_angle_c1 = {0.18, 0},
-                                          .stress_angle_c2 = {0.32, 0},
-                                          .density = 1600};
+  soil.semi_empirical = test::dry_sand();
+  soil.semi_empirical->shear_modulus.std_error = 0;
   return soil;
 }
 
