@@ -122,9 +122,7 @@ void add_bevameter(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("bevameter", "n, k_c, k_phi, c, phi and K of a soil's grains");
   const auto options = std::make_shared<BevameterOptions>();
   command->add_option("soil", options->soil, "of the library, or a YAML file")->type_name("SOIL")->required();
-  command->add_option("--output", options->output, "save the soil with these values")
-      ->type_name("FILE.yaml")
-      ->check(writable_file());
+  add_file(*command, "--output", options->output, "FILE.yaml", "save the soil with these values");
   command->add_option("--packings", options->packings, "number of beds, 2; their scatter is the error")->type_name("N");
   command->add_flag("--json", options->json, "soilbin-bevameter/1, in SI");
   options->flags.add_to(*command);

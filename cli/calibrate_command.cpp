@@ -281,12 +281,8 @@ void add_options(CLI::App& command, CalibrateOptions& asked) {
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   command.add_option("--threads", asked.threads, "0, one a core")->type_name("N");
-  command.add_option("--store", asked.store, "where finished experiments are kept; the user's cache")
-      ->type_name("FILE.json")
-      ->check(writable_file());
-  command.add_option("--output", asked.output, "write the soil with the calibrated contact")
-      ->type_name("FILE.yaml")
-      ->check(writable_file());
+  add_file(command, "--store", asked.store, "FILE.json", "where finished experiments are kept; the user's cache");
+  add_file(command, "--output", asked.output, "FILE.yaml", "write the soil with the calibrated contact");
   command.add_option("--beside", asked.beside, "only run the sets of this table and show them beside its results")
       ->type_name("FILE.csv");
   asked.decision.add_to(command);

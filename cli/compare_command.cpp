@@ -17,7 +17,6 @@
 #include "cli/versions.hpp"
 #include "compare/discrepancy/comparison_page.hpp"
 #include "compare/discrepancy/comparison_tables.hpp"
-#include "compare/doubts/doubts.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
@@ -95,23 +94,6 @@ compare::Side grain_side(const Case& question, const CompareOptions& asked, cons
   return compare::side_of("dem", *log, question.study.conditions);
 }
 
-/// Of the models that stand side by side: the analytic choices first, then grains where there are any.
-std::vector<std::string> doubts_of(const Case& question, const std::vector<ModelChoice>& choices,
-                                   const std::vector<compare::Side>& sides) {
-  Case asked = question;
-  asked.study.models.clear();
-  std::vector<compare::ModelAnswers> study;
-  for (std::size_t s = 0; s < sides.size(); ++s) {
-    const bool grains = sides[s].kind == compare::SideKind::grains;
-    study.push_back({grains ? ModelChoice{ModelKind::dem, {}, sides[s].label} : choices.at(s), {}});
-    asked.study.models.push_back(study.back().choice);
-    for (std::size_t i = 0; i < sides[s].points.size(); ++i)
-      study.back().answers.push_back(
-          {question.study.conditions[i], sides[s].points[i].result, sides[s].points[i].error});
-  }
-  return compare::doubts(asked, study);
-}
-
 void check_model(const CompareOptions& asked) {
   if (asked.model.empty() || asked.model == "dem" || asked.model == "bekker_wong") return;
   throw InputError("--model: unknown model '" + clipped(asked.model) + "'" +
@@ -183,7 +165,7 @@ int compare_models(CompareOptions asked, const Session& session) {
     for (const compare::ModelAnswers& answers : study) sides.push_back(compare::side_of(answers));
   }
   if (asks_for_grains(question, asked)) sides.push_back(grain_side(question, asked, session, log, about));
-  about.page.doubts = doubts_of(question, choices, sides);
+  about.page.doubts = compare::doubts(question, choices, sides);
   print_warnings(about.page.doubts);
   if (!asked.measured.empty())
     sides.push_back(compare::side_of(find_campaign(session.place, asked.measured), question));
@@ -215,13 +197,11 @@ void add_compare(CLI::App& app, Session& session) {
       ->type_name("SOIL");
   command->add_option("--effect", asked->effects, "one more side: the analytic model with this effect; repeatable")
       ->type_name("ID[:FORM][,PARAMETER=VALUE]");
-  command->add_option("--report", asked->report, "write everything as one page")
-      ->type_name("FILE.html")
-      ->check(writable_file());
+  add_file(*command, "--report", asked->report, "FILE.html", "write everything as one page");
   command->add_option("--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data")
       ->type_name("DIR")
       ->check(writable_folder());
-  command->add_option("--csv", asked->csv, "save every row")->type_name("FILE.csv")->check(writable_file());
+  add_file(*command, "--csv", asked->csv, "FILE.csv", "save every row");
   command->add_option("--replay", asked->replay, "a replay of grains to put into the page")->type_name("FILE");
   command->add_option("--title", asked->title, "of the page")->type_name("TEXT");
   command->add_flag("--no-loop", asked->no_loop, "don't look for what the analytic model lacks");

@@ -213,10 +213,8 @@ void add_drive(CLI::App& app, Session& session) {
   command->add_option("--plot", options->plot, "draw speed, slip, sinkage, torque, forces and energy against time")
       ->type_name("FILE.svg|png|pdf")
       ->check(drawing_file());
-  command->add_option("--csv", options->csv, "save every sample")->type_name("FILE.csv")->check(writable_file());
-  command->add_option("--report", options->report, "save a page to open in a browser")
-      ->type_name("FILE.html")
-      ->check(writable_file());
+  add_file(*command, "--csv", options->csv, "FILE.csv", "save every sample");
+  add_file(*command, "--report", options->report, "FILE.html", "save a page to open in a browser");
   command->add_option("--samples", options->samples, "intervals of time that are recorded; 400")
       ->type_name("WHOLE")
       ->check(CLI::Range(1, 1000000));
@@ -228,9 +226,7 @@ void add_drive(CLI::App& app, Session& session) {
       ->type_name("N");
   command->add_flag("--ledger", options->ledger,
                     "dem: tell what the grains did with their work too; takes up to twice as long");
-  command->add_option("--replay", options->soil_bin.replay, "dem: keep the drive, to look at it in 3D")
-      ->type_name("FILE")
-      ->check(writable_file());
+  add_file(*command, "--replay", options->soil_bin.replay, "FILE", "dem: keep the drive, to look at it in 3D");
   command->footer(
       "Examples: soilbin drive rover-climb --report climb.html\n"
       "          soilbin drive drive-in-grains --model both --settling-friction 0 --report sides.html");

@@ -5,11 +5,12 @@
 
 #include "cli/commands.hpp"
 #include "cli/element_test_flags.hpp"
-#include "cli/element_test_reports.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
+#include "cli/text_output.hpp"
+#include "compare/experiments/element_test_reports.hpp"
 #include "compare/report/json_fields.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -42,56 +43,56 @@ std::vector<double> stresses_of(const ElementTestOptions& options, std::vector<d
   return out;
 }
 
-TestReport direct_shear(const AskedTest& asked) {
+compare::TestReport direct_shear(const AskedTest& asked) {
   dem::DirectShearSettings s;
   s.specimen = asked.specimen, s.packings = asked.options.packings, s.ledger = asked.options.ledger;
   s.stresses = stresses_of(asked.options, s.stresses);
   for (double* side : {&s.length, &s.width, &s.height}) *side *= asked.options.flags.size;
   if (asked.options.inertial > 0) s.inertial = asked.options.inertial;
-  return report_on(dem::direct_shear(asked.grains, s, asked.how, &asked.beds));
+  return compare::report_on(dem::direct_shear(asked.grains, s, asked.how, &asked.beds));
 }
 
-TestReport triaxial(const AskedTest& asked) {
+compare::TestReport triaxial(const AskedTest& asked) {
   dem::TriaxialSettings s;
   s.specimen = asked.specimen, s.packings = asked.options.packings, s.ledger = asked.options.ledger;
   s.stresses = stresses_of(asked.options, s.stresses);
   for (double* side : {&s.side, &s.height}) *side *= asked.options.flags.size;
   if (asked.options.inertial > 0) s.inertial = asked.options.inertial;
-  return report_on(dem::triaxial(asked.grains, s, asked.how, &asked.beds));
+  return compare::report_on(dem::triaxial(asked.grains, s, asked.how, &asked.beds));
 }
 
-TestReport tilting_board(const AskedTest& asked) {
+compare::TestReport tilting_board(const AskedTest& asked) {
   dem::TiltingBoardSettings s;
   s.packing = asked.specimen.packing, s.laws = asked.specimen.laws;
   s.across = static_cast<int>(std::lround(s.across * asked.options.flags.size));
-  return report_on(dem::tilting_board(asked.grains, s, asked.how));
+  return compare::report_on(dem::tilting_board(asked.grains, s, asked.how));
 }
 
-TestReport repose(const AskedTest& asked) {
+compare::TestReport repose(const AskedTest& asked) {
   dem::AngleOfReposeSettings s;
   s.packing = asked.specimen.packing, s.laws = asked.specimen.laws;
   s.radius *= asked.options.flags.size, s.height *= asked.options.flags.size;
-  return report_on(dem::angle_of_repose(asked.grains, s, asked.how));
+  return compare::report_on(dem::angle_of_repose(asked.grains, s, asked.how));
 }
 
-TestReport plate(const AskedTest& asked) {
+compare::TestReport plate(const AskedTest& asked) {
   dem::PlateSettings s;
   s.bed.specimen = asked.specimen;
   s.bed.width *= asked.options.flags.size, s.bed.depth *= asked.options.flags.size;
-  return report_on(dem::plate_sinkage(asked.grains, s, asked.how, &asked.beds));
+  return compare::report_on(dem::plate_sinkage(asked.grains, s, asked.how, &asked.beds));
 }
 
-TestReport shear(const AskedTest& asked) {
+compare::TestReport shear(const AskedTest& asked) {
   dem::AnnulusSettings s;
   s.bed.specimen = asked.specimen;
   s.stresses = stresses_of(asked.options, s.stresses);
   s.bed.width *= asked.options.flags.size, s.bed.depth *= asked.options.flags.size;
-  return report_on(dem::annular_shear(asked.grains, s, asked.how, &asked.beds));
+  return compare::report_on(dem::annular_shear(asked.grains, s, asked.how, &asked.beds));
 }
 
 struct Test {
   const char* name;
-  TestReport (*run)(const AskedTest&);
+  compare::TestReport (*run)(const AskedTest&);
 };
 constexpr Test tests[] = {{"direct-shear", direct_shear},
                           {"tilting-board", tilting_board},
@@ -116,7 +117,7 @@ int element_test(const ElementTestOptions& options, const Session& session) {
   if (options.inertial < 0) throw InputError("--inertial: above 0");
   const Soil soil = find_soil(options.soil, session.place.library);
   dem::BedStore beds(folder_of_beds());
-  TestReport report =
+  compare::TestReport report =
       test.run({options, grains_of(soil), options.flags.specimen(grains_of(soil)), options.flags.work(), beds});
   clear_progress_line();
   Outputs outputs;
@@ -126,7 +127,8 @@ int element_test(const ElementTestOptions& options, const Session& session) {
     document.update(report.json);
     fmt::print("{}", compare::json_text(document));
   } else {
-    fmt::print("{}: {}\n{}", test.name, soil.name, report.text);
+    fmt::print("{}: {}\n{}{}", test.name, soil.name, report.table.header.empty() ? "" : as_text(report.table),
+               report.text);
   }
   return outputs.status(done);
 }

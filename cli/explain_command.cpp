@@ -111,12 +111,7 @@ int explain(const Question& inputs, bool json, const Session& session) {
   const std::vector<std::string> doubts = compare::doubts(question, told);
   print_warnings(doubts);
   if (!json) return done;
-  nlohmann::ordered_json document = {{"format", "soilbin-explain/1"},
-                                     {"tire", question.scenario.tire.name},
-                                     {"soil", question.scenario.soil.name},
-                                     {"rows", rows}};
-  compare::tell_doubts(document, doubts);
-  fmt::print("{}", compare::json_text(document));
+  fmt::print("{}", compare::json_text(document_of("soilbin-explain/1", question, rows, doubts)));
   return done;
 }
 

@@ -230,9 +230,7 @@ void add_failure_map(CLI::App& app, Session& session) {
   command->add_option("--store", asked->store, "keep each run in this file, and go on with what is there")
       ->type_name("FILE.json");
   command->add_flag("--stored", asked->stored, "answer from the store alone, without running");
-  command->add_option("--report", asked->report, "write the report as one page")
-      ->type_name("FILE.html")
-      ->check(writable_file());
+  add_file(*command, "--report", asked->report, "FILE.html", "write the report as one page");
   command->add_option("--seed", asked->seed, "of the design, 1")->type_name("N");
   command->add_flag("--show-rows", asked->rows, "print every condition run");
   command->add_flag("--json", asked->json, "soilbin-failure-map/1, in SI");

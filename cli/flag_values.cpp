@@ -43,6 +43,10 @@ CLI::Validator writable_file() {
   return {[](std::string& name) { return why_not_writable(name); }, ""};
 }
 
+CLI::Option* add_file(CLI::App& command, const char* flag, std::string& name, const char* type, const char* meaning) {
+  return command.add_option(flag, name, meaning)->type_name(type)->check(writable_file());
+}
+
 CLI::Validator writable_folder() {
   return {[](std::string& name) { return why_no_folder(name); }, ""};
 }

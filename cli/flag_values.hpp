@@ -27,6 +27,9 @@ std::pair<double, double> read_range(const std::string& flag, const std::string&
 /// one. Folders that are missing are made when the file is written.
 CLI::Validator writable_file();
 
+/// A flag that names a file to write, with that check. `type`: as the help has it, "FILE.csv".
+CLI::Option* add_file(CLI::App& command, const char* flag, std::string& name, const char* type, const char* meaning);
+
 /// The same for a folder that files are written into.
 CLI::Validator writable_folder();
 

@@ -184,12 +184,7 @@ int limits(const Question& inputs, bool json, const Session& session) {
   if (json) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const LimitsAnswer& answer : answers) rows.push_back(limits_json(answer));
-    nlohmann::ordered_json document = {{"format", "soilbin-limits/1"},
-                                       {"tire", question.scenario.tire.name},
-                                       {"soil", question.scenario.soil.name},
-                                       {"rows", rows}};
-    compare::tell_doubts(document, doubts);
-    fmt::print("{}", compare::json_text(document));
+    fmt::print("{}", compare::json_text(document_of("soilbin-limits/1", question, rows, doubts)));
   } else {
     fmt::print("{} on {}\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil));
     for (const LimitsAnswer& answer : answers) fmt::print("\n{}", limits_text(answer));

@@ -188,14 +188,19 @@ Case Question::ask(const Workplace& place) const {
   return question;
 }
 
-nlohmann::ordered_json answers_json(const Case& question, const std::vector<compare::ModelAnswers>& study,
-                                    const std::vector<std::string>& doubts) {
-  nlohmann::ordered_json document = {{"format", "soilbin-estimate/1"},
+nlohmann::ordered_json document_of(const char* format, const Case& question, nlohmann::ordered_json rows,
+                                   const std::vector<std::string>& doubts) {
+  nlohmann::ordered_json document = {{"format", format},
                                      {"tire", question.scenario.tire.name},
                                      {"soil", question.scenario.soil.name},
-                                     {"rows", compare::rows_json(study)}};
+                                     {"rows", std::move(rows)}};
   compare::tell_doubts(document, doubts);
   return document;
+}
+
+nlohmann::ordered_json answers_json(const Case& question, const std::vector<compare::ModelAnswers>& study,
+                                    const std::vector<std::string>& doubts) {
+  return document_of("soilbin-estimate/1", question, compare::rows_json(study), doubts);
 }
 
 void require_semi_empirical(const Case& question, const Library& library) {

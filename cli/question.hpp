@@ -62,6 +62,9 @@ class Question {
 /// Throws InputError where the analytic model is asked on a soil that has values for grains alone.
 void require_semi_empirical(const Case& question, const Library& library);
 
+/// The rows of an answer under the names of its tire and soil, and the doubts.
+nlohmann::ordered_json document_of(const char* format, const Case& question, nlohmann::ordered_json rows,
+                                   const std::vector<std::string>& doubts);
 /// soilbin-estimate/1: what each model answers at each condition of the question, in SI, and the doubts.
 nlohmann::ordered_json answers_json(const Case& question, const std::vector<compare::ModelAnswers>& study,
                                     const std::vector<std::string>& doubts);

@@ -178,9 +178,7 @@ void add_reproduce(CLI::App& app, Session& session) {
       ->type_name("FINDINGS");
   command->add_option("--recorded", options->recorded, "records of dem, one a study; by default the library's")
       ->type_name("FILE.json...");
-  command->add_option("--report", options->report, "save a page to open")
-      ->type_name("FILE.html")
-      ->check(writable_file());
+  add_file(*command, "--report", options->report, "FILE.html", "save a page to open");
   command->add_flag("--json", options->json, "the verdicts as JSON, in SI");
   command->footer("Example: soilbin reproduce --report reproduction.html");
   command->callback([=, &session] { session.action = [=, &session] { return reproduce(*options, session); }; });

@@ -164,7 +164,7 @@ void add_run(CLI::App& app, Session& session) {
   command->add_option("--plot", options->plot, "draw the curves against slip")
       ->type_name("FILE.svg|png|pdf")
       ->check(drawing_file());
-  command->add_option("--csv", options->csv, "save the table")->type_name("FILE.csv")->check(writable_file());
+  add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");
   command->add_option("--output", options->output, "save the resolved case and the results")
       ->type_name("DIR")
       ->check(writable_folder());
@@ -173,9 +173,8 @@ void add_run(CLI::App& app, Session& session) {
                     "dem: one condition, again with each numerical choice halved or doubled");
   options->conditions.add_to(*command);
   options->soil_bin.add_to(*command);
-  command->add_option("--replay", options->soil_bin.replay, "dem: keep the first run that is made, to look at it in 3D")
-      ->type_name("FILE")
-      ->check(writable_file());
+  add_file(*command, "--replay", options->soil_bin.replay, "FILE",
+           "dem: keep the first run that is made, to look at it in 3D");
   command->add_option("--paraview", options->soil_bin.paraview, "dem: keep each run that is made, for ParaView")
       ->type_name("DIR")
       ->check(writable_folder());

@@ -135,9 +135,7 @@ void SoilBinFlags::add_to(CLI::App& command) {
   add_starting_to(command);
   command.add_option("--packings", packings, "dem: runs on so many packings, from --packing on, and their mean; 1")
       ->type_name("N");
-  command.add_option("--record", record, "dem: keep each run in this file, and go on with what is there")
-      ->type_name("FILE.json")
-      ->check(writable_file());
+  add_file(command, "--record", record, "FILE.json", "dem: keep each run in this file, and go on with what is there");
   command
       .add_option("--recorded", recorded,
                   "dem: answer from this record, without running; without a file from the one in the library")

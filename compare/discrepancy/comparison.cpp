@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/doubts/doubts.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 
@@ -147,6 +148,22 @@ Campaign as_campaign(const Side& side, const Case& question, const std::vector<E
   campaign.force_frame = side.runs.front().at.force_frame;
   campaign.slip_by = side.runs.front().at.slip_by;
   return campaign;
+}
+
+std::vector<std::string> doubts(const Case& question, const std::vector<ModelChoice>& choices,
+                                   const std::vector<Side>& sides) {
+  Case asked = question;
+  asked.study.models.clear();
+  std::vector<ModelAnswers> study;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const bool grains = sides[s].kind == SideKind::grains;
+    study.push_back({grains ? ModelChoice{ModelKind::dem, {}, sides[s].label} : choices.at(s), {}});
+    asked.study.models.push_back(study.back().choice);
+    for (std::size_t i = 0; i < sides[s].points.size(); ++i)
+      study.back().answers.push_back(
+          {question.study.conditions[i], sides[s].points[i].result, sides[s].points[i].error});
+  }
+  return doubts(asked, study);
 }
 
 }  // namespace soilbin::compare

@@ -6,24 +6,13 @@
 #include "compare/report/json_fields.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/mapping_writer.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-const char* word_of_kind(SideKind kind) {
-  switch (kind) {
-    case SideKind::analytic:
-      return "analytic";
-    case SideKind::grains:
-      return "grains";
-    case SideKind::measured:
-      return "measured";
-  }
-  return "";
-}
-
 Json side_json(const Side& side, const std::vector<OperatingCondition>& conditions) {
-  Json json = {{"label", side.label}, {"kind", word_of_kind(side.kind)}, {"points", Json::array()}};
+  Json json = {{"label", side.label}, {"kind", std::string(word_of(side.kind))}, {"points", Json::array()}};
   for (std::size_t i = 0; i < side.points.size(); ++i) {
     const SidePoint& point = side.points[i];
     Json one = to_json(Answer{conditions[i], point.result, point.error});

@@ -165,10 +165,7 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
        "number of runs near a condition. Slips and forces are turned to the study's definitions by each run's yaw."});
   page.section("How to repeat this", "repeat");
   page.code(about.page.command);
-  HtmlTable facts{"", {"part", ""}, {}, {true, true}};
-  for (const auto* list : {&about.page.versions, &about.facts})
-    for (const auto& [name, value] : *list) facts.rows.push_back({name, value});
-  page.table(facts);
+  page.facts({"part", ""}, {&about.page.versions, &about.facts});
   page.folded("The resolved case", [&] { page.code(about.resolved_case); });
 }
 

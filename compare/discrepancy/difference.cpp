@@ -8,33 +8,19 @@
 
 namespace soilbin::compare {
 
-std::string_view word(DifferenceFinding finding) {
-  switch (finding) {
-    case DifferenceFinding::difference:
-      return "difference";
-    case DifferenceFinding::within_scatter:
-      return "within_scatter";
-    case DifferenceFinding::within_errors:
-      return "within_errors";
-    case DifferenceFinding::not_judged:
-      return "not_judged";
-  }
-  return "";
-}
+namespace {
 
-std::string_view words(DifferenceFinding finding) {
-  switch (finding) {
-    case DifferenceFinding::difference:
-      return "difference";
-    case DifferenceFinding::within_scatter:
-      return "within the scatter";
-    case DifferenceFinding::within_errors:
-      return "within the errors";
-    case DifferenceFinding::not_judged:
-      return "not judged";
-  }
-  return "";
-}
+/// For programs and for people, in the order of DifferenceFinding.
+constexpr std::pair<std::string_view, std::string_view> finding_words[] = {{"difference", "difference"},
+                                                                           {"within_scatter", "within the scatter"},
+                                                                           {"within_errors", "within the errors"},
+                                                                           {"not_judged", "not judged"}};
+
+}  // namespace
+
+std::string_view word(DifferenceFinding finding) { return finding_words[static_cast<std::size_t>(finding)].first; }
+
+std::string_view words(DifferenceFinding finding) { return finding_words[static_cast<std::size_t>(finding)].second; }
 
 double counting_errors(double freedom) {
   constexpr double known = 2.0, most = 15.0;  // Student's t asks for 13.97 at one degree of freedom

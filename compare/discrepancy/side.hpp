@@ -14,6 +14,9 @@
 namespace soilbin::compare {
 
 enum class SideKind { analytic, grains, measured };
+constexpr std::array<Word<SideKind>, 3> words_of(std::type_identity<SideKind>) {
+  return {{{"analytic", SideKind::analytic}, {"grains", SideKind::grains}, {"measured", SideKind::measured}}};
+}
 
 /// Degrees of freedom of standard errors that are known: none of them estimated from a handful of runs.
 constexpr std::array<double, channel_views.size()> known_errors() {

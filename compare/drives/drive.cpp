@@ -173,9 +173,7 @@ std::string drive_csv(const DrivePart& part) {
 std::string drive_page(const DrivePart& part, const PageAbout& about) {
   const DriveSample& end = part.record.samples.back();
   Page page(about.title, part.question.description);
-  std::vector<std::pair<std::string, std::string>> sentences;
-  for (const std::string& sentence : in_words(part)) sentences.emplace_back("", sentence);
-  page.summary(sentences);
+  page.sentences(in_words(part));
   page.doubts(about.doubts);
   page.section("Against time");
   page.figure(drive_sheet(part),

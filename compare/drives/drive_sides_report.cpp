@@ -192,9 +192,7 @@ std::string drive_csv(const DriveSides& drive) {
 
 std::string drive_page(const DriveSides& drive, const PageAbout& about) {
   Page page(about.title, drive.question.description);
-  std::vector<std::pair<std::string, std::string>> sentences;
-  for (const std::string& sentence : in_words(drive)) sentences.emplace_back("", sentence);
-  page.summary(sentences);
+  page.sentences(in_words(drive));
   page.doubts(about.doubts);
   page.section("Against time");
   page.figure(

@@ -9,6 +9,7 @@
 #include "compare/sweep/answers.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
+#include "scenario/mapping_writer.hpp"
 #include "scenario/traction_channels.hpp"
 
 namespace soilbin::compare {
@@ -52,15 +53,7 @@ Samples samples_in(const FailureMap& rows, const std::function<VectorXd(const Ve
 }  // namespace
 
 std::string name_of(Incline incline) {
-  switch (incline) {
-    case Incline::longitudinal:
-      return "longitudinal incline";
-    case Incline::transverse:
-      return "transverse incline";
-    case Incline::yaw:
-      return "yaw";
-  }
-  return "";
+  return std::string(word_of(incline)) + (incline == Incline::yaw ? "" : " incline");
 }
 
 Scenario scenario_at(const InclineMap& map, const VectorXd& values) {

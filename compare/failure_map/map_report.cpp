@@ -247,9 +247,7 @@ HeatMap heat_map_of(const MapStory& story, double lug_height, double slip) {
 std::string failure_map_page(const MapStory& story, const PageAbout& about, const std::string& resolved_case) {
   Page page(about.title, fmt::format("{} on {}: where the analytic model and the grains part",
                                      story.map.scenario.tire.name, in_words(story.map.scenario.soil)));
-  std::vector<std::pair<std::string, std::string>> sentences;
-  for (const std::string& sentence : map_summary(story)) sentences.emplace_back("", sentence);
-  page.summary(sentences);
+  page.sentences(map_summary(story));
   page.doubts(about.doubts);
   page.figures_at_a_glance(
       {{std::to_string(story.rows.rows.size()), "conditions run"},
@@ -274,9 +272,7 @@ std::string failure_map_page(const MapStory& story, const PageAbout& about, cons
   if (!story.checks.empty()) page.table(checks_table(story));
   page.section("How to repeat this", "repeat");
   page.code(about.command);
-  HtmlTable facts{"", {"part", ""}, {}, {true, true}};
-  for (const auto& [name, value] : about.versions) facts.rows.push_back({name, value});
-  page.table(facts);
+  page.facts({"part", ""}, {&about.versions});
   page.folded("The resolved case", [&] { page.code(resolved_case); });
   return page.html();
 }

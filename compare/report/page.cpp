@@ -75,6 +75,12 @@ void Page::summary(const std::vector<std::pair<std::string, std::string>>& sente
   body_ += "</div>\n";
 }
 
+void Page::sentences(const std::vector<std::string>& sentences) {
+  std::vector<std::pair<std::string, std::string>> unnamed;
+  for (const std::string& sentence : sentences) unnamed.emplace_back("", sentence);
+  summary(unnamed);
+}
+
 void Page::backed_summary(const std::vector<BackedSentence>& sentences) {
   body_ += "<div class=\"summary\">";
   for (const BackedSentence& sentence : sentences) {
@@ -126,6 +132,14 @@ void Page::table(const HtmlTable& table) {
     body_ += "</tr>\n";
   }
   body_ += "</tbody></table></div>\n";
+}
+
+void Page::facts(const std::vector<std::string>& header,
+                 const std::vector<const std::vector<std::pair<std::string, std::string>>*>& lists) {
+  HtmlTable all{"", header, {}, {true, true}};
+  for (const auto* list : lists)
+    for (const auto& [name, value] : *list) all.rows.push_back({name, value});
+  table(all);
 }
 
 void Page::figure(const Sheet& sheet, const std::string& caption) {

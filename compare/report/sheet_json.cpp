@@ -28,17 +28,7 @@ Json axis_json(const Axis& axis) {
   return json;
 }
 
-const char* word_of_mark(Mark mark) {
-  switch (mark) {
-    case Mark::line:
-      return "line";
-    case Mark::points:
-      return "points";
-    case Mark::line_and_points:
-      return "line_and_points";
-  }
-  return "";
-}
+constexpr const char* mark_words[] = {"line", "points", "line_and_points"};  // in the order of Mark
 
 }  // namespace
 
@@ -53,7 +43,7 @@ Json to_json(const Sheet& sheet) {
            {"x", numbers(series.x)},
            {"y", numbers(series.y)},
            {"error", numbers(series.error)},
-           {"mark", word_of_mark(series.mark)},
+           {"mark", mark_words[static_cast<std::size_t>(series.mark)]},
            {"color", fmt::format("{}{}", sheet.palette == Palette::named ? 'c' : 'q', color_of(sheet, series))},
            {"dash", series.dash}});
     json["plots"].push_back(std::move(one));

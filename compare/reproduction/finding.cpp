@@ -3,33 +3,10 @@
 #include <set>
 
 #include "scenario/mapping_reader.hpp"
+#include "scenario/mapping_writer.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-/// The visitor that finds a key of OperatingCondition's description.
-struct AxisOf {
-  std::string_view wanted;
-  double OperatingCondition::*member = nullptr;
-  Measure measure;
-
-  void number(const char* key, double OperatingCondition::*at, const Measure& in, Need, const char*) {
-    if (key == wanted) member = at, measure = in;
-  }
-  void number(const char*, std::optional<double> OperatingCondition::*, const Measure&, Need, const char*) {}
-  template <class... Rest>
-  void integer(const Rest&...) {}
-  template <class... Rest>
-  void choice(const Rest&...) {}
-};
-
-AxisOf axis_of(FindingAxis axis) {
-  AxisOf visitor;
-  for (const Word<FindingAxis>& word : words_of(std::type_identity<FindingAxis>{}))
-    if (word.value == axis) visitor.wanted = word.text;
-  describe(visitor, std::type_identity<OperatingCondition>{});
-  return visitor;
-}
 
 Where read_where(const YamlNode& node, const Reading& reading) {
   if (!node.is_mapping())
@@ -78,8 +55,9 @@ Finding read_finding(const YamlNode& node, const Reading& reading) {
 
 }  // namespace
 
-double OperatingCondition::*member_of(FindingAxis axis) { return axis_of(axis).member; }
-Measure measure_of(FindingAxis axis) { return axis_of(axis).measure; }
+const ConditionView& view_of(FindingAxis axis) { return condition_view(word_of(axis)); }
+
+Measure measure_of(FindingAxis axis) { return {std::string(view_of(axis).column_unit), view_of(axis).range}; }
 
 Findings parse_findings(const SourceText& source) {
   const YamlNode document = parse_yaml(source);

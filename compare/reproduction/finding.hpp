@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/measured/condition_views.hpp"
 #include "scenario/description.hpp"
 #include "scenario/source_text.hpp"
 
@@ -111,8 +112,8 @@ inline constexpr const char* findings_format = "soilbin-findings/1";
 Findings parse_findings(const SourceText& source);
 Findings read_findings(const std::filesystem::path& path);
 
-/// The member of an operating condition behind an axis, and its unit.
-double OperatingCondition::*member_of(FindingAxis axis);
+/// Where an axis stands in an operating condition, and its unit.
+const ConditionView& view_of(FindingAxis axis);
 Measure measure_of(FindingAxis axis);
 
 }  // namespace soilbin::compare

@@ -16,7 +16,7 @@ constexpr double tolerance = 1e-9;  // of ranges and of equal values along an ax
 
 bool within(const OperatingCondition& at, const Where& where) {
   return std::all_of(where.begin(), where.end(), [&](const auto& axis) {
-    const double x = at.*member_of(axis.first), slack = tolerance * std::max(1.0, std::abs(x));
+    const double x = view_of(axis.first).get(at), slack = tolerance * std::max(1.0, std::abs(x));
     return x >= axis.second.first - slack && x <= axis.second.second + slack;
   });
 }
@@ -102,7 +102,7 @@ Curve curve_of(const Finding& finding, const Where& where, const std::vector<Ans
   std::vector<Sum> sums;
   for (const Answer& answer : answers) {
     if (!within(answer.at, where)) continue;
-    const double x = answer.at.*member_of(finding.along);
+    const double x = view_of(finding.along).get(answer.at);
     const auto same = [&](const Sum& sum) { return std::abs(sum.x - x) <= tolerance * std::max(1.0, std::abs(x)); };
     auto sum = std::find_if(sums.begin(), sums.end(), same);
     if (sum == sums.end()) sum = sums.insert(sums.end(), {.x = x});

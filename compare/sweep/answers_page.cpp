@@ -289,9 +289,7 @@ std::string analysis_page(const std::vector<StudyPart>& studies, const std::vect
       "propagated to first order from the standard deviations of the soil's values. The balance of the load "
       "is solved to about 1e-14; the quadrature is good to 1e-9.");
   page.code(about.command);
-  HtmlTable versions{"", {"part", "version"}, {}, {true, true}};
-  for (const auto& [name, version] : about.versions) versions.rows.push_back({name, version});
-  page.table(versions);
+  page.facts({"part", "version"}, {&about.versions});
   return page.html();
 }
 

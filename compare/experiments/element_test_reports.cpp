@@ -1,22 +1,16 @@
-#include "cli/element_test_reports.hpp"
+#include "compare/experiments/element_test_reports.hpp"
 
 #include <fmt/core.h>
 
 #include <cmath>
 #include <functional>
 
-#include "cli/text_output.hpp"
 #include "compare/report/json_fields.hpp"
+#include "compare/report/number_text.hpp"
 #include "scenario/unit.hpp"
 
-namespace soilbin::cli {
+namespace soilbin::compare {
 namespace {
-
-using Json = nlohmann::ordered_json;
-using compare::estimate_json;
-using compare::Mark;
-using compare::Plot;
-using compare::Series;
 
 Json json_of(const dem::StrengthLine& line) {
   if (line.points == 0) return nullptr;
@@ -44,19 +38,25 @@ std::string line_text(const char* name, const dem::StrengthLine& line) {
                      number(line.cohesion, 1e-3), degrees(line.friction_angle_without_cohesion));
 }
 
-/// A column of a curve, in a unit.
-template <class Sample>
-std::vector<double> column(const std::vector<Sample>& curve, const std::function<double(const Sample&)>& of) {
+/// A column of a curve: a member, or what a function makes of a sample.
+template <class Sample, class Of>
+std::vector<double> column(const std::vector<Sample>& curve, const Of& of) {
   std::vector<double> out;
-  for (const Sample& sample : curve) out.push_back(of(sample));
+  for (const Sample& sample : curve) out.push_back(std::invoke(of, sample));
   return out;
 }
 
-Series line_series(std::string label, std::vector<double> x, std::vector<double> y, std::size_t color) {
+/// A member times a factor, for `column`.
+template <class Sample>
+auto times(double Sample::*member, double factor) {
+  return [=](const Sample& sample) { return sample.*member * factor; };
+}
+
+void add_line(Plot& plot, std::string label, std::vector<double> x, std::vector<double> y) {
   Series series;
   series.label = std::move(label), series.x = std::move(x), series.y = std::move(y);
-  series.color = static_cast<int>(color);
-  return series;
+  series.color = static_cast<int>(plot.series.size());
+  plot.series.push_back(std::move(series));
 }
 
 Plot panel(const char* title, const char* x) {
@@ -70,15 +70,15 @@ Plot panel(const char* title, const char* x) {
 TestReport report_on(const dem::DirectShearResult& result) {
   using Sample = dem::ShearSample;
   TestReport out;
-  TextTable table({"stress [kPa]", "packing", "void ratio", "peak [deg]", "at [mm]", "residual [deg]", "imbalance"});
+  out.table.header = {"stress [kPa]", "packing", "void ratio", "peak [deg]", "at [mm]", "residual [deg]", "imbalance"};
   Json runs = Json::array();
   Plot shear = panel("Shear stress over normal stress [-]", "displacement [mm]");
   Plot lift = panel("Rise of the lid [mm]", "displacement [mm]");
   for (const dem::DirectShearRun& run : result.runs) {
-    table.add({number(run.stress / 1e3), std::to_string(run.packing), number(run.void_ratio),
-               degrees(angle_of_tangent(run.peak)), number(run.peak_at * 1e3), degrees(angle_of_tangent(run.residual)),
-               fmt::format("{:.1e}", run.imbalance)});
-    const auto way = column<Sample>(run.curve, [](const Sample& s) { return s.displacement; });
+    out.table.rows.push_back({number(run.stress / 1e3), std::to_string(run.packing), number(run.void_ratio),
+                              degrees(angle_of_tangent(run.peak)), number(run.peak_at * 1e3),
+                              degrees(angle_of_tangent(run.residual)), fmt::format("{:.1e}", run.imbalance)});
+    const auto way = column(run.curve, &Sample::displacement);
     Json one{{"stress", run.stress},
              {"packing", run.packing},
              {"void_ratio", run.void_ratio},
@@ -91,19 +91,16 @@ TestReport report_on(const dem::DirectShearResult& result) {
              {"work_of_stress", run.work_of_stress},
              {"energy_error", run.energy_error},
              {"displacement", way},
-             {"shear_stress", column<Sample>(run.curve, [](const Sample& s) { return s.shear_stress; })},
-             {"normal_stress", column<Sample>(run.curve, [](const Sample& s) { return s.normal_stress; })},
-             {"dilation", column<Sample>(run.curve, [](const Sample& s) { return s.dilation; })}};
+             {"shear_stress", column(run.curve, &Sample::shear_stress)},
+             {"normal_stress", column(run.curve, &Sample::normal_stress)},
+             {"dilation", column(run.curve, &Sample::dilation)}};
     runs.push_back(std::move(one));
-    const auto mm = column<Sample>(run.curve, [](const Sample& s) { return s.displacement * 1e3; });
+    const auto mm = column(run.curve, times(&Sample::displacement, 1e3));
     const std::string label = fmt::format("{} kPa, packing {}", number(run.stress / 1e3), run.packing);
-    shear.series.push_back(line_series(
-        label, mm, column<Sample>(run.curve, [](const Sample& s) { return s.shear_stress / s.normal_stress; }),
-        shear.series.size()));
-    lift.series.push_back(line_series(
-        label, mm, column<Sample>(run.curve, [](const Sample& s) { return s.dilation * 1e3; }), lift.series.size()));
+    add_line(shear, label, mm, column(run.curve, [](const Sample& s) { return s.shear_stress / s.normal_stress; }));
+    add_line(lift, label, mm, column(run.curve, times(&Sample::dilation, 1e3)));
   }
-  out.text = table.text() + line_text("peak", result.peak) + line_text("residual", result.residual);
+  out.text = line_text("peak", result.peak) + line_text("residual", result.residual);
   out.json = {{"mean_diameter", result.mean_diameter},
               {"peak", json_of(result.peak)},
               {"residual", json_of(result.residual)},
@@ -115,15 +112,16 @@ TestReport report_on(const dem::DirectShearResult& result) {
 TestReport report_on(const dem::TriaxialResult& result) {
   using Sample = dem::TriaxialSample;
   TestReport out;
-  TextTable table({"stress [kPa]", "packing", "void ratio", "peak [deg]", "at strain [%]", "dilation [deg]",
-                   "residual [deg]", "held to [%]"});
+  out.table.header = {"stress [kPa]",  "packing",        "void ratio",     "peak [deg]",
+                      "at strain [%]", "dilation [deg]", "residual [deg]", "held to [%]"};
   Json runs = Json::array();
   Plot stress = panel("(s1 - s3)/(s1 + s3) [-]", "axial strain [%]");
   Plot volume = panel("Volumetric strain, contraction positive [%]", "axial strain [%]");
   for (const dem::TriaxialRun& run : result.runs) {
-    table.add({number(run.stress / 1e3), std::to_string(run.packing), number(run.void_ratio),
-               degrees(angle_of_sine(run.peak)), number(run.peak_at * 100), number(run.dilation_angle / degree),
-               degrees(angle_of_sine(run.residual)), number(run.confining_error * 100)});
+    out.table.rows.push_back({number(run.stress / 1e3), std::to_string(run.packing), number(run.void_ratio),
+                              degrees(angle_of_sine(run.peak)), number(run.peak_at * 100),
+                              number(run.dilation_angle / degree), degrees(angle_of_sine(run.residual)),
+                              number(run.confining_error * 100)});
     runs.push_back({{"stress", run.stress},
                     {"packing", run.packing},
                     {"void_ratio", run.void_ratio},
@@ -136,23 +134,21 @@ TestReport report_on(const dem::TriaxialResult& result) {
                     {"work", run.work},
                     {"work_of_stress", run.work_of_stress},
                     {"energy_error", run.energy_error},
-                    {"strain", column<Sample>(run.curve, [](const Sample& s) { return s.strain; })},
-                    {"volumetric", column<Sample>(run.curve, [](const Sample& s) { return s.volumetric; })},
-                    {"axial", column<Sample>(run.curve, [](const Sample& s) { return s.axial; })},
-                    {"lateral_x", column<Sample>(run.curve, [](const Sample& s) { return s.lateral_x; })},
-                    {"lateral_y", column<Sample>(run.curve, [](const Sample& s) { return s.lateral_y; })}});
-    const auto percent = column<Sample>(run.curve, [](const Sample& s) { return s.strain * 100; });
+                    {"strain", column(run.curve, &Sample::strain)},
+                    {"volumetric", column(run.curve, &Sample::volumetric)},
+                    {"axial", column(run.curve, &Sample::axial)},
+                    {"lateral_x", column(run.curve, &Sample::lateral_x)},
+                    {"lateral_y", column(run.curve, &Sample::lateral_y)}});
+    const auto percent = column(run.curve, times(&Sample::strain, 100));
     const std::string label = fmt::format("{} kPa, packing {}", number(run.stress / 1e3), run.packing);
-    const auto sine = column<Sample>(run.curve, [](const Sample& s) {
+    const auto sine = column(run.curve, [](const Sample& s) {
       const double lateral = (s.lateral_x + s.lateral_y) / 2;
       return (s.axial - lateral) / (s.axial + lateral);
     });
-    stress.series.push_back(line_series(label, percent, sine, stress.series.size()));
-    volume.series.push_back(line_series(label, percent,
-                                        column<Sample>(run.curve, [](const Sample& s) { return s.volumetric * 100; }),
-                                        volume.series.size()));
+    add_line(stress, label, percent, sine);
+    add_line(volume, label, percent, column(run.curve, times(&Sample::volumetric, 100)));
   }
-  out.text = table.text() + line_text("peak", result.peak) + line_text("residual", result.residual);
+  out.text = line_text("peak", result.peak) + line_text("residual", result.residual);
   out.json = {{"mean_diameter", result.mean_diameter},
               {"peak", json_of(result.peak)},
               {"residual", json_of(result.residual)},
@@ -167,17 +163,17 @@ TestReport report_on(const dem::TiltingBoardResult& result) {
   out.text = result.slid ? fmt::format("{} grains begin to slide at {} deg; slid by a grain at {} deg\n", result.grains,
                                        number(result.onset / degree), number(result.gone / degree))
                          : fmt::format("{} grains held up to {} deg\n", result.grains, number(result.onset / degree));
-  const auto slide = column<Sample>(result.curve, [](const Sample& s) { return s.slide; });
+  const auto slide = column(result.curve, &Sample::slide);
   out.json = {{"mean_diameter", result.mean_diameter},
               {"grains", result.grains},
               {"slid", result.slid},
               {"onset", result.onset},
               {"gone", result.gone},
-              {"angle", column<Sample>(result.curve, [](const Sample& s) { return s.angle; })},
+              {"angle", column(result.curve, &Sample::angle)},
               {"slide", slide}};
   Plot plot = panel("Mean slide [mm]", "tilt [deg]");
-  plot.series.push_back(line_series("", column<Sample>(result.curve, [](const Sample& s) { return s.angle / degree; }),
-                                    column<Sample>(result.curve, [](const Sample& s) { return s.slide * 1e3; }), 0));
+  add_line(plot, "", column(result.curve, [](const Sample& s) { return s.angle / degree; }),
+           column(result.curve, times(&Sample::slide, 1e3)));
   out.sheet = {"Tilting board", {std::move(plot)}};
   return out;
 }
@@ -195,11 +191,11 @@ TestReport report_on(const dem::AngleOfReposeResult& result) {
               {"height", result.height},
               {"base", result.base},
               {"lift_speed", result.lift_speed},
-              {"radius", column<Ring>(result.profile, [](const Ring& r) { return r.radius; })},
-              {"profile", column<Ring>(result.profile, [](const Ring& r) { return r.height; })}};
+              {"radius", column(result.profile, &Ring::radius)},
+              {"profile", column(result.profile, &Ring::height)}};
   Plot plot = panel("Height [mm]", "distance from the axis [mm]");
-  plot.series.push_back(line_series("", column<Ring>(result.profile, [](const Ring& r) { return r.radius * 1e3; }),
-                                    column<Ring>(result.profile, [](const Ring& r) { return r.height * 1e3; }), 0));
+  add_line(plot, "", column(result.profile, times(&Ring::radius, 1e3)),
+           column(result.profile, times(&Ring::height, 1e3)));
   out.sheet = {"Angle of repose", {std::move(plot)}};
   return out;
 }
@@ -207,26 +203,23 @@ TestReport report_on(const dem::AngleOfReposeResult& result) {
 TestReport report_on(const std::vector<dem::PlateRun>& runs) {
   using Sample = dem::PlateSample;
   TestReport out;
-  TextTable table({"plate [mm]", "grains", "void ratio", "sinkage [mm]", "pressure there [kPa]"});
+  out.table.header = {"plate [mm]", "grains", "void ratio", "sinkage [mm]", "pressure there [kPa]"};
   Json all = Json::array();
   Plot plot = panel("Pressure [kPa]", "sinkage [mm]");
   for (const dem::PlateRun& run : runs) {
     const Sample& last = run.curve.back();
-    table.add({number(run.diameter * 1e3), std::to_string(run.grains), number(run.void_ratio),
-               number(last.sinkage * 1e3), number(last.pressure / 1e3)});
+    out.table.rows.push_back({number(run.diameter * 1e3), std::to_string(run.grains), number(run.void_ratio),
+                              number(last.sinkage * 1e3), number(last.pressure / 1e3)});
     all.push_back({{"diameter", run.diameter},
                    {"packing", run.packing},
                    {"void_ratio", run.void_ratio},
                    {"bulk_density", run.density},
                    {"speed", run.speed},
-                   {"sinkage", column<Sample>(run.curve, [](const Sample& s) { return s.sinkage; })},
-                   {"pressure", column<Sample>(run.curve, [](const Sample& s) { return s.pressure; })}});
-    plot.series.push_back(line_series(fmt::format("{} mm", number(run.diameter * 1e3)),
-                                      column<Sample>(run.curve, [](const Sample& s) { return s.sinkage * 1e3; }),
-                                      column<Sample>(run.curve, [](const Sample& s) { return s.pressure / 1e3; }),
-                                      plot.series.size()));
+                   {"sinkage", column(run.curve, &Sample::sinkage)},
+                   {"pressure", column(run.curve, &Sample::pressure)}});
+    add_line(plot, fmt::format("{} mm", number(run.diameter * 1e3)), column(run.curve, times(&Sample::sinkage, 1e3)),
+             column(run.curve, [](const Sample& s) { return s.pressure / 1e3; }));
   }
-  out.text = table.text();
   out.json = {{"runs", std::move(all)}};
   out.sheet = {"Plate sinkage", {std::move(plot)}};
   return out;
@@ -235,7 +228,7 @@ TestReport report_on(const std::vector<dem::PlateRun>& runs) {
 TestReport report_on(const std::vector<dem::AnnulusRun>& runs) {
   using Sample = dem::AnnulusSample;
   TestReport out;
-  TextTable table({"stress [kPa]", "packing", "shear stress at the end [kPa]", "sinkage [mm]"});
+  out.table.header = {"stress [kPa]", "packing", "shear stress at the end [kPa]", "sinkage [mm]"};
   Json all = Json::array();
   Plot plot = panel("Shear stress [kPa]", "displacement [mm]");
   for (const dem::AnnulusRun& run : runs) {
@@ -243,24 +236,22 @@ TestReport report_on(const std::vector<dem::AnnulusRun>& runs) {
     double mean = 0;
     for (std::size_t k = run.curve.size() - tail; k < run.curve.size(); ++k)
       mean += run.curve[k].shear_stress / static_cast<double>(tail);
-    table.add({number(run.stress / 1e3), std::to_string(run.packing), number(mean / 1e3),
-               number(run.curve.back().sinkage * 1e3)});
+    out.table.rows.push_back({number(run.stress / 1e3), std::to_string(run.packing), number(mean / 1e3),
+                              number(run.curve.back().sinkage * 1e3)});
     all.push_back({{"stress", run.stress},
                    {"packing", run.packing},
                    {"speed", run.speed},
-                   {"displacement", column<Sample>(run.curve, [](const Sample& s) { return s.displacement; })},
-                   {"shear_stress", column<Sample>(run.curve, [](const Sample& s) { return s.shear_stress; })},
-                   {"normal_stress", column<Sample>(run.curve, [](const Sample& s) { return s.normal_stress; })},
-                   {"sinkage", column<Sample>(run.curve, [](const Sample& s) { return s.sinkage; })}});
-    plot.series.push_back(line_series(fmt::format("{} kPa", number(run.stress / 1e3)),
-                                      column<Sample>(run.curve, [](const Sample& s) { return s.displacement * 1e3; }),
-                                      column<Sample>(run.curve, [](const Sample& s) { return s.shear_stress / 1e3; }),
-                                      plot.series.size()));
+                   {"displacement", column(run.curve, &Sample::displacement)},
+                   {"shear_stress", column(run.curve, &Sample::shear_stress)},
+                   {"normal_stress", column(run.curve, &Sample::normal_stress)},
+                   {"sinkage", column(run.curve, &Sample::sinkage)}});
+    add_line(plot, fmt::format("{} kPa", number(run.stress / 1e3)),
+             column(run.curve, times(&Sample::displacement, 1e3)),
+             column(run.curve, [](const Sample& s) { return s.shear_stress / 1e3; }));
   }
-  out.text = table.text();
   out.json = {{"runs", std::move(all)}};
   out.sheet = {"Ring with grousers", {std::move(plot)}};
   return out;
 }
 
-}  // namespace soilbin::cli
+}  // namespace soilbin::compare

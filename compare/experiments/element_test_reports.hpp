@@ -4,20 +4,21 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "compare/report/plot.hpp"
+#include "compare/report/page.hpp"
 #include "dem/element_tests/angle_of_repose.hpp"
 #include "dem/element_tests/direct_shear.hpp"
 #include "dem/element_tests/plate_tests.hpp"
 #include "dem/element_tests/tilting_board.hpp"
 #include "dem/element_tests/triaxial.hpp"
 
-namespace soilbin::cli {
+namespace soilbin::compare {
 
-/// One test's outcome: a table for the terminal, SI and radians for programs, curves to draw.
+/// One test's outcome: a table of its runs and sentences, SI and radians for programs, curves to draw.
 struct TestReport {
-  std::string text;
+  HtmlTable table;   ///< without a header: the test has one run, which the sentences tell
+  std::string text;  ///< whole lines
   nlohmann::ordered_json json;
-  compare::Sheet sheet;
+  Sheet sheet;
 };
 
 TestReport report_on(const dem::DirectShearResult& result);
@@ -27,4 +28,4 @@ TestReport report_on(const dem::AngleOfReposeResult& result);
 TestReport report_on(const std::vector<dem::PlateRun>& runs);
 TestReport report_on(const std::vector<dem::AnnulusRun>& runs);
 
-}  // namespace soilbin::cli
+}  // namespace soilbin::compare
