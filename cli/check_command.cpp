@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "compare/recorded/step_pair.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
@@ -49,6 +50,11 @@ fs::path file_named(const std::string& name, const Workplace& place) {
 }
 
 Verdict judge(const fs::path& file, const Workplace& place) {
+  if (file.extension() == ".json") {
+    const compare::Record record = compare::read_record(file);
+    return {"record: " + compare::counted(record.runs.size(), "run") + " of the model " + record.model,
+            compare::step_doubts(record)};
+  }
   const std::string format = format_of(file);
   if (format == compare::campaign_format) {
     const compare::Campaign campaign = compare::read_campaign(file, place.effects);

@@ -83,6 +83,7 @@ compare::Side grain_side(const Case& question, const CompareOptions& asked, cons
   about.facts.emplace_back("runs of grains", fmt::format("{}, {:.0f} s in all", log->size(), seconds));
   about.facts.emplace_back("packings (seeds of the beds)", listed({packings.begin(), packings.end()}));
   about.facts.emplace_back("sources of the runs", listed({sources.begin(), sources.end()}));
+  compare::Side side = compare::side_of("dem", *log, question.study.conditions);
   const std::string& file = !asked.soil_bin.recorded.empty() ? asked.soil_bin.recorded : asked.soil_bin.record;
   if (!file.empty()) {
     const compare::Record record = compare::read_record(file);
@@ -90,8 +91,9 @@ compare::Side grain_side(const Case& question, const CompareOptions& asked, cons
     if (const std::string note = compare::unsealed_note(record, file); !note.empty())
       about.facts.emplace_back("seals of the record's runs", note);
     about.facts.emplace_back("hash of the record's inputs", compare::inputs_key(record.inputs));
+    side.doubts = compare::step_doubts(record);
   }
-  return compare::side_of("dem", *log, question.study.conditions);
+  return side;
 }
 
 void check_model(const CompareOptions& asked) {

@@ -90,7 +90,9 @@ std::vector<compare::StudyAnswers> answers_of(const compare::Findings& findings,
     for (const Recorded& one : records) {
       if (one.study != name) continue;
       dem.answers = compare::recorded_answers(one.record, question.study.conditions, remark);
-      notes.remarks.push_back(fs::path(one.file).filename().string() + ": " + remark);
+      const std::string file = fs::path(one.file).filename().string() + ": ";
+      notes.remarks.push_back(file + remark);
+      for (const std::string& doubt : compare::step_doubts(one.record)) notes.remarks.push_back(file + doubt);
     }
     add_doubts(notes, question, study, dem.answers);
     if (dem.answers.empty())

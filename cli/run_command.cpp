@@ -1,6 +1,7 @@
 // soilbin run: a study, by each of its models at each of its conditions.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -13,6 +14,7 @@
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/experiments/convergence.hpp"
+#include "compare/recorded/step_pair.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
@@ -24,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RunOptions {
-  std::string study, model, plot, csv, output;
+  std::string study, model, plot, csv, output, half_step;
   bool json = false, converge = false;
   ConditionFlags conditions;
   SoilBinFlags soil_bin;
@@ -84,6 +86,16 @@ void save(Outputs& outputs, const RunOptions& options, const Case& question, con
   });
 }
 
+bool tests_step(const RunOptions& options, const Case& question) {
+  const auto& models = question.study.models;
+  const SoilBinFlags& bin = options.soil_bin;
+  if (bin.record.empty() || std::none_of(models.begin(), models.end(),
+                                         [](const ModelChoice& choice) { return choice.model == ModelKind::dem; }))
+    return false;
+  if (!options.half_step.empty()) return options.half_step == "yes";
+  return question.study.conditions.size() * static_cast<std::size_t>(bin.packings) >= compare::runs_that_pay_a_test;
+}
+
 /// Runs the study; what an interrupted one has recorded stays, and the command says how to go on.
 std::vector<compare::ModelAnswers> answers_to(const Case& question, const compare::MakeModel& make,
                                               const RunOptions& options, const RunLog& log) {
@@ -134,9 +146,15 @@ int run(RunOptions options, const Session& session) {
   options.conditions.pick(question.study, question.scenario.tire);
   const std::optional<dem::StepCriteria> step =
       compare::step_of(settings_of(options.soil_bin), question, options.soil_bin.recorded);
+  if (tests_step(options, question))
+    compare::test_time_step(settings_of(options.soil_bin), question, session.place.effects,
+                            keeping_of(options.soil_bin));
   Answered answered{.study = {}, .doubts = {}, .step = step};
   answered.study = answers_to(question, make, options, log);
   answered.doubts = compare::doubts(question, answered.study);
+  if (!options.soil_bin.record.empty() && fs::exists(options.soil_bin.record))
+    for (std::string& doubt : compare::step_doubts(compare::read_record(options.soil_bin.record)))
+      answered.doubts.push_back(std::move(doubt));
   Outputs outputs;
   save(outputs, options, question, answered, session.place);
   print_warnings(answered.doubts);
@@ -173,6 +191,12 @@ void add_run(CLI::App& app, Session& session) {
                     "dem: one condition, again with each numerical choice halved or doubled");
   options->conditions.add_to(*command);
   options->soil_bin.add_to(*command);
+  command
+      ->add_option("--half-step", options->half_step,
+                   "dem with --record: first the hardest condition also at half the time step, and stop where its "
+                   "answer differs; yes for a dozen runs or more")
+      ->type_name("yes|no")
+      ->check(CLI::IsMember({"yes", "no"}));
   add_file(*command, "--replay", options->soil_bin.replay, "FILE",
            "dem: keep the first run that is made, to look at it in 3D");
   command->add_option("--paraview", options->soil_bin.paraview, "dem: keep each run that is made, for ParaView")

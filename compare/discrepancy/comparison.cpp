@@ -151,13 +151,13 @@ Campaign as_campaign(const Side& side, const Case& question, const std::vector<E
 }
 
 std::vector<std::string> doubts(const Case& question, const std::vector<ModelChoice>& choices,
-                                   const std::vector<Side>& sides) {
+                                const std::vector<Side>& sides) {
   Case asked = question;
   asked.study.models.clear();
   std::vector<ModelAnswers> study;
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const bool grains = sides[s].kind == SideKind::grains;
-    study.push_back({grains ? ModelChoice{ModelKind::dem, {}, sides[s].label} : choices.at(s), {}});
+    study.push_back({grains ? ModelChoice{ModelKind::dem, {}, sides[s].label} : choices.at(s), {}, sides[s].doubts});
     asked.study.models.push_back(study.back().choice);
     for (std::size_t i = 0; i < sides[s].points.size(); ++i)
       study.back().answers.push_back(

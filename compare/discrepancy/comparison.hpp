@@ -49,8 +49,8 @@ Campaign means_of(const Side& side, const Case& question, const std::vector<Effe
 /// of grains or a model means_of. Throws as that.
 Campaign as_campaign(const Side& side, const Case& question, const std::vector<EffectChoice>& effects = {});
 
-/// What is doubtful in models side by side (compare/doubts/doubts.hpp): the analytic ones by `choices`, then grains where
-/// there are any.
+/// What is doubtful in models side by side (compare/doubts/doubts.hpp): the analytic ones by `choices`, then grains
+/// where there are any.
 std::vector<std::string> doubts(const Case& question, const std::vector<ModelChoice>& choices,
                                 const std::vector<Side>& sides);
 

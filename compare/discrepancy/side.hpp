@@ -49,6 +49,7 @@ struct Side {
   std::optional<NoiseFloor> noise{};
   /// Of a measurement: the runs behind the points as they were measured, in the campaign's own frame and slip.
   std::vector<Run> runs{};
+  std::vector<std::string> doubts{};  ///< in all its points: Model::doubts
 };
 
 /// A model's answers as a side. Of grains, scatter is the answers' standard error.

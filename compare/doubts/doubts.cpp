@@ -250,6 +250,7 @@ Warnings doubts_but_unheard(const Case& question, const std::vector<ModelAnswers
   add_wheel_doubts(scenario.tire, scenario.soil.semi_empirical, warnings);
   append(warnings, doubts_of_answers(scenario, study, open));
   if (open || asks(question, ModelKind::dem)) append(warnings, grain_doubts(scenario, study));
+  for (const ModelAnswers& model : study) append(warnings, model.doubts);
   return warnings;
 }
 

@@ -53,8 +53,7 @@ std::vector<Variant> variants_of(const dem::DemSettings& settings, const Scenari
   size(add("bed half as deep"), &dem::BedSize::depth, 0.5);
   warm_up(add("warm-up twice as long"), 2);
   warm_up(add("warm-up half as long"), 0.5);
-  const dem::BedRecipe recipe = dem::DemModel(settings).recipe(scenario);
-  add("time step halved").settings.rig.dt = dem::step_of(recipe, settings.rig) / 2;
+  add("time step halved").settings = at_half_step(settings, scenario);
   add("tire mesh twice as fine").settings.rig.meshing.edge /= 2;
   add("tire mesh twice as coarse").settings.rig.meshing.edge *= 2;
   add("samples twice as long").settings.rig.sampling *= 2;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "compare/recorded/step_pair.hpp"
 #include "compare/sweep/varying.hpp"
 #include "dem/archive/paraview.hpp"
 #include "dem/rig/run_inputs.hpp"
@@ -119,6 +120,31 @@ RunOnce run_once(const dem::DemSettings& settings, const Case& question, const E
   return kept_runs(keeping.record, settings, question, effects, keeping.version, std::move(run));
 }
 
+dem::DemSettings at_half_step(dem::DemSettings settings, const Scenario& scenario) {
+  settings.bed_dt = settings.bed_dt.value_or(settings.rig.dt);
+  settings.rig.dt = dem::step_of(dem::DemModel(settings).recipe(scenario), settings.rig) / 2;
+  return settings;
+}
+
+void test_time_step(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
+                    const RunKeeping& keeping) {
+  const OperatingCondition at = hardest(question.study.conditions);
+  const dem::DemSettings half = at_half_step(settings, question.scenario);
+  run_once(settings, question, effects, keeping)(question.scenario, at, settings.packing);
+  RunOnce half_runs = [runs = std::make_shared<SoilBinRuns>(half, keeping.source)](
+                          const Scenario& scenario, const OperatingCondition& condition, std::uint64_t packing) {
+    return (*runs)(scenario, condition, packing);
+  };
+  kept_runs(keeping.record, settings, question, effects, keeping.version, std::move(half_runs), &Record::half_step)(
+      question.scenario, at, settings.packing);
+  for (const StepPair& pair : step_pairs(read_record(keeping.record)))
+    if (!agrees(pair))
+      throw std::runtime_error(
+          fmt::format("answers depend on the time step of {:.3g} ms: {}\n  hint: --time-step {:.3g}ms, in another "
+                      "record; or --half-step no: then every page says that they do",
+                      2e3 * half.rig.dt, in_words(pair), 1e3 * half.rig.dt));
+}
+
 std::unique_ptr<const Model> soil_bin_model(const dem::DemSettings& settings, int packings, RunOnce run,
                                             RunListener on_run) {
   std::vector<std::uint64_t> seeds;
@@ -164,9 +190,14 @@ nlohmann::ordered_json to_json(const dem::StepCriteria& step) {
 }
 
 RunOnce kept_runs(const std::filesystem::path& file, const dem::DemSettings& settings, const Case& question,
-                  const EffectVocabulary& effects, std::string version, RunOnce run) {
-  Record empty{std::move(version), "dem", write_case(question, effects), inputs_of(settings, question.scenario), {}};
-  return kept_in(file, std::move(empty), std::move(run));
+                  const EffectVocabulary& effects, std::string version, RunOnce run, RunList list) {
+  Record empty{.soilbin = std::move(version),
+               .model = "dem",
+               .question = write_case(question, effects),
+               .inputs = inputs_of(settings, question.scenario),
+               .runs = {},
+               .half_step = {}};
+  return kept_in(file, std::move(empty), std::move(run), list);
 }
 
 Inputs inputs_of(const dem::DemSettings& settings, const Scenario& scenario) {

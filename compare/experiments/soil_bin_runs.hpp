@@ -46,6 +46,16 @@ struct RunKeeping {
 RunOnce run_once(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
                  const RunKeeping& keeping);
 
+/// The settings with half the time step, on the same beds.
+dem::DemSettings at_half_step(dem::DemSettings settings, const Scenario& scenario);
+
+/// Answers the hardest of the question's conditions on the first packing, at the time step and at half of it, and keeps
+/// both in keeping.record, which must be given. Throws std::runtime_error where they are not alike (step_pair.hpp).
+void test_time_step(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
+                    const RunKeeping& keeping);
+/// A study with so many runs is recorded only after this test, which costs three of them.
+inline constexpr std::size_t runs_that_pay_a_test = 12;
+
 /// The model dem on `packings` beds of the seeds from settings.packing on.
 std::unique_ptr<const Model> soil_bin_model(const dem::DemSettings& settings, int packings, RunOnce run,
                                             RunListener on_run);
@@ -64,7 +74,7 @@ nlohmann::ordered_json to_json(const dem::StepCriteria& step);
 
 /// The runs of a case, kept in a file (kept_in) that is begun by `version` of soilbin.
 RunOnce kept_runs(const std::filesystem::path& file, const dem::DemSettings& settings, const Case& question,
-                  const EffectVocabulary& effects, std::string version, RunOnce run);
+                  const EffectVocabulary& effects, std::string version, RunOnce run, RunList list = &Record::runs);
 
 /// What a run follows from beside condition and packing.
 Inputs inputs_of(const dem::DemSettings& settings, const Scenario& scenario);

@@ -70,6 +70,23 @@ RecordedRun run_from_json(const Json& row, const std::string& place, bool seals_
   });
 }
 
+std::vector<RecordedRun> runs_from_json(const ReadJson& head, const std::string& key, bool seals_expected) {
+  if (!head.at(key).is_array()) ReadJson::refuse(head.below(key), "a list");
+  std::vector<RecordedRun> runs;
+  for (const Json& row : head.at(key))
+    runs.push_back(run_from_json(row, head.below(fmt::format("{}[{}]", key, runs.size())), seals_expected));
+  return runs;
+}
+
+/// A line a run.
+std::string runs_text(const char* key, const std::vector<RecordedRun>& runs) {
+  std::string text = fmt::format(",\n  \"{}\": [", key);
+  for (const RecordedRun& run : runs)
+    text += (&run == runs.data() ? "\n    " : ",\n    ") +
+            run_json(run).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text + "\n  ]";
+}
+
 /// What the runs answer, as its members are sealed together.
 Json head_json(const Record& record) {
   Json inputs = Json::object();
@@ -83,7 +100,7 @@ Json head_json(const Record& record) {
 Seal check_head(const Json& document, const Record& record, const std::string& file) {
   Json head = Json::object();
   for (const auto& [key, value] : document.items())
-    if (key != "runs") head[key] = value;
+    if (key != "runs" && key != "half_step") head[key] = value;
   const std::string begin_anew = "take a copy of the file, or begin another one";
   const Seal seal = check_seal(head, file + ": the inputs or the case", begin_anew);
   if (document.contains("inputs_key") && document["inputs_key"] != inputs_key(record.inputs))
@@ -147,9 +164,8 @@ Record parse_record(const SourceText& source) {
     record.inputs.emplace_back(name, value.get<std::string>());
   }
   record.sealed = check_head(document, record, source.file) == Seal::whole;
-  if (!head.at("runs").is_array()) ReadJson::refuse(head.below("runs"), "a list");
-  for (const Json& row : head.at("runs"))
-    record.runs.push_back(run_from_json(row, head.below(fmt::format("runs[{}]", record.runs.size())), record.sealed));
+  record.runs = runs_from_json(head, "runs", record.sealed);
+  if (document.contains("half_step")) record.half_step = runs_from_json(head, "half_step", record.sealed);
   mend_efficiencies(record);
   return record;
 }
@@ -157,15 +173,12 @@ Record parse_record(const SourceText& source) {
 Record read_record(const std::filesystem::path& path) { return parse_record(read_source_text(path, largest_json)); }
 
 std::string record_text(const Record& record) {
-  const auto line = [](const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); };
   Json head = head_json(record);
   if (record.sealed) put_seal(head);
   std::string text = json_text(head);
   text.erase(text.rfind('\n', text.size() - 2));
-  text += ",\n  \"runs\": [";
-  for (const RecordedRun& run : record.runs)
-    text += (&run == record.runs.data() ? "\n    " : ",\n    ") + line(run_json(run));
-  return text + "\n  ]\n}\n";
+  if (!record.half_step.empty()) text += runs_text("half_step", record.half_step);
+  return text + runs_text("runs", record.runs) + "\n}\n";
 }
 
 std::string unsealed_note(const Record& record, const std::filesystem::path& file) {
@@ -197,6 +210,10 @@ Json record_schema() {
             "what an answer depends on beside condition and packing");
   whole.add("case", {{"type", "array"}, {"items", {{"type", "string"}}}}, "the resolved case, its lines of YAML");
   whole.add("runs", {{"type", "array"}, {"items", row}}, "a condition on a packing each, SI");
+  whole.schema["properties"]["half_step"] = {
+      {"type", "array"},
+      {"items", row},
+      {"description", "some of the runs again, on the same bed at half the time step; absent where nobody made any"}};
   whole.schema["properties"]["seal"] = seal_schema("the members above");
   whole.schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   whole.schema["title"] = "A soilbin record";
@@ -223,22 +240,22 @@ void refuse_other_inputs(const Record& record, const Inputs& asked, const std::f
       file.string(), differing));
 }
 
-const RecordedRun* find_run(const Record& record, const OperatingCondition& at, std::uint64_t packing) {
-  const auto found = std::find_if(record.runs.begin(), record.runs.end(), [&](const RecordedRun& run) {
+const RecordedRun* find_run(const std::vector<RecordedRun>& runs, const OperatingCondition& at, std::uint64_t packing) {
+  const auto found = std::find_if(runs.begin(), runs.end(), [&](const RecordedRun& run) {
     return run.packing == packing && alike(run.answer.at, at);
   });
-  return found == record.runs.end() ? nullptr : &*found;
+  return found == runs.end() ? nullptr : &*found;
 }
 
-void add_run(const std::filesystem::path& file, const Record& empty, RecordedRun run) {
+void add_run(const std::filesystem::path& file, const Record& empty, RecordedRun run, RunList list) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
   make_folder(folder);
   // Several processes may fill one record: each holds the folder's lock while it reads and replaces the file.
   const FileLock lock(folder, FileLock::Wait::until_free);
   Record record = std::filesystem::exists(file) ? read_record(file) : empty;
   refuse_other_inputs(record, empty.inputs, file);
-  if (find_run(record, run.answer.at, run.packing) == nullptr) {
-    record.runs.push_back(run);
+  if (find_run(record.*list, run.answer.at, run.packing) == nullptr) {
+    (record.*list).push_back(run);
     write_file_atomically(file, record_text(record));
   }
   if (run.when_safe) run.when_safe();

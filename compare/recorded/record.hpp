@@ -43,7 +43,8 @@ struct Record {
   std::string question;  ///< the resolved case, as YAML; of its conditions some may not have been run
   Inputs inputs;
   std::vector<RecordedRun> runs;
-  bool sealed = true;  ///< whether a seal vouches for all above the runs
+  std::vector<RecordedRun> half_step{};  ///< some of them again, on the same bed at half the time step (step_pair.hpp)
+  bool sealed = true;                    ///< whether a seal vouches for all above the runs
 };
 
 inline constexpr const char* recorded_format = "soilbin-recorded/1";
@@ -72,12 +73,15 @@ void refuse_other_inputs(const Record& record, const Inputs& asked, const std::f
                          const std::vector<std::string>& only = {});
 
 /// The run of a condition on a packing; nullptr where there is none.
-const RecordedRun* find_run(const Record& record, const OperatingCondition& at, std::uint64_t packing);
+const RecordedRun* find_run(const std::vector<RecordedRun>& runs, const OperatingCondition& at, std::uint64_t packing);
+
+/// Which of a record's lists.
+using RunList = std::vector<RecordedRun> Record::*;
 
 /// Adds a run to the file, which is begun with `empty` where there is none. Other processes may add to the same file
 /// at the same time: it is read again and replaced as a whole, one after the other. A run that is there already stays.
 /// With the run in the file, it is safe (when_safe).
-void add_run(const std::filesystem::path& file, const Record& empty, RecordedRun run);
+void add_run(const std::filesystem::path& file, const Record& empty, RecordedRun run, RunList list = &Record::runs);
 
 /// What to know about runs beside their results: which did not become steady, how far packings differ, what it cost.
 std::string notes_on(const std::vector<RecordedRun>& runs);

@@ -109,16 +109,16 @@ TractionResult mean_of_packings(const Runs& runs) {
   return mean;
 }
 
-RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run) {
+RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run, RunList list) {
   if (std::filesystem::exists(file)) refuse_other_inputs(read_record(file), empty.inputs, file);
-  return [file, empty = std::move(empty), run = std::move(run)](const Scenario& scenario, const OperatingCondition& at,
-                                                                std::uint64_t packing) {
+  return [file, empty = std::move(empty), run = std::move(run), list](
+             const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
     if (std::filesystem::exists(file)) {
       const Record record = read_record(file);
-      if (const RecordedRun* known = find_run(record, at, packing)) return *known;
+      if (const RecordedRun* known = find_run(record.*list, at, packing)) return *known;
     }
     RecordedRun fresh = run(scenario, at, packing);
-    add_run(file, empty, fresh);
+    add_run(file, empty, fresh, list);
     return fresh;
   };
 }

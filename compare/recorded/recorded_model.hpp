@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "compare/recorded/record.hpp"
+#include "compare/recorded/step_pair.hpp"
 
 namespace soilbin::compare {
 
@@ -16,7 +17,7 @@ using RunListener = std::function<void(const RecordedRun&)>;
 
 /// Takes a run from the file where it is there, else runs it and adds it at once. `empty` is the record that the file
 /// is begun with. Throws InputError where the file's inputs differ.
-RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run);
+RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run, RunList list = &Record::runs);
 
 /// Mean of what packings told, at least one. The standard error is the scatter between packings over the root of their
 /// number or, where that is larger, what their own errors give: with two or three packings the scatter is poorly known.
@@ -59,6 +60,8 @@ class RecordedModel : public Model {
   std::vector<const RecordedRun*> runs(const OperatingCondition& at) const;
   /// Their mean_of_packings. Throws NoSolution where the condition isn't in the record, and says so.
   TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override;
+  /// Whether its answers hang on the time step (step_pair.hpp).
+  std::vector<std::string> doubts() const override { return step_doubts(record_); }
 
  private:
   Record record_;

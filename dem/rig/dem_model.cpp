@@ -21,7 +21,7 @@ BedRecipe DemModel::recipe(const Scenario& scenario) const {
   if (scenario.bin) recipe.size.depth = scenario.bin->depth, recipe.size.width = scenario.bin->width;
   recipe.packing = settings_.packing;
   recipe.settling_friction = settings_.settling_friction;
-  recipe.dt = settings_.rig.dt;
+  recipe.dt = settings_.bed_dt.value_or(settings_.rig.dt);
   return recipe;
 }
 

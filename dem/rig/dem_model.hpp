@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "dem/bed/bed_store.hpp"
 #include "dem/rig/free_drive.hpp"
@@ -16,6 +17,7 @@ struct DemSettings {
   double settling_friction = 1;  ///< as in BedRecipe
   std::filesystem::path beds;    ///< folder that keeps beds; empty: none is kept on disk
   Rig rig;
+  std::optional<double> bed_dt;  ///< step with which beds settle [s], 0 as in BedRecipe; without one the rig's
   WorkOptions how;
   /// How a run under way is kept, in files run-KEY.h5 and drive-KEY.h5 of the folder `restart`, by a hash of all that
   /// it follows from; without a folder none is.

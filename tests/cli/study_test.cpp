@@ -173,6 +173,8 @@ study:
   unsetenv("SOILBIN_BEDS");
   ASSERT_EQ(all.status, 0) << all.err;
   EXPECT_EQ(all.json()["rows"][1], one.json()["rows"][0]);
+  const auto untested = HasSubstr("nobody tested whether the grains' answers depend on the time step");
+  EXPECT_THAT(all.err, untested);
   const Outcome shown = soilbin(run + recorded);
   EXPECT_EQ(shown.json()["rows"], all.json()["rows"]);
   EXPECT_THAT(soilbin("run '" + file.string() + "'" + recorded).out, HasSubstr("dem: 2 runs"));
@@ -182,6 +184,13 @@ study:
   EXPECT_THAT(soilbin(run + recorded + " --slip 50%").json()["rows"][0]["error"].get<std::string>(),
               HasSubstr("not in the record"));
   EXPECT_EQ(soilbin(run + recorded + record).status, 2);
+  EXPECT_THAT(shown.err, untested);
+  setenv("SOILBIN_BEDS", (scratch / "beds").c_str(), 1);
+  const Outcome tested = soilbin(run + bed + record + " --half-step yes");
+  unsetenv("SOILBIN_BEDS");
+  EXPECT_EQ(tested.status, 0) << tested.err;
+  EXPECT_EQ(tested.json()["rows"], all.json()["rows"]);
+  EXPECT_THAT(tested.err, testing::Not(untested));
 }
 
 TEST(Run, NamesTheFlagOrModelThatIsWrong) {

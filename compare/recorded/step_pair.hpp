@@ -1,0 +1,44 @@
+// Whether answers of grains hang on the time step: a condition on one bed, at the step and at half of it.
+//
+//   for (const StepPair& pair : step_pairs(record))
+//     if (!agrees(pair)) ...  // the record's numbers belong to its step, not to the soil
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/recorded/record.hpp"
+
+namespace soilbin::compare {
+
+/// One run and its like at half the step. Points into the record.
+struct StepPair {
+  const RecordedRun *whole, *half;
+  /// Half less whole, in standard errors of the difference: drawbar pull, torque, sinkage. None where either has no
+  /// result.
+  std::optional<std::array<double, 3>> differs;
+};
+
+/// Of three channels alike in truth, one differs by more in one pair of twenty (normal errors, Bonferroni).
+inline constexpr double step_alike = 2.4;
+
+/// The pairs that a record carries.
+std::vector<StepPair> step_pairs(const Record& record);
+
+/// Whether no channel differs by more than step_alike. A pair without results is not.
+bool agrees(const StepPair& pair);
+
+/// "at 8 kN, slip 60 %, packing 1, half the step changes pull by 12 ± 30 N (0.4 errors), ...".
+std::string in_words(const StepPair& pair);
+
+/// The doubt in a record whose step nobody tested, or whose answers hang on it; none where a pair agrees and no other
+/// doesn't.
+std::vector<std::string> step_doubts(const Record& record);
+
+/// The condition of a study at which its step is tested: the largest load, of these the steepest, of these the most
+/// yaw, of these the most slip. Throws InputError for none.
+OperatingCondition hardest(const std::vector<OperatingCondition>& conditions);
+
+}  // namespace soilbin::compare
