@@ -1,4 +1,4 @@
-// The equations of a wheel that is driven in time (docs/guide/drive.md).
+// The equations of a wheel that is driven in time (docs/theory/driven-wheel.md).
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// A study's models and measurements side by side: how far apart, how sure, and why (docs/guide/compare.md).
+// A study's models and measurements side by side: how far apart, how sure, and why (docs/theory/comparing.md).
 //
 //   std::vector<Side> sides = {side_of(bekker_wong), side_of("dem", runs)};
 //   const Comparison comparison = compare_sides(question, choices, sides);

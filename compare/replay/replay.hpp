@@ -1,4 +1,4 @@
-// A run of grains to look at: soilbin-replay/1, small enough to lie in a page (docs/guide/compare.md tells the format).
+// A run of grains to look at: soilbin-replay/1, small enough to lie in a page (docs/reference/replay-format.md).
 //
 // A line of JSON, a line feed, and a zlib stream. Positions are steps of `step` metres from `origin` in 16 bits; each
 // frame holds what moved since the one before, zigzag-coded, low bytes apart from high bytes: grains at rest are zeros,

@@ -1,5 +1,5 @@
 // The bevameter's two tests on a bed of grains: round plates pressed in, and a ring with grousers turned under load.
-// Sinkage counts from the mean height of what one sees from above, as that of a wheel does (docs/guide/soil-bin.md).
+// Sinkage counts from the mean height of what one sees from above, as that of a wheel does (docs/theory/soil-bin.md).
 #pragma once
 
 #include <vector>

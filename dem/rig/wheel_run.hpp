@@ -1,5 +1,5 @@
 // A wheel driven over a settled bed at a given slip or torque: lowered gently, set going, and measured until the bed
-// ends. What the rig does and gives: docs/guide/soil-bin.md.
+// ends. What the rig does and gives: docs/theory/soil-bin.md.
 #pragma once
 
 #include <functional>

@@ -35,7 +35,7 @@ void bind_sides(py::module_& module) {
 }
 
 void bind_differences(py::module_& module) {
-  py::enum_<DifferenceFinding>(module, "Finding", "What can be said of a difference (docs/guide/compare.md).")
+  py::enum_<DifferenceFinding>(module, "Finding", "What can be said of a difference (docs/theory/comparing.md).")
       .value("difference", DifferenceFinding::difference)
       .value("within_scatter", DifferenceFinding::within_scatter)
       .value("within_errors", DifferenceFinding::within_errors)

@@ -133,7 +133,7 @@ void bind_drive_words(py::module_& module) {
                                 "A place along the way. Angles and drawbar load go linearly from one to the next; a "
                                 "soil holds from its place on.");
   described(waypoint);
-  py::class_<Drive> drive(module, "Drive", "A wheel with mass and inertia, driven from rest (docs/guide/drive.md).");
+  py::class_<Drive> drive(module, "Drive", "A wheel with mass and inertia, driven from rest (docs/theory/driven-wheel.md).");
   drive.def_property(
       "effects", [](const Drive& d) { return d.effects; },
       [](Drive& d, const std::vector<EffectName>& effects) { d.effects = effects_of(effects); },

@@ -191,7 +191,7 @@ void bind_soil_bin(py::module_& module) {
   py::class_<WheelRun>(module, "WheelRun", "What a run of the soil bin tells.")
       .def_readonly("result", &WheelRun::result)
       .def_readonly("power", &WheelRun::power)
-      .def_readonly("steady", &WheelRun::steady, "whether the run became steady (docs/guide/soil-bin.md)")
+      .def_readonly("steady", &WheelRun::steady, "whether the run became steady (docs/theory/soil-bin.md)")
       .def_readonly("drift", &WheelRun::drift, "largest difference of halves over its standard error")
       .def_readonly("steady_from", &WheelRun::steady_from, "first sample that counts")
       .def_readonly("rut", &WheelRun::rut)

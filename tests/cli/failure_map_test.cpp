@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// The command of docs/guide/failure-map.md, from the runs in the store alone.
+/// The command of docs/lab/failure-maps.md, from the runs in the store alone.
 std::string stored(const std::string& more) {
   return "failure-map '" SOILBIN_SOURCE_DIR
          "/bench/dem_nature/studies/dem-lugs.yaml' --incline longitudinal --load 40N..100N --lug-height 0mm..15mm "
@@ -43,7 +43,7 @@ TEST(SlowFailureMapCommand, LearnsFromTheStoredRuns) {
   EXPECT_THAT(map["warnings"].dump(), HasSubstr("the grains are coarse for this wheel"));
 }
 
-// docs/guide/failure-map.md on the paper's tire: by load and slip, hardly by slope; and five runs that the map had not
+// docs/lab/failure-maps.md on the paper's tire: by load and slip, hardly by slope; and five runs that the map had not
 // seen.
 TEST(SlowFailureMapCommand, TellsWhereThePapersTireParts) {
   const Outcome r = soilbin(

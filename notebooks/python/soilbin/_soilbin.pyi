@@ -550,7 +550,7 @@ class Waypoint:
         """A copy in which the attributes given are changed."""
 
 class Drive:
-    """A wheel with mass and inertia, driven from rest (docs/guide/drive.md)."""
+    """A wheel with mass and inertia, driven from rest (docs/theory/driven-wheel.md)."""
     @property
     def effects(self) -> list[EffectChoice]:
         """ids or EffectChoice; assign a new list to change them"""
@@ -1505,7 +1505,7 @@ class WheelRun:
     def power(self) -> PowerBalance: ...
     @property
     def steady(self) -> bool:
-        """whether the run became steady (docs/guide/soil-bin.md)"""
+        """whether the run became steady (docs/theory/soil-bin.md)"""
     @property
     def drift(self) -> float:
         """largest difference of halves over its standard error"""
@@ -1933,7 +1933,7 @@ class Side:
         """a result, or None, for each condition"""
 
 class Finding:
-    """What can be said of a difference (docs/guide/compare.md)."""
+    """What can be said of a difference (docs/theory/comparing.md)."""
     difference: ClassVar[Finding]
     within_scatter: ClassVar[Finding]
     within_errors: ClassVar[Finding]
