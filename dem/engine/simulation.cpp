@@ -10,6 +10,7 @@
 #include "dem/engine/step.hpp"
 #include "dem/engine/time_step.hpp"
 #include "dem/surface/positive.hpp"
+#include "dem/surface/seams.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
@@ -180,6 +181,7 @@ GrainId Simulation::add_grain(const Vec3& position, double radius, int material,
 int Simulation::add_body(Body body) {
   State& state = world_.state;
   check(body, static_cast<int>(world_.setup.materials.all.size()));
+  check_seams(body);
   accounted(world_, [&] { state.bodies.push_back(std::move(body)); });
   note_change(state);
   return static_cast<int>(state.bodies.size()) - 1;

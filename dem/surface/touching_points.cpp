@@ -119,6 +119,14 @@ TouchingPoint touching_point(const TriangleMesh& mesh, const Minimum& m, const V
   return touching;
 }
 
+/// What a point counts in the normal of the deepest, with which it is one.
+double share_of(const TouchingPoint& point, const TouchingPoint& deepest, double radius) {
+  const double until_its_end = point.distance * (1 - dot(point.normal, deepest.normal));
+  if (!(until_its_end > 0)) return 0;
+  const double of_way = std::max(0.0, 1 - (point.distance - deepest.distance) / until_its_end);
+  return of_way * point.overlap(radius) / deepest.overlap(radius);
+}
+
 }  // namespace
 
 MergeAngle::MergeAngle(double angle) : cosine_(angle > 0 ? std::cos(angle) : 2.0) {
@@ -142,18 +150,30 @@ void find_touching_points(const TriangleMesh& mesh, std::span<const int> candida
     return;
   }
   out.dropped = found.dropped;
+  std::array<Vec3, TouchingPoints::capacity> added;  // to their normals, by what is one with them
   for (const Minimum* m = found.rows; m < end; ++m) {
     if (mesh.closed() && m > found.rows && before(mesh, *m, centre) < 0) continue;
     const TouchingPoint touching = touching_point(mesh, *m, centre, false, slack);
     const auto parallel = [&](const TouchingPoint& other) {
       return dot(other.normal, touching.normal) > merge.cosine();
     };
-    if (std::any_of(out.begin(), out.end(), parallel)) continue;
-    if (out.count < TouchingPoints::capacity) {
+    const auto* const deeper = std::find_if(out.begin(), out.end(), parallel);
+    if (deeper != out.end()) {
+      added[deeper - out.begin()] += share_of(touching, *deeper, radius) * touching.normal;
+    } else if (out.count < TouchingPoints::capacity) {
+      added[out.count] = {};
       out.points[out.count++] = touching;
     } else {
       ++out.dropped;
     }
+  }
+  for (int k = 0; k < out.count; ++k) {
+    if (added[k] == Vec3{}) continue;
+    TouchingPoint& one = out.points[k];
+    const Vec3 mean = unit(one.normal + added[k]);
+    one.distance *= dot(mean, one.normal);
+    one.normal = mean;
+    one.point = centre - one.distance * one.normal;
   }
 }
 

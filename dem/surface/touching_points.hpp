@@ -20,8 +20,13 @@
 // - c deeper inside than r is not noticed: no triangle is near.
 //
 // Nearly parallel points are one. A smooth concave surface, finely meshed, has several minima where the true surface
-// has one. Points whose normals differ by less than the MergeAngle are one, the deepest. So a concave edge of two
-// planes that meet at less than this angle is one contact, and a steeper one two.
+// has one. Points whose normals differ by less than the MergeAngle from the deepest one's are one with it, its normal
+// the mean of theirs. The share of another in that mean is 1 where both are equally near, and 0 where that one ends:
+// where it is no deeper than 0, and where its foot would pass the line in which the planes of both meet, d_deepest =
+// d cos(angle between them). Its distance is d_deepest (mean normal . the deepest's). That is a concave edge with a
+// fillet of the distance d: a grain that goes over it feels its normal turn and not jump, one that lies in it rests on
+// both planes at once, and the distance falls along the normal, so that no work is made or lost by going round. A
+// concave edge of two planes that meet at less than the angle is one contact, and a steeper one two.
 #pragma once
 
 #include <array>
@@ -32,7 +37,7 @@
 namespace soilbin::dem {
 
 struct TouchingPoint {
-  Vec3 point;           ///< on the surface: centre - distance normal
+  Vec3 point;           ///< centre - distance normal: on the surface, or beside it where several points are one
   Vec3 normal;          ///< unit, the way the sphere is pushed
   double distance = 0;  ///< [m] from surface to centre along the normal; negative for a centre inside a closed mesh
   int triangle = -1;    ///< the lowest that has the point

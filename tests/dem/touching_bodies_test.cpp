@@ -133,12 +133,35 @@ TEST(TouchingBodies, AShallowValleyIsOneContactASteepOneTwo) {
         const TouchingPoints points = touch(valley, c, 0.35);
         const double deepest = (c.z - c.x * std::tan(slope)) * std::cos(slope);
         EXPECT_EQ(points.count, slope > 0.1 ? 2 : 1) << slope;
-        EXPECT_NEAR(points[0].distance, deepest, 1e-12);
+        if (slope > 0.1) EXPECT_NEAR(points[0].distance, deepest, 1e-12);
+        EXPECT_NEAR(points[0].distance, deepest, (1 - std::cos(slope)) * deepest + 1e-12);  // the fillet
         EXPECT_EQ(touch(valley, c, 0.35, 0).count, 2);
         EXPECT_EQ(touch(valley, c, 0.35, 1.5).count, 1);
         EXPECT_EQ(touch(ridge, c, 0.35, 0).count, 1);
       }
     }
+  }
+}
+
+// Across the bottom of a shallow valley the normal goes from one plane's to the other's, and stands upright between.
+// It begins to turn where the foot on the other plane is on the edge: x = -+d sin(slope), at the distance d.
+TEST(TouchingBodies, OverAShallowValleyTheNormalTurnsAndDoesNotJump) {
+  const double slope = 0.05, height = 0.3;
+  for (const double radius : {0.35, 0.3005}) {  // there the other plane ends at its edge, and at its depth
+    const TriangleMesh valley = mesh_of(dihedral(slope, 2), false);
+    EXPECT_NEAR(length(touch(valley, {0, 0.1, height}, radius)[0].normal - Vec3{0, 0, 1}), 0, 1e-12);
+    const double d = height / std::cos(slope), reach = 1.1 * d * std::sin(slope);
+    const int steps = 4000;
+    Vec3 before{std::sin(slope), 0, std::cos(slope)};
+    for (int k = 0; k <= steps; ++k) {
+      const Vec3 c{reach * (2.0 * k / steps - 1), 0.1, height};
+      const TouchingPoints points = touch(valley, c, radius);
+      ASSERT_EQ(points.count, 1);
+      EXPECT_LT(length(points[0].normal - before), 20 * slope / steps) << c.x;
+      EXPECT_NEAR(length(points[0].point + points[0].distance * points[0].normal - c), 0, 1e-12);
+      before = points[0].normal;
+    }
+    EXPECT_NEAR(length(before - Vec3{-std::sin(slope), 0, std::cos(slope)}), 0, 1e-12);
   }
 }
 
@@ -163,7 +186,8 @@ TEST(TouchingBodies, AFinelyCutTroughIsOneContact) {
         const Vec3 c{from_axis * std::sin(angle), 0.1, -from_axis * std::cos(angle)};
         const TouchingPoints points = touch(mesh, c, 1.05 - from_axis);
         ASSERT_EQ(points.count, 1) << n << " " << angle << " " << from_axis;
-        EXPECT_NEAR(points[0].distance, 1 - from_axis, 1 - std::cos(pi / n / 2) + 1e-12);  // the facets' rise
+        const double rise = 1 - std::cos(pi / n / 2);  // of the facets, and of the fillets between them
+        EXPECT_NEAR(points[0].distance, 1 - from_axis, rise + 4 * rise * (1 - from_axis) + 1e-12);
       }
     }
   }
