@@ -137,7 +137,8 @@ void test_time_step(const dem::DemSettings& settings, const Case& question, cons
   };
   kept_runs(keeping.record, settings, question, effects, keeping.version, std::move(half_runs), &Record::half_step)(
       question.scenario, at, settings.packing);
-  for (const StepPair& pair : step_pairs(read_record(keeping.record)))
+  const Record record = read_record(keeping.record);
+  for (const StepPair& pair : step_pairs(record))
     if (!agrees(pair))
       throw std::runtime_error(
           fmt::format("answers depend on the time step of {:.3g} ms: {}\n  hint: --time-step {:.3g}ms, in another "
