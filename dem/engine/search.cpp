@@ -156,7 +156,7 @@ void search(World& world, std::span<const std::uint8_t> gone) {
 void make_room(World& world) {
   const int slabs = world.slabs();
   world.found.assign(slabs, {});
-  world.fastest.assign(slabs, 0.0);
+  world.speeds.assign(slabs, {});
   world.made.resize(slabs);
   world.ledger.begin(world.setup, world.state);
   world.sleeping.begin(world.state);

@@ -49,13 +49,14 @@ bool Sleeping::is_driven(const State& state, int slab) const {
   return false;
 }
 
-void Sleeping::count_calm(State& state, const Numerics& numerics, std::span<const double> fastest) const {
+void Sleeping::count_calm(State& state, const Numerics& numerics, std::span<const SlabSpeed> speeds) const {
   const double limit = numerics.sleep.speed;
   if (limit == 0) return;
   const std::uint32_t enough = calm_enough(numerics);
   for (int slab = 0; slab < static_cast<int>(asleep_.size()); ++slab) {
     std::uint32_t& calm = state.calm[slab];
-    calm = fastest[slab] < limit && !is_driven(state, slab) ? std::min(calm + 1, enough) : 0;
+    const bool slow = speeds[slab].root_mean_square < limit && speeds[slab].fastest < Sleep::lone * limit;
+    calm = slow && !is_driven(state, slab) ? std::min(calm + 1, enough) : 0;
   }
 }
 

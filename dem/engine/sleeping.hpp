@@ -9,15 +9,21 @@
 
 namespace soilbin::dem {
 
+/// How fast the grains of a slab are [m/s].
+struct SlabSpeed {
+  double fastest = 0;
+  double root_mean_square = 0;
+};
+
 class Sleeping {
  public:
   /// After a search: all slabs are awake until the next choice.
   void begin(const State& state);
   /// A slab sleeps where it and both its neighbours have been calm for long enough. Gives whether others sleep now.
   bool choose(const State& state, const Numerics& numerics);
-  /// At the end of a step, from the fastest grain of each slab [m/s]: how calm each has been (State::calm). A slab near
-  /// a body that moves or may move is not.
-  void count_calm(State& state, const Numerics& numerics, std::span<const double> fastest) const;
+  /// At the end of a step, from the speeds in each slab: how calm each has been (State::calm). A slab near a body that
+  /// moves or may move is not.
+  void count_calm(State& state, const Numerics& numerics, std::span<const SlabSpeed> speeds) const;
 
   bool operator[](int slab) const { return asleep_[slab]; }
   /// The slabs on both sides; the row of slabs is closed to a ring.

@@ -15,12 +15,14 @@
 
 namespace soilbin::dem {
 
-/// When grains are left out of the work because they rest. A slab of cells whose grains, and those of both slabs beside
-/// it, have all been slower than `speed` for `time` stands still: its grains keep their places, and what its contacts
-/// remember stays, until a grain beside it is faster again or gravity, grains, bodies or materials change. Slabs near a
-/// body that moves or may move never sleep. So no grain is held that was faster than `speed`, but creep slower than
-/// that is lost (docs/lab/dem-performance.md has what this does to a wheel).
+/// When grains are left out of the work because they rest. A slab of cells that has been calm for `time`, as have both
+/// slabs beside it, stands still: its grains keep their places, and what its contacts remember stays, until a slab
+/// beside it is no longer calm or gravity, grains, bodies or materials change. Calm is a slab whose grains' speeds have
+/// a root mean square below `speed` while none is above `lone` times that: a single grain that rocks keeps nobody
+/// awake, one that falls does. Slabs near a body that moves or may move never sleep. Slower creep than that is lost
+/// (docs/lab/dem-performance.md has what this does to a wheel).
 struct Sleep {
+  static constexpr double lone = 10;
   double speed = 0;    ///< [m/s]; 0: no grain ever sleeps
   double time = 0.05;  ///< [s]
 };
@@ -59,7 +61,7 @@ struct State {
   PairList pairs;
   std::vector<std::uint32_t> slab_rows;   ///< first row of each slab, and the end
   std::vector<SurfaceContacts> surfaces;  ///< a slab each
-  std::vector<std::uint32_t> calm;   ///< of each slab: steps in a row in which no grain was fast, as far as counted
+  std::vector<std::uint32_t> calm;   ///< of each slab: steps in a row in which it was calm (Sleep), as far as counted
   std::vector<BodyLoad> body_loads;  ///< of each slab on each body, slab by slab; those asleep go on pressing
   std::vector<Vec3> searched_at;     ///< positions at the last search for pairs
   double travel = 0;                 ///< bound on what any grain or body has moved since [m]; infinite: it is due

@@ -23,7 +23,7 @@ void choose_sleepers(World& world) {
       if (!world.sleeping[slab]) continue;
       for (std::uint32_t k = s.slab_rows[slab]; k < s.slab_rows[slab + 1]; ++k)
         s.grains.motion[k].velocity = s.grains.spin[k].rate = {};
-      world.fastest[slab] = 0;
+      world.speeds[slab] = {};
     }
   });
 }
@@ -163,10 +163,10 @@ void step(World& world) {
   work_on_slabs(world);
   load_bodies(s);
   world.ledger.end_step(world);
-  world.sleeping.count_calm(s, world.setup.numerics, world.fastest);
+  world.sleeping.count_calm(s, world.setup.numerics, world.speeds);
   world.searched_now = false;
-  const double of_grains = *std::max_element(world.fastest.begin(), world.fastest.end());
-  const double fastest = std::max(of_grains, move_bodies(world));
+  double fastest = move_bodies(world);
+  for (const SlabSpeed& speed : world.speeds) fastest = std::max(fastest, speed.fastest);
   ++s.step;
   s.time += dt;
   s.travel += dt * fastest;
@@ -207,7 +207,7 @@ void move_grains(World& world, int slab) {
   Load* loads = s.grains.load.data();
   const double dt = world.setup.numerics.dt;
   const bool counted = world.setup.numerics.ledger;
-  double fastest = 0;
+  double fastest = 0, sum = 0;
   bool finite = true;
   for (std::uint32_t k = s.slab_rows[slab]; k < s.slab_rows[slab + 1]; ++k) {
     Motion& grain = motion[k];
@@ -221,9 +221,11 @@ void move_grains(World& world, int slab) {
     load = {};
     const double speed2 = squared(grain.velocity);
     fastest = std::max(fastest, speed2);
+    sum += speed2;
     finite &= speed2 < 1e30;
   }
-  world.fastest[slab] = finite ? std::sqrt(fastest) : infinity;
+  const std::uint32_t count = s.slab_rows[slab + 1] - s.slab_rows[slab];
+  world.speeds[slab] = {finite ? std::sqrt(fastest) : infinity, count > 0 ? std::sqrt(sum / count) : 0.0};
 }
 
 }  // namespace soilbin::dem

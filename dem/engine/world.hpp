@@ -65,7 +65,7 @@ struct World {
   Placed placed;
   PairSweep sweep{};
   std::vector<PairFindings> found;                ///< of each slab
-  std::vector<double> fastest;                    ///< grain of each slab [m/s]
+  std::vector<SlabSpeed> speeds;                  ///< of the grains of each slab
   std::vector<std::vector<SurfaceContact>> made;  ///< contacts with surfaces of the step before, a slab each
 
   int slabs() const { return static_cast<int>(state.slab_rows.size()) - 1; }

@@ -41,7 +41,7 @@ void add_rig(Inputs& to, const Rig& rig) {
   add(to, "rig.mesh_edge", rig.meshing.edge), add(to, "rig.chevron_angle", rig.meshing.chevron_angle);
   add(to, "rig.young", rig.young), add(to, "rig.poisson", rig.poisson), add(to, "rig.skin", rig.skin);
   add(to, "rig.deepest_overlap", rig.deepest_overlap), add(to, "rig.steady_drift", rig.steady_drift);
-  add(to, "rig.sleep_speed", rig.sleep_speed);
+  add(to, "rig.sleep_mean_speed", rig.sleep_speed);
   if (rig.sleep_speed > 0) add(to, "rig.sleep_time", rig.sleep_time);
   if (rig.drive_torque) add(to, "rig.drive_torque", *rig.drive_torque);
 }

@@ -60,9 +60,9 @@ struct Rig {
   double dt = 0;                 ///< [s]; 0: the bed's
   double skin = 0.25;            ///< margin of the search for pairs, in largest radii
   double deepest_overlap = 0.5;  ///< of the smaller radius; chains of grains under a wheel are pressed hard
-  /// Grains far from the wheel sleep (Sleep) that were slower than this share of sqrt(g d) for so many sqrt(d/g), d
-  /// their mean diameter; 0: none does. The paper's wheel on grains of 40 mm then pulls within its errors of what it
-  /// pulls with all awake (docs/lab/dem-performance.md).
+  /// Slabs of grains far from the wheel sleep (Sleep) whose speeds had a root mean square below this share of sqrt(g d)
+  /// for so many sqrt(d/g), d the mean diameter; 0: none does. The paper's wheel on grains of 40 mm then pulls within
+  /// its errors of what it pulls with all awake (docs/lab/dem-performance.md).
   double sleep_speed = 0.003, sleep_time = 0.8;
   bool ledger = false;      ///< tells where the power goes; a step takes about twice as long
   double steady_drift = 3;  ///< largest drift_over_error of a steady run

@@ -71,6 +71,21 @@ TEST(Sleep, ComesAfterTheCalmTimeAndHoldsGrainsExactlyStill) {
     EXPECT_TRUE(after[k].position == before[k].position && after[k].velocity == Vec3{}) << k;
 }
 
+// A grain that rocks among many at rest keeps nobody awake, one that falls does, and so do many that creep.
+TEST(Sleep, CountsTheMeanSpeedOfASlabAndALoneGrainTenTimesLess) {
+  State state;
+  state.surfaces.resize(4);
+  state.calm.assign(4, 0);
+  Numerics numerics;
+  numerics.dt = 0.01;
+  numerics.sleep = {1, 0.03};
+  Sleeping sleeping;
+  sleeping.begin(state);
+  const std::vector<SlabSpeed> speeds = {{9.9, 0.5}, {10.1, 0.5}, {1.2, 1.01}, {0.9, 0.9}};
+  for (int k = 0; k < 5; ++k) sleeping.count_calm(state, numerics, speeds);
+  EXPECT_EQ(state.calm, (std::vector<std::uint32_t>{3, 0, 0, 3})) << "as many steps as the time holds, no more";
+}
+
 TEST(Sleep, LeavesTheWeightOnTheFloor) {
   Simulation simulation = at_rest();
   simulation.run(steps_of(simulation, 2 * calm_time));
