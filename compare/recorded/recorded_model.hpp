@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "compare/recorded/record.hpp"
 #include "compare/recorded/step_pair.hpp"
@@ -30,6 +31,10 @@ TractionResult mean_of_packings(const std::vector<const RecordedRun*>& runs);
 
 /// Standard deviation between packings, of a channel of TractionResult; 0 for less than two runs with results.
 double scatter_between(const std::vector<const RecordedRun*>& runs, Estimate TractionResult::*channel);
+
+/// How much further packings scatter than the errors of single runs tell, for a channel: the root of their pooled
+/// variance ratio over all conditions that have several packings; no value with less than four degrees of freedom.
+std::optional<double> packing_factor(const Record& record, Estimate TractionResult::*channel);
 
 /// Runs each condition on every packing.
 class RunOnPackings : public Model {

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "compare/measured/channels.hpp"
+#include "compare/recorded/recorded_model.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 
@@ -15,48 +16,56 @@ namespace {
 
 constexpr std::array<std::size_t, 3> tested_channels = {0, 1, 2};  // pull, torque, sinkage
 
-std::optional<std::array<double, 3>> difference_in_errors(const Answer& whole, const Answer& half) {
+std::optional<std::array<Estimate, 3>> difference_of(const Answer& whole, const Answer& half,
+                                                     const std::array<double, 3>& factors) {
   if (!whole.result || !half.result) return std::nullopt;
-  std::array<double, 3> differs{};
+  std::array<Estimate, 3> difference;
   for (const std::size_t c : tested_channels) {
     const Estimate &a = (*whole.result).*channel_views[c].predicted, &b = (*half.result).*channel_views[c].predicted;
-    const double error = std::hypot(a.std_error, b.std_error);
-    differs[c] = a.value == b.value ? 0.0 : (b.value - a.value) / error;
+    difference[c] = {b.value - a.value, factors[c] * std::hypot(a.std_error, b.std_error)};
   }
-  return differs;
+  return difference;
+}
+
+double in_errors(const Estimate& difference) {
+  return difference.value == 0 ? 0.0 : std::abs(difference.value) / difference.std_error;
 }
 
 }  // namespace
 
 std::vector<StepPair> step_pairs(const Record& record) {
+  std::array<double, 3> factors{};
+  bool widened = false;
+  for (const std::size_t c : tested_channels) {
+    factors[c] = std::max(1.0, packing_factor(record, channel_views[c].predicted).value_or(1.0));
+    widened |= factors[c] > 1;
+  }
   std::vector<StepPair> pairs;
   for (const RecordedRun& half : record.half_step)
     if (const RecordedRun* whole = find_run(record.runs, half.answer.at, half.packing))
-      pairs.push_back({whole, &half, difference_in_errors(whole->answer, half.answer)});
+      pairs.push_back({whole, &half, difference_of(whole->answer, half.answer, factors), widened});
   return pairs;
 }
 
 bool agrees(const StepPair& pair) {
-  return pair.differs && std::all_of(pair.differs->begin(), pair.differs->end(),
-                                     [](double errors) { return std::abs(errors) <= step_alike; });
+  return pair.difference && std::all_of(pair.difference->begin(), pair.difference->end(),
+                                        [](const Estimate& of) { return in_errors(of) <= step_alike; });
 }
 
 std::string in_words(const StepPair& pair) {
   std::string words =
       fmt::format("at {}, packing {}, half the time step ", in_words(pair.half->answer.at), pair.half->packing);
-  if (!pair.differs)
+  if (!pair.difference)
     return words + fmt::format("has no answer to compare: {}",
                                pair.half->answer.result ? pair.whole->answer.error : pair.half->answer.error);
   words += "changes ";
   for (const std::size_t c : tested_channels) {
     const ChannelView& channel = channel_views[c];
-    const Estimate &a = (*pair.whole->answer.result).*channel.predicted,
-                   &b = (*pair.half->answer.result).*channel.predicted;
+    const Estimate& of = (*pair.difference)[c];
     words += fmt::format("{}{} by {:.3g} ± {:.2g} {} ({:.1f} errors)", c == 0 ? "" : ", ", channel.title,
-                         (b.value - a.value) * channel.per_si, std::hypot(a.std_error, b.std_error) * channel.per_si,
-                         channel.unit, std::abs((*pair.differs)[c]));
+                         of.value * channel.per_si, of.std_error * channel.per_si, channel.unit, in_errors(of));
   }
-  return words;
+  return words + (pair.widened ? "; the errors hold the scatter between packings" : "");
 }
 
 std::vector<std::string> step_doubts(const Record& record) {

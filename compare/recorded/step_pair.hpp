@@ -13,12 +13,15 @@
 
 namespace soilbin::compare {
 
-/// One run and its like at half the step. Points into the record.
+/// One run and its like at half the step, which are two of the many motions that grains of one bed may take. Points
+/// into the record.
 struct StepPair {
   const RecordedRun *whole, *half;
-  /// Half less whole, in standard errors of the difference: drawbar pull, torque, sinkage. None where either has no
-  /// result.
-  std::optional<std::array<double, 3>> differs;
+  /// Half less whole, drawbar pull, torque, sinkage. Its error is that of both runs, widened by packing_factor
+  /// (recorded_model.hpp) where the record has packings enough to know it: a single run's errors don't hold what it
+  /// shares from its start to its end, as how deep it dug. None where either run has no result.
+  std::optional<std::array<Estimate, 3>> difference;
+  bool widened = false;  ///< whether any of the errors is
 };
 
 /// Of three channels alike in truth, one differs by more in one pair of twenty (normal errors, Bonferroni).
@@ -27,7 +30,7 @@ inline constexpr double step_alike = 2.4;
 /// The pairs that a record carries.
 std::vector<StepPair> step_pairs(const Record& record);
 
-/// Whether no channel differs by more than step_alike. A pair without results is not.
+/// Whether no channel differs by more than step_alike standard errors. A pair without results is not.
 bool agrees(const StepPair& pair);
 
 /// "at 8 kN, slip 60 %, packing 1, half the step changes pull by 12 ± 30 N (0.4 errors), ...".

@@ -155,38 +155,7 @@ namespace {
 
 using Runs = std::vector<const RecordedRun*>;
 
-std::vector<Runs> by_condition(const Record& record) {
-  std::vector<Runs> groups;
-  for (const RecordedRun& run : record.runs) {
-    if (!run.answer.result) continue;
-    const auto same = [&](const Runs& group) { return alike(group.front()->answer.at, run.answer.at); };
-    const auto group = std::find_if(groups.begin(), groups.end(), same);
-    if (group == groups.end())
-      groups.push_back({&run});
-    else
-      group->push_back(&run);
-  }
-  return groups;
-}
-
-constexpr double least_freedom = 4;
-
 }  // namespace
-
-std::optional<double> packing_factor(const Record& record, Estimate TractionResult::*channel) {
-  double between = 0, own = 0, freedom = 0;
-  for (const Runs& runs : by_condition(record)) {
-    if (runs.size() < 2) continue;
-    const double degrees = static_cast<double>(runs.size() - 1);
-    const double scatter = scatter_between(runs, channel);
-    double mean_own = 0;
-    for (const RecordedRun* run : runs)
-      mean_own += std::pow(((*run->answer.result).*channel).std_error, 2) / static_cast<double>(runs.size());
-    between += degrees * scatter * scatter, own += degrees * mean_own, freedom += degrees;
-  }
-  if (freedom < least_freedom || !(own > 0)) return std::nullopt;
-  return std::sqrt(between / own);
-}
 
 std::vector<Answer> taken_as_exact(std::vector<Answer> answers) {
   for (Answer& answer : answers)

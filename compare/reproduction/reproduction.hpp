@@ -67,10 +67,6 @@ Reproduction reproduce(const Findings& findings, const std::vector<StudyAnswers>
 /// share: taken for noise of each point they would hide every trend.
 std::vector<Answer> taken_as_exact(std::vector<Answer> answers);
 
-/// How much further packings scatter than the errors of single runs tell, for a channel: the root of their pooled
-/// variance ratio over all conditions that have several packings; no value with less than four degrees of freedom.
-std::optional<double> packing_factor(const Record& record, Estimate TractionResult::*channel);
-
 /// A record's answers to conditions; errors widened by packing_factor where that is above 1. `remark` says what was
 /// done.
 std::vector<Answer> recorded_answers(const Record& record, const std::vector<OperatingCondition>& conditions,

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "compare/recorded/recorded_model.hpp"
 #include "scenario/errors.hpp"
 
@@ -36,8 +38,10 @@ TEST(StepPair, DifferencesCountInStandardErrorsOfTheDifference) {
   const Record record = recorded({pulling(1000, 30)}, {pulling(1100, 40)});
   const std::vector<StepPair> pairs = step_pairs(record);
   ASSERT_EQ(pairs.size(), 1U);
-  EXPECT_DOUBLE_EQ((*pairs[0].differs)[0], 100.0 / 50.0);
-  EXPECT_EQ((*pairs[0].differs)[1], 0.0);
+  EXPECT_EQ((*pairs[0].difference)[0].value, 100.0);
+  EXPECT_DOUBLE_EQ((*pairs[0].difference)[0].std_error, 50.0);
+  EXPECT_EQ((*pairs[0].difference)[1].value, 0.0);
+  EXPECT_FALSE(pairs[0].widened);
   EXPECT_TRUE(agrees(pairs[0]));
   EXPECT_THAT(step_doubts(record), IsEmpty());
 }
@@ -47,6 +51,27 @@ TEST(StepPair, BeyondTwoAndAHalfErrorsAnswersDependOnTheStep) {
   EXPECT_FALSE(agrees(step_pairs(record).at(0)));
   EXPECT_THAT(step_doubts(record).at(0),
               AllOf(HasSubstr("depend on the time step"), HasSubstr("125 ± 50 N (2.5 errors)")));
+}
+
+// Five packings at 970, 970, 1000, 1030, 1030 N scatter by 30 N where their runs' own errors are 10: errors count
+// threefold, and what differs by 3.5 of a pair's own differs by 1.2.
+TEST(StepPair, ErrorsHoldWhatPackingsScatterMoreThanTheirRunsTell) {
+  std::vector<RecordedRun> runs;
+  for (const double pull : {970.0, 970.0, 1000.0, 1030.0, 1030.0}) {
+    runs.push_back(pulling(pull, 10));
+    runs.back().packing = runs.size();
+  }
+  RecordedRun half = pulling(970 + 3.5 * std::hypot(10, 10), 10);
+  half.packing = 1;
+  const Record record = recorded(runs, {half});
+  const StepPair pair = step_pairs(record).at(0);
+  EXPECT_NEAR((*pair.difference)[0].std_error, 3 * std::hypot(10, 10), 1e-9);
+  EXPECT_DOUBLE_EQ((*pair.difference)[1].std_error, std::hypot(10, 10)) << "torques agree: nothing to widen";
+  EXPECT_TRUE(pair.widened);
+  EXPECT_TRUE(agrees(pair));
+  EXPECT_THAT(in_words(pair), HasSubstr("(1.2 errors)"));
+  EXPECT_THAT(in_words(pair), HasSubstr("the errors hold the scatter between packings"));
+  EXPECT_FALSE(agrees(step_pairs(recorded({runs[0]}, {half})).at(0)));
 }
 
 TEST(StepPair, OneThatDiffersIsToldThoughOthersAgree) {
