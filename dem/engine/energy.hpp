@@ -7,8 +7,11 @@ namespace soilbin::dem {
 
 /// Energy that left the motion since the start [J], summed step by step where Numerics::ledger is set. The work of a
 /// force is counted at the mean of the velocities half a step before and after it, which is exactly what the motion got
-/// from it. Two of the rows, of which no sum is made, are counted by the velocity before alone: where spins tremble
-/// from step to step (directional rolling) they hold the trembling too.
+/// from it. Two of the rows, of which no sum is made, are counted by the velocity before alone. Under the default law
+/// of rolling they and the tangential springs add up to into_slide; under `directional` and `directional_with_twist`,
+/// where spins turn round from step to step, they hold that trembling too and mean no energy, so a wheel's run does not
+/// tell them. The paper's tire, 4 kN, 20 % slip: dashpots 645 W of 810 W put in under directional_with_twist, 0.4 W of
+/// 926 W under elastic_plastic.
 struct Ledger {
   double damping = 0;        ///< lost in normal dashpots
   double shear_damping = 0;  ///< lost in tangential dashpots, by the velocity before

@@ -180,6 +180,8 @@ WheelRun Ride::run() {
   run.earlier = run_in_stages().earlier();
   run.rut = rut_behind();
   summarise(run, tire_, at_, rig_);
+  if (rig_.ledger && law::is_directional(bin_.simulation().setup().laws.rolling))
+    run.power.losses.shear_damping = run.power.losses.sliding = std::nan("");  // Ledger: trembling, not energy
   return run;
 }
 

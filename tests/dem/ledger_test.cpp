@@ -235,6 +235,23 @@ TEST(SlowLedger, ClosesWithADrivenBody) {
   }
 }
 
+// What tangential springs, dashpots and sliders take together is what springs hold, dashpots lose and sliders lose.
+TEST(SlowLedger, PartsOfSlidingAddUpUnderTheDefaultLaw) {
+  Simulation simulation(counted({{NormalLaw::hertz, RollingLaw::elastic_plastic, CohesionLaw::none}, -1}, 1e-5));
+  simulation.set_gravity({0, 0, -9.81});
+  simulation.add_body(test::box_of_planes({-0.015, -0.015, -0.015}, {0.2, 0.06, 1}));
+  test::add(simulation, test::cloud(45, 3, 0.1));
+  Body paddle = test::mesh_body(box({0.01, 0.06, 0.05}));
+  paddle.position = {0.19, 0.02, 0.02};
+  paddle.velocity = {-0.5, 0, 0};
+  simulation.add_body(paddle);
+  simulation.run(26000);
+  const EnergyBalance now = simulation.energy();
+  EXPECT_GT(now.ledger.into_slide, 1e-3);
+  EXPECT_NEAR(now.ledger.shear_damping + now.ledger.sliding + now.tangential, now.ledger.into_slide,
+              0.03 * now.ledger.into_slide);
+}
+
 /// A heavy box falls on a layer of grains, turns as it likes and is pushed; as a share of what it and the grains fall
 /// by.
 double open_free_box(double dt) {
