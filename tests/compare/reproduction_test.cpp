@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "compare/recorded/recorded_model.hpp"
 #include "compare/reproduction/reproduction_report.hpp"
 #include "scenario/errors.hpp"
 
