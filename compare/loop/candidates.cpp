@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "compare/loop/pooled_runs.hpp"
 #include "compare/loop/unnamed.hpp"
 
 namespace soilbin::compare {
@@ -109,8 +110,10 @@ auto of_size(int n) {
 /// The candidates of a base model, found step by step: each step looks at what the steps before it have fitted.
 class Search {
  public:
-  Search(const FittedModel& base, const std::vector<Signature>& signatures, const AttributionOptions& options)
-      : base_(base), signatures_(signatures), options_(options) {
+  /// all_runs: what terms are centred on, where the base model is one of pooled runs.
+  Search(const FittedModel& base, const Observations& all_runs, const std::vector<Signature>& signatures,
+         const AttributionOptions& options)
+      : base_(base), all_runs_(all_runs), signatures_(signatures), options_(options) {
     found_.base_log_evidence = log_evidence(base, false);
   }
 
@@ -178,6 +181,13 @@ class Search {
   /// The evidence of each set of effects, summed over the forms that were fitted.
   void weigh();
 
+  /// What others have found beside other runs of the base model, fitted beside these from where that ended.
+  void fit_again(const Candidates& others) {
+    fit_each(others.models, [&](const CandidateModel& c) {
+      return fitted(base_.shared_data(), base_.predictor().with(c.terms()), c.fit().restart);
+    });
+  }
+
   bool empty() const { return found_.models.empty(); }
   Candidates result(bool any_may_stand) && {
     if (!empty()) weigh();
@@ -192,7 +202,7 @@ class Search {
     CandidateStart start;
   };
 
-  Term free_term(const bekker_wong::EffectForm& form) const { return make_term(form, base_.data().observations, true); }
+  Term free_term(const bekker_wong::EffectForm& form) const { return make_term(form, all_runs_, true); }
 
   /// Fits what is asked for, several at once; those that balance join, in order.
   template <class Asked, class Fitted>
@@ -236,6 +246,7 @@ class Search {
   void fit_other_forms(const CandidateModel& from, std::set<FormSet>& tried);
 
   const FittedModel& base_;
+  const Observations& all_runs_;
   const std::vector<Signature>& signatures_;
   const AttributionOptions& options_;
   Candidates found_;
@@ -331,6 +342,62 @@ void Search::weigh() {
                    [](const Weighted& x, const Weighted& y) { return x.weight > y.weight; });
 }
 
+/// From the strongest signatures to sets of up to three effects. further: beyond single effects, and one may stand.
+Candidates search_beside(const FittedModel& base, const Observations& all_runs,
+                         const std::vector<Signature>& signatures, bool further, const AttributionOptions& options) {
+  Search search(base, all_runs, signatures, options);
+  search.fit_singles();
+  const bool stands_out = further && !search.empty();
+  if (stands_out) {
+    search.fit_pairs();
+    search.extend_singles();
+    search.judge_misfit();
+    search.complete_pairs();
+    for (int effects = 2; effects < thresholds::most_effects; ++effects) search.extend_best(effects);
+  }
+  return std::move(search).result(stands_out);
+}
+
+/// Those that a fit of all runs may still bring to the front: the models of the sets that stand best, and those of one
+/// effect, or of effects of the best set, whatever they leave.
+Candidates worth_fitting_again(Candidates found) {
+  if (found.models.empty()) return found;
+  const std::set<std::string> best = found.models[found.sets.front().best_candidate].ids;
+  std::set<std::size_t> kept;
+  const auto keep_set = [&](const Weighted& w) {
+    std::vector<std::size_t> forms;
+    for (std::size_t i = 0; i < found.models.size(); ++i)
+      if (found.models[i].ids == w.ids) forms.push_back(i);
+    std::stable_sort(forms.begin(), forms.end(), [&](std::size_t a, std::size_t b) {
+      return found.models[a].log_evidence > found.models[b].log_evidence;
+    });
+    for (std::size_t k = 0; k < forms.size() && k < thresholds::forms_fitted_again; ++k) kept.insert(forms[k]);
+  };
+  for (std::size_t s = 0; s < found.sets.size(); ++s)
+    if (const Weighted& w = found.sets[s];
+        s < thresholds::sets_fitted_again || std::includes(best.begin(), best.end(), w.ids.begin(), w.ids.end()))
+      keep_set(w);
+  std::vector<CandidateModel> models;
+  for (const std::size_t i : kept) models.push_back(std::move(found.models[i]));
+  found.models = std::move(models);
+  return found;
+}
+
+/// On large campaigns the search is made beside pooled runs, and what it finds is fitted to all of them.
+Candidates candidates_of(const FittedModel& base, const std::vector<Signature>& signatures, bool stands_out,
+                         const AttributionOptions& options) {
+  const Observations& all_runs = base.data().observations;
+  const bool large = std::ssize(all_runs.rows) > thresholds::most_searched_rows;
+  const auto few = large ? pooled(base, thresholds::most_searched_rows) : std::nullopt;
+  if (!few) return search_beside(base, all_runs, signatures, stands_out, options);
+  const Candidates rough = worth_fitting_again(search_beside(*few, all_runs, signatures, stands_out, options));
+  Search search(base, all_runs, signatures, options);
+  search.fit_again(rough);
+  const bool any = stands_out && !search.empty();
+  if (any) search.judge_misfit();
+  return std::move(search).result(any);
+}
+
 }  // namespace
 
 const Weighted& Candidates::weighed(const std::set<std::string>& ids) const {
@@ -345,17 +412,9 @@ Attribution attribute(const FittedModel& base, const AttributionOptions& options
   ResidualSignatures signatures{residual_signatures(base, problem, options.pool)};
   signatures.p_value = family_wise_p(signatures.all, strongest(signatures.all), base.data().noise.typical_freedom(),
                                      options.simulations, options.seed);
-  Search search(base, signatures.all, options);
-  search.fit_singles();
-  const bool stands_out = signatures.p_value <= thresholds::family_level && !search.empty();
-  if (stands_out) {
-    search.fit_pairs();
-    search.extend_singles();
-    search.judge_misfit();
-    search.complete_pairs();
-    for (int effects = 2; effects < thresholds::most_effects; ++effects) search.extend_best(effects);
-  }
-  return {base, std::move(signatures), unnamed, std::move(search).result(stands_out)};
+  const bool stands_out = signatures.p_value <= thresholds::family_level;
+  Candidates candidates = candidates_of(base, signatures.all, stands_out, options);
+  return {base, std::move(signatures), unnamed, std::move(candidates)};
 }
 
 double p_beside_others(const Attribution& found, const CandidateModel& candidate, int term,

@@ -9,6 +9,11 @@
 
 namespace soilbin::compare {
 
+/// What the means of pooled runs do not show of all of them (pooled_runs.hpp).
+struct Hidden {
+  double cells = 0.0, chi2 = 0.0;
+};
+
 /// What every model of a campaign is fitted to. Made by the base fit and never changed after; the models that compete
 /// share one, so that their chi2 can be compared.
 struct Dataset {
@@ -17,6 +22,7 @@ struct Dataset {
   std::vector<bool> outlier;  ///< of the cells given: set aside
   NoiseFloor noise;
   Whitening whitening;  ///< takes that noise off, at the base model's predictions
+  Hidden hidden;        ///< where the observations are pooled runs
   Eigen::Index cells() const { return static_cast<Eigen::Index>(observations.cells.size()); }
 };
 

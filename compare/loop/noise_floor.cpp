@@ -29,7 +29,11 @@ double NoiseFloor::typical_freedom() const {
   return measured > 0 ? freedom() / static_cast<double>(measured) : 1.0;
 }
 
-Whitening::Whitening(const Observations& observations, const NoiseFloor& noise, const VectorXd& prediction) {
+Whitening::Whitening(const Observations& observations, const NoiseFloor& noise, const VectorXd& prediction)
+    : Whitening(observations, noise, prediction, VectorXd::Ones(prediction.size())) {}
+
+Whitening::Whitening(const Observations& observations, const NoiseFloor& noise, const VectorXd& prediction,
+                     const VectorXd& counts) {
   const std::vector<Cell>& cells = observations.cells;
   for (std::size_t first = 0; first < cells.size();) {
     std::size_t last = first;
@@ -39,9 +43,9 @@ Whitening::Whitening(const Observations& observations, const NoiseFloor& noise, 
     for (Index i = 0; i < n; ++i)
       for (Index j = 0; j < n; ++j) {
         const Cell &a = cells[first + i], &b = cells[first + j];
-        covariance(i, j) = noise.correlation(a.channel, b.channel) *
-                           noise.channels[a.channel].sd(prediction[first + i]) *
-                           noise.channels[b.channel].sd(prediction[first + j]);
+        covariance(i, j) =
+            noise.correlation(a.channel, b.channel) * noise.channels[a.channel].sd(prediction[first + i]) *
+            noise.channels[b.channel].sd(prediction[first + j]) / std::sqrt(counts[first + i] * counts[first + j]);
       }
     const MatrixXd factor = covariance.llt().matrixL();
     blocks_.push_back(
@@ -71,8 +75,20 @@ Whitening Whitening::beside(const MatrixXd& columns) const {
   joined.term_basis_ =
       Eigen::HouseholderQR<MatrixXd>(columns).householderQ() * MatrixXd::Identity(columns.rows(), wide);
   const MatrixXd r = joined.term_basis_.transpose() * columns, one = MatrixXd::Identity(wide, wide);
+  joined.term_columns_ = columns;
   joined.term_change_ = MatrixXd(one + r * r.transpose()).llt().matrixL().solve(one) - one;
   return joined;
+}
+
+MatrixXd Whitening::term() const {
+  MatrixXd columns = term_columns_;
+  for (const Block& b : blocks_) {
+    if (columns.size() == 0) break;
+    const Index n = b.inverse_factor.rows();
+    columns.middleRows(b.first, n) =
+        b.inverse_factor.triangularView<Eigen::Lower>().solve(term_columns_.middleRows(b.first, n));
+  }
+  return columns;
 }
 
 namespace {

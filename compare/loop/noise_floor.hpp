@@ -31,10 +31,15 @@ struct NoiseFloor {
 class Whitening {
  public:
   Whitening(const Observations& observations, const NoiseFloor& noise, const Eigen::VectorXd& prediction);
+  /// The same where a cell is the mean of so many.
+  Whitening(const Observations& observations, const NoiseFloor& noise, const Eigen::VectorXd& prediction,
+            const Eigen::VectorXd& counts);
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& columns) const;
   Eigen::VectorXd operator()(const Eigen::VectorXd& column) const;
   /// The same where a term of whitened columns, each of a weight with a unit normal prior, counts as noise too.
   Whitening beside(const Eigen::MatrixXd& columns) const;
+  /// That term's columns in the cells' units; empty where there is none.
+  Eigen::MatrixXd term() const;
 
  private:
   struct Block {
@@ -46,7 +51,7 @@ class Whitening {
 
   std::vector<Block> blocks_;
   /// Beside a term of columns U = Q R: then v becomes v + Q (L^-1 - 1) Q' v, L L' = 1 + R R'. Empty: no term.
-  Eigen::MatrixXd term_basis_, term_change_;
+  Eigen::MatrixXd term_basis_, term_change_, term_columns_;
 };
 
 /// What a noise estimate starts from: the cells' residuals about the declared soil's linearised prediction,

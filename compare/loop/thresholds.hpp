@@ -77,6 +77,12 @@ inline constexpr double far_from_noise = 3.0;
 inline constexpr int completed_pairs = 3, completed_pairs_far = 5, rounds_far = 2;
 inline constexpr double completed_within = 15.0;
 
+/// Runs beside which candidates are searched; a campaign of more is pooled to as many, and what is found is fitted to
+/// all [runs]. Chosen: twice the largest campaign that the rest was tuned on.
+inline constexpr int most_searched_rows = 200;
+/// Sets of effects that are fitted to all runs then, and forms of each. Chosen.
+inline constexpr std::size_t sets_fitted_again = 10, forms_fitted_again = 2;
+
 // --- stage 5: choice and verdict ---
 
 /// Measured values beyond the soil's free ones, and conditions, that a verdict needs. Chosen.

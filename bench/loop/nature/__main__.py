@@ -13,6 +13,7 @@ def main(argv=None):
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--only", help="one kind alone: null_rich null_poor one_rich one_poor two unknown outliers")
+    parser.add_argument("--rows", type=int, help="runs of each campaign, in place of what its plan draws")
     parser.add_argument("--out", help="folder for c001.., truth.json and the hidden .nature/")
     parser.add_argument("--more", metavar="CAMPAIGN", help="append runs to this campaign")
     parser.add_argument("--condition", default="{}", help='JSON, e.g. {"slip": 0.5, "load_N": 400}')
@@ -32,7 +33,7 @@ def main(argv=None):
     if not args.out or (args.only and args.only not in sets.KINDS):
         parser.error("--out is needed, and --only must be a kind")
     start = time.time()
-    truth = sets.generate(args.set, args.seed, args.count, args.out, args.only, say=lambda text: print(text, file=sys.stderr))
+    truth = sets.generate(args.set, args.seed, args.count, args.out, args.only, say=lambda text: print(text, file=sys.stderr), runs=args.rows)
     print(f"{len(truth)} campaigns in {time.time() - start:.1f} s")
     return 0
 

@@ -37,9 +37,13 @@ def usable(world, kind, strict=True):
     return True
 
 
-def draw_world(rng, needs, rich):
-    """A campaign without effects: wheel, soil, prior, plan, balanced rows, noise; None where some run has no balance."""
+def draw_world(rng, needs, rich, runs=None):
+    """A campaign without effects: wheel, soil, prior, plan, balanced rows, noise; None where some run has no balance.
+
+    runs: how many, in place of what the plan draws.
+    """
     plan = design.draw_plan(rng, needs, rich)
+    plan["runs"] = runs or plan["runs"]
     wheel = design.draw_wheel(rng, needs)
     soil = design.draw_soil(rng, wheel)
     sd = design.draw_prior(rng, soil)

@@ -64,11 +64,11 @@ def refit_ratios(world, forms):
     return [float(np.sqrt(sensitivity.refit(world, forms, other) / sensitivity.DETECTABLE)) for other in others]
 
 
-def attempt_known(rng, kind, ids, rich):
+def attempt_known(rng, kind, ids, rich, runs):
     """World, forms, total change, ratio of each; None where these draws give no fair campaign."""
     kinds = [pick(rng, catalogue()[name]) for name in ids]
     needs = {need for k in kinds for need in k.NEEDS}
-    world = campaign.draw_world(rng, needs, rich)
+    world = campaign.draw_world(rng, needs, rich, runs)
     if world is None or not all(campaign.usable(world, k) for k in kinds):
         return None
     low, high = ratio_range(kind)
@@ -88,10 +88,10 @@ def attempt_known(rng, kind, ids, rich):
     return world, forms, total, ratios
 
 
-def attempt_unknown(rng, rich):
+def attempt_unknown(rng, rich, runs):
     """The same for an effect outside the catalogue: its size is what neither one family nor two forms can take over."""
     kind = pick(rng, unknown())
-    world = campaign.draw_world(rng, set(kind.NEEDS), rich)
+    world = campaign.draw_world(rng, set(kind.NEEDS), rich, runs)
     if world is None or not campaign.usable(world, kind):
         return None
     found = sensitivity.families(world, rng, lambda k: campaign.usable(world, k, False))
@@ -108,14 +108,14 @@ def attempt_unknown(rng, rich):
     return (world, [form], d, [measure(d)]) if measure(d) <= whole * 1.05 <= 12 else None
 
 
-def draw(set_name, seed, index, kind, ids):
+def draw(set_name, seed, index, kind, ids, runs=None):
     """Record and truth of campaign `index` (from 1); tries until the effects are of the wanted size."""
     rich = {"null_rich": True, "one_rich": True, "null_poor": False, "one_poor": False}.get(kind)
     for attempt in range(TRIES):
         key = [seed, STREAMS[set_name], index, attempt]
         rng = np.random.default_rng(key)
         is_rich = bool(rng.random() < 0.75) if rich is None else rich
-        made = attempt_unknown(rng, is_rich) if kind == "unknown" else attempt_known(rng, kind, ids, is_rich)
+        made = attempt_unknown(rng, is_rich, runs) if kind == "unknown" else attempt_known(rng, kind, ids, is_rich, runs)
         if made:
             break
     else:
@@ -181,14 +181,14 @@ def wanted_ids(set_name, seed, count, only):
         yield kind, ids
 
 
-def generate(set_name, seed, count, out, only=None, say=lambda text: None):
+def generate(set_name, seed, count, out, only=None, say=lambda text: None, runs=None):
     """Write a set of campaigns c001.. and truth.json into `out`; a campaign whose ids find no fair design takes the next id."""
     out = Path(out)
     truth, names = {}, sorted(catalogue())
     for i, (kind, ids) in enumerate(wanted_ids(set_name, seed, count, only), start=1):
         name, made = f"c{i:03d}", None
         for _ in range(5):
-            made = draw(set_name, seed, i, kind, ids)
+            made = draw(set_name, seed, i, kind, ids, runs)
             if made:
                 break
             say(f"{name}: no fair design for {kind} {ids}")
