@@ -6,6 +6,7 @@
 #include "cli/commands.hpp"
 #include "cli/element_test_flags.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
@@ -18,7 +19,7 @@ namespace soilbin::cli {
 namespace {
 
 struct BevameterOptions {
-  std::string soil, output;
+  std::string soil, output, plot;
   int packings = 2;
   bool json = false;
   ElementTestFlags flags;
@@ -102,6 +103,9 @@ int bevameter(const BevameterOptions& options, const Session& session) {
       soil.name, options.packings, number(options.flags.specimen(grains_of(soil)).settling_friction));
   Outputs outputs;
   outputs.file(options.output, [&] { return write_soil(with_bevameter(soil, fit, measured.density, source)); });
+  outputs.drawing(options.plot, [&] {
+    return compare::bevameter_sheet("bevameter: " + soil.name, measured.plates, measured.shear, fit);
+  });
   if (options.json) {
     nlohmann::ordered_json document = {{"format", "soilbin-bevameter/1"}, {"soil", soil.name}};
     for (const SoilParameter& p : bevameter_parameters) document[p.name] = compare::estimate_json(fit.soil.*p.value);
@@ -123,6 +127,9 @@ void add_bevameter(CLI::App& app, Session& session) {
   const auto options = std::make_shared<BevameterOptions>();
   command->add_option("soil", options->soil, "of the library, or a YAML file")->type_name("SOIL")->required();
   add_file(*command, "--output", options->output, "FILE.yaml", "save the soil with these values");
+  command->add_option("--plot", options->plot, "draw the curves (points) and the fit (lines)")
+      ->type_name("FILE.svg|png|pdf")
+      ->check(drawing_file());
   command->add_option("--packings", options->packings, "number of beds, 2; their scatter is the error")->type_name("N");
   command->add_flag("--json", options->json, "soilbin-bevameter/1, in SI");
   options->flags.add_to(*command);

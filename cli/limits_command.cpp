@@ -11,9 +11,11 @@
 #include "bekker_wong/model.hpp"
 #include "cli/commands.hpp"
 #include "cli/described_flags.hpp"
+#include "cli/outputs.hpp"
 #include "cli/question.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "compare/measured/csv.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
@@ -141,6 +143,46 @@ nlohmann::ordered_json limits_json(const LimitsAnswer& answer) {
   return row;
 }
 
+std::string limits_csv(const std::vector<LimitsAnswer>& answers) {
+  std::string text =
+      "model,load_N,speed_m_s,transverse_incline_deg,yaw_deg,pass,slope_deg,slip,largest_pull_N,slip_of_largest_pull,"
+      "error\n";
+  for (const LimitsAnswer& answer : answers) {
+    const OperatingCondition& at = answer.at;
+    const std::string asked = fmt::format("{},{},{},{},{},{}", compare::csv_cell(answer.model.label), at.load,
+                                          answer.at_every_speed ? "" : fmt::format("{}", at.speed),
+                                          at.transverse_incline / degree, at.yaw / degree, at.pass);
+    if (!answer.error.empty()) text += asked + ",,,,," + compare::csv_cell(answer.error) + '\n';
+    for (const SlopeRow& row : answer.slopes)
+      text += fmt::format("{},{},{},{},{},\n", asked, row.slope / degree, row.slip ? fmt::format("{}", *row.slip) : "",
+                          row.best.drawbar_pull, row.best.slip);
+  }
+  return text;
+}
+
+/// Largest pull against the slope, and the slips: a colour for each model and load.
+compare::Sheet limits_sheet(const Case& question, const std::vector<LimitsAnswer>& answers) {
+  const compare::Axis slope{"slope [deg]", {}, {}};
+  compare::Sheet sheet{fmt::format("{} on {}", question.scenario.tire.name, compare::in_words(question.scenario.soil)),
+                       {{"Largest pull [N]", slope, {}, {}}, {"Slip [%]", slope, {}, {}}},
+                       compare::Palette::named};
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const LimitsAnswer& answer = answers[i];
+    const std::string which =
+        answers.size() < 2 ? "" : fmt::format("{}, {} N", answer.model.label, number(answer.at.load));
+    const auto add = [&](std::size_t plot, const std::string& label, int dash, const auto& value) {
+      compare::Series series{which.empty() ? label : which + (label.empty() ? "" : ": " + label), {}, {}, {}};
+      series.mark = compare::Mark::line_and_points, series.color = static_cast<int>(i), series.dash = dash;
+      for (const SlopeRow& row : answer.slopes) series.x.push_back(row.slope / degree), series.y.push_back(value(row));
+      sheet.plots[plot].series.push_back(std::move(series));
+    };
+    add(0, "", 0, [](const SlopeRow& row) { return row.best.drawbar_pull; });
+    add(1, "while it travels", 0, [](const SlopeRow& row) { return row.slip ? 100 * *row.slip : not_a_number; });
+    add(1, "where it pulls most", 1, [](const SlopeRow& row) { return 100 * row.best.slip; });
+  }
+  return sheet;
+}
+
 /// The wheel where it pulls most on each slope: what there is to doubt in the answer.
 std::vector<compare::ModelAnswers> answers_at_the_limits(const Case& question,
                                                          const std::vector<LimitsAnswer>& answers) {
@@ -159,7 +201,12 @@ std::vector<compare::ModelAnswers> answers_at_the_limits(const Case& question,
   return study;
 }
 
-int limits(const Question& inputs, bool json, const Session& session) {
+struct LimitsOptions {
+  bool json = false;
+  std::string csv, plot;
+};
+
+int limits(const Question& inputs, const LimitsOptions& options, const Session& session) {
   for (const char* key : {"slip", "longitudinal_incline"})
     if (inputs.given(key))
       throw InputError(
@@ -181,7 +228,10 @@ int limits(const Question& inputs, bool json, const Session& session) {
     }
   const std::vector<std::string> doubts = compare::doubts(question, answers_at_the_limits(question, answers));
   print_warnings(doubts);
-  if (json) {
+  Outputs outputs;
+  outputs.file(options.csv, [&] { return limits_csv(answers); });
+  outputs.drawing(options.plot, [&] { return limits_sheet(question, answers); });
+  if (options.json) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const LimitsAnswer& answer : answers) rows.push_back(limits_json(answer));
     fmt::print("{}", compare::json_text(document_of("soilbin-limits/1", question, rows, doubts)));
@@ -190,7 +240,7 @@ int limits(const Question& inputs, bool json, const Session& session) {
     for (const LimitsAnswer& answer : answers) fmt::print("\n{}", limits_text(answer));
   }
   for (const LimitsAnswer& answer : answers)
-    if (answer.error.empty()) return done;
+    if (answer.error.empty()) return outputs.status(done);
   fmt::print(stderr, "soilbin: no solution: {}\n", answers.front().error);
   return failed;
 }
@@ -200,12 +250,16 @@ int limits(const Question& inputs, bool json, const Session& session) {
 void add_limits(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("limits", "the largest pull and the steepest slope, and the slip for each");
   const auto inputs = std::make_shared<Question>(*command, std::vector<std::string>{"load"});
-  const auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "soilbin-limits/1, in SI");
+  const auto options = std::make_shared<LimitsOptions>();
+  command->add_option("--plot", options->plot, "draw the largest pull and the slips against the slope")
+      ->type_name("FILE.svg|png|pdf")
+      ->check(drawing_file());
+  add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");
+  command->add_flag("--json", options->json, "soilbin-limits/1, in SI");
   command->footer(
       "A load that has no solution is told in its place; the status is 1 where none has one.\n"
       "Example: soilbin limits --tire rover-wheel --soil dry-sand --load 64.68N");
-  command->callback([=, &session] { session.action = [=, &session] { return limits(*inputs, *json, session); }; });
+  command->callback([=, &session] { session.action = [=, &session] { return limits(*inputs, *options, session); }; });
 }
 
 }  // namespace soilbin::cli

@@ -18,7 +18,7 @@ namespace soilbin::cli {
 namespace {
 
 struct PredictOptions {
-  std::string campaign, model, plot;
+  std::string campaign, model, plot, csv;
   bool json = false;
 };
 
@@ -42,6 +42,7 @@ int predict(const PredictOptions& options, const Session& session) {
   const std::vector<std::string> doubts = compare::doubts(campaign, scenario, prediction);
   print_warnings(doubts);
   Outputs outputs;
+  outputs.file(options.csv, [&] { return compare::prediction_csv(prediction); });
   outputs.drawing(options.plot, [&] { return compare::campaign_sheet(campaign, prediction); });
   if (options.json) {
     nlohmann::ordered_json document = compare::to_json(prediction, campaign.name);
@@ -73,6 +74,7 @@ void add_predict(CLI::App& app, Session& session) {
   command->add_option("--plot", options->plot, "draw measured and predicted against slip")
       ->type_name("FILE.svg|png|pdf")
       ->check(drawing_file());
+  add_file(*command, "--csv", options->csv, "FILE.csv", "save each run as measured and as predicted");
   command->add_flag("--json", options->json, "soilbin-predict/1, in SI");
   command->footer("Example: soilbin predict cmu-smooth --plot predicted.svg");
   command->callback([=, &session] { session.action = [=, &session] { return predict(*options, session); }; });

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bekker_wong/plate_fit.hpp"
+#include "compare/report/plot.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
@@ -42,6 +43,11 @@ struct BevameterFit {
 /// every curve of equal relative weight, errors by the scatter about it. K: mean over the curves, with its error.
 /// A cohesion below 0 is given as 0, since the model takes no other. Throws InputError.
 BevameterFit fit_bevameter(std::span<const PlateSet> plates, std::span<const ShearCurve> shear);
+
+/// Pressure against sinkage of each plate and shear stress against displacement under each normal stress: the curves as
+/// points, the fit as lines. Plates of one radius, and rings under nearly one stress, share a colour.
+Sheet bevameter_sheet(const std::string& title, std::span<const PlateSet> plates, std::span<const ShearCurve> shear,
+                      const BevameterFit& fit);
 
 /// The soil with these values as its semi-empirical part. What a bevameter does not tell (c1, c2) stays as it was, or
 /// is Azimi's choice for sand where there was nothing; `source` is noted at each number that comes from the fit.

@@ -21,7 +21,8 @@ double deepest(const HeatMap& map) {
   return most > 0.0 ? most : 1.0;
 }
 
-std::string cell_svg(const HeatCell& cell, double x, double y, double limit, std::size_t row, std::size_t column) {
+std::string cell_svg(const HeatMap& map, double x, double y, double limit, std::size_t row, std::size_t column) {
+  const HeatCell& cell = map.cells[row][column];
   if (!std::isfinite(cell.value))
     return fmt::format(R"(<rect class="cell-empty" fill="none" stroke="#dfe3e8" x="{:.0f}" y="{:.0f}" width="{:.0f}" )"
                        R"(height="{:.0f}"/>)",
@@ -31,12 +32,14 @@ std::string cell_svg(const HeatCell& cell, double x, double y, double limit, std
   const auto palette = colors(Palette::named);
   const int side = cell.value < 0.0 ? 0 : 1;
   return fmt::format(
-      R"(<g class="cell" role="img" data-row="{}" data-column="{}" data-tip="{}" aria-label="{}"><title>{}</title>)"
+      R"(<g class="cell" role="img" data-row="{}" data-column="{}" data-x="{}" data-y="{}" data-value="{:.6g}" )"
+      R"(data-tip="{}" aria-label="{}"><title>{}</title>)"
       R"(<rect class="f c{}" fill="{}" fill-opacity="{:.2f}" x="{:.0f}" y="{:.0f}" width="{:.0f}" height="{:.0f}"/>)"
       R"(<text class="{}" fill="{}" x="{:.0f}" y="{:.0f}" text-anchor="middle"{}>{}</text></g>)",
-      row, column, escaped(cell.meaning), escaped(cell.meaning), escaped(cell.meaning), side,
-      palette[static_cast<std::size_t>(side)].light, 0.08 + 0.5 * depth, x + 1, y + 1, cell_width - 2, cell_height - 2,
-      cell.counts ? "ink" : "quiet", cell.counts ? "#1a1d23" : "#5a6270", x + cell_width / 2, y + cell_height / 2 + 4,
+      row, column, escaped(map.x[column]), escaped(map.y[row]), cell.value, escaped(cell.meaning),
+      escaped(cell.meaning), escaped(cell.meaning), side, palette[static_cast<std::size_t>(side)].light,
+      0.08 + 0.5 * depth, x + 1, y + 1, cell_width - 2, cell_height - 2, cell.counts ? "ink" : "quiet",
+      cell.counts ? "#1a1d23" : "#5a6270", x + cell_width / 2, y + cell_height / 2 + 4,
       cell.counts ? R"( font-weight="600")" : "", escaped(cell.text));
 }
 
@@ -58,7 +61,7 @@ std::string heat_map_svg(const HeatMap& map) {
     body += fmt::format(R"(<text class="quiet" fill="#5a6270" x="{:.0f}" y="{:.0f}" text-anchor="end">{}</text>)",
                         left - 6, y + cell_height / 2 + 4, escaped(map.y[r]));
     for (std::size_t c = 0; c < map.x.size(); ++c)
-      body += cell_svg(map.cells[r][c], left + cell_width * static_cast<double>(c), y, limit, r, c);
+      body += cell_svg(map, left + cell_width * static_cast<double>(c), y, limit, r, c);
   }
   for (std::size_t c = 0; c < map.x.size(); ++c)
     body += fmt::format(R"(<text class="quiet" fill="#5a6270" x="{:.0f}" y="{:.0f}" text-anchor="middle">{}</text>)",

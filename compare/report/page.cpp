@@ -60,8 +60,9 @@ std::string page_style() {
       "--ground:#111418;--paper:#191d23;--ink:#e8eaee;--quiet:#a2abb8;--edge:#2d333c;--line:#6d7683;--link:#6cb6ff;" +
       palette_properties(&Color::dark);
   return fmt::format(
-      ":root{{color-scheme:light dark;{}}}\n@media screen and (prefers-color-scheme:dark){{:root{{{}}}}}\n{}{}", light,
-      dark, '\n' + embedded(own_files(), "page.css"), palette_rules());
+      ":root{{color-scheme:light dark}}:root,.as-saved{{{}}}\n@media screen and "
+      "(prefers-color-scheme:dark){{:root{{{}}}}}\n{}{}",
+      light, dark, '\n' + embedded(own_files(), "page.css"), palette_rules());
 }
 
 }  // namespace
@@ -182,7 +183,7 @@ void Page::choices(const std::string& what, const std::vector<Choice>& parts, st
 
 void Page::replay(const std::string& title, const std::string& bytes, const std::string& caption) {
   has_replay_ = true;
-  const bool can = libraries_ && libraries_->three && libraries_->orbit;
+  const bool can = libraries_.three && libraries_.orbit;
   body_ += fmt::format(
       "<figure><div class=\"replay\" role=\"group\" aria-label=\"Replay in 3D: {}\"><p "
       "class=\"replay-note\">{}</p></div>"
@@ -201,12 +202,11 @@ void Page::open_fold(const std::string& title, const std::string& anchor) {
 void Page::close_fold() { body_ += "</details>\n"; }
 
 std::string Page::scripts() const {
-  if (!libraries_) return "";
   nlohmann::ordered_json figures = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < sheets_.size(); ++i) figures[fmt::format("figure-{}", i + 1)] = to_json(sheets_[i]);
   return "<script type=\"application/json\" id=\"figures\">" +
          json_in_script(figures.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) + "</script>\n" +
-         script_elements(*libraries_, has_replay_) +
+         script_elements(libraries_, has_replay_) +
          (extra_scripts_.empty() ? "" : "<script>\n" + in_script(extra_scripts_) + "</script>\n");
 }
 

@@ -55,7 +55,9 @@ struct Choice {
   std::function<void()> fill;
 };
 
-/// A page that grows from top to bottom. Every text is escaped; none is taken as HTML, but for `raw`.
+/// A page that grows from top to bottom. Its figures are charts to zoom and to read by mouse and keys, each with
+/// buttons that save it (SVG, PNG) and its data (copy, CSV, JSON); without scripts they are drawings. Every text is
+/// escaped; none is taken as HTML, but for `raw`.
 class Page {
  public:
   Page(std::string title, std::string subtitle);
@@ -87,9 +89,9 @@ class Page {
   /// One of the parts at a time, chosen from a list; all of them below each other where there are no scripts. `first`
   /// is shown at the start.
   void choices(const std::string& what, const std::vector<Choice>& parts, std::size_t first);
-  /// From now on the page has scripts: figures become interactive where a library for it was found.
+  /// Other libraries than those that find_libraries() finds: figures are interactive where d3 is among them.
   void enliven(Libraries libraries) { libraries_ = std::move(libraries); }
-  /// A script of the caller's, after the page's own; needs `enliven`.
+  /// A script of the caller's, after the page's own.
   void script(const std::string& text) { extra_scripts_ += text; }
   /// A replay to look at in 3D, the bytes of its file; without scripts its title and caption alone.
   void replay(const std::string& title, const std::string& bytes, const std::string& caption);
@@ -113,7 +115,7 @@ class Page {
   std::string title_, subtitle_, body_, extra_scripts_;
   std::vector<std::pair<std::string, std::string>> sections_;  ///< anchor, title
   std::vector<Sheet> sheets_;
-  std::optional<Libraries> libraries_;
+  Libraries libraries_ = find_libraries();
   bool has_replay_ = false;
 };
 

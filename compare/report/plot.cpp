@@ -24,6 +24,7 @@ struct Entry {
   const Series* series = nullptr;
   bool line = false;
   bool points = false;
+  bool area = false;
 };
 
 std::vector<Entry> entries_of(const Sheet& sheet) {
@@ -34,8 +35,10 @@ std::vector<Entry> entries_of(const Sheet& sheet) {
       auto entry =
           std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.series->label == series.label; });
       if (entry == entries.end()) entry = entries.insert(entries.end(), Entry{&series});
-      entry->line = entry->line || series.mark != Mark::points;
-      entry->points = entry->points || series.mark != Mark::line;
+      const bool area = !series.base.empty();
+      entry->area = entry->area || area;
+      entry->line = entry->line || (!area && series.mark != Mark::points);
+      entry->points = entry->points || (!area && series.mark != Mark::line);
     }
   return entries;
 }
@@ -44,6 +47,9 @@ std::vector<Entry> entries_of(const Sheet& sheet) {
 std::string swatch(const Sheet& sheet, const Entry& entry, double x, double y) {
   std::string out;
   const int color = color_of(sheet, *entry.series);
+  if (entry.area)
+    out += fmt::format(R"(<rect {} fill-opacity="0.45" x="{:.1f}" y="{:.1f}" width="26" height="10"/>)",
+                       fill(sheet.palette, color), x, y - 5);
   if (entry.line)
     out += fmt::format(R"(<line {}{} stroke-width="2" x1="{:.1f}" x2="{:.1f}" y1="{:.1f}" y2="{:.1f}"/>)",
                        stroke(sheet.palette, color), dashes(entry.series->dash), x, x + 26, y, y);

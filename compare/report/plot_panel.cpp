@@ -49,6 +49,7 @@ class Frame {
         x.take(series.x[i]);
         y.take(series.y[i] - error_at(series, i));
         y.take(series.y[i] + error_at(series, i));
+        if (!series.base.empty()) y.take(series.base[i]);
       }
     if (plot.identity_line) x.take(y.lower), x.take(y.upper), y.take(x.lower), y.take(x.upper);
     x_ = with_room(x, plot.x, 0.02);
@@ -133,23 +134,27 @@ std::vector<std::pair<std::size_t, std::size_t>> unbroken(const Series& series) 
   return parts;
 }
 
+/// What a series fills: its band of one standard error, or the area down to its base.
 std::string band(const Sheet& sheet, const Series& series, const Frame& f) {
   std::string out;
-  if (series.error.empty() || series.mark == Mark::points) return out;
+  const bool area = !series.base.empty();
+  if (!area && (series.error.empty() || series.mark == Mark::points)) return out;
   for (const auto& [first, last] : unbroken(series)) {
     std::string upper, lower;
     for (std::size_t i = first; i < last; ++i) {
-      upper += fmt::format("{:.1f},{:.1f} ", f.x(series.x[i]), f.y(series.y[i] + error_at(series, i)));
-      lower = fmt::format("{:.1f},{:.1f} ", f.x(series.x[i]), f.y(series.y[i] - error_at(series, i))) + lower;
+      const double high = area ? series.y[i] : series.y[i] + error_at(series, i);
+      const double low = area ? series.base[i] : series.y[i] - error_at(series, i);
+      upper += fmt::format("{:.1f},{:.1f} ", f.x(series.x[i]), f.y(high));
+      lower = fmt::format("{:.1f},{:.1f} ", f.x(series.x[i]), f.y(low)) + lower;
     }
-    out += fmt::format(R"(<polygon {} fill-opacity="0.15" points="{}"/>)", fill(sheet.palette, color_of(sheet, series)),
-                       upper + lower);
+    out += fmt::format(R"(<polygon {} fill-opacity="{}" points="{}"/>)", fill(sheet.palette, color_of(sheet, series)),
+                       area ? 0.45 : 0.15, upper + lower);
   }
   return out;
 }
 
 std::string line(const Sheet& sheet, const Series& series, const Frame& f) {
-  if (series.mark == Mark::points) return "";
+  if (series.mark == Mark::points || !series.base.empty()) return "";
   std::string path;
   for (const auto& [first, last] : unbroken(series))
     for (std::size_t i = first; i < last; ++i)
@@ -160,7 +165,7 @@ std::string line(const Sheet& sheet, const Series& series, const Frame& f) {
 }
 
 std::string points(const Sheet& sheet, const Series& series, const Frame& f) {
-  if (series.mark == Mark::line && series.y.size() > 1) return "";
+  if ((series.mark == Mark::line && series.y.size() > 1) || !series.base.empty()) return "";
   const int color = color_of(sheet, series);
   std::string out;
   for (std::size_t i = 0; i < series.y.size(); ++i) {

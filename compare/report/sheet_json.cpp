@@ -43,6 +43,7 @@ Json to_json(const Sheet& sheet) {
            {"x", numbers(series.x)},
            {"y", numbers(series.y)},
            {"error", numbers(series.error)},
+           {"base", numbers(series.base)},
            {"mark", mark_words[static_cast<std::size_t>(series.mark)]},
            {"color", fmt::format("{}{}", sheet.palette == Palette::named ? 'c' : 'q', color_of(sheet, series))},
            {"dash", series.dash}});
@@ -58,7 +59,8 @@ std::string sheet_csv(const Sheet& sheet) {
     for (const Series& series : plot.series)
       for (std::size_t i = 0; i < series.x.size(); ++i)
         text += fmt::format("{},{},{},{},{}\n", csv_cell(plot.title), csv_cell(series.label), cell(series.x[i]),
-                            cell(series.y[i]), i < series.error.size() ? cell(series.error[i]) : "");
+                            cell(series.base.empty() ? series.y[i] : series.y[i] - series.base[i]),
+                            i < series.error.size() ? cell(series.error[i]) : "");
   return text;
 }
 

@@ -7,12 +7,11 @@
 
 namespace soilbin::compare {
 
-/// {"title", "plots": [{"title", "x": {"title", "lower", "upper"}, "y", "series": [{"label", "x", "y", "error", "mark",
-/// "color": "c0", "dash"}]}]}; numbers have six digits, and what is not a number
-/// is null.
+/// {"title", "plots": [{"title", "x": {"title", "lower", "upper"}, "y", "series": [{"label", "x", "y", "error", "base",
+/// "mark", "color": "c0", "dash"}]}]}; numbers have six digits, and what is not a number is null.
 nlohmann::ordered_json to_json(const Sheet& sheet);
 
-/// The same as CSV, a row a point: plot, series, x, y, error.
+/// The same as CSV, a row a point: plot, series, x, y (of an area what it adds to the pile), error.
 std::string sheet_csv(const Sheet& sheet);
 
 }  // namespace soilbin::compare

@@ -130,11 +130,16 @@ Json run_json(const PredictedRun& run) {
   return row;
 }
 
+constexpr const char* condition_columns =
+    "load_N,slip,speed_m_s,longitudinal_incline_deg,transverse_incline_deg,yaw_deg,pass,";
+
+std::string condition_cells(const OperatingCondition& at) {
+  return fmt::format("{},{},{},{},{},{},{}", at.load, at.slip, at.speed, at.longitudinal_incline / degree,
+                     at.transverse_incline / degree, at.yaw / degree, at.pass);
+}
+
 std::string csv_row(const std::string& model, const Answer& answer) {
-  const OperatingCondition& at = answer.at;
-  std::string row =
-      fmt::format("{},{},{},{},{},{},{},{}", csv_cell(model), at.load, at.slip, at.speed,
-                  at.longitudinal_incline / degree, at.transverse_incline / degree, at.yaw / degree, at.pass);
+  std::string row = csv_cell(model) + ',' + condition_cells(answer.at);
   if (!answer.result) return row + std::string(12, ',') + ',' + csv_cell(answer.error) + "\n";
   const TractionResult& r = *answer.result;
   for (const ChannelView& channel : channel_views)
@@ -222,12 +227,36 @@ Json to_json(const Prediction& prediction, const std::string& campaign) {
 }
 
 std::string study_csv(const std::vector<ModelAnswers>& study) {
-  std::string text = "model,load_N,slip,speed_m_s,longitudinal_incline_deg,transverse_incline_deg,yaw_deg,pass,";
+  std::string text = std::string("model,") + condition_columns;
   for (const TractionChannel& channel : traction_channels)
     text += column_of(channel) + "," + column_of(channel, "se") + ",";
   text += "tractive_efficiency,theta_1_deg,theta_m_deg,theta_2_deg,error\n";
   for (const ModelAnswers& model : study)
     for (const Answer& answer : model.answers) text += csv_row(model.choice.label, answer);
+  return text;
+}
+
+std::string prediction_csv(const Prediction& prediction) {
+  std::string text = std::string("run,setpoint,") + condition_columns;
+  for (const TractionChannel& channel : traction_channels)
+    text += fmt::format("{},{},{},", column_of(channel, "measured"), column_of(channel, "predicted"),
+                        column_of(channel, "se"));
+  text += "error\n";
+  for (const PredictedRun& run : prediction.runs) {
+    text += fmt::format("{},{},{},", run.run, csv_cell(run.measured.setpoint.value_or("")),
+                        condition_cells(run.measured.at));
+    for (const ChannelView& channel : channel_views) {
+      const std::optional<double>& measured = run.measured.*channel.measured;
+      text += (measured ? fmt::format("{}", *measured) : "") + ',';
+      if (const auto& result = run.predicted.result) {
+        const Estimate& predicted = (*result).*channel.predicted;
+        text += fmt::format("{},{},", predicted.value, predicted.std_error);
+      } else {
+        text += ",,";
+      }
+    }
+    text += csv_cell(run.predicted.error) + '\n';
+  }
   return text;
 }
 

@@ -30,4 +30,8 @@ Json to_json(const Prediction& prediction, const std::string& campaign);
 /// Answers as CSV: model, condition, four results with standard errors, angles, error; SI, angles in degrees.
 std::string study_csv(const std::vector<ModelAnswers>& study);
 
+/// Runs as CSV: run, setpoint, condition, each channel as measured (empty: it wasn't), as predicted, and the
+/// prediction's standard error; error. SI, angles in degrees.
+std::string prediction_csv(const Prediction& prediction);
+
 }  // namespace soilbin::compare

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "cli/command.hpp"
 
@@ -42,6 +43,33 @@ TEST(Predict, EveryRowOfTheCmuCampaignIsAnswered) {
       EXPECT_NEAR(row[key].get<double>() - row["measured"][key].get<double>(), rest.get<double>(), 1e-12);
   }
   EXPECT_GT(solved, 80U);
+}
+
+// The table holds what --json holds, to the bit; an empty cell is a channel that was not measured.
+TEST(Predict, SavesEachRunAsATableAndDrawsIt) {
+  const Scratch scratch;
+  const std::string csv = (scratch / "runs.csv").string(), plot = (scratch / "runs.pdf").string();
+  const Outcome r = soilbin("predict cmu-smooth --json --csv '" + csv + "' --plot '" + plot + "'");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(text_of(plot), testing::StartsWith("%PDF-"));
+  std::istringstream table(text_of(csv));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_THAT(line, HasSubstr("drawbar_pull_measured_N,drawbar_pull_predicted_N,drawbar_pull_se_N"));
+  const nlohmann::json rows = r.json()["rows"];
+  for (const nlohmann::json& row : rows) {
+    ASSERT_TRUE(std::getline(table, line));
+    std::vector<std::string> cells;
+    std::istringstream parts(line);
+    for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
+    if (row.contains("error")) continue;
+    ASSERT_GE(cells.size(), 14U);
+    EXPECT_EQ(std::stod(cells[9]), row["measured"]["drawbar_pull"].get<double>());
+    EXPECT_EQ(std::stod(cells[10]), row["drawbar_pull"].get<double>());
+    EXPECT_EQ(cells[12], "") << "no torque was measured";
+    EXPECT_EQ(std::stod(cells[13]), row["torque"].get<double>());
+  }
+  EXPECT_FALSE(std::getline(table, line));
 }
 
 TEST(Predict, TheErrorTableIsThatOfTheRows) {

@@ -240,7 +240,10 @@ TEST(SlowDriveInGrains, ADriveThatIsInterruptedGoesOnByTheSameCommand) {
 }
 
 TEST(LimitsCommand, TheSlipOnASlopeIsTheSlipOfNoPullThere) {
-  const Outcome r = soilbin("limits --tire rover-wheel --soil dry-sand --load 64.68N --json");
+  const Scratch scratch;
+  const std::string csv = (scratch / "l.csv").string(), plot = (scratch / "l.png").string();
+  const Outcome r = soilbin("limits --tire rover-wheel --soil dry-sand --load 64.68N --json --csv '" + csv +
+                            "' --plot '" + plot + "'");
   ASSERT_EQ(r.status, 0) << r.err;
   const nlohmann::json row = r.json()["rows"].at(0);
   ASSERT_GE(row["slopes"].size(), 3U);
@@ -251,6 +254,12 @@ TEST(LimitsCommand, TheSlipOnASlopeIsTheSlipOfNoPullThere) {
               std::to_string(second["longitudinal_incline"].get<double>() * 180 / 3.14159265358979) + "deg");
   EXPECT_NEAR(there.json()["rows"].at(0)["drawbar_pull"].get<double>(), 0.0, 1e-3);
   EXPECT_NEAR(row["slopes"].back()["largest_pull"].get<double>(), 0.0, 1e-5);
+  EXPECT_THAT(text_of(csv),
+              HasSubstr(fmt::format(",{},{},{},\n", second["slip"].get<double>(), second["largest_pull"].get<double>(),
+                                    second["slip_of_largest_pull"].get<double>())));
+  const std::string table = text_of(csv);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')), 1 + row["slopes"].size());
+  EXPECT_THAT(text_of(plot), StartsWith("\x89PNG"));
 }
 
 TEST(LimitsCommand, AsksForTheLoadAndNoMore) {

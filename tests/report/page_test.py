@@ -3,12 +3,15 @@ console error, charts and replay are there, and what a person can do works, by m
 
 Usage: page_test.py SOILBIN [--pictures DIR]     skipped (exit status 77) where no Chromium is installed
 """
+import csv
+import io
 import os
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
+from xml.etree import ElementTree
 
 import browser
 import replay_of_many
@@ -149,6 +152,39 @@ class ThePage(unittest.TestCase):
 
     def test_8_fits_a_phone_a_desk_and_the_dark(self):
         browser.assert_fits_a_phone_a_desk_and_the_dark(self, self.browser)
+
+    def test_8b_each_figure_is_saved_as_a_drawing_and_its_data_as_a_table(self):
+        self.browser.scheme("dark")  # what is saved is for paper
+        figures = self.js("[...document.querySelectorAll('figure')].filter(f => f.querySelector('svg') && f.offsetWidth"
+                          " && !f.querySelector('.replay')).map((f, i) => (f.dataset.at = i, f.innerHTML.length)).length")
+        self.assertGreater(figures, 3)
+        kept = "(window.saved = {}, soilbin.saveFile = (name, content) => { window.saved[name.split('.').pop()] = content; })"
+        self.js(f"{kept}; navigator.clipboard.writeText = async text => {{ window.copied = text; }}; 0")
+        for i in range(figures):
+            figure = f"document.querySelector('figure[data-at=\"{i}\"]')"
+            takes = self.js(f"[...{figure}.querySelectorAll('[data-take]')].map(b => b.dataset.take)")
+            self.assertEqual(takes[:4], ["svg", "png", "copy", "csv"], i)
+            for take in takes:
+                self.js(f"{figure}.querySelector('[data-take={take}]').click()")
+            self.assertTrue(self.browser.until("window.saved.png"))
+            drawn = ElementTree.fromstring(self.js("window.saved.svg"))
+            words = {"".join(t.itertext()) for t in drawn.iter("{http://www.w3.org/2000/svg}text")}
+            for text in self.js(f"[...{figure}.querySelectorAll('svg text')].map(t => t.textContent)"):
+                self.assertIn(text, words, i)
+            self.assertNotIn("class=", self.js("window.saved.svg"))
+            styles = {t.get("fill") for t in drawn.iter("{http://www.w3.org/2000/svg}text")}
+            self.assertLessEqual(styles, {"rgb(26, 29, 35)", "rgb(90, 98, 112)"}, "the light scheme's ink")
+            self.assertEqual(self.js("window.saved.png.slice(1, 4).text()"), "PNG")
+            table = list(csv.reader(io.StringIO(self.js("window.saved.csv"))))
+            self.assertGreater(len(table), 2, i)
+            self.assertEqual([line.split("\t") for line in self.js("window.copied").split("\n")], table)
+            self.js("window.saved = {}; 0")
+        self.browser.scheme("light")
+        sheet = self.js("JSON.parse(document.getElementById('figures').textContent)['figure-1']")
+        rows = list(csv.reader(io.StringIO(self.js("soilbin.csvOf(soilbin.rowsOf(null, JSON.parse(document.getElementById("
+                                                   "'figures').textContent)['figure-1']))"))))
+        first = sheet["plots"][0]["series"][0]
+        self.assertEqual([float(r[3]) for r in rows[1:1 + len(first["y"])]], first["y"])
 
     def test_9_without_the_libraries_it_says_so_and_shows_drawings(self):
         self.browser.open(self.plain)

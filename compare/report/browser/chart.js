@@ -69,6 +69,7 @@ soilbin.Chart = class {
         const error = series.error[i] || 0;
         xs.push(x);
         ys.push(series.y[i] - error, series.y[i] + error);
+        if (series.base.length) ys.push(series.base[i]);
       });
     const span = (values, axis, room) => {
       let [low, high] = values.length ? d3.extent(values) : [0, 1];
@@ -177,7 +178,8 @@ soilbin.Chart = class {
       series.x.forEach((at, i) => {
         if (Math.abs(at - x) > 1e-9 * Math.max(1, Math.abs(x)) || series.y[i] === null) return;
         const error = series.error[i] ? ` \u00b1 ${soilbin.formatNumber(series.error[i])}` : '';
-        lines.push([series.label, series.color, soilbin.formatNumber(series.y[i]) + error]);
+        const value = soilbin.valueAt(series, i);
+        if (value !== 0 || !series.base.length) lines.push([series.label, series.color, soilbin.formatNumber(value) + error]);
       });
     return lines;
   }
@@ -200,10 +202,19 @@ soilbin.Chart = class {
   }
 };
 
-// Band, line, points and error bars of one series.
+// What a series says at its i-th point: an area its own share of the pile.
+soilbin.valueAt = (series, i) => series.y[i] === null || !series.base.length ? series.y[i]
+  : Number((series.y[i] - series.base[i]).toPrecision(6));
+
+// Area, band, line, points and error bars of one series.
 soilbin.drawSeries = function (marks, series, frame) {
   const points = series.x.map((x, i) => ({x, y: series.y[i], error: series.error[i] || 0}));
   const there = p => p.y !== null, px = p => frame.x(p.x), py = p => frame.y(p.y);
+  if (series.base.length) {
+    marks.append('path').attr('class', `f ${series.color} area`)
+      .attr('d', d3.area().defined(there).x(px).y0((p, i) => frame.y(series.base[i])).y1(py)(points));
+    return;
+  }
   const joined = series.mark !== 'points';
   if (joined && series.error.length)
     marks.append('path').attr('class', `f ${series.color} band`)
