@@ -17,7 +17,7 @@
 namespace soilbin::cli {
 namespace {
 
-constexpr int curve_points = 41;
+constexpr int smooth_points = 41;
 
 struct ReportOptions {
   std::vector<std::string> studies, campaigns, links;
@@ -68,7 +68,7 @@ int report(const ReportOptions& options, const Session& session) {
   for (const std::string& name : options.studies) {
     compare::StudyPart part{find_study(session.place, name), {}, {}, {}};
     part.study = compare::run_study(part.question, shown_progress());
-    part.curves = compare::with_smooth_curves(part.question, curve_points);
+    part.curves = compare::with_smooth_curves(part.question, smooth_points);
     part.along_curves = compare::run_study(part.curves, shown_progress());
     named.add(name, compare::doubts(part.question, part.study));
     studies.push_back(std::move(part));

@@ -7,7 +7,8 @@ soilbin.start = function () {
     for (const [id, sheet] of Object.entries(sheets)) soilbin.enlivenFigure(document.getElementById(id), sheet);
   for (const figure of document.querySelectorAll('figure'))
     if (figure.querySelector('svg') && !figure.querySelector('.replay'))
-      soilbin.addTakeAlong(figure, figure.id || 'figure', sheets[figure.id] && (() => sheets[figure.id]));
+      soilbin.addTakeAlong(figure, figure.id || 'figure', sheets[figure.id] && sheets[figure.id].title || 'this figure',
+                           sheets[figure.id] && (() => sheets[figure.id]));
   for (const svg of document.querySelectorAll('svg.heat')) soilbin.enlivenHeatMap(svg);
   for (const box of document.querySelectorAll('.choices')) soilbin.enlivenChoices(box);
   for (const host of document.querySelectorAll('.replay')) soilbin.startReplay(host);
