@@ -55,7 +55,8 @@ soilbin.drawWheel = function (wheel) {
     add('path', {class: 's c0', fill: 'none', 'stroke-width': 1.6, d: path(outer)});
     add('path', {class: 's c1', fill: 'none', 'stroke-width': 1.6, d: path(inner)});
     for (let k = 1; k < 8; ++k) {
-      const i = Math.round(k / 8 * (arc.length - 1)), theta = wheel.theta[i], shear = pixels * long * wheel.shear[i];
+      const place = wheel.theta[0] + k / 8 * (wheel.theta[arc.length - 1] - wheel.theta[0]);
+      const i = wheel.theta.findIndex(theta => theta >= place), theta = wheel.theta[i], shear = pixels * long * wheel.shear[i];
       arrow(...outer[i], ...arc[i], 'c0', 1);
       arrow(...arc[i], arc[i][0] + shear * Math.cos(theta), arc[i][1] - shear * Math.sin(theta), 'c1');
     }
