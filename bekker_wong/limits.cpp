@@ -71,6 +71,21 @@ std::optional<double> slip_for_pull(const RollingWheel& wheel, const OperatingCo
                              "the slip for a pull");
 }
 
+std::optional<double> largest_load(const RollingWheel& wheel, OperatingCondition at, double beyond) {
+  const auto carries = [&](double load) {
+    at.load = load;
+    return pull_at(wheel, at, at.slip) != nothing;
+  };
+  double low = 1e-6 * beyond, high = beyond;
+  if (!carries(low)) return {};
+  if (carries(high)) return high;
+  while (high - low > 1e-4 * low) {
+    const double middle = std::sqrt(low * high);
+    (carries(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
 std::optional<double> steepest_slope(const RollingWheel& wheel, const OperatingCondition& at, double drawbar) {
   constexpr double low = -60 * degree, high = 80 * degree;
   const auto spare = [&](double slope) {

@@ -20,6 +20,10 @@ PullPeak largest_pull(const RollingWheel& wheel, const OperatingCondition& at);
 /// Smallest slip above -0.5 at which the wheel pulls `drawbar` [N] on the slope that `at` gives; none where it can't.
 std::optional<double> slip_for_pull(const RollingWheel& wheel, const OperatingCondition& at, double drawbar = 0.0);
 
+/// The largest load [N] up to `beyond` that the soil carries under the wheel at the slip and on the slope of `at`, to
+/// 1e-4 of it, by bisection; none where it carries no millionth of `beyond`.
+std::optional<double> largest_load(const RollingWheel& wheel, OperatingCondition at, double beyond);
+
 /// Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N]: there its largest pull is just that.
 /// Between -60 and 80 deg; none where it does not even get down the one, or would climb the other.
 std::optional<double> steepest_slope(const RollingWheel& wheel, const OperatingCondition& at, double drawbar = 0.0);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/described_flags.hpp"
+#include "cli/soil_flags.hpp"
 #include "cli/workplace.hpp"
 #include "compare/sweep/answers.hpp"
 
@@ -56,6 +57,7 @@ class Question {
   DescribedFlags<Tire> wheel_;
   DescribedFlags<Lugs> lugs_;
   DescribedFlags<Bin> bin_;
+  SoilFlags soil_values_;
   ConditionFlags condition_;
 };
 

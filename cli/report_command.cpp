@@ -1,6 +1,7 @@
 // soilbin report: studies and measured campaigns as one HTML page that needs nothing but a browser.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -9,14 +10,17 @@
 #include "cli/versions.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/sweep/answers_page.hpp"
+#include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {
 namespace {
 
+constexpr int smooth_points = 41;
+
 struct ReportOptions {
-  std::vector<std::string> studies, campaigns;
+  std::vector<std::string> studies, campaigns, links;
   std::string output = "report.html", title = "soilbin report";
 };
 
@@ -27,24 +31,46 @@ std::string command_of(const ReportOptions& options) {
   for (const std::string& study : options.studies) command += " " + quoted(study);
   if (!options.campaigns.empty()) command += " --measured";
   for (const std::string& campaign : options.campaigns) command += " " + quoted(campaign);
+  for (const std::string& link : options.links) command += " --link " + quoted(link);
   return command + " --title " + quoted(options.title) + " --output " + quoted(options.output);
 }
 
-/// Each with the name of the study or the campaign that it is of.
-void add(std::vector<std::string>& all, const std::string& name, const std::vector<std::string>& doubts) {
-  for (const std::string& doubt : doubts) all.push_back(name + ": " + doubt);
-}
+/// Doubts, each once, under the names of the studies and campaigns that they are of.
+class NamedDoubts {
+ public:
+  void add(const std::string& name, const std::vector<std::string>& doubts) {
+    for (const std::string& doubt : doubts) {
+      const auto known = std::find_if(all_.begin(), all_.end(), [&](const auto& one) { return one.second == doubt; });
+      if (known == all_.end())
+        all_.emplace_back(name, doubt);
+      else
+        known->first += ", " + name;
+    }
+  }
+  std::vector<std::string> lines() const {
+    std::vector<std::string> lines;
+    for (const auto& [names, doubt] : all_) lines.push_back(names + ": " + doubt);
+    return lines;
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::string>> all_;
+};
 
 int report(const ReportOptions& options, const Session& session) {
   if (options.studies.empty() && options.campaigns.empty())
     throw InputError("name a study or a campaign: soilbin report paper-straight --measured cmu-smooth");
   if (const std::string why = why_not_writable(options.output); !why.empty()) throw InputError("--output: " + why);
   std::vector<compare::StudyPart> studies;
-  std::vector<std::string> doubts;
+  std::vector<compare::PageCard> links;
+  for (const std::string& link : options.links) links.push_back(compare::page_card(link, options.output));
+  NamedDoubts named;
   for (const std::string& name : options.studies) {
-    compare::StudyPart part{find_study(session.place, name), {}};
+    compare::StudyPart part{find_study(session.place, name), {}, {}, {}};
     part.study = compare::run_study(part.question, shown_progress());
-    add(doubts, name, compare::doubts(part.question));
+    part.curves = compare::with_smooth_curves(part.question, smooth_points);
+    part.along_curves = compare::run_study(part.curves, shown_progress());
+    named.add(name, compare::doubts(part.question, part.study));
     studies.push_back(std::move(part));
   }
   const auto model = compare::make_model(ModelKind::bekker_wong);
@@ -53,13 +79,14 @@ int report(const ReportOptions& options, const Session& session) {
     compare::CampaignPart part{find_campaign(session.place, name), {}};
     const Scenario declared = compare::scenario_of(part.campaign);
     part.prediction = compare::predict(*model, declared, part.campaign, shown_progress());
-    add(doubts, name, compare::doubts(part.campaign, declared, part.prediction));
+    named.add(name, compare::doubts(part.campaign, declared, part.prediction));
     campaigns.push_back(std::move(part));
   }
+  const std::vector<std::string> doubts = named.lines();
   print_warnings(doubts);
   write_file_atomically(
       options.output,
-      compare::analysis_page(studies, campaigns, {options.title, command_of(options), versions(), doubts}));
+      compare::analysis_page(studies, campaigns, {options.title, command_of(options), versions(), doubts}, links));
   fmt::print("wrote {}: open it in a browser\n", options.output);
   return done;
 }
@@ -71,6 +98,8 @@ void add_report(CLI::App& app, Session& session) {
   const auto options = std::make_shared<ReportOptions>();
   command->add_option("studies", options->studies, "of the library, or case files")->type_name("STUDY...");
   command->add_option("--measured", options->campaigns, "campaigns to predict and compare")->type_name("CAMPAIGN...");
+  command->add_option("--link", options->links, "other pages of soilbin, shown with their first drawing and sentence")
+      ->type_name("FILE.html...");
   command->add_option("--output", options->output, "the page; by default report.html")->type_name("FILE.html");
   command->add_option("--title", options->title, "of the page")->type_name("TEXT");
   command->footer("Example: soilbin report paper-straight --measured cmu-smooth --output report.html");

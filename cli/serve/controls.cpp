@@ -9,6 +9,7 @@
 #include "compare/doubts/unheard.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/quantity.hpp"
+#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -29,50 +30,112 @@ double read_in(double value, const std::string& unit) {
   return read_number(text.substr(0, text.find(' '))).value_or(value);
 }
 
-/// The visitor that makes a control of each number that always has a value. Where the description knows no limit a
-/// slider reaches a few times `start`; where the limit itself is not admissible, half way to it.
+/// A slider's limits and step, in the unit that is shown. Where the range knows no limit a slider reaches a few times
+/// the value or `usual`, both in that unit; where the limit itself is not admissible, half way to it.
+struct Slider {
+  double lower, upper, step;
+};
+
+Slider slider_over(const Range& range, double per_si, double value, double usual) {
+  constexpr double steps = 200;
+  const auto limit = [&](double end, bool open) {
+    return std::isfinite(end) ? std::round(end * per_si * 10) / 10 / (open ? 2.0 : 1.0)
+                              : round_number(3 * std::max(std::abs(value), usual));
+  };
+  Slider slider{limit(range.lower, range.lower_open), limit(range.upper, range.upper_open), 0.0};
+  if (!std::isfinite(range.lower) && value >= 0.0) slider.lower = 0.0;
+  slider.step = round_number((slider.upper - slider.lower) / steps);
+  if (slider.lower == 0.0 && range.lower_open) slider.lower = slider.step;
+  return slider;
+}
+
+std::string title_of(std::string flag) {
+  std::replace(flag.begin(), flag.end(), '-', ' ');
+  return compare::capital(flag);
+}
+
+Json control_json(const char* group, const std::string& flag, const char* meaning, const std::string& unit, Json value,
+                  const Slider& slider) {
+  return {{"group", group}, {"key", flag},           {"title", title_of(flag)}, {"meaning", meaning}, {"unit", unit},
+          {"value", value}, {"lower", slider.lower}, {"upper", slider.upper},   {"step", slider.step}};
+}
+
+/// Where a slider stands whose number the tire doesn't declare [SI]; no value: there is no slider.
+std::optional<double> usual_value(const std::string& key, double radius) {
+  if (key == "inflation_pressure") return 100e3;
+  if (key == "carcass_pressure") return 30e3;
+  if (key == "thickness") return 0.04 * radius;
+  return std::nullopt;
+}
+
+/// The visitor that makes a control of each number.
 template <class T>
 class NumbersOf {
  public:
-  NumbersOf(Json& to, const T& from, std::string prefix, double start)
-      : to_(to), from_(from), prefix_(std::move(prefix)), start_(start) {}
+  NumbersOf(Json& to, const T& from, const char* group, std::string prefix, double usual, double radius)
+      : to_(to), from_(from), group_(group), prefix_(std::move(prefix)), usual_(usual), radius_(radius) {}
 
+  void text(const char*, std::string T::*, Need, const char*) {}
   void number(const char* key, double T::*member, const Measure& measure, Need, const char* meaning) {
-    constexpr double steps = 200;
-    const std::string unit = shown_unit(measure.unit), flag = key_of(prefix_, key);
+    const std::string unit = shown_unit(measure.unit);
     const double per_si = compare::per_unit(unit), value = from_.*member * per_si;
-    const auto limit = [&](double end, bool open) {
-      return std::isfinite(end) ? std::round(end * per_si / (open ? 2.0 : 1.0))
-                                : round_number(3 * std::max(std::abs(value), start_ * per_si));
-    };
-    const double upper = limit(measure.range.upper, measure.range.upper_open);
-    double lower = limit(measure.range.lower, measure.range.lower_open);
-    const double step = round_number((upper - lower) / steps);
-    if (lower == 0.0 && measure.range.lower_open) lower = step;
-    std::string title = compare::capital(flag);
-    std::replace(title.begin(), title.end(), '-', ' ');
-    to_.push_back({{"key", flag},
-                   {"title", title},
-                   {"meaning", meaning},
-                   {"unit", unit},
-                   {"value", read_in(from_.*member, unit)},
-                   {"lower", lower},
-                   {"upper", upper},
-                   {"step", step}});
+    to_.push_back(control_json(group_, key_of(prefix_, key), meaning, unit, read_in(from_.*member, unit),
+                               slider_over(measure.range, per_si, value, usual_ * per_si)));
   }
-  template <class N>
-  void number(const char*, std::optional<N> T::*, const Measure&, Need, const char*) {}
-  template <class... Rest>
-  void integer(const Rest&...) {}
+  void number(const char* key, std::optional<double> T::*member, const Measure& measure, Need, const char* meaning) {
+    const std::optional<double> usual = usual_value(key, radius_), &given = from_.*member;
+    if (!usual) return;
+    const std::string unit = shown_unit(measure.unit);
+    const double per_si = compare::per_unit(unit);
+    to_.push_back(control_json(group_, key_of(prefix_, key), meaning, unit,
+                               given ? Json(read_in(*given, unit)) : Json(nullptr),
+                               slider_over(measure.range, per_si, given.value_or(0.0) * per_si, *usual * per_si)));
+  }
+  void integer(const char* key, std::optional<int> T::*member, int lowest, Need, const char* meaning) {
+    if constexpr (std::is_same_v<T, Lugs>)
+      to_.push_back(control_json(group_, key_of(prefix_, key), meaning, "",
+                                 from_.*member ? Json(*(from_.*member)) : Json(nullptr),
+                                 {static_cast<double>(lowest), 60.0, 1.0}));
+  }
+  void integer(const char*, int T::*, int, Need, const char*) {}
   template <class... Rest>
   void choice(const Rest&...) {}
+  template <class... Rest>
+  void group(const Rest&...) {}
 
  private:
   Json& to_;
   const T& from_;
+  const char* group_;
   std::string prefix_;
-  double start_;
+  double usual_, radius_;  ///< [SI]
 };
+
+/// Of a soil without a value a slider reaches three times this [SI], and of one whose value is small.
+double usual_soil_value(const SoilParameter& p) {
+  const std::string_view name = p.name;
+  if (name == "k_c") return 5e3;
+  if (name == "k_phi") return 500e3;
+  if (name == "cohesion") return 3e3;
+  return name == "shear_modulus" ? 0.02 : 1.0;
+}
+
+void add_soil_values(Json& numbers, const SemiEmpiricalSoil& soil) {
+  for (const SoilParameter& p : soil_parameters) {
+    const std::string unit = std::string(p.unit) == "-" ? "" : p.unit;
+    const Estimate& value = soil.*p.value;
+    const double n = soil.exponent.value;
+    const auto in_unit = [&](double si) {
+      const std::string text = write_quantity(si, p.unit, n);
+      return read_number(text.substr(0, text.find(' '))).value_or(si * p.per_si);
+    };
+    Json control = control_json("soil", key_of("", p.name), p.meaning, unit, in_unit(value.value),
+                                slider_over(p.range, p.per_si, value.value * p.per_si, usual_soil_value(p) * p.per_si));
+    control["title"] = p.title;
+    control["sd"] = in_unit(value.std_error);
+    numbers.push_back(std::move(control));
+  }
+}
 
 /// A slider for each parameter of a form. Bounds that lie far beyond what is usual are for the box beside it.
 Json parameters_json(const bekker_wong::EffectForm& form) {
@@ -126,7 +189,8 @@ Json hearing_ids(const std::string& key) {
 
 void add_heard_values(Json& numbers, const OperatingCondition& at) {
   for (const Heard& heard : heard_values)
-    numbers.push_back({{"key", heard.key},
+    numbers.push_back({{"group", "condition"},
+                       {"key", heard.key},
                        {"title", compare::capital(heard.key)},
                        {"meaning", heard.meaning},
                        {"unit", heard.unit},
@@ -178,13 +242,30 @@ Json effects_json(const Case& question) {
   return all;
 }
 
+bool is_tire_flag(const std::string& key) {
+  const std::vector<std::string> keys = keys_of<Tire>();
+  return key.starts_with("lug-") ||
+         std::any_of(keys.begin(), keys.end(), [&](const std::string& k) { return key_of("", k.c_str()) == key; });
+}
+
+bool is_soil_flag(const std::string& key) {
+  const std::vector<std::string> keys = keys_of<SemiEmpiricalSoil>();
+  return std::any_of(keys.begin(), keys.end(), [&](const std::string& k) { return key_of("", k.c_str()) == key; });
+}
+
 Json numbers_json(const Case& question) {
+  constexpr double usual_of_condition = 0.1, usual_of_tire = 0.1, usual_lug = 0.02;
   Json numbers = Json::array();
-  NumbersOf<OperatingCondition> of_condition(numbers, question.study.conditions.front(), "", 0.1);
+  const OperatingCondition& at = question.study.conditions.front();
+  const Tire& tire = question.scenario.tire;
+  NumbersOf<OperatingCondition> of_condition(numbers, at, "condition", "", usual_of_condition, tire.radius);
   describe(of_condition, std::type_identity<OperatingCondition>{});
-  NumbersOf<Lugs> of_lugs(numbers, question.scenario.tire.lugs, "lug-", 0.02 * question.scenario.tire.radius);
+  NumbersOf<Tire> of_tire(numbers, tire, "tire", "", usual_of_tire, tire.radius);
+  describe(of_tire, std::type_identity<Tire>{});
+  NumbersOf<Lugs> of_lugs(numbers, tire.lugs, "tire", "lug-", usual_lug * tire.radius, tire.radius);
   describe(of_lugs, std::type_identity<Lugs>{});
-  add_heard_values(numbers, question.study.conditions.front());
+  if (question.scenario.soil.semi_empirical) add_soil_values(numbers, *question.scenario.soil.semi_empirical);
+  add_heard_values(numbers, at);
   return numbers;
 }
 

@@ -1,4 +1,4 @@
-// What a served page can move: conditions, lugs, effects and their parameters, each with where it stands and its
+// What a served page can move: condition, tire, soil, effects and their parameters, each with where it stands and its
 // limits.
 #pragma once
 
@@ -21,10 +21,15 @@ std::string without_blanks(std::string text);
 /// An effect as the flag --effect spells it; parameters at their defaults are left out.
 std::string effect_word(const EffectChoice& choice, const Soil& soil);
 
-/// Load, slip, speed, inclines, yaw and lug height of a question of one condition, each with key (its flag), title,
-/// meaning, unit, and in that unit its value and the limits and step of a slider. Then pass, moisture, position and
-/// run, each with the "effects" that hear of it: a page shows it with them.
+/// The numbers of a question of one condition, each with group ("condition", "tire", "soil"), key (its flag), title,
+/// meaning, unit, and in that unit its value (null: the tire declares none) and the limits and step of a slider. Those
+/// of the soil have their standard deviation under "sd". Then pass, moisture, position and run, each with the "effects"
+/// that hear of it: a page shows it with them.
 nlohmann::ordered_json numbers_json(const Case& question);
+
+/// Flags, without their dashes, that say more of the tire, or of the soil, than its name.
+bool is_tire_flag(const std::string& key);
+bool is_soil_flag(const std::string& key);
 
 /// The catalogue, forms under their effects, each with its parameters as numbers_json has its numbers, at their
 /// defaults; "on": how the question spells an effect that it switches on, else null.

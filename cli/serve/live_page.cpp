@@ -16,7 +16,7 @@ std::string live_page(const Setup& setup) {
         "curves.</p>\n");
   page.raw(compare::embedded(own, "live.html"));
   page.enliven(std::move(libraries));
-  page.script(compare::embedded(own, "live.js"));
+  page.script(compare::embedded(own, "wheel.js") + compare::embedded(own, "live.js"));
   return page.html();
 }
 

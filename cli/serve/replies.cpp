@@ -5,18 +5,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <memory>
 
-#include "bekker_wong/model.hpp"
 #include "cli/command_words.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/question.hpp"
+#include "cli/serve/answered.hpp"
 #include "cli/serve/controls.hpp"
 #include "cli/serve/live_page.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/report/sheet_json.hpp"
-#include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
@@ -26,9 +23,6 @@ namespace soilbin::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Study = std::vector<compare::ModelAnswers>;
-
-constexpr int curve_points = 61;
 
 constexpr const char* icon =
     R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 8 8"><path d="M0 6h8v2H0z" fill="#c2500a"/>)"
@@ -74,81 +68,110 @@ std::pair<double, double> take_slips(std::vector<Flag>& flags) {
   return read_range("slips", text, Measure{"-", {.lower = -1.0, .upper = 1.0}});
 }
 
-Case swept_over(Case question, const std::pair<double, double>& slips) {
-  OperatingCondition at = question.study.conditions.front();
-  question.study.conditions.clear();
-  for (int i = 0; i < curve_points; ++i) {
-    at.slip = std::lerp(slips.first, slips.second, static_cast<double>(i) / (curve_points - 1));
-    question.study.conditions.push_back(at);
-  }
-  return question;
-}
-
-/// The curves, the point that is asked for marked on each.
-Json curves_json(const Case& question, const Study& point, const Case& swept, const Study& curves) {
-  compare::Sheet sheet = compare::study_sheet(swept, curves, compare::Panels::all);
-  const compare::Sheet here = compare::study_sheet(question, point, compare::Panels::all);
-  for (std::size_t i = 0; i < sheet.plots.size(); ++i)
-    for (compare::Series series : here.plots[i].series) {
-      series.mark = compare::Mark::points;
-      series.label = "this point";
-      series.color = 1;
-      sheet.plots[i].series.push_back(std::move(series));
-    }
-  return compare::to_json(sheet);
-}
-
-Json stresses_json(const Study& point) {
-  std::vector<compare::LabelledPatch> patches;
-  for (const compare::ModelAnswers& model : point)
-    if (const auto& result = model.answers.front().result)
-      patches.push_back({point.size() > 1 ? model.choice.label : "", static_cast<int>(patches.size()), result->patch});
-  return compare::to_json(compare::patch_sheet("Stresses along the contact", patches));
-}
-
-Json readings_json(const Study& point) {
-  Json all = Json::array();
-  if (const auto& result = point.front().answers.front().result)
-    for (const Reading& reading : readings(*result))
-      all.push_back({{"name", reading.name}, {"value", reading.value}, {"unit", reading.unit}});
-  return all;
-}
-
 /// "what\n  hint: how" in two.
 std::pair<std::string, std::string> error_and_hint(const std::string& what) {
   std::vector<std::string> parts = split(what, "\n  hint: ");
   return {parts.front(), parts.size() > 1 ? parts[1] : ""};
 }
 
-/// A curve shows four numbers a slip, and no stresses.
-std::unique_ptr<const Model> make_curve_model(ModelKind kind) {
-  if (kind != ModelKind::bekker_wong) return compare::make_model(kind);
-  return std::make_unique<const bekker_wong::BekkerWong>(bekker_wong::Detail{.errors = true, .patch = false});
+/// Takes the flags of this name out of the query; the last one counts.
+std::optional<std::string> take(std::vector<Flag>& flags, const std::string& key) {
+  std::optional<std::string> text;
+  std::erase_if(flags, [&](const Flag& flag) {
+    if (flag.first == key) text = flag.second;
+    return flag.first == key;
+  });
+  return text;
+}
+
+/// The question of a query and, where it says beside-soil=NAME or beside-tire=NAME, the same with that soil or tire.
+std::vector<ServedAnswer> answers_to(const Setup& setup, const std::string& query) {
+  std::vector<Flag> flags = flags_of(query);
+  const auto slips = take_slips(flags);
+  const std::optional<std::string> soil = take(flags, "beside-soil"), tire = take(flags, "beside-tire");
+  std::vector<ServedAnswer> sides = {answer_to(setup.ask(flags), slips)};
+  if (!soil && !tire) return sides;
+  const auto replaced = [&](const std::optional<std::string>& name, const char* key, bool (*own)(const std::string&)) {
+    if (!name) return;
+    std::erase_if(flags, [&](const Flag& flag) { return flag.first == key || own(flag.first); });
+    flags.emplace_back(key, *name);
+  };
+  replaced(soil, "soil", is_soil_flag);
+  replaced(tire, "tire", is_tire_flag);
+  sides.push_back(answer_to(setup.ask(flags), slips));
+  for (ServedAnswer& one : sides) {
+    const Scenario& scenario = one.asked.question.scenario;
+    if (tire) one.label = scenario.tire.name;
+    if (soil) one.label += (one.label.empty() ? "" : " on ") + compare::in_words(scenario.soil);
+  }
+  if (sides[0].label == sides[1].label) sides[1].label += " (beside)";
+  return sides;
+}
+
+std::string question_in_words(const Case& question) {
+  return in_words(question.scenario.tire) + " on " + compare::in_words(question.scenario.soil) + ", " +
+         compare::in_words(question.study.conditions.front());
+}
+
+std::string newtons(double force) {
+  return force >= 1000.0 ? fmt::format("{:.4g} kN", force / 1000) : fmt::format("{:.4g} N", force);
+}
+
+/// What is said of a point without solution.
+void add_refusal(Json& document, const ServedAnswer& one) {
+  const Json carried = carried_load(one);
+  document["error"] = "no solution: " + error_and_hint(one.point.front().answers.front().error).first;
+  document["carried_load"] = carried;
+  if (!carried.is_null())
+    document["hint"] = "at this slip the soil carries up to " + newtons(carried.get<double>()) + " under this wheel";
+  else
+    document["hint"] = compare::any_result(one.curves) ? "the curves show the slips that have one"
+                                                       : "less load, another soil or other effects may have one";
 }
 
 Reply estimate_reply(const Setup& setup, const std::string& query) {
+  const std::vector<ServedAnswer> sides = answers_to(setup, query);
+  const ServedAnswer& first = sides.front();
+  const Case& question = first.asked.question;
+  Json document = answers_json(question, first.point, compare::doubts(question, first.point));
+  document["command"] = command_line(first.asked.words);
+  document["in_words"] = question_in_words(question);
+  document["readings"] = readings_json(first);
+  document["numbers"] = numbers_json(question);
+  document["effects"] = effect_values_json(question);
+  document["curves"] = curves_json(sides);
+  document["budget"] = budget_json(sides);
+  document["stresses"] = stresses_json(sides);
+  document["wheels"] = Json::array();
+  for (const ServedAnswer& one : sides) document["wheels"].push_back(wheel_json(one));
+  if (sides.size() > 1) {
+    document["beside"] = {{"label", sides[1].label},
+                          {"command", command_line(sides[1].asked.words)},
+                          {"in_words", question_in_words(sides[1].asked.question)},
+                          {"readings", readings_json(sides[1])}};
+    if (!compare::any_result(sides[1].point)) add_refusal(document["beside"], sides[1]);
+  }
+  const bool solved = compare::any_result(first.point);
+  if (!solved) add_refusal(document, first);
+  return {solved ? 200U : 422U, "application/json", document.dump(-1, ' ', false, Json::error_handler_t::replace)};
+}
+
+/// The curves' question as a case file, and their answers as `soilbin run` of that file saves them.
+Reply case_reply(const Setup& setup, const std::string& query) {
   std::vector<Flag> flags = flags_of(query);
   const auto slips = take_slips(flags);
-  const Asked asked = setup.ask(flags);
-  const Case swept = swept_over(asked.question, slips);
-  const Study point = compare::run_study(asked.question), curves = compare::run_study(swept, {}, make_curve_model);
-  Json document = answers_json(asked.question, point, compare::doubts(asked.question, point));
-  document["command"] = command_line(asked.words);
-  document["in_words"] = in_words(asked.question.scenario.tire) + " on " +
-                         compare::in_words(asked.question.scenario.soil) + ", " +
-                         compare::in_words(asked.question.study.conditions.front());
-  document["readings"] = readings_json(point);
-  document["numbers"] = numbers_json(asked.question);
-  document["effects"] = effect_values_json(asked.question);
-  document["curves"] = curves_json(asked.question, point, swept, curves);
-  document["stresses"] = stresses_json(point);
-  const bool solved = compare::any_result(point);
-  if (!solved) {
-    document["error"] = "no solution: " + error_and_hint(point.front().answers.front().error).first;
-    document["hint"] = compare::any_result(curves) ? "the curves show the slips that have one"
-                                                   : "less load, another soil or other effects may have one";
-  }
-  return {solved ? 200U : 422U, "application/json", document.dump(-1, ' ', false, Json::error_handler_t::replace)};
+  take(flags, "beside-soil"), take(flags, "beside-tire");
+  return {200, "application/yaml", write_case(swept_over(setup.ask(flags).question, slips), setup.place().effects)};
+}
+
+Reply curves_reply(const Setup& setup, const std::string& query) {
+  std::vector<compare::ModelAnswers> all;
+  for (ServedAnswer& one : answers_to(setup, query))
+    for (compare::ModelAnswers& model : one.curves) {
+      if (!one.label.empty()) model.choice.label += ", " + one.label;
+      all.push_back(std::move(model));
+    }
+  return {200, "text/csv; charset=utf-8", compare::study_csv(all)};
 }
 
 }  // namespace
@@ -167,10 +190,13 @@ Reply reply_to(const Setup& setup, std::string_view target) {
     if (path == "/favicon.ico") return {200, "image/svg+xml", icon};
     if (path == "/case") return {200, "application/json", compare::json_text(setup.document())};
     if (path == "/estimate") return estimate_reply(setup, query);
+    if (path == "/case.yaml") return case_reply(setup, query);
+    if (path == "/curves.csv") return curves_reply(setup, query);
   } catch (const InputError& error) {
     return refusal(400, error.what());
   }
-  return refusal(404, fmt::format("there is no '{}' here\n  hint: there are /, /case and /estimate?load=80N&slip=20%25",
+  return refusal(404, fmt::format("there is no '{}' here\n  hint: there are /, /case, /estimate?load=80N&slip=20%25, "
+                                  "/case.yaml and /curves.csv",
                                   clipped(std::string(path))));
 }
 

@@ -124,8 +124,11 @@ Asked Setup::put_together(const std::vector<Flag>& query) const {
   Asked asked;
   asked.words = {"estimate"};
   if (!case_name_.empty()) asked.words.push_back(case_name_);
+  const bool other_tire = holds(query, "tire"), other_soil = holds(query, "soil");
   for (const Flag& flag : start_)
-    if (!holds(query, flag.first)) asked.words.push_back("--" + flag.first + "=" + flag.second);
+    if (!holds(query, flag.first) && !(other_tire && is_tire_flag(flag.first)) &&
+        !(other_soil && is_soil_flag(flag.first)))
+      asked.words.push_back("--" + flag.first + "=" + flag.second);
   for (const Flag& flag : query) asked.words.push_back("--" + flag.first + "=" + flag.second);
   CLI::App app("", asked.words.front());
   app.set_help_flag("");
@@ -155,7 +158,9 @@ Json Setup::document() const {
   const Case question = ask({}).question;
   return {{"format", "soilbin-serve/1"},
           {"tire", in_words(question.scenario.tire)},
+          {"tire_name", question.scenario.tire.name},
           {"soil", compare::in_words(question.scenario.soil)},
+          {"tires", place_.library.names(Shelf::tires)},
           {"soils", soils_json(place_.library)},
           {"numbers", numbers_json(question)},
           {"effects", effects_json(question)}};

@@ -29,12 +29,15 @@ class Setup {
   /// `place` must outlive this.
   Setup(const Workplace& place, std::string case_name, std::vector<Flag> flags);
 
-  /// The start with the query's flags in place of its own. Throws InputError: an unknown flag, a value that is wrong, a
-  /// soil or tire that is not of the library (a query reads no file that it names), more than one condition.
+  /// The start with the query's flags in place of its own; a tire or soil that the query names comes without the
+  /// start's changes to its values. Throws InputError: an unknown flag, a value that is wrong, a soil or tire that is
+  /// not of the library (a query reads no file that it names), more than one condition.
   Asked ask(const std::vector<Flag>& query) const;
 
-  /// soilbin-serve/1: the numbers that a page moves, soils and effects; where each starts, and its limits.
+  /// soilbin-serve/1: the numbers that a page moves, tires, soils and effects; where each starts, and its limits.
   nlohmann::ordered_json document() const;
+
+  const Workplace& place() const { return place_; }
 
  private:
   Asked put_together(const std::vector<Flag>& query) const;

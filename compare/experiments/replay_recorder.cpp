@@ -1,5 +1,7 @@
 #include "compare/experiments/replay_recorder.hpp"
 
+#include <algorithm>
+
 #include "dem/archive/note_text.hpp"
 #include "scenario/atomic_file.hpp"
 
@@ -10,14 +12,21 @@ Point point_of(const dem::Vec3& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
+/// Found by its argument's namespace (note_text.hpp).
+template <class Notes>
+void parts(Notes& notes, ReplayBin& bin) {
+  notes(bin.lower, bin.upper, bin.periodic);
+}
+
 template <class Notes>
 void ReplayRecorder::state(Notes& notes) {
-  auto& [title, facts, radii, tire, triangles, surface, frames] = replay_;  // title and facts come with write
-  notes(ids_, radii, tire, triangles, surface);
+  auto& [title, facts, radii, tire, triangles, surface, bin, frames] = replay_;  // title and facts come with write
+  notes(ids_, radii, tire, triangles, surface, bin);
   std::size_t count = frames.size();
   notes(count);
   frames.resize(count);
-  for (auto& [time, wheel, rotation, grains] : frames) notes(time, wheel, rotation, grains);
+  for (auto& [time, wheel, rotation, grains, pressing, force, torque] : frames)
+    notes(time, wheel, rotation, grains, pressing, force, torque);
   if constexpr (Notes::reads) find_places();
 }
 
@@ -47,6 +56,8 @@ void ReplayRecorder::find_places() {
 void ReplayRecorder::begin(const dem::Simulation& simulation, int wheel, double surface) {
   const dem::Grains& grains = simulation.state().grains;
   replay_.surface = surface;
+  const dem::Domain& domain = simulation.setup().domain;
+  replay_.bin = ReplayBin{point_of(domain.lower), point_of(domain.upper), domain.periodic};
   for (std::size_t row = 0; row < grains.count(); ++row) {
     ids_.push_back(grains.id[row]);
     replay_.radii.push_back(grains.motion[row].radius);
@@ -75,6 +86,16 @@ void ReplayRecorder::look(const dem::Simulation& simulation, int wheel, double s
   const dem::Grains& grains = simulation.state().grains;
   for (std::size_t row = 0; row < grains.count(); ++row)
     frame.grains[place_.at(grains.id[row])] = point_of(grains.motion[row].position);
+  frame.force = point_of(body.force), frame.torque = point_of(body.torque);
+  frame.pressing.assign(replay_.radii.size(), 0.0);
+  const auto pressed = [&](dem::GrainId id, double force) {
+    double& most = frame.pressing[place_.at(id)];
+    most = std::max(most, force);
+  };
+  for (const dem::Contact& contact : simulation.contacts()) {
+    pressed(contact.first, contact.pressing);
+    if (contact.second >= 0) pressed(static_cast<dem::GrainId>(contact.second), contact.pressing);
+  }
   replay_.frames.push_back(std::move(frame));
 }
 

@@ -61,6 +61,7 @@ class Payload {
     for (const std::uint16_t v : values) bytes_ += static_cast<char>(v & 0xFF);
     for (const std::uint16_t v : values) bytes_ += static_cast<char>(v >> 8);
   }
+  void byte(std::uint8_t v) { bytes_ += static_cast<char>(v); }
   void number(std::uint32_t v) {
     for (int shift = 0; shift < 32; shift += 8) bytes_ += static_cast<char>((v >> shift) & 0xFF);
   }
@@ -104,11 +105,28 @@ void add_frames(const Replay& replay, const Raster& grid, const std::vector<std:
     }
 }
 
+double largest_pressing(const Replay& replay) {
+  double most = 0.0;
+  for (const ReplayFrame& frame : replay.frames)
+    for (const double force : frame.pressing) most = std::max(most, force);
+  return most;
+}
+
+void add_pressing(const Replay& replay, const std::vector<std::size_t>& order, Payload& payload) {
+  const double most = largest_pressing(replay);
+  if (most == 0.0) return;
+  for (const ReplayFrame& frame : replay.frames)
+    for (const std::size_t k : order)
+      payload.byte(static_cast<std::uint8_t>(
+          std::lround(255 * std::sqrt(std::clamp(frame.pressing.empty() ? 0.0 : frame.pressing[k] / most, 0.0, 1.0)))));
+}
+
 /// Of the bytes before they are compressed, as the header has it.
 std::uint64_t payload_size(const Json& header) {
   const auto count = [&](const char* key) { return header.at(key).get<std::uint32_t>(); };
   const std::uint64_t grains = count("grains"), frames = count("frames");
-  return 4 * grains + 12ULL * count("vertices") + 12ULL * count("triangles") + 6 * grains * frames;
+  const std::uint64_t of_a_place = header.contains("pressing") ? 7 : 6;
+  return 4 * grains + 12ULL * count("vertices") + 12ULL * count("triangles") + of_a_place * grains * frames;
 }
 
 /// Refuses a payload that doesn't come out whole, by zlib's own checksum, or with another size.
@@ -140,12 +158,17 @@ Json header_of(const Replay& replay, const Raster& grid) {
   header["origin"] = grid.origin;
   header["step"] = grid.step;
   header["surface"] = replay.surface;
-  header["times"] = header["wheel"] = header["rotation"] = Json::array();
+  for (const char* key : {"times", "wheel", "rotation", "force", "torque"}) header[key] = Json::array();
   for (const ReplayFrame& frame : replay.frames) {
     header["times"].push_back(frame.time);
     header["wheel"].push_back(frame.wheel);
     header["rotation"].push_back(frame.rotation);
+    header["force"].push_back(frame.force);
+    header["torque"].push_back(frame.torque);
   }
+  if (replay.bin)
+    header["bin"] = {{"lower", replay.bin->lower}, {"upper", replay.bin->upper}, {"periodic", replay.bin->periodic}};
+  if (const double most = largest_pressing(replay); most > 0.0) header["pressing"] = most;
   put_seal(header);
   return header;
 }
@@ -155,7 +178,8 @@ Json header_of(const Replay& replay, const Raster& grid) {
 std::string replay_bytes(const Replay& replay) {
   if (replay.frames.empty()) throw InputError("a replay needs at least one frame");
   for (const ReplayFrame& frame : replay.frames)
-    if (frame.grains.size() != replay.radii.size())
+    if (frame.grains.size() != replay.radii.size() ||
+        (!frame.pressing.empty() && frame.pressing.size() != replay.radii.size()))
       throw InputError(fmt::format("a replay's frames must hold the same grains: {} and {}", frame.grains.size(),
                                    replay.radii.size()));
   const Raster grid = raster_of(replay);
@@ -167,6 +191,7 @@ std::string replay_bytes(const Replay& replay) {
   for (const auto& triangle : replay.triangles)
     for (const std::uint32_t corner : triangle) payload.number(corner);
   add_frames(replay, grid, order, payload);
+  add_pressing(replay, order, payload);
   return header_of(replay, grid).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n" + payload.deflated();
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,14 @@ struct ReplayFrame {
   Point wheel{};                                 ///< its centre
   std::array<double, 4> rotation{1.0, 0, 0, 0};  ///< of the tire's mesh: unit quaternion w, x, y, z
   std::vector<Point> grains;
+  std::vector<double> pressing{};  ///< the largest normal force of each grain's contacts [N]; empty: not kept
+  Point force{}, torque{};         ///< of the grains on the wheel at this step, torque about its centre [N], [N m]
+};
+
+/// The space in which the grains lie.
+struct ReplayBin {
+  Point lower{}, upper{};          ///< [m]
+  std::array<bool, 3> periodic{};  ///< along x, y, z: no wall there
 };
 
 struct Replay {
@@ -30,15 +39,18 @@ struct Replay {
   std::vector<double> radii;                               ///< of each grain [m]
   std::vector<Point> tire;                                 ///< vertices of the tire's surface, about its centre [m]
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  double surface = 0.0;  ///< height of the undisturbed surface [m]
+  double surface = 0.0;            ///< height of the undisturbed surface [m]
+  std::optional<ReplayBin> bin{};  ///< no value: not kept
   std::vector<ReplayFrame> frames;
 };
 
 inline constexpr const char* replay_format = "soilbin-replay/1";
 
-/// The file's bytes. Grains are told in the order of their first x, so that what a wheel moves lies together. Places
-/// are good to half a step, the largest extent over 65535 / 2. Throws InputError without frames or with frames of
-/// unequal numbers of grains.
+/// The file's bytes. Header keys that older files lack: "bin", "force", "torque", and "pressing": the largest normal
+/// force [N] that a byte of 255 stands for; where it is there, a byte for each grain of each frame follows the places,
+/// 255 sqrt(F/pressing). Grains are told in the order of their first x, so that what a wheel moves lies together.
+/// Places are good to half a step, the largest extent over 65535 / 2. Throws InputError without frames or with frames
+/// of unequal numbers of grains.
 std::string replay_bytes(const Replay& replay);
 
 /// A replay file as a page takes it: its header, and the whole for the browser to unpack.

@@ -69,7 +69,12 @@ std::string page_style() {
 
 Page::Page(std::string title, std::string subtitle) : title_(std::move(title)), subtitle_(std::move(subtitle)) {}
 
+void Page::describe(const std::string& text) {
+  if (description_.empty()) description_ = text;
+}
+
 void Page::summary(const std::vector<std::pair<std::string, std::string>>& sentences) {
+  if (!sentences.empty()) describe(sentences.front().second);
   body_ += "<div class=\"summary\">";
   for (const auto& [name, sentence] : sentences)
     body_ += "<p>" + (name.empty() ? "" : "<b>" + escaped(name) + ".</b> ") + prose(sentence) + "</p>";
@@ -83,6 +88,7 @@ void Page::sentences(const std::vector<std::string>& sentences) {
 }
 
 void Page::backed_summary(const std::vector<BackedSentence>& sentences) {
+  if (!sentences.empty()) describe(sentences.front().text);
   body_ += "<div class=\"summary\">";
   for (const BackedSentence& sentence : sentences) {
     body_ += "<p>" + (sentence.about.empty() ? "" : "<b>" + escaped(sentence.about) + ".</b> ") + prose(sentence.text);
@@ -159,6 +165,14 @@ void Page::figure(const Sheet& sheet, const std::string& caption) {
 
 void Page::code(const std::string& text) { body_ += "<pre><code>" + escaped(text) + "</code></pre>\n"; }
 
+void Page::cards(const std::vector<PageCard>& cards) {
+  body_ += "<div class=\"cards\">";
+  for (const PageCard& card : cards)  // titles, lines and drawings are a page's own text: escaped there
+    body_ += fmt::format("<a class=\"card\" href=\"{}\">{}<b>{}</b><span>{}</span></a>\n", escaped(card.href),
+                         card.drawing, card.title, card.line);
+  body_ += "</div>\n";
+}
+
 void Page::drawing(const std::string& svg, const std::string& caption) {
   body_ +=
       "<figure><div class=\"panels\">" + svg + "</div><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
@@ -218,10 +232,11 @@ std::string Page::html() const {
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n"
+      "<meta name=\"description\" content=\"{6}\">\n"
       "<style>\n{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n<p class=\"subtitle\">{2}</p>\n{3}{4}</main>\n{5}"
       "</body>\n</html>\n",
       escaped(title_), page_style(), escaped(subtitle_), contents.empty() ? "" : "<nav>" + contents + "</nav>\n", body_,
-      scripts());
+      scripts(), escaped(description_.empty() ? subtitle_ : description_));
 }
 
 }  // namespace soilbin::compare

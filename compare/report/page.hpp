@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "compare/report/javascript.hpp"
+#include "compare/report/page_card.hpp"
 #include "compare/report/plot.hpp"
 
 namespace soilbin::compare {
@@ -86,6 +87,8 @@ class Page {
   /// Heat maps (heat_map.hpp) side by side as the width allows, each at its own size, with one caption.
   void heat_maps(const std::vector<std::string>& maps, const std::string& caption);
   void code(const std::string& text);
+  /// Links to other pages, each with its drawing, side by side as the width allows.
+  void cards(const std::vector<PageCard>& cards);
   /// One of the parts at a time, chosen from a list; all of them below each other where there are no scripts. `first`
   /// is shown at the start.
   void choices(const std::string& what, const std::vector<Choice>& parts, std::size_t first);
@@ -112,7 +115,10 @@ class Page {
   void close_fold();
   std::string scripts() const;
 
+  void describe(const std::string& text);
+
   std::string title_, subtitle_, body_, extra_scripts_;
+  std::string description_;                                    ///< what the page says first, for who links to it
   std::vector<std::pair<std::string, std::string>> sections_;  ///< anchor, title
   std::vector<Sheet> sheets_;
   Libraries libraries_ = find_libraries();

@@ -12,7 +12,7 @@
 namespace soilbin::compare {
 namespace {
 
-constexpr std::size_t most_bands = 3;  ///< curves of a panel beyond which bands only hide each other
+constexpr std::size_t most_bands = 4;  ///< curves of a panel beyond which bands only hide each other
 
 /// What a panel shows of a result.
 struct Shown {
@@ -119,17 +119,63 @@ Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, 
   const Curves curves = curves_against_slip(question.study.conditions, Spread::exact);
   const bool alone = curves.labels.size() == 1;
   if (alone) sheet.palette = Palette::named;
-  const bool bands = curves.labels.size() * study.size() <= most_bands;
+  const bool all_bands = curves.labels.size() * study.size() <= most_bands;
+  const bool first_bands = curves.labels.size() <= most_bands;  // else those of the first model alone
   for (const Shown& shown : shown_of(study, panels)) {
     Plot plot = empty_plot(shown);
     for (std::size_t m = 0; m < study.size(); ++m)
       for (std::size_t curve = 0; curve < curves.labels.size(); ++curve) {
-        Series series = series_of(study[m].answers, curves, curve, shown, bands);
+        Series series = series_of(study[m].answers, curves, curve, shown, all_bands || (m == 0 && first_bands));
         series.label = join(study.size() > 1 ? study[m].choice.label : "", curves.labels[curve]);
         series.color = static_cast<int>(alone ? m : curve);
         series.dash = alone ? 0 : static_cast<int>(m);
         plot.series.push_back(std::move(series));
       }
+    sheet.plots.push_back(std::move(plot));
+  }
+  return sheet;
+}
+
+Sheet budget_sheet(const std::string& title, const std::vector<LabelledAnswers>& curves) {
+  constexpr int sum_color = 5;  // of the named palette the grey one; the parts take the others in turn
+  Sheet sheet{title, {}, Palette::named};
+  std::vector<std::string> names;  // of parts, in the order of their colours
+  for (const LabelledAnswers& curve : curves)
+    for (const Answer& answer : curve.answers)
+      if (answer.result)
+        for (const Contribution& part : answer.result->budget)
+          if (std::find(names.begin(), names.end(), part.name) == names.end()) names.push_back(part.name);
+  for (const LabelledAnswers& curve : curves) {
+    Plot plot{join("Parts of the drawbar pull [N]", curve.label), {"slip [%]", {}, {}}, {}, {}, false};
+    std::vector<double> above(curve.answers.size(), 0.0), below = above;  // the piles so far
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      std::string label = names[k];
+      std::replace(label.begin(), label.end(), '_', ' ');
+      for (const bool drives : {true, false}) {
+        Series area;
+        area.label = label, area.color = static_cast<int>(k) % sum_color;
+        std::vector<double>& pile = drives ? above : below;
+        bool there = false;
+        for (std::size_t i = 0; i < curve.answers.size(); ++i) {
+          double force = 0.0;
+          if (const auto& result = curve.answers[i].result)
+            for (const Contribution& part : result->budget)
+              if (part.name == names[k] && (part.force > 0.0) == drives) force += part.force;
+          there = there || force != 0.0;
+          area.x.push_back(100 * curve.answers[i].at.slip);
+          area.base.push_back(pile[i]);
+          area.y.push_back(curve.answers[i].result ? pile[i] += force : not_a_number);
+        }
+        if (there) plot.series.push_back(std::move(area));
+      }
+    }
+    Series sum;
+    sum.label = "drawbar pull", sum.color = sum_color;
+    for (const Answer& answer : curve.answers) {
+      sum.x.push_back(100 * answer.at.slip);
+      sum.y.push_back(answer.result ? answer.result->drawbar_pull.value : not_a_number);
+    }
+    plot.series.push_back(std::move(sum));
     sheet.plots.push_back(std::move(plot));
   }
   return sheet;

@@ -7,12 +7,23 @@
 
 namespace soilbin::compare {
 
+/// Answers along one curve, of a side or a model.
+struct LabelledAnswers {
+  std::string label;
+  const std::vector<Answer>& answers;
+};
+
 /// Whether a panel stands there whose values are all zero.
 enum class Panels { telling, all };
 
 /// Drawbar pull, torque, sinkage, tractive efficiency (and the lateral force where there is one) against slip: a colour
-/// for each combination of the other conditions, a dash for each model; with up to three curves also error bands.
+/// for each combination of the other conditions, a dash for each model; with up to four curves also error bands, else
+/// those of the first model where it has up to four.
 Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, Panels panels = Panels::telling);
+
+/// The parts of the drawbar pull piled up against slip, those that drive above zero and those that hold back below it,
+/// and their sum as a line. A panel for each of the answers, which are of one curve each.
+Sheet budget_sheet(const std::string& title, const std::vector<LabelledAnswers>& curves);
 
 /// Stresses under one wheel, of a side or a model.
 struct LabelledPatch {

@@ -183,10 +183,17 @@ std::string tire_words(const Tire& tire) {
 void add_study(Page& page, const StudyPart& part) {
   page.section(part.question.study.name);
   if (!part.question.description.empty()) page.paragraph(part.question.description + ".");
-  const Sheet sheet = study_sheet(part.question, part.study);
-  page.figure(sheet, fmt::format("{} on {}. Efficiency is drawn where the wheel both drives and pulls.{}",
+  const Sheet sheet = study_sheet(part.curves, part.along_curves);
+  const auto has_band = [](const Series& series) {
+    return std::any_of(series.error.begin(), series.error.end(), [](double error) { return error > 0.0; });
+  };
+  const std::vector<Series>& pulls = sheet.plots.front().series;
+  page.figure(sheet, fmt::format("{} on {}. Efficiency is drawn where the wheel both drives and pulls.{}{}",
                                  part.question.scenario.tire.name, in_words(part.question.scenario.soil),
-                                 part.study.size() > 1 ? " Dashed: the model with its effect." : ""));
+                                 part.study.size() > 1 ? fmt::format(" Dashed: {}.", part.study[1].choice.label) : "",
+                                 std::any_of(pulls.begin(), pulls.end(), has_band)
+                                     ? " Bands: one standard error, from the standard deviations of the soil's values."
+                                     : ""));
   page.table(peak_table(part));
   page.folded("All conditions as a table", [&] { page.table(answers_table(part)); });
 }
@@ -263,8 +270,44 @@ std::string in_words(const CampaignPart& part) {
   return text + ".";
 }
 
+namespace {
+
+/// The curve that a study's sentence and key figure are about: the middle one of the first model that has a result.
+std::optional<Peak> shown_peak(const StudyPart& part) {
+  if (part.study.empty()) return std::nullopt;
+  std::vector<Peak> solved = peaks(part.study.front());
+  std::erase_if(solved, [](const Peak& peak) { return peak.pull == nullptr; });
+  if (solved.empty()) return std::nullopt;
+  return solved[(solved.size() - 1) / 2];
+}
+
+/// What each number at the head of the page is of.
+std::vector<KeyFigure> key_figures(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns) {
+  std::vector<KeyFigure> figures;
+  for (const StudyPart& part : studies)
+    if (const std::optional<Peak> peak = shown_peak(part)) {
+      const TractionResult& r = *peak->pull;
+      figures.push_back(
+          {force(r.drawbar_pull),
+           fmt::format("largest drawbar pull of {} on {}{}: {:.0f} % of the load, at {:.3g} % slip ({})",
+                       part.question.scenario.tire.name, in_words(part.question.scenario.soil),
+                       peak->label.empty() ? "" : ", " + peak->label, 100 * r.drawbar_pull.value / r.at.load,
+                       100 * r.at.slip, part.question.study.name)});
+    }
+  for (const CampaignPart& part : campaigns)
+    for (const ChannelError& error : part.prediction.errors)
+      if (channel_views[error.channel].name == "drawbar_pull")
+        figures.push_back({fmt::format("{:.3g} N", error.rmse),
+                           fmt::format("error of the predicted drawbar pull, nothing fitted: root mean square over "
+                                       "{} runs, {:.0f} % of the measured range ({})",
+                                       error.runs, 100 * error.share_of_range, part.campaign.name)});
+  return figures;
+}
+
+}  // namespace
+
 std::string analysis_page(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns,
-                          const PageAbout& about) {
+                          const PageAbout& about, const std::vector<PageCard>& links) {
   Page page(about.title,
             "What does this tire do on this soil? Answers of the semi-empirical wheel model, and how they "
             "compare with measurements.");
@@ -277,10 +320,15 @@ std::string analysis_page(const std::vector<StudyPart>& studies, const std::vect
       for (const Answer& answer : model.answers)
         doubt = doubt || (answer.result && answer.result->drawbar_pull.std_error > 0.0);
   if (doubt) summary.emplace_back("", "± is one standard error, from the standard deviations of the soil's values.");
+  page.figures_at_a_glance(key_figures(studies, campaigns));
   page.summary(summary);
-  page.doubts(about.doubts);
+  if (!links.empty()) {
+    page.section("More pages");
+    page.cards(links);
+  }
   for (const StudyPart& part : studies) add_study(page, part);
   for (const CampaignPart& part : campaigns) add_campaign(page, part);
+  page.doubts(about.doubts);
   add_provenance(page, studies, campaigns);
   page.section("How this page was made");
   page.paragraph(

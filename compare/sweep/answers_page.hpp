@@ -10,10 +10,12 @@
 
 namespace soilbin::compare {
 
-/// A study and what its models answer.
+/// A study and what its models answer, at its own conditions and along its curves.
 struct StudyPart {
   Case question;
   std::vector<ModelAnswers> study;
+  Case curves;  ///< with_smooth_curves of the question
+  std::vector<ModelAnswers> along_curves;
 };
 
 /// A campaign and what the model predicts of it, without fitting.
@@ -22,8 +24,9 @@ struct CampaignPart {
   Prediction prediction;
 };
 
+/// `links`: other pages, shown as cards.
 std::string analysis_page(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns,
-                          const PageAbout& about);
+                          const PageAbout& about, const std::vector<PageCard>& links = {});
 
 /// Sentences about a study, computed from its answers: the largest pull, the best efficiency, what changes them.
 std::string in_words(const StudyPart& part);

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "scenario/condition_axes.hpp"
 #include "scenario/description.hpp"
 #include "scenario/unit.hpp"
 
@@ -134,6 +135,39 @@ Curves curves_against_slip(const std::vector<OperatingCondition>& conditions, Sp
     curves.labels[curves.curve_of.back()] = labels[i];
   }
   return curves;
+}
+
+Case with_smooth_curves(Case question, int points) {
+  const Study asked = std::move(question.study);
+  question.study = {asked.name, asked.models, {}, {}};
+  const Curves curves = curves_against_slip(asked.conditions, Spread::exact);
+  for (std::size_t curve = 0; curve < curves.labels.size(); ++curve) {
+    std::vector<std::size_t> members;
+    for (std::size_t i = 0; i < asked.conditions.size(); ++i)
+      if (curves.curve_of[i] == curve) members.push_back(i);
+    const auto slip_of = [&](std::size_t i) { return asked.conditions[i].slip; };
+    std::set<double> slips;
+    for (const std::size_t i : members) slips.insert(slip_of(i));
+    const double from = *slips.begin(), to = *slips.rbegin();
+    for (int k = 1; k < points - 1 && to > from; ++k) {
+      const double slip = std::lerp(from, to, static_cast<double>(k) / (points - 1));
+      const auto next = slips.lower_bound(slip);
+      const double gap = std::min(*next - slip, slip - *std::prev(next));
+      if (gap > 1e-3 * (to - from)) slips.insert(slip);
+    }
+    for (const double slip : slips) {
+      // Beside the condition with the nearest slip: its speed, where that varies along the curve, is the nearest too.
+      const std::size_t near = *std::min_element(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
+        return std::abs(slip_of(a) - slip) < std::abs(slip_of(b) - slip);
+      });
+      OperatingCondition at = asked.conditions[near];
+      at.slip = slip;
+      if (near < asked.rotations.size() && asked.rotations[near])
+        at.speed = speed_at_rotation(at, *asked.rotations[near], question.scenario.tire);
+      question.study.conditions.push_back(at);
+    }
+  }
+  return question;
 }
 
 std::string in_words(const Soil& soil) { return soil.name.empty() ? "a soil of its own (unnamed)" : soil.name; }

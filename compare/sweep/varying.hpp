@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/operating_condition.hpp"
-#include "scenario/soil.hpp"
+#include "scenario/case.hpp"
 
 namespace soilbin::compare {
 
@@ -23,6 +22,10 @@ struct Curves {
 /// Sorts by load, inclines, yaw, pass and, where they tell conditions of one slip apart, speed and moisture.
 /// Measured loads count as one where neighbours lie within 25 %, angles within 2 deg.
 Curves curves_against_slip(const std::vector<OperatingCondition>& conditions, Spread spread);
+
+/// The question with `points` slips or more on each of its curves, from the smallest to the largest slip that the curve
+/// has: for smooth lines. The curve's own slips are among them. A speed that came from a rotation follows the slip.
+Case with_smooth_curves(Case question, int points);
 
 /// The soil's name, or what to call one that a case describes and doesn't name.
 std::string in_words(const Soil& soil);

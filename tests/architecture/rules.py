@@ -54,7 +54,7 @@ INTERFACES = [
     "compare/failure_map/failure_map.hpp", "compare/report/page.hpp", "dem/rig/free_drive.hpp",
 ]
 # Files that include more than that from before the rule; the list only gets shorter.
-INCLUDE_TOO_MUCH = {"cli/calibrate_command.cpp", "cli/serve/replies.cpp"}
+INCLUDE_TOO_MUCH = {"cli/calibrate_command.cpp"}
 CPP = {".cpp", ".hpp", ".h", ".cc", ".ipp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 # Folders of one machine, or beside the checkout. Spelt in pieces, or this file would breach its own rule.

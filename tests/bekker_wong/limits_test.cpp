@@ -6,12 +6,27 @@
 #include <cmath>
 
 #include "bekker_wong/bed_fixture.hpp"
+#include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
 
 using bed::wheel_on;
+
+// A little less than the largest load has a balance, a little more has none.
+TEST(Limits, TheLargestLoadIsTheLastThatTheSoilCarries) {
+  const RollingWheel wheel = wheel_on(bed::sand());
+  OperatingCondition at = bed::driven(100);
+  at.slip = 0.2;
+  const std::optional<double> most = largest_load(wheel, at, 1e6);
+  ASSERT_TRUE(most);
+  at.load = *most;
+  EXPECT_NO_THROW(wheel.roll(at));
+  at.load = 1.001 * *most;
+  EXPECT_THROW(wheel.roll(at), NoSolution);
+  EXPECT_EQ(largest_load(wheel, at, 0.5 * *most), 0.5 * *most);
+}
 
 TEST(Limits, TheSlipFoundGivesThePullAskedFor) {
   const RollingWheel wheel = wheel_on(bed::sand());

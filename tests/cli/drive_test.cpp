@@ -1,4 +1,5 @@
 // soilbin drive and soilbin limits, as a person types them.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>

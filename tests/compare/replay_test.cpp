@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "compare/report/javascript.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -81,6 +82,40 @@ TEST(Replay, UnpacksToThePlacesWithinHalfAStep) {
 }
 
 // 20,000 grains of which a hundredth moves: a frame beyond the first costs far less than its 120,000 bytes.
+// What presses on grains comes after the places, a byte each, in the grains' order by x.
+TEST(Replay, KeepsContactForcesWallsAndTheWheelsForces) {
+  Replay replay = three_grains();
+  replay.bin = ReplayBin{{0, 0, 0}, {4, 1, 1e6}, {true, false, false}};
+  for (std::size_t f = 0; f < replay.frames.size(); ++f) {
+    replay.frames[f].pressing = {100.0, 25.0, 0.0};  // of x 2.0, 0.5, 1.0 at first
+    replay.frames[f].force = {1.0, 2.0, 3.0 + static_cast<double>(f)};
+  }
+  const std::string bytes = replay_bytes(replay);
+  const std::size_t end = bytes.find('\n');
+  const nlohmann::json header = nlohmann::json::parse(bytes.substr(0, end));
+  EXPECT_EQ(header["pressing"], 100.0);
+  EXPECT_EQ(header["bin"]["upper"][0], 4.0);
+  EXPECT_EQ(header["bin"]["periodic"], nlohmann::json({true, false, false}));
+  EXPECT_EQ(header["force"][3], nlohmann::json({1.0, 2.0, 6.0}));
+  const std::size_t before = 4 * 3 + 12 + 12 + 4 * 6 * 3;
+  std::string raw(before + 4 * 3, '\0');
+  uLongf size = raw.size();
+  ASSERT_EQ(uncompress(reinterpret_cast<Bytef*>(raw.data()), &size,
+                       reinterpret_cast<const Bytef*>(bytes.data() + end + 1), bytes.size() - end - 1),
+            Z_OK);
+  ASSERT_EQ(size, raw.size());
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(raw[before + k]); };
+  EXPECT_EQ(byte(0), 128) << "255 sqrt(25/100)";
+  EXPECT_EQ(byte(1), 0);
+  EXPECT_EQ(byte(2), 255);
+  const auto file = std::filesystem::temp_directory_path() / "soilbin-pressing.replay";
+  std::ofstream(file, std::ios::binary) << bytes;
+  EXPECT_EQ(read_replay(file).frames, 4U);
+  std::filesystem::remove(file);
+  replay.frames[1].pressing.pop_back();
+  EXPECT_THROW(replay_bytes(replay), InputError);
+}
+
 TEST(Replay, GrainsAtRestCostNothing) {
   Replay replay;
   for (std::size_t k = 0; k < 20000; ++k) replay.radii.push_back(0.01);

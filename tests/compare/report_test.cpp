@@ -1,17 +1,29 @@
+#include <fmt/core.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <filesystem>
 
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/plot.hpp"
+#include "compare/report/sheet_json.hpp"
 #include "compare/sweep/result_json.hpp"
+#include "scenario/atomic_file.hpp"
+#include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
 namespace {
 
+namespace fs = std::filesystem;
+
+using testing::AllOf;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 Series line(const std::string& label, std::vector<double> y) {
   Series series;
@@ -88,7 +100,7 @@ TEST(Page, EscapesAndClosesWhatItOpens) {
   page.table({"caption", {"a", "b"}, {{"x<y", "1"}}, {}});
   page.folded("more", [&] { page.code("soilbin run <study>"); });
   page.figure(Sheet{"", {Plot{"a", {}, {}, {line("s", {1, 2})}, false}}, Palette::ordered}, "caption");
-  const std::string html = page.html();
+  const std::string whole = page.html(), html = whole.substr(0, whole.find("<script"));
   for (const char* tag : {"div", "table", "details", "figure", "ul", "svg", "main", "p", "h2"})
     EXPECT_EQ(count(html, std::string("<") + tag + ">") + count(html, std::string("<") + tag + " "),
               count(html, std::string("</") + tag + ">"))
@@ -96,6 +108,38 @@ TEST(Page, EscapesAndClosesWhatItOpens) {
   EXPECT_THAT(html, HasSubstr("x&lt;y"));
   EXPECT_THAT(html, HasSubstr("&lt;b&gt;"));
   EXPECT_THAT(html, HasSubstr("href=\"#part-2\""));
+}
+
+// A card says what its page says of itself, and the way to it from the page that links.
+TEST(Page, ACardIsTakenFromThePageItself) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("soilbin-card-{}", ::getpid());
+  Page page("A <page>", "below");
+  page.summary({{"Name", "It pulls 4 N & more."}, {"", "Second."}});
+  page.figure(Sheet{"", {Plot{"first", {}, {}, {line("s", {1, 2})}, false}}, Palette::ordered}, "caption");
+  write_file_atomically(folder / "sub" / "page.html", page.html());
+  const PageCard card = page_card(folder / "sub" / "page.html", folder / "index.html");
+  EXPECT_EQ(card.href, "sub/page.html");
+  EXPECT_EQ(card.title, "A &lt;page&gt;");
+  EXPECT_EQ(card.line, "It pulls 4 N &amp; more.");
+  EXPECT_THAT(card.drawing, AllOf(StartsWith("<svg class=\"plot\""), HasSubstr("first"), EndsWith("</svg>")));
+  Page start("start", "");
+  start.cards({card});
+  EXPECT_THAT(start.html(), HasSubstr("<a class=\"card\" href=\"sub/page.html\"><svg"));
+  write_file_atomically(folder / "other.html", "<html></html>");
+  EXPECT_THROW(page_card(folder / "other.html", folder / "index.html"), InputError);
+  EXPECT_THROW(page_card(folder / "none.html", folder / "index.html"), InputError);
+  fs::remove_all(folder);
+}
+
+// Areas are drawn from their base; as data they say what they add to the pile.
+TEST(Svg, AnAreaIsFilledFromItsBase) {
+  Series area = line("part", {3, 5});
+  area.base = {1, 2};
+  const Sheet sheet{"", {Plot{"parts", {}, {}, {area}, false}}, Palette::named};
+  EXPECT_THAT(svg(sheet), AllOf(HasSubstr("<polygon"), Not(HasSubstr("stroke-linejoin"))));
+  EXPECT_THAT(legend(sheet).at(0).swatch, HasSubstr("<rect"));
+  EXPECT_EQ(to_json(sheet)["plots"][0]["series"][0]["base"], nlohmann::ordered_json({1.0, 2.0}));
+  EXPECT_THAT(sheet_csv(sheet), AllOf(HasSubstr("parts,part,0,2,"), HasSubstr("parts,part,1,3,")));
 }
 
 TEST(ResultJson, NotANumberIsNullAndErrorsStand) {

@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <set>
 
+#include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/explanation.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "compare/sweep/varying.hpp"
@@ -47,6 +49,57 @@ TEST(Sweep, AConditionWithoutSolutionDoesNotStopTheOthers) {
   EXPECT_EQ(calls, 3U);
   EXPECT_TRUE(answers[0].result && answers[2].result);
   EXPECT_EQ(answers[1].error, "too much slip");
+}
+
+// Smooth curves keep the study's own slips and each curve's other conditions; a speed that came from a rotation follows
+// the slip: r w (1 - s).
+TEST(Sweep, SmoothCurvesGoThroughTheStudysConditions) {
+  Case question;
+  question.scenario = wheel_on_sand();
+  const double radius = question.scenario.tire.radius, rotation = 2.0;
+  for (const double load : {50.0, 80.0})
+    for (const double slip : {0.0, 0.2, 0.5}) {
+      question.study.conditions.push_back(condition(load, slip));
+      question.study.conditions.back().speed = radius * rotation * (1 - slip);
+      question.study.rotations.emplace_back(rotation);
+    }
+  const Case smooth = with_smooth_curves(question, 11);
+  std::set<double> slips;
+  for (const OperatingCondition& at : smooth.study.conditions) {
+    EXPECT_TRUE(at.load == 50.0 || at.load == 80.0);
+    EXPECT_NEAR(at.speed, radius * rotation * (1 - at.slip), 1e-12);
+    slips.insert(at.slip);
+  }
+  EXPECT_EQ(smooth.study.conditions.size(), 2 * slips.size());
+  EXPECT_GE(slips.size(), 11U);
+  for (const double slip : {0.0, 0.2, 0.5}) EXPECT_EQ(slips.count(slip), 1U);
+  EXPECT_EQ(curves_against_slip(smooth.study.conditions, Spread::exact).labels.size(), 2U);
+}
+
+// What drives is piled up above zero and what holds back below it; the piles' ends add up to the sum of the parts.
+TEST(Sweep, PartsOfThePullArePiledUp) {
+  std::vector<Answer> answers;
+  for (const auto& [slip, push] : {std::pair{0.1, 5.0}, {0.2, -3.0}}) {
+    TractionResult result;
+    result.budget = {{"thrust", 10.0}, {"resistance", -4.0}, {"push", push}};
+    result.drawbar_pull.value = 6.0 + push;
+    answers.push_back({condition(1, slip), result, ""});
+  }
+  answers.push_back({condition(1, 0.3), std::nullopt, "none"});
+  const Sheet sheet = budget_sheet("t", {{"", answers}});
+  const std::vector<Series>& all = sheet.plots.at(0).series;
+  ASSERT_EQ(all.size(), 5U) << "push both drives and holds back";
+  double top = 0.0, bottom = 0.0, sum = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    top = std::max(top, all[k].y[1]), bottom = std::min(bottom, all[k].y[1]);
+    sum += all[k].y[0] - all[k].base[0];
+    EXPECT_TRUE(std::isnan(all[k].y[2]));
+  }
+  EXPECT_EQ(top, 10.0);
+  EXPECT_EQ(bottom, -7.0);
+  EXPECT_EQ(sum, 11.0);
+  EXPECT_EQ(all[4].y[0], 11.0);
+  EXPECT_TRUE(all[4].base.empty());
 }
 
 TEST(Sweep, ProgressMayStopTheWork) {

@@ -3,6 +3,7 @@ console error, charts and replay are there, and what a person can do works, by m
 
 Usage: page_test.py SOILBIN [--pictures DIR]     skipped (exit status 77) where no Chromium is installed
 """
+import base64
 import csv
 import io
 import os
@@ -10,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -149,6 +151,40 @@ class ThePage(unittest.TestCase):
         for k in range(0, 4000, 501):
             for axis, true in enumerate(replay_of_many.after(rest[k], last)):
                 self.assertAlmostEqual(header["origin"][axis] + header["step"] * shown[3 * k + axis], true, delta=header["step"])
+
+    def test_7b_axes_forces_contact_colours_and_a_series_of_pictures(self):
+        view = "soilbin.replayView"
+        self.assertTrue(self.browser.until(f"{view} && !{view}.playing", 60))
+        self.assertEqual(self.js(f"{view}.scene.bin.map(w => w.map(x => Math.round(100 * x) / 100))"), [[0, 4], [0, 0.8], [-0.05, 0.32]])
+        self.assertTrue(self.js(f"{view}.marks.click() || !{view}.scene.marks.visible"))
+        self.js(f"{view}.marks.click()")
+        forces = self.js(f"{view}.sheet.plots[0].series.map(s => [s.label, ...s.y])")
+        header = self.js(f"{view}.replay.header")
+        for axis, (label, *values) in enumerate(forces):
+            for at, value in zip(header["force"], values):
+                self.assertAlmostEqual(value, at[axis], delta=1e-5 * 5000)
+        marker = "document.querySelector('.forces .quiet-line').getAttribute('x1')"
+        self.js(f"{view}.go(1)")
+        before = float(self.js(marker))
+        self.js(f"{view}.go(4)")
+        self.assertGreater(float(self.js(marker)), before)
+        self.js(f"(s => {{ s.value = 'force'; s.dispatchEvent(new Event('change')); }})({view}.colour)")
+        self.assertIn("contact force", self.js("document.querySelector('.scale').textContent"))
+        self.assertEqual(self.js(f"{view}.scene.uniforms.mode.value"), 2)
+        pressed = self.js(f"[...{view}.replay.pressing[3]].map((p, k) => [p, k]).sort((a, b) => b[0] - a[0])[0]")
+        shown = self.js(f"[...{view}.replay.frames[3].slice({3 * pressed[1]}, {3 * pressed[1] + 3})]")
+        place = [header["origin"][a] + header["step"] * shown[a] for a in range(3)]
+        self.assertLess(abs(place[0] - header["wheel"][3][0]), 0.15, "the grain pressed most lies under the wheel")
+        self.js(f"soilbin.saveFile = (name, content) => {{ const r = new FileReader(); r.onload = () => {{ window.zip = r.result; }};"
+                f"r.readAsDataURL(content); }}; {view}.series.click()")
+        self.assertTrue(self.browser.until("window.zip", 60))
+        with zipfile.ZipFile(io.BytesIO(base64.b64decode(self.js("window.zip").split(",")[1]))) as pictures:
+            self.assertIsNone(pictures.testzip())
+            self.assertEqual(pictures.namelist(), [f"frame-{k:03}.png" for k in range(6)])
+            frames = [pictures.read(name) for name in pictures.namelist()]
+        self.assertTrue(all(f.startswith(b"\x89PNG") for f in frames))
+        self.assertEqual(len(set(frames)), 6)
+        self.assertEqual(self.browser.errors, [])
 
     def test_8_fits_a_phone_a_desk_and_the_dark(self):
         browser.assert_fits_a_phone_a_desk_and_the_dark(self, self.browser)

@@ -47,7 +47,10 @@ def replay(count, frames):
     header = {"format": "soilbin-replay/1", "title": "made for the test", "facts": [["seed", "1"]], "grains": count,
               "frames": frames, "vertices": len(points), "triangles": len(faces), "origin": [-0.05, -0.05, -0.1],
               "step": step, "surface": 0.3, "times": [0.04 * f for f in range(frames)], "wheel": wheel,
-              "rotation": [[math.cos(x / 2), 0, math.sin(x / 2), 0] for x in ((c[0] - 0.5) / 0.45 for c in wheel)]}
+              "rotation": [[math.cos(x / 2), 0, math.sin(x / 2), 0] for x in ((c[0] - 0.5) / 0.45 for c in wheel)],
+              "force": [[300 + 50 * math.sin(f), 10 * math.cos(f), 4000 + 200 * math.sin(2 * f)] for f in range(frames)],
+              "torque": [[0, 900 + 30 * math.cos(f), 0] for f in range(frames)], "pressing": 400.0,
+              "bin": {"lower": [0, 0, -0.05], "upper": [4, 0.8, 1e6], "periodic": [False, False, False]}}
     radius = 0.5 * (4 * 0.8 * 0.3 / count) ** (1 / 3)
     raw = b"".join(struct.pack("<f", radius) for _ in rest)
     raw += b"".join(struct.pack("<3f", *p) for p in points) + b"".join(struct.pack("<3I", *f) for f in faces)
@@ -62,6 +65,8 @@ def replay(count, frames):
                 changes.append(change << 1 if change >= 0 else (-change << 1) - 1)
                 before[axis][k] = at
             raw += bytes(c & 0xFF for c in changes) + bytes(c >> 8 for c in changes)
+    for centre in wheel:  # most under the wheel, less around
+        raw += bytes(int(255 * math.sqrt(math.exp(-20 * math.dist(place, (centre[0], 0.4, 0.3)) ** 2))) for place in rest)
     return json.dumps(header).encode() + b"\n" + zlib.compress(raw, 6)
 
 

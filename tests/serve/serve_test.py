@@ -95,6 +95,10 @@ class TheServer(unittest.TestCase):
     def test_says_what_the_command_says_that_it_shows(self):
         for flags in ({}, {"slip": "-15%", "yaw": "12.5 deg"}, {"soil": "sandy-loam", "lug_height": "20mm"},
                       {"effect": ["slip_sinkage", "exit_angle"]},
+                      {"radius": "300mm", "width": "0.2m", "lug-count": "24", "inflation-pressure": "120kPa"},
+                      {"tire": "rover-wheel", "load": "65N", "width": "120mm"},
+                      {"soil": "dry-sand", "friction-angle": "33+-2deg", "k-phi": "1200+-100kN/m^(n+2)", "exponent": "1",
+                       "cohesion": "0.5 kPa"},
                       {"effect": "none", "transverse_incline": "5deg", "longitudinal_incline": "3deg"}):
             status, served = self.server.estimate(**flags)
             self.assertEqual(status, 200, served)
@@ -115,6 +119,92 @@ class TheServer(unittest.TestCase):
         self.assertEqual([p["title"] for p in served["stresses"]["plots"]], ["Normal stress [kPa]", "Shear stress [kPa]"])
         _, wide = self.server.estimate(slips="-100%..100%")
         self.assertEqual(wide["curves"]["plots"][0]["series"][0]["x"][0], -100)
+
+    def test_a_soil_of_ones_own_is_the_soil_file_that_says_the_same(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mine = Path(folder) / "mine.yaml"
+            text = (Path(__file__).resolve().parents[2] / "cases/soils/dry-sand.yaml").read_text()
+            for was, now in (("{value: 1.1}", "{value: 1.0, sd: 0.05}"), ("{value: 28 deg}", "{value: 33 deg, sd: 2 deg}"),
+                             ("{value: 1528.43 kN/m^(n+2)}", "{value: 1200 kN/m^(n+2)}")):
+                self.assertIn(was, text)
+                text = text.replace(was, now)
+            mine.write_text(text)
+            told = json.loads(soilbin("estimate", "paper-straight", "--load", "4kN", "--slip", "20%", "--soil", str(mine),
+                                      "--effect", "none", "--json").stdout)
+        _, served = self.server.estimate(soil="dry-sand", exponent="1+-0.05", friction_angle="33+-2deg", k_phi="1200kN/m^(n+2)")
+        self.assertEqual(served["rows"], told["rows"])
+        self.assertEqual(served["soil"], "dry-sand, changed")
+        values = {n["key"]: (n["value"], n["sd"]) for n in served["numbers"] if n["group"] == "soil"}
+        self.assertEqual(values["exponent"], (1, 0.05))
+        self.assertEqual(values["friction-angle"], (33, 2))
+        self.assertEqual(values["shear-modulus"], (20, 6))
+        self.refused(400, "friction-angle", friction_angle="95deg")
+        self.refused(400, "friction-angle", friction_angle="33+-two deg")
+
+    def test_a_tire_of_the_library_comes_without_the_changes_to_the_one_before(self):
+        with Server("--soil", "dry-sand", "--tire", "rover-wheel", "--radius", "200mm", "--load", "65N", "--slip", "20%",
+                    "--friction-angle", "35deg") as server:
+            radius = lambda d: next(n["value"] for n in d["numbers"] if n["key"] == "radius")
+            self.assertEqual(radius(server.estimate()[1]), 200)
+            _, served = server.estimate(tire="paper-lugged")
+            self.assertEqual(radius(served), 496)
+            self.assertIn("--friction-angle=35deg", served["command"])
+            self.assertNotIn("friction-angle", server.estimate(soil="sandy-loam")[1]["command"])
+
+    def test_a_second_soil_or_tire_stands_beside_the_first(self):
+        _, alone = self.server.estimate(slip="30%")
+        _, other = self.server.estimate(slip="30%", soil="sandy-loam")
+        _, served = self.server.estimate(slip="30%", beside_soil="sandy-loam")
+        self.assertEqual(served["rows"], alone["rows"])
+        told = json.loads(soilbin(*shlex.split(served["beside"]["command"])[1:], "--json").stdout)
+        self.assertEqual(told["rows"], other["rows"])
+        self.assertEqual(served["beside"]["readings"], other["readings"])
+        for both, one, two in zip(*(d["curves"]["plots"] for d in (served, alone, other))):
+            self.assertEqual([s["y"] for s in both["series"]], [s["y"] for s in one["series"] + two["series"]])
+            self.assertEqual([s["label"] for s in both["series"]],
+                             ["paper-sand", "paper-sand, this point", "sandy-loam", "sandy-loam, this point"])
+        self.assertEqual([w["label"] for w in served["wheels"]], ["paper-sand", "sandy-loam"])
+        self.assertEqual(len(served["budget"]["plots"]), 2)
+        self.refused(400, "none of the library's tires", beside_tire="rover-wheal")
+
+    def test_the_parts_pile_up_to_the_drawbar_pull(self):
+        for flags in ({}, {"effect": ["bulldozing", "slip_sinkage"], "longitudinal_incline": "8deg"}):
+            _, served = self.server.estimate(**flags)
+            *areas, pull = served["budget"]["plots"][0]["series"]
+            self.assertGreater(len(areas), 1)
+            for i, y in enumerate(pull["y"]):
+                self.assertAlmostEqual(sum(a["y"][i] - a["base"][i] for a in areas), y, delta=1e-4 * 4000)
+                piles = sorted(y for a in areas for y in (a["base"][i], a["y"][i]))
+                self.assertGreaterEqual(piles[-1], max(0, y) - 0.1)
+
+    # b r times the integral of sigma cos(theta) + tau sin(theta) is the load on level ground.
+    def test_the_stresses_of_the_drawing_carry_the_load(self):
+        wheel = self.server.estimate()[1]["wheels"][0]
+        carried, theta = 0.0, wheel["theta"]
+        for k in range(len(theta) - 1):
+            mean = lambda key, of: 0.5 * sum(wheel[key][i] * of(theta[i]) for i in (k, k + 1))
+            carried += (theta[k + 1] - theta[k]) * (mean("normal", math.cos) + mean("shear", math.sin))
+        self.assertAlmostEqual(carried * 0.305 * wheel["radius"] / 4000, 1.0, delta=0.01)
+        self.assertAlmostEqual(wheel["sinkage"], wheel["radius"] * (1 - math.cos(wheel["entry"])), 9)
+
+    def test_the_case_that_is_saved_runs_to_the_curves_that_are_saved(self):
+        query = "soil=dry-sand&friction-angle=" + quote("31+-1.5deg") + "&radius=400mm&effect=slip_sinkage"
+        status, headers, case = self.server.ask(f"/case.yaml?{query}")
+        self.assertEqual(status, 200, case)
+        curves = self.server.ask(f"/curves.csv?{query}")[2]
+        with tempfile.TemporaryDirectory() as folder:
+            file, table = Path(folder) / "case.yaml", Path(folder) / "t.csv"
+            file.write_text(case)
+            self.assertEqual(soilbin("run", str(file), "--csv", str(table)).returncode, 0)
+            self.assertEqual(table.read_text(), curves)
+        beside = self.server.ask(f"/curves.csv?{query}&beside-soil=sandy-loam")[2]
+        self.assertEqual(len(beside.splitlines()), 2 * (len(curves.splitlines()) - 1) + 1)
+
+    def test_an_impossible_load_says_what_the_soil_carries(self):
+        document = self.refused(422, "the soil carries up to", load="2000kN")
+        most = document["carried_load"]
+        self.assertEqual(self.server.estimate(load=f"{most}N")[0], 200)
+        self.assertEqual(self.server.estimate(load=f"{1.001 * most}N")[0], 422)
 
     def test_an_effects_parameters_have_limits_and_stand_where_the_query_puts_them(self):
         start = json.loads(self.server.ask("/case")[2])
@@ -153,6 +243,7 @@ class TheServer(unittest.TestCase):
     def test_where_the_model_has_no_answer_it_says_so_and_gives_the_curves(self):
         document = self.refused(422, "no solution", load="2000kN")
         self.assertEqual(len(document["curves"]["plots"]), 5)
+        self.assertEqual(document["wheels"], [None])
         self.assertEqual(document["readings"], [])
 
     def test_a_query_reads_no_file(self):
@@ -214,10 +305,22 @@ class StartAndStop(unittest.TestCase):
             case.write_text(CASE)
             with Server(str(case)) as server:
                 start = json.loads(server.ask("/case")[2])
-                self.assertEqual({n["key"]: n["value"] for n in start["numbers"]},
+                self.assertEqual({n["key"]: n["value"] for n in start["numbers"] if n["group"] != "soil"},
                                  {"load": 60, "slip": 20, "speed": 0.02, "longitudinal-incline": 0,
-                                  "transverse-incline": 0, "yaw": 0, "lug-height": 8, "pass": 1, "moisture": 8, "position": 0,
-                                  "run": 1})
+                                  "transverse-incline": 0, "yaw": 0, "radius": 110, "width": 100, "lug-height": 8,
+                                  "lug-count": 24, "lug-thickness": None, "inflation-pressure": None,
+                                  "carcass-pressure": None, "pass": 1, "moisture": 8, "position": 0, "run": 1})
+                self.assertEqual({n["key"]: (n["value"], n["sd"], n["unit"]) for n in start["numbers"] if n["group"] == "soil"},
+                                 {"exponent": (1.1, 0, ""), "k-c": (0.99, 0, "kN/m^(n+1)"),
+                                  "k-phi": (1528.43, 0, "kN/m^(n+2)"), "cohesion": (1.04, 0, "kPa"),
+                                  "friction-angle": (28, 0, "deg"), "shear-modulus": (20, 6, "mm"),
+                                  "stress-angle-c1": (0.18, 0.08, ""), "stress-angle-c2": (0.32, 0.1, "")})
+                for n in start["numbers"]:
+                    self.assertLess(n["lower"], n["upper"], n)
+                    self.assertGreater(n["step"], 0, n)
+                    if n["value"] is not None:
+                        self.assertTrue(n["lower"] <= n["value"] <= n["upper"], n)
+                self.assertIn("rover-wheel", start["tires"])
                 self.assertIn("dry-sand", start["soils"])
                 on = {e["id"]: e["on"] for e in start["effects"] if e["on"]}
                 self.assertEqual(list(on), ["exit_angle"])
@@ -292,6 +395,23 @@ class ThePage(unittest.TestCase):
                 f".{'slider' if control == 'range' else 'box'})")
         self.assertTrue(self.browser.until("!soilbin.live.asking"))
 
+    def listed(self, title):
+        return f"[...document.querySelectorAll('.chooser')].find(l => l.firstChild.textContent === '{title} ').querySelector('select')"
+
+    def choose(self, title, value):
+        self.js(f"(s => {{ s.value = '{value}'; s.dispatchEvent(new Event('change')); }})({self.listed(title)})")
+        self.assertTrue(self.browser.until("!soilbin.live.asking"))
+
+    def reset(self):
+        self.js("document.getElementById('reset').click()")
+        self.assertTrue(self.browser.until("!soilbin.live.asking"))
+
+    def command(self):
+        return self.js("document.getElementById('command').textContent")
+
+    def wheel(self):
+        return self.js("document.querySelector('#ground svg').outerHTML")
+
     def pull(self):
         return self.js("document.querySelector('#curves .line').getAttribute('d')")
 
@@ -365,11 +485,94 @@ class ThePage(unittest.TestCase):
 
     def test_5_a_soil_of_the_library(self):
         before = self.pull()
-        self.js("(s => { s.value = 'clayey-soil'; s.dispatchEvent(new Event('change')); })(document.querySelector('.chooser select'))")
+        self.choose("Soil", "clayey-soil")
         self.assertTrue(self.browser.until("document.getElementById('chosen').textContent.includes('clayey-soil')"))
         self.assertNotEqual(self.pull(), before)
-        self.js("document.getElementById('reset').click()")
-        self.assertTrue(self.browser.until("document.querySelector('.chooser select').value === ''"))
+        self.reset()
+        self.assertEqual(self.js(f"{self.listed('Soil')}.value"), "")
+
+    def test_5b_a_tire_of_ones_own(self):
+        for key, value in (("radius", 350), ("width", 200), ("load", 3000)):
+            before, drawn = self.pull(), self.wheel()
+            self.move(key, value)
+            self.assertNotEqual(self.pull(), before, key)
+            self.assertNotEqual(self.wheel(), drawn if key != "width" else "", key)
+        self.move("inflation-pressure", 120, "box")
+        self.assertIn("--inflation-pressure=120kPa", self.command())
+        self.move("inflation-pressure", "''", "box")
+        self.assertNotIn("inflation-pressure", self.command())
+        self.choose("Tire", "rover-wheel")
+        self.assertTrue(self.browser.until("soilbin.live.numbers.get('radius').box.value === '90'"))
+        self.assertNotIn("--radius", self.command())
+        self.reset()
+
+    def test_5c_a_soil_of_ones_own_with_its_band(self):
+        band = "document.querySelector('#curves .band').getAttribute('d')"
+        curve, before = self.pull(), self.js(band)
+        self.move("friction-angle", 40)
+        self.assertNotEqual(self.pull(), curve)
+        self.assertRegex(self.command(), "--friction-angle=40[+]-[0-9.]+deg")
+        moved = self.js(band)
+        self.assertNotEqual(moved, before)
+        self.js("(e => { e.value = 0; e.dispatchEvent(new Event('input')); })(soilbin.live.numbers.get('friction-angle').deviation)")
+        self.assertTrue(self.browser.until("!soilbin.live.asking"))
+        self.assertNotEqual(self.js(band), moved)
+        self.assertIn("--friction-angle=40+-0deg", self.command())
+        told = json.loads(soilbin(*shlex.split(self.command())[1:], "--json").stdout)
+        self.assertEqual(told["rows"], self.js("soilbin.live.answer.rows"))
+        self.reset()
+
+    def test_5d_a_second_soil_and_tire_beside(self):
+        lines = "document.querySelectorAll('#curves .line').length"
+        self.choose("A second soil", "sandy-loam")
+        self.assertTrue(self.browser.until(f"{lines} === 10"))
+        self.assertEqual(self.js("document.querySelectorAll('#ground svg').length"), 2)
+        self.assertEqual(self.js("document.querySelectorAll('#budget .chart').length"), 2)
+        self.assertIn("sandy-loam:", self.js("document.getElementById('now').textContent"))
+        self.assertEqual(self.js("[...document.querySelectorAll('#curves .legend li')].map(l => l.textContent).join()"),
+                         "paper-sand,sandy-loam")
+        self.choose("A second soil", "")
+        self.choose("A second tire", "utility-vehicle")
+        self.assertTrue(self.browser.until("document.getElementById('chosen').textContent.includes('utility-vehicle')"))
+        self.choose("A second tire", "")
+        self.assertTrue(self.browser.until(f"{lines} === 5"))
+        self.assertEqual(self.js("document.querySelectorAll('#budget .chart').length"), 1)
+
+    def test_5e_the_stacked_parts_are_read_as_their_own_forces(self):
+        self.assertGreater(self.js("document.querySelectorAll('#budget .area').length"), 1)
+        self.js("document.querySelector('#budget svg.live').focus()")
+        self.browser.key("ArrowRight")
+        said = self.js("document.querySelector('#budget .for-ears').textContent")
+        self.assertIn("shear thrust", said)
+        self.assertRegex(said, "compaction resistance \u2212[0-9]")
+        self.browser.key("Escape")
+
+    def test_5f_what_a_person_takes_along(self):
+        self.js("(window.saved = [], soilbin.saveFile = (name, content) => { window.saved.push([name, content]); }); "
+                "navigator.clipboard.writeText = async text => { window.copied = text; }; 0")
+        for figure in ("ground", "budget", "curves", "stresses"):
+            for take in ("svg", "png", "copy", "csv", "json"):
+                self.js(f"document.querySelector('#{figure} [data-take={take}]').click()")
+            self.assertTrue(self.browser.until("window.saved.length === 4"), figure)
+            self.assertEqual(self.js("window.saved.map(s => s[0].split('.').pop()).sort().join()"), "csv,json,png,svg")
+            self.assertGreater(self.js("window.copied.length"), 100)
+            self.js("window.saved = []; 0")
+        self.js("document.getElementById('save-png').click()")
+        self.assertTrue(self.browser.until("window.saved.length === 1 && window.saved[0][1].size > 30000"))
+        self.js("document.getElementById('copy').click()")
+        self.assertTrue(self.browser.until("window.copied.startsWith('soilbin estimate')"))
+        self.assertEqual(self.js("window.copied"), self.command())
+        for link, begins in (("save-case", "format: soilbin-case/1"), ("save-csv", "model,load_N")):
+            text = self.js(f"fetch(document.getElementById('{link}').href).then(r => r.text())")
+            self.assertIn(begins, text[:400])
+
+    def test_6b_an_impossible_load_offers_one_that_is_possible(self):
+        self.move("load", 2000000, "box")
+        self.assertTrue(self.browser.until("document.getElementById('carried')"))
+        self.js("document.getElementById('carried').click()")
+        self.assertTrue(self.browser.until("!soilbin.live.asking && !soilbin.live.refused"))
+        self.browser.errors.clear()
+        self.reset()
 
     def test_6_what_is_refused_is_said_and_the_curves_stay(self):
         self.assertTrue(self.browser.until("!soilbin.live.asking"))

@@ -10,18 +10,27 @@ soilbin.make = function (tag, set = {}, ...inside) {
 soilbin.part = id => document.getElementById(id);
 soilbin.slipRanges = [['0%..100%', '0 to 100 %'], ['0%..40%', '0 to 40 %'], ['-100%..100%', '\u2212100 (braked) to 100 %']];
 
+// Figures of charts, and the sheet of the answer that each shows.
+soilbin.chartFigures = ['budget', 'curves', 'stresses'];
+
 soilbin.Live = class {
   constructor(start) {
     this.start = start;
-    this.charts = {curves: [], stresses: []};
+    this.charts = {budget: [], curves: [], stresses: []};
     this.numbers = new Map();
+    this.lists = [];
     this.state = new URLSearchParams(location.hash.slice(1));
     this.addControls();
+    for (const [place, name, what] of [['ground', 'wheel', 'stresses'], ...soilbin.chartFigures.map(p => [p, p, p])])
+      soilbin.addTakeAlong(soilbin.part(place), name, name, () => this.answer[what]);
     this.ask();
     window.addEventListener('hashchange', () => this.go(location.hash.slice(1)));
     soilbin.part('reset').addEventListener('click', () => this.go(''));
     soilbin.part('keep').addEventListener('click', event => this.keep(event.currentTarget));
-    soilbin.part('copy').addEventListener('click', () => this.copy());
+    soilbin.part('copy').addEventListener('click', event =>
+      soilbin.copyText(soilbin.part('command').textContent, event.currentTarget));
+    soilbin.part('save-png').addEventListener('click', async () =>
+      soilbin.saveFile('soilbin.png', await soilbin.pngOf(soilbin.figureSvg(document.querySelector('.results'))), 'image/png'));
   }
 
   go(query) {
@@ -39,51 +48,68 @@ soilbin.Live = class {
   }
 
   addControls() {
-    const form = document.querySelector('.live-page form'), {make} = soilbin;
-    const group = (title, ...inside) => make('fieldset', {}, make('legend', {textContent: title}), ...inside);
-    const list = (title, options, key, start) => {
+    const form = document.querySelector('.live-page form'), {make} = soilbin, wide = window.innerWidth > 820;
+    const group = (title, open, ...inside) => make('details', {open}, make('summary', {textContent: title}), ...inside);
+    const list = (title, options, key, start, changed = () => {}) => {
       const select = make('select');
       for (const [value, text] of options) select.add(new Option(text, value));
-      select.addEventListener('change', () => this.set(key, select.value, start));
-      (this.lists = this.lists || []).push([select, key, start]);
+      select.addEventListener('change', () => { changed(); this.set(key, select.value, start); });
+      this.lists.push([select, key, start]);
       return make('label', {className: 'chooser'}, title + ' ', select);
     };
-    const soils = [['', `${this.start.soil} (start)`]].concat(
-      this.start.soils.filter(name => name !== this.start.soil).map(name => [name, name]));
+    // Of a shelf of the library; what was changed of the one before goes with it.
+    const preset = (title, key, own, names) => list(title, [['', `${own} (start)`]].concat(names.map(n => [n, n])), key, '', () => {
+      for (const {key: number, group: of} of this.start.numbers) if (of === key) this.state.delete(number);
+    });
+    const beside = (title, key, names) => list(title, [['', 'none']].concat(names.map(n => [n, n])), key, '');
+    const numbers = of => this.start.numbers.filter(n => n.group === of).map(n => this.addNumber(n));
     form.addEventListener('submit', event => event.preventDefault());
     form.replaceChildren(
-      group('Condition', list('Soil', soils, 'soil', ''), ...this.start.numbers.map(n => this.addNumber(n))),
-      this.effects = make('details', {open: window.innerWidth > 820}, make('summary'),
-                          ...this.start.effects.map(effect => this.addEffect(effect))),
-      group('Curves', list('Slip from', soilbin.slipRanges, 'slips', soilbin.slipRanges[0][0])));
+      group('Condition', true, ...numbers('condition')),
+      group('Wheel', wide, preset('Tire', 'tire', this.start.tire_name, this.start.tires), ...numbers('tire')),
+      group('Soil', wide, preset('Soil', 'soil', this.start.soil, this.start.soils), ...numbers('soil')),
+      group('Beside it', wide, beside('A second soil', 'beside-soil', this.start.soils),
+            beside('A second tire', 'beside-tire', this.start.tires)),
+      this.effects = make('details', {open: false}, make('summary'), ...this.start.effects.map(effect => this.addEffect(effect))),
+      group('Curves', wide, list('Slip from', soilbin.slipRanges, 'slips', soilbin.slipRanges[0][0])));
     this.showEffects();
     this.showLists();
   }
 
+  // `number.value` and `number.sd` are what stands there while no flag says otherwise.
   addNumber(number) {
-    const control = this.control(`number-${number.key}`, number, text => this.set(number.key, text, number.value + number.unit));
+    const says = () => number.value === null ? '' : number.sd === undefined ? number.value + number.unit
+      : `${number.value}+-${number.sd}${number.unit}`;
+    const control = this.control(`number-${number.key}`, number, text => this.set(number.key, text || says(), says()));
+    control.number = number;
     this.numbers.set(number.key, control);
     return control.element;
   }
 
-  // A slider and a box for one number; the box takes what the slider can't reach.
-  control(id, {lower, upper, step, unit, title, meaning, value}, changed) {
-    const {make} = soilbin;
+  // A slider and a box for one number; the box takes what the slider can't reach. A soil's value has a second box for its
+  // standard deviation. A number that the tire doesn't declare has an empty box, and emptying the box takes it back.
+  control(id, {lower, upper, step, unit, title, meaning, value, sd}, changed) {
+    const {make} = soilbin, doubtful = sd !== undefined;
     const slider = make('input', {type: 'range', min: lower, max: upper, step, title: meaning});
-    const box = make('input', {type: 'number', id, step: 'any', title: meaning});
+    const box = make('input', {type: 'number', id, step: 'any', title: meaning, placeholder: value === null ? 'none' : ''});
+    const deviation = doubtful ? make('input', {type: 'number', step: 'any', min: 0, title: 'one standard deviation'}) : null;
     slider.setAttribute('aria-label', meaning.length < 40 ? meaning : title);
+    if (doubtful) deviation.setAttribute('aria-label', `Standard deviation of ${title}`);
     const moved = (from, to) => {
-      if (from.value === '') return;
+      if (from.value === '') return value === null && changed('');
       to.value = from.value;
       slider.setAttribute('aria-valuetext', `${from.value} ${unit}`);
-      changed(from.value + unit);
+      changed(doubtful ? `${box.value}+-${deviation.value || 0}${unit}` : from.value + unit);
     };
     slider.addEventListener('input', () => moved(slider, box));
     box.addEventListener('input', () => moved(box, slider));
-    const element = make('div', {className: 'number'}, make('label', {htmlFor: id, textContent: title, title: meaning}), box,
-                         make('span', {textContent: unit}), slider);
-    const control = {slider, box, unit, element};
-    this.showNumber(control, value);
+    if (doubtful) deviation.addEventListener('input', () => moved(box, slider));
+    const element = make('div', {className: doubtful ? 'number doubtful' : 'number'},
+                         make('label', {htmlFor: id, textContent: title, title: meaning}), box,
+                         ...(doubtful ? [deviation] : []),
+                         make('span', {textContent: doubtful ? `\u00b1 one standard deviation${unit && ', '}${unit}` : unit}), slider);
+    const control = {slider, box, deviation, unit, element};
+    this.showNumber(control, value, sd);
     return control;
   }
 
@@ -190,13 +216,21 @@ soilbin.Live = class {
   // A refusal has no curves: those of the last answer stay.
   show(answer) {
     this.refused = Boolean(answer.error);
-    this.complain(answer.error || (answer.warnings || []).join('; '), answer.hint);
+    const second = answer.beside && answer.beside.error ? `${answer.beside.label}: ${answer.beside.error}` : '';
+    this.complain(answer.error || second || (answer.warnings || []).join('; '), answer.hint || (second && answer.beside.hint));
+    if (answer.carried_load) this.offerLoad(answer.carried_load);
     document.querySelector('.results').classList.toggle('stale', !answer.curves);
     if (!answer.curves) return;
-    soilbin.part('chosen').textContent = answer.in_words;
-    soilbin.part('command').textContent = answer.command;
-    this.showReadings(answer.readings);
-    for (const {key, value} of answer.numbers) this.showNumber(this.numbers.get(key), value);
+    soilbin.part('chosen').textContent = answer.in_words + (answer.beside ? `; beside it ${answer.beside.in_words}` : '');
+    soilbin.part('command').textContent = answer.command + (answer.beside ? `\n${answer.beside.command}` : '');
+    for (const [id, target] of [['save-case', 'case.yaml'], ['save-csv', 'curves.csv']]) soilbin.part(id).href = `${target}?${this.state}`;
+    this.showReadings(answer.readings, answer.beside);
+    for (const {key, value, sd} of answer.numbers) {
+      const control = this.numbers.get(key);
+      if (!control) continue;
+      if (!this.state.has(key)) Object.assign(control.number, {value, sd});
+      this.showNumber(control, value, sd);
+    }
     for (const {id, parameters} of answer.effects) {
       const {controls} = this.start.effects.find(effect => effect.id === id);
       for (const {key, value} of parameters) if (controls.has(key)) this.showNumber(controls.get(key), value);
@@ -205,17 +239,33 @@ soilbin.Live = class {
     this.draw();
   }
 
-  showNumber({slider, box, unit}, value) {
-    if (document.activeElement === slider || document.activeElement === box) return;
+  // A load that the soil carries, in place of one that it does not: a little below the largest.
+  offerLoad(newton) {
+    const load = Number((0.98 * newton).toPrecision(3));
+    const button = soilbin.make('button', {type: 'button', id: 'carried', textContent: `Set the load to ${soilbin.formatNumber(load)} N`});
+    button.addEventListener('click', () => {
+      const {box} = this.numbers.get('load');
+      box.value = load;
+      box.dispatchEvent(new Event('input'));
+    });
+    soilbin.part('say').append(button);
+  }
+
+  showNumber({slider, box, deviation, unit}, value, sd) {
+    if ([slider, box, deviation].includes(document.activeElement)) return;
+    if (deviation) deviation.value = Number(sd.toPrecision(6));
+    if (value === null) { box.value = ''; return; }
     slider.value = box.value = Number(value.toPrecision(6));
     slider.setAttribute('aria-valuetext', `${box.value} ${unit}`);
   }
 
-  showReadings(readings) {
-    const {make, part} = soilbin, tile = ({name, value, unit}) => {
-      const one = make('div', {}, make('b', {textContent: unit ? `${value} ${unit}` : 'none'}), make('span', {textContent: name}));
-      one.dataset.said = `${name} ${value} ${unit}`;
-      if (!unit) one.title = value;
+  showReadings(readings, beside) {
+    const {make, part} = soilbin, text = ({value, unit}) => unit ? `${value} ${unit}` : 'none';
+    const tile = (reading, i) => {
+      const one = make('div', {}, make('b', {textContent: text(reading)}), make('span', {textContent: reading.name}));
+      one.dataset.said = `${reading.name} ${reading.value} ${reading.unit}`;
+      if (!reading.unit) one.title = reading.value;
+      if (beside && beside.readings[i]) one.append(make('small', {textContent: `${beside.label}: ${text(beside.readings[i])}`}));
       return one;
     };
     part('now').replaceChildren(...readings.slice(0, 5).map(tile));
@@ -223,19 +273,40 @@ soilbin.Live = class {
   }
 
   draw() {
+    const wheels = this.answer.wheels.filter(wheel => wheel);
+    soilbin.part('ground').hidden = !wheels.length;
+    soilbin.part('ground').querySelector('.panels').replaceChildren(...wheels.map(soilbin.drawWheel));
     if (typeof d3 === 'undefined') return;
-    for (const place of ['curves', 'stresses']) {
-      const plots = this.answer[place].plots, charts = this.charts[place], host = soilbin.part(place);
-      host.closest('figure').hidden = !plots.length;
+    for (const place of soilbin.chartFigures) {
+      const plots = this.answer[place].plots, charts = this.charts[place], figure = soilbin.part(place);
+      const host = figure.querySelector('.panels');
+      figure.hidden = !plots.length;
+      while (charts.length > plots.length) charts.pop().host.remove();
       plots.forEach((plot, i) => {
-        const kept = this.kept ? this.kept[place].plots[i] : null;
-        const old = kept ? kept.series.filter(s => s.label !== 'this point')
-          .map(s => ({...s, label: 'kept', error: [], dash: 1, color: 'c2'})) : [];
-        const all = {...plot, series: [...old, ...plot.series]};
+        const all = {...plot, series: [...this.keptSeries(place, i), ...plot.series]};
         if (charts[i]) charts[i].replot(all);
         else charts.push(new soilbin.Chart(host.appendChild(soilbin.make('div')), all, new Set()));
       });
+      this.showLegend(figure, charts.map(chart => chart.plot));
     }
+  }
+
+  // The kept curves, dashed; the budget piles up and has no room for a second one.
+  keptSeries(place, i) {
+    const kept = this.kept && place !== 'budget' ? this.kept[place].plots[i] : null;
+    return kept ? kept.series.filter(s => !s.label.endsWith('this point'))
+      .map(s => ({...s, label: s.label ? `kept, ${s.label}` : 'kept', error: [], dash: 1, color: s.color === 'c0' ? 'c2' : 'c3'})) : [];
+  }
+
+  showLegend(figure, plots) {
+    const entries = new Map();
+    for (const plot of plots) for (const {label, color} of plot.series) if (label && !label.endsWith('this point')) entries.set(label, color);
+    const swatch = color => soilbin.svgOf('svg', {viewBox: '0 0 12 12', width: 12, height: 12, 'aria-hidden': 'true'},
+                                          soilbin.svgOf('circle', {class: `f ${color}`, cx: 6, cy: 6, r: 5}));
+    const list = figure.querySelector('.legend');
+    if (list.dataset.shows === [...entries.keys()].join()) return;
+    list.dataset.shows = [...entries.keys()].join();
+    list.replaceChildren(...[...entries].map(([label, color]) => soilbin.make('li', {}, swatch(color), label)));
   }
 
   keep(button) {
@@ -243,12 +314,6 @@ soilbin.Live = class {
     button.setAttribute('aria-pressed', String(Boolean(this.kept)));
     button.textContent = this.kept ? 'Let go of the kept curves (dashed)' : 'Keep these curves to compare';
     this.draw();
-  }
-
-  async copy() {
-    await navigator.clipboard.writeText(soilbin.part('command').textContent);
-    soilbin.part('spoken').textContent = soilbin.part('copy').textContent = 'Copied';
-    setTimeout(() => { soilbin.part('copy').textContent = 'Copy the command'; }, 1500);
   }
 };
 

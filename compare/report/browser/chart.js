@@ -51,6 +51,14 @@ soilbin.Chart = class {
     this.draw();
   }
 
+  // A line that stays at x, such as the present time; null: none.
+  mark(x) {
+    this.marked = x;
+    const out = x === null || x === undefined || this.frame.x(x) < this.frame.left - 1 || this.frame.x(x) > this.frame.right + 1;
+    this.marker.attr('visibility', out ? 'hidden' : 'visible');
+    if (!out) this.marker.attr('x1', this.frame.x(x)).attr('x2', this.frame.x(x));
+  }
+
   visible() { return this.plot.series.filter(series => !this.hidden.has(series.label)); }
 
   // Every x at which a visible series has a value, once.
@@ -106,6 +114,8 @@ soilbin.Chart = class {
         .attr('x2', frame.x(high)).attr('y1', frame.y(low)).attr('y2', frame.y(high));
     }
     for (const series of this.visible()) soilbin.drawSeries(marks, series, frame);
+    this.marker = svg.append('line').attr('class', 'quiet-line').attr('y1', frame.top).attr('y2', frame.bottom);
+    this.mark(this.marked);
     this.cursor = svg.append('line').attr('class', 'cursor').attr('y1', frame.top).attr('y2', frame.bottom)
       .attr('visibility', 'hidden');
     this.zoom.extent([[frame.left, frame.top], [frame.right, frame.bottom]])

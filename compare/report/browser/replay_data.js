@@ -37,5 +37,46 @@ soilbin.readReplay = async function (base64) {
   const floats = count => Float32Array.from({length: count}, () => view.getFloat32((at += 4) - 4, true));
   const radii = floats(n), vertices = floats(3 * header.vertices);
   const triangles = Uint32Array.from({length: 3 * header.triangles}, () => view.getUint32((at += 4) - 4, true));
-  return {header, radii, vertices, triangles, frames: soilbin.readFrames(raw, at, n, header.frames)};
+  const frames = soilbin.readFrames(raw, at, n, header.frames), behind = at + 6 * n * header.frames;
+  // A byte a grain and frame: 255 sqrt(F/pressing), F the largest normal force of its contacts.
+  const pressing = header.pressing ? frames.map((_, f) => raw.subarray(behind + f * n, behind + (f + 1) * n)) : null;
+  return {header, radii, vertices, triangles, frames, pressing};
+};
+
+soilbin.crcTable = Uint32Array.from({length: 256}, (_, n) => {
+  for (let k = 0; k < 8; ++k) n = n & 1 ? 0xedb88320 ^ (n >>> 1) : n >>> 1;
+  return n >>> 0;
+});
+soilbin.crcOf = function (bytes) {
+  let crc = 0xffffffff;
+  for (const byte of bytes) crc = soilbin.crcTable[(crc ^ byte) & 255] ^ (crc >>> 8);
+  return (crc ^ 0xffffffff) >>> 0;
+};
+
+// A ZIP file that holds files as they are (PNG is compressed already): [[name, bytes], ...].
+soilbin.zipOf = function (files) {
+  const parts = [], directory = [];
+  let offset = 0;
+  const record = (signature, fields) => {  // fields: [bytes, value], little-endian
+    const size = 4 + fields.reduce((sum, [bytes]) => sum + bytes, 0), view = new DataView(new ArrayBuffer(size));
+    view.setUint32(0, signature, true);
+    let at = 4;
+    for (const [bytes, value] of fields) {
+      if (bytes === 2) view.setUint16(at, value, true);
+      else view.setUint32(at, value, true);
+      at += bytes;
+    }
+    return new Uint8Array(view.buffer);
+  };
+  for (const [name, bytes] of files) {
+    const label = new TextEncoder().encode(name), day = 0x21;  // 1 January 1980
+    const same = [[2, 0], [2, 0], [2, 0], [2, day], [4, soilbin.crcOf(bytes)], [4, bytes.length], [4, bytes.length], [2, label.length], [2, 0]];
+    const local = record(0x04034b50, [[2, 20], ...same]);
+    directory.push(record(0x02014b50, [[2, 20], [2, 20], ...same, [2, 0], [2, 0], [2, 0], [4, 0], [4, offset]]), label);
+    parts.push(local, label, bytes);
+    offset += local.length + label.length + bytes.length;
+  }
+  const size = directory.reduce((sum, part) => sum + part.length, 0);
+  return new Blob([...parts, ...directory, record(0x06054b50, [[2, 0], [2, 0], [2, files.length], [2, files.length], [4, size], [4, offset], [2, 0]])],
+                  {type: 'application/zip'});
 };

@@ -5,7 +5,7 @@ soilbin.ramp = ['#30348a', '#2a7fb0', '#3fb58a', '#d9c94a', '#e8622c'];
 
 soilbin.grainVertex = `
 attribute vec3 now, next, first;
-attribute float radius;
+attribute float radius, pressed, pressedNext;
 uniform vec3 origin;
 uniform float size, step, share, pixels, limit, cutY;
 uniform int mode;
@@ -13,7 +13,8 @@ varying float level, seen;
 void main() {
   vec3 place = mix(now, next, share);
   vec3 moved = mode == 0 ? place - first : next - now;
-  level = clamp(length(moved) * step / limit, 0.0, 1.0);
+  float share255 = mix(pressed, pressedNext, share);
+  level = clamp(mode == 2 ? share255 / limit : length(moved) * step / limit, 0.0, 1.0);
   vec3 metres = origin + step * place;
   seen = metres.y < cutY ? 0.0 : 1.0;
   vec4 eye = viewMatrix * vec4(metres, 1.0);
@@ -38,6 +39,14 @@ void main() {
   gl_FragColor = vec4(colour * light, 1.0);
 }`;
 
+// Round values between two ends, about `count` of them.
+soilbin.evenSteps = function (low, high, count) {
+  const rough = (high - low) / count, power = Math.pow(10, Math.floor(Math.log10(rough || 1)));
+  const step = [1, 2, 5, 10].map(s => s * power).find(s => s >= 0.999 * rough), values = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) values.push(Number((k * step).toPrecision(6)));
+  return values;
+};
+
 soilbin.ReplayScene = class {
   constructor(canvas, replay) {
     this.replay = replay;
@@ -53,6 +62,7 @@ soilbin.ReplayScene = class {
     this.scene.add(sun);
     this.addGrains();
     this.addTire();
+    this.addBin();
     this.aim();
   }
 
@@ -60,6 +70,8 @@ soilbin.ReplayScene = class {
     const {header, radii, frames} = this.replay, geometry = new THREE.BufferGeometry();
     // An attribute a frame: each goes to the graphics memory once, and playing only changes which are bound.
     this.attributes = frames.map(frame => new THREE.BufferAttribute(frame, 3));
+    const none = new Uint8Array(this.replay.pressing ? 0 : radii.length);
+    this.pressing = frames.map((_, f) => new THREE.BufferAttribute(this.replay.pressing ? this.replay.pressing[f] : none, 1));
     geometry.setAttribute('position', this.attributes[0]);  // three counts vertices by it
     geometry.setAttribute('first', this.attributes[0]);
     geometry.setAttribute('radius', new THREE.BufferAttribute(radii, 1));
@@ -86,9 +98,59 @@ soilbin.ReplayScene = class {
     this.scene.add(this.tire);
   }
 
+  // The walls as edges, an axis along each side with ticks in metres, and the undisturbed surface. Without walls on file
+  // the box is what the grains fill.
+  addBin() {
+    const {header, frames} = this.replay, axes = [0, 1, 2], first = frames[0];
+    const grains = axes.map(a => {
+      let [low, high] = [65535, 0];
+      for (let i = a; i < first.length; i += 3) { low = Math.min(low, first[i]); high = Math.max(high, first[i]); }
+      return [header.origin[a] + header.step * low, header.origin[a] + header.step * high];
+    });
+    // A domain's top, and a side that nothing bounds, lie far off.
+    const near = (value, of) => Math.abs(value - of) < 1 + Math.abs(of) ? value : of;
+    const walls = axes.map(a => header.bin ? [near(header.bin.lower[a], grains[a][0]), near(header.bin.upper[a], grains[a][1])] : grains[a]);
+    walls[2] = [walls[2][0], Math.max(grains[2][1], header.surface)];
+    const [[x0, x1], [y0, y1], [z0, z1]] = this.bin = walls, points = [], line = (...p) => points.push(...p);
+    for (const z of [z0, z1]) {
+      line(x0, y0, z, x1, y0, z); line(x0, y1, z, x1, y1, z); line(x0, y0, z, x0, y1, z); line(x1, y0, z, x1, y1, z);
+    }
+    for (const x of [x0, x1]) for (const y of [y0, y1]) line(x, y, z0, x, y, z1);
+    this.marks = new THREE.Group();
+    const small = 0.03 * Math.max(x1 - x0, y1 - y0), label = (text, x, y, z) => this.marks.add(this.textAt(text, x, y, z, 3 * small));
+    for (const x of soilbin.evenSteps(x0, x1, 6)) { line(x, y0, z0, x, y0 - small, z0); label(soilbin.formatNumber(x), x, y0 - 2.2 * small, z0); }
+    for (const y of soilbin.evenSteps(y0, y1, 3)) { line(x0, y, z0, x0 - small, y, z0); label(soilbin.formatNumber(y), x0 - 2.2 * small, y, z0); }
+    for (const z of soilbin.evenSteps(z0, z1, 3)) { line(x0, y0, z, x0 - small, y0, z); label(soilbin.formatNumber(z), x0 - 2.2 * small, y0, z); }
+    label('x [m], along travel', (x0 + x1) / 2, y0 - 4.5 * small, z0);
+    label('y [m]', x0 - 4.5 * small, (y0 + y1) / 2, z0);
+    label('z [m]', x0 - 4.5 * small, y0, (z0 + z1) / 2);
+    const lines = new THREE.BufferGeometry();
+    lines.setAttribute('position', new THREE.BufferAttribute(Float32Array.from(points), 3));
+    this.marks.add(new THREE.LineSegments(lines, new THREE.LineBasicMaterial({color: 0x8a919c})));
+    this.scene.add(this.marks);
+  }
+
+  // A text that faces the camera, `height` metres high.
+  textAt(text, x, y, z, height) {
+    const canvas = document.createElement('canvas'), pen = canvas.getContext('2d'), font = '44px system-ui, sans-serif';
+    pen.font = font;
+    canvas.width = Math.ceil(pen.measureText(text).width) + 8;
+    canvas.height = 60;
+    pen.font = font;
+    pen.fillStyle = '#8a919c';
+    pen.textBaseline = 'middle';
+    pen.fillText(text, 4, 30);
+    const texture = new THREE.CanvasTexture(canvas);
+    texture.minFilter = THREE.LinearFilter;
+    const sprite = new THREE.Sprite(new THREE.SpriteMaterial({map: texture, transparent: true}));
+    sprite.position.set(x, y, z);
+    sprite.scale.set(height * canvas.width / canvas.height, height, 1);
+    return sprite;
+  }
+
   // Looks at the wheel from the side and a little above, from a distance that holds it.
   aim() {
-    const reach = 3.4 * this.reach(), wheel = new THREE.Vector3(...this.replay.header.wheel[0]);
+    const reach = 4.2 * this.reach(), wheel = new THREE.Vector3(...this.replay.header.wheel[0]);
     this.target = wheel.clone();
     this.camera.position.copy(wheel).add(new THREE.Vector3(0.35 * reach, -reach, 0.5 * reach));
     this.controls = new THREE.OrbitControls(this.camera, this.canvas);
@@ -110,6 +172,8 @@ soilbin.ReplayScene = class {
     const next = Math.min(k + 1, frames.length - 1), share = at - k, geometry = this.grains.geometry;
     geometry.setAttribute('now', this.attributes[k]);
     geometry.setAttribute('next', this.attributes[next]);
+    geometry.setAttribute('pressed', this.pressing[k]);
+    geometry.setAttribute('pressedNext', this.pressing[next]);
     this.uniforms.share.value = share;
     this.interval = header.times[next] - header.times[k] || 1;
     const vector = list => new THREE.Vector3(...list), turn = ([w, x, y, z]) => new THREE.Quaternion(x, y, z, w);
@@ -124,10 +188,12 @@ soilbin.ReplayScene = class {
     this.target.copy(this.tire.position);
   }
 
-  // mode: 'displacement' [m] or 'speed' [m/s]; limit in its unit. cut: 'whole', 'tire', 'half'.
-  look(mode, limit, cut) {
-    this.uniforms.mode.value = mode === 'speed' ? 1 : 0;
-    this.uniforms.limit.value = mode === 'speed' ? limit * this.interval : limit;
+  // mode: 'displacement' [m], 'speed' [m/s] or 'force' [N]; limit in its unit. cut: 'whole', 'tire', 'half'.
+  look(mode, limit, cut, marks) {
+    this.uniforms.mode.value = ['displacement', 'speed', 'force'].indexOf(mode);
+    this.uniforms.limit.value = mode === 'speed' ? limit * this.interval
+      : mode === 'force' ? 255 * Math.sqrt(limit / this.replay.header.pressing) : limit;
+    this.marks.visible = marks;
     this.tire.visible = cut !== 'tire';
     const middle = this.replay.header.wheel[0][1];
     this.uniforms.cutY.value = cut === 'half' ? middle : -1e9;
@@ -159,8 +225,10 @@ soilbin.ReplayScene = class {
       sizes.sort((x, y) => x - y);
       return (sizes.length ? sizes[Math.floor(0.98 * (sizes.length - 1))] : 1) * header.step;
     };
-    const middle = Math.floor((frames.length - 1) / 2), after = Math.min(middle + 1, frames.length - 1);
-    return {displacement: high(last, frames[0]),
+    const middle = Math.floor((frames.length - 1) / 2), pressing = this.replay.pressing, after = Math.min(middle + 1, frames.length - 1);
+    const carried = pressing ? [...pressing[middle]].filter(p => p > 0).sort((a, b) => a - b) : [];
+    const share = carried.length ? carried[Math.floor(0.99 * (carried.length - 1))] / 255 : 1;
+    return {force: (header.pressing || 1) * share * share, displacement: high(last, frames[0]),
             speed: high(frames[after], frames[middle]) / (header.times[after] - header.times[middle] || 1)};
   }
 };

@@ -12,7 +12,11 @@ soilbin.ReplayView = class {
     this.canvas.setAttribute('role', 'img');
     this.canvas.setAttribute('aria-label', `Tire and ${replay.header.grains} grains in 3D. Arrow keys turn the view, plus and ` +
       'minus change the distance, space plays.');
-    host.replaceChildren(this.canvas);
+    const stage = document.createElement('div');
+    stage.className = 'stage';
+    stage.append(this.canvas);
+    host.replaceChildren(stage);
+    this.addForces(stage);
     this.scene = new soilbin.ReplayScene(this.canvas, replay);
     this.limits = this.scene.limits();
     this.addBar();
@@ -44,14 +48,71 @@ soilbin.ReplayView = class {
       bar.append(label);
       return select;
     };
-    this.colour = list('Colour', [['displacement', 'displacement'], ['speed', 'speed']]);
+    this.colour = list('Colour', [['displacement', 'displacement'], ['speed', 'speed'],
+                                  ...(this.replay.pressing ? [['force', 'contact force']] : [])]);
     this.cut = list('Show', [['whole', 'all'], ['tire', 'without the tire'], ['half', 'cut along the middle']]);
     this.pacing = list('Pace', [['1', 'true'], ['0.25', 'quarter'], ['4', 'four times']]);
     const follow = element('label', {});
     this.follow = element('input', {type: 'checkbox', checked: true});
     follow.append(this.follow, 'camera goes along');
-    bar.append(follow);
+    const marks = element('label', {});
+    this.marks = element('input', {type: 'checkbox', checked: true});
+    this.marks.addEventListener('change', () => this.refresh());
+    marks.append(this.marks, 'axes and walls');
+    this.series = element('button', {type: 'button', textContent: 'Save as PNG series'});
+    this.series.addEventListener('click', () => this.saveSeries());
+    bar.append(follow, marks, this.series);
     this.host.append(bar);
+  }
+
+  // What the grains do to the wheel, frame by frame, with a cursor at the present time; a click goes there.
+  addForces(stage) {
+    const {force, torque, times} = this.replay.header;
+    if (!force || typeof d3 === 'undefined') return;
+    const host = stage.appendChild(document.createElement('div')), x = times.map(t => t - times[0]);
+    const series = (label, color, y) => ({label, x, y, error: [], base: [], mark: 'line', color, dash: 0});
+    const axis = title => ({title, lower: null, upper: null}), of = (list, a) => list.map(v => Number(v[a].toPrecision(6)));
+    this.sheet = {title: 'Forces of the soil on the wheel, moment about its axle', plots: [
+      {title: 'Force on the wheel [N]', x: axis('time [s]'), y: axis(''), identity_line: false,
+       series: [series('along travel', 'c0', of(force, 0)), series('to the left', 'c2', of(force, 1)), series('upward', 'c1', of(force, 2))]},
+      {title: 'Moment [N m]', x: axis('time [s]'), y: axis(''), identity_line: false,
+       series: [series('', 'c3', of(torque, 1))]}]};
+    host.className = 'forces';
+    const legend = host.appendChild(document.createElement('ul'));
+    legend.className = 'legend';
+    for (const {label, color} of this.sheet.plots[0].series) {
+      const item = legend.appendChild(document.createElement('li'));
+      item.innerHTML = `<svg viewBox="0 0 12 12" width="12" height="12" aria-hidden="true"><circle class="f ${color}" cx="6" cy="6" r="5"/></svg>`;
+      item.append(label);
+    }
+    this.charts = this.sheet.plots.map(plot => new soilbin.Chart(host.appendChild(document.createElement('div')), plot, new Set()));
+    for (const chart of this.charts)
+      chart.svg.on('click', () => this.go(this.frameAt(times[0] + chart.frame.x.invert(d3.mouse(chart.svg.node())[0]))));
+    soilbin.addTakeAlong(host, 'forces-on-the-wheel', this.sheet.title, () => this.sheet);
+  }
+
+  // The time of a run as a place among its frames.
+  frameAt(time) {
+    const {times} = this.replay.header, last = times.length - 1;
+    if (time <= times[0]) return 0;
+    for (let k = 0; k < last; ++k) if (time < times[k + 1]) return k + (time - times[k]) / (times[k + 1] - times[k]);
+    return last;
+  }
+
+  // Each frame as the canvas shows it, frame-000.png and on, in one ZIP file.
+  async saveSeries() {
+    const {frames} = this.replay, at = this.at, files = [];
+    this.series.disabled = true;
+    for (let k = 0; k < frames.length; ++k) {
+      this.go(k);
+      this.series.textContent = `Frame ${k + 1} of ${frames.length}`;
+      const blob = await new Promise(done => this.canvas.toBlob(done, 'image/png'));
+      files.push([`frame-${String(k).padStart(3, '0')}.png`, new Uint8Array(await blob.arrayBuffer())]);
+    }
+    soilbin.saveFile('replay.zip', soilbin.zipOf(files), 'application/zip');
+    this.series.textContent = 'Save as PNG series';
+    this.series.disabled = false;
+    this.go(at);
   }
 
   addScale() {
@@ -126,13 +187,14 @@ soilbin.ReplayView = class {
   refresh() {
     const {times} = this.replay.header, k = Math.min(Math.floor(this.at), times.length - 1);
     const next = Math.min(k + 1, times.length - 1), time = times[k] + (this.at - k) * (times[next] - times[k]) - times[0];
-    const mode = this.colour.value, unit = mode === 'speed' ? 'm/s' : 'mm';
+    const mode = this.colour.value, [unit, per] = {displacement: ['mm', 1000], speed: ['m/s', 1], force: ['N', 1]}[mode];
     this.slider.value = this.at;
     this.time.textContent = `${time.toFixed(2)} s of ${(times[times.length - 1] - times[0]).toFixed(2)} s`;
     this.slider.setAttribute('aria-valuetext', this.time.textContent);
-    this.low.textContent = `${mode} 0`;
-    this.high.textContent = `${soilbin.formatNumber(this.limits[mode] * (mode === 'speed' ? 1 : 1000))} ${unit} and more`;
-    this.scene.look(mode, this.limits[mode], this.cut.value);
+    this.low.textContent = `${mode === 'force' ? 'largest contact force, square-root scale: ' : mode} 0`;
+    this.high.textContent = `${soilbin.formatNumber(this.limits[mode] * per)} ${unit} and more`;
+    for (const chart of this.charts || []) chart.mark(time);
+    this.scene.look(mode, this.limits[mode], this.cut.value, this.marks.checked);
     this.scene.draw();
   }
 };

@@ -1,0 +1,137 @@
+#include "cli/serve/answered.hpp"
+
+#include <cmath>
+#include <memory>
+
+#include "bekker_wong/limits.hpp"
+#include "bekker_wong/model.hpp"
+#include "cli/text_output.hpp"
+#include "compare/report/json_fields.hpp"
+#include "compare/report/sheet_json.hpp"
+#include "compare/sweep/answer_sheets.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int curve_points = 61;
+
+/// A curve shows four numbers a slip, and no stresses.
+std::unique_ptr<const Model> make_curve_model(ModelKind kind) {
+  if (kind != ModelKind::bekker_wong) return compare::make_model(kind);
+  return std::make_unique<const bekker_wong::BekkerWong>(bekker_wong::Detail{.errors = true, .patch = false});
+}
+
+}  // namespace
+
+Case swept_over(Case question, const std::pair<double, double>& slips) {
+  OperatingCondition at = question.study.conditions.front();
+  question.study.conditions.clear();
+  for (int i = 0; i < curve_points; ++i) {
+    at.slip = std::lerp(slips.first, slips.second, static_cast<double>(i) / (curve_points - 1));
+    question.study.conditions.push_back(at);
+  }
+  return question;
+}
+
+ServedAnswer answer_to(Asked asked, const std::pair<double, double>& slips) {
+  ServedAnswer one{std::move(asked), {}, {}, {}};
+  one.swept = swept_over(one.asked.question, slips);
+  one.point = compare::run_study(one.asked.question);
+  one.curves = compare::run_study(one.swept, {}, make_curve_model);
+  return one;
+}
+
+Json curves_json(const std::vector<ServedAnswer>& sides) {
+  compare::Sheet all;
+  for (std::size_t side = 0; side < sides.size(); ++side) {
+    const ServedAnswer& one = sides[side];
+    compare::Sheet sheet = compare::study_sheet(one.swept, one.curves, compare::Panels::all);
+    const compare::Sheet here = compare::study_sheet(one.asked.question, one.point, compare::Panels::all);
+    if (side == 0) all = {sheet.title, std::vector<compare::Plot>(sheet.plots.size()), sheet.palette};
+    for (std::size_t i = 0; i < sheet.plots.size(); ++i) {
+      compare::Plot& plot = all.plots[i];
+      if (side == 0) plot = {sheet.plots[i].title, sheet.plots[i].x, sheet.plots[i].y, {}, false};
+      for (compare::Series& series : sheet.plots[i].series) {
+        series.label = one.label, series.color = side == 0 ? 0 : 2;
+        plot.series.push_back(std::move(series));
+      }
+      for (compare::Series series : here.plots[i].series) {
+        series.mark = compare::Mark::points;
+        series.label = one.label.empty() ? "this point" : one.label + ", this point";
+        series.color = side == 0 ? 1 : 2;
+        plot.series.push_back(std::move(series));
+      }
+    }
+  }
+  return compare::to_json(all);
+}
+
+Json stresses_json(const std::vector<ServedAnswer>& sides) {
+  std::vector<compare::LabelledPatch> patches;
+  for (const ServedAnswer& one : sides)
+    if (const auto& result = one.point.front().answers.front().result)
+      patches.push_back({one.label, one.label == sides.front().label ? 0 : 2, result->patch});
+  return compare::to_json(compare::patch_sheet("Stresses along the contact", patches));
+}
+
+Json budget_json(const std::vector<ServedAnswer>& sides) {
+  std::vector<compare::LabelledAnswers> curves;
+  for (const ServedAnswer& one : sides) curves.push_back({one.label, one.curves.front().answers});
+  return compare::to_json(compare::budget_sheet("Parts of the drawbar pull", curves));
+}
+
+Json wheel_json(const ServedAnswer& one) {
+  const auto& result = one.point.front().answers.front().result;
+  if (!result) return nullptr;
+  const Tire& tire = one.asked.question.scenario.tire;
+  Json json = {{"label", one.label},
+               {"radius", tire.radius},
+               {"lug_height", tire.lugs.height},
+               {"lug_count", tire.lugs.count.value_or(0)},
+               {"load", result->at.load},
+               {"incline", result->at.longitudinal_incline},
+               {"drawbar_pull", result->drawbar_pull.value},
+               {"torque", result->torque.value},
+               {"sinkage", result->sinkage.value},
+               {"entry", result->entry_angle},
+               {"exit", result->exit_angle},
+               {"theta", Json::array()},
+               {"normal", Json::array()},
+               {"shear", Json::array()}};
+  constexpr std::size_t most = 96;
+  const std::size_t every = result->patch.size() / most + 1;
+  for (std::size_t k = 0; k < result->patch.size(); k += every) {
+    const StressSample& sample = result->patch[k];
+    json["theta"].push_back(sample.theta);
+    json["normal"].push_back(compare::finite(sample.normal));
+    json["shear"].push_back(compare::finite(sample.shear));
+  }
+  return json;
+}
+
+Json readings_json(const ServedAnswer& one) {
+  Json all = Json::array();
+  if (const auto& result = one.point.front().answers.front().result)
+    for (const Reading& reading : readings(*result))
+      all.push_back({{"name", reading.name}, {"value", reading.value}, {"unit", reading.unit}});
+  return all;
+}
+
+Json carried_load(const ServedAnswer& one) {
+  const Case& question = one.asked.question;
+  if (compare::any_result(one.point) || !question.scenario.soil.semi_empirical) return nullptr;
+  try {
+    const bekker_wong::RollingWheel wheel(
+        question.scenario.tire, bekker_wong::values_of(*question.scenario.soil.semi_empirical),
+        bekker_wong::make_effects(question.study.models.front().effects), question.scenario.bin);
+    const OperatingCondition& at = question.study.conditions.front();
+    const std::optional<double> load = bekker_wong::largest_load(wheel, at, at.load);
+    return load ? Json(*load) : Json(nullptr);
+  } catch (const std::exception&) {  // the point's own error says why
+    return nullptr;
+  }
+}
+
+}  // namespace soilbin::cli
