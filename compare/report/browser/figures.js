@@ -134,28 +134,17 @@ soilbin.pngOf = async function (svg) {
   return new Promise(done => canvas.toBlob(done, 'image/png'));
 };
 
-<<<<<<< HEAD
-// Buttons below a figure: save it, copy or save its data. `name` begins the files' names; `sheet()` gives the data of
-// charts, and is left out for a drawing. Names of buttons for tests and ears: data-take.
-soilbin.addTakeAlong = function (figure, name, sheet) {
-  const row = document.createElement('p'), title = () => sheet && sheet().title || name;
-=======
 // Buttons below a figure: save it, copy or save its data. `name` begins the files' names, `title` tells ears what is
 // saved; `sheet()` gives the data of charts, and is left out for a drawing. Each button's data-take says what it does.
 soilbin.addTakeAlong = function (figure, name, title, sheet) {
   const row = document.createElement('p');
->>>>>>> e197c483bb09503318cefc47cd7de027f57458cf
   row.className = 'take-along';
   const add = (take, text, what, act) => {
     const button = document.createElement('button');
     button.type = 'button';
     button.textContent = text;
     button.dataset.take = take;
-<<<<<<< HEAD
-    button.setAttribute('aria-label', `${what} ${title()}`);
-=======
     button.setAttribute('aria-label', `${what} ${title}`);
->>>>>>> e197c483bb09503318cefc47cd7de027f57458cf
     button.addEventListener('click', () => act(button));
     row.append(button, ' ');
   };

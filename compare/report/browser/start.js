@@ -7,12 +7,8 @@ soilbin.start = function () {
     for (const [id, sheet] of Object.entries(sheets)) soilbin.enlivenFigure(document.getElementById(id), sheet);
   for (const figure of document.querySelectorAll('figure'))
     if (figure.querySelector('svg') && !figure.querySelector('.replay'))
-<<<<<<< HEAD
-      soilbin.addTakeAlong(figure, figure.id || 'figure', sheets[figure.id] && (() => sheets[figure.id]));
-=======
       soilbin.addTakeAlong(figure, figure.id || 'figure', sheets[figure.id] && sheets[figure.id].title || 'this figure',
                            sheets[figure.id] && (() => sheets[figure.id]));
->>>>>>> e197c483bb09503318cefc47cd7de027f57458cf
   for (const svg of document.querySelectorAll('svg.heat')) soilbin.enlivenHeatMap(svg);
   for (const box of document.querySelectorAll('.choices')) soilbin.enlivenChoices(box);
   for (const host of document.querySelectorAll('.replay')) soilbin.startReplay(host);
