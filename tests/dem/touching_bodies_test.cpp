@@ -133,7 +133,9 @@ TEST(TouchingBodies, AShallowValleyIsOneContactASteepOneTwo) {
         const TouchingPoints points = touch(valley, c, 0.35);
         const double deepest = (c.z - c.x * std::tan(slope)) * std::cos(slope);
         EXPECT_EQ(points.count, slope > 0.1 ? 2 : 1) << slope;
-        if (slope > 0.1) EXPECT_NEAR(points[0].distance, deepest, 1e-12);
+        if (slope > 0.1) {
+          EXPECT_NEAR(points[0].distance, deepest, 1e-12);
+        }
         EXPECT_NEAR(points[0].distance, deepest, (1 - std::cos(slope)) * deepest + 1e-12);  // the fillet
         EXPECT_EQ(touch(valley, c, 0.35, 0).count, 2);
         EXPECT_EQ(touch(valley, c, 0.35, 1.5).count, 1);

@@ -24,8 +24,12 @@ const Library& library() {
   return cases;
 }
 
-/// The library, and that of the bench in which grains are nature.
-std::array<Library, 2> libraries() { return {library(), Library({SOILBIN_SOURCE_DIR "/bench/dem_nature"})}; }
+/// The library, that of the bench in which grains are nature, and that of the paper's sand under the default rolling
+/// law.
+std::array<Library, 3> libraries() {
+  return {library(), Library({SOILBIN_SOURCE_DIR "/bench/dem_nature"}),
+          Library({SOILBIN_SOURCE_DIR "/bench/elastic_plastic", SOILBIN_SOURCE_DIR "/cases"})};
+}
 
 TEST(Library, ListsNames) {
   EXPECT_THAT(library().names(Shelf::tires), Contains("paper-lugged"));
