@@ -32,7 +32,7 @@ RecordedRun SoilBinRuns::operator()(const Scenario& scenario, const OperatingCon
   try {
     run.answer.result = model(packing).evaluate(scenario, at);
     run.steady = told_->steady, run.drift = told_->drift, run.power = told_->power;
-    run.rut = told_->rut, run.flow = told_->flow;
+    run.bed = told_->bed, run.rut = told_->rut, run.flow = told_->flow;
   } catch (const dem::RunStopped& stopped) {
     run.answer.error = stopped.what();
   } catch (const NoSolution& error) {

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "compare/recorded/record_fields.hpp"
 #include "compare/report/json_fields.hpp"
@@ -123,6 +125,17 @@ Json seal_schema(const std::string& of) {
 bool looked_at(const std::string& name, const std::vector<std::string>& only) {
   return only.empty() ||
          std::any_of(only.begin(), only.end(), [&](const std::string& begin) { return name.starts_with(begin); });
+}
+
+/// Void ratios of the beds that tell it, from the densest to the loosest.
+std::string density_of_beds(const std::vector<RecordedRun>& runs) {
+  double densest = std::numeric_limits<double>::infinity(), loosest = 0;
+  for (const RecordedRun& run : runs)
+    if (std::isfinite(run.bed.void_ratio))
+      densest = std::min(densest, run.bed.void_ratio), loosest = std::max(loosest, run.bed.void_ratio);
+  if (loosest == 0) return "";
+  const std::string low = fmt::format("{:.3f}", densest), high = fmt::format("{:.3f}", loosest);
+  return fmt::format("bed: void ratio {}\n", low == high ? low : low + " to " + high);
 }
 
 }  // namespace
@@ -271,7 +284,8 @@ std::string notes_on(const std::vector<RecordedRun>& runs) {
                            run.packing == 1 ? "" : fmt::format(", packing {}", run.packing), run.drift);
   }
   if (runs.empty()) return "";
-  return notes + fmt::format("dem: {} run{}, {:.0f} s in all\n", runs.size(), runs.size() == 1 ? "" : "s", seconds);
+  return notes + density_of_beds(runs) +
+         fmt::format("dem: {} run{}, {:.0f} s in all\n", runs.size(), runs.size() == 1 ? "" : "s", seconds);
 }
 
 }  // namespace soilbin::compare

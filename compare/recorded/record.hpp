@@ -28,6 +28,7 @@ struct RecordedRun {
   bool steady = false;        ///< as in WheelRun; this and the rest mean nothing without a result
   double drift = 0;
   dem::PowerBalance power;
+  dem::BedDensity bed{};  ///< not told in files from before it was kept
   dem::Rut rut;
   dem::SoilFlow flow;
   /// Whether a seal in the file vouches for it: not for runs of files from before there were seals. A new run gets one.

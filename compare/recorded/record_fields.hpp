@@ -27,6 +27,13 @@ void power_fields(Visitor& v, Power& power) {
           [&](auto& inner) { loss_fields(inner, power.losses); });
 }
 
+template <class Visitor, class Density>
+void bed_fields(Visitor& v, Density& bed) {
+  v.number("void_ratio", bed.void_ratio, "-", "volume of voids over volume of grains");
+  v.number("bulk_density", bed.bulk, "kg/m^3", "mass of grains over the volume with voids");
+  v.number("coordination", bed.coordination, "-", "contacts a grain");
+}
+
 template <class Visitor, class Profile>
 void rut_fields(Visitor& v, Profile& rut) {
   v.number("from", rut.from, "m", "begin of the stretch behind the wheel, x in the bin");
@@ -69,6 +76,8 @@ void told_fields(Visitor& v, Run& run) {
   v.number("drift", run.drift, "-",
            "largest difference of halves over its standard error, of pull, torque and sinkage");
   v.group("power", "powers, means over the steady part", [&](auto& inner) { power_fields(inner, run.power); });
+  v.added_group("bed", "how dense the bed was before the wheel, in its core",
+                [&](auto& inner) { bed_fields(inner, run.bed); });
   v.group("rut", "change of the surface seen from above", [&](auto& inner) { rut_fields(inner, run.rut); });
   v.group("flow", "mean velocity of the soil round the wheel, in its middle plane",
           [&](auto& inner) { flow_fields(inner, run.flow); });

@@ -1,6 +1,8 @@
-// What a run gives beside its result: power, rut, and flow of the soil, as plain values that a record keeps.
+// What a run gives beside its result: power, the bed, its rut, and flow of the soil, as plain values that a record
+// keeps.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "dem/engine/energy.hpp"
@@ -16,6 +18,13 @@ struct PowerBalance {
   double into_soil = 0;  ///< given to the grains, counted step by step
   double rest = 0;       ///< drive less all these: what rounding and the products of fluctuations leave
   Ledger losses;         ///< with Rig::ledger: where grains lost it
+};
+
+/// How dense the bed was before the wheel, in its core (BedReport). NaN where nobody told.
+struct BedDensity {
+  double void_ratio = std::numeric_limits<double>::quiet_NaN();    ///< volume of voids over volume of grains
+  double bulk = std::numeric_limits<double>::quiet_NaN();          ///< [kg/m^3]
+  double coordination = std::numeric_limits<double>::quiet_NaN();  ///< contacts a grain
 };
 
 /// How the run changed the bed's surface, seen from above: height after less height before. Cells are about a largest

@@ -178,6 +178,7 @@ WheelRun Ride::run() {
   run.flow = flow_.flow();
   run.surface = bin_.surface();
   run.earlier = run_in_stages().earlier();
+  run.bed = {bed_.report.void_ratio, bed_.report.bulk_density, bed_.report.coordination};
   run.rut = rut_behind();
   summarise(run, tire_, at_, rig_);
   if (rig_.ledger && law::is_directional(bin_.simulation().setup().laws.rolling))

@@ -104,6 +104,7 @@ struct WheelRun {
   double drift = 0;                  ///< largest drift_over_error of pull, torque and sinkage
   double surface = 0;                ///< height of the undisturbed surface [m]
   Vec3 moment;                       ///< mean, about the wheel's centre [N m]
+  BedDensity bed{};
   Rut rut;
   SoilFlow flow;
   double earlier = 0;  ///< on the clock on the wall, before the run was gone on with [s]

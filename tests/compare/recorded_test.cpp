@@ -41,6 +41,7 @@ RecordedRun made_run(double load, double slip, std::uint64_t packing, double pul
                   .flow = {}};
   run.power.drive = 5, run.power.pull = 1.5, run.power.rest = 1e-17, run.power.losses.sliding = 2.5;
   run.rut.y = {-0.1, 0.1}, run.rut.across = {1e-3, -1.0 / 7}, run.rut.axle = 2.25;
+  run.bed = {0.526, 1614, 5.5};
   run.flow.cell = 0.04, run.flow.nx = 2, run.flow.nz = 1, run.flow.vx = {std::nan(""), 1.0 / 9};
   return run;
 }
@@ -60,6 +61,27 @@ Record made_record() {
   Record record{"0.1.0", "dem", "name: made\nstudy: \"a, b\"\n", {{"bed.length", "2.5"}, {"tire.radius", "0.496"}}, {}};
   record.runs = {made_run(2000, 0.2, 1), made_run(2000, 0.2, 2, 1.0), failed_run(2000)};
   return record;
+}
+
+TEST(Record, TellsHowDenseItsBedsAre) {
+  Record record = made_record();
+  record.runs[1].bed.void_ratio = 0.531;
+  EXPECT_EQ(parse_record({"r.json", record_text(record)}).runs[0].bed.bulk, 1614);
+  EXPECT_THAT(notes_on(record.runs), HasSubstr("bed: void ratio 0.526 to 0.531\n"));
+  EXPECT_THAT(notes_on({record.runs[0]}), HasSubstr("bed: void ratio 0.526\n"));
+}
+
+TEST(Record, FromBeforeBedsWereToldSaysNothingOfThem) {
+  Record old = made_record();
+  old.sealed = false;
+  for (RecordedRun& run : old.runs) run.sealed = false;
+  std::string text = record_text(old);
+  const std::string key = R"("bed":{"void_ratio":0.526,"bulk_density":1614.0,"coordination":5.5},)";
+  ASSERT_THAT(text, HasSubstr(key));
+  for (std::size_t at; (at = text.find(key)) != std::string::npos;) text.erase(at, key.size());
+  const Record back = parse_record({"old.json", text});
+  EXPECT_TRUE(std::isnan(back.runs[0].bed.void_ratio));
+  EXPECT_THAT(notes_on(back.runs), testing::Not(HasSubstr("void ratio")));
 }
 
 TEST(Record, FromBeforeTheRestWasToldKeepsItWithoutABound) {
