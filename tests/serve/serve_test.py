@@ -553,12 +553,12 @@ class ThePage(unittest.TestCase):
         for figure in ("ground", "budget", "curves", "stresses"):
             for take in ("svg", "png", "copy", "csv", "json"):
                 self.js(f"document.querySelector('#{figure} [data-take={take}]').click()")
-            self.assertTrue(self.browser.until("window.saved.length === 4"), figure)
+            self.assertTrue(self.browser.until("window.saved.length === 4", 60), figure)
             self.assertEqual(self.js("window.saved.map(s => s[0].split('.').pop()).sort().join()"), "csv,json,png,svg")
             self.assertGreater(self.js("window.copied.length"), 100)
             self.js("window.saved = []; 0")
         self.js("document.getElementById('save-png').click()")
-        self.assertTrue(self.browser.until("window.saved.length === 1 && window.saved[0][1].size > 30000"))
+        self.assertTrue(self.browser.until("window.saved.length === 1 && window.saved[0][1].size > 30000", 60))
         self.js("document.getElementById('copy').click()")
         self.assertTrue(self.browser.until("window.copied.startsWith('soilbin estimate')"))
         self.assertEqual(self.js("window.copied"), self.command())
