@@ -568,7 +568,7 @@ class ThePage(unittest.TestCase):
 
     def test_6b_an_impossible_load_offers_one_that_is_possible(self):
         self.move("load", 2000000, "box")
-        self.assertTrue(self.browser.until("document.getElementById('carried')"))
+        self.assertTrue(self.browser.until("document.getElementById('carried') !== null"))
         self.js("document.getElementById('carried').click()")
         self.assertTrue(self.browser.until("!soilbin.live.asking && !soilbin.live.refused"))
         self.browser.errors.clear()
