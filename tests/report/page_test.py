@@ -132,7 +132,7 @@ class ThePage(unittest.TestCase):
                  "return [...x.getImageData(0, 0, 64, 64).data].filter((v, i) => i % 4 === 3 && v > 0).length; })()")
         self.assertGreater(self.js(shade), 200)
         self.js("soilbin.replayView.go(0)")
-        self.js("document.querySelector('.replay button').click()")
+        self.js("document.querySelector('.replay .bar button').click()")
         early = "(v => { v.go(0); v.tick(v.before - 100); return v.at; })(soilbin.replayView)"
         self.assertGreaterEqual(self.js(early), 0)  # a frame that began before the click
         self.assertTrue(self.browser.until("soilbin.replayView.at > 0.5", 60))
@@ -202,7 +202,7 @@ class ThePage(unittest.TestCase):
             self.assertEqual(takes[:4], ["svg", "png", "copy", "csv"], i)
             for take in takes:
                 self.js(f"{figure}.querySelector('[data-take={take}]').click()")
-            self.assertTrue(self.browser.until("window.saved.png"))
+            self.assertTrue(self.browser.until("window.saved.png", 60), i)
             drawn = ElementTree.fromstring(self.js("window.saved.svg"))
             words = {"".join(t.itertext()) for t in drawn.iter("{http://www.w3.org/2000/svg}text")}
             for text in self.js(f"[...{figure}.querySelectorAll('svg text')].map(t => t.textContent)"):

@@ -553,12 +553,12 @@ class ThePage(unittest.TestCase):
         for figure in ("ground", "budget", "curves", "stresses"):
             for take in ("svg", "png", "copy", "csv", "json"):
                 self.js(f"document.querySelector('#{figure} [data-take={take}]').click()")
-            self.assertTrue(self.browser.until("window.saved.length === 4"), figure)
+            self.assertTrue(self.browser.until("window.saved.length === 4", 60), figure)
             self.assertEqual(self.js("window.saved.map(s => s[0].split('.').pop()).sort().join()"), "csv,json,png,svg")
             self.assertGreater(self.js("window.copied.length"), 100)
             self.js("window.saved = []; 0")
         self.js("document.getElementById('save-png').click()")
-        self.assertTrue(self.browser.until("window.saved.length === 1 && window.saved[0][1].size > 30000"))
+        self.assertTrue(self.browser.until("window.saved.length === 1 && window.saved[0][1].size > 30000", 60))
         self.js("document.getElementById('copy').click()")
         self.assertTrue(self.browser.until("window.copied.startsWith('soilbin estimate')"))
         self.assertEqual(self.js("window.copied"), self.command())
@@ -568,7 +568,7 @@ class ThePage(unittest.TestCase):
 
     def test_6b_an_impossible_load_offers_one_that_is_possible(self):
         self.move("load", 2000000, "box")
-        self.assertTrue(self.browser.until("document.getElementById('carried')"))
+        self.assertTrue(self.browser.until("document.getElementById('carried') !== null"))
         self.js("document.getElementById('carried').click()")
         self.assertTrue(self.browser.until("!soilbin.live.asking && !soilbin.live.refused"))
         self.browser.errors.clear()

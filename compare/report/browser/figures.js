@@ -126,8 +126,11 @@ soilbin.figureSvg = function (figure) {
 // The SVG as a PNG file, two pixels a unit.
 soilbin.pngOf = async function (svg) {
   const image = new Image(), canvas = document.createElement('canvas');
-  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
-  await image.decode();
+  await new Promise((done, failed) => {
+    image.onload = done;
+    image.onerror = () => failed(new Error('the drawing can not be read'));
+    image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
+  });
   canvas.width = 2 * image.width;
   canvas.height = 2 * image.height;
   canvas.getContext('2d').drawImage(image, 0, 0, canvas.width, canvas.height);
