@@ -99,7 +99,7 @@ int campaign(const CampaignOptions& asked, const Session& session) {
       compare::tell_campaign(runs.scenario, runs.all, telling_of(asked, runs, session.place));
   compare::write_campaign(asked.output, told.campaign, session.place.effects);
   write_file_atomically(fs::path(asked.output) / "README.md", provenance(asked, session.command, runs, told));
-  compare::read_campaign(asked.output, session.place.effects,
+  compare::read_campaign(asked.output, session.place.library, session.place.effects,
                          compare::CampaignUse::fit);  // refuses what a loop would refuse, now
   const auto drifting = std::count_if(told.runs.begin(), told.runs.end(), [](const auto& run) { return !run.steady; });
   fmt::print("wrote {}: {} runs, {} not steady", asked.output, told.runs.size(), drifting);

@@ -57,7 +57,7 @@ Verdict judge(const fs::path& file, const Workplace& place) {
   }
   const std::string format = format_of(file);
   if (format == compare::campaign_format) {
-    const compare::Campaign campaign = compare::read_campaign(file, place.effects);
+    const compare::Campaign campaign = compare::read_campaign(file, place.library, place.effects);
     return {fmt::format("campaign '{}': {} of {}", campaign.name, compare::counted(campaign.runs.size(), "run"),
                         in_words(campaign.wheel)),
             compare::doubts(campaign)};

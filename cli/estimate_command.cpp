@@ -10,30 +10,18 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/sweep/varying.hpp"
-#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::cli {
 namespace {
 
-/// The soil values whose doubt the standard errors carry.
-std::string doubt_in_words(const Soil& soil) {
-  if (!soil.semi_empirical) return "";
-  const SemiEmpiricalSoil& s = *soil.semi_empirical;
-  std::string words;
-  for (const SoilParameter& p : soil_parameters)
-    if ((s.*p.value).std_error > 0.0) words += (words.empty() ? "" : ", ") + std::string(p.symbol);
-  if (words.empty()) return "The soil's values are taken as exact.\n";
-  return "± is one standard error, from the standard deviations of the soil's " + words + ".\n";
-}
-
 void print_text(const Case& question, const std::vector<compare::ModelAnswers>& study) {
-  fmt::print("{} on {}\n\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil));
+  fmt::print("{} on {}\n{}\n\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil),
+             compare::errors_in_words(question.scenario.soil));
   if (question.study.conditions.size() > 1) {
     fmt::print("{}", study_text(study));
   } else {
     for (const compare::ModelAnswers& model : study) fmt::print("{}\n", answer_text(model, model.answers.front()));
   }
-  fmt::print("{}", doubt_in_words(question.scenario.soil));
 }
 
 int estimate(const Question& inputs, bool json, const Session& session) {

@@ -26,6 +26,7 @@ void add_commands(CLI::App& app, Session& session) {
   add_run(app, session);
   add_element_test(app, session);
   add_bevameter(app, session);
+  add_plates(app, session);
   add_limits(app, session);
   add_drive(app, session);
   add_predict(app, session);

@@ -1,11 +1,15 @@
-// soilbin manual: the manual page and the completion for bash, from the same descriptions as --help.
+// soilbin manual: the manual page, the same for the documents, and the completion for bash, all from the descriptions
+// that --help shows.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/versions.hpp"
+#include "compare/report/number_text.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -63,6 +67,65 @@ std::string manual_page(const CLI::App& app) {
          ".TP\nSOILBIN_JAVASCRIPT\nfolder of d3 and three.js for pages, before those of the system\n";
 }
 
+/// Text as a cell of a Markdown table.
+std::string cell(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
+  return out;
+}
+
+/// The options of a command, a table a group.
+std::string option_tables(const CLI::App& command) {
+  std::vector<std::string> groups;
+  for (const CLI::Option* option : command.get_options())
+    if (std::find(groups.begin(), groups.end(), option->get_group()) == groups.end())
+      groups.push_back(option->get_group());
+  std::string text;
+  for (const std::string& group : groups) {
+    std::string rows;
+    for (const CLI::Option* option : command.get_options()) {
+      if (option->get_group() != group || option->get_name() == "--help" || option->get_positional()) continue;
+      const std::string kind = option->get_type_name();
+      rows += fmt::format("| `{}`{} | {} |\n", option->get_name(), kind.empty() ? "" : " `" + cell(kind) + "`",
+                          cell(option->get_description()));
+    }
+    if (!rows.empty()) text += fmt::format("\n| {} | |\n|---|---|\n{}", group == "Options" ? "option" : group, rows);
+  }
+  return text;
+}
+
+std::string markdown_of(const CLI::App& command, const std::string& before) {
+  const std::string name = before + command.get_name();
+  std::string usage = name, places;
+  for (const CLI::Option* option : command.get_options()) {
+    if (!option->get_positional()) continue;
+    usage += " " + (option->get_required() ? option->get_type_name() : "[" + option->get_type_name() + "]");
+    places += fmt::format("- `{}`: {}\n", option->get_type_name(), option->get_description());
+  }
+  std::string text =
+      fmt::format("\n## {}\n\n{}.\n\n`soilbin {}`\n{}{}", name, compare::capital(command.get_description()), usage,
+                  places.empty() ? "" : "\n" + places, option_tables(command));
+  if (!command.get_footer().empty()) text += fmt::format("\n{}\n", command.get_footer());
+  for (const CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; }))
+    text += markdown_of(*below, name + " ");
+  return text;
+}
+
+/// docs/reference/commands.md.
+std::string markdown_page(const CLI::App& app) {
+  std::string page =
+      "# The commands\n\n"
+      "Every command with its options, as `soilbin COMMAND --help` shows them. This page is written by `soilbin manual "
+      "--markdown`,\nand a test holds it to that. Numbers carry their unit: `80N`, `110mm`, `20%`, `5deg`. Errors and "
+      "exit "
+      "statuses:\n[errors.md](errors.md).\n\n| command | what it does |\n|---|---|\n";
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  for (const CLI::App* command : commands)
+    page += fmt::format("| [{0}](#{0}) | {1} |\n", command->get_name(), cell(command->get_description()));
+  for (const CLI::App* command : commands) page += markdown_of(*command, "");
+  return page;
+}
+
 std::string joined_names(const CLI::App& command) {
   std::string names;
   for (const CLI::Option* option : command.get_options())
@@ -106,12 +169,14 @@ std::string bash_completion(const CLI::App& app) {
 
 void add_manual(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("manual", "the manual page of soilbin, or its completion for bash");
-  const auto for_bash = std::make_shared<bool>(false);
+  const auto for_bash = std::make_shared<bool>(false), as_markdown = std::make_shared<bool>(false);
   command->add_flag("--bash-completion", *for_bash, "a script for bash in place of the page");
+  command->add_flag("--markdown", *as_markdown, "the page for the documents, docs/reference/commands.md")
+      ->excludes("--bash-completion");
   command->footer("Example: soilbin manual | man -l -");
   command->callback([=, &app, &session] {
     session.action = [=, &app] {
-      fmt::print("{}", *for_bash ? bash_completion(app) : manual_page(app));
+      fmt::print("{}", *for_bash ? bash_completion(app) : *as_markdown ? markdown_page(app) : manual_page(app));
       return done;
     };
   });

@@ -121,6 +121,7 @@ Question::Question(CLI::App& app, std::vector<std::string> needed) : needed_(std
   bin_.add_to(app, "Tire and soil", "bin-");
   soil_values_.add_to(app, "Values of the soil, in place of its own");
   condition_.add_to(app);
+  errors_.add_to(app);
   app.add_option("--effect", effects_, "switch an effect on; may be given again; none: the case's off")
       ->type_name("ID[:FORM][,PARAMETER=VALUE...]")
       ->allow_extra_args(false)
@@ -163,6 +164,7 @@ Case Question::ask(const Workplace& place) const {
     if (!soil_.empty()) question.scenario.soil = find_soil(soil_, place.library);
     condition_.pick(question.study, question.scenario.tire);
   }
+  errors_.apply(question.scenario.soil);
   soil_values_.apply(question.scenario.soil);
   if (bin_.any_given()) {
     if (!question.scenario.bin) question.scenario.bin.emplace();

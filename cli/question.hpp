@@ -34,6 +34,20 @@ class ConditionFlags {
   DescribedFlags<OperatingCondition> flags_;
 };
 
+/// --no-assumed-sd: values of the soil whose standard deviation its file only assumes count as exact.
+class ErrorFlag {
+ public:
+  void add_to(CLI::App& app) {
+    app.add_flag("--no-assumed-sd", exact_, "soil values whose standard deviation is only assumed count as exact");
+  }
+  void apply(Soil& soil) const {
+    if (exact_ && soil.semi_empirical) soil.semi_empirical = without_assumed_sd(*soil.semi_empirical);
+  }
+
+ private:
+  bool exact_ = false;
+};
+
 /// The inputs of `estimate`, `explain` and `serve`: a case, or a tire, a soil and a condition given by flags; or both,
 /// the flags then going before what the case says.
 class Question {
@@ -59,6 +73,7 @@ class Question {
   DescribedFlags<Bin> bin_;
   SoilFlags soil_values_;
   ConditionFlags condition_;
+  ErrorFlag errors_;
 };
 
 /// Throws InputError where the analytic model is asked on a soil that has values for grains alone.

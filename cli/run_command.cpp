@@ -29,6 +29,7 @@ struct RunOptions {
   std::string study, model, plot, csv, output, half_step;
   bool json = false, converge = false;
   ConditionFlags conditions;
+  ErrorFlag errors;
   SoilBinFlags soil_bin;
 };
 
@@ -135,6 +136,7 @@ int run(RunOptions options, const Session& session) {
   if (!options.soil_bin.recorded.empty())
     options.soil_bin.recorded = find_record(session.place, options.study, options.soil_bin.recorded);
   Case question = find_study(session.place, options.study);
+  options.errors.apply(question.scenario.soil);
   keep_model(question, options.model);
   if (!options.soil_bin.recorded.empty() && options.model.empty()) add_dem(question);
   if (options.converge) {
@@ -161,9 +163,9 @@ int run(RunOptions options, const Session& session) {
   if (options.json) {
     fmt::print("{}", compare::json_text(document_of(question, answered)));
   } else {
-    fmt::print("{}: {} on {}\n{}\n{}", question.study.name, in_words(question.scenario.tire),
-               compare::in_words(question.scenario.soil), answered.step ? compare::in_words(*answered.step) : "",
-               study_text(answered.study));
+    fmt::print("{}: {} on {}\n{}\n{}\n{}", question.study.name, in_words(question.scenario.tire),
+               compare::in_words(question.scenario.soil), compare::errors_in_words(question.scenario.soil),
+               answered.step ? compare::in_words(*answered.step) : "", study_text(answered.study));
     if (const std::string notes = compare::notes_on(*log); !notes.empty()) fmt::print("\n{}", notes);
   }
   forget_runs(*log, outputs);
@@ -190,6 +192,7 @@ void add_run(CLI::App& app, Session& session) {
   command->add_flag("--converge", options->converge,
                     "dem: one condition, again with each numerical choice halved or doubled");
   options->conditions.add_to(*command);
+  options->errors.add_to(*command);
   options->soil_bin.add_to(*command);
   command
       ->add_option("--half-step", options->half_step,

@@ -67,7 +67,7 @@ fs::path find_record(const Workplace& place, const std::string& study, const std
 }
 
 compare::Campaign find_campaign(const Workplace& place, const std::string& name, compare::CampaignUse use) {
-  return compare::read_campaign(find_file(place.library, Shelf::measured, name), place.effects, use);
+  return compare::read_campaign(find_file(place.library, Shelf::measured, name), place.library, place.effects, use);
 }
 
 fs::path user_cache() {

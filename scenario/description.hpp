@@ -5,6 +5,7 @@
 //   visitor.text    (key, member, need, meaning)             a std::string
 //   visitor.number  (key, member, measure, need, meaning)    a double, an optional one, or an Estimate
 //   visitor.exponent(key, member, range, need, meaning)      the soil's n, on which later units depend
+//   visitor.assumed_sd(key, member, meaning)                 a share of later values, their sd where they have none
 //   visitor.integer (key, member, lowest, need, meaning)     an int or an optional one
 //   visitor.choice  (key, member, need, meaning)             an enum; its words: words_of
 //   visitor.group   (key, member, need, meaning)             a struct with a description of its own, or an optional one
@@ -14,6 +15,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -93,12 +95,25 @@ template <class Visitor>
 void describe(Visitor& v, std::type_identity<SemiEmpiricalSoil>) {
   using S = SemiEmpiricalSoil;
   for (const SoilParameter& p : soil_parameters) {
+    const bool usual = p.value == &S::stress_angle_c1 || p.value == &S::stress_angle_c2;
     if (p.value == &S::exponent)
       v.exponent(p.name, p.value, p.range, Need::required, p.meaning);
     else
-      v.number(p.name, p.value, p.measure(), Need::required, p.meaning);
+      v.number(p.name, p.value, p.measure(), usual ? Need::optional : Need::required, p.meaning);
+    if (p.value == &S::exponent)  // k_c and k_phi belong to one n, so that their shares stand for the stiffness alone
+      v.assumed_sd("assumed_sd", &S::assumed_sd,
+                   "share of a value below n that is its sd where it has none: an assumption; absent: exact");
   }
   v.number("density", &S::density, Measure{"kg/m^3", above_zero}, Need::optional, "bulk density");
+}
+
+/// What a file may leave out of a soil, and what is then taken. `told`: whether it holds a key.
+inline void fill_in(SemiEmpiricalSoil& soil, const std::function<bool(const char*)>& told) {
+  const auto usual = [&](const char* key, Estimate SemiEmpiricalSoil::*value, const Estimate& taken) {
+    if (!told(key)) soil.*value = taken, soil.sources[key] = usual_stress_angle_source;
+  };
+  usual("stress_angle_c1", &SemiEmpiricalSoil::stress_angle_c1, usual_stress_angle_c1);
+  usual("stress_angle_c2", &SemiEmpiricalSoil::stress_angle_c2, usual_stress_angle_c2);
 }
 
 template <class Visitor>
@@ -189,6 +204,10 @@ std::string contradiction(const T&) {
   return "";
 }
 
+/// Sets what a mapping left out and a plain default can't stand for; nothing for most structs.
+template <class T>
+void fill_in(T&, const std::function<bool(const char*)>&) {}
+
 /// The keys of T's description, in order.
 template <class T>
 std::vector<std::string> keys_of();
@@ -207,6 +226,10 @@ struct KeyList {
   }
   template <class... Rest>
   void exponent(const char* key, const Rest&...) {
+    keys.emplace_back(key);
+  }
+  template <class... Rest>
+  void assumed_sd(const char* key, const Rest&...) {
     keys.emplace_back(key);
   }
   template <class... Rest>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "scenario/nearest_word.hpp"
 
@@ -73,13 +74,19 @@ double read_number(const YamlNode& node, const Measure& measure, const std::stri
 }
 
 Estimate read_estimate(const YamlNode& node, const Measure& measure, const std::string& key, Reading& reading) {
-  if (!node.is_mapping()) return {read_scalar(node, measure, reading).value, 0.0};
+  const auto assumed = [&](double value) { return reading.assumed_sd * std::abs(value); };
+  if (!node.is_mapping()) {
+    const double value = read_scalar(node, measure, reading).value;
+    return {value, assumed(value)};
+  }
   expect_keys(node, {"value", "sd", "source"}, reading);
   keep_source(node, key, reading);
   Estimate estimate;
   estimate.value = read_scalar(*value_of(node, "value", Need::required, "the number", reading), measure, reading).value;
   if (const YamlNode* sd = value_of(node, "sd", Need::optional, "its standard deviation", reading))
     estimate.std_error = read_deviation(*sd, measure, reading);
+  else
+    estimate.std_error = assumed(estimate.value);
   return estimate;
 }
 

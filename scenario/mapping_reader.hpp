@@ -25,6 +25,7 @@ struct Reading {
   std::map<std::string, std::string>* sources = nullptr;  ///< where the `source:` of a number is kept, if anywhere
   std::string path;                                       ///< of this mapping inside the struct that keeps sources
   const SoilReader* soils = nullptr;                      ///< where descriptions have parts
+  double assumed_sd = 0;  ///< share of a value that is its standard deviation where it has none of its own
 
   [[noreturn]] void refuse(const YamlNode& at, const std::string& message, const std::string& hint = "") const {
     source->refuse(at.offset, message, hint);
@@ -44,7 +45,7 @@ std::string read_text(const YamlNode& node, const Reading& reading);
 Quantity read_scalar(const YamlNode& node, const Measure& measure, const Reading& reading);
 /// A scalar, or {value, source}.
 double read_number(const YamlNode& node, const Measure& measure, const std::string& key, Reading& reading);
-/// A scalar, or {value, sd, source}.
+/// A scalar, or {value, sd, source}. Without sd: the share of the value that the file assumes, or 0.
 Estimate read_estimate(const YamlNode& node, const Measure& measure, const std::string& key, Reading& reading);
 /// A whole number of at least `lowest`.
 int read_integer(const YamlNode& node, int lowest, const Reading& reading);
@@ -86,6 +87,11 @@ class ReadInto {
   void exponent(const char* key, Estimate T::*member, const Range& range, Need need, const char* meaning) {
     number(key, member, Measure{"-", range}, need, meaning);
     reading_.n = (into_.*member).value;
+  }
+
+  void assumed_sd(const char* key, std::optional<double> T::*member, const char* meaning) {
+    number(key, member, Measure{"-", zero_or_more}, Need::optional, meaning);
+    reading_.assumed_sd = (into_.*member).value_or(0.0);
   }
 
   template <class N>
@@ -147,6 +153,7 @@ void read_into(const YamlNode& mapping, T& into, Reading& reading) {
   }
   ReadInto<T> visitor(mapping, into, reading);
   describe(visitor, std::type_identity<T>{});
+  fill_in(into, [&](const char* key) { return mapping.find(key) != nullptr; });
   if (const std::string wrong = contradiction(into); !wrong.empty()) reading.refuse(mapping, wrong);
 }
 

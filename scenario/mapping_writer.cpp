@@ -71,15 +71,17 @@ void YamlLines::item(std::string_view scalar) {
   text_ += fmt::format("- {}\n", scalar);
 }
 
-void write_estimate(const std::string& key, const Estimate& estimate, const std::string& unit, Writing& writing) {
+void write_estimate(const std::string& key, const Estimate& estimate, const std::string& unit, Writing& writing,
+                    double silent_sd) {
   std::string source;
   if (writing.sources != nullptr)
     if (const auto found = writing.sources->find(writing.path + key); found != writing.sources->end())
       source = found->second;
   const std::string value = write_quantity(estimate.value, unit, writing.n);
-  if (estimate.std_error == 0.0 && source.empty()) return writing.lines->value(key, value);
+  const bool silent = estimate.std_error == silent_sd;
+  if (silent && source.empty()) return writing.lines->value(key, value);
   std::string flow = "{value: " + value;
-  if (estimate.std_error != 0.0) flow += ", sd: " + write_quantity(estimate.std_error, unit, writing.n);
+  if (!silent) flow += ", sd: " + write_quantity(estimate.std_error, unit, writing.n);
   if (!source.empty()) flow += ", source: " + yaml_scalar(source);
   writing.lines->value(key, flow + "}");
 }

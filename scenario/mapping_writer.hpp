@@ -1,6 +1,7 @@
 // Writes a described struct (description.hpp) as YAML. Every key that has a value is written, defaults included.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -39,10 +40,13 @@ struct Writing {
   std::optional<double> n;                                      ///< the soil's exponent, once written
   const std::map<std::string, std::string>* sources = nullptr;  ///< of the innermost struct that keeps them
   std::string path;
+  double assumed_sd = 0;  ///< share of a value that is its standard deviation where none is written
 };
 
-/// 'key: number' or 'key: {value: number, sd: ..., source: ...}'; an sd of 0 is left out.
-void write_estimate(const std::string& key, const Estimate& estimate, const std::string& unit, Writing& writing);
+/// 'key: number' or 'key: {value: number, sd: ..., source: ...}'; `silent_sd`, which a reader takes
+/// where no sd stands, is left out.
+void write_estimate(const std::string& key, const Estimate& estimate, const std::string& unit, Writing& writing,
+                    double silent_sd = 0.0);
 
 /// How files spell an enum's value.
 template <class E>
@@ -74,12 +78,18 @@ class WriteFrom {
   }
 
   void number(const char* key, Estimate T::*member, const Measure& measure, Need, const char*) {
-    write_estimate(key, from_.*member, measure.unit, writing_);
+    const Estimate& estimate = from_.*member;
+    write_estimate(key, estimate, measure.unit, writing_, writing_.assumed_sd * std::abs(estimate.value));
   }
 
-  void exponent(const char* key, Estimate T::*member, const Range&, Need, const char*) {
-    write_estimate(key, from_.*member, "-", writing_);
+  void exponent(const char* key, Estimate T::*member, const Range& range, Need need, const char* meaning) {
+    number(key, member, Measure{"-", range}, need, meaning);
     writing_.n = (from_.*member).value;
+  }
+
+  void assumed_sd(const char* key, std::optional<double> T::*member, const char* meaning) {
+    number(key, member, Measure{}, Need::optional, meaning);
+    writing_.assumed_sd = (from_.*member).value_or(0.0);
   }
 
   void integer(const char* key, int T::*member, int, Need, const char*) {

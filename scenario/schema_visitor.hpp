@@ -49,6 +49,10 @@ class SchemaOf {
     add(key, need, number_schema(Measure{"-", range}, meaning, true));
   }
 
+  void assumed_sd(const char* key, std::optional<double> T::*member, const char* meaning) {
+    number(key, member, Measure{"-", {.lower = 0.0}}, Need::optional, meaning);
+  }
+
   template <class N>
   void integer(const char* key, N T::*, int lowest, Need need, const char* meaning) {
     add(key, need, integer_schema(lowest, meaning));

@@ -13,17 +13,26 @@ namespace soilbin {
 /// soil_parameters.hpp.
 /// Pressure under a plate of smaller width b at depth z: p = (k_c/b + k_phi) z^n.
 struct SemiEmpiricalSoil {
-  Estimate exponent;                             ///< n [-]
-  Estimate k_c;                                  ///< cohesive modulus [N/m^(n+1)]
-  Estimate k_phi;                                ///< frictional modulus [N/m^(n+2)]
-  Estimate cohesion;                             ///< c [Pa]
-  Estimate friction_angle;                       ///< phi [rad]
-  Estimate shear_modulus;                        ///< Janosi's shear deformation modulus K [m]
-  Estimate stress_angle_c1;                      ///< c1 [-]: theta_m = (c1 + c2 |s|) theta_1
-  Estimate stress_angle_c2;                      ///< c2 [-]
-  std::optional<double> density;                 ///< bulk density [kg/m^3]; absent: bulk_density() presumes one
+  Estimate exponent;              ///< n [-]
+  Estimate k_c;                   ///< cohesive modulus [N/m^(n+1)]
+  Estimate k_phi;                 ///< frictional modulus [N/m^(n+2)]
+  Estimate cohesion;              ///< c [Pa]
+  Estimate friction_angle;        ///< phi [rad]
+  Estimate shear_modulus;         ///< Janosi's shear deformation modulus K [m]
+  Estimate stress_angle_c1;       ///< c1 [-]: theta_m = (c1 + c2 |s|) theta_1
+  Estimate stress_angle_c2;       ///< c2 [-]
+  std::optional<double> density;  ///< bulk density [kg/m^3]; absent: bulk_density() presumes one
+  /// Of a source that gives no standard deviations: the share of each value but n that its file assumes
+  /// in their place, >= 0. (k_c and k_phi belong to one n: at this n their shares stand for the stiffness.)
+  std::optional<double> assumed_sd{};
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "k_c"
 };
+
+/// c1 and c2 of a file that leaves them out, because no plate and no shear ring measures them. Both cover what Wong and
+/// Reece (1967) and Ishigami et al. (2007) found on sands, 0.18 to 0.43 and 0.15 to 0.32; the choice is ours.
+inline constexpr Estimate usual_stress_angle_c1{0.30, 0.15}, usual_stress_angle_c2{0.25, 0.15};
+/// Its source then.
+inline constexpr const char* usual_stress_angle_source = "not declared: a usual value with a wide standard deviation";
 
 /// Of a soil that declares no density, some sand's [kg/m^3].
 inline constexpr double presumed_bulk_density = 1500.0;

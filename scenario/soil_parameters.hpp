@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <span>
 #include <stdexcept>
@@ -55,6 +56,19 @@ constexpr const SoilParameter& soil_parameter(std::string_view name) {
   for (const SoilParameter& parameter : soil_parameters)
     if (parameter.name == name) return parameter;
   throw std::out_of_range("a soil parameter of no such name: " + std::string(name));
+}
+
+/// Whether this value's standard deviation is the share that its soil assumes, and no measured one.
+inline bool has_assumed_sd(const SemiEmpiricalSoil& soil, const Estimate& value) {
+  return value.std_error > 0.0 && value.std_error == soil.assumed_sd.value_or(0.0) * std::abs(value.value);
+}
+
+/// The soil with the values exact whose standard deviation is only assumed.
+inline SemiEmpiricalSoil without_assumed_sd(SemiEmpiricalSoil soil) {
+  for (const SoilParameter& p : soil_parameters)
+    if (has_assumed_sd(soil, soil.*p.value)) (soil.*p.value).std_error = 0.0;
+  soil.assumed_sd.reset();
+  return soil;
 }
 
 }  // namespace soilbin

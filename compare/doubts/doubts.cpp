@@ -140,6 +140,14 @@ Warnings doubts(const SemiEmpiricalSoil& soil) {
   expect(warnings, "phi", phi, 0, 50, "deg", "the densest sand has some 45 deg");
   expect(warnings, "K", 1000 * soil.shear_modulus.value, 0.5, 120, "mm", "6 mm in firm clay, 25 mm in loose sand");
   expect(warnings, "density", bulk_density(soil), 200, 2400, "kg/m^3", "fresh snow has some 250, dense gravel 2200");
+  for (const auto& [key, name, value] :
+       {std::tuple{"stress_angle_c1", "c1", soil.stress_angle_c1}, {"stress_angle_c2", "c2", soil.stress_angle_c2}})
+    if (const auto from = soil.sources.find(key);
+        from != soil.sources.end() && from->second == usual_stress_angle_source)
+      warnings.push_back(
+          fmt::format("the soil declares no {}: {:g} with a standard deviation of {:g} is taken, a usual "
+                      "value",
+                      name, value.value, value.std_error));
   if (c == 0.0 && phi == 0.0)
     warnings.push_back("c and phi are both 0: this soil has no strength and gives no traction");
   const double most = soil.stress_angle_c1.value + std::max(0.0, soil.stress_angle_c2.value);

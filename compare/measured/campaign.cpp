@@ -11,6 +11,7 @@
 #include "scenario/effect_choices.hpp"
 #include "scenario/mapping_reader.hpp"
 #include "scenario/mapping_writer.hpp"
+#include "scenario/named_parts.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/soil_parameters.hpp"
 
@@ -128,11 +129,25 @@ void read_model(const YamlNode* model, Campaign& campaign, const EffectVocabular
     campaign.effects = read_effects(*list, effects, reading);
 }
 
+constexpr const char* wheel_meaning = "radius, width and, where there are any, lugs; or a tire of the library";
+constexpr const char* soil_meaning = "what plate and shear tests say: value and sd; or a soil of the library";
+
+SemiEmpiricalSoil read_values(const YamlNode& soil, const Library& library, const Reading& reading) {
+  if (soil.is_mapping()) return read_mapping<SemiEmpiricalSoil>(soil, reading);
+  const Soil named = read_soil_part(soil, library, reading);
+  if (!named.semi_empirical)
+    reading.refuse(soil, fmt::format("a campaign needs a soil with a 'semi_empirical' section; '{}' has none",
+                                     clipped(named.name)));
+  return *named.semi_empirical;
+}
+
 std::string campaign_yaml(const Campaign& campaign, const EffectVocabulary& effects) {
   YamlLines lines;
   lines.value("format", campaign_format);
   Writing writing{&lines, std::nullopt, nullptr, ""};
   write_members(campaign, writing);
+  write_group("wheel", campaign.wheel, lines);
+  write_group("soil", campaign.soil, lines);
   lines.open("model");
   write_effects(campaign.effects, effects, campaign.soil.exponent.value, lines);
   lines.close();
@@ -157,11 +172,14 @@ int free_parameters(const SemiEmpiricalSoil& soil) {
 }
 
 Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(const std::string&)>& open,
-                        const EffectVocabulary& effects, CampaignUse use) {
+                        const Library& library, const EffectVocabulary& effects, CampaignUse use) {
   const YamlNode document = parse_yaml(yaml);
   const Reading reading{&yaml, std::nullopt, nullptr, ""};
   expect_format(document, campaign_format, reading);
-  Campaign campaign = read_mapping<Campaign>(document, reading, {"format", "model", "columns"});
+  Campaign campaign = read_mapping<Campaign>(document, reading, {"format", "wheel", "soil", "model", "columns"});
+  const Library near = library.beside(yaml.file);
+  campaign.wheel = read_tire_part(*value_of(document, "wheel", Need::required, wheel_meaning, reading), near, reading);
+  campaign.soil = read_values(*value_of(document, "soil", Need::required, soil_meaning, reading), near, reading);
   read_model(value_of(document, "model", Need::optional, "{effects: []}", reading), campaign, effects, reading);
   Renames renames =
       read_renames(value_of(document, "columns", Need::optional, "names and units; {} for none", reading), reading);
@@ -179,11 +197,11 @@ Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(c
   return campaign;
 }
 
-Campaign read_campaign(const fs::path& path, const EffectVocabulary& effects, CampaignUse use) {
+Campaign read_campaign(const fs::path& path, const Library& library, const EffectVocabulary& effects, CampaignUse use) {
   std::error_code error;
   const fs::path file = fs::is_directory(path, error) ? path / "campaign.yaml" : path;
   const auto open = [&](const std::string& name) { return read_source_text(file.parent_path() / name, largest_csv); };
-  return parse_campaign(read_source_text(file, largest_yaml), open, effects, use);
+  return parse_campaign(read_source_text(file, largest_yaml), open, library, effects, use);
 }
 
 void write_campaign(const fs::path& folder, const Campaign& campaign, const EffectVocabulary& effects) {

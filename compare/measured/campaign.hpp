@@ -9,6 +9,7 @@
 
 #include "scenario/description.hpp"
 #include "scenario/effect_vocabulary.hpp"
+#include "scenario/library.hpp"
 #include "scenario/scenario.hpp"
 #include "scenario/source_text.hpp"
 
@@ -42,11 +43,10 @@ struct Campaign {
 
 inline constexpr const char* campaign_format = "soilbin-campaign/1";
 
+/// What stands beside these: format, wheel and soil (written out or named), model, columns.
 template <class Visitor>
 void describe(Visitor& v, std::type_identity<Campaign>) {
   v.text("name", &Campaign::name, Need::required, "what to call the campaign");
-  v.group("wheel", &Campaign::wheel, Need::required, "radius, width and, where there are any, lugs");
-  v.group("soil", &Campaign::soil, Need::required, "what plate and shear tests say: value and sd");
   v.group("bin", &Campaign::bin, Need::optional, "inner measures of the soil bin");
   v.text("data", &Campaign::data, Need::optional, "the CSV of the runs, beside campaign.yaml");
   v.choice("force_frame", &Campaign::force_frame, Need::optional, "axes of drawbar pull and lateral force");
@@ -63,13 +63,15 @@ int free_parameters(const SemiEmpiricalSoil& soil);
 enum class CampaignUse { prediction, fit };
 
 /// Reads a campaign: its folder or its campaign.yaml. Throws InputError with file, line, column and the nearest right
-/// word for everything that the contract refuses.
-Campaign read_campaign(const std::filesystem::path& path, const EffectVocabulary& effects,
+/// word for everything that the contract refuses. A wheel or soil that it names is looked up beside the file, then in
+/// the library.
+Campaign read_campaign(const std::filesystem::path& path, const Library& library, const EffectVocabulary& effects,
                        CampaignUse use = CampaignUse::prediction);
 
 /// The same from texts in memory; `open` supplies the data file by the name that stands in the YAML.
 Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(const std::string&)>& open,
-                        const EffectVocabulary& effects, CampaignUse use = CampaignUse::prediction);
+                        const Library& library, const EffectVocabulary& effects,
+                        CampaignUse use = CampaignUse::prediction);
 
 /// Writes campaign.yaml and the data file into a folder (made where it is missing). Reading them gives the same
 /// campaign; an angle may differ in the last bit. Throws std::runtime_error where a file can't be written.

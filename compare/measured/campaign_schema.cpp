@@ -24,6 +24,11 @@ ordered_json columns_schema() {
 
 ordered_json campaign_schema(const EffectVocabulary& effects) {
   ordered_json campaign = object_schema<Campaign>();
+  ordered_json wheel = named_or(object_schema<Tire>()), soil = named_or(object_schema<SemiEmpiricalSoil>());
+  wheel["description"] = "the wheel that was tested";
+  soil["description"] = "what plate and shear tests say: value and sd";
+  campaign["properties"]["wheel"] = std::move(wheel), campaign["properties"]["soil"] = std::move(soil);
+  for (const char* key : {"wheel", "soil"}) campaign["required"].push_back(key);
   ordered_json model = empty_object_schema();
   model["properties"]["effects"] = effects_schema(effects);
   campaign["properties"]["model"] = model;

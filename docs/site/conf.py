@@ -2,7 +2,8 @@
 
 The pages are the Markdown files as they lie in the project; nothing is written a second time. Added here: the table of
 contents, from the folders; formulas as MathML, which browsers draw without a script or a network; the Python
-reference, from the docstrings, where the package is built; and links to files that are no pages, which become their names.
+reference, from the docstrings, where the package is built; links to notebooks, which become links to their exported pages;
+and links to files that are no pages, which become their names.
 """
 import importlib.util
 import re
@@ -53,6 +54,10 @@ def prepare(app, name, source):
 
     def link(match):
         target = (page.parent / match[2].split("#")[0]).resolve()
+        if target.suffix == ".ipynb" and target.exists():  # its page, where docs/site/make has exported it
+            lesson = Path(app.outdir) / "notebooks" / f"{target.stem}.html"
+            up = "../" * len(page.relative_to(ROOT).parent.parts)
+            return f'<a href="{up}notebooks/{lesson.name}">{match[1]}</a>' if lesson.is_file() else match[1]
         is_page = target.suffix == ".md" and target.name != "NOTICE.md" and (target.parent == ROOT or ROOT / "docs" in target.parents)
         return match[1] if target.exists() and not is_page and not match[2].startswith("#") else match[0]
 

@@ -50,8 +50,9 @@ void bind_shear_results(py::module_& module) {
       .def_readonly("peak_at", &R::peak_at, "displacement [m]")
       .def_readonly("work", &R::work, "done on the grains by lid and box [J]")
       .def_readonly("work_of_stress", &R::work_of_stress, "the same by the curve's stresses [J]")
-      .def_property_readonly("curve", &curve_of,
-                             "arrays, views: displacement, dilation [m], shear_stress, normal_stress [Pa]");
+      .def_property_readonly(
+          "curve", &curve_of,
+          "arrays of one shape (samples,), views: displacement, dilation [m], shear_stress, normal_stress [Pa]");
   py::class_<DirectShearResult>(module, "DirectShearResult", "The shear box's answer.")
       .def_readonly("runs", &DirectShearResult::runs)
       .def_readonly("peak", &DirectShearResult::peak, "points 0 with a single stress")
@@ -87,7 +88,7 @@ void bind_heap(py::module_& module) {
       .def_readonly("grains", &R::grains)
       .def_readonly("settling_time", &R::settling_time, "from the start of the lift until rest [s]")
       .def_readonly("mean_diameter", &R::mean_diameter, "[m]")
-      .def_property_readonly("profile", &profile_of, "arrays radius, height [m], views");
+      .def_property_readonly("profile", &profile_of, "arrays of one shape (rings,), views: radius, height [m]");
   using S = dem::AngleOfReposeSettings;
   def_test<S>(
       module, "angle_of_repose",

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <map>
 
 #include "notebooks/bindings/bindings.hpp"
 #include "scenario/description.hpp"
@@ -20,6 +21,9 @@ std::string field_doc(const std::string& meaning, const Measure& measure);
 /// Throws InputError that names the attribute where the value is out of range or not finite.
 void check_value(const char* key, double value, const Measure& measure);
 
+/// What each number among a class's attributes measures.
+using Measures = std::map<std::string, Measure>;
+
 /// Adds an attribute for each key of T's description.
 template <class T>
 class FieldsOf {
@@ -27,6 +31,7 @@ class FieldsOf {
   explicit FieldsOf(py::class_<T>& to) : to_(to) {}
 
   std::vector<std::string> required;
+  Measures measures;  ///< of the numbers among them
 
   void text(const char* key, std::string T::*member, Need need, const char* meaning) {
     plain(key, member, need, meaning);
@@ -43,6 +48,9 @@ class FieldsOf {
   }
   void exponent(const char* key, Estimate T::*member, const Range& range, Need need, const char* meaning) {
     number(key, member, Measure{"-", range}, need, meaning);
+  }
+  void assumed_sd(const char* key, std::optional<double> T::*member, const char* meaning) {
+    number(key, member, Measure{"-", {.lower = 0.0}}, Need::optional, meaning);
   }
   template <class N>
   void integer(const char* key, N T::*member, int lowest, Need need, const char* meaning) {
@@ -81,6 +89,7 @@ class FieldsOf {
   void checked(const char* key, U T::*member, const Measure& measure, Need need, const char* meaning,
                ValueOf value_of) {
     note(key, need);
+    measures[key] = measure;
     const std::string doc = field_doc(meaning, measure);
     to_.def_property(
         key, [member](const T& self) { return self.*member; },
@@ -97,6 +106,17 @@ class FieldsOf {
 
   py::class_<T>& to_;
 };
+
+/// What an attribute is set to: a quantity of pint as its number in SI, anything else as it is. Throws py::type_error
+/// with the number to write for a text where a number is meant, and InputError for a quantity of the wrong dimension.
+py::object in_si(const std::string& key, const py::object& value, const Measures& measures);
+
+/// Sets one attribute. Raises AttributeError, with the nearest right word, for one that the class doesn't have.
+void set_attribute(const py::object& self, const std::string& key, const py::object& value,
+                   const std::vector<std::string>& known, const Measures& measures);
+
+/// Raises TypeError, with the nearest right word, for a keyword that is no attribute of the class.
+void check_keywords(py::handle type, const py::kwargs& given, const std::vector<std::string>& known);
 
 /// Sets attributes of `self` from keyword arguments. Raises TypeError, with the nearest right word, for one that it
 /// doesn't have.
@@ -117,11 +137,13 @@ void described(py::class_<T>& to, const std::vector<std::string>& more = {}) {
     set_attributes(py::cast(&value, py::return_value_policy::reference), given, known);
     if (const std::string wrong = contradiction(value); !wrong.empty()) throw InputError(wrong);
   };
-  to.def(py::init([fill, required = fields.required](const py::kwargs& given) {
+  to.def(py::init([fill, known, required = fields.required](const py::kwargs& given) {
+           check_keywords(py::type::of<T>(), given, known);  // a misspelt word before the one that it leaves missing
            for (const std::string& key : required)
              if (!given.contains(key.c_str())) throw py::type_error("missing keyword argument '" + key + "'");
            T value{};
            fill(value, given);
+           fill_in(value, [&](const char* key) { return given.contains(key); });
            return value;
          }),
          "By keywords: the attributes, in SI.");
@@ -133,6 +155,10 @@ void described(py::class_<T>& to, const std::vector<std::string>& more = {}) {
         return value;
       },
       "A copy in which the attributes given are changed.");
+  to.def("__setattr__",
+         [known, measures = fields.measures](const py::object& self, const std::string& key, const py::object& value) {
+           set_attribute(self, key, value, known, measures);
+         });
   to.def("__copy__", [](const T& self) { return self; });
   to.def("__deepcopy__", [](const T& self, const py::dict&) { return self; });
   to.def("__repr__", [known](const py::object& self) {

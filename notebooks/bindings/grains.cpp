@@ -75,11 +75,11 @@ void bind_states(py::module_& module) {
   using dem::GrainNow;
   py::class_<GrainNow>(module, "GrainNow", "Motion of a grain at a whole step.")
       .def_property_readonly(
-          "position", [](const GrainNow& g) { return array_of(g.position); }, "[m]")
+          "position", [](const GrainNow& g) { return array_of(g.position); }, "shape (3,), [m]")
       .def_property_readonly(
-          "velocity", [](const GrainNow& g) { return array_of(g.velocity); }, "[m/s]")
+          "velocity", [](const GrainNow& g) { return array_of(g.velocity); }, "shape (3,), [m/s]")
       .def_property_readonly(
-          "spin", [](const GrainNow& g) { return array_of(g.spin); }, "[rad/s]")
+          "spin", [](const GrainNow& g) { return array_of(g.spin); }, "shape (3,), [rad/s]")
       .def_readonly("radius", &GrainNow::radius, "[m]");
   py::class_<Contact>(module, "Contact", "A contact as it is now.")
       .def_readonly("first", &Contact::first, "id of a grain")
@@ -87,13 +87,13 @@ void bind_states(py::module_& module) {
       .def_readonly("overlap", &Contact::overlap, "[m]")
       .def_readonly("pressing", &Contact::pressing, "F_N [N]")
       .def_property_readonly(
-          "point", [](const Contact& c) { return array_of(c.point); }, "[m]")
+          "point", [](const Contact& c) { return array_of(c.point); }, "shape (3,), [m]")
       .def_property_readonly(
-          "normal", [](const Contact& c) { return array_of(c.normal); }, "toward `first`")
+          "normal", [](const Contact& c) { return array_of(c.normal); }, "shape (3,), toward `first`")
       .def_property_readonly(
-          "force", [](const Contact& c) { return array_of(c.force); }, "on `first` [N]")
+          "force", [](const Contact& c) { return array_of(c.force); }, "shape (3,), on `first` [N]")
       .def_property_readonly(
-          "couple", [](const Contact& c) { return array_of(c.couple); }, "on `first` [N m]");
+          "couple", [](const Contact& c) { return array_of(c.couple); }, "shape (3,), on `first` [N m]");
   py::class_<EnergyBalance>(module, "EnergyBalance", "Where the energy is [J].")
       .def_readonly("kinetic", &EnergyBalance::kinetic)
       .def_readonly("potential", &EnergyBalance::potential)

@@ -38,7 +38,8 @@ void bind_campaign(py::module_& module) {
   module.def(
       "find_campaign",
       [](const std::string& name) {
-        return compare::read_campaign(find_file(cases_library(), Shelf::measured, name), effect_vocabulary());
+        return compare::read_campaign(find_file(cases_library(), Shelf::measured, name), cases_library(),
+                                      effect_vocabulary());
       },
       py::arg("name"),
       "A campaign of the library, its folder, or its campaign.yaml. Raises InputError with file, line "

@@ -33,13 +33,14 @@ void bind_runs(py::module_& module) {
       .def_readonly("void_ratio", &PlateRun::void_ratio, "of the bed [-]")
       .def_readonly("density", &PlateRun::density, "of the bed in bulk [kg/m^3]")
       .def_readonly("packing", &PlateRun::packing, "seed")
-      .def_property_readonly("curve", &pressed, "arrays, views: sinkage [m], pressure [Pa]");
+      .def_property_readonly("curve", &pressed, "arrays of one shape (samples,), views: sinkage [m], pressure [Pa]");
   py::class_<AnnulusRun>(module, "AnnulusRun", "The ring turned under one stress.")
       .def_readonly("stress", &AnnulusRun::stress, "asked for [Pa]")
       .def_readonly("speed", &AnnulusRun::speed, "at the mean radius [m/s]")
       .def_readonly("packing", &AnnulusRun::packing, "seed")
-      .def_property_readonly("curve", &sheared,
-                             "arrays, views: displacement, sinkage [m], shear_stress, normal_stress [Pa]");
+      .def_property_readonly(
+          "curve", &sheared,
+          "arrays of one shape (samples,), views: displacement, sinkage [m], shear_stress, normal_stress [Pa]");
 }
 
 void bind_plate(py::module_& module) {

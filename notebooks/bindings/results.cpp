@@ -3,6 +3,7 @@
 
 #include "bekker_wong/model.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "compare/report/number_text.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/explanation.hpp"
 #include "compare/sweep/varying.hpp"
@@ -53,13 +54,16 @@ void bind_result(py::module_& module) {
           "NaN "
           "where it isn't known")
       .def_property_readonly("patch", &patch_of,
-                             "stresses [Pa] under the wheel, from exit to entry: arrays theta [rad], normal, shear, "
-                             "lateral_shear; views of the result, not copies")
+                             "stresses under the wheel, from exit to entry: arrays of one shape (nodes,): theta [rad], "
+                             "normal, shear, lateral_shear [Pa]; views of the result, not copies")
       .def_readonly("without_error_of", &R::without_error_of,
                     "parameters of the soil that the standard errors leave out: the results have no derivative by them")
       .def("__repr__", [](const R& r) {
-        return fmt::format("TractionResult(drawbar_pull={:.4g} N, torque={:.4g} N m, sinkage={:.4g} m)",
-                           r.drawbar_pull.value, r.torque.value, r.sinkage.value);
+        const std::string side =
+            r.lateral_force.value == 0.0 ? "" : ", lateral_force=" + compare::number(r.lateral_force) + " N";
+        return "TractionResult(drawbar_pull=" + compare::number(r.drawbar_pull) +
+               " N, torque=" + compare::number(r.torque) + " N m, sinkage=" + compare::number(r.sinkage) + " m" + side +
+               ")";
       });
   module.def(
       "channels",

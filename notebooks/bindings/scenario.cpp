@@ -2,9 +2,11 @@
 #include "notebooks/bindings/scenario.hpp"
 
 #include "bekker_wong/effect.hpp"
+#include "compare/report/number_text.hpp"
 #include "notebooks/bindings/fields.hpp"
 #include "scenario/case.hpp"
 #include "scenario/drive.hpp"
+#include "scenario/errors.hpp"
 
 namespace soilbin::python {
 
@@ -40,14 +42,15 @@ void bind_estimate(py::module_& module) {
                                 "A number and its standard error (of an input: its standard deviation), in the same "
                                 "unit. std_error 0: taken as exact. A plain number does where one is asked for.");
   estimate.def(py::init([](double value, double std_error) {
+                 if (!(std_error >= 0.0)) throw InputError(fmt::format("std_error: {} is not 0 or more", std_error));
                  return Estimate{value, std_error};
                }),
                py::arg("value"), py::arg("std_error") = 0.0);
   estimate.def_readwrite("value", &Estimate::value);
   estimate.def_readwrite("std_error", &Estimate::std_error, "at least 0");
   estimate.def("__float__", [](const Estimate& e) { return e.value; });
-  estimate.def("__repr__", [](const Estimate& e) { return fmt::format("Estimate({}, {})", e.value, e.std_error); });
-  estimate.def("__str__", [](const Estimate& e) { return fmt::format("{:.4g} ± {:.2g}", e.value, e.std_error); });
+  estimate.def("__repr__", [](const Estimate& e) { return "Estimate(" + compare::number(e) + ")"; });
+  estimate.def("__str__", [](const Estimate& e) { return compare::number(e); });
   py::implicitly_convertible<double, Estimate>();
   py::implicitly_convertible<py::int_, Estimate>();
 }
@@ -133,7 +136,8 @@ void bind_drive_words(py::module_& module) {
                                 "A place along the way. Angles and drawbar load go linearly from one to the next; a "
                                 "soil holds from its place on.");
   described(waypoint);
-  py::class_<Drive> drive(module, "Drive", "A wheel with mass and inertia, driven from rest (docs/theory/driven-wheel.md).");
+  py::class_<Drive> drive(module, "Drive",
+                          "A wheel with mass and inertia, driven from rest (docs/theory/driven-wheel.md).");
   drive.def_property(
       "effects", [](const Drive& d) { return d.effects; },
       [](Drive& d, const std::vector<EffectName>& effects) { d.effects = effects_of(effects); },

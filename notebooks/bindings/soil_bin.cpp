@@ -157,10 +157,10 @@ void bind_powers_and_marks(py::module_& module) {
     return [member](const py::object& self) { return view(self.cast<const Rut&>().*member, self); };
   };
   py::class_<Rut>(module, "Rut", "Change of the bed's surface, seen from above. Arrays are views.")
-      .def_property_readonly("y", array(&Rut::y), "from the middle of the track to the left [m]")
-      .def_property_readonly("across", array(&Rut::across), "change of height at each y [m]")
-      .def_property_readonly("x", array(&Rut::x), "along the bin [m]")
-      .def_property_readonly("along", array(&Rut::along), "change of height at each x [m]")
+      .def_property_readonly("y", array(&Rut::y), "from the middle of the track to the left, shape (ny,) [m]")
+      .def_property_readonly("across", array(&Rut::across), "change of height at each y, shape (ny,) [m]")
+      .def_property_readonly("x", array(&Rut::x), "along the bin, shape (nx,) [m]")
+      .def_property_readonly("along", array(&Rut::along), "change of height at each x, shape (nx,) [m]")
       .def_readonly("axle", &Rut::axle, "where the axle stood at the end [m]")
       .def_readonly("volume", &Rut::volume, "[m^3] = heaped - dug")
       .def_readonly("heaped", &Rut::heaped, "[m^3]")
@@ -196,9 +196,10 @@ void bind_soil_bin(py::module_& module) {
       .def_readonly("steady_from", &WheelRun::steady_from, "first sample that counts")
       .def_readonly("rut", &WheelRun::rut)
       .def_readonly("flow", &WheelRun::flow)
-      .def_property_readonly("samples", &wheel_samples,
-                             "arrays over time from the start of the motion on, views: time [s], travel, sinkage [m], "
-                             "force [N] and moment [N m] of the soil on the wheel (three columns), ...");
+      .def_property_readonly(
+          "samples", &wheel_samples,
+          "arrays of one shape (samples,) from the start of the motion on, views: time [s], travel, sinkage [m], "
+          "force [N] and moment [N m] of the soil on the wheel (three columns), ...");
   py::class_<SoilBin>(module, "SoilBin",
                       "A virtual soil bin: a case's tire over a settled bed of its grains. Keeps its beds.")
       .def(py::init([](std::uint64_t packing, const Beds& beds, bool ledger, int threads, const py::kwargs& numbers) {

@@ -41,9 +41,10 @@ void bind_triaxial_results(py::module_& module) {
       .def_readonly("peak_at", &R::peak_at, "axial strain [-]")
       .def_readonly("dilation_angle", &R::dilation_angle, "at the peak [rad]")
       .def_readonly("work", &R::work, "of the walls on the grains during compression [J]")
-      .def_property_readonly("curve", &compression_of,
-                             "arrays, views: strain, volumetric (compression positive) [-], axial, lateral_x, "
-                             "lateral_y [Pa]");
+      .def_property_readonly(
+          "curve", &compression_of,
+          "arrays of one shape (samples,), views: strain, volumetric (compression positive) [-], axial, lateral_x, "
+          "lateral_y [Pa]");
   py::class_<TriaxialResult>(module, "TriaxialResult", "The triaxial cell's answer.")
       .def_readonly("runs", &TriaxialResult::runs)
       .def_readonly("peak", &TriaxialResult::peak, "points 0 with a single stress")
@@ -77,7 +78,8 @@ void bind_board(py::module_& module) {
       .def_readonly("grains", &R::grains)
       .def_readonly("mean_diameter", &R::mean_diameter, "[m]")
       .def_property_readonly("curve", &tilt_of,
-                             "arrays, views: angle [rad], slide down the board [m], turn: how far grains rolled [rad]");
+                             "arrays of one shape (samples,), views: angle [rad], slide down the board [m], turn: how "
+                             "far grains rolled [rad]");
   using S = dem::TiltingBoardSettings;
   def_test<S>(
       module, "tilting_board",

@@ -57,7 +57,8 @@ void bind_rolled(py::module_& module) {
       .def_property_readonly(
           "exit_angle", [](const RolledWheel& w) { return w.patch.angles.exit; }, "theta_2 [rad]")
       .def_property_readonly("nodes", &nodes_of,
-                             "arrays over the quadrature's nodes, views: theta [rad], arc (weight times arc length) "
+                             "arrays of one shape (nodes,), the nodes of the quadrature, views: theta [rad], arc "
+                             "(weight times arc length) "
                              "[m], depth [m], sigma, strength, tau_x, tau_y [Pa], j_x, j_y [m]")
       .def_property_readonly(
           "thrust", [](const RolledWheel& w) { return w.forces.thrust; }, "[N]")

@@ -23,6 +23,39 @@ TEST(Estimate, FlagsAloneAnswerWithUnitsAndErrors) {
   EXPECT_EQ(r.err, "");
 }
 
+// Errors that hold a part of the doubt alone mislead: the second line of an answer says which part.
+TEST(Estimate, TheFirstLinesSayWhatTheErrorsHold) {
+  const std::string table = soilbin("estimate " + wheel + "--slip 0.2").out;
+  EXPECT_THAT(table, HasSubstr("on dry-sand\n± is one standard error from the standard deviations of K, c1, c2 "
+                               "(declared) and k_c, k_phi, c, phi (assumed: 10 %, no source); n counts as exact.\n"));
+  const std::string off = "estimate " + wheel + "--slip 0.2 --no-assumed-sd";
+  EXPECT_THAT(soilbin(off).out,
+              HasSubstr("from the standard deviations of K, c1, c2; n, k_c, k_phi, c, phi count as exact."));
+  const nlohmann::json with = soilbin("estimate " + wheel + "--slip 0.2 --json").json()["rows"][0],
+                       without = soilbin(off + " --json").json()["rows"][0];
+  EXPECT_EQ(with["sinkage"], without["sinkage"]) << "no value moves";
+  EXPECT_GT(with["std_error"]["sinkage"], without["std_error"]["sinkage"]);
+  const Scratch scratch;
+  const fs::path soil = scratch.write("s.yaml",
+                                      "format: soilbin-soil/1\nsemi_empirical: {exponent: 1, k_c: 1 kN/m^(n+1), "
+                                      "k_phi: 2000 kN/m^(n+2), cohesion: 1 kPa, friction_angle: 30 deg, "
+                                      "shear_modulus: 20 mm, stress_angle_c1: 0.3, stress_angle_c2: 0.2}\n");
+  EXPECT_THAT(soilbin("estimate --soil '" + soil.string() + "' --radius 110mm --width 100mm --load 80N --slip 0.2").out,
+              HasSubstr("No ±: all values of the soil count as exact."));
+}
+
+TEST(Estimate, ASoilWithoutC1AndC2SaysWhatIsTaken) {
+  const Scratch scratch;
+  const fs::path soil = scratch.write("s.yaml",
+                                      "format: soilbin-soil/1\nsemi_empirical: {exponent: 1, k_c: 1 kN/m^(n+1), "
+                                      "k_phi: 2000 kN/m^(n+2), cohesion: 1 kPa, friction_angle: 30 deg, "
+                                      "shear_modulus: 20 mm}\n");
+  const Outcome r = soilbin("check '" + soil.string() + "'");
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, AllOf(HasSubstr("the soil declares no c1: 0.3 with a standard deviation of 0.15 is taken"),
+                           HasSubstr("the soil declares no c2: 0.25")));
+}
+
 TEST(Estimate, JsonHasTheContractsNamesAndABudgetThatAddsUp) {
   const Outcome r = soilbin("estimate " + wheel + "--slip 20% --yaw 5deg --longitudinal-incline 3deg --json");
   ASSERT_EQ(r.status, 0) << r.err;

@@ -6,7 +6,9 @@
 #include <stdlib.h>
 
 #include "bekker_wong/effect_vocabulary.hpp"
+#include "scenario/case.hpp"
 #include "scenario/library.hpp"
+#include "scenario/soil_parameters.hpp"
 #include "scenario/unit.hpp"
 #include "tests/scenario/fake_vocabulary.hpp"
 #include "tests/scenario/refusal.hpp"
@@ -52,7 +54,7 @@ const std::string good_csv =
 
 Campaign parse(const std::string& yaml, const std::string& csv) {
   const auto open = [&](const std::string& name) { return make_source_text(csv, name); };
-  return parse_campaign(make_source_text(yaml, "campaign.yaml"), open, FakeVocabulary());
+  return parse_campaign(make_source_text(yaml, "campaign.yaml"), open, Library(), FakeVocabulary());
 }
 
 std::string refused(const std::string& yaml, const std::string& csv) {
@@ -126,9 +128,9 @@ TEST(Campaign, RealFilesHaveQuotesCarriageReturnsMarksAndBlankLines) {
 }
 
 TEST(CampaignRefuses, MissingFiles) {
-  EXPECT_THAT(refusal([] { read_campaign("no/such/folder", FakeVocabulary()); }),
+  EXPECT_THAT(refusal([] { read_campaign("no/such/folder", Library(), FakeVocabulary()); }),
               HasSubstr("no/such/folder: no such file"));
-  EXPECT_THAT(refusal([] { read_campaign(SOILBIN_SOURCE_DIR "/cases", FakeVocabulary()); }),
+  EXPECT_THAT(refusal([] { read_campaign(SOILBIN_SOURCE_DIR "/cases", Library(), FakeVocabulary()); }),
               HasSubstr("campaign.yaml: no such file"));
 }
 
@@ -177,7 +179,7 @@ TEST(CampaignRefuses, MissingConditionsAndChannels) {
 std::string refused_fit(const std::string& csv) {
   return refusal([&] {
     const auto open = [&](const std::string& name) { return make_source_text(csv, name); };
-    parse_campaign(make_source_text(good_yaml, "campaign.yaml"), open, FakeVocabulary(), CampaignUse::fit);
+    parse_campaign(make_source_text(good_yaml, "campaign.yaml"), open, Library(), FakeVocabulary(), CampaignUse::fit);
   });
 }
 
@@ -250,8 +252,8 @@ TEST_F(CampaignFolder, IsWrittenAndReadBack) {
   Campaign c = parse(replaced(good_yaml, "effects: []", "effects: [lug_thrust]"), good_csv);
   c.runs[1].setpoint = "a, \"wet\"";
   write_campaign(folder_ / "new", c, FakeVocabulary());
-  const Campaign by_folder = read_campaign(folder_ / "new", FakeVocabulary());
-  const Campaign by_file = read_campaign(folder_ / "new" / "campaign.yaml", FakeVocabulary());
+  const Campaign by_folder = read_campaign(folder_ / "new", Library(), FakeVocabulary());
+  const Campaign by_file = read_campaign(folder_ / "new" / "campaign.yaml", Library(), FakeVocabulary());
   EXPECT_EQ(by_folder.effects.at(0).parameters, c.effects.at(0).parameters);
   EXPECT_EQ(by_file.soil.k_phi.std_error, c.soil.k_phi.std_error);
   EXPECT_EQ(by_file.force_frame, c.force_frame);
@@ -265,12 +267,50 @@ TEST_F(CampaignFolder, IsWrittenAndReadBack) {
   }
 }
 
+// What the library's files say of a name is what the campaign has; the rest of it is as written out.
+TEST(Campaign, MayNameAWheelAndASoil) {
+  const Library library({SOILBIN_SOURCE_DIR "/cases"});
+  const auto named = [&](const std::string& wheel, const std::string& soil) {
+    const auto open = [&](const std::string& name) { return make_source_text(good_csv, name); };
+    const std::string yaml = "format: soilbin-campaign/1\nname: c\nwheel: " + wheel + "\nsoil: " + soil + "\n";
+    return parse_campaign(make_source_text(yaml, "campaign.yaml"), open, library, FakeVocabulary());
+  };
+  const Campaign c = named("ding2011-lugged", "upland-sandy-loam");
+  const Tire tire = find_tire("ding2011-lugged", library);
+  const Soil soil = find_soil("upland-sandy-loam", library);
+  EXPECT_EQ(c.wheel.radius, tire.radius);
+  EXPECT_EQ(c.wheel.lugs.count, tire.lugs.count);
+  for (const SoilParameter& p : soil_parameters) {
+    EXPECT_EQ((c.soil.*p.value).value, ((*soil.semi_empirical).*p.value).value) << p.name;
+    EXPECT_EQ((c.soil.*p.value).std_error, ((*soil.semi_empirical).*p.value).std_error) << p.name;
+  }
+  EXPECT_THAT(refusal([&] { named("ding2011-luged", "dry-sand"); }),
+              AllOf(StartsWith("campaign.yaml:3:8: no tire"), HasSubstr("did you mean 'ding2011-lugged'?")));
+  EXPECT_THAT(refusal([&] { named("ding2011-lugged", "dry-sant"); }),
+              AllOf(StartsWith("campaign.yaml:4:7: no soil"), HasSubstr("did you mean 'dry-sand'?")));
+  EXPECT_THAT(refusal([&] { named("ding2011-lugged", "nakanishi-sand"); }),
+              HasSubstr("a campaign needs a soil with a 'semi_empirical' section"));
+}
+
+// Nobody measures c1 and c2 with plates: left out they are usual values, wide and told.
+TEST(Campaign, WithoutStressAnglesTakesUsualOnes) {
+  const std::string without =
+      replaced(replaced(good_yaml, "  stress_angle_c1: 0.18\n", ""), "  stress_angle_c2: 0.32\n", "");
+  const Campaign c = parse(without, good_csv);
+  EXPECT_EQ(c.soil.stress_angle_c1.value, usual_stress_angle_c1.value);
+  EXPECT_EQ(c.soil.stress_angle_c1.std_error, usual_stress_angle_c1.std_error);
+  EXPECT_EQ(c.soil.stress_angle_c2.value, usual_stress_angle_c2.value);
+  EXPECT_EQ(c.soil.sources.at("stress_angle_c2"), usual_stress_angle_source);
+  EXPECT_EQ(parse(good_yaml, good_csv).soil.sources.count("stress_angle_c2"), 0u);
+  EXPECT_EQ(free_parameters(c.soil), free_parameters(parse(good_yaml, good_csv).soil) + 2);
+}
+
 TEST(Campaign, EveryMeasuredOneIsRead) {
   const Library library({SOILBIN_SOURCE_DIR "/cases"});
   const std::vector<std::string> names = library.names(Shelf::measured);
   EXPECT_GE(names.size(), 4u);
   for (const std::string& name : names) {
-    const Campaign c = read_campaign(*library.find(Shelf::measured, name), bekker_wong::CatalogueVocabulary());
+    const Campaign c = read_campaign(*library.find(Shelf::measured, name), library, bekker_wong::CatalogueVocabulary());
     EXPECT_EQ(c.name, name);
     EXPECT_GE(static_cast<int>(c.runs.size()), free_parameters(c.soil)) << name;
   }

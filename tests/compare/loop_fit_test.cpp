@@ -52,7 +52,7 @@ TEST(WheelPredictor, JacobianIsTheSlopeOfBalancedPredictions) {
 
 /// A campaign of a wheel that, locked, is as heavy as the soil carries at 15 deg yaw.
 Campaign braked_campaign() {
-  return read_campaign(std::filesystem::path(SOILBIN_SOURCE_DIR) / "cases/measured/cmu-smooth/campaign.yaml",
+  return read_campaign(std::filesystem::path(SOILBIN_SOURCE_DIR) / "cases/measured/cmu-smooth/campaign.yaml", Library(),
                        bekker_wong::CatalogueVocabulary());
 }
 

@@ -74,7 +74,8 @@ void read_as_campaign(const std::string& text) {
   const std::size_t mark = text.find(campaign_mark);
   if (mark == std::string::npos) return;
   const auto open = [&](const std::string& name) { return make_source_text(text.substr(mark + 1), name); };
-  soilbin::compare::parse_campaign(make_source_text(text.substr(0, mark), "campaign.yaml"), open, FakeVocabulary());
+  soilbin::compare::parse_campaign(make_source_text(text.substr(0, mark), "campaign.yaml"), open, Library(),
+                                   FakeVocabulary());
 }
 
 }  // namespace

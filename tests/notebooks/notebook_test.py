@@ -1,7 +1,9 @@
-"""A notebook runs from a clean kernel, every assertion in it holds, and it is stored without outputs.
+"""A notebook runs from a clean kernel, every assertion in it holds, and it is stored without outputs. Its exercises don't
+hold their solutions, and its figures are those of the documents.
 
 notebook_test.py FILE.ipynb SCRATCH
 """
+import base64
 import json
 import os
 import re
@@ -17,6 +19,23 @@ stored = [cell["id"] for cell in code if cell["outputs"] or cell["execution_coun
 assert not stored, f"outputs are stored in cells {stored}; clear them: jupyter-nbconvert --clear-output --inplace"
 assert set(known["metadata"]) <= {"kernelspec", "language_info"}, f"metadata of one machine: {known['metadata']}"
 assert sum("assert" in "".join(cell["source"]) for cell in code) >= 5, "a lesson asserts what it says"
+
+# an exercise: a cell for the answer and nothing else, then the folded one that knows the right one
+exercises = [place for place, cell in enumerate(code) if re.fullmatch(r"answer_\d+ = None  # your number", "".join(cell["source"]))]
+assert 5 <= len(exercises) <= 8, f"{len(exercises)} exercises"
+for number, place in enumerate(exercises, 1):
+    solution = code[place + 1]
+    assert "solution" in solution["metadata"].get("tags", []) and solution["metadata"]["jupyter"]["source_hidden"], number
+    assert f"check(answer_{number}, right" in "".join(solution["source"]), f"exercise {number} is not checked"
+assert sum("answer_" in "".join(cell["source"]) for cell in code) == 2 * len(exercises), "an answer is used elsewhere"
+
+# a figure that a text shows is the documents' own
+for cell in known["cells"]:
+    for name, kinds in cell.get("attachments", {}).items():
+        assert f"(attachment:{name})" in "".join(cell["source"]), f"{name} is attached and not shown"
+        if (docs := notebook.resolve().parents[1] / "docs").is_dir():
+            [drawn] = docs.rglob(name)
+            assert base64.b64decode(kinds["image/svg+xml"]) == drawn.read_bytes(), f"{name} is not {drawn}: notebooks/export --attach"
 
 scratch.mkdir(parents=True, exist_ok=True)
 folders = {name: str(scratch / name.lower()) for name in ("JUPYTER_RUNTIME_DIR", "JUPYTER_CONFIG_DIR", "IPYTHONDIR", "MPLCONFIGDIR")}

@@ -85,6 +85,21 @@ class Values(unittest.TestCase):
         self.assertEqual((sand.k_phi.value, sand.k_phi.std_error), (8e6, 0.0))
         self.assertEqual((float(sand.cohesion), sand.cohesion.std_error), (500.0, 100.0))
 
+    def test_what_is_shown_carries_its_error(self):
+        self.assertEqual(repr(soilbin.Estimate(28.04, 1.5)), "Estimate(28.0 ± 1.5)")
+        self.assertEqual(str(soilbin.Estimate(28.04)), "28.04")
+        self.assertRegex(repr(soilbin.estimate(ROVER, AT)), r"TractionResult\(drawbar_pull=\S+ ± \S+ N, torque=")
+        self.assertIn("friction_angle=Estimate(0.489 ± 0.049)", repr(ROVER.soil.semi_empirical))
+        with self.assertRaises(soilbin.InputError):
+            soilbin.Estimate(1.0, -0.1)
+
+    def test_stress_angles_that_nobody_gives_are_usual_ones(self):
+        sand = ROVER.soil.semi_empirical
+        known = {name: getattr(sand, name) for name in ("exponent", "k_c", "k_phi", "cohesion", "friction_angle", "shear_modulus")}
+        made = soilbin.SemiEmpiricalSoil(**known)
+        self.assertEqual((made.stress_angle_c1.value, made.stress_angle_c1.std_error), (0.30, 0.15))
+        self.assertEqual(soilbin.SemiEmpiricalSoil(**known, stress_angle_c1=0.2).stress_angle_c1.std_error, 0.0)
+
     def test_attributes_tell_meaning_unit_and_range(self):
         self.assertEqual(soilbin.Tire.radius.__doc__, "radius to the tread base, without lugs [m], above 0 m")
         self.assertIn("[N/m^(n+1)]", soilbin.SemiEmpiricalSoil.k_c.__doc__)
@@ -119,6 +134,10 @@ class Errors(unittest.TestCase):
     def test_keywords_are_checked(self):
         with self.assertRaisesRegex(TypeError, "did you mean 'radius'"):
             soilbin.Tire(raduis=1, radius=1, width=1)
+        with self.assertRaisesRegex(TypeError, "OperatingCondition has no attribute 'laod', did you mean 'load'"):
+            soilbin.estimate(ROVER, laod=65, slip=0.2)
+        with self.assertRaisesRegex(AttributeError, "did you mean 'radius'"):
+            ROVER.tire.raduis = 0.1
         with self.assertRaisesRegex(TypeError, "missing keyword argument 'width'"):
             soilbin.Tire(radius=1)
         for value in (-0.1, 0.0, math.nan, math.inf):
@@ -126,6 +145,32 @@ class Errors(unittest.TestCase):
                 soilbin.Tire(radius=value, width=1)
         with self.assertRaisesRegex(soilbin.InputError, "either 'rim_speed' or 'torque'"):
             soilbin.Controller(rim_speed=1, torque=1)
+
+    def test_a_text_for_a_number_is_told_in_words(self):
+        for wrong, said in ((lambda: soilbin.estimate(ROVER, load="65 N", slip=0.2),
+                             "load: expected a number in N, not the text '65 N'; write 65"),
+                            (lambda: soilbin.Tire(radius="90 mm", width=0.1),
+                             "radius: expected a number in m, not the text '90 mm'; write 0.09"),
+                            (lambda: soilbin.Tire(radius="90 kPa", width=0.1),
+                             "radius: expected a number in m, not the text '90 kPa'"),
+                            (lambda: AT.replace(slip="20 %"), "slip: expected a number, not the text '20 %'; write 0.2")):
+            with self.assertRaises(TypeError) as caught:
+                wrong()
+            self.assertEqual(str(caught.exception), said)
+
+    def test_quantities_of_pint_are_taken_where_there_is_pint(self):
+        try:
+            import pint
+        except ImportError:
+            self.skipTest("python3-pint is not installed")
+        unit = pint.UnitRegistry()
+        tire = soilbin.Tire(radius=90 * unit.mm, width=11 * unit.cm)
+        self.assertAlmostEqual(tire.radius, 0.09, delta=1e-15)
+        at = AT.replace(load=65 * unit.newton, yaw=10 * unit.degree, slip=20 * unit.percent if "percent" in unit else 0.2)
+        self.assertAlmostEqual(at.yaw, math.radians(10), delta=1e-15)
+        self.assertEqual(at.load, 65.0)
+        with self.assertRaisesRegex(soilbin.InputError, "radius: expected a length, not 90 kilopascal"):
+            soilbin.Tire(radius=90 * unit.kPa, width=0.1)
 
     def test_a_wheel_that_buries_itself_has_no_solution(self):
         with self.assertRaisesRegex(soilbin.NoSolution, "sink deeper"):

@@ -85,6 +85,28 @@ TEST(CaseReader, ReadsEveryPartInSi) {
   EXPECT_EQ(c.study.conditions[1].load, 2000.0);
 }
 
+// An assumption for values whose source gives no standard deviation: said once, below an sd that is written.
+TEST(CaseReader, AnAssumedDeviationHoldsForValuesWithoutTheirOwn) {
+  const Case c = parse(with("    k_c: 0.99", "    assumed_sd: 10 %\n    k_c: 0.99"));
+  const SemiEmpiricalSoil& soil = *c.scenario.soil.semi_empirical;
+  EXPECT_EQ(soil.assumed_sd, 0.1);
+  EXPECT_EQ(soil.k_c.std_error, 0.1 * 990.0);
+  EXPECT_EQ(soil.friction_angle.std_error, 0.1 * soil.friction_angle.value);
+  EXPECT_EQ(soil.exponent.std_error, 0.05) << "its own, and none is assumed for n";
+  EXPECT_EQ(soil.k_phi.std_error, 150e3) << "its own";
+  EXPECT_TRUE(has_assumed_sd(soil, soil.k_c));
+  EXPECT_FALSE(has_assumed_sd(soil, soil.k_phi));
+  const SemiEmpiricalSoil known =
+      *parse(with("    k_c: 0.99 kN/m^(n+1)",
+                  "    assumed_sd: 10 %\n    k_c: {value: 0.99 kN/m^(n+1), sd: 0 kN/m^(n+1)}"))
+           .scenario.soil.semi_empirical;
+  EXPECT_EQ(known.k_c.std_error, 0.0) << "written as exact";
+  const SemiEmpiricalSoil exact = without_assumed_sd(soil);
+  EXPECT_EQ(exact.k_c.std_error, 0.0);
+  EXPECT_EQ(exact.k_phi.std_error, 150e3);
+  EXPECT_FALSE(exact.assumed_sd);
+}
+
 TEST(CaseReader, ResolvesFormsAndParametersOfEffects) {
   const Case c = parse(good);
   ASSERT_EQ(c.study.models.size(), 2u);

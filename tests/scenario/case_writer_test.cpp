@@ -56,6 +56,10 @@ SemiEmpiricalSoil any_semi_empirical() {
   SemiEmpiricalSoil soil{any_estimate(0.1, 2), any_estimate(-1e6, 1e6), any_estimate(1, 1e9),
                          any_estimate(0, 1e5), any_estimate(0, 1.5),    any_estimate(1e-4, 0.1),
                          any_estimate(0, 1),   any_estimate(-1, 1),     *between(100, 3000)};
+  if (*rc::gen::arbitrary<bool>()) {
+    soil.assumed_sd = *between(0, 1);
+    soil.k_phi.std_error = *soil.assumed_sd * soil.k_phi.value;
+  }
   if (*rc::gen::arbitrary<bool>()) soil.sources["k_c"] = "b" + *text();
   return soil;
 }

@@ -36,6 +36,7 @@ double read_back(const Soil& soil, const SoilParameter& parameter) {
 TEST(SoilParameters, AreTheKeysOfASoil) {
   std::vector<std::string> names;
   for (const SoilParameter& p : soil_parameters) names.emplace_back(p.name);
+  names.insert(names.begin() + 1, "assumed_sd");
   names.emplace_back("density");
   EXPECT_EQ(keys_of<SemiEmpiricalSoil>(), names);
   EXPECT_EQ(&soil_parameter("k_phi"), &soil_parameters[2]);

@@ -27,6 +27,7 @@ effect leaves in measurements: [effects.md]({effects}) and [effects-bed-and-meas
 - **Source**: *published* is the author's own equation; *after a source* has its shape, as others quote it; *ours* is stated here for the
   first time. They count {counts}.
 - Parameters: name = default (range). With the first one at 0 the form is the base model, to the bit.
+- Sketches, not to scale: the soil is brown, what the effect adds orange ([sketches.py](effects/sketches.py)).
 - Symbols: [the list](symbols.md). A subscript 0 is the value without the effect, $z_b$ the sinkage of the balance, $d$ in drift and gradient
   the distance from a reference run or place, $L$ its logarithm, $N_\\phi = \\tan^2(\\pi/4 + \\varphi/2)$.
 """
@@ -124,6 +125,8 @@ def page(catalogue):
         if form["id"] != last:
             last = form["id"]
             lines += ["", f"## {last.replace('_', ' ')}", "", f"`{last}`: {said.get(last, '')}."]
+            if (HERE / f"{last}.svg").is_file():
+                lines += ["", f"![{last.replace('_', ' ')}, a sketch](effects/{last}.svg)"]
         whose = "published: " if form["provenance"] == "published" else ""
         lines += ["", f"**{form['form']}**: {tex(form['equation'])}", ""]
         lines += [f"- `{p['name']}` = {amount(p['default'], p['unit'])} ({amount(p['lower'], p['unit'])} .. {amount(p['upper'], p['unit'])}): "

@@ -1,4 +1,4 @@
-"""Draws the figures of docs/theory/wheel.md, from the answers of soilbin itself.
+"""Draws the figures of docs/theory/wheel.md, from the answers of soilbin itself, and two sketches for the notebooks.
 
     PYTHONPATH=build/release/python /usr/bin/python3 docs/theory/wheel/figures.py
 """
@@ -137,6 +137,62 @@ def slopes_and_yaw():
     save(figure, "slope-and-yaw")
 
 
+def plates():
+    """For notebook 1: two plates, their curves, and the line that gives k_c and k_phi."""
+    figure, axes = plt.subplots(1, 3, figsize=(9.6, 2.9))
+    ground = axes[0]
+    ground.fill_between([-2.6, 2.6], 0, -1.5, color="#e9dcc6", lw=0)
+    for middle, half, depth, colour in ((-1.3, 0.35, 0.75, ORANGE), (1.1, 0.8, 0.5, BLUE)):
+        ground.fill_between([middle - half, middle + half], 0, -depth, color="white", lw=0)
+        ground.fill_between([middle - half, middle + half], -depth, -depth + 0.12, color=colour, lw=0)
+        ground.annotate("", (middle, -depth + 0.14), (middle, 0.75), arrowprops={"arrowstyle": "->", "lw": 1.6})
+        ground.annotate("", (middle + half, -depth - 0.16), (middle, -depth - 0.16), arrowprops={"arrowstyle": "<->", "color": GREY})
+        ground.text(middle + half / 2 - 0.08, -depth - 0.42, "b")
+        ground.text(middle + 0.08, 0.5, "p")
+    ground.annotate("", (-2.0, -0.75), (-2.0, 0), arrowprops={"arrowstyle": "<->", "color": GREY})
+    ground.text(-2.3, -0.45, "z")
+    ground.set(xlim=(-2.6, 2.6), ylim=(-1.5, 1.0), title="the same pressure, two plates")
+    ground.axis("off")
+    depth = np.linspace(0, 0.04, 60)
+    n, k_c, k_phi = 0.8, 30.0, 1200.0
+    for radius, colour in ((0.03, ORANGE), (0.07, BLUE)):
+        axes[1].plot(depth / mm, (k_c / radius + k_phi) * depth**n, color=colour, label=f"b = {radius / mm:.0f} mm")
+        axes[2].plot(1 / radius, k_c / radius + k_phi, "o", color=colour)
+    axes[1].set(title="$p = k\\,z^n$ [kPa]", xlabel="depth z [mm]")
+    axes[1].legend(frameon=False)
+    inverse = np.array([0, 40])
+    axes[2].plot(inverse, k_c * inverse + k_phi, color=GREY, lw=1)
+    axes[2].annotate("slope $k_c$", (22, k_c * 22 + k_phi), (4, k_c * 36 + k_phi))
+    axes[2].annotate("height $k_\\phi$", (0, k_phi), (8, k_phi - 90), arrowprops={"arrowstyle": "->", "color": GREY})
+    axes[2].set(title="$k = k_c/b + k_\\phi$", xlabel="1/b [1/m]", xlim=(0, 40), ylim=(k_phi - 250, None))
+    figure.tight_layout()
+    save(figure, "plates")
+
+
+def loop():
+    """For notebook 5: what a residual is taken apart into, drawn with two made shapes over slip."""
+    figure, axes = plt.subplots(1, 3, figsize=(9.6, 2.9), sharey=True)
+    slip = np.linspace(0, 0.6, 13)
+    noise = 0.12 * np.sin(37 * np.arange(13) ** 1.5)
+    soil, effect = 1.2 - 0.6 * slip, 4.2 * slip**2
+    axes[0].plot(100 * slip, soil + effect + noise, "o", color="k", ms=4)
+    axes[0].set(title="1. the residual")
+    axes[1].plot(100 * slip, soil + effect + noise, "o", color="#bbbbbb", ms=4)
+    axes[1].plot(100 * slip, np.polyval(np.polyfit(slip, soil + effect, 1), slip), color=BLUE, label="another soil value")
+    axes[1].set(title="2. what the soil can take over")
+    rest = effect - np.polyval(np.polyfit(slip, effect, 1), slip)
+    axes[2].plot(100 * slip, rest + noise, "o", color="k", ms=4, label="left over")
+    axes[2].plot(100 * slip, rest, color=ORANGE, label="signature of an effect")
+    axes[2].set(title="3. what is left, and a signature")
+    for ax in axes:
+        ax.axhline(0, color=GREY, lw=0.8)
+        ax.set(xlabel="slip [%]")
+    axes[0].set(ylabel="measured - model")
+    axes[1].legend(frameon=False), axes[2].legend(frameon=False, loc="upper center")
+    figure.tight_layout()
+    save(figure, "loop")
+
+
 if __name__ == "__main__":
-    for draw in (contact_geometry, stresses, balance, against_slip, slopes_and_yaw):
+    for draw in (contact_geometry, stresses, balance, against_slip, slopes_and_yaw, plates, loop):
         draw()

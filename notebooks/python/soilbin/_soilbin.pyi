@@ -134,6 +134,12 @@ class SemiEmpiricalSoil:
     @exponent.setter
     def exponent(self, value: Estimate) -> None: ...
     @property
+    def assumed_sd(self) -> Optional[float]:
+        """share of a value below n that is its sd where it has none: an assumption; absent: exact [-], at least 0
+        """
+    @assumed_sd.setter
+    def assumed_sd(self, value: Optional[float]) -> None: ...
+    @property
     def k_c(self) -> Estimate:
         """cohesive modulus [N/m^(n+1)]"""
     @k_c.setter
@@ -173,9 +179,9 @@ class SemiEmpiricalSoil:
         """bulk density [kg/m^3], above 0 kg/m^3"""
     @density.setter
     def density(self, value: Optional[float]) -> None: ...
-    def __init__(self, *, exponent: Union[Estimate, float], k_c: Union[Estimate, float], k_phi: Union[Estimate, float], cohesion: Union[Estimate, float], friction_angle: Union[Estimate, float], shear_modulus: Union[Estimate, float], stress_angle_c1: Union[Estimate, float], stress_angle_c2: Union[Estimate, float], density: Optional[float] = ...) -> None:
+    def __init__(self, *, exponent: Union[Estimate, float], assumed_sd: Optional[float] = ..., k_c: Union[Estimate, float], k_phi: Union[Estimate, float], cohesion: Union[Estimate, float], friction_angle: Union[Estimate, float], shear_modulus: Union[Estimate, float], stress_angle_c1: Union[Estimate, float] = ..., stress_angle_c2: Union[Estimate, float] = ..., density: Optional[float] = ...) -> None:
         """By keywords: the attributes, in SI."""
-    def replace(self, *, exponent: Union[Estimate, float] = ..., k_c: Union[Estimate, float] = ..., k_phi: Union[Estimate, float] = ..., cohesion: Union[Estimate, float] = ..., friction_angle: Union[Estimate, float] = ..., shear_modulus: Union[Estimate, float] = ..., stress_angle_c1: Union[Estimate, float] = ..., stress_angle_c2: Union[Estimate, float] = ..., density: Optional[float] = ...) -> SemiEmpiricalSoil:
+    def replace(self, *, exponent: Union[Estimate, float] = ..., assumed_sd: Optional[float] = ..., k_c: Union[Estimate, float] = ..., k_phi: Union[Estimate, float] = ..., cohesion: Union[Estimate, float] = ..., friction_angle: Union[Estimate, float] = ..., shear_modulus: Union[Estimate, float] = ..., stress_angle_c1: Union[Estimate, float] = ..., stress_angle_c2: Union[Estimate, float] = ..., density: Optional[float] = ...) -> SemiEmpiricalSoil:
         """A copy in which the attributes given are changed."""
 
 class ContactPair:
@@ -762,8 +768,8 @@ class TractionResult:
         """
     @property
     def patch(self) -> dict[str, Array]:
-        """stresses [Pa] under the wheel, from exit to entry: arrays theta [rad], normal, shear, lateral_shear; views of
-        the result, not copies
+        """stresses under the wheel, from exit to entry: arrays of one shape (nodes,): theta [rad], normal, shear,
+        lateral_shear [Pa]; views of the result, not copies
         """
     @property
     def without_error_of(self) -> list[str]:
@@ -874,8 +880,8 @@ class RolledWheel:
         """theta_2 [rad]"""
     @property
     def nodes(self) -> dict[str, Array]:
-        """arrays over the quadrature's nodes, views: theta [rad], arc (weight times arc length) [m], depth [m], sigma,
-        strength, tau_x, tau_y [Pa], j_x, j_y [m]
+        """arrays of one shape (nodes,), the nodes of the quadrature, views: theta [rad], arc (weight times arc length)
+        [m], depth [m], sigma, strength, tau_x, tau_y [Pa], j_x, j_y [m]
         """
     @property
     def thrust(self) -> float:
@@ -993,8 +999,8 @@ class DriveRecord:
         """at the end"""
     @property
     def samples(self) -> dict[str, Array]:
-        """arrays over time, SI and radians, views but for slip (NaN while the wheel all but stands); works in J since
-        the start
+        """arrays of one shape (samples,), SI and radians, views but for slip (NaN while the wheel all but stands); works
+        in J since the start
         """
 
 def drive_wheel(scenario: Scenario, drive: Drive, samples: int = ..., progress: Optional[Told] = ...) -> DriveRecord:
@@ -1186,13 +1192,13 @@ class GrainNow:
     """Motion of a grain at a whole step."""
     @property
     def position(self) -> Array:
-        """[m]"""
+        """shape (3,), [m]"""
     @property
     def velocity(self) -> Array:
-        """[m/s]"""
+        """shape (3,), [m/s]"""
     @property
     def spin(self) -> Array:
-        """[rad/s]"""
+        """shape (3,), [rad/s]"""
     @property
     def radius(self) -> float:
         """[m]"""
@@ -1213,16 +1219,16 @@ class Contact:
         """F_N [N]"""
     @property
     def point(self) -> Array:
-        """[m]"""
+        """shape (3,), [m]"""
     @property
     def normal(self) -> Array:
-        """toward `first`"""
+        """shape (3,), toward `first`"""
     @property
     def force(self) -> Array:
-        """on `first` [N]"""
+        """shape (3,), on `first` [N]"""
     @property
     def couple(self) -> Array:
-        """on `first` [N m]"""
+        """shape (3,), on `first` [N m]"""
 
 class EnergyBalance:
     """Where the energy is [J]."""
@@ -1308,16 +1314,16 @@ class Rut:
     """Change of the bed's surface, seen from above. Arrays are views."""
     @property
     def y(self) -> Array:
-        """from the middle of the track to the left [m]"""
+        """from the middle of the track to the left, shape (ny,) [m]"""
     @property
     def across(self) -> Array:
-        """change of height at each y [m]"""
+        """change of height at each y, shape (ny,) [m]"""
     @property
     def x(self) -> Array:
-        """along the bin [m]"""
+        """along the bin, shape (nx,) [m]"""
     @property
     def along(self) -> Array:
-        """change of height at each x [m]"""
+        """change of height at each x, shape (nx,) [m]"""
     @property
     def axle(self) -> float:
         """where the axle stood at the end [m]"""
@@ -1518,8 +1524,8 @@ class WheelRun:
     def flow(self) -> SoilFlow: ...
     @property
     def samples(self) -> dict[str, Array]:
-        """arrays over time from the start of the motion on, views: time [s], travel, sinkage [m], force [N] and moment
-        [N m] of the soil on the wheel (three columns), ...
+        """arrays of one shape (samples,) from the start of the motion on, views: time [s], travel, sinkage [m], force
+        [N] and moment [N m] of the soil on the wheel (three columns), ...
         """
 
 class SoilBin:
@@ -1598,7 +1604,7 @@ class DirectShearRun:
         """the same by the curve's stresses [J]"""
     @property
     def curve(self) -> dict[str, Array]:
-        """arrays, views: displacement, dilation [m], shear_stress, normal_stress [Pa]"""
+        """arrays of one shape (samples,), views: displacement, dilation [m], shear_stress, normal_stress [Pa]"""
 
 class DirectShearResult:
     """The shear box's answer."""
@@ -1644,7 +1650,7 @@ class AngleOfReposeResult:
         """[m]"""
     @property
     def profile(self) -> dict[str, Array]:
-        """arrays radius, height [m], views"""
+        """arrays of one shape (rings,), views: radius, height [m]"""
 
 def angle_of_repose(soil: GranularSoil, packing: int = ..., radius: float = ..., height: float = ..., rolling: RollingLaw = ..., threads: int = ..., progress: Optional[Told] = ...) -> AngleOfReposeResult:
     """A cylinder of grains (radius and height in mean diameters) on a floor is lifted; the heap's slope, with its error
@@ -1685,7 +1691,9 @@ class TriaxialRun:
         """of the walls on the grains during compression [J]"""
     @property
     def curve(self) -> dict[str, Array]:
-        """arrays, views: strain, volumetric (compression positive) [-], axial, lateral_x, lateral_y [Pa]"""
+        """arrays of one shape (samples,), views: strain, volumetric (compression positive) [-], axial, lateral_x,
+        lateral_y [Pa]
+        """
 
 class TriaxialResult:
     """The triaxial cell's answer."""
@@ -1724,7 +1732,9 @@ class TiltingBoardResult:
         """[m]"""
     @property
     def curve(self) -> dict[str, Array]:
-        """arrays, views: angle [rad], slide down the board [m], turn: how far grains rolled [rad]"""
+        """arrays of one shape (samples,), views: angle [rad], slide down the board [m], turn: how far grains rolled
+        [rad]
+        """
 
 def tilting_board(soil: GranularSoil, packing: int = ..., across: int = ..., layers: float = ..., dt: float = ..., rolling: RollingLaw = ..., threads: int = ..., progress: Optional[Told] = ...) -> TiltingBoardResult:
     """The paper's friction test: sand on a board of the tire's material, tilted until it slides. across: grains along a
@@ -1754,7 +1764,7 @@ class PlateRun:
         """seed"""
     @property
     def curve(self) -> dict[str, Array]:
-        """arrays, views: sinkage [m], pressure [Pa]"""
+        """arrays of one shape (samples,), views: sinkage [m], pressure [Pa]"""
 
 class AnnulusRun:
     """The ring turned under one stress."""
@@ -1769,7 +1779,7 @@ class AnnulusRun:
         """seed"""
     @property
     def curve(self) -> dict[str, Array]:
-        """arrays, views: displacement, sinkage [m], shear_stress, normal_stress [Pa]"""
+        """arrays of one shape (samples,), views: displacement, sinkage [m], shear_stress, normal_stress [Pa]"""
 
 def plate_sinkage(soil: GranularSoil, diameters: Sequence[float] = ..., sinkage: float = ..., width: float = ..., depth: float = ..., packing: int = ..., settling_friction: float = ..., rolling: RollingLaw = ..., threads: int = ..., progress: Optional[Told] = ...) -> list[PlateRun]:
     """Round plates pressed into a bed of the grains, each into a fresh copy (docs/guide/element-tests.md). diameters,

@@ -14,7 +14,8 @@ __all__ = ["check", "slider", "table"]
 def check(answer: Optional[float], right: float, within: float = 0.02, hint: str = "") -> Optional[bool]:
     """Says whether an exercise's answer is right, to a share `within` of the right one.
 
-    None, with a word, where there is no answer yet; else whether it is right. The hint is shown for a wrong one.
+    None, with a word, where there is no answer yet; else whether it is right. The hint is shown for a wrong one. Stands in
+    the folded cell below the exercise, so that the question shows neither the right number nor the way to it.
     """
     if answer is None:
         print("No answer yet.")

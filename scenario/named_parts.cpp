@@ -1,0 +1,103 @@
+#include "scenario/named_parts.hpp"
+
+#include <fmt/core.h>
+
+#include "scenario/case.hpp"
+#include "scenario/mapping_reader.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What differs between tires and soils when a case names one.
+template <class T>
+struct Kind;
+
+template <>
+struct Kind<Tire> {
+  static constexpr Shelf shelf = Shelf::tires;
+  static constexpr const char* word = "tire";
+  static constexpr const char* format = tire_format;
+};
+
+template <>
+struct Kind<Soil> {
+  static constexpr Shelf shelf = Shelf::soils;
+  static constexpr const char* word = "soil";
+  static constexpr const char* format = soil_format;
+};
+
+template <class T>
+T parse_file(const SourceText& source) {
+  const YamlNode document = parse_yaml(source);
+  const Reading reading{&source, std::nullopt, nullptr, ""};
+  expect_format(document, Kind<T>::format, reading);
+  T value = read_mapping<T>(document, reading, {"format"});
+  if (value.name.empty()) value.name = fs::path(source.file).stem().string();
+  return value;
+}
+
+template <class T>
+T read_file(const fs::path& path) {
+  return parse_file<T>(read_source_text(path, largest_yaml));
+}
+
+bool looks_like_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".yaml"); }
+
+template <class T>
+std::string not_found(const std::string& name, const Library& library) {
+  return fmt::format("no {} '{}' in the library{}", Kind<T>::word, clipped(name),
+                     did_you_mean(name, library.names(Kind<T>::shelf)));
+}
+
+template <class T>
+std::string names_hint(const Library& library) {
+  const std::vector<std::string> names = library.names(Kind<T>::shelf);
+  return names.empty() ? "the library is empty" : std::string(Kind<T>::word) + "s: " + listed(names);
+}
+
+template <class T>
+T find_by_name(const std::string& name, const Library& library) {
+  if (looks_like_path(name)) return read_file<T>(name);
+  if (const auto file = library.find(Kind<T>::shelf, name)) return read_file<T>(*file);
+  throw InputError(not_found<T>(name, library) + "\n  hint: " + names_hint<T>(library));
+}
+
+/// A tire or soil of a case: a mapping, a name of the library, or a path relative to the case file.
+template <class T>
+T read_part(const YamlNode& node, const Library& library, const Reading& reading) {
+  if (node.is_mapping()) return read_mapping<T>(node, reading);
+  if (!node.is_scalar())
+    reading.refuse(node, fmt::format("expected a {}: a mapping, a name of the library, or a path; not {}",
+                                     Kind<T>::word, node.kind_name()));
+  const std::string& name = node.scalar;
+  if (name.find('\0') != std::string::npos) reading.refuse(node, "a name or path can't hold a zero byte");
+  if (looks_like_path(name)) {
+    const fs::path path = fs::path(reading.source->file).parent_path() / name;
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) reading.refuse(node, fmt::format("no such {} file", Kind<T>::word));
+    return read_file<T>(path);
+  }
+  if (const auto file = library.find(Kind<T>::shelf, name)) return read_file<T>(*file);
+  reading.refuse(node, not_found<T>(name, library), names_hint<T>(library));
+}
+
+}  // namespace
+
+Tire read_tire_part(const YamlNode& node, const Library& library, const Reading& reading) {
+  return read_part<Tire>(node, library, reading);
+}
+Soil read_soil_part(const YamlNode& node, const Library& library, const Reading& reading) {
+  return read_part<Soil>(node, library, reading);
+}
+
+Tire read_tire(const fs::path& path) { return read_file<Tire>(path); }
+Tire parse_tire(const SourceText& source) { return parse_file<Tire>(source); }
+Soil read_soil(const fs::path& path) { return read_file<Soil>(path); }
+Soil parse_soil(const SourceText& source) { return parse_file<Soil>(source); }
+Tire find_tire(const std::string& name, const Library& library) { return find_by_name<Tire>(name, library); }
+Soil find_soil(const std::string& name, const Library& library) { return find_by_name<Soil>(name, library); }
+
+}  // namespace soilbin
