@@ -121,11 +121,16 @@ void run_loop_on(const compare::Comparison& comparison, const CompareOptions& as
 void print_text(const compare::Comparison& comparison, const compare::ComparisonAbout& about) {
   fmt::print("{}: {} on {}\n\n", comparison.question.study.name, in_words(comparison.question.scenario.tire),
              compare::in_words(comparison.question.scenario.soil));
-  for (const compare::Clause& clause : compare::summary(comparison, about.loop ? &*about.loop : nullptr))
-    fmt::print("{}{}\n", clause.about.empty() ? "" : clause.about + ": ", clause.text);
-  compare::HtmlTable table = compare::tally_table(comparison);
-  table.caption.clear();
-  fmt::print("\n{}", as_text(table));
+  const auto print = [](const std::vector<compare::Clause>& clauses) {
+    for (const compare::Clause& clause : clauses)
+      fmt::print("{}{}\n", clause.about.empty() ? "" : clause.about + ": ", clause.text);
+  };
+  print(compare::opening(comparison));
+  const compare::HtmlTable table = compare::without_marks(compare::tally_table(comparison));
+  if (!table.rows.empty()) fmt::print("\n{}\n", as_text(table));
+  print(compare::cause_clauses(comparison));
+  if (about.loop) print(compare::missing_clauses(*about.loop));
+  print(compare::limits_of_the_comparison(comparison));
 }
 
 Outputs save(const compare::Comparison& comparison, const compare::ComparisonAbout& about,

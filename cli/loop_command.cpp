@@ -60,12 +60,22 @@ compare::LoopAnswer without_given_limits(compare::LoopAnswer answer, const compa
   return answer;
 }
 
+void print_table(const compare::MarkedTable& table) {
+  if (!table.rows.empty()) fmt::print("\n{}", as_text(compare::without_marks(table)));
+}
+
+/// The page's sentences and tables, in its order.
 void print_answer(const compare::LoopAnswer& answer, bool only_next) {
   if (!only_next) {
-    fmt::print("{}: {}\n\n", answer.campaign, compare::verdict_sentence(answer));
-    for (const std::string& sentence : compare::explanation(answer)) fmt::print("{}\n", sentence);
-    if (answer.has_candidates()) fmt::print("\n{}", as_text(compare::candidates_table(answer)));
-    if (answer.validation.overall.cells > 0) fmt::print("\n{}", as_text(compare::error_table(answer)));
+    fmt::print("{}\n", answer.campaign);
+    for (const auto& [about, text] : compare::headline(answer)) fmt::print("\n{}. {}\n", about, text);
+    print_table(compare::next_run_table(answer));
+    print_table(compare::error_table(answer));
+    print_table(compare::parameters_table(answer));
+    if (answer.has_candidates()) print_table(compare::candidates_table(answer));
+    const std::vector<std::string> notes = compare::notes(answer);
+    if (!notes.empty()) fmt::print("\n");
+    for (const std::string& note : notes) fmt::print("{}\n", note);
     return;
   }
   const std::vector<std::string> sentences = compare::what_next(answer);
@@ -85,7 +95,9 @@ int loop(const LoopOptions& asked, const Session& session) {
   options.progress = shown_progress();
   const compare::LoopAnswer answer = compare::run_loop(campaign, options);
   Outputs outputs;
-  outputs.file(asked.report, [&] { return compare::loop_page(campaign, answer, doubts, session.command); });
+  outputs.file(asked.report, [&] {
+    return compare::loop_page(campaign, answer, doubts, session.command, compare::find_libraries());
+  });
   outputs.file(asked.model,
                [&] { return write_case(compare::resolved_model(campaign, answer), session.place.effects); });
   if (asked.json) {

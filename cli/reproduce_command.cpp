@@ -134,17 +134,8 @@ std::vector<Recorded> records_of(std::vector<std::string> files, const compare::
 
 void print_text(const compare::Reproduction& reproduction) {
   fmt::print("{}\n\n", reproduction.findings.source);
-  std::vector<std::string> header = {"section", "finding"};
-  header.insert(header.end(), reproduction.labels.begin(), reproduction.labels.end());
-  TextTable table(header);
-  for (const compare::ReproducedFinding& row : reproduction.rows) {
-    std::vector<std::string> cells = {row.finding.section, row.finding.id};
-    for (const compare::Evidence& evidence : row.evidence) cells.emplace_back(word_of(evidence.verdict));
-    table.add(std::move(cells));
-  }
-  fmt::print("{}\n", table.text());
-  for (std::size_t k = 0; k < reproduction.labels.size(); ++k)
-    fmt::print("{}: {}\n", reproduction.labels[k], compare::tally(reproduction, k));
+  for (const auto& [about, text] : compare::opening(reproduction)) fmt::print("{}: {}\n", about, text);
+  fmt::print("\n{}\n", as_text(compare::without_marks(compare::findings_matrix(reproduction))));
   for (const std::string& remark : reproduction.remarks) fmt::print("{}\n", remark);
 }
 
@@ -159,7 +150,8 @@ int reproduce(const ReproduceOptions& options, const Session& session) {
   Outputs outputs;
   outputs.file(options.report, [&] {
     return compare::reproduction_page(
-        reproduction, {"What of " + findings.name + " is reproduced", session.command, versions(), notes.doubts});
+        reproduction, {"What of " + findings.name + " is reproduced", session.command, versions(), notes.doubts},
+        compare::find_libraries());
   });
   if (options.json) {
     nlohmann::ordered_json document = compare::to_json(reproduction);

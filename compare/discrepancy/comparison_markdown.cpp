@@ -69,7 +69,7 @@ class Markdown {
 
 void add_differences(Markdown& md, const Comparison& comparison) {
   md.text("## Where they differ");
-  md.table(tally_table(comparison));
+  md.table(without_marks(tally_table(comparison)));
   if (!comparison.joint.empty()) md.table(joint_table(comparison));
   for (std::size_t k = 0; k < comparison.tallies.size(); ++k) {
     const HeatMap map = heat_map_of(comparison, comparison.tallies[k]);
@@ -113,8 +113,8 @@ void write_markdown(const fs::path& folder, const Comparison& comparison, const 
   if (about.loop) {
     md.text("## What the analytic model lacks");
     md.text(plain(verdict_sentence(*about.loop)));
-    if (about.loop->validation.overall.cells > 0) md.table(error_table(*about.loop));
-    if (about.loop->has_candidates()) md.table(candidates_table(*about.loop));
+    if (about.loop->validation.overall.cells > 0) md.table(without_marks(error_table(*about.loop)));
+    if (about.loop->has_candidates()) md.table(without_marks(candidates_table(*about.loop)));
   }
   md.text("## Every point");
   for (const Side& side : comparison.sides) md.table(points_table(comparison, side));

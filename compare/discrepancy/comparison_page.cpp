@@ -7,6 +7,7 @@
 #include "compare/discrepancy/causes.hpp"
 #include "compare/discrepancy/comparison_sheets.hpp"
 #include "compare/discrepancy/comparison_tables.hpp"
+#include "compare/doubts/grain_doubts.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
@@ -15,10 +16,6 @@
 namespace soilbin::compare {
 namespace {
 
-std::string rows_anchor(std::size_t side, std::size_t reference, std::size_t channel) {
-  return fmt::format("rows-{}-{}-{}", side, reference, channel);
-}
-
 std::string named(const std::string& curve) { return curve.empty() ? "all conditions" : curve; }
 
 /// Links from a clause to the tables and sections that hold its rows.
@@ -26,7 +23,7 @@ std::vector<std::pair<std::string, std::string>> evidence_of(const Comparison& c
   std::vector<std::pair<std::string, std::string>> links;
   if (!clause.rows.empty()) {
     const Difference& first = comparison.differences[clause.rows.front()];
-    links.emplace_back(rows_anchor(first.side, first.reference, first.channel),
+    links.emplace_back(rows_anchor({.side = first.side, .reference = first.reference, .channel = first.channel}),
                        fmt::format("{} row{}", clause.rows.size(), clause.rows.size() == 1 ? "" : "s"));
   }
   for (const std::string& evidence : clause.evidence) {
@@ -40,34 +37,29 @@ std::vector<std::pair<std::string, std::string>> evidence_of(const Comparison& c
   return links;
 }
 
-void add_summary(Page& page, const Comparison& comparison, const ComparisonAbout& about) {
+std::vector<BackedSentence> backed(const Comparison& comparison, const std::vector<Clause>& clauses) {
   std::vector<BackedSentence> sentences;
-  for (const Clause& clause : summary(comparison, about.loop ? &*about.loop : nullptr))
+  for (const Clause& clause : clauses)
     sentences.push_back({clause.about, clause.text, evidence_of(comparison, clause)});
-  if (sentences.empty()) sentences.push_back({"", "There is nothing to compare: a single side.", {}});
-  page.backed_summary(sentences);
-  const auto count = [&](DifferenceFinding finding) {
-    return std::to_string(std::count_if(comparison.differences.begin(), comparison.differences.end(),
-                                        [&](const Difference& d) { return d.finding == finding; }));
-  };
-  page.figures_at_a_glance({{std::to_string(comparison.question.study.conditions.size()), "conditions"},
-                            {std::to_string(comparison.differences.size()), "rows compared"},
-                            {count(DifferenceFinding::difference), "differences"},
-                            {count(DifferenceFinding::within_scatter), "within the scatter of a run"},
-                            {count(DifferenceFinding::within_errors), "covered by the errors"}});
-  page.doubts(about.page.doubts);
+  return sentences;
 }
 
-void add_curves(Page& page, const Comparison& comparison) {
+void add_opening(Page& page, const Comparison& comparison) {
+  std::vector<BackedSentence> sentences = backed(comparison, opening(comparison));
+  if (sentences.empty()) sentences.push_back({"", "There is nothing to compare: a single side.", {}});
+  page.backed_summary(sentences);
+}
+
+void add_curves(Page& page, const Comparison& comparison, bool coarse_grains) {
   page.section("Curves", "curves");
-  page.paragraph("Lines: models, with a band of one standard error. Points on lines: grains. Points: measured.");
   const std::vector<std::string> names = curve_names(comparison);
   std::vector<Choice> parts;
   for (std::size_t c = 0; c < names.size(); ++c)
-    parts.push_back({named(names[c]), [&page, &comparison, c] {
-                       page.figure(curve_sheet(comparison, c),
-                                   "Each side with its own uncertainty: of the soil's "
-                                   "values, of the grains' runs, of the measured runs.");
+    parts.push_back({named(names[c]), [&page, &comparison, c, coarse_grains] {
+                       page.figure(
+                           curve_sheet(comparison, c, coarse_grains),
+                           "Lines: models. Points on lines: grains. Points: measured. Band and bars: one standard "
+                           "error of the soil's values, of the grains' runs, of the measured runs.");
                      }});
   if (names.size() > 1)
     parts.push_back({"all curves at once", [&page, &comparison] {
@@ -76,10 +68,23 @@ void add_curves(Page& page, const Comparison& comparison) {
   page.choices("Curve", parts, (names.size() - 1) / 2);
 }
 
+void add_channels(Page& page, const Comparison& comparison) {
+  if (comparison.tallies.empty()) return;
+  page.section("Channel by channel", "tallies");
+  page.raw(marked_html(tally_table(comparison)));
+  const auto count = [&](DifferenceFinding finding) {
+    return std::to_string(std::count_if(comparison.differences.begin(), comparison.differences.end(),
+                                        [&](const Difference& d) { return d.finding == finding; }));
+  };
+  page.figures_at_a_glance({{std::to_string(comparison.question.study.conditions.size()), "conditions"},
+                            {std::to_string(comparison.differences.size()), "numbers compared"},
+                            {count(DifferenceFinding::difference), "differences"},
+                            {count(DifferenceFinding::within_scatter), "within the scatter of a run"},
+                            {count(DifferenceFinding::within_errors), "covered by the errors"}});
+}
+
 void add_differences(Page& page, const Comparison& comparison) {
   page.section("Where they differ", "differ");
-  page.table(tally_table(comparison));
-  if (!comparison.joint.empty()) page.table(joint_table(comparison));
   std::vector<std::string> maps;
   for (const Tally& tally : comparison.tallies) maps.push_back(heat_map_svg(heat_map_of(comparison, tally)));
   page.heat_maps(maps, "Bold: a difference. Faint: within the scatter of a run, or covered by the errors.");
@@ -87,11 +92,13 @@ void add_differences(Page& page, const Comparison& comparison) {
     page.folded(
         fmt::format("Rows: {}, {} against {}", channel_views[tally.channel].title, comparison.sides[tally.side].label,
                     comparison.sides[tally.reference].label),
-        [&] { page.table(rows_table(comparison, tally)); }, rows_anchor(tally.side, tally.reference, tally.channel));
+        [&] { page.table(rows_table(comparison, tally)); }, rows_anchor(tally));
 }
 
 void add_causes(Page& page, const Comparison& comparison) {
   page.section("Why", "why");
+  if (const std::vector<Clause> causes = cause_clauses(comparison); !causes.empty())
+    page.backed_summary(backed(comparison, causes));
   page.paragraph(
       "The pull is what shears the soil backward less what presses it down and away. Stresses lie under the wheel from "
       "where the soil lets go (behind, negative) to where it meets the wheel.");
@@ -130,10 +137,12 @@ void add_loop(Page& page, const ComparisonAbout& about) {
       "The loop takes the results of '{}' as if they had been measured: it refits the soil within its declared doubt, "
       "tests every effect of the catalogue, and judges on conditions that neither choice nor fit has seen.",
       about.loop->campaign));
-  page.paragraph(verdict_sentence(*about.loop));
-  page.list(explanation(*about.loop));
-  if (about.loop->validation.overall.cells > 0) page.table(error_table(*about.loop));
-  if (about.loop->has_candidates()) page.table(candidates_table(*about.loop));
+  page.summary(headline(*about.loop));
+  if (const MarkedTable next = next_run_table(*about.loop); !next.rows.empty()) page.raw(marked_html(next));
+  for (const MarkedTable& table : {error_table(*about.loop), parameters_table(*about.loop)})
+    if (!table.rows.empty()) page.raw(marked_html(table));
+  if (about.loop->has_candidates()) page.raw(marked_html(candidates_table(*about.loop)));
+  page.list(notes(*about.loop));
 }
 
 void add_replay(Page& page, const ComparisonAbout& about) {
@@ -152,6 +161,9 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
   for (const Side& side : comparison.sides)
     page.folded(side.label, [&] { page.table(points_table(comparison, side)); });
   page.section("How it is judged", "method");
+  if (const std::vector<Clause> limits = limits_of_the_comparison(comparison); !limits.empty())
+    page.backed_summary(backed(comparison, limits));
+  if (!comparison.joint.empty()) page.table(joint_table(comparison));
   page.list(
       {"A difference d with standard error u counts where |d| is above 2 u and above the scatter of one run; u is "
        "the root of both sides' variances. Where u rests on few re-runs, Student's t takes the place of 2.",
@@ -163,6 +175,9 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
        "step and the bed: not part of a comparison; see docs/guide/soil-bin.md.",
        "Measured: the noise of one run, pooled over all setpoints that were run twice or more, over the root of the "
        "number of runs near a condition. Slips and forces are turned to the study's definitions by each run's yaw."});
+  page.folded("The whole comparison in sentences", [&] {
+    page.backed_summary(backed(comparison, summary(comparison, about.loop ? &*about.loop : nullptr)));
+  });
   page.section("How to repeat this", "repeat");
   page.code(about.page.command);
   page.facts({"part", ""}, {&about.page.versions, &about.facts});
@@ -185,12 +200,13 @@ std::string comparison_page(const Comparison& comparison, const ComparisonAbout&
                     "drawings. Install it and make the page again.</p>\n",
                     escaped(packages)));
   }
-  add_summary(page, comparison, about);
-  add_curves(page, comparison);
-  page.raw("<span id=\"tallies\"></span>");
-  add_differences(page, comparison);
+  add_opening(page, comparison);
+  add_curves(page, comparison, speak_of_coarse_grains(about.page.doubts));
+  add_channels(page, comparison);
   add_causes(page, comparison);
   add_loop(page, about);
+  page.doubts(about.page.doubts);
+  add_differences(page, comparison);
   add_replay(page, about);
   add_method(page, comparison, about);
   return page.html();

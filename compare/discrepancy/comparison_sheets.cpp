@@ -75,6 +75,51 @@ void add_plot(Sheet& sheet, const Comparison& comparison, const std::string& tit
   if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
 }
 
+constexpr int mark_color = 4;
+
+/// Whether a point of grains rests on one packing, so that nothing is known of the scatter between beds.
+bool of_one_packing(const SidePoint& point) { return point.result && point.runs == 1; }
+
+/// The side's label in a legend, with what limits all of its points.
+std::string label_with_limits(const Side& side, bool coarse_grains) {
+  if (side.kind != SideKind::grains) return side.label;
+  std::string label = side.label;
+  if (coarse_grains) label += ", grains coarse for the wheel";
+  const bool single = std::all_of(side.points.begin(), side.points.end(),
+                                  [](const SidePoint& point) { return !point.result || of_one_packing(point); });
+  return single ? label + ", one packing each" : label;
+}
+
+/// The points of a series at which `marked` holds of the side's point, as marks of their own; no points: none is.
+Series marks_on(const Series& series, const std::string& label, const std::vector<std::size_t>& members,
+                const std::function<bool(std::size_t condition, double y)>& marked) {
+  Series marks{.label = label, .x = {}, .y = {}, .error = {}, .mark = Mark::points, .color = mark_color};
+  for (std::size_t k = 0; k < members.size(); ++k)
+    if (std::isfinite(series.y[k]) && marked(members[k], series.y[k]))
+      marks.x.push_back(series.x[k]), marks.y.push_back(series.y[k]);
+  return marks;
+}
+
+/// Labels with their limits, and marks on the points of grains that have a limit of their own.
+void mark_limits(Plot& plot, const Comparison& comparison, const std::vector<std::size_t>& members, bool sinkage,
+                 bool coarse_grains) {
+  std::vector<Series> marks;
+  for (const Side& side : comparison.sides) {
+    const auto series = std::find_if(plot.series.begin(), plot.series.end(),
+                                     [&](const Series& one) { return one.label == side.label; });
+    if (side.kind != SideKind::grains || series == plot.series.end()) continue;
+    series->label = label_with_limits(side, coarse_grains);
+    if (series->label.find("one packing") == std::string::npos)
+      marks.push_back(marks_on(*series, "one packing: the scatter between beds is not known", members,
+                               [&](std::size_t i, double) { return of_one_packing(side.points[i]); }));
+    if (sinkage)
+      marks.push_back(marks_on(*series, "negative sinkage: the tread stands above the mean surface", members,
+                               [](std::size_t, double y) { return y < 0.0; }));
+  }
+  for (Series& mark : marks)
+    if (!mark.x.empty()) plot.series.push_back(std::move(mark));
+}
+
 }  // namespace
 
 Sheet overview_sheet(const Comparison& comparison) {
@@ -95,7 +140,7 @@ Sheet overview_sheet(const Comparison& comparison) {
 
 std::vector<std::string> curve_names(const Comparison& comparison) { return curves_of(comparison).labels; }
 
-Sheet curve_sheet(const Comparison& comparison, std::size_t curve) {
+Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_grains) {
   Sheet sheet{curve_names(comparison)[curve], {}, Palette::named};
   const std::vector<std::size_t> members = members_of(comparison, curve);
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
@@ -108,6 +153,8 @@ Sheet curve_sheet(const Comparison& comparison, std::size_t curve) {
     };
     add_plot(sheet, comparison, fmt::format("{} [{}]", capital(std::string(channel.title)), channel.unit), members,
              read, channel.per_si);
+    if (!sheet.plots.empty())
+      mark_limits(sheet.plots.back(), comparison, members, channel.name == "sinkage", coarse_grains);
   }
   add_plot(
       sheet, comparison, "Tractive efficiency [%]", members,
@@ -115,6 +162,7 @@ Sheet curve_sheet(const Comparison& comparison, std::size_t curve) {
         return has_efficiency(*point.result) ? efficiency_with_error(*point.result) : Estimate{not_a_number, 0.0};
       },
       100);
+  if (!sheet.plots.empty()) mark_limits(sheet.plots.back(), comparison, members, false, coarse_grains);
   return sheet;
 }
 

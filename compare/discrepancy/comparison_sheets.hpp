@@ -15,8 +15,10 @@ Sheet overview_sheet(const Comparison& comparison);
 /// The study's curves against slip, by curves_against_slip's labels ("" alone).
 std::vector<std::string> curve_names(const Comparison& comparison);
 
-/// One curve: each channel against slip, a colour for each side, with bands of one standard error.
-Sheet curve_sheet(const Comparison& comparison, std::size_t curve);
+/// One curve: each channel against slip, a colour for each side, with bands of one standard error. What limits grains
+/// is marked: in the legend where it holds for all their points (one packing each, grains too coarse), else and for a
+/// negative sinkage at the points.
+Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_grains = false);
 
 /// One curve: entry, largest stress and exit angle; sinkage at slip 0 and what slip adds to it.
 Sheet contact_sheet(const Comparison& comparison, std::size_t curve);

@@ -31,18 +31,38 @@ std::string rest_cell(const BudgetRest& rest) {
 
 }  // namespace
 
-HtmlTable tally_table(const Comparison& comparison) {
-  HtmlTable table{"Each pair of sides, channel by channel",
-                  {"side", "against", "channel", "conditions", "differ", "within scatter", "within errors", "mean",
-                   "root mean square", "share [%]", "errors alone"},
-                  {},
-                  {true, true, true}};
-  for (const Tally& t : comparison.tallies)
-    table.rows.push_back({comparison.sides[t.side].label, comparison.sides[t.reference].label,
-                          std::string(channel_views[t.channel].title), std::to_string(t.values),
-                          std::to_string(t.differ), std::to_string(t.in_scatter), std::to_string(t.in_errors),
-                          in_unit(t.channel, t.bias), in_unit(t.channel, t.rms), number(100 * t.rms_share),
-                          in_unit(t.channel, t.expected_rms)});
+std::string rows_anchor(const Tally& t) { return fmt::format("rows-{}-{}-{}", t.side, t.reference, t.channel); }
+
+MarkedTable tally_table(const Comparison& comparison) {
+  constexpr std::size_t more_than_a_channel = 2;
+  const bool several = comparison.sides.size() > more_than_a_channel;
+  MarkedTable table{
+      "Channel by channel, the widest apart first. Green: no more than the stated errors alone would give",
+      {"channel", "root mean square", "share", "differ", "errors alone", "mean", "within scatter", "within errors",
+       "widest at", "there"},
+      {},
+      {true, false, false, false, false, false, false, false, true, true}};
+  for (const Tally* t : widest_first(comparison)) {
+    const Difference& worst = comparison.differences[t->worst];
+    const std::string pair =
+        fmt::format("{} against {}", comparison.sides[t->side].label, comparison.sides[t->reference].label);
+    const Tone tone = t->unknown == t->values     ? Tone::none
+                      : t->rms <= t->expected_rms ? Tone::good
+                      : t->differ > 0             ? Tone::bad
+                                                  : Tone::none;
+    table.rows.push_back(
+        {{.text = std::string(channel_views[t->channel].title), .note = several ? pair : "", .anchor = rows_anchor(*t)},
+         {.text = in_unit(t->channel, t->rms), .tone = tone},
+         {.text = percent(t->rms_share), .note = "of " + measure_of(*t)},
+         {.text = t->unknown == t->values ? "not judged" : fmt::format("{} of {}", t->differ, t->values)},
+         {.text = t->expected_rms > 0 ? in_unit(t->channel, t->expected_rms) : "-"},
+         {.text = in_unit(t->channel, t->bias)},
+         {.text = std::to_string(t->in_scatter)},
+         {.text = std::to_string(t->in_errors)},
+         {.text = in_words(comparison.question.study.conditions[worst.condition])},
+         {.text = fmt::format("{} against {}", in_unit(t->channel, worst.value.value),
+                              in_unit(t->channel, worst.reference_value.value))}});
+  }
   return table;
 }
 

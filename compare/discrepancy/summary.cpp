@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "compare/discrepancy/causes.hpp"
@@ -40,11 +41,14 @@ std::string counts(const Tally& t) {
   return text;
 }
 
-/// What a tally's shares are shares of.
+}  // namespace
+
 std::string measure_of(const Tally& t) {
   if (channel_views[t.channel].name == "torque") return "load x radius";
   return channel_views[t.channel].name == "sinkage" ? "the radius" : "the load";
 }
+
+namespace {
 
 Clause tally_clause(const Comparison& comparison, const Tally& t) {
   const Difference& worst = comparison.differences[t.worst];
@@ -63,7 +67,7 @@ Clause tally_clause(const Comparison& comparison, const Tally& t) {
 }
 
 /// How many rows differ at all, and where the sides are widest apart.
-Clause headline(const Comparison& comparison, const Tally& widest) {
+Clause in_short(const Comparison& comparison, const Tally& widest) {
   Clause clause{"in short", "", {}, {}};
   std::size_t judged = 0;
   for (std::size_t i = 0; i < comparison.differences.size(); ++i) {
@@ -71,8 +75,10 @@ Clause headline(const Comparison& comparison, const Tally& widest) {
     if (comparison.differences[i].finding == DifferenceFinding::difference) clause.rows.push_back(i);
   }
   if (judged > 0)
-    clause.text =
-        fmt::format("{} of {} numbers differ by more than errors and scatter explain. ", clause.rows.size(), judged);
+    clause.text = fmt::format(
+        "{} of {} numbers differ by more than their errors and a run's scatter; the others agree within "
+        "them. ",
+        clause.rows.size(), judged);
   clause.text += fmt::format("Widest apart is the {}, of {} and {}: {} of {}, root mean square.",
                              channel_views[widest.channel].title, comparison.sides[widest.side].label,
                              comparison.sides[widest.reference].label, percent(widest.rms_share), measure_of(widest));
@@ -80,22 +86,49 @@ Clause headline(const Comparison& comparison, const Tally& widest) {
   return clause;
 }
 
+/// Share of the squared difference that other soil values within their declared bands would take away.
+double taken_by_the_soil(const JointTest& test) { return 1.0 - test.chi2 / test.chi2_soil_exact; }
+
+constexpr double joint_level = 0.01;  // p below which more is left than noise
+
 Clause joint_clause(const Comparison& comparison, const JointTest& test) {
   const std::string side = comparison.sides[test.side].label, reference = comparison.sides[test.reference].label;
-  const double taken = 1.0 - test.chi2 / test.chi2_soil_exact;
   Clause clause{"all together", "", {}, {"joint test"}};
   const std::string p = test.p_value < 1e-300 ? "p < 1e-300" : fmt::format("p = {:.2g}", test.p_value);
   const std::string errors =
       std::isinf(test.freedom) ? "" : fmt::format("; the noise rests on {:.0f} degrees of freedom", test.freedom);
   clause.text = fmt::format(
-      "{} and {} {}: chi2 = {} for {} values ({}{}). The soil values' doubt, which moves all conditions together, "
-      "accounts for {:.0f} % of the squared difference.",
-      side, reference,
-      test.p_value < 0.01 ? "differ by more than soil values and noise explain"
-                          : "agree within what soil values and noise leave open",
-      number(test.chi2), test.values, p, errors, 100 * taken);
+      "Other soil values within their declared bands would take {:.0f} % off the squared difference of {} and {}. What "
+      "is left is {}: chi2 = {} for {} values ({}{}).",
+      100 * taken_by_the_soil(test), side, reference,
+      test.p_value < joint_level ? "still more than noise" : "no more than noise", number(test.chi2), test.values, p,
+      errors);
   return clause;
 }
+
+/// One sentence on what a better known soil could explain, of all pairs together.
+std::optional<Clause> soil_clause(const Comparison& comparison) {
+  if (comparison.joint.empty()) return std::nullopt;
+  double least = 1.0, most = 0.0;
+  bool all_left = true, none_left = true;
+  for (const JointTest& test : comparison.joint) {
+    least = std::min(least, taken_by_the_soil(test)), most = std::max(most, taken_by_the_soil(test));
+    (test.p_value < joint_level ? none_left : all_left) = false;
+  }
+  std::string share = fmt::format("{:.0f} %", 100 * most);
+  if (std::lround(100 * least) != std::lround(100 * most)) share = fmt::format("{:.0f} to {}", 100 * least, share);
+  return Clause{"the soil",
+                fmt::format("A better known soil could explain {} of the squared difference: that much goes away with "
+                            "other soil values within their declared bands. {}.",
+                            share,
+                            none_left  ? "What is left is no more than noise"
+                            : all_left ? "What is left is small beside it, and yet more than noise"
+                                       : "What is left is noise for some sides and more for others"),
+                {},
+                {"joint test"}};
+}
+
+}  // namespace
 
 /// Where the widest gap in pull comes from.
 std::vector<Clause> cause_clauses(const Comparison& comparison) {
@@ -117,6 +150,8 @@ std::vector<Clause> cause_clauses(const Comparison& comparison) {
   }
   return clauses;
 }
+
+namespace {
 
 /// The rule, and how many rows it would let pass by chance.
 Clause chance_clause(const Comparison& comparison) {
@@ -167,14 +202,40 @@ std::string in_unit(std::size_t channel, double si) {
   return fmt::format("{} {}", number(si * channel_views[channel].per_si), channel_views[channel].unit);
 }
 
-std::vector<Clause> summary(const Comparison& comparison, const LoopAnswer* loop) {
-  std::vector<Clause> clauses;
+std::vector<const Tally*> widest_first(const Comparison& comparison) {
   std::vector<const Tally*> order;
   for (const Tally& t : comparison.tallies) order.push_back(&t);
   std::stable_sort(order.begin(), order.end(),
                    [](const Tally* a, const Tally* b) { return a->rms_share > b->rms_share; });
-  if (!order.empty()) clauses.push_back(headline(comparison, *order.front()));
-  for (const Tally* t : order) clauses.push_back(tally_clause(comparison, *t));
+  return order;
+}
+
+std::vector<Clause> opening(const Comparison& comparison) {
+  std::vector<Clause> clauses;
+  if (!comparison.tallies.empty()) clauses.push_back(in_short(comparison, *widest_first(comparison).front()));
+  if (auto soil = soil_clause(comparison)) clauses.push_back(std::move(*soil));
+  return clauses;
+}
+
+std::vector<Clause> missing_clauses(const LoopAnswer& loop) {
+  std::vector<Clause> clauses;
+  for (const auto& [about, text] : headline(loop)) clauses.push_back({about, text, {}, {"the loop"}});
+  return clauses;
+}
+
+std::vector<Clause> limits_of_the_comparison(const Comparison& comparison) {
+  std::vector<Clause> clauses;
+  const bool judged = std::any_of(comparison.differences.begin(), comparison.differences.end(),
+                                  [](const Difference& d) { return d.finding != DifferenceFinding::not_judged; });
+  if (judged) clauses.push_back(chance_clause(comparison));
+  for (Clause& clause : doubt_clauses(comparison)) clauses.push_back(std::move(clause));
+  for (const std::string& gap : comparison.not_compared) clauses.push_back({"not compared", gap + ".", {}, {}});
+  return clauses;
+}
+
+std::vector<Clause> summary(const Comparison& comparison, const LoopAnswer* loop) {
+  std::vector<Clause> clauses = opening(comparison);
+  for (const Tally* t : widest_first(comparison)) clauses.push_back(tally_clause(comparison, *t));
   for (const JointTest& test : comparison.joint) clauses.push_back(joint_clause(comparison, test));
   for (Clause& clause : cause_clauses(comparison)) clauses.push_back(std::move(clause));
   if (loop != nullptr) {
@@ -182,11 +243,7 @@ std::vector<Clause> summary(const Comparison& comparison, const LoopAnswer* loop
     for (const std::string& sentence : explanation(*loop)) text += " " + sentence;
     clauses.push_back({"what is missing", text, {}, {"the loop"}});
   }
-  const bool judged = std::any_of(comparison.differences.begin(), comparison.differences.end(),
-                                  [](const Difference& d) { return d.finding != DifferenceFinding::not_judged; });
-  if (judged) clauses.push_back(chance_clause(comparison));
-  for (Clause& clause : doubt_clauses(comparison)) clauses.push_back(std::move(clause));
-  for (const std::string& gap : comparison.not_compared) clauses.push_back({"not compared", gap + ".", {}, {}});
+  for (Clause& clause : limits_of_the_comparison(comparison)) clauses.push_back(std::move(clause));
   return clauses;
 }
 

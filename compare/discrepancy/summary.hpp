@@ -17,8 +17,27 @@ struct Clause {
   std::vector<std::string> evidence;  ///< what is not a row: "joint test", "budget", "the loop"
 };
 
-/// How far each pair is apart, channel by channel, largest first; what of it counts; where it comes from; what the
-/// loop, where it was run, says is missing; and what the comparison can't tell.
+/// The two lines that a page opens with: how many numbers differ and where the sides are widest apart; how much of that
+/// a better known soil could explain. The second is absent where nothing can be said of it.
+std::vector<Clause> opening(const Comparison& comparison);
+
+/// Where the widest gap in pull comes from.
+std::vector<Clause> cause_clauses(const Comparison& comparison);
+
+/// What the loop says is missing, what that does to the error, what to measure next.
+std::vector<Clause> missing_clauses(const LoopAnswer& loop);
+
+/// How sure it is, what limits it, what was not compared.
+std::vector<Clause> limits_of_the_comparison(const Comparison& comparison);
+
+/// Pairs and channels, the largest share of the load first.
+std::vector<const Tally*> widest_first(const Comparison& comparison);
+
+/// What a tally's shares are shares of: "the load", "load x radius", "the radius".
+std::string measure_of(const Tally& tally);
+
+/// The opening; then how far each pair is apart, channel by channel, largest first; what of it counts; where it comes
+/// from; what the loop, where it was run, says is missing; and what the comparison cannot tell.
 std::vector<Clause> summary(const Comparison& comparison, const LoopAnswer* loop = nullptr);
 
 /// "12.3 N", "4.1 mm" of a channel's number in SI.

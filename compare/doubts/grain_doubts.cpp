@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "compare/sweep/varying.hpp"
 #include "dem/bed/settled_bed.hpp"
 
 namespace soilbin::compare {
 namespace {
+
+constexpr std::string_view coarse_grains = "the grains are coarse";  // how the sentence begins
 
 double contact_length(double sinkage, double radius) {
   return radius * std::acos(1.0 - std::clamp(sinkage / radius, 0.0, 1.0));
@@ -29,9 +32,8 @@ std::string coarse(const GrainCounts& counts) {
     lengths += fmt::format(", {:.2g} in a lug's height", *counts.lug);
     wanted += fmt::format(", {}", grains_wanted_in_a_lug);
   }
-  std::string text =
-      fmt::format("the grains are coarse for this wheel: of their mean diameter, {:.3g} mm, {}; at least {} are wanted",
-                  1000 * counts.diameter, lengths, wanted);
+  std::string text = fmt::format("{} for this wheel: of their mean diameter, {:.3g} mm, {}; at least {} are wanted",
+                                 coarse_grains, 1000 * counts.diameter, lengths, wanted);
   if (few)
     text +=
         ". A few grains then carry it: pull and sinkage scatter from packing to packing (--packings tells how much) "
@@ -86,6 +88,11 @@ std::vector<std::string> grain_doubts(const Scenario& scenario, const std::vecto
   for (const std::string& doubt : {coarse(count_grains(scenario, study)), depends_on_the_step(*scenario.soil.granular)})
     if (!doubt.empty()) doubts.push_back(doubt);
   return doubts;
+}
+
+bool speak_of_coarse_grains(const std::vector<std::string>& doubts) {
+  return std::any_of(doubts.begin(), doubts.end(),
+                     [](const std::string& one) { return one.starts_with(coarse_grains); });
 }
 
 }  // namespace soilbin::compare

@@ -8,86 +8,58 @@
 #include <set>
 #include <utility>
 
+#include "bekker_wong/effects/titles.hpp"
 #include "compare/doubts/unheard.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
 
 namespace soilbin::compare {
-
-std::string joined(const std::set<std::string>& ids) {
-  std::string text;
-  for (const std::string& id : ids) text += (text.empty() ? "" : " + ") + id;
-  return text.empty() ? "no effect" : text;
-}
-
-std::string verdict_sentence(const LoopAnswer& answer) {
-  switch (answer.verdict) {
-    case Verdict::effect_found:
-      return fmt::format("The model lacks {}: {}.", joined(answer.found().best().ids), answer.reason);
-    case Verdict::nothing_missing:
-      return fmt::format("Nothing is missing that these data show: {}.", answer.reason);
-    case Verdict::unknown_effect:
-      return fmt::format("Something is missing that the catalogue does not name: {}.", answer.reason);
-    case Verdict::not_enough_data:
-      return fmt::format("These data can't decide: {}.", answer.reason);
-  }
-  return "";
-}
-
 namespace {
 
-/// The sets of the table of candidates: those that compete, then those that stand next.
-std::vector<const Weighted*> sets_shown(const LoopAnswer& answer) {
-  constexpr std::size_t most = 8;
-  std::vector<const Weighted*> sets;
-  for (const Weighted& w : answer.ambiguity_set) sets.push_back(&w);
-  const auto listed = [&](const Weighted& w) {
-    return std::any_of(sets.begin(), sets.end(), [&](const Weighted* one) { return one->ids == w.ids; });
-  };
-  if (!answer.has_candidates()) return sets;
-  for (const Weighted& w : answer.found().candidates.sets)
-    if (sets.size() < most && !listed(w)) sets.push_back(&w);
-  return sets;
-}
+using bekker_wong::effect_title;
 
-std::string condition_words(const NextTest& next) {
+/// "a", "a and b", "a, b and c".
+std::string in_a_row(const std::vector<std::string>& words) {
   std::string text;
-  for (const std::string& name : next.quantities) {
-    const ConditionView& view = condition_view(name);
-    const double value = view.get(next.at);
-    if (!std::isfinite(value)) continue;
-    text += fmt::format("{}{} {}{}{}", text.empty() ? "" : ", ", view.title, number(view.per_si * value),
-                        view.unit.empty() ? "" : " ", view.unit);
-  }
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
   return text;
 }
 
-std::string effect_sentence(const AcceptedEffect& effect) {
-  std::string parameters;
-  for (std::size_t i = 0; i < effect.fitted.size(); ++i)
-    parameters +=
-        fmt::format("{}{} = {} ({}95 %: {} .. {})", i == 0 ? "" : ", ", effect.fitted[i],
-                    number(effect.choice.parameters.at(effect.fitted[i])), effect.at_bound[i] ? "at its bound; " : "",
-                    number(effect.ci95[i].first), number(effect.ci95[i].second));
-  return fmt::format("{} in the form '{}', {} (SI).", effect.choice.id, effect.choice.form, parameters);
+/// A name as people write it: "cross_slope" becomes "cross slope".
+std::string spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
-constexpr double little = 0.005;  // of the evidence
+/// "4,000"
+std::string thousands_apart(long long value) {
+  std::string text = std::to_string(value);
+  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
+  return text;
+}
 
-/// A set's share of the evidence, the same in every place: "81 %".
-std::string share_words(double weight) { return weight < little ? "< 1 %" : fmt::format("{:.0f} %", 100 * weight); }
+std::size_t known_effects() {
+  std::set<std::string> ids;
+  for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue()) ids.insert(form.id);
+  return ids.size();
+}
 
-/// The sets with their weights; those of next to none are only counted.
-std::string ambiguity_words(const std::vector<Weighted>& sets) {
-  std::string text;
+// What is missing.
+
+/// Sets from the first one on, with their shares; those of next to none are only counted.
+std::string sets_with_shares(const std::vector<Weighted>& sets, std::size_t first) {
+  std::vector<std::string> said;
   std::size_t unsaid = 0;
-  for (const Weighted& w : sets)
-    if (w.weight < little && &w != &sets.front())
+  for (std::size_t i = first; i < sets.size(); ++i)
+    if (i > 0 && share_words(sets[i].weight).front() == '<')
       ++unsaid;
     else
-      text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", joined(w.ids), share_words(w.weight));
-  if (unsaid > 0) text += fmt::format(", and {} more set{} of less than a per cent", unsaid, unsaid == 1 ? "" : "s");
+      said.push_back(fmt::format("{} ({})", named_effects(sets[i].ids), share_words(sets[i].weight)));
+  if (unsaid > 0) said.push_back(fmt::format("{} more of less than 1 % each", unsaid));
+  std::string text;
+  for (std::size_t i = 0; i < said.size(); ++i) text += (i == 0 ? "" : "; ") + said[i];
   return text;
 }
 
@@ -96,52 +68,120 @@ std::string why_taken(const std::vector<Weighted>& sets) {
   const auto lighter = [](const Weighted& a, const Weighted& b) { return a.weight < b.weight; };
   const Weighted &taken = sets.front(), &heaviest = *std::max_element(sets.begin(), sets.end(), lighter);
   if (heaviest.ids == taken.ids) return "";
-  return fmt::format("{} is taken all the same: what {} has beyond it does not predict conditions left out better.",
-                     joined(taken.ids), joined(heaviest.ids));
+  return fmt::format(
+      " The model takes {} all the same: what {} has beyond it does not predict conditions left out better.",
+      named_effects(taken.ids), named_effects(heaviest.ids));
 }
 
-/// What the attribution says that does not decide.
-std::string note_on_the_other_attribution(const LoopAnswer& answer) {
-  const Attribution& note = answer.second->note;
-  std::string names = "no named effect stands out", others;
-  if (note.candidates.best) {
-    const std::set<std::string>& best = note.best().ids;
-    names = fmt::format("{} stands out most (p = {:.2g})", joined(best), note.signatures.p_value);
-    for (const Weighted& w : answer.noted_sets)
-      if (w.ids != best) others += (others.empty() ? "" : ", ") + joined(w.ids);
+/// How far behind the best set the next one stands, where the best stands alone.
+std::string next_candidate(const LoopAnswer& answer) {
+  const std::vector<const Weighted*> sets = sets_shown(answer);
+  if (answer.ambiguity_set.size() != 1 || sets.size() < 2) return "";
+  const double behind = sets[0]->log_evidence - sets[1]->log_evidence;
+  if (!(behind > 0)) return "";
+  return fmt::format(" The next candidate, {}, is {} less likely.", named_effects(sets[1]->ids),
+                     times_likelier(behind));
+}
+
+std::string how_sure(const LoopAnswer& answer) {
+  if (!answer.judgement) return "";
+  const double p = answer.found().signatures.p_value;
+  const std::string noise_alone =
+      fmt::format("Noise alone would make some effect stand out this much in {} (p = {:.2g}).", odds_words(p), p);
+  switch (answer.verdict) {
+    case Verdict::effect_found:
+      return " " + noise_alone +
+             (answer.ambiguity_set.size() > 1
+                  ? " These data cannot separate it from: " + sets_with_shares(answer.ambiguity_set, 1) + "." +
+                        why_taken(answer.ambiguity_set)
+                  : next_candidate(answer));
+    case Verdict::unknown_effect: {
+      std::string text = fmt::format(" {}. {}", capital(answer.judgement->reason), noise_alone);
+      if (answer.ambiguity_set.size() > 1)
+        text += " Of the known effects these come nearest: " + sets_with_shares(answer.ambiguity_set, 0) + ".";
+      if (!answer.stand_in.empty())
+        text += fmt::format(
+            " The saved model takes {} as a stand-in: that explains nothing, but predicts conditions left out better.",
+            named_effects(ids_of(answer.stand_in)));
+      return text + (answer.ambiguity_set.size() > 1 ? why_taken(answer.ambiguity_set) : "");
+    }
+    case Verdict::nothing_missing:
+      return fmt::format(" {}. {}", capital(answer.judgement->reason), noise_alone);
+    case Verdict::not_enough_data:
+      return "";
   }
-  if (!others.empty()) names += "; beside it these compete: " + others;
-  const char* other = answer.second->decides
-                          ? "a base model that is taken as exact"
-                          : "a base model that may itself be off by any smooth function of load and slip";
-  return fmt::format("Note: read with {}{}, {}.", other,
-                     note.candidates.best ? ", which explains the data less well" : "", names);
+  return "";
 }
 
-/// The forms that the answer names: of the effects in the model, and of the sets that compete.
-std::vector<EffectChoice> forms_named(const LoopAnswer& answer) {
-  std::vector<EffectChoice> forms;
-  for (const std::vector<AcceptedEffect>* effects : {&answer.effects, &answer.stand_in})
-    for (const AcceptedEffect& effect : *effects) forms.push_back(effect.choice);
-  for (const Weighted* w : sets_shown(answer))
-    for (const Term& term : answer.found().candidates.models[w->best_candidate].terms())
-      forms.push_back({term.form->id, term.form->form, {}});
-  for (const Weighted& w : answer.noted_sets)
-    for (const Term& term : answer.second->note.candidates.models[w.best_candidate].terms())
-      forms.push_back({term.form->id, term.form->form, {}});
-  return forms;
+// What it does to the error.
+
+constexpr double third_digit = 1.005;
+constexpr double worth_saying = 0.95;  // an error that falls by less hardly changes
+
+bool falls(const ErrorPair& error) { return error.before > third_digit * error.after; }
+bool falls_clearly(const ErrorPair& error) { return error.after < worth_saying * error.before; }
+bool hardly_changes(const ErrorPair& error) { return !falls_clearly(error) && !rises(error); }
+
+/// "sinkage (20.6 to 7.04 mm)" of each channel of which `moves` holds.
+std::vector<std::string> channels_that(bool (*moves)(const ErrorPair&), const CrossValidation& validation) {
+  std::vector<std::string> said;
+  for (std::size_t c = 0; c < channel_views.size(); ++c) {
+    const ErrorPair& e = validation.channels[c];
+    const ChannelView& view = channel_views[c];
+    if (e.cells > 0 && moves(e))
+      said.push_back(fmt::format("{} ({:.3g} to {:.3g} {})", view.title, e.before * view.per_si, e.after * view.per_si,
+                                 view.unit));
+  }
+  return said;
 }
 
-std::string listed_words(const std::vector<std::string>& words) {
+std::string with_the(const std::vector<std::string>& channels) {
+  std::vector<std::string> words;
+  for (const std::string& channel : channels) words.push_back("the " + channel);
+  return in_a_row(words);
+}
+
+std::string error_sentence(const LoopAnswer& answer) {
+  const CrossValidation& validation = answer.validation;
+  std::vector<std::string> noise, parts;
+  for (std::size_t c = 0; c < channel_views.size(); ++c) {
+    const ErrorPair& e = validation.channels[c];
+    if (e.cells > 0)
+      noise.push_back(fmt::format("{:.3g} {}{}", e.noise_floor * channel_views[c].per_si, channel_views[c].unit,
+                                  takes_effects(answer) ? "" : " (" + std::string(channel_views[c].title) + ")"));
+  }
+  if (!takes_effects(answer)) {
+    for (std::size_t c = 0; c < channel_views.size(); ++c)
+      if (const ErrorPair& e = validation.channels[c]; e.cells > 0)
+        parts.push_back(fmt::format("{} {:.3g} {}", channel_views[c].title, e.before * channel_views[c].per_si,
+                                    channel_views[c].unit));
+    return fmt::format(
+        "With the soil refitted the error on conditions left out is: {} (root mean square). Noise alone: {}.",
+        in_a_row(parts), in_a_row(noise));
+  }
+  const auto add = [&](const char* what, const std::vector<std::string>& channels) {
+    if (!channels.empty()) parts.push_back(fmt::format("{} {}", what, with_the(channels)));
+  };
+  add("rises for", channels_that(rises, validation));
+  add("falls for", channels_that(falls_clearly, validation));
+  add("hardly changes for", channels_that(hardly_changes, validation));
+  return fmt::format(
+      "On conditions that neither the choice nor the fit has seen the error {} (root mean square). Noise alone: {}.",
+      in_a_row(parts), in_a_row(noise));
+}
+
+// What to measure next.
+
+std::string condition_words(const NextTest& next) {
   std::string text;
-  for (const std::string& w : words) text += (text.empty() ? "" : ", ") + w;
+  for (const std::string& name : next.quantities) {
+    const ConditionView& view = condition_view(name);
+    const double value = view.get(next.at);
+    if (!std::isfinite(value)) continue;
+    text += fmt::format("{}{} {}{}{}", text.empty() ? "" : ", ", view.title, setting(view.per_si * value),
+                        view.unit.empty() ? "" : " ", view.unit);
+  }
   return text;
-}
-
-/// A name as people write it: "cross_slope" becomes "cross slope".
-std::string spaced(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
 }
 
 /// The dependence that is surest in what the best named effects leave, or in what the base model leaves.
@@ -157,13 +197,78 @@ const Dependence* surest_dependence(const LoopAnswer& answer) {
 /// What has no name predicts nothing; but where it shows can be said.
 std::string to_show_its_shape(const LoopAnswer& answer) {
   constexpr double sure = 0.05;
-  const std::string lack = "What is missing has no name and so predicts nothing; ";
   const Dependence* on = surest_dependence(answer);
-  if (!on || on->p_value > sure) return lack + "one condition varied alone, with re-runs, would show its shape.";
-  const std::string how = on->variable == "run" ? "repeat one setpoint through the whole campaign"
-                                                : fmt::format("vary the {} alone, with re-runs", spaced(on->variable));
-  return fmt::format("{}to see its shape, {}: on that the {} that is left depends most (p = {:.2g}).", lack, how,
-                     channel_views[on->channel].title, on->p_value);
+  if (!on || on->p_value > sure)
+    return "Where the unexplained part comes from does not show yet: vary one condition alone, each setting run twice.";
+  const auto& looked_at = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
+  const std::string how = on->variable == "run"
+                              ? "one setpoint, repeated through the whole campaign"
+                              : fmt::format("the same run at several settings of the {} alone, each one twice",
+                                            spaced(std::string(condition_view(on->variable).title)));
+  return fmt::format(
+      "The unexplained part of the {} depends most on the {} (p = {:.2g}, the surest of {} pairs looked at). Measure "
+      "next {}.",
+      channel_views[on->channel].title, spaced(std::string(condition_view(on->variable).title)), on->p_value,
+      looked_at.size(), how);
+}
+
+// Parameters.
+
+std::string effect_sentence(const AcceptedEffect& effect) {
+  const bekker_wong::EffectForm& form = bekker_wong::find_form(effect.choice);
+  std::vector<std::string> parameters;
+  for (std::size_t i = 0; i < effect.fitted.size(); ++i) {
+    const auto p = std::find_if(form.parameters.begin(), form.parameters.end(),
+                                [&](const auto& one) { return one.name == effect.fitted[i]; });
+    const double scale = per_unit(p->unit);
+    parameters.push_back(fmt::format("{} {}{} (95 %: {} to {}{})", p->meaning,
+                                     number(scale * effect.choice.parameters.at(p->name)),
+                                     p->unit == "-" ? "" : " " + p->unit, number(scale * effect.ci95[i].first),
+                                     number(scale * effect.ci95[i].second),
+                                     effect.at_bound[i] ? "; at its bound: these data do not determine it" : ""));
+  }
+  std::string text =
+      fmt::format("{} ({}): ", capital(std::string(effect_title(effect.choice.id).name)), spaced(effect.choice.form));
+  for (std::size_t i = 0; i < parameters.size(); ++i) text += (i == 0 ? "" : "; ") + parameters[i];
+  return text + ".";
+}
+
+// Notes.
+
+/// What the attribution says that does not decide.
+std::string note_on_the_other_attribution(const LoopAnswer& answer) {
+  const Attribution& note = answer.second->note;
+  std::string names = "no named effect stands out";
+  std::vector<std::string> others;
+  if (note.candidates.best) {
+    const std::set<std::string>& best = note.best().ids;
+    names = fmt::format("{} stands out most (p = {:.2g})", named_effects(best), note.signatures.p_value);
+    for (const Weighted& w : answer.noted_sets)
+      if (w.ids != best) others.push_back(joined(w.ids));
+  }
+  if (!others.empty()) {
+    names += "; these compete with it: ";
+    for (std::size_t i = 0; i < others.size(); ++i) names += (i == 0 ? "" : ", ") + others[i];
+  }
+  const char* other = answer.second->decides
+                          ? "a base model that is taken as exact"
+                          : "a base model that may itself be off by any smooth function of load and slip";
+  return fmt::format("A second reading of the data, with {}{}: {}.", other,
+                     note.candidates.best ? ", which explains them less well" : "", names);
+}
+
+/// The forms that the answer names: of the effects in the model, and of the sets that compete.
+std::vector<EffectChoice> forms_named(const LoopAnswer& answer) {
+  std::vector<EffectChoice> forms;
+  for (const std::vector<AcceptedEffect>* effects : {&answer.effects, &answer.stand_in})
+    for (const AcceptedEffect& effect : *effects) forms.push_back(effect.choice);
+  for (const Weighted* w : sets_shown(answer))
+    for (const Term& term : answer.found().candidates.models[w->best_candidate].terms())
+      forms.push_back({term.form->id, term.form->form, {}});
+  for (const Weighted& w : answer.noted_sets)
+    for (const Term& term : answer.second->note.candidates.models[w.best_candidate].terms())
+      forms.push_back({term.form->id, term.form->form, {}});
+  return forms;
 }
 
 /// What was set aside, and whether anything hangs on it.
@@ -182,6 +287,93 @@ std::string outlier_sentence(const LoopAnswer& answer) {
 
 }  // namespace
 
+bool takes_effects(const LoopAnswer& answer) { return !answer.effects.empty() || !answer.stand_in.empty(); }
+
+std::string joined(const std::set<std::string>& ids) {
+  std::string text;
+  for (const std::string& id : ids) text += (text.empty() ? "" : " + ") + id;
+  return text.empty() ? "no effect" : text;
+}
+
+std::string named_effects(const std::set<std::string>& ids) {
+  std::vector<std::string> names;
+  for (const std::string& id : ids) names.emplace_back(effect_title(id).name);
+  return names.empty() ? "no effect" : in_a_row(names);
+}
+
+std::string times_likelier(double log_odds) {
+  constexpr double million = 1e6;
+  const double odds = std::exp(log_odds);
+  if (odds > million) return "more than a million times";
+  if (odds < 10) return fmt::format("{:.2g} times", odds);
+  const double step = std::pow(10.0, std::floor(std::log10(odds)) - 1);
+  return thousands_apart(std::llround(std::round(odds / step) * step)) + " times";
+}
+
+std::string odds_words(double p) {
+  constexpr double often = 0.095;
+  if (p >= often) return fmt::format("{:.0f} of 100 campaigns", 100 * p);
+  const double one_in = 1 / std::max(p, 1e-12), step = std::pow(10.0, std::floor(std::log10(one_in)) - 1);
+  return fmt::format("1 of {} campaigns", thousands_apart(std::llround(std::round(one_in / step) * step)));
+}
+
+std::vector<const Weighted*> sets_shown(const LoopAnswer& answer) {
+  constexpr std::size_t most = 8;
+  std::vector<const Weighted*> sets;
+  for (const Weighted& w : answer.ambiguity_set) sets.push_back(&w);
+  const auto listed = [&](const Weighted& w) {
+    return std::any_of(sets.begin(), sets.end(), [&](const Weighted* one) { return one->ids == w.ids; });
+  };
+  if (!answer.has_candidates()) return sets;
+  for (const Weighted& w : answer.found().candidates.sets)
+    if (sets.size() < most && !listed(w)) sets.push_back(&w);
+  return sets;
+}
+
+std::string share_words(double weight) {
+  constexpr double little = 0.005;  // of the evidence
+  return weight < little ? "< 1 %" : fmt::format("{:.0f} %", 100 * weight);
+}
+
+std::string setting(double value) {
+  if (std::abs(value) < 1e-9) return "0";
+  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
+  return fmt::format("{:.10g}", std::round(value / step) * step);
+}
+
+std::string verdict_sentence(const LoopAnswer& answer) {
+  switch (answer.verdict) {
+    case Verdict::effect_found: {
+      const std::set<std::string>& ids = answer.found().best().ids;
+      const std::string names = named_effects(ids);
+      if (answer.ambiguity_set.size() > 1)
+        return fmt::format("The model lacks an effect, most likely {} ({}).", names,
+                           share_words(answer.ambiguity_set.front().weight));
+      return ids.size() == 1 ? fmt::format("The model lacks {}: {}.", names, effect_title(*ids.begin()).meaning)
+                             : fmt::format("The model lacks {}.", names);
+    }
+    case Verdict::nothing_missing:
+      return "Nothing is missing that these data show.";
+    case Verdict::unknown_effect:
+      return fmt::format("Something is missing that none of the {} known effects explains.", known_effects());
+    case Verdict::not_enough_data:
+      return fmt::format("These data cannot decide: {}.", answer.reason);
+  }
+  return "";
+}
+
+std::vector<std::pair<std::string, std::string>> headline(const LoopAnswer& answer) {
+  std::vector<std::pair<std::string, std::string>> parts = {
+      {"What is missing", verdict_sentence(answer) + how_sure(answer)}};
+  if (answer.validation.overall.cells > 0)
+    parts.emplace_back(takes_effects(answer) ? "What it does to the error" : "How large the error is",
+                       error_sentence(answer));
+  std::string next;
+  for (const std::string& sentence : what_next(answer)) next += (next.empty() ? "" : " ") + sentence;
+  if (!next.empty()) parts.emplace_back("What to measure next", next);
+  return parts;
+}
+
 std::vector<std::string> what_next(const LoopAnswer& answer) {
   const bool unknown = answer.verdict == Verdict::unknown_effect;
   std::vector<std::string> sentences;
@@ -195,52 +387,51 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
     return sentences;
   }
   const NextTest& next = *answer.next;
-  const std::string ahead = joined(next.separates.front()), behind = joined(next.separates.back());
+  const std::string ahead = named_effects(next.separates.front()), behind = named_effects(next.separates.back());
   if (answer.ambiguity_set.size() == 1 && !unknown)
     sentences.push_back(
-        fmt::format("One name is left. To be surer still: {}. There {} parts most from {}, which stands next (by "
-                    "{:.1f} sd of one run).",
-                    condition_words(next), ahead, behind, std::sqrt(next.distance)));
+        fmt::format("One name is left. To be surer still, measure: {}. There it differs most from the next candidate, "
+                    "{}: by {:.1f} "
+                    "standard deviations of one run.",
+                    condition_words(next), behind, std::sqrt(next.distance)));
   else
-    sentences.push_back(fmt::format("Measure next{}: {}. It sets {} apart from {}; {} run{} should decide.",
-                                    unknown ? ", as far as named effects go" : "", condition_words(next), ahead, behind,
-                                    next.runs, next.runs == 1 ? "" : "s"));
+    sentences.push_back(
+        fmt::format("{}: {}. {} run{} there should decide between {} and {}.",
+                    unknown ? "To choose between the named effects that come nearest, measure" : "Measure",
+                    condition_words(next), next.runs, next.runs == 1 ? "" : "s", ahead, behind));
   if (next.beyond.empty()) return sentences;
   std::vector<std::string> names = next.beyond;
   for (std::string& name : names) name = spaced(name);
-  sentences.push_back(fmt::format(
-      "That is beyond what was run (in {}), where candidates differ most. What the rig can't reach: --limit "
-      "{}=LOW..HIGH.",
-      listed_words(names), next.beyond.front()));
+  sentences.push_back(
+      fmt::format("Its {} lie{} beyond what was run; if your rig cannot go there: --limit {}=LOW..HIGH.",
+                  in_a_row(names), names.size() == 1 ? "s" : "", next.beyond.front()));
+  return sentences;
+}
+
+std::vector<std::string> notes(const LoopAnswer& answer) {
+  std::vector<std::string> sentences;
+  if (answer.second) sentences.push_back(note_on_the_other_attribution(answer));
+  for (std::string& sentence : bekker_wong::presumptions(forms_named(answer), answer.wheel))
+    sentences.push_back(std::move(sentence));
+  if (answer.verdict != Verdict::not_enough_data && answer.found().base.data().noise.rerun_freedom == 0)
+    sentences.push_back("No setpoint was run twice: the noise was estimated together with the fit.");
+  if (answer.outliers > 0) sentences.push_back(outlier_sentence(answer));
+  if (!answer.not_testable.empty()) {
+    std::set<std::string> ids(answer.not_testable.begin(), answer.not_testable.end());
+    sentences.push_back(
+        fmt::format("Not testable with these data, which does not mean absent: {}.", named_effects(ids)));
+  }
   return sentences;
 }
 
 std::vector<std::string> explanation(const LoopAnswer& answer) {
   std::vector<std::string> sentences;
-  for (const AcceptedEffect& effect : answer.effects) sentences.push_back(effect_sentence(effect));
-  for (const AcceptedEffect& effect : answer.stand_in)
-    sentences.push_back("In its place, without explaining it, the saved model takes " + effect_sentence(effect));
-  if (answer.ambiguity_set.size() > 1) {
-    sentences.push_back("These data can't tell apart: " + ambiguity_words(answer.ambiguity_set) + ".");
-    if (std::string why = why_taken(answer.ambiguity_set); !why.empty()) sentences.push_back(std::move(why));
-  }
-  if (answer.second) sentences.push_back(note_on_the_other_attribution(answer));
-  for (std::string& sentence : bekker_wong::presumptions(forms_named(answer), answer.wheel))
-    sentences.push_back(std::move(sentence));
-  const ErrorPair& all = answer.validation.overall;
-  if (all.cells > 0)
-    sentences.push_back(fmt::format(
-        "On conditions that neither choice nor fit has seen the error is {} sigma before and {} after; the "
-        "squared error falls by {} +- {} sigma^2 a value.",
-        number(all.before), number(all.after), number(answer.validation.gain), number(answer.validation.gain_error)));
-  if (answer.verdict != Verdict::not_enough_data && answer.found().base.data().noise.rerun_freedom == 0)
-    sentences.push_back("No setpoint was run twice: the noise was estimated together with the fit.");
-  if (answer.outliers > 0) sentences.push_back(outlier_sentence(answer));
-  if (!answer.not_testable.empty())
-    sentences.push_back(
-        "Not testable with these data (which does not mean absent): " + listed_words(answer.not_testable) + ".");
-  const std::vector<std::string> next = what_next(answer);
-  sentences.insert(sentences.end(), next.begin(), next.end());
+  if (std::string sure = how_sure(answer); !sure.empty()) sentences.push_back(sure.substr(1));
+  for (const std::vector<AcceptedEffect>* effects : {&answer.effects, &answer.stand_in})
+    for (const AcceptedEffect& effect : *effects) sentences.push_back(effect_sentence(effect));
+  if (answer.validation.overall.cells > 0) sentences.push_back(error_sentence(answer));
+  for (std::string& sentence : what_next(answer)) sentences.push_back(std::move(sentence));
+  for (std::string& sentence : notes(answer)) sentences.push_back(std::move(sentence));
   return sentences;
 }
 
@@ -252,84 +443,23 @@ std::vector<std::string> forms_in_order(const CandidateModel& candidate) {
   return forms;
 }
 
-HtmlTable candidates_table(const LoopAnswer& answer) {
-  const std::string premise = !answer.second           ? ""
-                              : answer.second->decides ? ", beside a base model that may be off by itself"
-                                                       : ", the base model taken as exact";
-  HtmlTable table{"Candidates, each fitted in full" + premise + "; shares are of those that the data can't tell apart",
-                  {"effects", "form", "share", "odds to the first", "chi2", "values"},
-                  {},
-                  {true, true}};
-  const std::string values = std::to_string(answer.found().base.data().cells());
-  const std::vector<const Weighted*> sets = sets_shown(answer);
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    const Weighted& w = *sets[i];
-    const CandidateModel& candidate = answer.found().candidates.models[w.best_candidate];
-    std::string forms;
-    for (const std::string& form : forms_in_order(candidate)) forms += (forms.empty() ? "" : " + ") + form;
-    const double behind = sets.front()->log_evidence - w.log_evidence;
-    const std::string odds = i == 0       ? "-"
-                             : behind > 0 ? "1 : " + number(std::exp(behind))
-                                          : number(std::exp(-behind)) + " : 1";
-    table.rows.push_back({joined(w.ids), forms, i < answer.ambiguity_set.size() ? share_words(w.weight) : "-", odds,
-                          number(candidate.fit().chi2), values});
-  }
-  table.rows.push_back({"base model", "-", "-", "-", number(answer.found().base.fit().chi2), values});
-  return table;
-}
-
-HtmlTable error_table(const LoopAnswer& answer) {
-  HtmlTable table{
-      "Root mean square error on held-out conditions", {"channel", "values", "before", "after", "noise floor"}, {}, {}};
-  for (std::size_t c = 0; c < channel_views.size(); ++c) {
-    const ErrorPair& e = answer.validation.channels[c];
-    if (e.cells == 0) continue;
-    const auto in_unit = [&](double si) {
-      return fmt::format("{} {}", number(si * channel_views[c].per_si), channel_views[c].unit);
-    };
-    table.rows.push_back({std::string(channel_views[c].title), std::to_string(e.cells), in_unit(e.before),
-                          in_unit(e.after), in_unit(e.noise_floor)});
-  }
-  const ErrorPair& all = answer.validation.overall;
-  if (all.cells > 0)
-    table.rows.push_back(
-        {"all", std::to_string(all.cells), number(all.before) + " sigma", number(all.after) + " sigma", "1 sigma"});
-  return table;
-}
-
-namespace {
-
-constexpr double third_digit = 1.005;
-
-bool falls(const ErrorPair& error) { return error.before > third_digit * error.after; }
-
-/// "sinkage (20.6 to 7.04 mm), torque (3.1 to 2.2 N m)": the channels of which `moves` holds.
-std::string channels_that(bool (*moves)(const ErrorPair&), const CrossValidation& validation) {
-  std::string text;
-  for (std::size_t c = 0; c < channel_views.size(); ++c) {
-    const ErrorPair& e = validation.channels[c];
-    const ChannelView& view = channel_views[c];
-    if (e.cells > 0 && moves(e))
-      text += fmt::format("{}{} ({:.3g} to {:.3g} {})", text.empty() ? "" : ", ", view.title, e.before * view.per_si,
-                          e.after * view.per_si, view.unit);
-  }
-  return text;
-}
-
-}  // namespace
-
 bool rises(const ErrorPair& error) { return error.after > third_digit * error.before; }
 
 std::vector<int> worse_channels(const LoopAnswer& answer) {
   std::vector<int> worse;
-  if (answer.effects.empty() && answer.stand_in.empty()) return worse;
+  if (!takes_effects(answer)) return worse;
   for (int c = 0; c < channel_count; ++c)
     if (rises(answer.validation.channels[c])) worse.push_back(c);
   return worse;
 }
 
 std::string held_out_words(const CrossValidation& validation) {
-  const std::string better = channels_that(falls, validation), worse = channels_that(rises, validation);
+  const auto listed = [&](bool (*moves)(const ErrorPair&)) {
+    std::string text;
+    for (const std::string& channel : channels_that(moves, validation)) text += (text.empty() ? "" : ", ") + channel;
+    return text;
+  };
+  const std::string better = listed(falls), worse = listed(rises);
   std::string text =
       fmt::format("held-out error {} by {:.2g} +- {:.2g} sigma^2 a value", validation.gain < 0 ? "rises" : "falls",
                   std::abs(validation.gain), validation.gain_error);

@@ -1,22 +1,46 @@
-// Stage 8 of the loop: its answer in plain words, as tables and as a page.
+// Stage 8 of the loop: its answer in plain words, as tables and as a page. Terminal, page, Python and the comparison
+// say the same sentences in the same order.
+//
+//   for (const auto& [about, text] : headline(answer)) fmt::print("{}: {}\n", about, text);
+//   fmt::print("{}", as_text(without_marks(error_table(answer))));
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compare/loop/loop.hpp"
-#include "compare/report/page.hpp"
+#include "compare/report/marked_table.hpp"
 
 namespace soilbin::compare {
 
-/// "slip_sinkage", "multipass + sensor_offset"; "no effect" for an empty set.
+/// Whether the saved model takes any effects, accepted ones or stand-ins.
+bool takes_effects(const LoopAnswer& answer);
+
+/// Ids: "slip_sinkage", "multipass + sensor_offset"; "no effect" for an empty set.
 std::string joined(const std::set<std::string>& ids);
 
-/// The verdict as a sentence for people.
+/// Names for people: "side-wall bulldozing, slip sinkage and hard layer"; "no effect" for an empty set.
+std::string named_effects(const std::set<std::string>& ids);
+
+/// A share of campaigns: "1 of 4,000 campaigns", "30 of 100 campaigns".
+std::string odds_words(double p);
+
+/// Odds from their logarithm: "132 times", "more than a million times".
+std::string times_likelier(double log_odds);
+
+/// The verdict as one sentence.
 std::string verdict_sentence(const LoopAnswer& answer);
 
-/// Further sentences: what was added and how large, what the data can't tell apart, errors before and after, what to
-/// measure next. One string a sentence.
+/// What a page opens with, (what it is about, sentences): what is missing and how sure that is; what it does to the
+/// error, gain and loss alike; what to measure next. The last is absent where no question is open.
+std::vector<std::pair<std::string, std::string>> headline(const LoopAnswer& answer);
+
+/// What else there is to know, a string a sentence: the reading that does not decide, what is presumed, set aside, not
+/// testable.
+std::vector<std::string> notes(const LoopAnswer& answer);
+
+/// Headline without the verdict, the parameters of the effects, notes: one string a sentence.
 std::vector<std::string> explanation(const LoopAnswer& answer);
 
 /// Whether a held-out error is larger with the effects than without, by more than its third digit.
@@ -39,15 +63,32 @@ std::vector<std::string> what_next(const LoopAnswer& answer);
 /// The forms of a candidate's effects, in the order of its ids.
 std::vector<std::string> forms_in_order(const CandidateModel& candidate);
 
-/// Candidates, first those that the data can't tell apart, their weights and chi2; held-out errors before and after: as
-/// tables for a page or a terminal.
-HtmlTable candidates_table(const LoopAnswer& answer);
-HtmlTable error_table(const LoopAnswer& answer);
+/// The sets of the table of candidates: those that compete, then those that stand next.
+std::vector<const Weighted*> sets_shown(const LoopAnswer& answer);
 
-/// The report: verdict, residuals against every variable before and after, the accepted effect's signature over the
-/// residual, candidates, what is not testable, what to measure next. `doubts`: in the campaign
-/// (compare/doubts/doubts.hpp). `command`: how to repeat it.
+/// A set's share of the evidence, the same in every place: "81 %".
+std::string share_words(double weight);
+
+/// A condition in numbers that a rig can be set to: three digits.
+std::string setting(double value);
+
+// Tables (answer_tables.cpp).
+
+/// The next run as a row: a column each condition, how many runs, what they decide between. No row: no run is proposed.
+MarkedTable next_run_table(const LoopAnswer& answer);
+/// Held-out errors before and after by channel; what falls is marked good, what rises bad.
+MarkedTable error_table(const LoopAnswer& answer);
+/// Candidates, first those that the data can't tell apart, their weights and chi2.
+MarkedTable candidates_table(const LoopAnswer& answer);
+/// The fitted parameters of the effects that the saved model takes: meaning, value, unit, whether they are at a bound.
+MarkedTable parameters_table(const LoopAnswer& answer);
+/// The soil's values beside the effects and without them.
+HtmlTable soil_table(const LoopAnswer& answer);
+
+/// The report: headline, the next run, measured points with the model before and after, tables, doubts, and folded what
+/// stands behind it. `doubts`: in the campaign (compare/doubts/doubts.hpp). `command`: how to repeat it. `libraries`:
+/// what makes figures interactive.
 std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const std::vector<std::string>& doubts,
-                      const std::string& command);
+                      const std::string& command, const Libraries& libraries = {});
 
 }  // namespace soilbin::compare

@@ -1,106 +1,18 @@
-// The loop's report as one page.
+// The loop's report as one page: the answer, the figure that shows it, tables, and folded what stands behind them.
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
+#include <set>
 
+#include "bekker_wong/effects/titles.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/measured/channels.hpp"
+#include "compare/loop/loop_figures.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
-#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-/// (measured - predicted)/sd of each cell.
-Eigen::VectorXd standardised(const LoopAnswer& answer, const Eigen::VectorXd& prediction) {
-  const Observations& observations = answer.found().base.data().observations;
-  Eigen::VectorXd r = observations.values() - prediction;
-  for (Eigen::Index i = 0; i < r.size(); ++i) {
-    const Cell& cell = observations.cells[i];
-    r[i] /= answer.noise.channels[cell.channel].sd(prediction[i]);
-  }
-  return r;
-}
-
-std::string axis_title(const Covariate& x) {
-  const ConditionView& view = condition_view(x.name);
-  return view.unit.empty() ? std::string(view.title) : fmt::format("{} [{}]", view.title, view.unit);
-}
-
-/// Cells of a channel over a covariate.
-Series over(const Observations& observations, const Eigen::VectorXd& y, const Covariate& x, int channel,
-            const std::string& label, int color, Mark mark) {
-  Series series{.label = label, .x = {}, .y = {}, .error = {}, .mark = mark, .color = color};
-  const double per_si = condition_view(x.name).per_si;
-  std::vector<std::pair<double, double>> points;
-  for (std::size_t i = 0; i < observations.cells.size(); ++i)
-    if (observations.cells[i].channel == channel)
-      points.emplace_back(per_si * x.values[observations.cells[i].row], y[i]);
-  std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [at, value] : points) series.x.push_back(at), series.y.push_back(value);
-  return series;
-}
-
-bool has_cells(const Observations& observations, int channel) {
-  return std::any_of(observations.cells.begin(), observations.cells.end(),
-                     [&](const Cell& c) { return c.channel == channel; });
-}
-
-Sheet residual_sheet(const Observations& observations, const Covariate& x, const Eigen::VectorXd& before,
-                     const Eigen::VectorXd* after) {
-  Sheet sheet{fmt::format("Residuals against {}", condition_view(x.name).title), {}, Palette::named};
-  for (int channel = 0; channel < channel_count; ++channel) {
-    if (!has_cells(observations, channel)) continue;
-    Plot plot{
-        std::string(channel_views[channel].title), {axis_title(x), {}, {}}, {"residual [sd of the noise]", {}, {}}, {}};
-    plot.series.push_back(over(observations, before, x, channel, "before", 0, Mark::points));
-    if (after != nullptr) plot.series.push_back(over(observations, *after, x, channel, "after", 1, Mark::points));
-    sheet.plots.push_back(std::move(plot));
-  }
-  return sheet;
-}
-
-/// What the accepted effects change in the prediction, soil refitted, in sd of the noise.
-Eigen::VectorXd signature_of_best(const LoopAnswer& answer) {
-  const FittedModel& base = answer.found().base;
-  Eigen::VectorXd change = answer.found().best().fit().prediction - base.fit().prediction;
-  for (Eigen::Index i = 0; i < change.size(); ++i) {
-    const Cell& cell = base.data().observations.cells[i];
-    change[i] /= answer.noise.channels[cell.channel].sd(base.fit().prediction[i]);
-  }
-  return change;
-}
-
-/// The variable that a change depends on most: of the largest share of a channel's variance, by size of the change.
-const Covariate& main_variable(const Observations& observations, const Eigen::VectorXd& change,
-                               const std::vector<Covariate>& variables) {
-  std::array<double, channel_count> size{};
-  for (std::size_t i = 0; i < observations.cells.size(); ++i)
-    size[observations.cells[i].channel] += std::pow(change[i], 2);
-  std::map<std::string, double> explained;
-  for (const Dependence& d : dependences(observations, change, 0, 1))
-    explained[d.variable] += d.share * size[d.channel];
-  return *std::max_element(variables.begin(), variables.end(), [&](const Covariate& a, const Covariate& b) {
-    return explained[a.name] < explained[b.name];
-  });
-}
-
-Sheet signature_sheet(const Observations& observations, const Eigen::VectorXd& before, const Eigen::VectorXd& change,
-                      const Covariate& x) {
-  Sheet sheet{"The effect's signature over the residual", {}, Palette::named};
-  for (int channel = 0; channel < channel_count; ++channel) {
-    if (!has_cells(observations, channel)) continue;
-    Plot plot{std::string(channel_views[channel].title), {axis_title(x), {}, {}}, {"[sd of the noise]", {}, {}}, {}};
-    plot.series.push_back(over(observations, before, x, channel, "residual of the base model", 0, Mark::points));
-    plot.series.push_back(over(observations, change, x, channel, "with the effect less without", 1, Mark::points));
-    sheet.plots.push_back(std::move(plot));
-  }
-  return sheet;
-}
 
 HtmlTable dependence_table(const LoopAnswer& answer) {
   HtmlTable table{"Share of each channel's residual that a parabola in the variable explains, and its p by permutation",
@@ -125,8 +37,10 @@ HtmlTable dependence_table(const LoopAnswer& answer) {
 }
 
 HtmlTable noise_table(const LoopAnswer& answer) {
-  HtmlTable table{
-      "Noise: sqrt(a^2 + b^2 f^2)", {"channel", "a", "b [%]", "degrees of freedom", "sd within re-runs"}, {}, {}};
+  HtmlTable table{"Noise of one run at a predicted value f: sqrt(a² + b² f²)",
+                  {"channel", "a", "b [%]", "degrees of freedom", "sd within re-runs"},
+                  {},
+                  {}};
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const ChannelNoise& n = answer.noise.channels[c];
     if (!n.measured) continue;
@@ -153,7 +67,7 @@ std::vector<const Signature*> strongest_signatures(const LoopAnswer& answer) {
 
 HtmlTable signature_table(const std::vector<const Signature*>& signatures) {
   HtmlTable table{
-      "The strongest signatures against the base model; kept: the share that the soil's values can't absorb",
+      "The strongest signatures against the base model; kept: the share that the soil's values cannot absorb",
       {"effect", "form", "score [sd]", "amplitude [SI]", "kept [%]", "detectable from [SI]"},
       {},
       {true, true}};
@@ -188,68 +102,122 @@ HtmlTable likeness_table(const LoopAnswer& answer) {
   return table;
 }
 
-HtmlTable soil_table(const LoopAnswer& answer) {
-  HtmlTable table{"The soil's values, and the bias that leaving the effects out puts into them",
-                  {"value", "with", "without", "bias", "unit"},
-                  {},
-                  {true, false, false, false, true}};
-  for (const SoilShift& s : answer.soil_shifts) {
-    const SoilParameter& p = soil_parameter(s.name);
-    table.rows.push_back({p.title, number(s.with, p.per_si), number(s.without, p.per_si),
-                          number(p.per_si * (s.without.value - s.with.value)), p.unit});
+std::string caption_of_models(const LoopAnswer& answer) {
+  const std::string noise = "Bars: one standard deviation of a run's noise. ";
+  if (!takes_effects(answer)) return noise + "The model's soil values are refitted to these runs.";
+  return noise + fmt::format("Before: the soil refitted to these runs, no effect added. After: with {}{}.",
+                             named_effects(ids_of(answer.effects.empty() ? answer.stand_in : answer.effects)),
+                             answer.effects.empty() ? " as a stand-in" : "");
+}
+
+/// The figure that answers: curves where the runs lie on curves, else what the base model misses.
+void add_main_figure(Page& page, const LoopAnswer& answer, const std::vector<Covariate>& variables) {
+  page.section("Measured, and the model before and after", "figure");
+  const auto curves = curves_of_the_fit(answer);
+  if (curves.empty()) {
+    if (variables.empty()) return;
+    page.figure(
+        gap_sheet(answer, variables.front()),
+        "Each run's measured value and the model after, both less the model before: where the two lie together, "
+        "the effects explain what was missing. " +
+            caption_of_models(answer));
+    return;
   }
-  return table;
+  std::vector<Choice> parts;
+  Sheet all{"", {}, Palette::named};
+  for (const auto& [label, sheet] : curves) {
+    parts.push_back({label, [&page, &answer, &sheet = sheet] {
+                       page.figure(sheet,
+                                   caption_of_models(answer) + " Curves: at the mean of these runs' conditions.");
+                     }});
+    for (Plot plot : sheet.plots) {
+      plot.title += ": " + label;
+      all.plots.push_back(std::move(plot));
+    }
+  }
+  if (curves.size() > 1)
+    parts.push_back({"all of them", [&page, &answer, &all] { page.figure(all, caption_of_models(answer)); }});
+  page.choices("Runs at", parts, 0);
+}
+
+void add_tables(Page& page, const LoopAnswer& answer) {
+  if (answer.validation.overall.cells > 0) {
+    page.section("Error before and after", "error");
+    page.raw(marked_html(error_table(answer)));
+  }
+  if (takes_effects(answer)) {
+    page.section(answer.effects.empty() ? "The stand-in of the saved model" : "The effects and their size", "effects");
+    page.raw(marked_html(parameters_table(answer)));
+    if (!answer.soil_shifts.empty()) page.table(soil_table(answer));
+  }
+  if (answer.has_candidates()) {
+    page.section("Candidates", "candidates");
+    page.raw(marked_html(candidates_table(answer)));
+  }
+}
+
+void add_gaps(Page& page, const LoopAnswer& answer, const std::vector<Covariate>& variables) {
+  if (variables.empty()) return;
+  page.section("What the base model misses, over each variable", "gaps");
+  std::vector<Choice> parts;
+  for (const Covariate& x : variables)
+    parts.push_back({std::string(condition_view(x.name).title), [&page, &answer, &x] {
+                       page.figure(gap_sheet(answer, x),
+                                   "Each run, less the model before. Runs of one setting stand side by side. " +
+                                       caption_of_models(answer));
+                     }});
+  page.choices("Over", parts, 0);
+}
+
+void add_appendix(Page& page, const LoopAnswer& answer, const std::vector<Covariate>& variables) {
+  page.section("Appendix", "appendix");
+  page.folded("Residuals against every variable, in standard deviations of the noise", [&] {
+    for (const Covariate& x : variables)
+      page.figure(residual_sheet(answer, x), "In standard deviations of the noise, before and after.");
+    page.table(dependence_table(answer));
+  });
+  page.folded("Signatures: what each effect would leave in the residual", [&] {
+    if (takes_effects(answer) && !variables.empty())
+      page.figure(signature_sheet(answer, variables.front()),
+                  "Points: what the base model, refitted, leaves; and what the effect changes in the prediction.");
+    const std::vector<const Signature*> signatures = strongest_signatures(answer);
+    page.table(signature_table(signatures));
+    add_presumptions(page, signatures, answer.wheel);
+    if (!answer.effects.empty()) page.table(likeness_table(answer));
+  });
+  page.folded("Noise", [&] {
+    page.table(noise_table(answer));
+    if (answer.validation.overall.cells > 0)
+      page.paragraph(fmt::format("The squared error on conditions left out falls by {} ± {} noise variances a value.",
+                                 number(answer.validation.gain), number(answer.validation.gain_error)));
+  });
 }
 
 }  // namespace
 
 std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const std::vector<std::string>& doubts,
-                      const std::string& command) {
-  Page page("The loop on " + campaign.name, "residual, cause, effect added, error before and after");
-  std::vector<std::pair<std::string, std::string>> summary = {{"Verdict", verdict_sentence(answer)}};
-  for (const std::string& sentence : explanation(answer)) summary.emplace_back("", sentence);
-  page.summary(summary);
+                      const std::string& command, const Libraries& libraries) {
+  Page page(campaign.name + ": what the model lacks",
+            fmt::format("The analytic wheel against {} measured runs: what is missing, how sure that is, and what to "
+                        "measure next",
+                        campaign.runs.size()));
+  page.enliven(libraries);
+  page.summary(headline(answer));
+  if (const MarkedTable next = next_run_table(answer); !next.rows.empty()) page.raw(marked_html(next));
+  const bool judged = answer.judgement && (answer.verdict != Verdict::not_enough_data || answer.has_candidates());
+  const std::vector<Covariate> variables = judged ? variables_by_weight(answer) : std::vector<Covariate>();
+  if (judged) {
+    add_main_figure(page, answer, variables);
+    add_tables(page, answer);
+    add_gaps(page, answer, variables);
+  }
+  if (const std::vector<std::string> more = notes(answer); !more.empty()) {
+    page.section("Notes", "notes");
+    page.list(more);
+  }
   page.doubts(doubts);
-  if (answer.verdict != Verdict::not_enough_data || answer.has_candidates()) {
-    const Attribution& found = answer.found();
-    const Observations& observations = found.base.data().observations;
-    const Eigen::VectorXd before = standardised(answer, found.base.fit().prediction);
-    std::optional<Eigen::VectorXd> after;
-    if (!answer.effects.empty() || !answer.stand_in.empty())
-      after = standardised(answer, found.best().fit().prediction);
-    page.section("Error before and after");
-    page.table(error_table(answer));
-    const std::vector<Covariate> variables = covariates(observations);
-    if (after && !variables.empty()) {
-      page.section(answer.effects.empty() ? "What stands in for the effect, over the residual"
-                                          : "The effect over the residual");
-      const Eigen::VectorXd change = signature_of_best(answer);
-      page.figure(signature_sheet(observations, before, change, main_variable(observations, change, variables)),
-                  "Points: what the base model, refitted, leaves; and what the effect changes in the prediction.");
-    }
-    page.section("Candidates");
-    page.table(candidates_table(answer));
-    const std::vector<const Signature*> signatures = strongest_signatures(answer);
-    page.table(signature_table(signatures));
-    add_presumptions(page, signatures, answer.wheel);
-    if (!answer.effects.empty()) page.table(likeness_table(answer));
-    if (!answer.soil_shifts.empty()) page.table(soil_table(answer));
-    page.section("Residuals against every variable");
-    for (const Covariate& x : variables)
-      page.figure(residual_sheet(observations, x, before, after ? &*after : nullptr),
-                  "In standard deviations of the noise.");
-    page.table(dependence_table(answer));
-    page.section("Noise");
-    page.table(noise_table(answer));
-  }
-  if (!answer.not_testable.empty()) {
-    page.section("Not testable");
-    page.paragraph(
-        "These effects leave no trace in these data beyond what the soil's values absorb. That does not mean "
-        "that they are absent.");
-    page.list(answer.not_testable);
-  }
-  page.section("How to repeat this");
+  if (judged) add_appendix(page, answer, variables);
+  page.section("How to repeat this", "repeat");
   page.code(command);
   return page.html();
 }

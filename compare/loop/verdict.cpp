@@ -48,9 +48,8 @@ Conclusion without_effect(const Attribution& found, const ResidualTests& before,
   const double p = before.lack_of_fit.p_value, p_reruns = before.reruns.p_value;
   std::string why;
   if (found.unnamed_gain > thresholds::unnamed_instead)
-    why = fmt::format(
-        "a function of the conditions that none of them makes explains the residual e^{:.1f} times better than noise",
-        found.unnamed_gain);
+    why = fmt::format("a function of the conditions that none of them makes explains the residual {} better than noise",
+                      times_likelier(found.unnamed_gain));
   else if (p <= thresholds::first_test_level)
     why = fmt::format("the residual is more than noise (p = {:.2g})", p);
   else if (p_reruns <= thresholds::rerun_level)
@@ -72,9 +71,9 @@ std::optional<std::string> more_than_named(const Attribution& found, const Resid
     return fmt::format("but the best set of named effects leaves {:.0f} % of it", 100 * left);
   if (choice.unnamed_gain > unnamed_level)
     return fmt::format(
-        "and after the best set of named effects a function of the conditions that none of them makes explains "
-        "e^{:.0f} times more than chance would",
-        choice.unnamed_gain);
+        "and after the best set of named effects a function of the conditions that none of them makes explains what is "
+        "left {} better than noise",
+        times_likelier(choice.unnamed_gain));
   if (choice.after.reruns.p_value < thresholds::rerun_level &&
       choice.after.reruns.excess > thresholds::rerun_share * before.reruns.excess)
     return fmt::format(

@@ -62,7 +62,7 @@ std::string page_style() {
   return fmt::format(
       ":root{{color-scheme:light dark}}:root,.as-saved{{{}}}\n@media screen and "
       "(prefers-color-scheme:dark){{:root{{{}}}}}\n{}{}",
-      light, dark, '\n' + embedded(own_files(), "page.css"), palette_rules());
+      light, dark, '\n' + embedded(own_files(), "page.css") + embedded(own_files(), "answers.css"), palette_rules());
 }
 
 }  // namespace

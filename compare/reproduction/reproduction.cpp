@@ -125,6 +125,7 @@ Evidence test_finding(const Finding& finding, const std::vector<Answer>& answers
   Evidence evidence;
   std::vector<Curve> curves = {curve_of(finding, finding.where, answers, evidence.missing)};
   if (finding.compares()) curves.push_back(curve_of(finding, finding.against, answers, evidence.missing));
+  evidence.curves = curves;
   for (const Curve& curve : curves)
     if (curve.size() < least_points(finding.test)) return evidence;
   evidence.interval = interval_of(finding, curves, level, seed);

@@ -31,6 +31,7 @@ struct Evidence {
   FindingVerdict verdict = FindingVerdict::no_data;
   std::optional<Interval> interval;         ///< of the statistic [SI]
   std::vector<OperatingCondition> missing;  ///< conditions of the study without a result that belong to it
+  std::vector<Curve> curves;                ///< that the statistic was taken of; the second is the one `against`
 };
 
 /// The curve of a finding: at each value of `along`, the mean of all conditions in `where`. A value that lacks one of

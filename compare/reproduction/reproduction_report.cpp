@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compare/report/json_fields.hpp"
+#include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
@@ -36,6 +37,47 @@ AxisScale scale_of(FindingAxis axis) {
     default:
       return {1 / degree, "deg"};
   }
+}
+
+struct QuantityScale {
+  double per_si;
+  const char* unit;
+};
+
+QuantityScale scale_of(FindingQuantity quantity) {
+  switch (quantity) {
+    case FindingQuantity::drawbar_pull:
+      return {1, "N"};
+    case FindingQuantity::torque:
+      return {1, "N m"};
+    case FindingQuantity::sinkage:
+      return {1e3, "mm"};
+    case FindingQuantity::tractive_efficiency:
+      return {100, "%"};
+  }
+  return {1, ""};
+}
+
+/// "uphill-pull-falls" as "Uphill pull falls".
+std::string in_plain_words(std::string id) {
+  std::replace(id.begin(), id.end(), '-', ' ');
+  return capital(std::move(id));
+}
+
+std::string finding_anchor(const std::string& id) { return "finding-" + id; }
+
+MarkedCell verdict_cell(FindingVerdict verdict, const std::string& id) {
+  switch (verdict) {
+    case FindingVerdict::shown:
+      return {.text = "shown", .tone = Tone::good, .anchor = finding_anchor(id)};
+    case FindingVerdict::contradicted:
+      return {.text = "contradicted", .tone = Tone::bad, .anchor = finding_anchor(id)};
+    case FindingVerdict::not_shown:
+      return {.text = "open", .tone = Tone::open, .anchor = finding_anchor(id)};
+    case FindingVerdict::no_data:
+      return {.text = "-"};
+  }
+  return {};
 }
 
 bool is_place(FindingTest test) {
@@ -146,33 +188,121 @@ nlohmann::ordered_json to_json(const Reproduction& reproduction) {
   return document;
 }
 
-std::string reproduction_page(const Reproduction& reproduction, const PageAbout& about) {
-  Page page(about.title, reproduction.findings.source);
+std::vector<std::pair<std::string, std::string>> opening(const Reproduction& reproduction) {
+  const std::vector<ReproducedFinding>& rows = reproduction.rows;
   std::vector<std::pair<std::string, std::string>> sentences;
-  for (std::size_t k = 0; k < reproduction.labels.size(); ++k)
-    sentences.emplace_back(reproduction.labels[k], tally(reproduction, k));
-  page.summary(sentences);
-  page.doubts(about.doubts);
+  for (std::size_t k = 0; k < reproduction.labels.size(); ++k) {
+    const auto count = [&](FindingVerdict verdict) {
+      return std::count_if(rows.begin(), rows.end(),
+                           [&](const auto& row) { return row.evidence[k].verdict == verdict; });
+    };
+    const auto asked = static_cast<long>(rows.size()) - count(FindingVerdict::no_data);
+    sentences.emplace_back(
+        reproduction.labels[k],
+        fmt::format("shows {} of {} findings, contradicts {} and leaves {} open{}.", count(FindingVerdict::shown),
+                    asked, count(FindingVerdict::contradicted), count(FindingVerdict::not_shown),
+                    asked < static_cast<long>(rows.size())
+                        ? fmt::format("; of {} more it has no answer", rows.size() - asked)
+                        : ""));
+  }
+  std::string contradicted;
+  for (const ReproducedFinding& row : rows) {
+    const bool any = std::any_of(row.evidence.begin(), row.evidence.end(),
+                                 [](const Evidence& e) { return e.verdict == FindingVerdict::contradicted; });
+    const bool all = std::all_of(row.evidence.begin(), row.evidence.end(), [](const Evidence& e) {
+      return e.verdict == FindingVerdict::contradicted || e.verdict == FindingVerdict::no_data;
+    });
+    if (any && all) contradicted += (contradicted.empty() ? "" : ", ") + in_plain_words(row.finding.id);
+  }
+  if (!contradicted.empty()) sentences.emplace_back("Contradicted by every model that answers", contradicted + ".");
+  return sentences;
+}
+
+MarkedTable findings_matrix(const Reproduction& reproduction) {
+  MarkedTable table{
+      fmt::format("Shown: the whole {:.0f} % interval lies in what is claimed. Contradicted: no part of it does. Open: "
+                  "between. A cell opens its figure",
+                  100 * reproduction.findings.level),
+      {"section", "finding"},
+      {},
+      {true, true}};
+  table.header.insert(table.header.end(), reproduction.labels.begin(), reproduction.labels.end());
+  table.text_columns.resize(table.header.size(), true);
+  for (const ReproducedFinding& row : reproduction.rows) {
+    std::vector<MarkedCell> cells = {{.text = row.finding.section}, {.text = in_plain_words(row.finding.id)}};
+    for (const Evidence& evidence : row.evidence) cells.push_back(verdict_cell(evidence.verdict, row.finding.id));
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+Sheet finding_sheet(const ReproducedFinding& row, const std::vector<std::string>& labels) {
+  const Finding& finding = row.finding;
+  const AxisScale x = scale_of(finding.along);
+  const QuantityScale y = scale_of(finding.quantity);
+  Plot plot{fmt::format("{} [{}]", capital(plain(word_of(finding.quantity))), y.unit),
+            {fmt::format("{} [{}]", plain(word_of(finding.along)), x.unit), {}, {}},
+            {},
+            {}};
+  for (std::size_t k = 0; k < row.evidence.size(); ++k)
+    for (std::size_t c = 0; c < row.evidence[k].curves.size(); ++c) {
+      Series series{.label = labels[k] + (c == 0 ? "" : ", against"),
+                    .x = {},
+                    .y = {},
+                    .error = {},
+                    .mark = Mark::line_and_points,
+                    .color = static_cast<int>(k),
+                    .dash = static_cast<int>(c)};
+      bool exact = true;
+      for (const CurvePoint& point : row.evidence[k].curves[c]) {
+        series.x.push_back(x.per_si * point.x), series.y.push_back(y.per_si * point.y);
+        series.error.push_back(y.per_si * point.error);
+        exact = exact && point.error == 0;
+      }
+      if (exact) series.error.clear();
+      if (!series.x.empty()) plot.series.push_back(std::move(series));
+    }
+  Sheet sheet{"", {}, Palette::named};
+  if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
+  return sheet;
+}
+
+namespace {
+
+/// A finding's words, figure and intervals.
+void add_finding(Page& page, const ReproducedFinding& row, const std::vector<std::string>& labels) {
+  const Finding& finding = row.finding;
+  page.paragraph("\u201c" + finding.quote + "\u201d");
+  if (const Sheet sheet = finding_sheet(row, labels); !sheet.plots.empty())
+    page.figure(sheet, claim_in_words(finding) + (finding.compares() ? ". Dashed: what it is held against." : "."));
+  HtmlTable table{claim_in_words(finding), {"answers of", "verdict", "conditions missing"}, {}, {true, true, true}};
+  for (std::size_t k = 0; k < row.evidence.size(); ++k)
+    table.rows.push_back({labels[k], cell(finding, row.evidence[k]), missing_in_words(row.evidence[k])});
+  page.table(table);
+  if (!finding.chosen.empty()) page.paragraph("Chosen here: " + finding.chosen);
+}
+
+}  // namespace
+
+std::string reproduction_page(const Reproduction& reproduction, const PageAbout& about, const Libraries& libraries) {
+  Page page(about.title, reproduction.findings.source);
+  page.enliven(libraries);
+  page.summary(opening(reproduction));
+  page.section("Findings against models", "matrix");
+  page.raw(marked_html(findings_matrix(reproduction)));
+  page.section("How it is judged", "method");
   page.paragraph(fmt::format(
-      "Each finding is a statistic with its {:.0f} % interval: shown where the whole interval lies in what is claimed, "
-      "contradicted where none of it does, not shown between. The analytic model's answers are exact: an interval of "
-      "one "
-      "value.",
+      "Each finding is a statistic with its {:.0f} % interval. The analytic model's answers are taken as exact: an "
+      "interval of one value.",
       100 * reproduction.findings.level));
   page.list(reproduction.remarks);
-  std::string section;
-  for (const ReproducedFinding& row : reproduction.rows) {
-    const Finding& finding = row.finding;
-    if (finding.section != section) page.section("Section " + (section = finding.section));
-    page.subsection(finding.id);
-    page.paragraph("\u201c" + finding.quote + "\u201d");
-    HtmlTable table{claim_in_words(finding), {"answers of", "verdict", "conditions missing"}, {}, {true, true, true}};
-    for (std::size_t k = 0; k < row.evidence.size(); ++k)
-      table.rows.push_back({reproduction.labels[k], cell(finding, row.evidence[k]), missing_in_words(row.evidence[k])});
-    page.table(table);
-    if (!finding.chosen.empty()) page.paragraph("Chosen here: " + finding.chosen);
-  }
-  page.section("How this page was made");
+  page.doubts(about.doubts);
+  page.section("Each finding: words, figure, intervals", "findings");
+  for (const ReproducedFinding& row : reproduction.rows)
+    page.folded(
+        fmt::format("{}: {}", row.finding.section, in_plain_words(row.finding.id)),
+        [&] { add_finding(page, row, reproduction.labels); }, finding_anchor(row.finding.id));
+  page.section("How this page was made", "repeat");
   page.code(about.command);
   return page.html();
 }

@@ -4,7 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "compare/report/page.hpp"
+#include "compare/report/marked_table.hpp"
+#include "compare/report/plot.hpp"
 #include "compare/reproduction/reproduction.hpp"
 
 namespace soilbin::compare {
@@ -21,6 +22,20 @@ std::string tally(const Reproduction& reproduction, std::size_t label);
 /// soilbin-reproduction/1.
 nlohmann::ordered_json to_json(const Reproduction& reproduction);
 
-std::string reproduction_page(const Reproduction& reproduction, const PageAbout& about);
+/// What the page opens with: of each label how many findings it shows, contradicts and leaves open, then the findings
+/// that every model with data contradicts.
+std::vector<std::pair<std::string, std::string>> opening(const Reproduction& reproduction);
+
+/// Findings against models: shown, contradicted, open, or "-" where a model has no data; each cell leads to the
+/// finding's figure.
+MarkedTable findings_matrix(const Reproduction& reproduction);
+
+/// The curves that a finding's statistic was taken of, a colour a label; what it is held against is dashed. No plots
+/// where no label has data.
+Sheet finding_sheet(const ReproducedFinding& row, const std::vector<std::string>& labels);
+
+/// Opening, matrix, doubts; folded each finding with its words, figure and intervals.
+std::string reproduction_page(const Reproduction& reproduction, const PageAbout& about,
+                              const Libraries& libraries = {});
 
 }  // namespace soilbin::compare

@@ -6,6 +6,7 @@
 
 #include "compare/comparison_fixture.hpp"
 #include "compare/discrepancy/causes.hpp"
+#include "compare/discrepancy/comparison_sheets.hpp"
 #include "compare/discrepancy/comparison_tables.hpp"
 #include "compare/discrepancy/summary.hpp"
 #include "scenario/errors.hpp"
@@ -133,8 +134,48 @@ TEST_F(Pair, EveryClauseOfTheSummaryHasItsRows) {
     for (const std::size_t row : clause.rows) EXPECT_LT(row, comparison.differences.size());
   }
   EXPECT_EQ(clauses[0].about, "in short");
-  EXPECT_EQ(clauses[1].about, "drawbar pull") << "the largest difference comes first";
-  EXPECT_THAT(clauses[1].text, HasSubstr("30 % of the load"));
+  const std::size_t first = opening(comparison).size();
+  EXPECT_EQ(clauses[first].about, "drawbar pull") << "the largest difference comes first";
+  EXPECT_THAT(clauses[first].text, HasSubstr("30 % of the load"));
+}
+
+// The table's first row is the widest pair; what the errors cannot have made is bad news, what they can is good.
+TEST_F(Pair, TheTableOfChannelsPutsTheWidestFirstAndMarksIt) {
+  const MarkedTable apart = tally_table(against({300}, 40.0));
+  EXPECT_EQ(apart.rows.at(0).at(0).text, "drawbar pull");
+  EXPECT_EQ(apart.rows.at(0).at(1).tone, Tone::bad);
+  EXPECT_EQ(apart.rows.at(0).at(3).text, "4 of 4");
+  EXPECT_EQ(apart.rows.at(0).at(0).anchor, "rows-0-1-0");
+  const Comparison near = against({10}, 40.0);
+  const MarkedTable table = tally_table(near);
+  const auto pull =
+      std::find_if(table.rows.begin(), table.rows.end(), [](const auto& row) { return row[0].text == "drawbar pull"; });
+  ASSERT_NE(pull, table.rows.end());
+  EXPECT_EQ(pull->at(1).tone, Tone::good);
+}
+
+// One packing says nothing of the scatter between beds: where all points are so, the legend says it. A negative sinkage
+// is marked where it stands.
+TEST_F(Pair, LimitsOfGrainsAreMarkedOnTheCurves) {
+  Comparison comparison = against({300}, 40.0);
+  comparison.sides[1].points[0].result->sinkage.value = -0.001;
+  for (SidePoint& point : comparison.sides[1].points) point.runs = 1;
+  const Sheet sheet = curve_sheet(comparison, 0, true);
+  const auto labelled = [&](const std::string& label) {
+    std::size_t points = 0;
+    for (const Plot& plot : sheet.plots)
+      for (const Series& series : plot.series)
+        if (series.label == label) points += series.x.size();
+    return points;
+  };
+  EXPECT_GT(labelled(comparison.sides[1].label + ", grains coarse for the wheel, one packing each"), 0u);
+  EXPECT_EQ(labelled("negative sinkage: the tread stands above the mean surface"), 1u);
+  comparison.sides[1].points[0].runs = 2;
+  const Sheet some = curve_sheet(comparison, 0, false);
+  std::size_t marked = 0;
+  for (const Series& series : some.plots.front().series)
+    if (series.label.starts_with("one packing")) marked = series.x.size();
+  EXPECT_EQ(marked, comparison.sides[1].points.size() - 1);
 }
 
 // With the soil exact, chi2 is the plain sum of squared sigmas. With doubt it can but fall: an offset that the friction

@@ -42,6 +42,53 @@ TEST(WorseChannels, AreThoseOfAModelWithEffects) {
   EXPECT_EQ(to_json(answer).at("worse"), nlohmann::ordered_json({"drawbar_pull"}));
 }
 
+// The first sentences name gain, loss and what hardly changes; the table marks them.
+TEST(ErrorSentence, TellsGainLossAndWhatHardlyChanges) {
+  LoopAnswer answer;
+  answer.validation = mixed();
+  answer.effects.emplace_back();
+  answer.effects.back().choice.id = "bulldozing";
+  answer.verdict = Verdict::not_enough_data;
+  const auto parts = headline(answer);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[1].first, "What it does to the error");
+  EXPECT_EQ(parts[1].second.find("On conditions that neither the choice nor the fit has seen the error rises for the "
+                                 "drawbar pull (5.95 to 6.3 N), falls for the sinkage (20.6 to 7.04 mm) and hardly "
+                                 "changes for the torque (2 to 2 N m) (root mean square)."),
+            0u)
+      << parts[1].second;
+  const MarkedTable table = error_table(answer);
+  EXPECT_EQ(table.rows.at(0).at(3).tone, Tone::bad);
+  EXPECT_EQ(table.rows.at(1).at(3).tone, Tone::none);
+  EXPECT_EQ(table.rows.at(2).at(3).tone, Tone::good);
+  EXPECT_EQ(table.rows.at(2).at(4).text, "-66 %");
+}
+
+TEST(Odds, AreSharesOfCampaigns) {
+  EXPECT_EQ(odds_words(1.0 / 4001), "1 of 4,000 campaigns");
+  EXPECT_EQ(odds_words(0.0123), "1 of 81 campaigns");
+  EXPECT_EQ(odds_words(0.3), "30 of 100 campaigns");
+}
+
+// A parameter stands in its own unit, with its meaning, and says where the data did not determine it.
+TEST(ParametersTable, ShowsUnitsMeaningAndBounds) {
+  LoopAnswer answer;
+  AcceptedEffect layer;
+  layer.choice = {"hard_layer", "transition", {{"a", 50.0}, {"d", 0.0411}}};
+  layer.fitted = {"a", "d"};
+  layer.ci95 = {{0.0, 50.0}, {0.0373, 0.045}};
+  layer.at_bound = {true, false};
+  answer.stand_in = {layer};
+  const MarkedTable table = parameters_table(answer);
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_EQ(table.rows[0][0].text, "hard layer");
+  EXPECT_EQ(table.rows[0][6].tone, Tone::bad);
+  EXPECT_EQ(table.rows[1][1].text, "depth at which the firm layer begins");
+  EXPECT_EQ(table.rows[1][2].text, "41.10");
+  EXPECT_EQ(table.rows[1][4].text, "mm");
+  EXPECT_EQ(table.rows[1][6].text, "yes");
+}
+
 // A set's forms stand in the order of its ids, whichever was fitted first.
 TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
   Campaign campaign = sand_campaign();
@@ -60,9 +107,10 @@ TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
   found.candidates.models = {candidate};
   found.candidates.sets = {{.ids = candidate.ids, .weight = 1.0}};
   answer.judgement = Judgement{.found = found, .before = {}, .choice = {}, .reason = {}};
-  const std::vector<std::string> row = candidates_table(answer).rows.front();
-  EXPECT_EQ(row[0], "bulldozing + slip_sinkage");
-  EXPECT_EQ(row[1], candidate.terms()[1].form->form + " + lyasko");
+  const std::vector<MarkedCell> row = candidates_table(answer).rows.front();
+  EXPECT_EQ(row[0].text, "bulldozing and slip sinkage");
+  EXPECT_EQ(row[0].note, "bulldozing + slip_sinkage");
+  EXPECT_EQ(row[1].text, candidate.terms()[1].form->form + " + lyasko");
   const auto forms = details_json(answer).at("sets").at(0).at("forms");
   EXPECT_EQ(forms.at(0), "bulldozing/" + candidate.terms()[1].form->form);
   EXPECT_EQ(forms.at(1), "slip_sinkage/lyasko");

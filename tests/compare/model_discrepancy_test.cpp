@@ -83,7 +83,7 @@ double share_in_details(const LoopAnswer& answer, const std::set<std::string>& i
 }
 
 std::string all_words(const LoopAnswer& answer) {
-  std::string words;
+  std::string words = verdict_sentence(answer) + "\n";
   for (const std::string& sentence : explanation(answer)) words += sentence + "\n";
   return words;
 }
@@ -91,7 +91,7 @@ std::string all_words(const LoopAnswer& answer) {
 /// Each set's share is one number: in the list, the JSON with its details, the table and the sentence.
 void expect_same_shares(const LoopAnswer& answer) {
   const auto sets = to_json(answer).at("ambiguity_set");
-  const HtmlTable table = candidates_table(answer);
+  const MarkedTable table = candidates_table(answer);
   const std::string words = all_words(answer);
   const std::size_t decided = answer.ambiguity_set.size();
   ASSERT_EQ(sets.size(), decided + answer.noted_sets.size());
@@ -104,13 +104,13 @@ void expect_same_shares(const LoopAnswer& answer) {
     EXPECT_EQ(sets.at(i).at("weight").get<double>(), w.weight);
     EXPECT_EQ(share_in_details(answer, w.ids), w.weight);
     const std::string share = w.weight < 0.005 ? "< 1 %" : fmt::format("{:.0f} %", 100 * w.weight);
-    EXPECT_EQ(table.rows.at(i).at(0), joined(w.ids));
-    EXPECT_EQ(table.rows.at(i).at(2), share);
+    EXPECT_EQ(table.rows.at(i).at(0).note, joined(w.ids));
+    EXPECT_EQ(table.rows.at(i).at(2).text, share);
     const bool said = decided > 1 && (i == 0 || w.weight >= 0.005);
-    EXPECT_EQ(words.find(fmt::format("{} ({})", joined(w.ids), share)) != std::string::npos, said) << words;
+    EXPECT_EQ(words.find(fmt::format("{} ({})", named_effects(w.ids), share)) != std::string::npos, said) << words;
   }
   EXPECT_NEAR(sum, 1.0, 1e-12);
-  for (std::size_t i = decided; i < table.rows.size(); ++i) EXPECT_EQ(table.rows[i][2], "-");
+  for (std::size_t i = decided; i < table.rows.size(); ++i) EXPECT_EQ(table.rows[i][2].text, "-");
   for (std::size_t i = decided; i < sets.size(); ++i) {
     EXPECT_EQ(sets.at(i).at("weight"), 0.0);
     EXPECT_EQ(sets.at(i).at("of_other_reading"), true);
@@ -138,9 +138,9 @@ TEST(SlowModelDiscrepancy, ShowsTheEffectBesideAnOddSoil) {
   EXPECT_EQ(answer.found().best().ids, std::set<std::string>{"multipass"});
   EXPECT_LT(answer.found().signatures.p_value, 0.01);
   EXPECT_EQ(answer.ambiguity_set.front().ids, std::set<std::string>{"multipass"});
-  EXPECT_NE(verdict_sentence(answer).find("a smooth function of load and slip makes good, and beside that multipass"),
+  EXPECT_NE(all_words(answer).find("a smooth function of load and slip makes good, and beside that multipass"),
             std::string::npos)
-      << verdict_sentence(answer);
+      << all_words(answer);
   expect_same_shares(answer);
   expect_the_decided_model(campaign, answer);
   const auto json = to_json(answer);
@@ -149,7 +149,8 @@ TEST(SlowModelDiscrepancy, ShowsTheEffectBesideAnOddSoil) {
   const std::vector<std::string> words = explanation(answer);
   EXPECT_EQ(std::count_if(words.begin(), words.end(),
                           [](const std::string& sentence) {
-                            return sentence.starts_with("Note: read with a base model that is taken as exact");
+                            return sentence.starts_with(
+                                "A second reading of the data, with a base model that is taken as exact");
                           }),
             1);
 }
@@ -163,9 +164,9 @@ TEST(SlowModelDiscrepancy, SaysWhyASetIsTakenThatAnotherOneOutweighs) {
                         [](const Weighted& a, const Weighted& b) { return a.weight < b.weight; });
   ASSERT_LT(taken.weight, heaviest.weight);
   EXPECT_NE(
-      all_words(answer).find(fmt::format("{} is taken all the same: what {} has beyond it does not predict conditions "
-                                         "left out better.",
-                                         joined(taken.ids), joined(heaviest.ids))),
+      all_words(answer).find(fmt::format("The model takes {} all the same: what {} has beyond it does not predict "
+                                         "conditions left out better.",
+                                         named_effects(taken.ids), named_effects(heaviest.ids))),
       std::string::npos)
       << all_words(answer);
 }
