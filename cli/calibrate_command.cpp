@@ -7,6 +7,7 @@
 #include <memory>
 #include <tuple>
 
+#include "cli/batch_flags.hpp"
 #include "cli/commands.hpp"
 #include "cli/decision_flags.hpp"
 #include "cli/element_test_flags.hpp"
@@ -38,6 +39,7 @@ struct CalibrateOptions {
   std::string rolling;
   std::vector<std::string> targets, bounds, kept;
   DecisionFlags decision;
+  BatchFlags batch;
   compare::CalibrationOptions options;
   int packings = 0, threads = 0, across = 16;
   bool json = false, runs = false;
@@ -235,12 +237,17 @@ int calibrate(CalibrateOptions asked, const Session& session) {
   const compare::VirtualTest test = test_of(asked, kind, soil, shown);
   const fs::path file = store_of(asked, soil);
   add_decision(asked, soil, test, kind, records_beside(file), session.place, shown);
-  compare::ExperimentStore store(file);
+  asked.batch.check(asked.store);
+  compare::ExperimentStore store(file, asked.batch.writers());
   tell_unsealed(store, file);
+  asked.batch.learn(store);
+  if (asked.batch.answers()) return asked.batch.answer(test, store);
   compare::Calibration calibration;
   try {
     if (!asked.beside.empty()) return set_beside(asked, test, store, shown);
-    calibration = compare::calibrate(test, asked.options, store);
+    calibration = compare::calibrate(asked.batch.asks() ? compare::only_asking(test) : test, asked.options, store);
+  } catch (const compare::ExperimentsAsked& more) {
+    return asked.batch.write(test, more.experiments);
   } catch (const Interrupted&) {
     clear_progress_line();
     if (!file.empty())
@@ -286,6 +293,7 @@ void add_options(CLI::App& command, CalibrateOptions& asked) {
   command.add_option("--beside", asked.beside, "only run the sets of this table and show them beside its results")
       ->type_name("FILE.csv");
   asked.decision.add_to(command);
+  asked.batch.add_to(command);
   command.get_option("--beside")->excludes("--decide");
   command.add_flag("--show-runs", asked.runs, "the table of all experiments");
   command.add_flag("--json", asked.json, "soilbin-calibration/1, in SI");

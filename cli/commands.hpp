@@ -9,7 +9,8 @@
 namespace soilbin::cli {
 
 /// How a program ends.
-enum ExitStatus { done = 0, failed = 1, bad_input = 2, interrupted = 130 };
+/// `unfinished`: part of the work is done and kept; the same command goes on from there.
+enum ExitStatus { done = 0, failed = 1, bad_input = 2, unfinished = 3, interrupted = 130 };
 
 /// What the commands share.
 struct Session {
@@ -21,6 +22,9 @@ struct Session {
 void add_estimate(CLI::App& app, Session& session);
 void add_explain(CLI::App& app, Session& session);
 void add_run(CLI::App& app, Session& session);
+void add_bed(CLI::App& app, Session& session);
+void add_record(CLI::App& app, Session& session);
+void add_sweep(CLI::App& app, Session& session);
 void add_element_test(CLI::App& app, Session& session);
 void add_bevameter(CLI::App& app, Session& session);
 void add_drive(CLI::App& app, Session& session);

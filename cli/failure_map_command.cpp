@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/batch_flags.hpp"
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
@@ -15,7 +16,6 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/failure_map/map_report.hpp"
 #include "compare/report/json_fields.hpp"
-#include "dem/rig/run_inputs.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -31,6 +31,7 @@ struct FailureMapOptions {
   unsigned seed = 1;
   bool json = false, rows = false, stored = false;
   SoilBinFlags soil_bin;
+  BatchFlags batch;
 };
 
 /// "LOW..HIGH" of a flag, in SI.
@@ -73,8 +74,7 @@ compare::VirtualTest grains_test(const FailureMapOptions& asked, const compare::
   const dem::DemSettings settings = settings_of(asked.soil_bin);
   compare::VirtualTest test;
   test.identity = fmt::format("soil bin, {}, speed {}", name_of(map.incline), map.base.speed);
-  for (const auto& [name, value] :
-       dem::run_inputs(dem::DemModel(settings).recipe(map.scenario), map.scenario.tire, settings.rig))
+  for (const auto& [name, value] : compare::inputs_of(settings, map.scenario))
     if (name != "tire.lug_height") test.identity += fmt::format("\n{} {}", name, value);
   test.factors = map.factors;
   test.targets = compare::grain_channels();
@@ -125,12 +125,15 @@ compare::MapStory learn(const FailureMapOptions& asked, const Case& question, co
   compare::MapStory story;
   story.map = map_of(asked, question, place);
   grains = grains_test(asked, story.map, question, place);
+  if (asked.batch.asks()) grains = compare::only_asking(std::move(grains));
   story.question =
       compare::failure_question(story.map, grains, store, static_cast<std::uint64_t>(asked.soil_bin.packing),
                                 read_flag("--tolerance", asked.tolerance, {"%", above_zero}));
-  story.rows = compare::map_failures(
-      story.question,
-      {.first = asked.first, .at_boundary = asked.at_boundary, .seed = asked.seed, .progress = show_run});
+  story.rows = compare::map_failures(story.question, {.first = asked.first,
+                                                      .at_boundary = asked.at_boundary,
+                                                      .at_once = std::max(1, asked.batch.ask),
+                                                      .seed = asked.seed,
+                                                      .progress = show_run});
   story.clauses = clauses_of(story.question, story.rows, asked.rounds);
   story.coordinates = compare::compare_coordinates(story.map, story.rows);
   story.checks = compare::check_fresh(story.question, story.rows, asked.fresh, asked.seed);
@@ -172,8 +175,13 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
   if (asked.at_boundary < 0 || asked.fresh < 0) throw InputError("--boundary and --check: 0 or more");
   if (!asked.stored && !asked.store.empty())  // what is only read may lie anywhere
     if (const std::string why = why_not_writable(asked.store); !why.empty()) throw InputError("--store: " + why);
-  compare::ExperimentStore store(asked.store);
+  asked.batch.check(asked.store);
+  compare::ExperimentStore store(asked.store, asked.batch.writers());
   tell_unsealed(store, asked.store);
+  asked.batch.learn(store);
+  if (asked.batch.answers())
+    return asked.batch.answer(grains_test(asked, map_of(asked, question, session.place), question, session.place),
+                              store);
   Outputs outputs;
   compare::VirtualTest grains;
   try {
@@ -197,6 +205,8 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
     } else {
       print_story(story, asked.rows);
     }
+  } catch (const compare::ExperimentsAsked& more) {
+    return asked.batch.write(grains, more.experiments);
   } catch (const Interrupted&) {
     if (!asked.store.empty())
       fmt::print(stderr, "\n{} runs are in {}: the same command goes on from there", store.size(), asked.store);
@@ -233,6 +243,7 @@ void add_failure_map(CLI::App& app, Session& session) {
   command->add_option("--store", asked->store, "keep each run in this file, and go on with what is there")
       ->type_name("FILE.json");
   command->add_flag("--stored", asked->stored, "answer from the store alone, without running");
+  asked->batch.add_to(*command);
   add_file(*command, "--report", asked->report, "FILE.html", "write the report as one page");
   command->add_option("--seed", asked->seed, "of the design, 1")->type_name("N");
   command->add_flag("--show-rows", asked->rows, "print every condition run");

@@ -24,6 +24,9 @@ void add_commands(CLI::App& app, Session& session) {
   add_estimate(app, session);
   add_explain(app, session);
   add_run(app, session);
+  add_sweep(app, session);
+  add_bed(app, session);
+  add_record(app, session);
   add_element_test(app, session);
   add_bevameter(app, session);
   add_plates(app, session);

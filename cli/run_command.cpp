@@ -10,11 +10,10 @@
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
-#include "cli/soil_bin.hpp"
+#include "cli/run_plan.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/experiments/convergence.hpp"
-#include "compare/recorded/step_pair.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
@@ -26,8 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RunOptions {
-  std::string study, model, plot, csv, output, half_step;
-  bool json = false, converge = false;
+  std::string study, model, plot, csv, output;
+  bool json = false, converge = false, dry_run = false;
   ConditionFlags conditions;
   ErrorFlag errors;
   SoilBinFlags soil_bin;
@@ -87,27 +86,55 @@ void save(Outputs& outputs, const RunOptions& options, const Case& question, con
   });
 }
 
-bool tests_step(const RunOptions& options, const Case& question) {
+bool asks_dem(const Case& question) {
   const auto& models = question.study.models;
-  const SoilBinFlags& bin = options.soil_bin;
-  if (bin.record.empty() || std::none_of(models.begin(), models.end(),
-                                         [](const ModelChoice& choice) { return choice.model == ModelKind::dem; }))
-    return false;
-  if (!options.half_step.empty()) return options.half_step == "yes";
-  return question.study.conditions.size() * static_cast<std::size_t>(bin.packings) >= compare::runs_that_pay_a_test;
+  return std::any_of(models.begin(), models.end(),
+                     [](const ModelChoice& choice) { return choice.model == ModelKind::dem; });
 }
 
-/// Runs the study; what an interrupted one has recorded stays, and the command says how to go on.
-std::vector<compare::ModelAnswers> answers_to(const Case& question, const compare::MakeModel& make,
-                                              const RunOptions& options, const RunLog& log) {
+/// Throws InputError for a flag that means nothing beside the others.
+void check_flags(const RunOptions& options, const Case& question) {
+  const SoilBinFlags& bin = options.soil_bin;
+  if ((options.dry_run || !bin.shard.empty()) && !asks_dem(question))
+    throw InputError("--shard and --dry-run are about runs of grains\n  hint: --model dem");
+  if (!bin.shard.empty() && !options.dry_run && bin.record.empty())
+    throw InputError("--shard needs a record of its own for what it makes\n  hint: --record FILE.json");
+}
+
+/// Makes the runs that the record lacks: all, or those of a shard. Says where each is on standard error.
+void make_runs(const Case& question, const Case& whole, const RunOptions& options, const Session& session) {
+  const SoilBinFlags& bin = options.soil_bin;
+  dem::DemSettings settings = settings_of(bin);
+  std::vector<compare::AskedRun> list = compare::runs_of(question, settings, bin.packings, bin.tests_step(question));
+  if (!bin.shard.empty()) list = compare::shard_of(list, compare::parse_shard(bin.shard));
+  const auto at = std::make_shared<std::string>();
+  settings.how.progress = [at](const dem::Progress& progress) { show_progress_of(*at, progress); };
+  compare::make_runs(list, settings, whole, session.place.effects, keeping_of(bin),
+                     [&](std::size_t place, const compare::AskedRun& run) {
+                       if (interrupt_asked()) throw Interrupted();
+                       *at = fmt::format("run {} of {}", place + 1, list.size());
+                       if (!bin.shard.empty()) tell_beside_progress(fmt::format("{}: {}", *at, compare::in_words(run)));
+                     });
+  if (!bin.shard.empty())
+    fmt::print("{}: {} of shard {} are recorded\n", bin.record, compare::counted(list.size(), "run"), bin.shard);
+}
+
+/// Calls `work`; what an interrupted one has recorded stays, and the command says how to go on.
+template <class Work>
+auto recording(const RunOptions& options, const Work& work) {
   try {
-    return compare::run_study(question, shown_progress(), make);
+    return work();
   } catch (const Interrupted&) {
-    if (!options.soil_bin.record.empty())
-      fmt::print(stderr, "\n{} runs are in {}: the same command goes on from there", log->size(),
-                 options.soil_bin.record);
+    if (const fs::path file = options.soil_bin.record; !file.empty()) {
+      clear_progress_line();
+      const std::size_t there = fs::exists(file) ? compare::read_record(file).runs.size() : 0;
+      fmt::print(stderr, "{} in {}: the same command goes on from there\n", compare::counted(there, "run"),
+                 file.string());
+    }
     throw;
   } catch (const InputError&) {
+    throw;
+  } catch (const compare::TimeStepMatters&) {
     throw;
   } catch (const std::runtime_error& error) {  // a record or a replay that can't be written
     throw std::runtime_error(fmt::format("{}\n  hint: {}", error.what(), finished_runs_stay));
@@ -143,16 +170,28 @@ int run(RunOptions options, const Session& session) {
     options.conditions.pick(question.study, question.scenario.tire);
     return converge(options, question, session);
   }
-  const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
-  const compare::MakeModel make = models_with(options.soil_bin, question, session.place.effects, log);
+  const Case whole = question;  // a record that is begun holds all conditions
   options.conditions.pick(question.study, question.scenario.tire);
+  check_flags(options, question);
+  if (options.dry_run) {
+    const RunPlan plan = plan_of(question, options.soil_bin, options.soil_bin.tests_step(question));
+    fmt::print("{}", options.json ? compare::json_text(plan_json(plan)) : plan_text(plan));
+    return done;
+  }
+  if (!options.soil_bin.shard.empty()) try {
+      recording(options, [&] { make_runs(question, whole, options, session); });
+      return done;
+    } catch (const Interrupted&) {
+      return unfinished;
+    }
+  const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
+  const compare::MakeModel make = models_with(options.soil_bin, whole, session.place.effects, log);
   const std::optional<dem::StepCriteria> step =
       compare::step_of(settings_of(options.soil_bin), question, options.soil_bin.recorded);
-  if (tests_step(options, question))
-    compare::test_time_step(settings_of(options.soil_bin), question, session.place.effects,
-                            keeping_of(options.soil_bin));
+  if (asks_dem(question) && !options.soil_bin.record.empty())
+    recording(options, [&] { make_runs(question, whole, options, session); });
   Answered answered{.study = {}, .doubts = {}, .step = step};
-  answered.study = answers_to(question, make, options, log);
+  answered.study = recording(options, [&] { return compare::run_study(question, shown_progress(), make); });
   answered.doubts = compare::doubts(question, answered.study);
   if (!options.soil_bin.record.empty() && fs::exists(options.soil_bin.record))
     for (std::string& doubt : compare::step_doubts(compare::read_record(options.soil_bin.record)))
@@ -194,12 +233,11 @@ void add_run(CLI::App& app, Session& session) {
   options->conditions.add_to(*command);
   options->errors.add_to(*command);
   options->soil_bin.add_to(*command);
-  command
-      ->add_option("--half-step", options->half_step,
-                   "dem with --record: first the hardest condition also at half the time step, and stop where its "
-                   "answer differs; yes for a dozen runs or more")
-      ->type_name("yes|no")
-      ->check(CLI::IsMember({"yes", "no"}));
+  options->soil_bin.add_half_step_to(*command);
+  command->add_flag("--dry-run", options->dry_run,
+                    "dem: make nothing; list the runs, which are recorded, and what the others will cost");
+  options->soil_bin.add_shard_to(*command);
+  options->soil_bin.add_known_to(*command);
   add_file(*command, "--replay", options->soil_bin.replay, "FILE",
            "dem: keep the first run that is made, to look at it in 3D");
   command->add_option("--paraview", options->soil_bin.paraview, "dem: keep each run that is made, for ParaView")

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -21,11 +22,13 @@ std::filesystem::path folder_of_beds() {
   return cache.empty() ? fs::path() : cache / "beds";
 }
 
-void show_dem_progress(const dem::Progress& progress) {
+void show_dem_progress(const dem::Progress& progress) { show_progress_of("dem", progress); }
+
+void show_progress_of(const std::string& work, const dem::Progress& progress) {
   if (interrupt_asked()) throw Interrupted();
   if (progress.done >= 1) return clear_progress_line();
   const bool known = std::isfinite(progress.seconds_left);
-  show_progress_line(fmt::format("dem, {}: {:.0f} %{}", progress.stage, 100 * progress.done,
+  show_progress_line(fmt::format("{}, {}: {:.0f} %{}", work, progress.stage, 100 * progress.done,
                                  known ? fmt::format(", {:.0f} s left", progress.seconds_left) : ""));
 }
 
@@ -130,11 +133,41 @@ void SoilBinFlags::add_rig_to(CLI::App& command) {
 
 void SoilBinFlags::add_starting_to(CLI::App& command) { add(command, starting_flag, texts); }
 
+void SoilBinFlags::add_packings_to(CLI::App& command) {
+  command.add_option("--packings", packings, "dem: runs on so many packings, from --packing on, and their mean; 1")
+      ->type_name("N");
+}
+
+compare::TestStep SoilBinFlags::tests_step(const Case& question) const {
+  const std::size_t runs = question.study.conditions.size() * static_cast<std::size_t>(std::max(packings, 1));
+  const bool tests = half_step.empty() ? runs >= compare::runs_that_pay_a_test : half_step == "yes";
+  return tests ? compare::TestStep::yes : compare::TestStep::no;
+}
+
+void SoilBinFlags::add_half_step_to(CLI::App& command) {
+  command
+      .add_option("--half-step", half_step,
+                  "dem: first the hardest condition also at half the time step, and stop where its answer differs; yes "
+                  "for a dozen runs or more")
+      ->type_name("yes|no")
+      ->check(CLI::IsMember({"yes", "no"}));
+}
+
+void SoilBinFlags::add_shard_to(CLI::App& command) {
+  command.add_option("--shard", shard, "only the K-th of N parts of the work; parts may be made at once, anywhere")
+      ->type_name("K/N");
+}
+
+void SoilBinFlags::add_known_to(CLI::App& command) {
+  command.add_option("--known", known, "dem: records whose runs are not made again")
+      ->type_name("RECORD.json")
+      ->allow_extra_args(true);
+}
+
 void SoilBinFlags::add_to(CLI::App& command) {
   add_rig_to(command);
   add_starting_to(command);
-  command.add_option("--packings", packings, "dem: runs on so many packings, from --packing on, and their mean; 1")
-      ->type_name("N");
+  add_packings_to(command);
   add_file(command, "--record", record, "FILE.json", "dem: keep each run in this file, and go on with what is there");
   command
       .add_option("--recorded", recorded,
@@ -146,7 +179,13 @@ void SoilBinFlags::add_to(CLI::App& command) {
 }
 
 compare::RunKeeping keeping_of(const SoilBinFlags& flags) {
-  return {flags.record, flags.replay, flags.paraview, SOILBIN_VERSION, source_state()};
+  return {flags.record,
+          flags.replay,
+          flags.paraview,
+          SOILBIN_VERSION,
+          source_state(),
+          {flags.known.begin(), flags.known.end()},
+          flags.shard.empty() ? Writers::several : Writers::one};
 }
 
 compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, const EffectVocabulary& effects,

@@ -20,6 +20,8 @@ std::filesystem::path folder_of_beds();
 
 /// Stops at Ctrl-C; shows stage, share and time left where standard error is a terminal.
 void show_dem_progress(const dem::Progress& progress);
+/// The same; `work` says what it is of: "run 3 of 12".
+void show_progress_of(const std::string& work, const dem::Progress& progress);
 
 /// A line on standard error that progress doesn't write over.
 void tell_beside_progress(const std::string& words);
@@ -35,6 +37,9 @@ struct SoilBinFlags {
   std::string replay;    ///< file for a replay of the first run that is made; flag of those who add it
   std::string paraview;  ///< folder for each run that is made, as ParaView opens it; flag of those who add it
   int packing = 1, packings = 1, threads = 0;
+  std::vector<std::string> known;  ///< records whose runs are not made again; flag of those who add it
+  std::string shard;               ///< "K/N": the part to be made; flag of those who add it
+  std::string half_step;           ///< yes, no or, without a word, by the number of runs; flag of those who add it
 
   std::string text(const std::string& flag) const;  ///< "" where it wasn't given
 
@@ -44,6 +49,14 @@ struct SoilBinFlags {
   void add_starting_to(CLI::App& command);
   /// Bed, rig and threads alone: for who keeps no records.
   void add_rig_to(CLI::App& command);
+  /// --packings alone.
+  void add_packings_to(CLI::App& command);
+  /// Whether the runs of a question's conditions begin with a test of the time step.
+  compare::TestStep tests_step(const Case& question) const;
+  void add_half_step_to(CLI::App& command);
+  /// --shard, --known.
+  void add_shard_to(CLI::App& command);
+  void add_known_to(CLI::App& command);
 };
 
 /// Throws InputError that names the flag.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/calibrate/experiment_batch.hpp"
 #include "compare/calibrate/likely_points.hpp"
 #include "compare/design/space_filling.hpp"
 #include "scenario/errors.hpp"
@@ -64,7 +65,9 @@ class Work {
 
   void run_design(const LevelTable& design) {
     const Eigen::MatrixXd points = unit_points(design);
-    for (Index i = 0; i < points.rows(); ++i) run(Stage::design, from_unit(test_.factors, points.row(i)));
+    std::vector<VectorXd> all;
+    for (Index i = 0; i < points.rows(); ++i) all.push_back(from_unit(test_.factors, points.row(i)));
+    ask_together(all, [&](const VectorXd& values) { run(Stage::design, values); });
   }
 
   /// Range analysis and analysis of variance, where every run of the design has a result. The runs' own errors are the
@@ -96,8 +99,10 @@ class Work {
 
   void run_candidates() {
     const LikelyPoints points = learn();
-    for (const Candidate& candidate : points.spread_out(options_.near, options_.candidates))
-      if (may_run()) run(Stage::candidates, candidate.values, candidate.chance);
+    std::vector<Candidate> spread = points.spread_out(options_.near, options_.candidates);
+    const int left = options_.most_runs - static_cast<int>(answer_.runs.size());
+    spread.resize(std::min(spread.size(), static_cast<std::size_t>(left)));
+    ask_together(spread, [&](const Candidate& one) { run(Stage::candidates, one.values, one.chance); });
   }
 
   /// Runs the likeliest point until one that was run is likely enough.

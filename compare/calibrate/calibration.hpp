@@ -84,7 +84,8 @@ struct Calibration {
 
 /// Runs the stages. Work found in the store isn't done again: the same test, options and store give the same answer
 /// whether it was stopped in between or not. Throws InputError for a test or options that make no sense, NoSolution
-/// where too many experiments fail to learn from the rest, and what `progress` throws.
+/// where too many experiments fail to learn from the rest, and what `progress` throws; ExperimentsAsked of the design,
+/// of the candidates, or of one refinement, where the test only asks.
 Calibration calibrate(const VirtualTest& test, const CalibrationOptions& options, ExperimentStore& store);
 
 /// "design", "candidates", "refinement".

@@ -12,7 +12,6 @@
 #include "compare/sweep/result_json.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/file_lock.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::compare {
@@ -78,13 +77,23 @@ bool same_but_for_version(const std::string& one, const std::string& other) {
   return as_one == one;
 }
 
+bool same_answer(const Experiment& a, const Experiment& b) {
+  const auto same = [](const Estimate& x, const Estimate& y) {
+    return x.value == y.value && x.std_error == y.std_error;
+  };
+  return a.error == b.error && std::equal(a.results.begin(), a.results.end(), b.results.begin(), b.results.end(), same);
+}
+
 bool same_question(const Experiment& experiment, const Eigen::VectorXd& values, std::uint64_t seed) {
   return experiment.seed == seed && experiment.values.size() == values.size() && experiment.values == values;
 }
 
 }  // namespace
 
-ExperimentStore::ExperimentStore(std::filesystem::path file) : file_(std::move(file)) { read(); }
+ExperimentStore::ExperimentStore(std::filesystem::path file, Writers writers)
+    : file_(std::move(file)), writers_(writers) {
+  read();
+}
 
 /// What is in the file now, in place of what was known; what is known stays where there is none.
 void ExperimentStore::read() {
@@ -129,12 +138,38 @@ std::optional<Experiment> ExperimentStore::find(const VirtualTest& test, const E
 }
 
 void ExperimentStore::keep(const VirtualTest& test, const Experiment& experiment) {
-  if (file_.empty()) return put(key_of(test), experiment);
+  add([&] { put(key_of(test), experiment); });
+}
+
+void ExperimentStore::take(const std::filesystem::path& other) {
+  if (!std::filesystem::exists(other)) throw InputError(other.string() + ": no such file");
+  const ExperimentStore theirs(other);
+  add([&] {
+    for (const OfOneTest& test : theirs.tests_)
+      for (const StoredExperiment& stored : test.experiments) {
+        const Experiment& fresh = stored.experiment;
+        for (const OfOneTest& mine : tests_)
+          if (mine.key == test.key)
+            for (const StoredExperiment& known : mine.experiments)
+              if (same_question(known.experiment, fresh.values, fresh.seed) && !same_answer(known.experiment, fresh))
+                throw InputError(fmt::format(
+                    "{}: another answer to an experiment than in {}\n  hint: the same program gives the same "
+                    "bits on every machine; different sources may not",
+                    other.string(), file_.string()));
+        put(test.key, fresh);
+      }
+  });
+}
+
+/// Makes a change beside what the file has by now, and writes the file.
+void ExperimentStore::add(const std::function<void()>& change) {
+  if (file_.empty()) return change();
   const std::filesystem::path folder = file_.has_parent_path() ? file_.parent_path() : std::filesystem::path(".");
   make_folder(folder);
-  const FileLock lock(folder, FileLock::Wait::until_free);
+  std::optional<FileLock> lock;
+  if (writers_ == Writers::several) lock.emplace(folder, FileLock::Wait::until_free);
   read();  // what other processes have finished meanwhile
-  put(key_of(test), experiment);
+  change();
   write_file_atomically(file_, text());
 }
 

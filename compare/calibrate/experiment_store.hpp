@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "compare/calibrate/virtual_test.hpp"
+#include "scenario/file_lock.hpp"
 
 namespace soilbin::compare {
 
@@ -33,12 +35,15 @@ class ExperimentStore {
   /// Reads the file where there is one. Without a path nothing is kept on disk. Throws InputError that names the file
   /// for one that is no store, and the place in it for
   /// an experiment that is damaged.
-  explicit ExperimentStore(std::filesystem::path file = {});
+  explicit ExperimentStore(std::filesystem::path file = {}, Writers writers = Writers::several);
 
   /// The experiment; where there is none to the bit, one from an engine of other bits ("bed.version" of its identity).
   std::optional<Experiment> find(const VirtualTest& test, const Eigen::VectorXd& values, std::uint64_t seed) const;
   /// Keeps it beside what the file has by now, and writes the file. Throws std::runtime_error where that fails.
   void keep(const VirtualTest& test, const Experiment& experiment);
+  /// Keeps the experiments of another store's file beside its own. Throws InputError that names the file where both
+  /// have the same experiment with different results, and for what is no store.
+  void take(const std::filesystem::path& other);
   std::size_t size() const;
   /// Number of this test's experiments that an engine of other bits made.
   std::size_t of_other_engines(const VirtualTest& test) const;
@@ -54,7 +59,10 @@ class ExperimentStore {
   void put(const std::string& key, const Experiment& experiment);
   std::string text() const;
 
+  void add(const std::function<void()>& change);
+
   std::filesystem::path file_;
+  Writers writers_;
   std::vector<OfOneTest> tests_;
 };
 

@@ -12,6 +12,7 @@
 #include "dem/archive/paraview.hpp"
 #include "dem/rig/run_inputs.hpp"
 #include "dem/rig/staged_run.hpp"
+#include "dem/rig/wheel_in_bin.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/quantity.hpp"
 
@@ -110,6 +111,19 @@ class WatchedRuns {
 
 }  // namespace
 
+namespace {
+
+std::vector<Record> read_known(const RunKeeping& keeping, const Inputs& inputs) {
+  std::vector<Record> records;
+  for (const std::filesystem::path& file : keeping.known) {
+    records.push_back(read_record(file));
+    refuse_other_inputs(records.back(), inputs, file);
+  }
+  return records;
+}
+
+}  // namespace
+
 RunOnce run_once(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
                  const RunKeeping& keeping) {
   RunOnce run = [runs = std::make_shared<WatchedRuns>(settings, keeping)](
@@ -117,7 +131,15 @@ RunOnce run_once(const dem::DemSettings& settings, const Case& question, const E
     return (*runs)(scenario, at, packing);
   };
   if (keeping.record.empty()) return run;
-  return kept_runs(keeping.record, settings, question, effects, keeping.version, std::move(run));
+  run = kept_runs(keeping.record, settings, question, effects, keeping.version, std::move(run), &Record::runs,
+                  keeping.writers);
+  if (keeping.known.empty()) return run;
+  return [known = read_known(keeping, inputs_of(settings, question.scenario)), run = std::move(run)](
+             const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
+    for (const Record& record : known)
+      if (const RecordedRun* there = find_run(record.runs, at, packing)) return *there;
+    return run(scenario, at, packing);
+  };
 }
 
 dem::DemSettings at_half_step(dem::DemSettings settings, const Scenario& scenario) {
@@ -126,31 +148,60 @@ dem::DemSettings at_half_step(dem::DemSettings settings, const Scenario& scenari
   return settings;
 }
 
-void test_time_step(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
-                    const RunKeeping& keeping) {
-  const OperatingCondition at = hardest(question.study.conditions);
-  const dem::DemSettings half = at_half_step(settings, question.scenario);
-  run_once(settings, question, effects, keeping)(question.scenario, at, settings.packing);
-  RunOnce half_runs = [runs = std::make_shared<SoilBinRuns>(half, keeping.source)](
-                          const Scenario& scenario, const OperatingCondition& condition, std::uint64_t packing) {
-    return (*runs)(scenario, condition, packing);
-  };
-  kept_runs(keeping.record, settings, question, effects, keeping.version, std::move(half_runs), &Record::half_step)(
-      question.scenario, at, settings.packing);
-  const Record record = read_record(keeping.record);
+std::vector<std::uint64_t> packings_from(const dem::DemSettings& settings, int packings) {
+  std::vector<std::uint64_t> seeds;
+  for (int k = 0; k < packings; ++k) seeds.push_back(settings.packing + static_cast<std::uint64_t>(k));
+  return seeds;
+}
+
+std::vector<AskedRun> runs_of(const Case& question, const dem::DemSettings& settings, int packings, TestStep test) {
+  const Tire& tire = question.scenario.tire;
+  dem::way_in_bin(dem::DemModel(settings).recipe(question.scenario).size, tire, settings.rig);
+  for (const OperatingCondition& at : question.study.conditions) dem::wheel_motion(at, tire.radius);
+  return run_list(question.study.conditions, packings_from(settings, packings), test);
+}
+
+namespace {
+
+void refuse_a_differing_pair(const std::filesystem::path& file, double half_step) {
+  const Record record = read_record(file);
   for (const StepPair& pair : step_pairs(record))
     if (!agrees(pair))
-      throw std::runtime_error(
+      throw TimeStepMatters(
           fmt::format("answers depend on the time step of {:.3g} ms: {}\n  hint: --time-step {:.3g}ms, in another "
                       "record; or --half-step no: then every page says that they do",
-                      2e3 * half.rig.dt, in_words(pair), 1e3 * half.rig.dt));
+                      2e3 * half_step, in_words(pair), 1e3 * half_step));
+}
+
+}  // namespace
+
+void make_runs(const std::vector<AskedRun>& list, const dem::DemSettings& settings, const Case& question,
+               const EffectVocabulary& effects, const RunKeeping& keeping, const BeforeRun& before) {
+  const std::vector<Record> known = read_known(keeping, inputs_of(settings, question.scenario));
+  const dem::DemSettings half = at_half_step(settings, question.scenario);
+  const RunOnce whole_step = run_once(settings, question, effects, keeping);
+  RunOnce half_runs = [runs = std::make_shared<SoilBinRuns>(half, keeping.source)](
+                          const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
+    return (*runs)(scenario, at, packing);
+  };
+  const RunOnce half_step = kept_runs(keeping.record, settings, question, effects, keeping.version,
+                                      std::move(half_runs), &Record::half_step, keeping.writers);
+  std::size_t place = 0;
+  for (const AskedRun& run : list) {
+    if (missing_runs({run}, known).empty()) {
+      ++place;
+      continue;
+    }
+    if (before) before(place++, run);
+    (run.half_step ? half_step : whole_step)(question.scenario, run.at, run.packing);
+    if (run.half_step) refuse_a_differing_pair(keeping.record, half.rig.dt);
+  }
 }
 
 std::unique_ptr<const Model> soil_bin_model(const dem::DemSettings& settings, int packings, RunOnce run,
                                             RunListener on_run) {
-  std::vector<std::uint64_t> seeds;
-  for (int k = 0; k < packings; ++k) seeds.push_back(settings.packing + static_cast<std::uint64_t>(k));
-  return std::make_unique<const RunOnPackings>("dem", std::move(seeds), std::move(run), std::move(on_run));
+  return std::make_unique<const RunOnPackings>("dem", packings_from(settings, packings), std::move(run),
+                                               std::move(on_run));
 }
 
 std::unique_ptr<const Model> recorded_soil_bin(Record record, const Scenario& scenario,
@@ -191,14 +242,14 @@ nlohmann::ordered_json to_json(const dem::StepCriteria& step) {
 }
 
 RunOnce kept_runs(const std::filesystem::path& file, const dem::DemSettings& settings, const Case& question,
-                  const EffectVocabulary& effects, std::string version, RunOnce run, RunList list) {
+                  const EffectVocabulary& effects, std::string version, RunOnce run, RunList list, Writers writers) {
   Record empty{.soilbin = std::move(version),
                .model = "dem",
                .question = write_case(question, effects),
                .inputs = inputs_of(settings, question.scenario),
                .runs = {},
                .half_step = {}};
-  return kept_in(file, std::move(empty), std::move(run), list);
+  return kept_in(file, std::move(empty), std::move(run), list, writers);
 }
 
 Inputs inputs_of(const dem::DemSettings& settings, const Scenario& scenario) {

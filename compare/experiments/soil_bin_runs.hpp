@@ -6,9 +6,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "compare/experiments/replay_recorder.hpp"
 #include "compare/recorded/recorded_model.hpp"
+#include "compare/recorded/run_list.hpp"
 #include "dem/rig/dem_model.hpp"
 #include "dem/rig/step_criteria.hpp"
 
@@ -40,6 +42,8 @@ struct RunKeeping {
   std::filesystem::path replay;    ///< file that gets the first run that is made, to look at; empty: none is kept
   std::filesystem::path paraview;  ///< folder that gets each run that is made, as ParaView opens it; empty: none
   std::string version, source;     ///< of soilbin and of the sources that it was built from
+  std::vector<std::filesystem::path> known{};  ///< records whose runs are not made again
+  Writers writers = Writers::several;          ///< of the record
 };
 
 /// Runs conditions of a question with these settings, and keeps them. A record that is begun holds `question` whole.
@@ -49,11 +53,22 @@ RunOnce run_once(const dem::DemSettings& settings, const Case& question, const E
 /// The settings with half the time step, on the same beds.
 dem::DemSettings at_half_step(dem::DemSettings settings, const Scenario& scenario);
 
-/// Answers the hardest of the question's conditions on the first packing, at the time step and at half of it, and keeps
-/// both in keeping.record, which must be given. Throws std::runtime_error where they are not alike (step_pair.hpp).
-void test_time_step(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
-                    const RunKeeping& keeping);
-/// A study with so many runs is recorded only after this test, which costs three of them.
+/// Seeds of so many packings, from that of the settings on.
+std::vector<std::uint64_t> packings_from(const dem::DemSettings& settings, int packings);
+
+/// The runs of a question's conditions on so many packings (run_list). Throws InputError for a condition that no wheel
+/// in the bin can be run at, and for a bin that leaves it no way.
+std::vector<AskedRun> runs_of(const Case& question, const dem::DemSettings& settings, int packings, TestStep test);
+
+/// Called before a run of a list is made: its place in the list, from 0, and what it is.
+using BeforeRun = std::function<void(std::size_t place, const AskedRun& run)>;
+
+/// Makes the runs of a list, in its order, that are neither in keeping.record, which must be given, nor in a record of
+/// keeping.known; each is in the record as soon as it is finished. `question`: what a record that is begun holds. Once
+/// both runs of a pair of the time step are there, throws TimeStepMatters where they are not alike (step_pair.hpp).
+void make_runs(const std::vector<AskedRun>& list, const dem::DemSettings& settings, const Case& question,
+               const EffectVocabulary& effects, const RunKeeping& keeping, const BeforeRun& before = {});
+/// A study with so many runs is recorded only after a test of its time step, which costs three of them.
 inline constexpr std::size_t runs_that_pay_a_test = 12;
 
 /// The model dem on `packings` beds of the seeds from settings.packing on.
@@ -74,7 +89,8 @@ nlohmann::ordered_json to_json(const dem::StepCriteria& step);
 
 /// The runs of a case, kept in a file (kept_in) that is begun by `version` of soilbin.
 RunOnce kept_runs(const std::filesystem::path& file, const dem::DemSettings& settings, const Case& question,
-                  const EffectVocabulary& effects, std::string version, RunOnce run, RunList list = &Record::runs);
+                  const EffectVocabulary& effects, std::string version, RunOnce run, RunList list = &Record::runs,
+                  Writers writers = Writers::several);
 
 /// What a run follows from beside condition and packing.
 Inputs inputs_of(const dem::DemSettings& settings, const Scenario& scenario);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/calibrate/experiment_batch.hpp"
 #include "compare/design/next_point.hpp"
 #include "compare/design/space_filling.hpp"
 #include "scenario/errors.hpp"
@@ -74,23 +75,65 @@ void add_row(const FailureQuestion& question, const VectorXd& values, FailureMap
   learn(question, seed, map);
 }
 
+namespace {
+
+/// The cloud's points that were not asked yet.
+MatrixXd fresh_points(const FailureQuestion& question, const FailureMap& map, const MatrixXd& cloud) {
+  MatrixXd fresh(0, cloud.cols());
+  for (Index i = 0; i < cloud.rows(); ++i)
+    if (!asked(question, map, cloud.row(i))) {
+      fresh.conservativeResize(fresh.rows() + 1, cloud.cols());
+      fresh.row(fresh.rows() - 1) = cloud.row(i);
+    }
+  return fresh;
+}
+
+/// The process that takes its prediction at x for measured, with the mean error of what was.
+GaussianProcess believing(const GaussianProcess& process, const VectorXd& x) {
+  Samples samples = process.samples();
+  const Index n = samples.size();
+  const double value = process.predict(x).value, variance = samples.variance.mean();
+  samples.x.conservativeResize(n + 1, Eigen::NoChange), samples.x.row(n) = x;
+  samples.y.conservativeResize(n + 1), samples.y[n] = value;
+  samples.variance.conservativeResize(n + 1), samples.variance[n] = variance;
+  return GaussianProcess(std::move(samples), process.trend(), process.hyperparameters());
+}
+
+/// At most `count` points, each where the boundary may be once those before are believed.
+std::vector<VectorXd> boundary_points(const FailureQuestion& question, const FailureMapOptions& options,
+                                      const FailureMap& map, const MatrixXd& cloud, int count) {
+  GaussianProcess process = fit_surrogate(samples_of(question, map.rows), {.starts = 3, .seed = options.seed});
+  FailureMap chosen = map;
+  std::vector<VectorXd> points;
+  for (int k = 0; k < count; ++k) {
+    const MatrixXd fresh = fresh_points(question, chosen, cloud);
+    if (fresh.rows() == 0) break;
+    const Index next = next_point(process, fresh, [&](const Estimate& e) { return straddle(e, question.tolerance); });
+    points.push_back(fresh.row(next));
+    if (k + 1 == count) break;
+    chosen.rows.push_back({from_unit(question.factors, points.back()), std::nullopt});
+    process = believing(process, points.back());
+  }
+  return points;
+}
+
+}  // namespace
+
 FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions& options) {
   const int d = static_cast<int>(question.factors.size());
   FailureMap map;
   const MatrixXd start = maximin_latin_hypercube(options.first, d, options.seed);
-  for (Index i = 0; i < start.rows(); ++i) run(question, options, start.row(i), map);
+  std::vector<VectorXd> points;
+  for (Index i = 0; i < start.rows(); ++i) points.push_back(start.row(i));
+  const auto run_together = [&] {
+    ask_together(points, [&](const VectorXd& unit) { run(question, options, unit, map); });
+  };
+  run_together();
   const MatrixXd cloud = latin_hypercube(options.cloud, d, options.seed + 1);
-  for (int k = 0; k < options.at_boundary; ++k) {
-    const GaussianProcess process = fit_surrogate(samples_of(question, map.rows), {.starts = 3, .seed = options.seed});
-    MatrixXd fresh(0, d);
-    for (Index i = 0; i < cloud.rows(); ++i)
-      if (!asked(question, map, cloud.row(i))) {
-        fresh.conservativeResize(fresh.rows() + 1, d);
-        fresh.row(fresh.rows() - 1) = cloud.row(i);
-      }
-    if (fresh.rows() == 0) break;
-    const Index next = next_point(process, fresh, [&](const Estimate& e) { return straddle(e, question.tolerance); });
-    run(question, options, fresh.row(next), map);
+  for (int k = 0; k < options.at_boundary; k += options.at_once) {
+    points = boundary_points(question, options, map, cloud, std::min(options.at_once, options.at_boundary - k));
+    if (points.empty()) break;
+    run_together();
   }
   learn(question, options.seed, map);
   return map;

@@ -30,6 +30,10 @@ struct FailureQuestion {
 struct FailureMapOptions {
   int first = 24;        ///< runs of the maximin Latin hypercube
   int at_boundary = 16;  ///< further runs, each where the boundary may be (straddle)
+  /// Of these, chosen at once: after the first of a batch the others are chosen as if the surrogate's predictions at
+  /// those before had been measured, its hyperparameters held (kriging believer; Ginsbourger, Le Riche and Carraro
+  /// 2010, Kriging is well-suited to parallelize optimization). 1: each is chosen when the one before is known.
+  int at_once = 1;
   std::uint64_t seed = 1;
   int cloud = 2000;                                     ///< points among which these are chosen
   std::function<void(int done, int total)> progress{};  ///< before each run; may throw
@@ -57,7 +61,8 @@ struct FailureMap {
 /// Runs one more condition and learns from it.
 void add_row(const FailureQuestion& question, const Eigen::VectorXd& values, FailureMap& map, std::uint64_t seed = 1);
 
-/// Throws NoSolution where too few conditions have an answer of both models.
+/// Throws NoSolution where too few conditions have an answer of both models; ExperimentsAsked of all `first` runs or of
+/// one batch, where the question's runs only ask.
 FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions& options = {});
 
 /// The largest box of conditions in which the models agree, and what it rests on.

@@ -5,6 +5,7 @@
 
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/model.hpp"
+#include "compare/calibrate/experiment_batch.hpp"
 #include "compare/design/space_filling.hpp"
 #include "compare/sweep/answers.hpp"
 #include "scenario/errors.hpp"
@@ -118,13 +119,13 @@ std::vector<FreshCheck> check_fresh(const FailureQuestion& question, const Failu
   const MatrixXd fresh = latin_hypercube(count, static_cast<int>(question.factors.size()), seed + of_checks);
   const double between_runs = map.surrogate.at(0).mode().hyperparameters().extra_sd;
   std::vector<FreshCheck> checks;
-  for (Index i = 0; i < fresh.rows(); ++i) {
-    FreshCheck check{from_unit(question.factors, fresh.row(i)), {}, std::nullopt};
+  for (Index i = 0; i < fresh.rows(); ++i)
+    checks.push_back({from_unit(question.factors, fresh.row(i)), {}, std::nullopt});
+  ask_together(checks, [&](FreshCheck& check) {
     check.predicted = map.at(question, check.values);
     check.predicted.std_error = std::hypot(check.predicted.std_error, between_runs);
     check.found = question.difference(check.values);
-    checks.push_back(std::move(check));
-  }
+  });
   return checks;
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <tuple>
 
 #include "compare/recorded/record_fields.hpp"
 #include "compare/report/json_fields.hpp"
@@ -14,7 +16,6 @@
 #include "scenario/atomic_file.hpp"
 #include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/file_lock.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::compare {
@@ -83,9 +84,7 @@ std::vector<RecordedRun> runs_from_json(const ReadJson& head, const std::string&
 /// A line a run.
 std::string runs_text(const char* key, const std::vector<RecordedRun>& runs) {
   std::string text = fmt::format(",\n  \"{}\": [", key);
-  for (const RecordedRun& run : runs)
-    text += (&run == runs.data() ? "\n    " : ",\n    ") +
-            run_json(run).dump(-1, ' ', false, Json::error_handler_t::replace);
+  for (const RecordedRun& run : runs) text += (&run == runs.data() ? "\n    " : ",\n    ") + run_text(run);
   return text + "\n  ]";
 }
 
@@ -194,6 +193,18 @@ std::string record_text(const Record& record) {
   return text + runs_text("runs", record.runs) + "\n}\n";
 }
 
+std::string run_text(const RecordedRun& run) {
+  return run_json(run).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void put_in_order(Record& record) {
+  const auto before = [](const RecordedRun& a, const RecordedRun& b) {
+    return std::tie(a.packing, a.answer.at) < std::tie(b.packing, b.answer.at);
+  };
+  for (RunList list : {&Record::runs, &Record::half_step})
+    std::stable_sort((record.*list).begin(), (record.*list).end(), before);
+}
+
 std::string unsealed_note(const Record& record, const std::filesystem::path& file) {
   const auto bare = std::count_if(record.runs.begin(), record.runs.end(), [](const auto& run) { return !run.sealed; });
   if (bare == 0) return "";
@@ -260,15 +271,30 @@ const RecordedRun* find_run(const std::vector<RecordedRun>& runs, const Operatin
   return found == runs.end() ? nullptr : &*found;
 }
 
-void add_run(const std::filesystem::path& file, const Record& empty, RecordedRun run, RunList list) {
+namespace {
+
+std::size_t add_missing(std::vector<RecordedRun>& runs, const std::vector<RecordedRun>& others) {
+  const std::size_t before = runs.size();
+  for (const RecordedRun& run : others)
+    if (find_run(runs, run.answer.at, run.packing) == nullptr) runs.push_back(run);
+  return runs.size() - before;
+}
+
+}  // namespace
+
+std::size_t add_missing_runs(Record& record, const Record& other) {
+  return add_missing(record.runs, other.runs) + add_missing(record.half_step, other.half_step);
+}
+
+void add_run(const std::filesystem::path& file, const Record& begin, RecordedRun run, RunList list, Writers writers) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
   make_folder(folder);
-  // Several processes may fill one record: each holds the folder's lock while it reads and replaces the file.
-  const FileLock lock(folder, FileLock::Wait::until_free);
-  Record record = std::filesystem::exists(file) ? read_record(file) : empty;
-  refuse_other_inputs(record, empty.inputs, file);
-  if (find_run(record.*list, run.answer.at, run.packing) == nullptr) {
-    (record.*list).push_back(run);
+  std::optional<FileLock> lock;  // held while the file is read and replaced
+  if (writers == Writers::several) lock.emplace(folder, FileLock::Wait::until_free);
+  Record record = std::filesystem::exists(file) ? read_record(file) : begin;
+  refuse_other_inputs(record, begin.inputs, file);
+  if (add_missing(record.*list, {run}) + add_missing_runs(record, begin) > 0) {
+    put_in_order(record);
     write_file_atomically(file, record_text(record));
   }
   if (run.when_safe) run.when_safe();

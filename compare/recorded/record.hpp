@@ -12,6 +12,7 @@
 
 #include "compare/sweep/answers.hpp"
 #include "dem/rig/wheel_outcome.hpp"
+#include "scenario/file_lock.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::compare {
@@ -62,6 +63,13 @@ std::string unsealed_note(const Record& record, const std::filesystem::path& fil
 /// without one.
 std::string record_text(const Record& record);
 
+/// A run's line in that text.
+std::string run_text(const RecordedRun& run);
+
+/// Sorts runs by packing, then as their conditions compare: the order of every record that is written, whoever made its
+/// runs and when.
+void put_in_order(Record& record);
+
 /// JSON Schema of soilbin-recorded/1.
 nlohmann::ordered_json record_schema();
 
@@ -76,13 +84,17 @@ void refuse_other_inputs(const Record& record, const Inputs& asked, const std::f
 /// The run of a condition on a packing; nullptr where there is none.
 const RecordedRun* find_run(const std::vector<RecordedRun>& runs, const OperatingCondition& at, std::uint64_t packing);
 
+/// Adds the runs of another record that this one lacks, at both steps; their number.
+std::size_t add_missing_runs(Record& record, const Record& other);
+
 /// Which of a record's lists.
 using RunList = std::vector<RecordedRun> Record::*;
 
-/// Adds a run to the file, which is begun with `empty` where there is none. Other processes may add to the same file
-/// at the same time: it is read again and replaced as a whole, one after the other. A run that is there already stays.
-/// With the run in the file, it is safe (when_safe).
-void add_run(const std::filesystem::path& file, const Record& empty, RecordedRun run, RunList list = &Record::runs);
+/// Adds a run, and those of `begin` that it lacks, to the file, which is begun with `begin` where there is none: it is
+/// read again, put in order and replaced as a whole. A run that is there already stays. With the run in the file, it is
+/// safe (when_safe).
+void add_run(const std::filesystem::path& file, const Record& begin, RecordedRun run, RunList list = &Record::runs,
+             Writers writers = Writers::several);
 
 /// What to know about runs beside their results: which did not become steady, how far packings differ, what it cost.
 std::string notes_on(const std::vector<RecordedRun>& runs);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 
 #include "compare/measured/channels.hpp"
 #include "compare/sweep/varying.hpp"
@@ -140,16 +141,24 @@ TractionResult mean_of_packings(const Runs& runs) {
   return mean;
 }
 
-RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run, RunList list) {
-  if (std::filesystem::exists(file)) refuse_other_inputs(read_record(file), empty.inputs, file);
-  return [file, empty = std::move(empty), run = std::move(run), list](
-             const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
-    if (std::filesystem::exists(file)) {
-      const Record record = read_record(file);
-      if (const RecordedRun* known = find_run(record.*list, at, packing)) return *known;
-    }
+RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run, RunList list, Writers writers) {
+  const auto seen = std::make_shared<Record>(empty);  // the file as it was read last
+  const auto look = [=] {
+    if (!std::filesystem::exists(file)) return;
+    Record there = read_record(file);
+    refuse_other_inputs(there, empty.inputs, file);
+    if (writers == Writers::one) add_missing_runs(there, *seen);
+    *seen = std::move(there);
+  };
+  look();
+  return [=](const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
+    if (const RecordedRun* known = find_run((*seen).*list, at, packing)) return *known;
+    look();  // others may have added to it
+    if (const RecordedRun* known = find_run((*seen).*list, at, packing)) return *known;
     RecordedRun fresh = run(scenario, at, packing);
-    add_run(file, empty, fresh, list);
+    // Without a lock a second process may have written over ours: each writes all that it knows of.
+    add_run(file, writers == Writers::one ? *seen : empty, fresh, list, writers);
+    ((*seen).*list).push_back(fresh);
     return fresh;
   };
 }

@@ -18,7 +18,8 @@ using RunListener = std::function<void(const RecordedRun&)>;
 
 /// Takes a run from the file where it is there, else runs it and adds it at once. `empty` is the record that the file
 /// is begun with. Throws InputError where the file's inputs differ.
-RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run, RunList list = &Record::runs);
+RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run, RunList list = &Record::runs,
+                Writers writers = Writers::several);
 
 /// Mean of what packings told, at least one. The standard error is the scatter between packings over the root of their
 /// number or, where that is larger, what their own errors give: with two or three packings the scatter is poorly known.

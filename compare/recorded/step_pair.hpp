@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,11 @@ std::string in_words(const StepPair& pair);
 /// The doubt in a record whose step nobody tested, or whose answers hang on it; none where a pair agrees and no other
 /// doesn't.
 std::vector<std::string> step_doubts(const Record& record);
+
+/// A pair that should be alike is not.
+struct TimeStepMatters : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// The condition of a study at which its step is tested: the largest load, of these the steepest, of these the most
 /// yaw, of these the most slip. Throws InputError for none.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "compare/calibrate/experiment_batch.hpp"
 #include "compare/design/space_filling.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
@@ -100,6 +101,75 @@ TEST(SlowFailureMap, ABoxWithTwoEndsWhereTheCornerDisagrees) {
     EXPECT_LE(std::abs(row.difference->value), clause->largest);
   }
   EXPECT_GE(in_box, 5);
+}
+
+/// Asks for what `known` lacks in place of answering it.
+FailureQuestion only_known(const std::vector<FailureRow>& known) {
+  FailureQuestion q = map_question();
+  q.difference = [known](const VectorXd& v) -> std::optional<Estimate> {
+    for (const FailureRow& row : known)
+      if (row.values == v) return row.difference;
+    throw ExperimentsAsked({{v, 1}});
+  };
+  return q;
+}
+
+// Eight at once: all of the first design is asked, then batches; answered in any order they give the map that is made
+// in one go, to the bit.
+TEST(SlowFailureMap, AskedInBatchesIsTheMapMadeInOneGo) {
+  const FailureMapOptions options{.first = 10, .at_boundary = 11, .at_once = 4, .cloud = 300};
+  const FailureMap whole = map_failures(map_question(), options);
+  std::vector<FailureRow> known;
+  std::vector<std::size_t> batches;
+  std::optional<FailureMap> map;
+  while (!map) try {
+      map = map_failures(only_known(known), options);
+    } catch (const ExperimentsAsked& asked) {
+      batches.push_back(asked.experiments.size());
+      ASSERT_LT(batches.size(), 9U);
+      for (const AskedExperiment& one : asked.experiments)
+        known.insert(known.begin(), {one.values, Estimate{formula(one.values), 0.002}});
+    }
+  EXPECT_THAT(batches, testing::ElementsAre(10, 4, 4, 3));
+  ASSERT_EQ(map->rows.size(), whole.rows.size());
+  for (std::size_t i = 0; i < whole.rows.size(); ++i) EXPECT_EQ(map->rows[i].values, whole.rows[i].values) << i;
+}
+
+/// Share of 500 conditions on whose side of the boundary a map is wrong, the boundary's neighbourhood left out.
+double wrong_side(const FailureQuestion& q, const FailureMap& map) {
+  double wrong = 0, asked = 0;
+  const Eigen::MatrixXd fresh = latin_hypercube(500, 4, 77);
+  for (Eigen::Index i = 0; i < fresh.rows(); ++i) {
+    const VectorXd v = from_unit(q.factors, fresh.row(i));
+    const double truth = q.difference(v)->value;
+    if (std::abs(std::abs(truth) - 0.10) < 0.005) continue;
+    ++asked, wrong += (std::abs(map.at(q, v).value) > 0.10) != (std::abs(truth) > 0.10);
+  }
+  return wrong / asked;
+}
+
+// A wavier difference than the formula, so that where one looks matters: eight at once, 1.3 times the runs give a map
+// that is wrong about no more of the box than one made one at a time. Means of eight seeds.
+TEST(SlowFailureMap, BatchesOfEightNeedAtMostThreeTenthsMoreRuns) {
+  FailureQuestion q = map_question();
+  q.difference = [](const VectorXd& v) -> std::optional<Estimate> {
+    return Estimate{formula(v) + 0.06 * std::sin(9 * v[0] / 8000) * std::cos(8 * v[2] / (20 * degree)), 0.002};
+  };
+  double one_at_a_time = 0, eight_at_once = 0, same = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+    const auto wrong = [&](int runs, int at_once) {
+      return wrong_side(
+                 q, map_failures(
+                        q, {.first = 16, .at_boundary = runs - 16, .at_once = at_once, .seed = seed, .cloud = 400})) /
+             8;
+    };
+    one_at_a_time += wrong(40, 1), eight_at_once += wrong(52, 8), same += wrong(40, 8);
+  }
+  RecordProperty("wrong, 40 runs one at a time", std::to_string(one_at_a_time));
+  RecordProperty("wrong, 52 runs eight at once", std::to_string(eight_at_once));
+  RecordProperty("wrong, 40 runs eight at once", std::to_string(same));
+  EXPECT_GT(one_at_a_time, 0.004) << "the comparison means something";
+  EXPECT_LE(eight_at_once, one_at_a_time);
 }
 
 TEST(FailureMap, ConditionsWithoutAnAnswerAreRowsAndTooManyAreRefused) {

@@ -1,0 +1,72 @@
+#include "cli/batch_flags.hpp"
+
+#include <fmt/core.h>
+
+#include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "cli/soil_bin.hpp"
+#include "compare/recorded/run_list.hpp"
+#include "compare/report/json_file.hpp"
+#include "compare/report/number_text.hpp"
+#include "scenario/atomic_file.hpp"
+
+namespace soilbin::cli {
+
+void BatchFlags::add_to(CLI::App& command) {
+  command
+      .add_option(
+          "--ask", ask,
+          "make nothing: write the next experiments, N chosen at once, to --batch and end with status 3; 0 when "
+          "none is left")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--batch", batch, "with --ask: the file to write; without: make its experiments, into --store")
+      ->type_name("FILE.json");
+  command.add_option("--shard", shard, "with --batch: only the K-th of N parts of it")->type_name("K/N");
+  command.add_option("--tell", tell, "first take the experiments of these stores into --store")
+      ->type_name("STORE.json")
+      ->allow_extra_args(true);
+}
+
+void BatchFlags::check(const std::string& store) const {
+  if (asks() && batch.empty()) throw InputError("--ask needs a file for the experiments\n  hint: --batch FILE.json");
+  if (!shard.empty() && !answers()) throw InputError("--shard is a part of a batch\n  hint: --batch FILE.json");
+  if ((asks() || answers() || !tell.empty()) && store.empty())
+    throw InputError("batches need a store to learn from, or to answer into\n  hint: --store FILE.json");
+}
+
+void BatchFlags::learn(compare::ExperimentStore& store) const {
+  for (const std::string& file : tell) store.take(file);
+}
+
+int BatchFlags::write(const compare::VirtualTest& test, const std::vector<compare::AskedExperiment>& asked) const {
+  clear_progress_line();
+  write_file_atomically(batch, compare::batch_text(test, asked));
+  fmt::print("wrote {}: {} to be made\n", batch, compare::counted(asked.size(), "experiment"));
+  return unfinished;
+}
+
+int BatchFlags::answer(const compare::VirtualTest& test, compare::ExperimentStore& store) const {
+  const std::vector<compare::AskedExperiment> all =
+      compare::parse_batch(read_source_text(batch, compare::largest_json), test);
+  std::vector<compare::AskedRun> places;  // a stretch of the batch, as of a list of runs
+  for (std::size_t k = 0; k < all.size(); ++k) places.push_back({{}, k});
+  if (!shard.empty()) places = compare::shard_of(places, compare::parse_shard(shard));
+  try {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      if (interrupt_asked()) throw Interrupted();
+      tell_beside_progress(fmt::format("experiment {} of {}", k + 1, places.size()));
+      compare::experiment_at(test, all[places[k].packing].values, all[places[k].packing].seed, store);
+    }
+  } catch (const Interrupted&) {
+    clear_progress_line();
+    fmt::print(stderr, "{} in the store: the same command goes on from there\n",
+               compare::counted(store.size(), "experiment"));
+    return unfinished;
+  }
+  clear_progress_line();
+  fmt::print("{} of the batch are in the store\n", compare::counted(places.size(), "experiment"));
+  return done;
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,70 @@
+// soilbin bed: the beds that a study's runs need, settled before the runs.
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "cli/soil_bin.hpp"
+#include "compare/recorded/run_list.hpp"
+#include "compare/report/number_text.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Settles the bed of one packing, unless it is there. Throws std::runtime_error where it can't be kept.
+void settle(dem::DemSettings settings, const Scenario& scenario, std::uint64_t packing) {
+  settings.packing = packing;
+  const std::string name = fmt::format("bed of packing {}", packing);
+  settings.how.progress = [&](const dem::Progress& progress) { show_progress_of(name, progress); };
+  const dem::BedRecipe recipe = dem::DemModel(settings).recipe(scenario);
+  dem::BedStore store(settings.beds);
+  const fs::path file = store.file(recipe);
+  const bool was_there = fs::exists(file);
+  const auto bed = store.bed(recipe, settings.how);
+  clear_progress_line();
+  if (!fs::exists(file)) throw std::runtime_error(fmt::format("{}: {} can't be kept", file.string(), name));
+  fmt::print("{}: {} grains, void ratio {:.3f}, {} {}\n", name, bed->report.grains, bed->report.void_ratio,
+             was_there ? "is there:" : "settled:", file.string());
+}
+
+int beds(const std::string& study, const SoilBinFlags& flags, const Session& session) {
+  const Case question = find_study(session.place, study);
+  const dem::DemSettings settings = settings_of(flags);
+  if (settings.beds.empty())
+    throw InputError("there is no folder to keep beds in\n  hint: export SOILBIN_BEDS=FOLDER, one that all jobs see");
+  std::vector<compare::AskedRun> packings;  // a bed each
+  for (const std::uint64_t packing : compare::packings_from(settings, flags.packings))
+    packings.push_back({{}, packing});
+  if (!flags.shard.empty()) packings = compare::shard_of(packings, compare::parse_shard(flags.shard));
+  try {
+    for (const compare::AskedRun& bed : packings) settle(settings, question.scenario, bed.packing);
+  } catch (const Interrupted&) {
+    return unfinished;
+  }
+  return done;
+}
+
+}  // namespace
+
+void add_bed(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("bed", "settle the beds of grains that a study's runs begin on");
+  const auto study = std::make_shared<std::string>();
+  const auto flags = std::make_shared<SoilBinFlags>();
+  command->add_option("study", *study, "of the library, or a case file")->type_name("STUDY")->required();
+  flags->add_rig_to(*command);
+  flags->add_packings_to(*command);
+  flags->add_shard_to(*command);
+  command->footer(
+      "Beds are kept in $SOILBIN_BEDS, else in the user's cache; one that is there is not settled again. Any number "
+      "of\n"
+      "processes on any number of machines may fill one folder. Stopped, it ends with status 3: the same command goes\n"
+      "on.\n"
+      "Example: soilbin bed paper-straight --settling-friction 0 --packings 3");
+  command->callback([=, &session] { session.action = [=, &session] { return beds(*study, *flags, session); }; });
+}
+
+}  // namespace soilbin::cli

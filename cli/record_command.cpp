@@ -1,0 +1,132 @@
+// soilbin record: what records of runs hold, what they lack, and several made one.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "cli/soil_bin.hpp"
+#include "cli/text_output.hpp"
+#include "compare/recorded/merge.hpp"
+#include "compare/recorded/run_list.hpp"
+#include "compare/recorded/step_pair.hpp"
+#include "compare/report/json_fields.hpp"
+#include "compare/sweep/varying.hpp"
+#include "scenario/atomic_file.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RecordOptions {
+  std::string what;
+  std::vector<std::string> names;
+  SoilBinFlags expected;  ///< packings and the test of the time step
+};
+
+std::vector<compare::NamedRecord> read_all(const std::vector<std::string>& files) {
+  std::vector<compare::NamedRecord> records;
+  for (const std::string& file : files) records.push_back({file, read_record_aloud(file)});
+  return records;
+}
+
+std::string names_expected(const RecordOptions& asked, const char* names) {
+  return fmt::format("record {}: expected {}\n  hint: see soilbin record --help", asked.what, names);
+}
+
+int merge(const RecordOptions& asked) {
+  if (asked.names.size() < 2) throw InputError(names_expected(asked, "OUT.json SHARD.json..."));
+  std::vector<std::string> shards(asked.names.begin() + 1, asked.names.end());
+  const compare::Record whole = compare::merged(read_all(shards));
+  write_file_atomically(asked.names.front(), compare::record_text(whole));
+  fmt::print("wrote {}: {}{} of {}\n", asked.names.front(), compare::counted(whole.runs.size(), "run"),
+             whole.half_step.empty() ? "" : fmt::format(" and {} at half the time step", whole.half_step.size()),
+             compare::counted(shards.size(), "record"));
+  print_warnings(compare::step_doubts(whole));
+  return done;
+}
+
+/// Runs, results, seconds of a packing.
+struct PackingLine {
+  std::size_t runs = 0, answers = 0, steady = 0;
+  double seconds = 0;
+};
+
+int show(const RecordOptions& asked) {
+  if (asked.names.empty()) throw InputError(names_expected(asked, "RECORD.json..."));
+  for (const auto& [file, record] : read_all(asked.names)) {
+    std::map<std::uint64_t, PackingLine> packings;
+    std::set<std::string> sources;
+    for (const compare::RecordedRun& run : record.runs) {
+      PackingLine& line = packings[run.packing];
+      ++line.runs, line.seconds += run.seconds;
+      line.answers += run.answer.result.has_value(), line.steady += run.answer.result && run.steady;
+      sources.insert(run.source);
+    }
+    TextTable table({"packing", "runs", "with a result", "steady", "seconds"});
+    for (const auto& [packing, line] : packings)
+      table.add({std::to_string(packing), std::to_string(line.runs), std::to_string(line.answers),
+                 std::to_string(line.steady), fmt::format("{:.0f}", line.seconds)});
+    fmt::print("{}: {} by {}, {} at half the time step\nmade by   {} of soilbin {}\ninputs    {}\n{}", file.string(),
+               compare::counted(record.runs.size(), "run"), record.model, record.half_step.size(),
+               listed({sources.begin(), sources.end()}), record.soilbin, compare::inputs_key(record.inputs),
+               table.text());
+    for (const compare::StepPair& pair : compare::step_pairs(record)) fmt::print("{}\n", compare::in_words(pair));
+    print_warnings(compare::step_doubts(record));
+  }
+  return done;
+}
+
+int missing(const RecordOptions& asked, const Session& session) {
+  if (asked.names.size() < 2) throw InputError(names_expected(asked, "STUDY RECORD.json..."));
+  const Case question = find_study(session.place, asked.names.front());
+  std::vector<compare::Record> records;
+  for (const auto& [file, record] : read_all({asked.names.begin() + 1, asked.names.end()})) {
+    compare::recorded_soil_bin(record, question.scenario, file, {});  // refuses another tire or other grains
+    records.push_back(record);
+  }
+  const auto list = compare::run_list(question.study.conditions,
+                                      compare::packings_from(settings_of(asked.expected), asked.expected.packings),
+                                      asked.expected.tests_step(question));
+  const auto left = compare::missing_runs(list, records);
+  for (const compare::AskedRun& run : left) fmt::print("{}\n", compare::in_words(run));
+  fmt::print("{} of {} missing\n", left.size(), compare::counted(list.size(), "run"));
+  return left.empty() ? done : unfinished;
+}
+
+int record(const RecordOptions& asked, const Session& session) {
+  if (asked.what == "merge") return merge(asked);
+  if (asked.what == "show") return show(asked);
+  if (asked.what == "missing") return missing(asked, session);
+  const std::vector<std::string> right = {"merge", "show", "missing"};
+  throw InputError("record: can't '" + clipped(asked.what) + "'" + did_you_mean(asked.what, right) +
+                   "\n  hint: one of " + listed(right));
+}
+
+}  // namespace
+
+void add_record(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("record", "records of runs: merge several, show one, list what is missing");
+  const auto asked = std::make_shared<RecordOptions>();
+  command->add_option("what", asked->what, "merge, show or missing")->type_name("WHAT")->required();
+  command
+      ->add_option("names", asked->names,
+                   "merge: OUT.json SHARD.json...; show: RECORD.json...; missing: STUDY RECORD.json...")
+      ->type_name("NAME");
+  command->add_option("--packing", asked->expected.packing, "missing: the first packing, 1")->type_name("SEED");
+  asked->expected.add_packings_to(*command);
+  asked->expected.add_half_step_to(*command);
+  command->footer(
+      "merge: the same runs give the same bytes, in any order of the shards; a run that two hold with different "
+      "answers\n"
+      "is an error that names both. missing: status 3 where something is missing.\n"
+      "Example: soilbin record merge whole.json shard-*.json");
+  command->callback([=, &session] { session.action = [=, &session] { return record(*asked, session); }; });
+}
+
+}  // namespace soilbin::cli

@@ -1,0 +1,80 @@
+#include "compare/experiments/run_costs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <numbers>
+#include <thread>
+
+#include "dem/rig/step_criteria.hpp"
+#include "dem/rig/wheel_in_bin.hpp"
+#include "dem/rig/wheel_motion.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+constexpr double solid_share = 0.6;  // of a bed's volume
+
+/// Of radii that are spread evenly [m^3].
+double mean_volume(const GranularSoil& soil) {
+  const double a = soil.radius_min, b = soil.radius_max;
+  return 4.0 / 3 * std::numbers::pi * (a + b) * (a * a + b * b) / 4;  // (b^4 - a^4)/(4 (b - a)) without the quotient
+}
+
+double grains_of(const dem::BedRecipe& recipe) {
+  return solid_share * recipe.size.length * recipe.size.width * recipe.size.depth / mean_volume(recipe.soil);
+}
+
+}  // namespace
+
+RunCosts::RunCosts(const Scenario& scenario, const dem::DemSettings& settings, const std::vector<Record>& records)
+    : scenario_(scenario),
+      settings_(settings),
+      recipe_(dem::DemModel(settings).recipe(scenario)),
+      grains_(grains_of(recipe_)) {
+  double work = 0, seconds = 0;
+  for (const Record& record : records)
+    for (RunList list : {&Record::runs, &Record::half_step})
+      for (const RecordedRun& run : record.*list) {
+        if (!run.answer.result) continue;  // it may have ended early
+        work += grains_ * steps({run.answer.at, run.packing, list == &Record::half_step}), seconds += run.seconds;
+        ++from_runs_;
+      }
+  speed_ = seconds > 0 ? work / seconds : trial(settings);
+}
+
+double RunCosts::steps(const AskedRun& run) const {
+  const dem::Rig& rig = settings_.rig;
+  const OperatingCondition& at = run.at;
+  const double way = dem::way_in_bin(recipe_.size, scenario_.tire, rig);
+  const bool inclined = at.longitudinal_incline != 0 || at.transverse_incline != 0;
+  const double driven = (way - at.speed * rig.starting / 2) / at.speed;
+  const double time =
+      (inclined ? rig.tilting : 0.0) + at.pass * (rig.lowering + rig.resting + rig.starting + std::max(0.0, driven));
+  return time / dem::step_of(recipe_, rig) * (run.half_step ? 2 : 1);
+}
+
+double RunCosts::bed_seconds() const {
+  const double step = recipe_.dt > 0 ? recipe_.dt : dem::longest_step(recipe_.soil);
+  return grains_ * 30 * std::sqrt(2 * recipe_.size.depth / recipe_.gravity) / step / speed_;
+}
+
+double RunCosts::memory() const { return 60e6 + 900 * grains_; }
+
+double RunCosts::bed_bytes() const { return 250 * grains_; }
+
+double RunCosts::trial(dem::DemSettings settings) const {
+  const double grain = recipe_.soil.radius_min + recipe_.soil.radius_max;
+  dem::BedRecipe recipe = recipe_;
+  recipe.size = {12 * grain, 12 * grain, 8 * grain};
+  settings.how.progress = {};
+  const std::clock_t began = std::clock();  // of the processor: what runs beside it now will not run beside the jobs
+  const dem::SettledBed bed = dem::settle_bed(recipe, settings.how);
+  const int threads =
+      settings.how.threads > 0 ? settings.how.threads : static_cast<int>(std::thread::hardware_concurrency());
+  const double seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC / std::max(1, threads);
+  const double step = recipe.dt > 0 ? recipe.dt : dem::longest_step(recipe.soil);
+  return static_cast<double>(bed.report.grains) * bed.report.settling_time / step / seconds;
+}
+
+}  // namespace soilbin::compare

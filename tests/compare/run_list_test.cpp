@@ -1,0 +1,129 @@
+// A study's runs as a list: one order, whole in its shards.
+#include "compare/recorded/run_list.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "scenario/errors.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+using testing::HasSubstr;
+
+OperatingCondition listed_condition(double load, double slip) {
+  OperatingCondition at;
+  at.load = load, at.slip = slip;
+  return at;
+}
+
+/// Of 2 loads and 3 slips, out of order.
+std::vector<OperatingCondition> six_conditions() {
+  std::vector<OperatingCondition> conditions;
+  for (const double slip : {0.4, 0.1, 0.2})
+    for (const double load : {70.0, 40.0}) conditions.push_back(listed_condition(load, slip));
+  return conditions;
+}
+
+std::vector<std::string> in_words_all(const std::vector<AskedRun>& list) {
+  std::vector<std::string> words;
+  for (const AskedRun& run : list) words.push_back(in_words(run));
+  return words;
+}
+
+TEST(TheRunList, GoesPackingByPackingAndInEachByLoadAndSlip) {
+  const auto list = run_list(six_conditions(), {3, 1}, TestStep::no);
+  ASSERT_EQ(list.size(), 12U);
+  EXPECT_EQ(in_words(list[0]), "load 40 N, slip 10 %, packing 3");
+  EXPECT_EQ(in_words(list[5]), "load 70 N, slip 40 %, packing 3");
+  EXPECT_EQ(in_words(list[6]), "load 40 N, slip 10 %, packing 1");
+}
+
+TEST(TheRunList, IsTheSameForConditionsInAnyOrderAndCountsThoseThatAreAlikeOnce) {
+  std::vector<OperatingCondition> turned = six_conditions();
+  std::reverse(turned.begin(), turned.end());
+  turned.push_back(listed_condition(70, 0.1 * (1 + 1e-12)));
+  EXPECT_EQ(in_words_all(run_list(turned, {1, 2}, TestStep::yes)),
+            in_words_all(run_list(six_conditions(), {1, 2}, TestStep::yes)));
+}
+
+TEST(TheRunList, BeginsWithTheHardestConditionAtBothSteps) {
+  const auto list = run_list(six_conditions(), {5, 6}, TestStep::yes);
+  ASSERT_EQ(list.size(), 13U);
+  EXPECT_EQ(in_words(list[0]), "load 70 N, slip 40 %, packing 5");
+  EXPECT_EQ(in_words(list[1]), "load 70 N, slip 40 %, packing 5, half the time step");
+  const std::set<std::string> once = [&] {
+    const auto words = in_words_all(list);
+    return std::set<std::string>(words.begin(), words.end());
+  }();
+  EXPECT_EQ(once.size(), 13U) << "nothing twice";
+}
+
+TEST(TheRunList, NothingAskedIsNoRun) {
+  EXPECT_TRUE(run_list({}, {1}, TestStep::yes).empty());
+  EXPECT_TRUE(shard_of({}, {1, 4}).empty());
+}
+
+// For every number of shards: put together they are the list, none has a pair's half alone, no two differ by more than
+// a run and the pair (which counts as three).
+TEST(Shards, AreTheListInStretches) {
+  for (const TestStep test : {TestStep::no, TestStep::yes}) {
+    const auto list = run_list(six_conditions(), {1, 2, 3}, test);
+    for (int of = 1; of <= 25; ++of) {
+      std::vector<AskedRun> together;
+      std::size_t least = list.size(), most = 0;
+      for (int number = 1; number <= of; ++number) {
+        const auto mine = shard_of(list, {number, of});
+        if (!mine.empty()) EXPECT_FALSE(mine.front().half_step) << number << " of " << of;
+        together.insert(together.end(), mine.begin(), mine.end());
+        least = std::min(least, mine.size()), most = std::max(most, mine.size());
+      }
+      EXPECT_EQ(in_words_all(together), in_words_all(list)) << of << " shards";
+      EXPECT_LE(most - least, test == TestStep::yes ? 3U : 1U) << of << " shards";
+    }
+  }
+}
+
+TEST(Shards, TheFirstMakesThePairOfTheTimeStep) {
+  const auto list = run_list(six_conditions(), {1}, TestStep::yes);
+  for (const int of : {1, 2, 4, 6}) {
+    const auto first = shard_of(list, {1, of});
+    ASSERT_GE(first.size(), 2U);
+    EXPECT_TRUE(first[1].half_step) << of << " shards";
+  }
+}
+
+TEST(Shards, AreReadAsKOfN) {
+  EXPECT_EQ(parse_shard("2/4").number, 2);
+  EXPECT_EQ(parse_shard("2/4").of, 4);
+  for (const char* wrong : {"", "2", "0/4", "5/4", "2/0", "a/4", "2/4/6", "2/ 4", "-1/4", "1.5/2", "99999999999/2"})
+    try {
+      parse_shard(wrong);
+      FAIL() << "took " << wrong;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("--shard")) << wrong;
+      EXPECT_THAT(error.what(), HasSubstr("hint")) << wrong;
+    }
+}
+
+TEST(MissingRuns, AreThoseThatNoRecordHolds) {
+  const auto list = run_list({listed_condition(40, 0.1), listed_condition(40, 0.2)}, {1}, TestStep::yes);
+  const auto made = [](const AskedRun& run) {
+    return RecordedRun{.answer = {run.at, std::nullopt, "dug in"},
+                       .packing = run.packing,
+                       .source = "abc",
+                       .power = {},
+                       .rut = {},
+                       .flow = {}};
+  };
+  Record one{"0.1.0", "dem", "", {}, {made(list[0])}}, other{"0.1.0", "dem", "", {}, {}, {made(list[1])}};
+  EXPECT_EQ(missing_runs(list, {}).size(), 3U);
+  EXPECT_EQ(in_words_all(missing_runs(list, {one})), in_words_all({list[1], list[2]}))
+      << "the run at half the step is not the one at the step";
+  EXPECT_EQ(in_words_all(missing_runs(list, {one, other})), in_words_all({list[2]}));
+}
+
+}  // namespace
+}  // namespace soilbin::compare
