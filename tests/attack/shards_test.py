@@ -6,7 +6,7 @@ import time
 import unittest
 from pathlib import Path
 
-from attack import BED, Attack, files_in
+from attack import BED, BOARD, Attack, files_in
 
 STUDY = """format: soilbin-case/1
 name: pebbles
@@ -105,6 +105,29 @@ class Shards(Attack):
         self.assertIn("9 of 9 runs recorded; shards: 3 done", out)
         self.expect(0, [], *self.run_words("--record", "one.json"))
         self.assertEqual(but_for_seconds(self.here / "swept/record.json"), but_for_seconds(self.here / "one.json"))
+
+    def test_a_calibration_asked_in_batches_is_the_one_made_in_one_go(self):
+        def told(out):
+            answer = json.loads(out)
+            return {key: answer[key] for key in ("best", "parameters", "reached") if key in answer}
+        status, out, err = self.soilbin(*BOARD, "--store", "one.json")
+        self.assertIn(status, (0, 1), err)
+        right = told(out)
+        self.assertTrue(right)
+        sizes = []
+        asking = [*BOARD, "--store", "map.json", "--ask", "4", "--batch", "batch.json"]
+        status, out, err = self.soilbin(*asking)
+        while status == 3:
+            sizes.append(len(json.loads((self.here / "batch.json").read_text())["experiments"]))
+            self.assertLess(len(sizes), 12)
+            for k in (1, 2):
+                self.expect(0, [], *BOARD, "--batch", "batch.json", "--shard", f"{k}/2", "--store", f"answers-{k}.json")
+            status, out, err = self.soilbin(*asking, "--tell", "answers-1.json", "answers-2.json")
+        self.assertIn(status, (0, 1), err)
+        self.assertEqual(sizes[0], 9, "the whole design at once")
+        self.assertEqual(told(out), right)
+        self.expect(2, ["asked for by another question", "hint"], *BOARD, "--keep", "restitution", "--batch", "batch.json",
+                    "--store", "x.json")
 
     def test_wrong_words_are_refused(self):
         self.expect(2, ["--shard: expected K/N", "hint"], *self.shard(4, 3))

@@ -76,7 +76,9 @@ TEST(Shards, AreTheListInStretches) {
       std::size_t least = list.size(), most = 0;
       for (int number = 1; number <= of; ++number) {
         const auto mine = shard_of(list, {number, of});
-        if (!mine.empty()) EXPECT_FALSE(mine.front().half_step) << number << " of " << of;
+        if (!mine.empty()) {
+          EXPECT_FALSE(mine.front().half_step) << number << " of " << of;
+        }
         together.insert(together.end(), mine.begin(), mine.end());
         least = std::min(least, mine.size()), most = std::max(most, mine.size());
       }
