@@ -163,6 +163,8 @@ class ThePage(unittest.TestCase):
         for axis, (label, *values) in enumerate(forces):
             for at, value in zip(header["force"], values):
                 self.assertAlmostEqual(value, at[axis], delta=1e-5 * 5000)
+        torque = self.js(f"{view}.sheet.plots[1].series[0].y")
+        self.assertEqual(torque[0], -header["torque"][0][1], "a wheel that is driven against the soil's moment")
         marker = "document.querySelector('.forces .quiet-line').getAttribute('x1')"
         self.js(f"{view}.go(1)")
         before = float(self.js(marker))
@@ -202,7 +204,7 @@ class ThePage(unittest.TestCase):
             self.assertEqual(takes[:4], ["svg", "png", "copy", "csv"], i)
             for take in takes:
                 self.js(f"{figure}.querySelector('[data-take={take}]').click()")
-            self.assertTrue(self.browser.until("window.saved.png", 60), i)
+            self.assertTrue(self.browser.until("Boolean(window.saved.png)", 60), i)
             drawn = ElementTree.fromstring(self.js("window.saved.svg"))
             words = {"".join(t.itertext()) for t in drawn.iter("{http://www.w3.org/2000/svg}text")}
             for text in self.js(f"[...{figure}.querySelectorAll('svg text')].map(t => t.textContent)"):

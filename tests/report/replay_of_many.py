@@ -49,7 +49,7 @@ def replay(count, frames):
               "step": step, "surface": 0.3, "times": [0.04 * f for f in range(frames)], "wheel": wheel,
               "rotation": [[math.cos(x / 2), 0, math.sin(x / 2), 0] for x in ((c[0] - 0.5) / 0.45 for c in wheel)],
               "force": [[300 + 50 * math.sin(f), 10 * math.cos(f), 4000 + 200 * math.sin(2 * f)] for f in range(frames)],
-              "torque": [[0, 900 + 30 * math.cos(f), 0] for f in range(frames)], "pressing": 400.0,
+              "torque": [[0, -900 - 30 * math.cos(f), 0] for f in range(frames)], "pressing": 400.0,
               "bin": {"lower": [0, 0, -0.05], "upper": [4, 0.8, 1e6], "periodic": [False, False, False]}}
     radius = 0.5 * (4 * 0.8 * 0.3 / count) ** (1 / 3)
     raw = b"".join(struct.pack("<f", radius) for _ in rest)

@@ -117,13 +117,13 @@ soilbin.ReplayScene = class {
     }
     for (const x of [x0, x1]) for (const y of [y0, y1]) line(x, y, z0, x, y, z1);
     this.marks = new THREE.Group();
-    const small = 0.03 * Math.max(x1 - x0, y1 - y0), label = (text, x, y, z) => this.marks.add(this.textAt(text, x, y, z, 3 * small));
+    const small = 0.03 * Math.max(x1 - x0, y1 - y0), label = (text, x, y, z) => this.marks.add(this.textAt(text, x, y, z, 1.1 * small));
     for (const x of soilbin.evenSteps(x0, x1, 6)) { line(x, y0, z0, x, y0 - small, z0); label(soilbin.formatNumber(x), x, y0 - 2.2 * small, z0); }
     for (const y of soilbin.evenSteps(y0, y1, 3)) { line(x0, y, z0, x0 - small, y, z0); label(soilbin.formatNumber(y), x0 - 2.2 * small, y, z0); }
     for (const z of soilbin.evenSteps(z0, z1, 3)) { line(x0, y0, z, x0 - small, y0, z); label(soilbin.formatNumber(z), x0 - 2.2 * small, y0, z); }
-    label('x [m], along travel', (x0 + x1) / 2, y0 - 4.5 * small, z0);
-    label('y [m]', x0 - 4.5 * small, (y0 + y1) / 2, z0);
-    label('z [m]', x0 - 4.5 * small, y0, (z0 + z1) / 2);
+    label('x [m], along travel', (x0 + x1) / 2, y0 - 4 * small, z0);
+    label('y [m]', x0 - 4 * small, (y0 + y1) / 2, z0);
+    label('z [m]', x0 - 4 * small, y0, (z0 + z1) / 2);
     const lines = new THREE.BufferGeometry();
     lines.setAttribute('position', new THREE.BufferAttribute(Float32Array.from(points), 3));
     this.marks.add(new THREE.LineSegments(lines, new THREE.LineBasicMaterial({color: 0x8a919c})));

@@ -65,18 +65,18 @@ soilbin.ReplayView = class {
     this.host.append(bar);
   }
 
-  // What the grains do to the wheel, frame by frame, with a cursor at the present time; a click goes there.
+  // What the grains do to the wheel, and the torque that drives it against them (positive drives), frame by frame, with a cursor at the present time; a click goes there.
   addForces(stage) {
     const {force, torque, times} = this.replay.header;
     if (!force || typeof d3 === 'undefined') return;
     const host = stage.appendChild(document.createElement('div')), x = times.map(t => t - times[0]);
     const series = (label, color, y) => ({label, x, y, error: [], base: [], mark: 'line', color, dash: 0});
     const axis = title => ({title, lower: null, upper: null}), of = (list, a) => list.map(v => Number(v[a].toPrecision(6)));
-    this.sheet = {title: 'Forces of the soil on the wheel, moment about its axle', plots: [
+    this.sheet = {title: 'Forces of the soil on the wheel, torque that drives it', plots: [
       {title: 'Force on the wheel [N]', x: axis('time [s]'), y: axis(''), identity_line: false,
        series: [series('along travel', 'c0', of(force, 0)), series('to the left', 'c2', of(force, 1)), series('upward', 'c1', of(force, 2))]},
-      {title: 'Moment [N m]', x: axis('time [s]'), y: axis(''), identity_line: false,
-       series: [series('', 'c3', of(torque, 1))]}]};
+      {title: 'Torque [N m]', x: axis('time [s]'), y: axis(''), identity_line: false,
+       series: [series('', 'c3', of(torque, 1).map(v => -v))]}]};
     host.className = 'forces';
     const legend = host.appendChild(document.createElement('ul'));
     legend.className = 'legend';
