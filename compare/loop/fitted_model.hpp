@@ -22,7 +22,7 @@ struct Dataset {
   std::vector<bool> outlier;  ///< of the cells given: set aside
   NoiseFloor noise;
   Whitening whitening;  ///< takes that noise off, at the base model's predictions
-  Hidden hidden;        ///< where the observations are pooled runs
+  Hidden hidden{};      ///< where the observations are pooled runs
   Eigen::Index cells() const { return static_cast<Eigen::Index>(observations.cells.size()); }
 };
 
