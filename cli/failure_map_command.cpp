@@ -139,7 +139,8 @@ compare::MapStory learn(const FailureMapOptions& asked, const Case& question, co
 }
 
 void print_story(const compare::MapStory& story, bool rows) {
-  for (const std::string& sentence : compare::map_summary(story)) fmt::print("{}\n", sentence);
+  for (const auto& [name, text] : compare::opening(story)) fmt::print("{}: {}\n", name, text);
+  for (const std::string& sentence : compare::details(story)) fmt::print("{}\n", sentence);
   if (rows) fmt::print("\n{}", as_text(compare::rows_table(story)));
   fmt::print("\n{}", as_text(compare::coordinates_table(story)));
   if (!story.checks.empty()) fmt::print("\n{}", as_text(compare::checks_table(story)));
@@ -185,8 +186,10 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
                       "not turn with the spin of a pair: this one's answers differ",
                       older));
     print_warnings(about.doubts);
-    outputs.file(asked.report,
-                 [&] { return compare::failure_map_page(story, about, write_case(question, session.place.effects)); });
+    outputs.file(asked.report, [&] {
+      return compare::failure_map_page(story, about, write_case(question, session.place.effects),
+                                       compare::find_libraries());
+    });
     if (asked.json) {
       nlohmann::ordered_json document = compare::failure_map_json(story);
       compare::tell_doubts(document, about.doubts);

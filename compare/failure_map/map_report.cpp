@@ -7,6 +7,7 @@
 
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/report/sliding_map.hpp"
 #include "compare/sweep/varying.hpp"
 
 namespace soilbin::compare {
@@ -124,7 +125,7 @@ HeatCell cell_at(const MapStory& story, const VectorXd& values) {
   cell.meaning += fmt::format(": {} % of the load, {}", number({100 * there.value, 100 * there.std_error}),
                               cell.counts                                  ? "the models part"
                               : size + 1.645 * there.std_error < tolerance ? "the models agree"
-                                                                           : "the map can't tell");
+                                                                           : "the map cannot tell");
   return cell;
 }
 
@@ -171,6 +172,40 @@ std::vector<std::string> map_summary(const MapStory& story) {
   text.push_back(knowledge_sentence(story));
   for (const std::string& more : {coordinates_sentence(story), checks_sentence(story)})
     if (!more.empty()) text.push_back(more);
+  return text;
+}
+
+std::vector<std::pair<std::string, std::string>> opening(const MapStory& story) {
+  const double tolerance = 100 * story.question.tolerance;
+  std::vector<std::pair<std::string, std::string>> parts;
+  // A clause's text is "NAME: within 10 % of the load up to ...": what follows the load is the box.
+  const std::string before = fmt::format("{}: within {:.3g} % of the load ", story.question.name, tolerance);
+  std::string boxes;
+  for (const AgreementClause& clause : story.clauses)
+    boxes += (boxes.empty() ? "" : " Also ") +
+             (clause.text.starts_with(before) ? clause.text.substr(before.size()) : clause.text) + ".";
+  parts.emplace_back(
+      "Trust it", story.clauses.empty()
+                      ? fmt::format("Nowhere for sure: no box of conditions is within {:.3g} % of the load with 95 % "
+                                    "confidence.",
+                                    tolerance)
+                      : fmt::format("To {:.3g} % of the load, with 95 % confidence, {}", tolerance, boxes));
+  const double beyond = 100 * share_beyond(story);
+  parts.emplace_back("Do not trust it",
+                     fmt::format("By the map {:.0f} % of the conditions asked for are off by more. {}", beyond,
+                                 capital(rows_sentence(story))));
+  std::string sure = fmt::format(
+      "The map predicts a condition that it has not seen to {:.1f} % of the load (root mean "
+      "square, each row left out in turn).",
+      100 * story.rows.held_out.rms());
+  if (const std::string fresh = checks_sentence(story); !fresh.empty()) sure += " " + fresh;
+  parts.emplace_back("How sure", sure);
+  return parts;
+}
+
+std::vector<std::string> details(const MapStory& story) {
+  std::vector<std::string> text = {knowledge_sentence(story)};
+  if (std::string groups = coordinates_sentence(story); !groups.empty()) text.push_back(std::move(groups));
   return text;
 }
 
@@ -244,28 +279,62 @@ HeatMap heat_map_of(const MapStory& story, double lug_height, double slip) {
   return map;
 }
 
-std::string failure_map_page(const MapStory& story, const PageAbout& about, const std::string& resolved_case) {
-  Page page(about.title, fmt::format("{} on {}: where the analytic model and the grains part",
-                                     story.map.scenario.tire.name, in_words(story.map.scenario.soil)));
-  page.sentences(map_summary(story));
-  page.doubts(about.doubts);
+namespace {
+
+/// The map at every setting of lug height and slip; a factor that does not vary has no slider.
+SlidingMap sliding_map_of(const MapStory& story) {
+  constexpr int lugs = 5, slips = 10;
+  const std::vector<Factor>& factors = story.question.factors;
+  SlidingMap map;
+  const auto settings = [&](const Factor& factor, int count) {
+    const int places = factor.upper > factor.lower ? count : 1;
+    std::vector<double> values;
+    for (int i = 0; i < places; ++i) values.push_back(places == 1 ? factor.lower : level_value(factor, i, places));
+    if (places > 1) {
+      map.sliders.push_back({factor.name, {}});
+      for (const double value : values) map.sliders.back().settings.push_back(in_units(factor, value));
+      map.first.push_back(0);
+    }
+    return values;
+  };
+  const std::vector<double> heights = settings(factors[map_lug_height], lugs),
+                            at_slips = settings(factors[map_slip], slips);
+  for (const double height : heights)
+    for (const double slip : at_slips) map.maps.push_back(heat_map_of(story, height, slip));
+  return map;
+}
+
+}  // namespace
+
+std::string failure_map_page(const MapStory& story, const PageAbout& about, const std::string& resolved_case,
+                             const Libraries& libraries) {
+  Page page("Where may I trust the quick estimate?",
+            fmt::format("{}: the analytic wheel against grains, {} on {}", about.title, story.map.scenario.tire.name,
+                        in_words(story.map.scenario.soil)));
+  page.enliven(libraries);
+  page.summary(opening(story));
+  page.raw("<span id=\"map\"></span>");
+  page.raw(sliding_map_html(
+      sliding_map_of(story),
+      "Drawbar pull, analytic less grains, in per cent of the load, as the map has it; loads across, angles up. Blue: "
+      "the "
+      "analytic pull is too low; orange: too high. Bold: the map is sure that the models differ by more than the "
+      "tolerance. Faint: they agree, or the map cannot tell; each cell says which."));
   page.figures_at_a_glance(
       {{std::to_string(story.rows.rows.size()), "conditions run"},
        {fmt::format("{:.1f} %", 100 * story.rows.held_out.rms()), "cross-validated error, of the load"},
        {fmt::format("{:.0f} %", 100 * share_beyond(story)), "of the box beyond the tolerance"}});
-  page.section("The map", "map");
-  page.paragraph(
-      "Difference of the drawbar pull, analytic less grains, in per cent of the load, as the map has it. Bold: the map "
-      "is "
-      "sure that the models part by more than the tolerance. Faint: they agree, or the map can't tell; each cell says "
-      "which.");
+  page.list(details(story));
+  page.doubts(about.doubts);
   const std::vector<Factor>& factors = story.question.factors;
-  std::vector<std::string> maps;
-  for (const double slip :
-       {factors[map_slip].lower, (factors[map_slip].lower + factors[map_slip].upper) / 2, factors[map_slip].upper})
-    for (const double height : two_levels(factors[map_lug_height]))
-      maps.push_back(heat_map_svg(heat_map_of(story, height, slip)));
-  page.heat_maps(maps, "Loads across, angles up.");
+  page.folded("The map at its corners, side by side", [&] {
+    std::vector<std::string> maps;
+    for (const double slip :
+         {factors[map_slip].lower, (factors[map_slip].lower + factors[map_slip].upper) / 2, factors[map_slip].upper})
+      for (const double height : two_levels(factors[map_lug_height]))
+        maps.push_back(heat_map_svg(heat_map_of(story, height, slip)));
+    page.heat_maps(maps, "Loads across, angles up.");
+  });
   page.section("What it rests on", "rows");
   page.table(rows_table(story));
   page.table(coordinates_table(story));

@@ -26,6 +26,13 @@ double share_beyond(const MapStory& story);
 /// well the map knows, what dimensionless groups do, what fresh conditions showed.
 std::vector<std::string> map_summary(const MapStory& story);
 
+/// What the page opens with, (what it is about, sentences): where the quick estimate may be trusted; where not and to
+/// which side it errs; how sure that is.
+std::vector<std::pair<std::string, std::string>> opening(const MapStory& story);
+
+/// What else there is: scatter of the rows, dimensionless groups.
+std::vector<std::string> details(const MapStory& story);
+
 HtmlTable rows_table(const MapStory& story);
 HtmlTable coordinates_table(const MapStory& story);
 HtmlTable checks_table(const MapStory& story);
@@ -35,7 +42,9 @@ HtmlTable checks_table(const MapStory& story);
 HeatMap heat_map_of(const MapStory& story, double lug_height, double slip);
 
 /// One HTML page. resolved_case: of the study whose wheel, soil and bin these are.
-std::string failure_map_page(const MapStory& story, const PageAbout& about, const std::string& resolved_case);
+/// `about.title` stands in the page's subtitle: the title is the question that it answers.
+std::string failure_map_page(const MapStory& story, const PageAbout& about, const std::string& resolved_case,
+                             const Libraries& libraries = {});
 
 /// soilbin-failure-map/1, in SI.
 nlohmann::ordered_json failure_map_json(const MapStory& story);

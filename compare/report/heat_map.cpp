@@ -27,7 +27,6 @@ std::string cell_svg(const HeatMap& map, double x, double y, double limit, std::
     return fmt::format(R"(<rect class="cell-empty" fill="none" stroke="#dfe3e8" x="{:.0f}" y="{:.0f}" width="{:.0f}" )"
                        R"(height="{:.0f}"/>)",
                        x + 1, y + 1, cell_width - 2, cell_height - 2);
-  const double depth = std::clamp(std::abs(cell.value) / limit, 0.0, 1.0) * (cell.counts ? 1.0 : 0.35);
   // Class f and c0 or c1 give the page's colours in the dark; opacity is the depth.
   const auto palette = colors(Palette::named);
   const int side = cell.value < 0.0 ? 0 : 1;
@@ -38,12 +37,17 @@ std::string cell_svg(const HeatMap& map, double x, double y, double limit, std::
       R"(<text class="{}" fill="{}" x="{:.0f}" y="{:.0f}" text-anchor="middle"{}>{}</text></g>)",
       row, column, escaped(map.x[column]), escaped(map.y[row]), cell.value, escaped(cell.meaning),
       escaped(cell.meaning), escaped(cell.meaning), side, palette[static_cast<std::size_t>(side)].light,
-      0.08 + 0.5 * depth, x + 1, y + 1, cell_width - 2, cell_height - 2, cell.counts ? "ink" : "quiet",
+      heat_opacity(cell, limit), x + 1, y + 1, cell_width - 2, cell_height - 2, cell.counts ? "ink" : "quiet",
       cell.counts ? "#1a1d23" : "#5a6270", x + cell_width / 2, y + cell_height / 2 + 4,
       cell.counts ? R"( font-weight="600")" : "", escaped(cell.text));
 }
 
 }  // namespace
+
+double heat_opacity(const HeatCell& cell, double limit) {
+  const double depth = std::clamp(std::abs(cell.value) / limit, 0.0, 1.0) * (cell.counts ? 1.0 : 0.35);
+  return 0.08 + 0.5 * depth;
+}
 
 std::string heat_map_svg(const HeatMap& map) {
   std::size_t longest = 3;

@@ -22,6 +22,9 @@ struct HeatMap {
   double limit = 0.0;                        ///< |value| of the deepest colour; 0: the largest there is
 };
 
+/// How deep a cell's colour is; `limit` as in HeatMap, above 0.
+double heat_opacity(const HeatCell& cell, double limit);
+
 /// An <svg> element of its natural size, its text 12 px high; a page lets it scroll rather than shrink. Blue below
 /// zero, orange above, so that most colour-blind people tell them apart; the sign is in the text as well.
 std::string heat_map_svg(const HeatMap& map);

@@ -175,8 +175,11 @@ TEST_F(SlowInclineMap, TellsItInWordsAsAPageAndAsJson) {
   EXPECT_THAT(words.front(), HasSubstr("longitudinal incline: of "));
   EXPECT_THAT(words.front(), HasSubstr("too high at 0, too low at "));
   const std::string page = failure_map_page(story, {"Map", "soilbin failure-map made", {}}, "format: ...");
-  for (const char* part : {"of the box asked for is beyond", "Cross-validated error of the map", "Fresh conditions:"})
+  for (const char* part : {"of the conditions asked for are off by more", "has not seen to", "Fresh conditions:"})
     EXPECT_THAT(page.substr(0, page.find("</div>")), HasSubstr(part));
+  EXPECT_THAT(page, HasSubstr("Where may I trust the quick estimate?"));
+  EXPECT_LT(page.find("sliding-map"), page.find("Cross-validated error of the map"));
+  EXPECT_THAT(words[1], HasSubstr("of the box asked for is beyond"));
   EXPECT_THAT(page, HasSubstr("class=\"plot heat\""));
   EXPECT_THAT(page, HasSubstr("soilbin failure-map made"));
   const auto json = failure_map_json(story);

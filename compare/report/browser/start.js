@@ -9,6 +9,7 @@ soilbin.start = function () {
     if (figure.querySelector('svg') && !figure.querySelector('.replay'))
       soilbin.addTakeAlong(figure, figure.id || 'figure', sheets[figure.id] && sheets[figure.id].title || 'this figure',
                            sheets[figure.id] && (() => sheets[figure.id]));
+  for (const figure of document.querySelectorAll('.sliding-map')) soilbin.enlivenSlidingMap(figure);
   for (const svg of document.querySelectorAll('svg.heat')) soilbin.enlivenHeatMap(svg);
   for (const box of document.querySelectorAll('.choices')) soilbin.enlivenChoices(box);
   for (const host of document.querySelectorAll('.replay')) soilbin.startReplay(host);
