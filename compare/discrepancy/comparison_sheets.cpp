@@ -75,7 +75,7 @@ void add_plot(Sheet& sheet, const Comparison& comparison, const std::string& tit
   if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
 }
 
-constexpr int mark_color = 4;
+constexpr int single_color = 4, negative_color = 3;
 
 /// Whether a point of grains rests on one packing, so that nothing is known of the scatter between beds.
 bool of_one_packing(const SidePoint& point) { return point.result && point.runs == 1; }
@@ -91,9 +91,9 @@ std::string label_with_limits(const Side& side, bool coarse_grains) {
 }
 
 /// The points of a series at which `marked` holds of the side's point, as marks of their own; no points: none is.
-Series marks_on(const Series& series, const std::string& label, const std::vector<std::size_t>& members,
+Series marks_on(const Series& series, const std::string& label, int color, const std::vector<std::size_t>& members,
                 const std::function<bool(std::size_t condition, double y)>& marked) {
-  Series marks{.label = label, .x = {}, .y = {}, .error = {}, .mark = Mark::points, .color = mark_color};
+  Series marks{.label = label, .x = {}, .y = {}, .error = {}, .mark = Mark::points, .color = color};
   for (std::size_t k = 0; k < members.size(); ++k)
     if (std::isfinite(series.y[k]) && marked(members[k], series.y[k]))
       marks.x.push_back(series.x[k]), marks.y.push_back(series.y[k]);
@@ -110,11 +110,11 @@ void mark_limits(Plot& plot, const Comparison& comparison, const std::vector<std
     if (side.kind != SideKind::grains || series == plot.series.end()) continue;
     series->label = label_with_limits(side, coarse_grains);
     if (series->label.find("one packing") == std::string::npos)
-      marks.push_back(marks_on(*series, "one packing: the scatter between beds is not known", members,
+      marks.push_back(marks_on(*series, "one packing: the scatter between beds is not known", single_color, members,
                                [&](std::size_t i, double) { return of_one_packing(side.points[i]); }));
     if (sinkage)
-      marks.push_back(marks_on(*series, "negative sinkage: the tread stands above the mean surface", members,
-                               [](std::size_t, double y) { return y < 0.0; }));
+      marks.push_back(marks_on(*series, "negative sinkage: the tread stands above the mean surface", negative_color,
+                               members, [](std::size_t, double y) { return y < 0.0; }));
   }
   for (Series& mark : marks)
     if (!mark.x.empty()) plot.series.push_back(std::move(mark));
