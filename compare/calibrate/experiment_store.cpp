@@ -63,18 +63,20 @@ StoredExperiment experiment_of(const Json& json, const std::string& place) {
   return stored;
 }
 
-/// The version of bits that a test's soil bin was of, "bed.version 1"; empty where it has none.
-std::string version_of_bed(const std::string& key) {
-  const std::size_t begin = key.find("\nbed.version ");
-  return begin == std::string::npos ? "" : key.substr(begin + 1, key.find('\n', begin + 1) - begin - 1);
+/// A test's identity without what an engine of other bits calls otherwise: its "bed.version", and by which speed grains
+/// sleep ("rig.sleep_speed": of the fastest grain of a slab, until November 2026).
+std::string of_any_engine(std::string key) {
+  if (const std::size_t begin = key.find("\nbed.version "); begin != std::string::npos)
+    key.erase(begin, key.find('\n', begin + 1) - begin);
+  const std::string before = "\nrig.sleep_speed ";
+  if (const std::size_t at = key.find(before); at != std::string::npos)
+    key.replace(at, before.size(), "\nrig.sleep_mean_speed ");
+  return key;
 }
 
-/// Whether two tests differ in nothing, or in that version alone.
+/// Whether two tests differ in nothing, or in the engine's bits alone.
 bool same_but_for_version(const std::string& one, const std::string& other) {
-  std::string as_one = other;
-  if (const std::string version = version_of_bed(other); !version.empty())
-    as_one.replace(as_one.find(version), version.size(), version_of_bed(one));
-  return as_one == one;
+  return of_any_engine(one) == of_any_engine(other);
 }
 
 bool same_answer(const Experiment& a, const Experiment& b) {
