@@ -20,32 +20,33 @@ using testing::Each;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-constexpr double n = 0.9, k_c = 5e3, k_phi = 9e5;
+constexpr double made_n = 0.9, made_k_c = 5e3, made_k_phi = 9e5;
 
 /// Readings of a plate of this diameter on a soil whose modulus is `share` of the one above, every 2 mm.
-std::string rows(double diameter, const std::string& test, double share = 1.0, double exponent = n) {
+std::string rows_of_a_plate(double diameter, const std::string& test, double share = 1.0, double exponent = made_n) {
   std::string text;
   for (int i = 1; i <= 12; ++i) {
-    const double z = 0.002 * i, p = share * (k_c / (diameter / 2) + k_phi) * std::pow(z, exponent);
+    const double z = 0.002 * i, p = share * (made_k_c / (diameter / 2) + made_k_phi) * std::pow(z, exponent);
     text += fmt::format("{},{},{},{}\n", test, diameter, z, p / 1e3);
   }
   return text;
 }
 
-const std::string header = "test,plate_diameter_m,sinkage_m,pressure_kPa\n";
+const std::string plate_columns = "test,plate_diameter_m,sinkage_m,pressure_kPa\n";
 
-std::vector<MeasuredPlate> read(const std::string& csv,
-                                const std::vector<std::pair<std::string, std::string>>& only = {}) {
+std::vector<MeasuredPlate> read_csv_of_plates(const std::string& csv,
+                                              const std::vector<std::pair<std::string, std::string>>& only = {}) {
   return read_plates(make_source_text(csv, "plates.csv"), only);
 }
 
 TEST(MeasuredPlates, GiveBackTheSoilThatMadeThem) {
-  const std::vector<MeasuredPlate> plates = read(header + rows(0.06, "a") + rows(0.08, "b") + rows(0.10, "c"));
+  const std::vector<MeasuredPlate> plates = read_csv_of_plates(plate_columns + rows_of_a_plate(0.06, "a") +
+                                                               rows_of_a_plate(0.08, "b") + rows_of_a_plate(0.10, "c"));
   ASSERT_EQ(plates.size(), 3u);
   const MeasuredPlatesFit fit = fit_measured_plates(plates);
-  EXPECT_NEAR(fit.exponent.estimate.value, n, 1e-5);
-  EXPECT_NEAR(fit.k_c.estimate.value, k_c, 1e-3 * k_c);
-  EXPECT_NEAR(fit.k_phi.estimate.value, k_phi, 1e-3 * k_phi);
+  EXPECT_NEAR(fit.exponent.estimate.value, made_n, 1e-5);
+  EXPECT_NEAR(fit.k_c.estimate.value, made_k_c, 1e-3 * made_k_c);
+  EXPECT_NEAR(fit.k_phi.estimate.value, made_k_phi, 1e-3 * made_k_phi);
   EXPECT_NEAR(fit.exponent.estimate.std_error, 0.0, 1e-5);
   EXPECT_LT(fit.pressure_error, 1e-4);
   EXPECT_EQ(fit.radii, (std::vector<double>{0.03, 0.04, 0.05}));
@@ -54,15 +55,15 @@ TEST(MeasuredPlates, GiveBackTheSoilThatMadeThem) {
 // Two tests of each plate, of moduli 0.9 and 1.1. Without one of them its plate's modulus is the other's: a tenth off
 // the mean; so each plate's jackknife variance is (1/2)(0.01 + 0.01) of the modulus squared, that of the mean of two.
 TEST(MeasuredPlates, ScatterOfRepeatsIsTheirError) {
-  std::string csv = header;
+  std::string csv = plate_columns;
   for (const double diameter : {0.06, 0.10})
-    for (const double share : {0.9, 1.1}) csv += rows(diameter, share < 1 ? "soft" : "firm", share);
-  const MeasuredPlatesFit fit = fit_measured_plates(read(csv));
+    for (const double share : {0.9, 1.1}) csv += rows_of_a_plate(diameter, share < 1 ? "soft" : "firm", share);
+  const MeasuredPlatesFit fit = fit_measured_plates(read_csv_of_plates(csv));
   EXPECT_THAT(fit.tests, Each(2));
-  const double small = 0.1 * (k_c / 0.03 + k_phi), large = 0.1 * (k_c / 0.05 + k_phi);
+  const double small = 0.1 * (made_k_c / 0.03 + made_k_phi), large = 0.1 * (made_k_c / 0.05 + made_k_phi);
   // k_phi = (k_2/u_2 - k_1/u_1)/(1/u_2 - 1/u_1) = (5 k_2 - 3 k_1)/2 with u = 1/b of 33.3 and 20 1/m.
-  EXPECT_NEAR(fit.k_phi.between_tests, std::hypot(2.5 * large, 1.5 * small), 1e-3 * k_phi);
-  EXPECT_NEAR(fit.k_phi.estimate.value, k_phi, 1e-3 * k_phi);
+  EXPECT_NEAR(fit.k_phi.between_tests, std::hypot(2.5 * large, 1.5 * small), 1e-3 * made_k_phi);
+  EXPECT_NEAR(fit.k_phi.estimate.value, made_k_phi, 1e-3 * made_k_phi);
   EXPECT_NEAR(fit.exponent.between_tests, 0.0, 1e-6);
 }
 
@@ -77,14 +78,16 @@ TEST(MeasuredPlates, AnotherExponentAtHighPressuresIsAnError) {
     }
     return text;
   };
-  const MeasuredPlatesFit fit = fit_measured_plates(read(header + bent(0.06, "a") + bent(0.1, "b")));
+  const MeasuredPlatesFit fit =
+      fit_measured_plates(read_csv_of_plates(plate_columns + bent(0.06, "a") + bent(0.1, "b")));
   EXPECT_NEAR(fit.exponent.between_pressures, (1.0 - 0.5656) / 2, 1e-4);
   EXPECT_GT(fit.exponent.estimate.value, 0.5);
   EXPECT_LT(fit.exponent.estimate.value, 1.0);
 }
 
 TEST(MeasuredPlates, OnlyTheReadingsOfAWindowCount) {
-  const std::vector<MeasuredPlate> plates = read(header + rows(0.06, "a") + rows(0.1, "b"));
+  const std::vector<MeasuredPlate> plates =
+      read_csv_of_plates(plate_columns + rows_of_a_plate(0.06, "a") + rows_of_a_plate(0.1, "b"));
   const MeasuredPlatesFit fit = fit_measured_plates(plates, {5e3, 35e3});
   EXPECT_GE(fit.lowest, 5e3);
   EXPECT_LE(fit.highest, 35e3);
@@ -95,28 +98,37 @@ TEST(MeasuredPlates, ColumnsTellTheirUnits) {
   std::string csv = "box,nr,tool,depth_mm,force_N,time_s\n";
   for (const auto& [tool, diameter] : {std::pair{"plate_d60mm", 0.06}, {"d100mm", 0.1}})
     for (int i = 1; i <= 12; ++i) {
-      const double z = 0.002 * i, p = (k_c / (diameter / 2) + k_phi) * std::pow(z, n);
+      const double z = 0.002 * i, p = (made_k_c / (diameter / 2) + made_k_phi) * std::pow(z, made_n);
       csv += fmt::format("large,1,{},{},{},{}\n", tool, 1e3 * z, p * std::numbers::pi * diameter * diameter / 4, i);
     }
-  const std::vector<MeasuredPlate> plates = read(csv + "small,1,d100mm,1,-3,1\n", {{"box", "large"}});
+  const std::vector<MeasuredPlate> plates = read_csv_of_plates(csv + "small,1,d100mm,1,-3,1\n", {{"box", "large"}});
   ASSERT_EQ(plates.size(), 2u) << "a time does not tell tests apart, and the small box is left out";
   EXPECT_EQ(plates[0].test, "large, 1");
-  EXPECT_NEAR(fit_measured_plates(plates).k_phi.estimate.value, k_phi, 1e-3 * k_phi);
+  EXPECT_NEAR(fit_measured_plates(plates).k_phi.estimate.value, made_k_phi, 1e-3 * made_k_phi);
 }
 
 TEST(MeasuredPlates, BadFilesAreRefused) {
   EXPECT_THAT(
-      refusal([] { read("test,sinkage_m,pressure_kPa\na,0.1,1\n"); }),
+      refusal([] { read_csv_of_plates("test,sinkage_m,pressure_kPa\na,0.1,1\n"); }),
       AllOf(StartsWith("plates.csv:1:1: no column holds the size of the plate"), HasSubstr("plate_diameter_m")));
-  EXPECT_THAT(refusal([] { read("tool,pressure_kPa\nd60mm,1\n"); }), HasSubstr("no column holds the sinkage"));
-  EXPECT_THAT(refusal([] { read("tool,sinkage_m,pressure_kPa\nround,0.1,1\n"); }),
+  EXPECT_THAT(refusal([] { read_csv_of_plates("tool,pressure_kPa\nd60mm,1\n"); }),
+              HasSubstr("no column holds the sinkage"));
+  EXPECT_THAT(refusal([] { read_csv_of_plates("tool,sinkage_m,pressure_kPa\nround,0.1,1\n"); }),
               StartsWith("plates.csv:2:1: 'round' tells no size of a plate"));
-  EXPECT_THAT(refusal([] { read("tool,sinkage_m,pressure_kPa\nd60mm,deep,1\n"); }),
+  EXPECT_THAT(refusal([] { read_csv_of_plates("tool,sinkage_m,pressure_kPa\nd60mm,deep,1\n"); }),
               StartsWith("plates.csv:2:7: expected a number, not 'deep'"));
-  EXPECT_THAT(refusal([] { read(header + rows(0.06, "a"), {{"tset", "a"}}); }), HasSubstr("did you mean 'test'?"));
-  EXPECT_THAT(refusal([] { fit_measured_plates(read(header + rows(0.06, "a") + rows(0.06, "b"))); }),
+  EXPECT_THAT(refusal([] {
+                read_csv_of_plates(plate_columns + rows_of_a_plate(0.06, "a"), {{"tset", "a"}});
+              }),
+              HasSubstr("did you mean 'test'?"));
+  EXPECT_THAT(refusal([] {
+                fit_measured_plates(
+                    read_csv_of_plates(plate_columns + rows_of_a_plate(0.06, "a") + rows_of_a_plate(0.06, "b")));
+              }),
               HasSubstr("plates of at least two sizes"));
-  EXPECT_THAT(refusal([] { fit_measured_plates(read(header + "a,0.06,0.01,1\n" + rows(0.1, "b"))); }),
+  EXPECT_THAT(refusal([] {
+                fit_measured_plates(read_csv_of_plates(plate_columns + "a,0.06,0.01,1\n" + rows_of_a_plate(0.1, "b")));
+              }),
               HasSubstr("test 'a' of the plate of 60 mm has 1 reading"));
 }
 
