@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cli/described_flags.hpp"
 #include "scenario/soil_parameters.hpp"
@@ -26,10 +27,15 @@ std::pair<std::string, std::string> value_and_deviation(std::string text) {
   return {std::move(text), ""};
 }
 
-void set_value(const SoilParameter& p, const std::string& text, double n, Estimate& into) {
+/// A value without a deviation keeps the one that it had; an assumed share stays a share.
+void set_value(const SoilParameter& p, const std::string& text, SemiEmpiricalSoil& soil) {
   const auto [value, deviation] = value_and_deviation(text);
+  const double n = soil.exponent.value;
+  Estimate& into = soil.*p.value;
+  const bool assumed = has_assumed_sd(soil, into);
   try {
     into.value = read_quantity(value, p.measure(), n);
+    if (assumed) into.std_error = *soil.assumed_sd * std::abs(into.value);
     if (!deviation.empty()) into.std_error = read_quantity(deviation, {p.unit, zero_or_more}, n);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", flag_of("", p.name), error.what()));
@@ -61,7 +67,7 @@ void SoilFlags::apply(Soil& soil) const {
   SemiEmpiricalSoil& values = *soil.semi_empirical;
   for (const SoilParameter& p : soil_parameters)  // n first: the units of k_c and k_phi depend on it
     if (const std::string& text = texts_.at(p.name); !text.empty()) {
-      set_value(p, text, values.exponent.value, values.*p.value);
+      set_value(p, text, values);
       values.sources[p.name] = "given on the command line";
     }
   if (const std::string& text = texts_.at(density_key); !text.empty()) {

@@ -212,8 +212,8 @@ TEST(Loop, SaysUnknownWhereTheCatalogueHasNoName) {
     EXPECT_TRUE(answer.effects.empty());
   }
   const std::string first = what_next(with_swinging_torque(0.5)).front();
-  EXPECT_NE(first.find("vary the slip alone, with re-runs"), std::string::npos) << first;
-  EXPECT_NE(first.find("the torque that is left depends most"), std::string::npos) << first;
+  EXPECT_NE(first.find("several settings of the slip alone, each one twice"), std::string::npos) << first;
+  EXPECT_NE(first.find("The unexplained part of the torque depends most"), std::string::npos) << first;
 }
 
 // A cell that reads too little the more it is pulled, by a third at the most: a gain and an offset mimic the most of

@@ -104,7 +104,7 @@ void expect_same_shares(const LoopAnswer& answer) {
     EXPECT_EQ(sets.at(i).at("weight").get<double>(), w.weight);
     EXPECT_EQ(share_in_details(answer, w.ids), w.weight);
     const std::string share = w.weight < 0.005 ? "< 1 %" : fmt::format("{:.0f} %", 100 * w.weight);
-    EXPECT_EQ(table.rows.at(i).at(0).note, joined(w.ids));
+    EXPECT_EQ(table.rows.at(i).at(0).text, named_effects(w.ids));
     EXPECT_EQ(table.rows.at(i).at(2).text, share);
     const bool said = decided > 1 && (i == 0 || w.weight >= 0.005);
     EXPECT_EQ(words.find(fmt::format("{} ({})", named_effects(w.ids), share)) != std::string::npos, said) << words;

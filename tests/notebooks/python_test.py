@@ -413,7 +413,7 @@ class Recording(unittest.TestCase):
             self.assertFalse(list(Path(folder).glob("run-*.h5")))
             mine, theirs = (compare.record_frame(r).drop(columns="seconds") for r in (record, whole))
             self.assertTrue(mine.equals(theirs))
-            self.assertEqual(list(mine["packing"]), [1, 2, 1, 2])
+            self.assertEqual(list(mine["packing"]), [1, 1, 2, 2])  # the order of a run list: bed by bed
             other = dem.SoilBin(beds=folder, threads=1, length=0.7, width=0.16, depth=0.06)
             with self.assertRaises(soilbin.InputError):
                 dem.record_runs(case, file, other, progress=None)

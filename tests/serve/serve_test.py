@@ -310,10 +310,10 @@ class StartAndStop(unittest.TestCase):
                                   "transverse-incline": 0, "yaw": 0, "radius": 110, "width": 100, "lug-height": 8,
                                   "lug-count": 24, "lug-thickness": None, "inflation-pressure": None,
                                   "carcass-pressure": None, "pass": 1, "moisture": 8, "position": 0, "run": 1})
-                self.assertEqual({n["key"]: (n["value"], n["sd"], n["unit"]) for n in start["numbers"] if n["group"] == "soil"},
-                                 {"exponent": (1.1, 0, ""), "k-c": (0.99, 0, "kN/m^(n+1)"),
-                                  "k-phi": (1528.43, 0, "kN/m^(n+2)"), "cohesion": (1.04, 0, "kPa"),
-                                  "friction-angle": (28, 0, "deg"), "shear-modulus": (20, 6, "mm"),
+                self.assertEqual({n["key"]: (n["value"], round(n["sd"], 9), n["unit"]) for n in start["numbers"] if n["group"] == "soil"},
+                                 {"exponent": (1.1, 0, ""), "k-c": (0.99, 0.099, "kN/m^(n+1)"),
+                                  "k-phi": (1528.43, 152.843, "kN/m^(n+2)"), "cohesion": (1.04, 0.104, "kPa"),
+                                  "friction-angle": (28, 2.8, "deg"), "shear-modulus": (20, 6, "mm"),
                                   "stress-angle-c1": (0.18, 0.08, ""), "stress-angle-c2": (0.32, 0.1, "")})
                 for n in start["numbers"]:
                     self.assertLess(n["lower"], n["upper"], n)
