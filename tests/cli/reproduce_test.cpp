@@ -31,16 +31,15 @@ TEST(ReproduceCommand, CallsFindingsOfThePaperByTheirNames) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const nlohmann::json told = outcome.json();
   EXPECT_GE(told.at("rows").size(), 40U);
-  // By eye on the recorded runs: at 4 kN the pull rises from 0 to 20 % slip by 992 N and from there to 60 % by 341 N.
+  // By eye on the recorded runs: at 4 kN the pull rises from 0 to 20 % slip by 673 N and from there to 60 % by 259 N.
   const auto& all = told.at("rows");
   const auto steep = std::find_if(all.begin(), all.end(),
                                   [](const auto& finding) { return finding.at("id") == "straight-pull-steep-to-20"; });
   ASSERT_NE(steep, all.end());
   EXPECT_EQ(steep->at("answers").at("dem").at("verdict"), "shown");
   const std::string warnings = told.at("warnings").dump();
-  for (const char* doubt :
-       {"paper-straight: the grains are coarse for this wheel", "paper-straight: the grains' rolling"})
-    EXPECT_THAT(warnings, HasSubstr(doubt));
+  EXPECT_THAT(warnings, HasSubstr("paper-straight: the grains are coarse for this wheel"));
+  EXPECT_THAT(warnings, Not(HasSubstr("the grains' rolling")));  // no law that hangs on the time step
 }
 
 TEST(ReproduceCommand, RefusesAnUnknownPaperAndARecordOfAnotherStudy) {
