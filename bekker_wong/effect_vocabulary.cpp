@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bekker_wong/effect.hpp"
+#include "bekker_wong/effects/learned.hpp"
 
 namespace soilbin::bekker_wong {
 
@@ -10,12 +11,13 @@ std::vector<std::string> CatalogueVocabulary::ids() const {
   std::vector<std::string> all;
   for (const EffectForm& form : effect_catalogue())
     if (std::find(all.begin(), all.end(), form.id) == all.end()) all.push_back(form.id);
+  all.emplace_back(learned_id);
   return all;
 }
 
 std::vector<EffectFormWords> CatalogueVocabulary::forms(const std::string& id) const {
   std::vector<EffectFormWords> forms;
-  for (const EffectForm& form : effect_catalogue()) {
+  for (const EffectForm& form : id == learned_id ? learned_forms() : effect_catalogue()) {
     if (form.id != id) continue;
     EffectFormWords words{form.form, {}};
     for (const EffectParameter& p : form.parameters)

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "bekker_wong/effects/forms.hpp"
+#include "bekker_wong/effects/learned.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 
@@ -66,7 +67,7 @@ const std::vector<EffectForm>& effect_catalogue() {
 
 const EffectForm& find_form(const EffectChoice& choice) {
   std::vector<std::string> ids, forms;
-  for (const EffectForm& f : effect_catalogue()) {
+  for (const EffectForm& f : choice.id == learned_id ? learned_forms() : effect_catalogue()) {
     if (f.id != choice.id) {
       if (ids.empty() || ids.back() != f.id) ids.push_back(f.id);
       continue;

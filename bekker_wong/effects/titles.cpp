@@ -8,7 +8,7 @@
 namespace soilbin::bekker_wong {
 namespace {
 
-constexpr std::array<EffectTitle, 20> titles = {{
+constexpr std::array<EffectTitle, 21> titles = {{
     {"exit_angle", "exit angle", "soil stays in contact behind the axle, or leaves early"},
     {"slip_sinkage", "slip sinkage", "the wheel digs itself in as slip grows"},
     {"lug_thrust", "lug thrust", "lugs shear on a larger radius and push soil with their faces"},
@@ -29,6 +29,7 @@ constexpr std::array<EffectTitle, 20> titles = {{
     {"cross_talk", "cross-talk", "one channel leaks into another"},
     {"soil_gradient", "soil gradient", "the soil's strength varies along the bin"},
     {"drift", "drift", "the soil or an instrument drifts from run to run"},
+    {"learned", "learned change", "a smooth function of conditions, learned from a campaign, without a cause"},
 }};
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/contact_stages.hpp"
+#include "bekker_wong/effects/learned.hpp"
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/presumption.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
@@ -229,10 +230,25 @@ bool weighs_soil(const Case& question) {
   return false;
 }
 
+/// Conditions beyond those that a learned effect was learned from.
+Warnings doubts_of_learned(const Case& question) {
+  Warnings words;
+  for (const ModelChoice& model : question.study.models)
+    for (const EffectChoice& effect : model.effects)
+      for (const OperatingCondition& at : question.study.conditions)
+        for (const std::string& name : bekker_wong::outside_learned(effect, at))
+          words.push_back(
+              fmt::format("the learned effect ({}) knows no such {}: its value at the edge of what it was "
+                          "learned from is taken at {}",
+                          effect.form, name, in_words(at)));
+  return once_each(words);
+}
+
 /// What is declared and has no influence, and what has influence and is not declared.
 Warnings doubts_of_declarations(const Case& question) {
   Warnings words;
   for (Unheard& one : unheard(question)) words.push_back(std::move(one.words));
+  append(words, doubts_of_learned(question));
   std::vector<EffectChoice> effects;
   for (const ModelChoice& model : question.study.models)
     effects.insert(effects.end(), model.effects.begin(), model.effects.end());
@@ -297,6 +313,26 @@ void add_row_doubts(const Campaign& campaign, Warnings& warnings) {
     if (run.drawbar_pull && std::abs(*run.drawbar_pull) > 3 * run.at.load)
       warnings.push_back(fmt::format("line {}: a drawbar pull of {:.4g} N is more than three times the load",
                                      run.csv_line, *run.drawbar_pull));
+  }
+}
+
+/// Runs that scattered in time far more than the campaign's usual run: their means may be of no steady state.
+void add_unsteady_runs(const std::vector<Run>& runs, Warnings& warnings) {
+  constexpr double usual = 5.0;  // times the median
+  for (std::size_t c = 0; c < channel_views.size(); ++c) {
+    std::vector<double> told;
+    for (const Run& run : runs)
+      if (run.within_run_sd[c]) told.push_back(*run.within_run_sd[c]);
+    if (told.empty()) continue;
+    std::nth_element(told.begin(), told.begin() + std::ssize(told) / 2, told.end());
+    const ChannelView& view = channel_views[c];
+    const double median = told[told.size() / 2];
+    for (const Run& run : runs)
+      if (run.within_run_sd[c] && median > 0.0 && *run.within_run_sd[c] > usual * median)
+        warnings.push_back(fmt::format(
+            "line {}: an unsteady run: the {} scattered by {:.3g} {} in time, the median run "
+            "by {:.3g} {}",
+            run.csv_line, view.title, *run.within_run_sd[c] * view.per_si, view.unit, median * view.per_si, view.unit));
   }
 }
 
@@ -392,6 +428,7 @@ Warnings doubts_of(const Campaign& campaign, const Case& question, const std::ve
   add_row_doubts(campaign, of_rows);
   add_flipped_sinkage(campaign.runs, of_rows);
   add_repeated_rows(campaign.runs, of_rows);
+  add_unsteady_runs(campaign.runs, of_rows);
   add_flipped_pull(campaign, question, study.front().answers, of_rows);
   for (std::string& warning : once_each(of_rows)) warnings.push_back(std::move(warning));
   return warnings;

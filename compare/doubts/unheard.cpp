@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "bekker_wong/effects/learned.hpp"
+
 namespace soilbin::compare {
 namespace {
 
@@ -102,9 +104,11 @@ void add_depths_of_the_bin(const Case& question, std::vector<Unheard>& all) {
 
 bool hears_of(const bekker_wong::EffectForm& form, const std::string& key) {
   // A parameter about which a form is centred tells; passes, lugs and inflation have none.
-  if (key == "pass") return form.id == "multipass";
+  if (key == "pass" && form.id == "multipass") return true;
   if (key == "lugs") return form.id == "lug_thrust";
   if (key == "inflation") return form.id == "tire_flexibility";
+  for (const bekker_wong::LearnedVariable& variable : bekker_wong::learned_function(form).variables)
+    if (variable.name == key) return true;
   return std::any_of(form.parameters.begin(), form.parameters.end(),
                      [&](const bekker_wong::EffectParameter& parameter) { return parameter.centred_on == key; });
 }

@@ -38,8 +38,8 @@ std::vector<AcceptedEffect> accepted_effects(const Attribution& found, const Att
   return effects;
 }
 
-std::vector<SoilShift> soil_shifts(const Attribution& found) {
-  const FittedModel &with = found.best().model, &without = found.base;  // the same soil parameters come first in both
+std::vector<SoilShift> soil_shifts(const FittedModel& with, const FittedModel& without) {
+  // the same soil parameters come first in both
   const Eigen::VectorXd error = with.standard_errors(), base_error = without.standard_errors();
   std::vector<SoilShift> shifts;
   for (int i = 0; i < without.predictor().soil_parameters(); ++i)

@@ -32,7 +32,7 @@ std::vector<AcceptedEffect> effects_of(const CandidateModel& candidate);
 /// The same with the p-value and the cosines of each.
 std::vector<AcceptedEffect> accepted_effects(const Attribution& found, const AttributionOptions& options);
 
-/// Of each free soil value, beside the best candidate and beside the base model.
-std::vector<SoilShift> soil_shifts(const Attribution& found);
+/// Of each free soil value, beside a model with effects and beside the base model.
+std::vector<SoilShift> soil_shifts(const FittedModel& with, const FittedModel& without);
 
 }  // namespace soilbin::compare

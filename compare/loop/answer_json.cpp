@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bekker_wong/effects/learned.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/loop/loop.hpp"
 #include "compare/measured/condition_views.hpp"
@@ -68,6 +69,7 @@ ordered_json error_json(const LoopAnswer& answer) {
                    {"after", finite(e.after)},
                    {"noise_floor", finite(e.noise_floor)},
                    {"kind", "held_out"}};
+    if (answer.learned) error[name]["without_learned"] = finite(e.named);
   }
   const ErrorPair& all = answer.validation.overall;
   error["overall"] = ordered_json::object();
@@ -78,6 +80,7 @@ ordered_json error_json(const LoopAnswer& answer) {
                         {"gain", finite(answer.validation.gain)},
                         {"gain_std_error", finite(answer.validation.gain_error)},
                         {"kind", "held_out"}};
+  if (all.cells > 0 && answer.learned) error["overall"]["without_learned"] = finite(all.named);
   return error;
 }
 
@@ -142,6 +145,36 @@ ordered_json ambiguity_json(const LoopAnswer& answer) {
   return all;
 }
 
+/// The learned effect: where it joins the model, of which conditions, the ranges where it holds [SI].
+ordered_json learned_json(const LoopAnswer& answer) {
+  if (!answer.learned) return nullptr;
+  const EffectChoice& choice = answer.stand_in.back().choice;
+  const bekker_wong::EffectForm& form = bekker_wong::find_form(choice);
+  ordered_json valid = ordered_json::object();
+  for (const bekker_wong::LearnedVariable& variable : bekker_wong::learned_function(form).variables) {
+    const std::string name(variable.name);
+    valid[name] = {finite(choice.parameters.at(name + "_from")), finite(choice.parameters.at(name + "_to"))};
+  }
+  return {{"form", form.form},
+          {"equation", form.equation},
+          {"valid", valid},
+          {"log_evidence", finite(answer.learned->log_evidence)},
+          {"gain", finite(answer.learned->gain.mean)},
+          {"gain_std_error", finite(answer.learned->gain.std_error)}};
+}
+
+/// What the residual depends on, and how many of these may be false.
+ordered_json depends_json(const LoopAnswer& answer) {
+  ordered_json list = ordered_json::array();
+  for (const Dependence& d : sure_dependences(answer))
+    list.push_back({{"channel", channel_views[d.channel].name},
+                    {"variable", d.variable},
+                    {"share", finite(d.share)},
+                    {"p_value", finite(d.p_value)},
+                    {"false_discovery_rate", finite(d.false_discovery_rate)}});
+  return list;
+}
+
 ordered_json worse_json(const LoopAnswer& answer) {
   ordered_json names = ordered_json::array();
   for (const int channel : worse_channels(answer)) names.push_back(channel_views[channel].name);
@@ -170,6 +203,8 @@ ordered_json to_json(const LoopAnswer& answer) {
           {"with_outliers", with_outliers_json(answer)},
           {"stand_in", effects_json(answer.stand_in, answer.wheel)},
           {"worse", worse_json(answer)},
+          {"learned", learned_json(answer)},
+          {"depends_on", depends_json(answer)},
           {"beside_inadequacy", model_discrepancy_json(answer)}};
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bekker_wong/effects/learned.hpp"
 #include "bekker_wong/effects/titles.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/measured/condition_views.hpp"
@@ -133,6 +134,16 @@ MarkedTable parameters_table(const LoopAnswer& answer) {
   for (const std::vector<AcceptedEffect>* effects : {&answer.effects, &answer.stand_in})
     for (const AcceptedEffect& effect : *effects) {
       const bekker_wong::EffectForm& form = bekker_wong::find_form(effect.choice);
+      if (form.id == bekker_wong::learned_id) {  // its weights mean nothing one by one
+        table.rows.push_back({{.text = std::string(bekker_wong::effect_title(form.id).name), .note = form.id},
+                              {.text = form.equation, .note = "form " + form.form},
+                              {.text = std::to_string(effect.fitted.size()) + " weights"},
+                              {.text = "-"},
+                              {},
+                              {.text = "-"},
+                              {.text = "-"}});
+        continue;
+      }
       for (std::size_t i = 0; i < effect.fitted.size(); ++i) {
         const auto p = std::find_if(form.parameters.begin(), form.parameters.end(),
                                     [&](const auto& one) { return one.name == effect.fitted[i]; });

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "bekker_wong/effects/learned.hpp"
 #include "bekker_wong/effects/titles.hpp"
 #include "compare/doubts/unheard.hpp"
 #include "compare/measured/channels.hpp"
@@ -47,6 +48,30 @@ std::size_t known_effects() {
 }
 
 // What is missing.
+
+/// "slip 5 to 70 %, load 40 to 90 N": where a learned change holds.
+std::string learned_ranges(const EffectChoice& choice) {
+  std::vector<std::string> ranges;
+  for (const auto& variable : bekker_wong::learned_function(bekker_wong::find_form(choice)).variables) {
+    const std::string name(variable.name);
+    const ConditionView& view = condition_view(name);
+    ranges.push_back(fmt::format(
+        "{} {} to {}{}{}", view.title, setting(view.per_si * choice.parameters.at(name + "_from")),
+        setting(view.per_si * choice.parameters.at(name + "_to")), view.unit.empty() ? "" : " ", view.unit));
+  }
+  return in_a_row(ranges);
+}
+
+/// "slip sinkage and a change of the torque by slip and load that was learned from these runs (holds for ...)".
+std::string stand_in_words(const LoopAnswer& answer) {
+  std::vector<std::string> words;
+  for (const AcceptedEffect& effect : answer.stand_in)
+    words.push_back(effect.choice.id == bekker_wong::learned_id
+                        ? fmt::format("a change of the {} that was learned from these runs (it holds for {})",
+                                      spaced(effect.choice.form), learned_ranges(effect.choice))
+                        : std::string(effect_title(effect.choice.id).name));
+  return in_a_row(words);
+}
 
 /// Sets from the first one on, with their shares; those of next to none are only counted.
 std::string sets_with_shares(const std::vector<Weighted>& sets, std::size_t first) {
@@ -102,7 +127,7 @@ std::string how_sure(const LoopAnswer& answer) {
       if (!answer.stand_in.empty())
         text += fmt::format(
             " The saved model takes {} as a stand-in: that explains nothing, but predicts conditions left out better.",
-            named_effects(ids_of(answer.stand_in)));
+            stand_in_words(answer));
       return text + (answer.ambiguity_set.size() > 1 ? why_taken(answer.ambiguity_set) : "");
     }
     case Verdict::nothing_missing:
@@ -184,38 +209,31 @@ std::string condition_words(const NextTest& next) {
   return text;
 }
 
-/// The dependence that is surest in what the best named effects leave, or in what the base model leaves.
-const Dependence* surest_dependence(const LoopAnswer& answer) {
-  const auto& all = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
-  const auto surer = [](const Dependence& a, const Dependence& b) {
-    return std::pair(a.p_value, -a.share) < std::pair(b.p_value, -b.share);
-  };
-  const auto surest = std::min_element(all.begin(), all.end(), surer);
-  return surest == all.end() ? nullptr : &*surest;
-}
-
 /// What has no name predicts nothing; but where it shows can be said.
 std::string to_show_its_shape(const LoopAnswer& answer) {
-  constexpr double sure = 0.05;
-  const Dependence* on = surest_dependence(answer);
-  if (!on || on->p_value > sure)
+  const std::vector<Dependence> sure = sure_dependences(answer);
+  if (sure.empty())
     return "Where the unexplained part comes from does not show yet: vary one condition alone, each setting run twice.";
+  const Dependence* on = &sure.front();
   const auto& looked_at = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
   const std::string how = on->variable == "run"
                               ? "one setpoint, repeated through the whole campaign"
                               : fmt::format("the same run at several settings of the {} alone, each one twice",
                                             spaced(std::string(condition_view(on->variable).title)));
   return fmt::format(
-      "The unexplained part of the {} depends most on the {} (p = {:.2g}, the surest of {} pairs looked at). Measure "
-      "next {}.",
+      "The unexplained part of the {} depends most on the {} (p = {:.2g}, the surest of {} pairs looked at; of those "
+      "this sure, {} or less are false). Measure next {}.",
       channel_views[on->channel].title, spaced(std::string(condition_view(on->variable).title)), on->p_value,
-      looked_at.size(), how);
+      looked_at.size(), share_words(on->false_discovery_rate), how);
 }
 
 // Parameters.
 
 std::string effect_sentence(const AcceptedEffect& effect) {
   const bekker_wong::EffectForm& form = bekker_wong::find_form(effect.choice);
+  if (effect.choice.id == bekker_wong::learned_id)
+    return fmt::format("{} ({}): {}; it holds for {}.", capital(std::string(effect_title(effect.choice.id).name)),
+                       spaced(effect.choice.form), form.equation, learned_ranges(effect.choice));
   std::vector<std::string> parameters;
   for (std::size_t i = 0; i < effect.fitted.size(); ++i) {
     const auto p = std::find_if(form.parameters.begin(), form.parameters.end(),
@@ -372,6 +390,17 @@ std::vector<std::pair<std::string, std::string>> headline(const LoopAnswer& answ
   for (const std::string& sentence : what_next(answer)) next += (next.empty() ? "" : " ") + sentence;
   if (!next.empty()) parts.emplace_back("What to measure next", next);
   return parts;
+}
+
+std::vector<Dependence> sure_dependences(const LoopAnswer& answer) {
+  constexpr double level = 0.05;
+  if (answer.verdict != Verdict::unknown_effect) return {};
+  std::vector<Dependence> all = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
+  std::erase_if(all, [](const Dependence& d) { return d.false_discovery_rate > level; });
+  std::stable_sort(all.begin(), all.end(), [](const Dependence& a, const Dependence& b) {
+    return std::pair(a.p_value, -a.share) < std::pair(b.p_value, -b.share);
+  });
+  return all;
 }
 
 std::vector<std::string> what_next(const LoopAnswer& answer) {

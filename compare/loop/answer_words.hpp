@@ -57,6 +57,10 @@ std::string held_out_words(const CrossValidation& validation);
 /// The same as the end of a reason; empty where the model takes no effects or nothing was held out.
 std::string held_out_clause(const LoopAnswer& answer);
 
+/// At an unknown effect: what the residual depends on (after the model's effects, where it takes any), surest first, as
+/// many as keep the false-discovery rate at 5 %.
+std::vector<Dependence> sure_dependences(const LoopAnswer& answer);
+
 /// What to measure next, or why no run is proposed; empty where no question is open.
 std::vector<std::string> what_next(const LoopAnswer& answer);
 

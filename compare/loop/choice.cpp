@@ -9,12 +9,6 @@
 namespace soilbin::compare {
 namespace {
 
-/// Conditions left out are predicted better by a standard error; or better at all, where the odds are twenty to one:
-/// with a dozen conditions a standard error is more than a real effect reaches.
-bool earns_its_place(const PredictiveGain& gain, double log_odds) {
-  return gain.mean > gain.std_error || (gain.mean > 0 && log_odds > thresholds::odds_enough);
-}
-
 /// The best candidate whose effects are one fewer of these; none for a single effect.
 std::optional<std::size_t> best_with_one_fewer(const Candidates& candidates, const std::set<std::string>& all) {
   for (const Weighted& w : candidates.sets)
@@ -33,6 +27,10 @@ double allowed_behind(const Candidates& candidates, const Weighted& best, const 
 }
 
 }  // namespace
+
+bool earns_its_place(const PredictiveGain& gain, double log_odds) {
+  return gain.mean > gain.std_error || (gain.mean > 0 && log_odds > thresholds::odds_enough);
+}
 
 ResidualTests test_residual(const FittedModel& model) { return {lack_of_fit(model), rerun_test(model)}; }
 

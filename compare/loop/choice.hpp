@@ -11,6 +11,11 @@
 
 namespace soilbin::compare {
 
+/// The rule by which an effect is accepted: conditions left out are predicted better by a standard error; or better at
+/// all, where the odds are twenty to one: with a dozen conditions a standard error is more than a real effect reaches.
+/// log_odds: ln evidence over the model without it, its price paid.
+bool earns_its_place(const PredictiveGain& gain, double log_odds);
+
 /// What a model leaves, against the noise and against re-runs.
 struct ResidualTests {
   LackOfFit lack_of_fit;

@@ -32,7 +32,8 @@ RerunTest rerun_test(const FittedModel& model) {
     const Cell& cell = observations.cells[i];
     const double f = model.fit().prediction[i];
     const auto c = cell.channel;
-    channels[c].add(observations.condition[cell.row], (cell.value - f) / model.data().noise.channels[c].sd(f));
+    channels[c].add(observations.condition[cell.row],
+                    (cell.value - f) / model.data().noise.channels[c].sd(f, cell.spread));
   }
   double setpoints = 0.0;
   for (const SetpointSquares& s : channels) setpoints += s.setpoints();
@@ -73,6 +74,19 @@ double explained(const MatrixXd& q, const VectorXd& r, double mean) {
   return whole > 0 ? (q.transpose() * centred).squaredNorm() / whole : 0.0;
 }
 
+/// Of each of m p-values the least m p/rank among those that are no smaller.
+void tell_false_discovery_rates(std::vector<Dependence>& table) {
+  std::vector<Dependence*> by_p;
+  for (Dependence& d : table) by_p.push_back(&d);
+  std::stable_sort(by_p.begin(), by_p.end(),
+                   [](const Dependence* a, const Dependence* b) { return a->p_value < b->p_value; });
+  double least = 1.0;
+  for (std::size_t i = by_p.size(); i-- > 0;) {
+    least = std::min(least, by_p[i]->p_value * static_cast<double>(by_p.size()) / static_cast<double>(i + 1));
+    by_p[i]->false_discovery_rate = least;
+  }
+}
+
 }  // namespace
 
 std::vector<Dependence> dependences(const Observations& observations, const VectorXd& residual, int permutations,
@@ -106,6 +120,7 @@ std::vector<Dependence> dependences(const Observations& observations, const Vect
       table.push_back(d);
     }
   }
+  tell_false_discovery_rates(table);
   return table;
 }
 

@@ -36,6 +36,9 @@ struct Dependence {
   std::string variable;
   double share = 0.0;
   double p_value = 1.0;
+  /// Least share of false findings, in expectation, among this and all that are surer: of all channels and variables of
+  /// the table (Benjamini and Hochberg 1995, J. R. Stat. Soc. B 57:289).
+  double false_discovery_rate = 1.0;
 };
 /// residual: whitened, a cell each. Deterministic for a seed.
 std::vector<Dependence> dependences(const Observations& observations, const Eigen::VectorXd& residual, int permutations,

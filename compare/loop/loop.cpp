@@ -98,7 +98,7 @@ LoopAnswer answer_of(const Campaign& campaign, Judgement judgement) {
   answer.soil = model.soil();
   answer.dependences_before = dependences_of(found.base, 7);
   if (takes_best) {
-    answer.soil_shifts = soil_shifts(found);
+    answer.soil_shifts = soil_shifts(model, found.base);
     answer.dependences_after = dependences_of(model, 11);
     if (judgement.verdict == Verdict::unknown_effect) answer.stand_in = effects_of(found.best());
   }
@@ -106,6 +106,31 @@ LoopAnswer answer_of(const Campaign& campaign, Judgement judgement) {
   answer.outliers = static_cast<int>(std::count(outlier.begin(), outlier.end(), true));
   answer.judgement = std::move(judgement);
   return answer;
+}
+
+/// A learned effect for what named ones do not explain; nothing where it does not stand.
+std::optional<LearnedEffect> learned_beside(const FittedModel& base, const Judgement& judgement,
+                                            const AttributionOptions& options) {
+  if (judgement.verdict != Verdict::unknown_effect) return std::nullopt;
+  auto learned =
+      learn_effect(beside_exact(base, judgement.takes_best() ? &judgement.found.best().model : nullptr), options);
+  return learned && learned->stands ? std::move(learned) : std::nullopt;
+}
+
+/// It stays where the whole procedure, redone in each fold, predicts better with learned effects than without; then the
+/// model that is saved takes it.
+void take_learned(std::optional<LearnedEffect> learned, const FittedModel& base, LoopAnswer& answer) {
+  if (!learned) return;
+  const ErrorPair& held_out = answer.validation.overall;
+  if (held_out.cells > 0 && !(held_out.after < held_out.named)) {
+    answer.validation = with_named_alone(std::move(answer.validation), base.data().observations);
+    return;
+  }
+  answer.stand_in = effects_of(learned->candidate);
+  answer.soil = learned->candidate.model.soil();
+  answer.soil_shifts = soil_shifts(learned->candidate.model, base);
+  answer.dependences_after = dependences_of(learned->candidate.model, 11);
+  answer.learned = std::move(learned);
 }
 
 LoopAnswer too_small_to_judge(const Campaign& campaign, std::string reason) {
@@ -140,6 +165,8 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   std::vector<std::string> hidden = not_testable(judgement.found);
   auto second = attribute_again(judgement, whole);
 
+  auto learned = learned_beside(base, judgement, whole);
+
   LoopAnswer answer = answer_of(campaign, std::move(judgement));
   answer.second = std::move(second);
   answer.not_testable = std::move(hidden);
@@ -149,11 +176,13 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
     answer.validation = cross_validate(base.data(), answer.noise,
                                        {.attribution = of_a_fold(options.attribution),
                                         .with_model_discrepancy = answer.decided_with_model_discrepancy(),
+                                        .learn = learned.has_value(),
                                         .folds = options.folds,
                                         .threads = options.threads,
                                         .progress = [&](std::size_t done, std::size_t folds) {
                                           report(chosen + (all_steps - 1 - chosen) * done / folds);
                                         }});
+  take_learned(std::move(learned), base, answer);
   whole.pool.pulse = [&] { report(all_steps - 1); };
   if (answer.verdict == Verdict::effect_found) answer.effects = accepted_effects(answer.found(), whole);
   answer.reason += held_out_clause(answer);

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "compare/loop/accepted_model.hpp"
+#include "compare/loop/learned_effect.hpp"
 #include "compare/loop/next_test.hpp"
 #include "compare/loop/validation.hpp"
 #include "compare/loop/verdict.hpp"
@@ -58,6 +59,9 @@ struct LoopAnswer {
   /// Of an unknown effect: the best named ones, where conditions left out are predicted better with them. They stand in
   /// for it in the model that is saved, and explain nothing.
   std::vector<AcceptedEffect> stand_in;
+  /// Of an unknown effect: a smooth function of one condition or two that predicts conditions left out better still,
+  /// where there is one. It stands among the stand-ins, at the end, and the soil is fitted with it.
+  std::optional<LearnedEffect> learned;
   std::vector<Weighted> ambiguity_set;  ///< best first; empty unless effects compete
   /// Sets that only the attribution which does not decide leaves: indices are those of its candidates, weights 0.
   std::vector<Weighted> noted_sets;
@@ -80,6 +84,10 @@ struct LoopAnswer {
   bool has_candidates() const { return judgement && !found().candidates.sets.empty(); }
   /// What the chosen candidate leaves, and what it gains over the base model; without one nothing.
   ChosenCandidate choice() const { return judgement && judgement->choice ? *judgement->choice : ChosenCandidate{}; }
+  /// What is saved: the base model, or one with the accepted effects or those that stand in.
+  const FittedModel& model() const {
+    return learned ? learned->candidate.model : judgement->takes_best() ? found().best().model : found().base;
+  }
   /// Whether the attribution with a model discrepancy decides; and that attribution, null where there was none.
   bool decided_with_model_discrepancy() const { return second && second->decides; }
   const Attribution* with_model_discrepancy() const {

@@ -23,7 +23,7 @@ const Observations& seen(const LoopAnswer& answer) { return answer.found().base.
 
 /// The model with effects; null where the answer's model takes none.
 const FittedModel* model_after(const LoopAnswer& answer) {
-  return answer.effects.empty() && answer.stand_in.empty() ? nullptr : &answer.found().best().model;
+  return answer.effects.empty() && answer.stand_in.empty() ? nullptr : &answer.model();
 }
 
 bool has_cells(const Observations& observations, int channel) {
@@ -43,14 +43,17 @@ std::string channel_title(int channel) {
 /// (measured - predicted)/sd of each cell.
 Eigen::VectorXd standardised(const LoopAnswer& answer, const Eigen::VectorXd& difference, const Eigen::VectorXd& at) {
   Eigen::VectorXd r = difference;
-  for (Eigen::Index i = 0; i < r.size(); ++i) r[i] /= answer.noise.channels[seen(answer).cells[i].channel].sd(at[i]);
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    const Cell& cell = seen(answer).cells[i];
+    r[i] /= answer.noise.channels[cell.channel].sd(at[i], cell.spread);
+  }
   return r;
 }
 
 /// What the effects change in the prediction, soil refitted, in sd of the noise.
 Eigen::VectorXd change_by_effects(const LoopAnswer& answer) {
   const Eigen::VectorXd& base = answer.found().base.fit().prediction;
-  return standardised(answer, answer.found().best().fit().prediction - base, base);
+  return standardised(answer, answer.model().fit().prediction - base, base);
 }
 
 /// Cells of a channel over a covariate, sorted by it.
@@ -129,7 +132,8 @@ Series measured_on(const LoopAnswer& answer, const std::vector<int>& rows, int c
     if (cell.channel != channel || !wanted.contains(cell.row)) continue;
     series.x.push_back(100 * observations.rows[static_cast<std::size_t>(cell.row)].slip);
     series.y.push_back(per_si * cell.value);
-    series.error.push_back(per_si * answer.noise.channels[channel].sd(prediction[static_cast<Eigen::Index>(i)]));
+    series.error.push_back(per_si *
+                           answer.noise.channels[channel].sd(prediction[static_cast<Eigen::Index>(i)], cell.spread));
   }
   return series;
 }
@@ -228,7 +232,7 @@ Sheet gap_sheet(const LoopAnswer& answer, const Covariate& x) {
       if (cell.channel != channel) continue;
       measured.x.push_back(at[static_cast<std::size_t>(cell.row)]);
       measured.y.push_back(per_si * (cell.value - before[e]));
-      measured.error.push_back(per_si * answer.noise.channels[channel].sd(before[e]));
+      measured.error.push_back(per_si * answer.noise.channels[channel].sd(before[e], cell.spread));
       if (after)
         modelled.x.push_back(measured.x.back()),
             modelled.y.push_back(per_si * (after->fit().prediction[e] - before[e]));

@@ -59,7 +59,7 @@ double squared_distance(const RunForecast& a, const RunForecast& b, const NoiseF
   std::vector<int> measured;
   for (int c = 0; c < channel_count; ++c)
     if (noise.channels[c].measured) measured.push_back(c);
-  const auto sd = [&](int c) { return noise.channels[c].sd(a.mean[c]); };
+  const auto sd = [&](int c) { return noise.channels[c].sd(a.mean[c], noise.channels[c].spread); };
   MatrixXd spread = (a.covariance + b.covariance)(measured, measured);
   for (Index i = 0; i < spread.rows(); ++i)
     for (Index j = 0; j < spread.cols(); ++j)

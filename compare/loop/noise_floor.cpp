@@ -16,7 +16,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-double ChannelNoise::sd(double prediction) const { return std::hypot(floor, growth * prediction); }
+double ChannelNoise::sd(double prediction, double scatter) const {
+  const double steady = std::hypot(floor, growth * prediction);
+  return unsteady == 0.0 ? steady : std::hypot(steady, unsteady * scatter);
+}
 
 double NoiseFloor::freedom() const {
   return std::accumulate(channels.begin(), channels.end(), 0.0,
@@ -43,9 +46,10 @@ Whitening::Whitening(const Observations& observations, const NoiseFloor& noise, 
     for (Index i = 0; i < n; ++i)
       for (Index j = 0; j < n; ++j) {
         const Cell &a = cells[first + i], &b = cells[first + j];
-        covariance(i, j) =
-            noise.correlation(a.channel, b.channel) * noise.channels[a.channel].sd(prediction[first + i]) *
-            noise.channels[b.channel].sd(prediction[first + j]) / std::sqrt(counts[first + i] * counts[first + j]);
+        covariance(i, j) = noise.correlation(a.channel, b.channel) *
+                           noise.channels[a.channel].sd(prediction[first + i], a.spread) *
+                           noise.channels[b.channel].sd(prediction[first + j], b.spread) /
+                           std::sqrt(counts[first + i] * counts[first + j]);
       }
     const MatrixXd factor = covariance.llt().matrixL();
     blocks_.push_back(
@@ -187,61 +191,83 @@ double typical_noise(const VectorXd& residual, const VectorXd& prediction) {
 
 /// What the cells of one channel are made of, and the columns that may explain them.
 struct ChannelData {
-  VectorXd e, f;  ///< residuals about the declared soil's prediction, and the predictions
+  VectorXd e, f;    ///< residuals about the declared soil's prediction, and the predictions
+  VectorXd spread;  ///< Cell::spread
   MatrixXd soil, smooth;
 };
 
-ChannelData channel_data(const ChannelCells& cells, const NoiseData& data, const MatrixXd& basis) {
+ChannelData channel_data(const Observations& observations, const ChannelCells& cells, const NoiseData& data,
+                         const MatrixXd& basis) {
   const Index n = cells.cell.size();
+  VectorXd spread(n);
+  for (Index i = 0; i < n; ++i) spread[i] = observations.cells[cells.cell[i]].spread;
   const MatrixXd functions = basis(cells.row, Eigen::seqN(0, std::clamp<Index>(n / 3 - 1, 0, basis.cols())));
   return {.e = data.residual(cells.cell),
           .f = data.prediction(cells.cell),
+          .spread = spread,
           .soil = data.soil_columns(cells.cell, Eigen::all),
           .smooth = with_constant(functions)};
+}
+
+double middle_value(const VectorXd& values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  std::nth_element(sorted.begin(), sorted.begin() + std::ssize(sorted) / 2, sorted.end());
+  return sorted[sorted.size() / 2];
 }
 
 /// The likeliest sizes of noise and smooth function, and how the noise grows with the prediction.
 struct ChannelSizes {
   double sigma = 0.0, tau = 0.0;
   double share = 0.0;  ///< of the variance at the mean square prediction that grows with its square
+  double part = 0.0;   ///< of the variance at the mean square scatter in time that grows with its square
   double deviance = std::numeric_limits<double>::infinity();
 };
 
-/// Of the noise's variance over the cells, where a share of it grows with the prediction.
-VectorXd variance_shape(const VectorXd& f, double mean_square, double share) {
-  return (1 - share) + share * (0.02 + 0.98 * f.array().square() / std::max(mean_square, 1e-300));
+/// Of the noise's variance over the cells, where a share of it grows with the prediction, and of the whole a part with
+/// the scatter in time.
+VectorXd variance_shape(const ChannelData& data, double mean_square, double share, double part) {
+  VectorXd shape = (1 - share) + share * (0.02 + 0.98 * data.f.array().square() / std::max(mean_square, 1e-300));
+  if (part == 0.0) return shape;
+  const double scatter = data.spread.squaredNorm() / static_cast<double>(data.spread.size());
+  return (1 - part) * shape.array() + part * (0.02 + 0.98 * data.spread.array().square() / scatter);
 }
 
 ChannelSizes likeliest(const ChannelData& data, double mean_square) {
   const double typical = typical_noise(data.e, data.f);
   const std::vector<double> shares =
       data.e.size() >= 30 && mean_square > 0 ? std::vector<double>{0.0, 0.5, 1.0} : std::vector<double>{0.0};
+  const bool tells = data.e.size() >= 30 && data.spread.squaredNorm() > 0;
+  const std::vector<double> parts = tells ? std::vector<double>{0.0, 0.3, 0.6, 0.9} : std::vector<double>{0.0};
   ChannelSizes best{.sigma = typical};
-  for (const double share : shares) {
-    const VarianceComponents model(data.e, data.soil, data.smooth, variance_shape(data.f, mean_square, share));
-    for (int i = -32; i <= 20; ++i)
-      for (const double ratio : {0.0, 0.3, 1.0, 3.0, 10.0, 40.0}) {
-        const double sigma = typical * std::exp(0.12 * i), tau = ratio * sigma;
-        const double deviance = model.deviance(sigma, tau) + std::pow(0.12 * i, 2) + 1.0 * share;
-        if (deviance < best.deviance) best = {sigma, tau, share, deviance};
-      }
-  }
+  for (const double part : parts)
+    for (const double share : shares) {
+      const VarianceComponents model(data.e, data.soil, data.smooth, variance_shape(data, mean_square, share, part));
+      for (int i = -32; i <= 20; ++i)
+        for (const double ratio : {0.0, 0.3, 1.0, 3.0, 10.0, 40.0}) {
+          const double sigma = typical * std::exp(0.12 * i), tau = ratio * sigma;
+          const double deviance = model.deviance(sigma, tau) + std::pow(0.12 * i, 2) + 1.0 * share + 1.0 * part;
+          if (deviance < best.deviance) best = {sigma, tau, share, part, deviance};
+        }
+    }
   return best;
 }
 
 ChannelFit fit_channel(const Observations& observations, const NoiseData& data, const ChannelCells& cells,
                        const MatrixXd& basis) {
-  const ChannelData channel = channel_data(cells, data, basis);
+  const ChannelData channel = channel_data(observations, cells, data, basis);
   const double n = static_cast<double>(cells.cell.size()), mean_square = channel.f.squaredNorm() / n;
-  const auto [sigma, tau, share, deviance] = likeliest(channel, mean_square);
+  const auto [sigma, tau, share, part, deviance] = likeliest(channel, mean_square);
   const VarianceComponents model(channel.e, channel.soil, channel.smooth,
-                                 variance_shape(channel.f, mean_square, share));
+                                 variance_shape(channel, mean_square, share, part));
+  const double scatter = channel.spread.squaredNorm() / n;
   ChannelFit fit;
   double trace = 0.0;
   fit.score = model.studentized(sigma, tau, trace, fit.plain);
   fit.noise = {.measured = true,
-               .floor = sigma * std::sqrt(1 - 0.98 * share),
-               .growth = share > 0 ? sigma * std::sqrt(0.98 * share / mean_square) : 0.0,
+               .floor = sigma * std::sqrt((1 - part) * (1 - 0.98 * share) + 0.02 * part),
+               .growth = share > 0 ? sigma * std::sqrt((1 - part) * (0.98 * share / mean_square)) : 0.0,
+               .unsteady = part > 0 ? sigma * std::sqrt(0.98 * part / scatter) : 0.0,
+               .spread = middle_value(channel.spread),
                .freedom = std::max(1.0, n - trace),
                .rerun_sd = pooled_rerun_sd(observations, cells, data.residual)};
   return fit;
@@ -264,7 +290,8 @@ NoiseEstimate estimate_noise(const Observations& observations, const NoiseData& 
     for (std::size_t i = 0; i < cells.cell.size(); ++i) {
       const Index k = i;
       estimate.outlier_score[cells.cell[i]] = std::abs(fit.score[k]);
-      standard(cells.row[i], channel) = fit.plain[k] / fit.noise.sd(data.prediction[cells.cell[i]]);
+      standard(cells.row[i], channel) =
+          fit.plain[k] / fit.noise.sd(data.prediction[cells.cell[i]], observations.cells[cells.cell[i]].spread);
     }
   }
   for (int a = 0; a < channel_count; ++a)

@@ -9,14 +9,17 @@
 
 namespace soilbin::compare {
 
-/// Standard deviation of a channel's noise, sqrt(a^2 + b^2 f^2) at prediction f, and what it rests on.
+/// Standard deviation of a channel's noise, sqrt(a^2 + b^2 f^2 + q^2 s^2) at prediction f in a run whose channel
+/// scattered by s in time, and what it rests on.
 struct ChannelNoise {
   bool measured = false;  ///< the campaign holds this channel
   double floor = 0.0;     ///< a, in the channel's unit
   double growth = 0.0;    ///< b [-]
+  double unsteady = 0.0;  ///< q [-]; 0 where runs don't tell how they scattered, or it says nothing
+  double spread = 0.0;    ///< median of s over the runs: of a run that is still to be made
   double freedom = 0.0;   ///< degrees of freedom behind the estimate
   double rerun_sd = 0.0;  ///< pooled standard deviation within re-run setpoints alone; 0 without re-runs
-  double sd(double prediction) const;
+  double sd(double prediction, double scatter = 0.0) const;
 };
 
 struct NoiseFloor {

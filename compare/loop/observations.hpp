@@ -23,6 +23,9 @@ struct Cell {
   int row = 0;      ///< of Observations::rows
   int channel = 0;  ///< Channel
   double value = 0.0;
+  /// Standard deviation in time within the run [SI]; the channel's median where this run doesn't tell and others do, 0
+  /// where none does.
+  double spread = 0.0;
 };
 
 /// What may explain a residual: one column of numbers over the rows, only where it varies.

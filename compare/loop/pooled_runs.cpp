@@ -17,15 +17,15 @@ using Eigen::VectorXd;
 namespace {
 
 /// Rows that lie together, and the variable in which they scatter most.
-struct Group {
+struct RunGroup {
   std::vector<int> rows;
   std::size_t variable = 0;
   double middle = 0.0;   ///< mean of that variable
   double scatter = 0.0;  ///< sum of squares about it [sd of the campaign squared]
 };
 
-Group group_of(std::vector<int> rows, const std::vector<VectorXd>& variables) {
-  Group group{.rows = std::move(rows)};
+RunGroup run_group(std::vector<int> rows, const std::vector<VectorXd>& variables) {
+  RunGroup group{.rows = std::move(rows)};
   const double n = static_cast<double>(group.rows.size());
   for (std::size_t v = 0; v < variables.size(); ++v) {
     double mean = 0.0, scatter = 0.0;
@@ -36,7 +36,7 @@ Group group_of(std::vector<int> rows, const std::vector<VectorXd>& variables) {
   return group;
 }
 
-std::vector<VectorXd> standardised(const std::vector<Covariate>& covariates) {
+std::vector<VectorXd> standardised_covariates(const std::vector<Covariate>& covariates) {
   std::vector<VectorXd> all;
   for (const Covariate& c : covariates) {
     const VectorXd centred = c.values.array() - c.values.mean();
@@ -46,8 +46,8 @@ std::vector<VectorXd> standardised(const std::vector<Covariate>& covariates) {
 }
 
 /// The mean condition of some rows.
-OperatingCondition mean_of(const Observations& observations, const std::vector<int>& rows,
-                           const std::vector<Covariate>& varying) {
+OperatingCondition mean_condition(const Observations& observations, const std::vector<int>& rows,
+                                  const std::vector<Covariate>& varying) {
   OperatingCondition at = observations.rows[rows.front()];
   for (const Covariate& c : varying) {
     double mean = 0.0;
@@ -58,10 +58,11 @@ OperatingCondition mean_of(const Observations& observations, const std::vector<i
 }
 
 /// Which cells of all runs each cell of the pooled ones is the mean of.
-using Members = std::vector<std::vector<Index>>;
+using CellMembers = std::vector<std::vector<Index>>;
 
 /// One row a group, in the order of the groups; its cells' values are still to be set.
-Observations one_row_each(const Observations& all, const std::vector<std::vector<int>>& groups, Members& members) {
+Observations one_row_a_group(const Observations& all, const std::vector<std::vector<int>>& groups,
+                             CellMembers& members) {
   const std::vector<Covariate> varying = covariates(all);
   std::vector<std::array<std::vector<Index>, channel_count>> cells(groups.size());
   std::vector<int> group_of_row(all.rows.size());
@@ -72,7 +73,7 @@ Observations one_row_each(const Observations& all, const std::vector<std::vector
   Observations pooled;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const int row = static_cast<int>(g);
-    pooled.rows.push_back(mean_of(all, groups[g], varying));
+    pooled.rows.push_back(mean_condition(all, groups[g], varying));
     pooled.condition.push_back(pooled.conditions++);
     pooled.source_row.push_back(all.source_row[groups[g].front()]);
     for (int channel = 0; channel < channel_count; ++channel)
@@ -85,7 +86,7 @@ Observations one_row_each(const Observations& all, const std::vector<std::vector
 }
 
 /// The mean over each pooled cell's members, column by column.
-MatrixXd means(const MatrixXd& of_cells, const Members& members) {
+MatrixXd means_of_members(const MatrixXd& of_cells, const CellMembers& members) {
   MatrixXd mean(members.size(), of_cells.cols());
   for (Index i = 0; i < mean.rows(); ++i) mean.row(i) = of_cells(members[i], Eigen::all).colwise().mean();
   return mean;
@@ -94,20 +95,20 @@ MatrixXd means(const MatrixXd& of_cells, const Members& members) {
 }  // namespace
 
 std::vector<std::vector<int>> near_rows(const Observations& observations, int most_groups) {
-  const std::vector<VectorXd> variables = standardised(covariates(observations));
+  const std::vector<VectorXd> variables = standardised_covariates(covariates(observations));
   std::map<int, std::vector<int>> by_pass;
   for (std::size_t row = 0; row < observations.rows.size(); ++row)
     by_pass[observations.rows[row].pass].push_back(static_cast<int>(row));
-  const auto narrower = [](const Group& a, const Group& b) { return a.scatter < b.scatter; };
-  std::priority_queue<Group, std::vector<Group>, decltype(narrower)> open(narrower);
-  for (auto& [pass, rows] : by_pass) open.push(group_of(std::move(rows), variables));
+  const auto narrower = [](const RunGroup& a, const RunGroup& b) { return a.scatter < b.scatter; };
+  std::priority_queue<RunGroup, std::vector<RunGroup>, decltype(narrower)> open(narrower);
+  for (auto& [pass, rows] : by_pass) open.push(run_group(std::move(rows), variables));
   while (static_cast<int>(open.size()) < most_groups && open.top().scatter > 0.0) {
-    const Group widest = open.top();
+    const RunGroup widest = open.top();
     open.pop();
     std::vector<int> below, above;
     for (const int row : widest.rows) (variables[widest.variable][row] < widest.middle ? below : above).push_back(row);
     if (below.empty() || above.empty()) break;  // alike to the last digit
-    open.push(group_of(std::move(below), variables)), open.push(group_of(std::move(above), variables));
+    open.push(run_group(std::move(below), variables)), open.push(run_group(std::move(above), variables));
   }
   std::vector<std::vector<int>> groups;
   for (; !open.empty(); open.pop()) groups.push_back(open.top().rows);
@@ -117,20 +118,23 @@ std::vector<std::vector<int>> near_rows(const Observations& observations, int mo
 
 std::optional<FittedModel> pooled(const FittedModel& base, int most_rows) {
   const Dataset& all = base.data();
-  Members members;
-  Observations runs = one_row_each(all.observations, near_rows(all.observations, most_rows), members);
+  CellMembers members;
+  Observations runs = one_row_a_group(all.observations, near_rows(all.observations, most_rows), members);
   VectorXd predicted;
   BalanceMemory memory = giving_way();
   if (!base.predictor().over(runs).predict(base.fit().theta, predicted, memory)) return std::nullopt;
-  const VectorXd values = predicted + means(all.observations.values() - base.fit().prediction, members);
+  const VectorXd values = predicted + means_of_members(all.observations.values() - base.fit().prediction, members);
   VectorXd counts(values.size());
   for (Index i = 0; i < values.size(); ++i) {
     runs.cells[i].value = values[i];
     counts[i] = static_cast<double>(members[i].size());
+    double squares = 0.0;
+    for (const Index member : members[i]) squares += std::pow(all.observations.cells[member].spread, 2);
+    runs.cells[i].spread = std::sqrt(squares / counts[i]);
   }
   Whitening whitening(runs, all.noise, predicted, counts);
   if (const MatrixXd term = all.whitening.term(); term.size() > 0)
-    whitening = whitening.beside(whitening(means(term, members)));
+    whitening = whitening.beside(whitening(means_of_members(term, members)));
   Dataset few{all.campaign, std::move(runs), {}, all.noise, std::move(whitening), {}};
   const VectorXd left = few.whitening(VectorXd(values - predicted));
   few.hidden = {.cells = static_cast<double>(all.cells() - few.cells()),

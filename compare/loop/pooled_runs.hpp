@@ -20,8 +20,8 @@ std::vector<std::vector<int>> near_rows(const Observations& observations, int mo
 /// chi2 between two models differs as it does on all runs; what the means hide is kept beside (Dataset::hidden). What
 /// is fitted so is where a fit of all runs starts, never an answer.
 ///
-///     const auto small = pooled(base, 200);
-///     small->data().observations.rows.size();   // 200 or less, of any number
+///     const auto small = pooled(base, 150);
+///     small->data().observations.rows.size();   // 150 or less, of any number
 std::optional<FittedModel> pooled(const FittedModel& base, int most_rows);
 
 }  // namespace soilbin::compare

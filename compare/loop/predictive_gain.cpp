@@ -50,7 +50,7 @@ std::optional<VectorXd> density_of(const FittedModel& model, const Observations&
   VectorXd density(forecast->prediction.size());
   for (Index i = 0; i < density.size(); ++i) {
     const Cell& cell = held.cells[i];
-    const double sd = model.data().noise.channels[cell.channel].sd(cell.value);
+    const double sd = model.data().noise.channels[cell.channel].sd(cell.value, cell.spread);
     const double variance = sd * sd + forecast->variance(i);
     density[i] = -0.5 * std::log(variance) - 0.5 * std::pow(cell.value - forecast->prediction[i], 2) / variance;
   }

@@ -47,7 +47,7 @@ VectorXd smooth_term(const Observations& all, const std::vector<bool>& kept, con
     }
     MatrixXd columns(training.size(), basis.cols());
     VectorXd residual(columns.rows());
-    const auto sd = [&](Index i) { return noise.channels[channel].sd(prediction[i]); };
+    const auto sd = [&](Index i) { return noise.channels[channel].sd(prediction[i], all.cells[i].spread); };
     for (Index k = 0; k < columns.rows(); ++k) {
       const Index i = training[k];
       const Cell& cell = all.cells[i];

@@ -78,8 +78,8 @@ inline constexpr int completed_pairs = 3, completed_pairs_far = 5, rounds_far = 
 inline constexpr double completed_within = 15.0;
 
 /// Runs beside which candidates are searched; a campaign of more is pooled to as many, and what is found is fitted to
-/// all [runs]. Chosen: twice the largest campaign that the rest was tuned on.
-inline constexpr int most_searched_rows = 200;
+/// all [runs]. Chosen for time: half as many again as the largest campaign that anything here was tuned on.
+inline constexpr int most_searched_rows = 150;
 /// Sets of effects that are fitted to all runs then, and forms of each. Chosen.
 inline constexpr std::size_t sets_fitted_again = 10, forms_fitted_again = 2;
 
@@ -131,6 +131,16 @@ inline constexpr std::array<double, 6> term_sizes = {0.25, 0.5, 1.0, 2.0, 4.0, 8
 /// Smooth functions of load and slip that the base model may be off by: to the third order in slip, the second in load,
 /// and their products. Chosen.
 inline constexpr int discrepancy_functions = 9;
+
+// --- a learned effect ---
+
+/// sd of the plainest weight of a learned function that are tried [-]: shares of the load, or of ln of what is scaled.
+/// Chosen; the price of the choice is paid.
+inline constexpr std::array<double, 5> learned_sizes = {0.01, 0.03, 0.1, 0.3, 1.0};
+/// Learned forms that are fitted in full, of most evidence. Chosen for time.
+inline constexpr std::size_t learned_refits = 3;
+/// A condition that varies by less than this share of its size is no variable to learn from [-]. Chosen.
+inline constexpr double least_learned_range = 0.05;
 
 // --- the next test ---
 

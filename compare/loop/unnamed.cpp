@@ -18,7 +18,7 @@ MatrixXd in_every_channel(const Dataset& data, const VectorXd& prediction, const
   MatrixXd columns = MatrixXd::Zero(cells, channel_count * width);
   for (Index i = 0; i < cells; ++i) {
     const Cell& cell = data.observations.cells[i];
-    const double sd = data.noise.channels[cell.channel].sd(prediction[i]);
+    const double sd = data.noise.channels[cell.channel].sd(prediction[i], cell.spread);
     columns.row(i).segment(cell.channel * width, width) = sd * functions.row(cell.row);
   }
   return data.whitening(columns);
@@ -52,7 +52,8 @@ MatrixXd carried_over(const Dataset& data, const VectorXd& prediction) {
   for (std::size_t c = 0; c < channel_count; ++c) {
     auto column = columns.col(c);
     const double largest = column.cwiseAbs().maxCoeff();
-    if (largest > 0) column *= 2 * data.noise.channels[c].sd(sizes[c] / counts[c]) / largest;
+    if (largest > 0)
+      column *= 2 * data.noise.channels[c].sd(sizes[c] / counts[c], data.noise.channels[c].spread) / largest;
   }
   return data.whitening(columns);
 }
@@ -87,8 +88,8 @@ MatrixXd bent(const Dataset& data, const VectorXd& prediction) {
     if (!(high[c] > low[c])) continue;
     const double x = 2 * (prediction[i] - low[c]) / (high[c] - low[c]) - 1;
     for (int k = 0; k < bends; ++k)
-      columns(i, c * bends + k) = data.noise.channels[c].sd(prediction[i]) * std::sqrt(2.0 * k + 5) *
-                                  std::legendre(static_cast<unsigned>(k) + 2, x);
+      columns(i, c * bends + k) = data.noise.channels[c].sd(prediction[i], data.observations.cells[i].spread) *
+                                  std::sqrt(2.0 * k + 5) * std::legendre(static_cast<unsigned>(k) + 2, x);
   }
   return data.whitening(columns);
 }

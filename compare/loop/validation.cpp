@@ -8,6 +8,7 @@
 #include <random>
 #include <tuple>
 
+#include "compare/loop/learned_effect.hpp"
 #include "compare/loop/model_discrepancy.hpp"
 #include "compare/loop/predictive_gain.hpp"
 #include "compare/loop/smooth_term.hpp"
@@ -39,6 +40,9 @@ FoldResult run_fold(const Dataset& whole, const NoiseFloor& noise, const Validat
   const Attribution& found = beside ? beside->found : exact;
   const FittedModel& base = exact.base;
   const FittedModel* better = found.candidates.best ? &found.best().model : nullptr;
+  std::optional<LearnedEffect> learned;
+  if (options.learn) learned = learn_effect(beside_exact(base, better), options.attribution);
+  if (learned && !learned->stands) learned.reset();
   FoldResult result;
   if (better) result.chosen = found.best().ids;
   VectorXd predicted = VectorXd::Constant(all.cells.size(), not_a_number);
@@ -56,8 +60,9 @@ FoldResult run_fold(const Dataset& whole, const NoiseFloor& noise, const Validat
     try {
       HeldOut held{.row = cell.row, .channel = cell.channel, .measured = cell.value};
       held.before = value_of(base);
-      held.after = better ? value_of(*better) : held.before;
-      held.sd = noise.channels[cell.channel].sd(cell.value);
+      held.named = better ? value_of(*better) : held.before;
+      held.after = learned ? value_of(learned->candidate.model) : held.named;
+      held.sd = noise.channels[cell.channel].sd(cell.value, cell.spread);
       predicted[index] = held.before;
       of_cell.push_back(index);
       result.cells.push_back(held);
@@ -95,12 +100,13 @@ std::vector<std::optional<FoldResult>> run_folds(const Dataset& whole, const Noi
 
 ErrorPair errors_over(const std::vector<HeldOut>& cells, int channel) {
   ErrorPair e;
-  double before = 0, after = 0, smooth = 0, noise = 0;
+  double before = 0, after = 0, named = 0, smooth = 0, noise = 0;
   for (const HeldOut& h : cells) {
     if (channel >= 0 && h.channel != channel) continue;
     const double unit = channel < 0 ? h.sd : 1.0;
     before += std::pow((h.measured - h.before) / unit, 2);
     after += std::pow((h.measured - h.after) / unit, 2);
+    named += std::pow((h.measured - h.named) / unit, 2);
     smooth += std::pow((h.measured - h.smooth) / unit, 2);
     noise += std::pow(h.sd / unit, 2);
     ++e.cells;
@@ -108,6 +114,7 @@ ErrorPair errors_over(const std::vector<HeldOut>& cells, int channel) {
   if (e.cells == 0) return e;
   e.before = std::sqrt(before / e.cells);
   e.after = std::sqrt(after / e.cells);
+  e.named = std::sqrt(named / e.cells);
   e.smooth = std::sqrt(smooth / e.cells);
   e.noise_floor = std::sqrt(noise / e.cells);
   return e;
@@ -127,6 +134,12 @@ void pair_by_condition(const Observations& all, CrossValidation& cv) {
   std::tie(cv.gain, cv.gain_error) = over_conditions(means);
 }
 
+void sum_up(const Observations& whole, CrossValidation& cv) {
+  for (int c = 0; c < channel_count; ++c) cv.channels[c] = errors_over(cv.cells, c);
+  cv.overall = errors_over(cv.cells, -1);
+  pair_by_condition(whole, cv);
+}
+
 }  // namespace
 
 CrossValidation cross_validate(const Dataset& whole, const NoiseFloor& noise, const ValidationOptions& options) {
@@ -138,10 +151,14 @@ CrossValidation cross_validate(const Dataset& whole, const NoiseFloor& noise, co
     cv.chosen.push_back(result->chosen);
     cv.unpredicted += result->unpredicted;
   }
-  for (int c = 0; c < channel_count; ++c) cv.channels[c] = errors_over(cv.cells, c);
-  cv.overall = errors_over(cv.cells, -1);
-  pair_by_condition(whole.observations, cv);
+  sum_up(whole.observations, cv);
   return cv;
+}
+
+CrossValidation with_named_alone(CrossValidation validation, const Observations& whole) {
+  for (HeldOut& held : validation.cells) held.after = held.named;
+  sum_up(whole, validation);
+  return validation;
 }
 
 }  // namespace soilbin::compare

@@ -17,12 +17,13 @@ struct HeldOut {
   int channel = 0;
   double measured = 0.0, before = 0.0, after = 0.0;
   double smooth = 0.0;  ///< base model plus a smooth term without a name (smooth_term.hpp)
+  double named = 0.0;   ///< the chosen model without a learned effect
   double sd = 0.0;      ///< noise of this cell
 };
 
 struct ErrorPair {
   int cells = 0;
-  double before = 0.0, after = 0.0, smooth = 0.0, noise_floor = 0.0;  ///< root mean squares
+  double before = 0.0, after = 0.0, named = 0.0, smooth = 0.0, noise_floor = 0.0;  ///< root mean squares
 };
 
 /// The whole procedure redone with each fold of conditions left out.
@@ -41,6 +42,7 @@ struct ValidationOptions {
   AttributionOptions attribution;
   bool with_model_discrepancy = false;  ///< choose with the base model's discrepancy, where that can be attributed;
                                         ///< errors before are those of the base model taken as exact, all the same
+  bool learn = false;  ///< beside the chosen model a learned effect, looked for and accepted anew in each fold
   int folds = 5;
   int threads = 1;    ///< folds at once; the answer does not depend on it
   Progress progress;  ///< folds done, called again and again from the calling thread alone; may throw to stop
@@ -49,5 +51,8 @@ struct ValidationOptions {
 /// Folds are made of whole conditions, dealt by a seeded shuffle. Steps from the noise estimate to the choice of the
 /// effect are redone in each. noise: of the cells left out, in whose sd errors are expressed.
 CrossValidation cross_validate(const Dataset& whole, const NoiseFloor& noise, const ValidationOptions& options);
+
+/// What it would be without learned effects. whole: the observations that it is of.
+CrossValidation with_named_alone(CrossValidation validation, const Observations& whole);
 
 }  // namespace soilbin::compare

@@ -101,6 +101,13 @@ std::vector<ColumnChoice> choose_columns(const CsvTable& table, Renames& renames
     return std::any_of(choices.begin(), choices.end(), [&](const ColumnChoice& c) { return c.column == &column; });
   };
   const CsvCell& first = table.header.cells.front();
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    if (const std::string& beside = choices[i].column->beside;
+        !beside.empty() && std::none_of(choices.begin(), choices.end(),
+                                        [&](const ColumnChoice& c) { return c.column->canonical == beside; }))
+      csv.refuse(table.header.cells[i].offset,
+                 fmt::format("column '{}' tells the scatter of '{}', and that column is missing",
+                             clipped(table.header.cells[i].text), beside));
   for (const RunColumn& column : run_columns())
     if (column.required && !present(column))
       csv.refuse(first.offset, fmt::format("column '{}' is missing", column.canonical));

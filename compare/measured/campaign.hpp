@@ -1,6 +1,7 @@
 // A measured campaign: campaign.yaml and a CSV of runs (docs/reference/campaigns.md tells the contract).
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -24,6 +25,9 @@ struct Run {
   std::optional<double> sinkage;        ///< [m]
   std::optional<double> lateral_force;  ///< [N]
   int csv_line = 0;
+  /// Standard deviation in time of each traction channel over the run that its mean was taken of [SI], in the order of
+  /// traction_channels. Samples follow each other, so it is no error of the mean; it tells which runs were unsteady.
+  std::array<std::optional<double>, 4> within_run_sd{};
 };
 
 inline bool has_channel(const Run& run) { return run.drawbar_pull || run.torque || run.sinkage || run.lateral_force; }

@@ -43,6 +43,17 @@ RunColumn channel(const ChannelView& view) {
           .get = [&view](const Run& run) { return run.*view.measured; }};
 }
 
+/// A channel's scatter in time within the run.
+RunColumn scatter(std::size_t place) {
+  const ChannelView& view = channel_views.at(place);
+  return {.quantity = std::string(view.name) + "_sd",
+          .canonical = column_of(view, "sd"),
+          .measure = {view.si_unit, zero_or_more},
+          .beside = column_of(view),
+          .set = [place](Run& run, double x) { run.within_run_sd.at(place) = x; },
+          .get = [place](const Run& run) { return run.within_run_sd.at(place); }};
+}
+
 std::vector<RunColumn> make_columns() {
   std::vector<RunColumn> all;
   all.push_back(condition("run"));
@@ -52,6 +63,7 @@ std::vector<RunColumn> make_columns() {
        {"speed", "pass", "position", "moisture", "longitudinal_incline", "transverse_incline", "yaw"})
     all.push_back(condition(name));
   for (const ChannelView& view : channel_views) all.push_back(channel(view));
+  for (std::size_t place = 0; place < channel_views.size(); ++place) all.push_back(scatter(place));
   return all;
 }
 

@@ -22,6 +22,7 @@ struct RunColumn {
   Measure measure{};                                       ///< unit of the canonical column, range
   bool required = false;                                   ///< the column, and a value in every row
   bool channel = false;                                    ///< measured, not set
+  std::string beside{};                                    ///< canonical name of the channel whose scatter it tells
   std::function<void(Run&, double)> set{};                 ///< SI; empty for labels
   std::function<std::optional<double>(const Run&)> get{};  ///< what to write; no value: an empty cell
 };

@@ -185,6 +185,35 @@ TEST(Dependences, FindTheVariable) {
   EXPECT_GE(others, 5) << "load, slip and run, each in four channels or three";
 }
 
+// Benjamini and Hochberg's step-up: of m p-values, the least m p/rank among those that are no smaller.
+TEST(Dependences, FalseDiscoveryRateByDefinition) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 13);
+  const Observations observations = observe(campaign);
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  VectorXd r(static_cast<Eigen::Index>(observations.cells.size()));
+  for (std::size_t i = 0; i < observations.cells.size(); ++i)
+    r[static_cast<Eigen::Index>(i)] =
+        normal(random) +
+        (observations.cells[i].channel == sinkage ? 3 * observations.rows[observations.cells[i].row].slip : 0);
+  const std::vector<Dependence> table = dependences(observations, r, 199, 1);
+  ASSERT_GE(table.size(), 9u);
+  int sure = 0;
+  for (const Dependence& d : table) {
+    double least = 1.0;
+    for (const Dependence& other : table) {
+      if (other.p_value < d.p_value) continue;
+      const auto rank =
+          std::count_if(table.begin(), table.end(), [&](const Dependence& o) { return o.p_value <= other.p_value; });
+      least = std::min(least, other.p_value * static_cast<double>(table.size()) / static_cast<double>(rank));
+    }
+    EXPECT_NEAR(d.false_discovery_rate, least, 1e-12) << d.variable;
+    if (d.false_discovery_rate <= 0.06) ++sure;
+  }
+  EXPECT_GE(sure, 1) << "p = 1/200 of the sinkage on slip, times some 12 tests";
+}
+
 /// Setpoints of 1, 2, 3, 1, 2, 3, ... or of `each` re-runs over slip, two channels measured.
 Observations rerun_observations(int setpoints, int each = 0) {
   Observations made;

@@ -1,0 +1,211 @@
+#include "bekker_wong/effects/learned.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "bekker_wong/effects/scaled_soil.hpp"
+#include "scenario/estimate.hpp"
+
+namespace soilbin::bekker_wong {
+namespace {
+
+using At = const OperatingCondition&;
+constexpr std::array<LearnedVariable, 9> variables = {{
+    {"slip", "-", [](At at) { return at.slip; }},
+    {"load", "N", [](At at) { return at.load; }},
+    {"yaw", "deg", [](At at) { return std::abs(at.yaw); }},
+    {"speed", "m/s", [](At at) { return at.speed; }},
+    {"longitudinal_incline", "deg", [](At at) { return at.longitudinal_incline; }},
+    {"transverse_incline", "deg", [](At at) { return at.transverse_incline; }},
+    {"pass", "-", [](At at) { return static_cast<double>(at.pass); }},
+    {"moisture", "-", [](At at) { return at.moisture.value_or(not_a_number); }},
+    {"position", "m", [](At at) { return at.position.value_or(not_a_number); }},
+}};
+
+constexpr int degree_of_one = 4, degree_of_two = 3;
+constexpr double largest_value = 2.0, largest_weight = 20.0, widest_range = 1e9;
+
+LearnedFunction function_of(std::vector<LearnedVariable> of) {
+  LearnedFunction function{std::move(of), {}};
+  const int most = function.variables.size() == 1 ? degree_of_one : degree_of_two;
+  for (int degree = 0; degree <= most; ++degree)
+    if (function.variables.size() == 1)
+      function.degrees.push_back({degree});
+    else
+      for (int first = degree; first >= 0; --first) function.degrees.push_back({first, degree - first});
+  return function;
+}
+
+/// The function with its parameters.
+class Smooth {
+ public:
+  Smooth(const LearnedFunction& function, const std::vector<double>& p) : function_(function), p_(p) {}
+  bool is_nothing() const { return p_[0] == 0.0; }
+  /// 0 where a condition isn't told.
+  double operator()(At at) const {
+    std::array<double, 2> x{};
+    for (std::size_t v = 0; v < function_.variables.size(); ++v) {
+      const double value = function_.variables[v].value(at), from = p_[LearnedFunction::from(v)],
+                   to = p_[LearnedFunction::to(v)];
+      if (std::isnan(value)) return 0.0;
+      x[v] = to > from ? std::clamp(2 * (value - from) / (to - from) - 1, -1.0, 1.0) : 0.0;
+    }
+    double sum = 0.0;
+    for (std::size_t k = 0; k < function_.degrees.size(); ++k) {
+      double product = p_[function_.first_weight() + k];
+      for (std::size_t v = 0; v < function_.variables.size(); ++v)
+        product *= std::legendre(static_cast<unsigned>(function_.degrees[k][v]), x[v]);
+      sum += product;
+    }
+    return std::clamp(p_[0] * sum, -largest_value, largest_value);
+  }
+
+ private:
+  const LearnedFunction& function_;  // of learned_forms(), which stay
+  std::vector<double> p_;
+};
+
+template <class Joint>
+class Learned final : public Effect {
+ public:
+  explicit Learned(Smooth g) : g_(std::move(g)) {}
+  void soil(SoilValues& soil, const Surroundings& around) const override {
+    if constexpr (requires { Joint::soil(soil, 0.0); })
+      if (!g_.is_nothing()) Joint::soil(soil, std::exp(g_(around.at)));
+  }
+  void added_forces(ForceLedger& ledger, const Rolling& rolling) const override {
+    if constexpr (requires { Joint::force(rolling, 0.0); })
+      if (!g_.is_nothing()) ledger.add(Joint::force(rolling, rolling.around.normal_load * g_(rolling.around.at)));
+  }
+  void sensor(Reading& reading, const Surroundings& around) const override {
+    if constexpr (requires { Joint::sensor(reading, 0.0); })
+      if (!g_.is_nothing()) Joint::sensor(reading, std::exp(g_(around.at)));
+  }
+
+ private:
+  Smooth g_;
+};
+
+struct Pull {
+  static AddedForce force(const Rolling&, double size) { return {.name = "learned", .forward = size}; }
+};
+struct Side {
+  static AddedForce force(const Rolling& rolling, double size) {
+    return {.name = "learned", .lateral = size * std::sin(rolling.around.at.yaw)};
+  }
+};
+struct Turning {
+  static AddedForce force(const Rolling& rolling, double size) {
+    return {.name = "learned", .torque = size * rolling.outline.radius};
+  }
+};
+struct Depth {
+  static void sensor(Reading& reading, double factor) { reading.sinkage *= factor; }
+};
+struct Stiffness {
+  static void soil(SoilValues& soil, double factor) { scale_stiffness(soil, factor); }
+};
+struct Strength {
+  static void soil(SoilValues& soil, double factor) { scale_strength(soil, factor); }
+};
+
+/// Where a function joins the model.
+struct Joint {
+  std::string_view name, equation;
+  std::unique_ptr<const Effect> (*make)(Smooth);
+};
+
+template <class Where>
+std::unique_ptr<const Effect> joined(Smooth g) {
+  return std::make_unique<const Learned<Where>>(std::move(g));
+}
+
+constexpr std::array<Joint, 6> joints = {{
+    {"drawbar_pull", "force W_n a g along the wheel's plane", joined<Pull>},
+    {"lateral_force", "force W_n a g sin(yaw) across it", joined<Side>},
+    {"torque", "torque W_n r a g", joined<Turning>},
+    {"sinkage", "measured sinkage times exp(a g)", joined<Depth>},
+    {"stiffness", "k times exp(a g)", joined<Stiffness>},
+    {"strength", "c and tan(phi) times exp(a g)", joined<Strength>},
+}};
+
+EffectForm form_of(const Joint& joint, const LearnedFunction& function) {
+  EffectForm form{
+      .id = std::string(learned_id),
+      .form = std::string(joint.name),
+      .equation = std::string(joint.equation) + ", g a sum of products of Legendre polynomials",
+      .source = "learned from a campaign",
+      .parameters = {{"a", "-", 1.0, 0.0, 1.0, "1 with the effect, 0 without"}},
+      .measurement = false,
+      .form_tolerance = 0.0,
+      .steady_only = "it was learned from steady runs",
+      .presumes = {},
+      .make = [&function, make = joint.make](const std::vector<double>& p) { return make(Smooth(function, p)); }};
+  for (std::size_t v = 0; v < function.variables.size(); ++v) {
+    const LearnedVariable& variable = function.variables[v];
+    const std::string name(variable.name), unit(variable.unit);
+    form.form += (v == 0 ? "_by_" : "_and_") + name;
+    form.parameters.push_back(
+        {name + "_from", unit, 0.0, -widest_range, widest_range, "least that it was learned from"});
+    form.parameters.push_back({name + "_to", unit, 0.0, -widest_range, widest_range, "most that it was learned from"});
+  }
+  for (std::size_t k = 0; k < function.degrees.size(); ++k) {
+    std::string meaning = "weight of";
+    for (std::size_t v = 0; v < function.variables.size(); ++v)
+      meaning += " P" + std::to_string(function.degrees[k][v]) + "(" + std::string(function.variables[v].name) + ")";
+    form.parameters.push_back({"c" + std::to_string(k), "-", 0.0, -largest_weight, largest_weight, meaning});
+  }
+  return form;
+}
+
+/// One of each variable, then slip with each other one, and yaw with load.
+const std::vector<LearnedFunction>& functions() {
+  static const std::vector<LearnedFunction> all = [] {
+    std::vector<LearnedFunction> made;
+    for (const LearnedVariable& variable : variables) made.push_back(function_of({variable}));
+    for (std::size_t v = 1; v < variables.size(); ++v) made.push_back(function_of({variables[0], variables[v]}));
+    made.push_back(function_of({variables[1], variables[2]}));
+    return made;
+  }();
+  return all;
+}
+
+}  // namespace
+
+const std::vector<EffectForm>& learned_forms() {
+  static const std::vector<EffectForm> all = [] {
+    std::vector<EffectForm> forms;
+    for (const Joint& joint : joints)
+      for (const LearnedFunction& function : functions()) forms.push_back(form_of(joint, function));
+    return forms;
+  }();
+  return all;
+}
+
+const LearnedFunction& learned_function(const EffectForm& form) {
+  static const LearnedFunction none;
+  static const std::map<std::string, const LearnedFunction*> by_name = [] {
+    std::map<std::string, const LearnedFunction*> names;
+    for (std::size_t i = 0; i < learned_forms().size(); ++i)
+      names[learned_forms()[i].form] = &functions()[i % functions().size()];
+    return names;
+  }();
+  return form.id == learned_id ? *by_name.at(form.form) : none;
+}
+
+std::vector<std::string> outside_learned(const EffectChoice& choice, const OperatingCondition& at) {
+  std::vector<std::string> outside;
+  if (choice.id != learned_id) return outside;
+  constexpr double digits = 1e-6;  // of a range that a file tells
+  for (const LearnedVariable& variable : learned_function(find_form(choice)).variables) {
+    const std::string name(variable.name);
+    const double from = choice.parameters.at(name + "_from"), to = choice.parameters.at(name + "_to");
+    const double value = variable.value(at), room = digits * (to - from);
+    if (!(value >= from - room && value <= to + room)) outside.push_back(name);
+  }
+  return outside;
+}
+
+}  // namespace soilbin::bekker_wong

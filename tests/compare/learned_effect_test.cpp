@@ -1,0 +1,66 @@
+// A learned effect: found where the residual follows a smooth function of the conditions, and not where it is noise.
+#include "compare/loop/learned_effect.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "bekker_wong/effects/learned.hpp"
+#include "compare/loop_fixture.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// Pull less by a share of the load that bends with slip: 3 % of the load times cos(2 pi s/0.8), as no form does.
+Campaign with_bent_pull(std::uint64_t seed, double share) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, seed);
+  for (Run& run : campaign.runs)
+    *run.drawbar_pull += share * run.at.load * std::cos(2 * std::numbers::pi * run.at.slip / 0.8);
+  return campaign;
+}
+
+// The pull's own joint is chosen, over the slips that were run, and the function is the one that was put in: to within
+// 1 % of the load at each slip, up to what a change of the soil's values makes as well.
+TEST(SlowLearnedEffect, FindsTheFunctionAndItsJoint) {
+  const Campaign campaign = with_bent_pull(3, 0.03);
+  const FittedModel base = fit_base(campaign, observe(campaign), {});
+  const auto learned = learn_effect(base, {});
+  ASSERT_TRUE(learned);
+  EXPECT_TRUE(learned->stands);
+  const Term& term = learned->candidate.terms().back();
+  EXPECT_TRUE(term.form->form.starts_with("drawbar_pull_by_slip")) << term.form->form;
+  EXPECT_EQ(term.defaults[bekker_wong::LearnedFunction::from(0)], 0.05);
+  EXPECT_EQ(term.defaults[bekker_wong::LearnedFunction::to(0)], 0.7);
+  EXPECT_LT(learned->candidate.fit().chi2, base.fit().chi2 - 30);
+  const FittedModel& model = learned->candidate.model;
+  const auto pull = [&](double slip) {
+    OperatingCondition at;
+    at.load = 1000, at.slip = slip, at.position = 1.5, at.run = 20;
+    return model.predictor().reading(model.fit().theta, at).drawbar_pull;
+  };
+  const Campaign bare = with_bent_pull(3, 0.0);
+  const FittedModel truth = fit_base(bare, observe(bare), {});
+  for (const double slip : {0.12, 0.2, 0.3, 0.42, 0.55}) {
+    OperatingCondition at;
+    at.load = 1000, at.slip = slip, at.position = 1.5, at.run = 20;
+    const double there = truth.predictor().reading(truth.fit().theta, at).drawbar_pull;
+    EXPECT_NEAR(pull(slip) - there, 30 * std::cos(2 * std::numbers::pi * slip / 0.8), 10) << slip;
+  }
+}
+
+// Noise alone: whatever is learned does not earn its place in four campaigns of five or more.
+TEST(SlowLearnedEffect, NoiseTeachesNothing) {
+  int stands = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Campaign campaign = sand_campaign();
+    measure(campaign, sweep(), {}, fine_noise, 100 + seed);
+    const auto learned = learn_effect(fit_base(campaign, observe(campaign), {}), {});
+    if (learned && learned->stands) ++stands;
+  }
+  EXPECT_LE(stands, 1);
+}
+
+}  // namespace
+}  // namespace soilbin::compare
