@@ -221,8 +221,8 @@ std::string to_show_its_shape(const LoopAnswer& answer) {
                               : fmt::format("the same run at several settings of the {} alone, each one twice",
                                             spaced(std::string(condition_view(on->variable).title)));
   return fmt::format(
-      "The unexplained part of the {} depends most on the {} (p = {:.2g}, the surest of {} pairs looked at; of those "
-      "this sure, {} or less are false). Measure next {}.",
+      "The unexplained part of the {} depends most on the {} (p = {:.2g}; false-discovery rate over {} pairs of "
+      "channel and variable: {}). Measure next {}.",
       channel_views[on->channel].title, spaced(std::string(condition_view(on->variable).title)), on->p_value,
       looked_at.size(), share_words(on->false_discovery_rate), how);
 }

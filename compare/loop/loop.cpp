@@ -5,6 +5,7 @@
 
 #include "compare/loop/answer_words.hpp"
 #include "compare/loop/model_discrepancy.hpp"
+#include "compare/loop/thresholds.hpp"
 
 namespace soilbin::compare {
 
@@ -117,19 +118,26 @@ std::optional<LearnedEffect> learned_beside(const FittedModel& base, const Judge
   return learned && learned->stands ? std::move(learned) : std::nullopt;
 }
 
-/// It stays where the whole procedure, redone in each fold, predicts better with learned effects than without; then the
-/// model that is saved takes it.
+/// Whether the whole procedure, redone in each fold, predicts better with learned effects than without, and in no
+/// channel clearly worse.
+bool predicts_better(const CrossValidation& with_learned) {
+  if (with_learned.overall.cells == 0) return true;  // not asked
+  for (const ErrorPair& channel : with_learned.channels)
+    if (channel.after > channel.named * (1 + thresholds::most_learned_loss)) return false;
+  return with_learned.overall.after < with_learned.overall.named * (1 - thresholds::least_learned_gain);
+}
+
+/// A learned effect that predicts better becomes a part of the model that is saved. It explains nothing: what is told
+/// to be unexplained, and what that depends on, stays what the named effects leave.
 void take_learned(std::optional<LearnedEffect> learned, const FittedModel& base, LoopAnswer& answer) {
   if (!learned) return;
-  const ErrorPair& held_out = answer.validation.overall;
-  if (held_out.cells > 0 && !(held_out.after < held_out.named)) {
+  if (!predicts_better(answer.validation)) {
     answer.validation = with_named_alone(std::move(answer.validation), base.data().observations);
     return;
   }
   answer.stand_in = effects_of(learned->candidate);
   answer.soil = learned->candidate.model.soil();
   answer.soil_shifts = soil_shifts(learned->candidate.model, base);
-  answer.dependences_after = dependences_of(learned->candidate.model, 11);
   answer.learned = std::move(learned);
 }
 

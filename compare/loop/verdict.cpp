@@ -145,7 +145,7 @@ Judgement judge_with_model_discrepancy(Attribution found, const AttributionOptio
   std::string reason = fmt::format(
       "the base model is off by what a smooth function of load and slip makes good, and beside that {} stands out most "
       "(p = {:.2g})",
-      joined(found.best().ids), found.signatures.p_value);
+      named_effects(found.best().ids), found.signatures.p_value);
   return {std::move(found), before, std::move(choice), Verdict::unknown_effect, std::move(reason)};
 }
 

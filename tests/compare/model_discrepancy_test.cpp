@@ -117,13 +117,14 @@ void expect_same_shares(const LoopAnswer& answer) {
   }
 }
 
-/// The saved model is the set that the list puts first, or none.
+/// The saved model is the set that the list puts first, or none; and what was learned beside it.
 void expect_the_decided_model(const Campaign& campaign, const LoopAnswer& answer) {
   const Case model = resolved_model(campaign, answer);
   std::set<std::string> saved;
   for (const EffectChoice& choice : model.study.models.front().effects) saved.insert(choice.id);
   EXPECT_EQ(saved, ids_of(answer.stand_in));
-  EXPECT_EQ(saved, answer.stand_in.empty() ? std::set<std::string>() : answer.ambiguity_set.front().ids);
+  EXPECT_EQ(saved.erase("learned"), answer.learned ? 1U : 0U);
+  EXPECT_EQ(saved, saved.empty() ? std::set<std::string>() : answer.ambiguity_set.front().ids);
 }
 
 // Beside the odd soil a second pass bears more. Read by the base model alone, named effects are bent to make up for the
