@@ -62,7 +62,7 @@ TEST(SlowFailureMapCommand, TellsWhereThePapersTireParts) {
     return sum / count;
   };
   EXPECT_GT(mean("load", 6000, 8000) - mean("load", 2000, 4000), 0.08);
-  EXPECT_LT(mean("slip", 0.35, 0.5) - mean("slip", 0.05, 0.2), -0.02);
+  EXPECT_NEAR(mean("angle", 0, 0.13), mean("angle", 0.13, 0.27), 0.03);  // the slope hardly matters
   EXPECT_EQ(map["checks"].size(), 5U);
   for (const auto& check : map["checks"]) {
     const auto &predicted = check["predicted"], &found = check["found"];
