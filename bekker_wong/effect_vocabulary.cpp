@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bekker_wong/effect.hpp"
-#include "bekker_wong/effects/learned.hpp"
+#include "bekker_wong/learned.hpp"
 
 namespace soilbin::bekker_wong {
 

@@ -5,7 +5,7 @@
 
 namespace soilbin::bekker_wong {
 
-/// Ids, forms and parameters of effect_catalogue(), and of what the loop learned (effects/learned.hpp).
+/// Ids, forms and parameters of effect_catalogue(), and of what the loop learned (learned.hpp).
 class CatalogueVocabulary final : public EffectVocabulary {
  public:
   std::vector<std::string> ids() const override;

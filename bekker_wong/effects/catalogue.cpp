@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "bekker_wong/effects/forms.hpp"
-#include "bekker_wong/effects/learned.hpp"
+#include "bekker_wong/learned.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 

@@ -1,4 +1,4 @@
-#include "bekker_wong/effects/learned.hpp"
+#include "bekker_wong/learned.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,17 +12,7 @@ namespace soilbin::bekker_wong {
 namespace {
 
 using At = const OperatingCondition&;
-constexpr std::array<LearnedVariable, 9> variables = {{
-    {"slip", "-", [](At at) { return at.slip; }},
-    {"load", "N", [](At at) { return at.load; }},
-    {"yaw", "deg", [](At at) { return std::abs(at.yaw); }},
-    {"speed", "m/s", [](At at) { return at.speed; }},
-    {"longitudinal_incline", "deg", [](At at) { return at.longitudinal_incline; }},
-    {"transverse_incline", "deg", [](At at) { return at.transverse_incline; }},
-    {"pass", "-", [](At at) { return static_cast<double>(at.pass); }},
-    {"moisture", "-", [](At at) { return at.moisture.value_or(not_a_number); }},
-    {"position", "m", [](At at) { return at.position.value_or(not_a_number); }},
-}};
+constexpr const auto& variables = learned_variables;
 
 constexpr int degree_of_one = 4, degree_of_two = 3;
 constexpr double largest_value = 2.0, largest_weight = 20.0, widest_range = 1e9;

@@ -10,7 +10,7 @@
 
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/contact_stages.hpp"
-#include "bekker_wong/effects/learned.hpp"
+#include "bekker_wong/learned.hpp"
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/presumption.hpp"
 #include "bekker_wong/rolling_wheel.hpp"

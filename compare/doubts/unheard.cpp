@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "bekker_wong/effects/learned.hpp"
+#include "bekker_wong/learned.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bekker_wong/effects/learned.hpp"
+#include "bekker_wong/learned.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/loop/loop.hpp"
 #include "compare/measured/condition_views.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bekker_wong/effects/learned.hpp"
 #include "bekker_wong/effects/titles.hpp"
+#include "bekker_wong/learned.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"

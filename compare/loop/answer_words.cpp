@@ -8,8 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "bekker_wong/effects/learned.hpp"
 #include "bekker_wong/effects/titles.hpp"
+#include "bekker_wong/learned.hpp"
 #include "compare/doubts/unheard.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"

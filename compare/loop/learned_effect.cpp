@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "bekker_wong/effects/learned.hpp"
+#include "bekker_wong/learned.hpp"
 #include "compare/loop/choice.hpp"
 #include "compare/loop/thresholds.hpp"
 

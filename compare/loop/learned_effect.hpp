@@ -1,5 +1,5 @@
 // Stage 5 of the loop, where no named effect explains the residual: a smooth function of one condition or of two, at
-// the joint of the model where it predicts conditions left out best (bekker_wong/effects/learned.hpp).
+// the joint of the model where it predicts conditions left out best (bekker_wong/learned.hpp).
 #pragma once
 
 #include <optional>

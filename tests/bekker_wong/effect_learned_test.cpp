@@ -1,6 +1,6 @@
 // learned: a smooth function at a joint of the model.
 #include "bekker_wong/bed_fixture.hpp"
-#include "bekker_wong/effects/learned.hpp"
+#include "bekker_wong/learned.hpp"
 
 namespace soilbin::bekker_wong::bed {
 namespace {

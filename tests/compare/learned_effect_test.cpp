@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bekker_wong/effects/learned.hpp"
+#include "bekker_wong/learned.hpp"
 #include "compare/loop_fixture.hpp"
 
 namespace soilbin::compare {

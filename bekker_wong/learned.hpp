@@ -2,11 +2,14 @@
 // cause and no name; the loop fits it to a campaign, and it holds within the conditions of that campaign.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bekker_wong/effect.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::bekker_wong {
 
@@ -18,6 +21,19 @@ struct LearnedVariable {
   std::string_view unit;
   double (*value)(const OperatingCondition&);  ///< [SI]; of yaw the size; not a number where the condition doesn't tell
 };
+
+/// The conditions that there are forms for, by their keys in files.
+inline constexpr std::array<LearnedVariable, 9> learned_variables = {{
+    {"slip", "-", [](const OperatingCondition& at) { return at.slip; }},
+    {"load", "N", [](const OperatingCondition& at) { return at.load; }},
+    {"yaw", "deg", [](const OperatingCondition& at) { return std::abs(at.yaw); }},
+    {"speed", "m/s", [](const OperatingCondition& at) { return at.speed; }},
+    {"longitudinal_incline", "deg", [](const OperatingCondition& at) { return at.longitudinal_incline; }},
+    {"transverse_incline", "deg", [](const OperatingCondition& at) { return at.transverse_incline; }},
+    {"pass", "-", [](const OperatingCondition& at) { return static_cast<double>(at.pass); }},
+    {"moisture", "-", [](const OperatingCondition& at) { return at.moisture.value_or(not_a_number); }},
+    {"position", "m", [](const OperatingCondition& at) { return at.position.value_or(not_a_number); }},
+}};
 
 /// The function's parameters begin with its amplitude, "a" (0: the base model, to the bit), then for each variable the
 /// range in which it was learned, "VARIABLE_from" and "VARIABLE_to"; "c0", "c1", ... weigh products of Legendre's
