@@ -12,7 +12,6 @@ namespace soilbin::bekker_wong {
 namespace {
 
 using At = const OperatingCondition&;
-constexpr const auto& variables = learned_variables;
 
 constexpr int degree_of_one = 4, degree_of_two = 3;
 constexpr double largest_value = 2.0, largest_weight = 20.0, widest_range = 1e9;
@@ -154,9 +153,10 @@ EffectForm form_of(const Joint& joint, const LearnedFunction& function) {
 const std::vector<LearnedFunction>& functions() {
   static const std::vector<LearnedFunction> all = [] {
     std::vector<LearnedFunction> made;
-    for (const LearnedVariable& variable : variables) made.push_back(function_of({variable}));
-    for (std::size_t v = 1; v < variables.size(); ++v) made.push_back(function_of({variables[0], variables[v]}));
-    made.push_back(function_of({variables[1], variables[2]}));
+    for (const LearnedVariable& variable : learned_variables) made.push_back(function_of({variable}));
+    for (std::size_t v = 1; v < learned_variables.size(); ++v)
+      made.push_back(function_of({learned_variables[0], learned_variables[v]}));
+    made.push_back(function_of({learned_variables[1], learned_variables[2]}));
     return made;
   }();
   return all;

@@ -16,6 +16,7 @@
 #include "bekker_wong/rolling_wheel.hpp"
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/doubts/unheard.hpp"
+#include "compare/measured/within_run_scatter.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/unit.hpp"
 
@@ -320,13 +321,8 @@ void add_row_doubts(const Campaign& campaign, Warnings& warnings) {
 void add_unsteady_runs(const std::vector<Run>& runs, Warnings& warnings) {
   constexpr double usual = 5.0;  // times the median
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
-    std::vector<double> told;
-    for (const Run& run : runs)
-      if (run.within_run_sd[c]) told.push_back(*run.within_run_sd[c]);
-    if (told.empty()) continue;
-    std::nth_element(told.begin(), told.begin() + std::ssize(told) / 2, told.end());
+    const double median = usual_scatter(runs, c).value_or(0.0);
     const ChannelView& view = channel_views[c];
-    const double median = told[told.size() / 2];
     for (const Run& run : runs)
       if (run.within_run_sd[c] && median > 0.0 && *run.within_run_sd[c] > usual * median)
         warnings.push_back(fmt::format(

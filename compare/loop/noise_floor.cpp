@@ -8,6 +8,7 @@
 #include "compare/loop/condition_functions.hpp"
 #include "compare/loop/setpoint_squares.hpp"
 #include "compare/loop/thresholds.hpp"
+#include "compare/measured/within_run_scatter.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
@@ -209,12 +210,6 @@ ChannelData channel_data(const Observations& observations, const ChannelCells& c
           .smooth = with_constant(functions)};
 }
 
-double middle_value(const VectorXd& values) {
-  std::vector<double> sorted(values.begin(), values.end());
-  std::nth_element(sorted.begin(), sorted.begin() + std::ssize(sorted) / 2, sorted.end());
-  return sorted[sorted.size() / 2];
-}
-
 /// The likeliest sizes of noise and smooth function, and how the noise grows with the prediction.
 struct ChannelSizes {
   double sigma = 0.0, tau = 0.0;
@@ -267,7 +262,7 @@ ChannelFit fit_channel(const Observations& observations, const NoiseData& data, 
                .floor = sigma * std::sqrt((1 - part) * (1 - 0.98 * share) + 0.02 * part),
                .growth = share > 0 ? sigma * std::sqrt((1 - part) * (0.98 * share / mean_square)) : 0.0,
                .unsteady = part > 0 ? sigma * std::sqrt(0.98 * part / scatter) : 0.0,
-               .spread = middle_value(channel.spread),
+               .spread = upper_median({channel.spread.begin(), channel.spread.end()}),
                .freedom = std::max(1.0, n - trace),
                .rerun_sd = pooled_rerun_sd(observations, cells, data.residual)};
   return fit;

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "compare/measured/condition_views.hpp"
+#include "compare/measured/within_run_scatter.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
@@ -27,24 +28,11 @@ auto fingerprint(const OperatingCondition& at) {
                          at.moisture.value_or(0.0), at.position.value_or(0.0));
 }
 
-/// Of each channel the median of what the runs tell of their scatter in time; 0 where none does.
-std::array<double, channel_count> typical_spreads(const Campaign& campaign) {
-  std::array<double, channel_count> typical{};
-  for (int c = 0; c < channel_count; ++c) {
-    std::vector<double> told;
-    for (const Run& run : campaign.runs)
-      if (run.within_run_sd[c]) told.push_back(*run.within_run_sd[c]);
-    if (told.empty()) continue;
-    std::nth_element(told.begin(), told.begin() + std::ssize(told) / 2, told.end());
-    typical[c] = told[told.size() / 2];
-  }
-  return typical;
-}
-
 }  // namespace
 
 Observations observe(const Campaign& campaign) {
-  const std::array<double, channel_count> typical = typical_spreads(campaign);
+  std::array<double, channel_count> usual{};
+  for (int c = 0; c < channel_count; ++c) usual[c] = usual_scatter(campaign.runs, c).value_or(0.0);
   Observations all;
   std::map<std::string, int> by_label;
   std::map<decltype(fingerprint(std::declval<const OperatingCondition&>())), int> by_values;
@@ -60,7 +48,7 @@ Observations observe(const Campaign& campaign) {
     all.source_row.push_back(static_cast<int>(i));
     for (int c = 0; c < channel_count; ++c)
       if (const auto& value = run.*channel_views[c].measured)
-        all.cells.push_back({row, c, *value, run.within_run_sd[c].value_or(typical[c])});
+        all.cells.push_back({row, c, *value, run.within_run_sd[c].value_or(usual[c])});
   }
   return all;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <random>
 #include <set>
@@ -158,18 +159,27 @@ TEST(FamilyWiseP, IsUniformWithoutEffects) {
   EXPECT_LE(small, 20);  // P(X >= 21) = 1e-3
 }
 
+/// A residual of unit noise and, in each cell, of what `of_cell` tells.
+VectorXd made_residual(const Observations& observations, std::uint64_t seed,
+                       const std::function<double(const Cell&, const OperatingCondition&)>& of_cell) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  VectorXd r(static_cast<Eigen::Index>(observations.cells.size()));
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    const Cell& cell = observations.cells[static_cast<std::size_t>(i)];
+    r[i] = normal(random) + of_cell(cell, observations.rows[static_cast<std::size_t>(cell.row)]);
+  }
+  return r;
+}
+
 // A residual made of the run number is seen against the run number and nothing else.
 TEST(Dependences, FindTheVariable) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {}, fine_noise, 13);
   const Observations observations = observe(campaign);
-  std::mt19937_64 random(2);
-  std::normal_distribution<double> normal;
-  VectorXd r(static_cast<Eigen::Index>(observations.cells.size()));
-  for (std::size_t i = 0; i < observations.cells.size(); ++i) {
-    const OperatingCondition& at = observations.rows[static_cast<std::size_t>(observations.cells[i].row)];
-    r[static_cast<Eigen::Index>(i)] = normal(random) + (observations.cells[i].channel == torque ? 0.08 * *at.run : 0.0);
-  }
+  const VectorXd r = made_residual(observations, 2, [](const Cell& cell, const OperatingCondition& at) {
+    return cell.channel == torque ? 0.08 * *at.run : 0.0;
+  });
   int others = 0;
   std::optional<double> on_the_run;
   for (const Dependence& d : dependences(observations, r, 499, 1)) {
@@ -190,13 +200,9 @@ TEST(Dependences, FalseDiscoveryRateByDefinition) {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {}, fine_noise, 13);
   const Observations observations = observe(campaign);
-  std::mt19937_64 random(4);
-  std::normal_distribution<double> normal;
-  VectorXd r(static_cast<Eigen::Index>(observations.cells.size()));
-  for (std::size_t i = 0; i < observations.cells.size(); ++i)
-    r[static_cast<Eigen::Index>(i)] =
-        normal(random) +
-        (observations.cells[i].channel == sinkage ? 3 * observations.rows[observations.cells[i].row].slip : 0);
+  const VectorXd r = made_residual(observations, 4, [](const Cell& cell, const OperatingCondition& at) {
+    return cell.channel == sinkage ? 3 * at.slip : 0.0;
+  });
   const std::vector<Dependence> table = dependences(observations, r, 1999, 1);
   ASSERT_GE(table.size(), 9u);
   int sure = 0;

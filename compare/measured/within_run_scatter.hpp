@@ -1,0 +1,31 @@
+// How much a campaign's runs scatter in time, each within itself: the usual run, against which unsteady ones show.
+//
+//   usual_scatter(campaign.runs, 0)   // of the drawbar pull, [N]; nothing where no run tells it
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "compare/measured/campaign.hpp"
+
+namespace soilbin::compare {
+
+/// The upper median of some values, at least one.
+inline double upper_median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Median of what the runs tell of a channel's standard deviation in time [SI]; nothing where none does.
+inline std::optional<double> usual_scatter(const std::vector<Run>& runs, std::size_t channel) {
+  std::vector<double> told;
+  for (const Run& run : runs)
+    if (run.within_run_sd[channel]) told.push_back(*run.within_run_sd[channel]);
+  return told.empty() ? std::nullopt : std::optional(upper_median(std::move(told)));
+}
+
+}  // namespace soilbin::compare
