@@ -60,7 +60,8 @@ std::string manual_page(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     page += command_page(*command);
   return page +
-         ".SH EXIT STATUS\n0: done; 1: failed, or no answer; 2: bad input; 130: stopped by Ctrl\\-C.\n"
+         ".SH EXIT STATUS\n0: done; 1: failed, or no answer; 2: bad input; 3: part of the work is done and kept, the same "
+         "command goes on; 130: stopped by Ctrl\\-C.\n"
          ".SH ENVIRONMENT\n.TP\nSOILBIN_CASES\nfolders of tires, soils, studies and campaigns, before the installed "
          "ones\n"
          ".TP\nSOILBIN_BEDS\nfolder in which settled beds of grains are kept\n"
