@@ -2,8 +2,9 @@
 
 The pages are the Markdown files as they lie in the project; nothing is written a second time. Added here: the table of
 contents, from the folders; formulas as MathML, which browsers draw without a script or a network; the Python
-reference, from the docstrings, where the package is built; links to notebooks, which become links to their exported pages;
-and links to files that are no pages, which become their names.
+reference, from the docstrings, where the package is built; the C++ reference, from the headers (cpp_reference.py);
+links to notebooks, which become links to their exported pages; and links to files that are no pages, which become
+their names.
 """
 import importlib.util
 import re
@@ -15,7 +16,7 @@ from docutils.utils.math import latex2mathml
 ROOT = Path(__file__).resolve().parents[2]
 project, author, language = "soilbin", "the soilbin authors", "en"
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
-sys.path.insert(0, str(ROOT / "build/release/python"))
+sys.path[:0] = [str(ROOT / "build/release/python"), str(ROOT / "docs/site")]
 MODULES = ("soilbin", "soilbin.bekker_wong", "soilbin.dem", "soilbin.compare")
 HAS_PACKAGE = importlib.util.find_spec("soilbin") is not None and importlib.util.find_spec("pandas") is not None
 nitpick_ignore_regex = [("py:.*", ".*")]  # signatures name types that are not documented by themselves
@@ -74,6 +75,8 @@ def prepare(app, name, source):
             public = [member for member in public if ours[member] not in seen]
             seen.update(ours.values())
             source[0] += f"\n\n## {module}\n\n```{{eval-rst}}\n.. automodule:: {module}\n   :members: {', '.join(public)}\n```\n"
+    if name.endswith("cpp-api"):
+        source[0] += "\n\n" + importlib.import_module("cpp_reference").reference_text(ROOT, page.read_text(encoding="utf-8"))
     if name == root_doc:
         source[0] += "\n\n" + "\n\n".join(contents()) + "\n"
 
