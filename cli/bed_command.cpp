@@ -54,7 +54,7 @@ void add_bed(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("bed", "settle the beds of grains that a study's runs begin on");
   const auto study = std::make_shared<std::string>();
   const auto flags = std::make_shared<SoilBinFlags>();
-  command->add_option("study", *study, "of the library, or a case file")->type_name("STUDY")->required();
+  command->add_option("study", *study, "a study of the library, or a case file")->type_name("STUDY")->required();
   flags->add_rig_to(*command);
   flags->add_packings_to(*command);
   flags->add_shard_to(*command);

@@ -123,9 +123,10 @@ int bevameter(const BevameterOptions& options, const Session& session) {
 }  // namespace
 
 void add_bevameter(CLI::App& app, Session& session) {
-  CLI::App* command = app.add_subcommand("bevameter", "n, k_c, k_phi, c, phi and K of a soil's grains");
+  CLI::App* command =
+      app.add_subcommand("bevameter", "n, k_c, k_phi, c, phi and K of a soil's grains, by simulated plates and a ring");
   const auto options = std::make_shared<BevameterOptions>();
-  command->add_option("soil", options->soil, "of the library, or a YAML file")->type_name("SOIL")->required();
+  command->add_option("soil", options->soil, "a soil of the library, or a YAML file")->type_name("SOIL")->required();
   add_file(*command, "--output", options->output, "FILE.yaml", "save the soil with these values");
   command->add_option("--plot", options->plot, "draw the curves (points) and the fit (lines)")
       ->type_name("FILE.svg|png|pdf")

@@ -260,20 +260,29 @@ int calibrate(CalibrateOptions asked, const Session& session) {
 }
 
 void add_options(CLI::App& command, CalibrateOptions& asked) {
-  command.add_option("soil", asked.soil, "of the library, or a soil file; with grains")->type_name("SOIL")->required();
-  command.add_option("--contact", asked.contact, "sand: direct shear; tire: tilting board")->type_name("sand|tire");
-  command.add_option("--target", asked.targets, "what was measured; repeatable; sand: the soil's own")
+  command.add_option("soil", asked.soil, "a soil of the library, or a file; with grains")
+      ->type_name("SOIL")
+      ->required();
+  command
+      .add_option("--contact", asked.contact, "sand on sand, by direct shear; or tire on sand, by the tilting board")
+      ->type_name("sand|tire");
+  command.add_option("--target", asked.targets, "what was measured; repeatable; for sand, by default, the soil's own")
       ->type_name("NAME=VALUE[,SD]");
-  command.add_option("--vary", asked.bounds, "other bounds of a contact's number; repeatable")
+  command
+      .add_option("--vary", asked.bounds, "bounds of a number of the contact, in place of the usual ones; repeatable")
       ->type_name("NAME=LOW..HIGH");
-  command.add_option("--keep", asked.kept, "don't vary this one; repeatable")->type_name("NAME");
+  command.add_option("--keep", asked.kept, "keep this number as the soil has it; repeatable")->type_name("NAME");
   command.add_option("--design", asked.options.design, "orthogonal array to begin with, L9")->type_name("L9|L16|L25");
   command.add_option("--runs", asked.options.most_runs, "experiments at most, 30")->type_name("N");
-  command.add_option("--near", asked.near, "share of the target for candidates, 5 %")->type_name("SHARE");
-  command.add_option("--within", asked.within, "share of the target that ends it, 3 %")->type_name("SHARE");
-  command.add_option("--probability", asked.probability, "... with this probability, 90 %")->type_name("SHARE");
-  command.add_option("--strength", asked.strength, "of the shear box: peak or residual")->type_name("peak|residual");
-  command.add_option("--stresses", asked.stresses, "of the shear box, 10kPa,20kPa,40kPa")->type_name("P,P,...");
+  command.add_option("--near", asked.near, "candidates lie within this share of every target; 5 %")->type_name("SHARE");
+  command.add_option("--within", asked.within, "the search ends within this share of every target; 3 %")
+      ->type_name("SHARE");
+  command.add_option("--probability", asked.probability, "probability with which --within must hold; 90 %")
+      ->type_name("SHARE");
+  command.add_option("--strength", asked.strength, "strength that the shear box is read by")
+      ->type_name("peak|residual");
+  command.add_option("--stresses", asked.stresses, "normal stresses of the shear box; 10kPa,20kPa,40kPa")
+      ->type_name("P,P,...");
   command
       .add_option("--settling-friction", asked.settling_friction,
                   "share of friction while the sheared sample, or the soil bin's bed, settles; 1")
@@ -283,8 +292,9 @@ void add_options(CLI::App& command, CalibrateOptions& asked) {
                   "law of rolling resistance: elastic_plastic, directional, directional_with_twist; the soil's own")
       ->type_name("LAW");
   command.add_option("--across", asked.across, "grains along a side of the board, 16")->type_name("N");
-  command.add_option("--packings", asked.packings, "samples an experiment: shear box 1, board 4")->type_name("N");
-  command.add_option("--seed", asked.options.seed, "of packings and search, 1")
+  command.add_option("--packings", asked.packings, "number of samples of each experiment; shear box 1, board 4")
+      ->type_name("N");
+  command.add_option("--seed", asked.options.seed, "seed of packings and search; 1")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   command.add_option("--threads", asked.threads, "0, one a core")->type_name("N");
@@ -302,7 +312,7 @@ void add_options(CLI::App& command, CalibrateOptions& asked) {
 }  // namespace
 
 void add_calibrate(CLI::App& app, Session& session) {
-  CLI::App* command = app.add_subcommand("calibrate", "contacts of grains from virtual element tests");
+  CLI::App* command = app.add_subcommand("calibrate", "find the contacts of grains that give a measured strength");
   const auto asked = std::make_shared<CalibrateOptions>();
   add_options(*command, *asked);
   command->footer(

@@ -112,7 +112,7 @@ int campaign(const CampaignOptions& asked, const Session& session) {
 }  // namespace
 
 void add_campaign(CLI::App& app, Session& session) {
-  CLI::App* command = app.add_subcommand("campaign", "recorded runs of grains as a measured campaign");
+  CLI::App* command = app.add_subcommand("campaign", "make a measured campaign of recorded runs of grains");
   const auto asked = std::make_shared<CampaignOptions>();
   command->add_option("records", asked->records, "made by soilbin run --model dem --record FILE")
       ->type_name("RECORD.json")
@@ -125,14 +125,16 @@ void add_campaign(CLI::App& app, Session& session) {
       ->type_name("WHAT")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--effect", asked->effects, "that his model already has; may be given again")
+  command->add_option("--effect", asked->effects, "effect that the analyst's model already has; repeatable")
       ->type_name("ID[:FORM][,PARAMETER=VALUE...]")
       ->allow_extra_args(false);
-  command->add_option("--soil", asked->soil, "whose semi-empirical values he is told; those of the record's case")
+  command
+      ->add_option("--soil", asked->soil,
+                   "soil whose analytic values the analyst is told; by default those of the record's case")
       ->type_name("NAME|FILE");
-  command->add_option("--name", asked->name, "of the campaign; the folder's")->type_name("NAME");
+  command->add_option("--name", asked->name, "name of the campaign; by default the folder's")->type_name("NAME");
   command->add_flag("--only-steady", asked->only_steady, "leave out runs that did not become steady");
-  command->add_option("--seed", asked->seed, "of the order of the rows, 1")->type_name("N");
+  command->add_option("--seed", asked->seed, "seed of the order of the rows; 1")->type_name("N");
   command->footer("Example: soilbin campaign level.json tilted.json --hide longitudinal_incline --output told");
   command->callback([=, &session] { session.action = [=, &session] { return campaign(*asked, session); }; });
 }

@@ -197,8 +197,8 @@ void add_compare(CLI::App& app, Session& session) {
   CLI::App* command =
       app.add_subcommand("compare", "models, grains and measurements of a study side by side, and why they differ");
   const auto asked = std::make_shared<CompareOptions>();
-  command->add_option("study", asked->study, "of the library, or a case file")->type_name("STUDY")->required();
-  command->add_option("--model", asked->model, "dem: run the grains now")->type_name("NAME");
+  command->add_option("study", asked->study, "a study of the library, or a case file")->type_name("STUDY")->required();
+  command->add_option("--model", asked->model, "dem: run the grains now, without a record")->type_name("NAME");
   command->add_option("--measured", asked->measured, "a campaign of the same wheel")->type_name("CAMPAIGN");
   command->add_option("--soil", asked->soil, "the analytic model's values from this soil, as bevameter writes one")
       ->type_name("SOIL");
@@ -210,9 +210,9 @@ void add_compare(CLI::App& app, Session& session) {
       ->check(writable_folder());
   add_file(*command, "--csv", asked->csv, "FILE.csv", "save every row");
   command->add_option("--replay", asked->replay, "a replay of grains to put into the page")->type_name("FILE");
-  command->add_option("--title", asked->title, "of the page")->type_name("TEXT");
-  command->add_flag("--no-loop", asked->no_loop, "don't look for what the analytic model lacks");
-  command->add_option("--seed", asked->seed, "of the loop's simulations and folds")->type_name("N");
+  command->add_option("--title", asked->title, "title of the page")->type_name("TEXT");
+  command->add_flag("--no-loop", asked->no_loop, "do not look for what the analytic model lacks");
+  command->add_option("--seed", asked->seed, "seed of the loop's simulations and folds")->type_name("N");
   command->add_flag("--json", asked->json, "soilbin-compare/1, in SI");
   asked->conditions.add_to(*command);
   asked->soil_bin.add_to(*command);

@@ -222,11 +222,15 @@ void add_drive(CLI::App& app, Session& session) {
   options->soil_bin.add_rig_to(*command);
   command
       ->add_option("--packings", options->soil_bin.packings,
-                   "dem: drives on so many packings, from --packing on, and their means; 1")
+                   "number of beds, from --packing on; answers are means over them; 1")
+      ->group(grains_heading)
       ->type_name("N");
-  command->add_flag("--ledger", options->ledger,
-                    "dem: tell what the grains did with their work too; takes up to twice as long");
-  add_file(*command, "--replay", options->soil_bin.replay, "FILE", "dem: keep the drive, to look at it in 3D");
+  command
+      ->add_flag("--ledger", options->ledger,
+                 "report what became of the energy that the grains got; takes up to twice as long")
+      ->group(grains_heading);
+  add_file(*command, "--replay", options->soil_bin.replay, "FILE", "keep the motion, to look at it in 3D")
+      ->group(grains_heading);
   command->footer(
       "Examples: soilbin drive rover-climb --report climb.html\n"
       "          soilbin drive drive-in-grains --model both --settling-friction 0 --report sides.html");

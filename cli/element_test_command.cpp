@@ -136,12 +136,13 @@ int element_test(const ElementTestOptions& options, const Session& session) {
 }  // namespace
 
 void add_element_test(CLI::App& app, Session& session) {
-  CLI::App* command = app.add_subcommand("element-test", "a soil's grains in a test of the laboratory");
+  CLI::App* command = app.add_subcommand(
+      "element-test", "test a soil's grains as a laboratory does: shear box, triaxial cell, plates ...");
   const auto options = std::make_shared<ElementTestOptions>();
   command->add_option("test", options->test, "direct-shear, tilting-board, repose, triaxial, plate or shear")
       ->type_name("TEST")
       ->required();
-  command->add_option("soil", options->soil, "of the library, or a YAML file")->type_name("SOIL")->required();
+  command->add_option("soil", options->soil, "a soil of the library, or a YAML file")->type_name("SOIL")->required();
   command->add_option("--stress", options->stresses, "normal or confining stress; may be given again")
       ->type_name("STRESS")
       ->allow_extra_args(false);

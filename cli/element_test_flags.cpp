@@ -23,19 +23,19 @@ RollingResistance rolling_named(const std::string& text, std::vector<std::string
 }
 
 void ElementTestFlags::add_to(CLI::App& command) {
-  command.add_option("--packing", packing, "seed of the first specimen, 1")->type_name("SEED");
+  command.add_option("--packing", packing, "seed of the first specimen; 1")->type_name("SEED");
   command
       .add_option("--settling-friction", settling_friction,
-                  "share of friction while the specimen settles, 1; 0: densest")
+                  "share of the friction that acts while the specimen settles; 1: loose (the default), 0: densest")
       ->type_name("SHARE");
   command
       .add_option(
           "--rolling", rolling,
           "law of rolling resistance: elastic_plastic, directional, directional_with_twist, none; the soil's own")
       ->type_name("LAW");
-  command.add_option("--size", size, "of specimens and beds, times the default; tools keep theirs")
+  command.add_option("--size", size, "size of specimens and beds, as a multiple of the default; tools keep theirs")
       ->type_name("FACTOR");
-  command.add_option("--threads", threads, "0, one a core")->type_name("N");
+  command.add_option("--threads", threads, "number of threads; 0: one for each core")->type_name("N");
 }
 
 dem::SpecimenSettings ElementTestFlags::specimen(const GranularSoil& soil) const {

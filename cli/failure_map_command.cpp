@@ -218,10 +218,12 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
 }  // namespace
 
 void add_failure_map(CLI::App& app, Session& session) {
-  CLI::App* command =
-      app.add_subcommand("failure-map", "where the analytic model parts from grains: load, lugs, an incline, slip");
+  CLI::App* command = app.add_subcommand(
+      "failure-map", "where the analytic model and grains disagree, over load, lugs, slip and slope");
   const auto asked = std::make_shared<FailureMapOptions>();
-  command->add_option("study", asked->study, "whose wheel, soil, bin and speed it is")->type_name("STUDY")->required();
+  command->add_option("study", asked->study, "the study whose wheel, soil, bin and speed are taken")
+      ->type_name("STUDY")
+      ->required();
   command->add_option("--soil", asked->soil, "the analytic model's values from this soil, as bevameter writes one")
       ->type_name("SOIL");
   command->add_option("--incline", asked->incline, "longitudinal (default), transverse or yaw")->type_name("KIND");
@@ -229,15 +231,21 @@ void add_failure_map(CLI::App& app, Session& session) {
   command->add_option("--lug-height", asked->lug_height, "range of lug heights")->type_name("LOW..HIGH")->required();
   command->add_option("--angle", asked->angle, "range of the incline or the yaw")->type_name("LOW..HIGH")->required();
   command->add_option("--slip", asked->slip, "range of slips")->type_name("LOW..HIGH")->required();
-  command->add_option("--first", asked->first, "conditions that fill the box, 24")->type_name("N");
-  command->add_option("--boundary", asked->at_boundary, "more, each where the boundary may be, 12")->type_name("N");
-  command->add_option("--rounds", asked->rounds, "more for each clause, each where it is likeliest to be wrong, 4")
+  command->add_option("--first", asked->first, "conditions that fill the ranges evenly; 24")->type_name("N");
+  command
+      ->add_option("--boundary", asked->at_boundary,
+                   "further ones, each where the difference may cross the tolerance; 12")
       ->type_name("N");
-  command->add_option("--check", asked->fresh, "predict and run so many conditions that the map hasn't seen")
+  command
+      ->add_option("--rounds", asked->rounds, "further ones for each statement, each where it is most likely wrong; 4")
       ->type_name("N");
-  command->add_option("--tolerance", asked->tolerance, "share of the load beyond which the models part, 10 %")
+  command->add_option("--check", asked->fresh, "predict, then run so many conditions that the map has not seen")
+      ->type_name("N");
+  command
+      ->add_option("--tolerance", asked->tolerance,
+                   "share of the load beyond which the models count as different; 10 %")
       ->type_name("SHARE");
-  command->add_option("--effect", asked->effects, "of the analytic model; may be given again")
+  command->add_option("--effect", asked->effects, "effect of the analytic model; repeatable")
       ->type_name("ID[:FORM][,PARAMETER=VALUE...]")
       ->allow_extra_args(false);
   command->add_option("--store", asked->store, "keep each run in this file, and go on with what is there")
@@ -245,7 +253,7 @@ void add_failure_map(CLI::App& app, Session& session) {
   command->add_flag("--stored", asked->stored, "answer from the store alone, without running");
   asked->batch.add_to(*command);
   add_file(*command, "--report", asked->report, "FILE.html", "write the report as one page");
-  command->add_option("--seed", asked->seed, "of the design, 1")->type_name("N");
+  command->add_option("--seed", asked->seed, "seed of the design; 1")->type_name("N");
   command->add_flag("--show-rows", asked->rows, "print every condition run");
   command->add_flag("--json", asked->json, "soilbin-failure-map/1, in SI");
   asked->soil_bin.add_to(*command);

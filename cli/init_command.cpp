@@ -154,7 +154,8 @@ void add_init(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("init", "write a commented case or campaign to start from; never overwrites");
   const auto folder = std::make_shared<std::string>(".");
   const auto campaign = std::make_shared<bool>(false);
-  command->add_option("folder", *folder, "made where it is missing; by default this one")->type_name("DIR");
+  command->add_option("folder", *folder, "folder to write into, made where it is missing; by default this one")
+      ->type_name("DIR");
   command->add_flag("--campaign", *campaign, "a campaign with example rows, in place of a case");
   command->footer("Example: soilbin init mine --campaign");
   command->callback(

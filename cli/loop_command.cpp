@@ -115,9 +115,11 @@ int loop(const LoopOptions& asked, const Session& session) {
 
 void add_loop(CLI::App& app, Session& session) {
   CLI::App* command =
-      app.add_subcommand("loop", "find what the model lacks: residual, cause, effect added, error before and after");
+      app.add_subcommand("loop", "find what the model lacks beside measured runs, and what to measure next");
   const auto asked = std::make_shared<LoopOptions>();
-  command->add_option("campaign", asked->campaign, "of the library, or its folder")->type_name("CAMPAIGN")->required();
+  command->add_option("campaign", asked->campaign, "a campaign of the library, or its folder")
+      ->type_name("CAMPAIGN")
+      ->required();
   command->add_option("--report", asked->report, "write the report as one page")
       ->type_name("FILE.html")
       ->check(writable_file());
@@ -128,13 +130,15 @@ void add_loop(CLI::App& app, Session& session) {
   command
       ->add_option(
           "--limit", asked->limits,
-          "for what to measure next: range that the rig can reach, where it isn't the campaign's own; repeatable")
+          "for what to measure next: range that the rig can reach, where it is not the campaign's own; repeatable")
       ->type_name("NAME=LOW..HIGH");
-  command->add_option("--folds", asked->folds, "parts into which conditions are dealt for the honest errors")
+  command
+      ->add_option("--folds", asked->folds,
+                   "parts into which the conditions are divided; each is predicted from the others; 5")
       ->type_name("N")
       ->check(CLI::Range(2, 50));
-  command->add_option("--seed", asked->seed, "of the simulations and the folds")->type_name("N");
-  command->add_flag("--json", asked->json, "soilbin-loop/1");
+  command->add_option("--seed", asked->seed, "seed of the simulations and the folds")->type_name("N");
+  command->add_flag("--json", asked->json, "the answer as JSON, soilbin-loop/1");
   command->add_flag("--details", asked->details, "with --json: what stands behind the answer");
   command->footer("Example: soilbin loop cmu-smooth --report loop.html --save-model fitted.yaml");
   command->callback([=, &session] { session.action = [=, &session] { return loop(*asked, session); }; });

@@ -19,35 +19,26 @@
 namespace soilbin::cli {
 namespace {
 
-/// Every command, in the order of the help; one line each.
+/// Commands under one heading of the help.
+struct CommandGroup {
+  const char* heading;
+  std::vector<void (*)(CLI::App&, Session&)> adds;
+};
+
+/// Every command, in the order of the help.
 void add_commands(CLI::App& app, Session& session) {
-  add_estimate(app, session);
-  add_explain(app, session);
-  add_run(app, session);
-  add_sweep(app, session);
-  add_bed(app, session);
-  add_record(app, session);
-  add_element_test(app, session);
-  add_bevameter(app, session);
-  add_plates(app, session);
-  add_limits(app, session);
-  add_drive(app, session);
-  add_predict(app, session);
-  add_calibrate(app, session);
-  add_campaign(app, session);
-  add_loop(app, session);
-  add_compare(app, session);
-  add_failure_map(app, session);
-  add_report(app, session);
-  add_reproduce(app, session);
-  add_serve(app, session);
-  add_check(app, session);
-  add_init(app, session);
-  add_list(app, session);
-  add_schema(app, session);
-  add_verify(app, session);
-  add_doctor(app, session);
-  add_manual(app, session);
+  const CommandGroup groups[] = {
+      {"Ask about a wheel", {add_estimate, add_explain, add_limits, add_run, add_drive, add_serve}},
+      {"Use measured data", {add_predict, add_loop, add_plates}},
+      {"Set answers side by side", {add_compare, add_report, add_reproduce, add_failure_map}},
+      {"Work with grains",
+       {add_bed, add_sweep, add_record, add_campaign, add_element_test, add_bevameter, add_calibrate, add_verify}},
+      {"Files and this installation", {add_init, add_check, add_list, add_schema, add_doctor, add_manual}}};
+  for (const CommandGroup& group : groups)
+    for (const auto add : group.adds) {
+      add(app, session);
+      app.get_subcommands({}).back()->group(group.heading);
+    }
 }
 
 int refuse(const std::string& message) {
@@ -79,6 +70,11 @@ int run(int argc, char** argv) {
   app.get_formatter()->column_width(36);
   Session session{find_workplace(), command_line({argv + 1, argv + argc}), {}};
   add_commands(app, session);
+  app.footer(
+      "Begin with: soilbin estimate --soil dry-sand --radius 110mm --width 100mm --load 80N --slip 20%\n"
+      "            soilbin init mine, then soilbin run mine/case.yaml --plot curves.svg\n"
+      "            soilbin serve, and move sliders in a browser\n"
+      "soilbin COMMAND --help shows a command's flags and an example. Values carry their unit: 80N, 110mm, 20%, 5deg.");
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty()) return fmt::print("{}", app.help()), bad_input;
   if (const std::string hint = misspelt(app, words); !hint.empty()) return refuse(hint);

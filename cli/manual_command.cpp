@@ -60,7 +60,8 @@ std::string manual_page(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     page += command_page(*command);
   return page +
-         ".SH EXIT STATUS\n0: done; 1: failed, or no answer; 2: bad input; 3: part of the work is done and kept, the same "
+         ".SH EXIT STATUS\n0: done; 1: failed, or no answer; 2: bad input; 3: part of the work is done and kept, the "
+         "same "
          "command goes on; 130: stopped by Ctrl\\-C.\n"
          ".SH ENVIRONMENT\n.TP\nSOILBIN_CASES\nfolders of tires, soils, studies and campaigns, before the installed "
          "ones\n"
@@ -121,8 +122,11 @@ std::string markdown_page(const CLI::App& app) {
       "exit "
       "statuses:\n[errors.md](errors.md).\n\n| command | what it does |\n|---|---|\n";
   const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
-  for (const CLI::App* command : commands)
+  std::string heading;
+  for (const CLI::App* command : commands) {
+    if (command->get_group() != heading) page += fmt::format("| **{}** | |\n", heading = command->get_group());
     page += fmt::format("| [{0}](#{0}) | {1} |\n", command->get_name(), cell(command->get_description()));
+  }
   for (const CLI::App* command : commands) page += markdown_of(*command, "");
   return page;
 }

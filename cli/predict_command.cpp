@@ -62,9 +62,9 @@ int predict(const PredictOptions& options, const Session& session) {
 
 void add_predict(CLI::App& app, Session& session) {
   CLI::App* command =
-      app.add_subcommand("predict", "each run of a measured campaign as the model predicts it, unfitted");
+      app.add_subcommand("predict", "each run of a measured campaign beside its prediction, nothing fitted");
   const auto options = std::make_shared<PredictOptions>();
-  command->add_option("campaign", options->campaign, "of the library, or its folder")
+  command->add_option("campaign", options->campaign, "a campaign of the library, or its folder")
       ->type_name("CAMPAIGN")
       ->required();
   command

@@ -114,8 +114,12 @@ void ConditionFlags::pick(Study& study, const Tire& tire) const {
 
 Question::Question(CLI::App& app, std::vector<std::string> needed) : needed_(std::move(needed)) {
   app.add_option("case", case_name_, "a case file, or a study of the library")->type_name("CASE");
-  app.add_option("--soil", soil_, "of the library, or a YAML file")->type_name("NAME|FILE")->group("Tire and soil");
-  app.add_option("--tire", tire_, "of the library, or a YAML file")->type_name("NAME|FILE")->group("Tire and soil");
+  app.add_option("--soil", soil_, "a soil of the library, or a YAML file")
+      ->type_name("NAME|FILE")
+      ->group("Tire and soil");
+  app.add_option("--tire", tire_, "a tire of the library, or a YAML file")
+      ->type_name("NAME|FILE")
+      ->group("Tire and soil");
   wheel_.add_to(app, "Tire and soil");
   lugs_.add_to(app, "Tire and soil", "lug-");
   bin_.add_to(app, "Tire and soil", "bin-");

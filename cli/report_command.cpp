@@ -96,12 +96,12 @@ int report(const ReportOptions& options, const Session& session) {
 void add_report(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("report", "studies and campaigns as one HTML page to open");
   const auto options = std::make_shared<ReportOptions>();
-  command->add_option("studies", options->studies, "of the library, or case files")->type_name("STUDY...");
+  command->add_option("studies", options->studies, "studies of the library, or case files")->type_name("STUDY...");
   command->add_option("--measured", options->campaigns, "campaigns to predict and compare")->type_name("CAMPAIGN...");
   command->add_option("--link", options->links, "other pages of soilbin, shown with their first drawing and sentence")
       ->type_name("FILE.html...");
   command->add_option("--output", options->output, "the page; by default report.html")->type_name("FILE.html");
-  command->add_option("--title", options->title, "of the page")->type_name("TEXT");
+  command->add_option("--title", options->title, "title of the page")->type_name("TEXT");
   command->footer("Example: soilbin report paper-straight --measured cmu-smooth --output report.html");
   command->callback([=, &session] { session.action = [=, &session] { return report(*options, session); }; });
 }

@@ -168,7 +168,9 @@ int reproduce(const ReproduceOptions& options, const Session& session) {
 void add_reproduce(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("reproduce", "whether the models show what a publication found");
   const auto options = std::make_shared<ReproduceOptions>();
-  command->add_option("findings", options->findings, "of the library, or a YAML file; by default paper")
+  command
+      ->add_option("findings", options->findings,
+                   "findings of the library, or a YAML file; by default those of the paper")
       ->type_name("FINDINGS");
   command->add_option("--recorded", options->recorded, "records of dem, one a study; by default the library's")
       ->type_name("FILE.json...");

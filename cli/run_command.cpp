@@ -216,9 +216,11 @@ int run(RunOptions options, const Session& session) {
 }  // namespace
 
 void add_run(CLI::App& app, Session& session) {
-  CLI::App* command = app.add_subcommand("run", "a study: every model at every condition");
+  CLI::App* command = app.add_subcommand("run", "a study: every model at every condition, as tables, plots and files");
   const auto options = std::make_shared<RunOptions>();
-  command->add_option("study", options->study, "of the library, or a case file")->type_name("STUDY")->required();
+  command->add_option("study", options->study, "a study of the library, or a case file")
+      ->type_name("STUDY")
+      ->required();
   command->add_option("--model", options->model, "only this model: bekker_wong or dem")->type_name("NAME");
   command->add_option("--plot", options->plot, "draw the curves against slip")
       ->type_name("FILE.svg|png|pdf")
@@ -228,19 +230,26 @@ void add_run(CLI::App& app, Session& session) {
       ->type_name("DIR")
       ->check(writable_folder());
   command->add_flag("--json", options->json, "the results as JSON, in SI");
-  command->add_flag("--converge", options->converge,
-                    "dem: one condition, again with each numerical choice halved or doubled");
+  command
+      ->add_flag("--converge", options->converge,
+                 "run one condition again with each numerical choice halved or doubled")
+      ->group(grains_heading);
   options->conditions.add_to(*command);
   options->errors.add_to(*command);
   options->soil_bin.add_to(*command);
   options->soil_bin.add_half_step_to(*command);
-  command->add_flag("--dry-run", options->dry_run,
-                    "dem: make nothing; list the runs, which are recorded, and what the others will cost");
+  command
+      ->add_flag("--dry-run", options->dry_run,
+                 "make nothing; list the runs, which are recorded, and what the others will cost")
+      ->group(grains_heading);
   options->soil_bin.add_shard_to(*command);
   options->soil_bin.add_known_to(*command);
   add_file(*command, "--replay", options->soil_bin.replay, "FILE",
-           "dem: keep the first run that is made, to look at it in 3D");
-  command->add_option("--paraview", options->soil_bin.paraview, "dem: keep each run that is made, for ParaView")
+           "keep the motion of the first run that is made, for the page of compare --replay")
+      ->group(grains_heading);
+  command
+      ->add_option("--paraview", options->soil_bin.paraview, "keep the motion of each run that is made, for ParaView")
+      ->group(grains_heading)
       ->type_name("DIR")
       ->check(writable_folder());
   command->footer(

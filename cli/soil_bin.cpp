@@ -58,34 +58,35 @@ struct SettingFlag {
 
 using R = dem::Rig;
 constexpr SettingFlag measure_flags[] = {
-    {"--bed-length", "LENGTH", "dem: length of the bed, 2.5 m", bed<&dem::BedSize::length>},
-    {"--bed-width", "LENGTH", "dem: its width, 0.8 m", bed<&dem::BedSize::width>},
-    {"--bed-depth", "LENGTH", "dem: its depth, 0.3 m", bed<&dem::BedSize::depth>},
-    {"--behind", "LENGTH", "dem: of the axle to the bin's rear end at the start, 0.35 m", rig<&R::behind>},
-    {"--ahead", "LENGTH", "dem: of the axle to its front end at the end, 0.5 m", rig<&R::ahead>},
-    {"--travel", "LENGTH", "dem: way of the axle, as far as the bin lets it", rig<&R::travel>},
-    {"--lowering", "TIME", "dem: time in which the load comes on, 0.5 s", rig<&R::lowering>},
-    {"--resting", "TIME", "dem: time under the whole load before the start, 0.2 s", rig<&R::resting>, zero_or_more},
-    {"--tilting", "TIME", "dem: time in which gravity turns to an incline, 0.3 s", rig<&R::tilting>},
-    {"--time-step", "TIME", "dem: of bed and run, a fifth of the Rayleigh time", rig<&R::dt>},
+    {"--bed-length", "LENGTH", "length of the bed; 2.5 m", bed<&dem::BedSize::length>},
+    {"--bed-width", "LENGTH", "width of the bed; 0.8 m", bed<&dem::BedSize::width>},
+    {"--bed-depth", "LENGTH", "depth of the bed; 0.3 m", bed<&dem::BedSize::depth>},
+    {"--behind", "LENGTH", "distance from the axle to the bin's rear end at the start; 0.35 m", rig<&R::behind>},
+    {"--ahead", "LENGTH", "distance from the axle to the bin's front end when the run ends; 0.5 m", rig<&R::ahead>},
+    {"--travel", "LENGTH", "distance that the axle travels; as far as the bin allows", rig<&R::travel>},
+    {"--lowering", "TIME", "time in which the load comes on; 0.5 s", rig<&R::lowering>},
+    {"--resting", "TIME", "time under the whole load before the start; 0.2 s", rig<&R::resting>, zero_or_more},
+    {"--tilting", "TIME", "time in which gravity turns to an incline; 0.3 s", rig<&R::tilting>},
+    {"--time-step", "TIME", "time step of bed and run; a fifth of the Rayleigh time", rig<&R::dt>},
     {"--sleep",
      "SHARE",
-     "dem: grains far from the wheel rest that are slower than this share of sqrt(g d), 0.003; 0: none",
+     "far from the wheel, grains slower than this share of sqrt(g d) are not computed; 0.003; 0: all are",
      rig<&R::sleep_speed>,
      {.lower = 0, .upper = 0.1}},
     {"--deepest-overlap",
      "SHARE",
-     "dem: of the smaller radius that grains may overlap, 0.5",
+     "share of the smaller radius by which grains may overlap before the run stops; 0.5",
      rig<&R::deepest_overlap>,
      {.lower = 0.05, .upper = 2}}};
-constexpr SettingFlag starting_flag{"--starting", "TIME", "dem: time in which speed and rotation come on, 0.2 s",
+constexpr SettingFlag starting_flag{"--starting", "TIME", "time in which speed and rotation come on; 0.2 s",
                                     rig<&R::starting>};
-constexpr SettingFlag settling_flag{"--settling-friction", "SHARE",
-                                    "dem: share of friction while the bed settles, 1; 0: densest",
-                                    [](dem::DemSettings& s) -> double& { return s.settling_friction; }, fractions};
+constexpr SettingFlag settling_flag{
+    "--settling-friction", "SHARE",
+    "share of the friction that acts while the bed settles; 1: loose (the default), 0: densest",
+    [](dem::DemSettings& s) -> double& { return s.settling_friction; }, fractions};
 
 void add(CLI::App& command, const SettingFlag& one, std::map<std::string, std::string>& texts) {
-  command.add_option(one.flag, texts[one.flag], one.meaning)->type_name(one.type);
+  command.add_option(one.flag, texts[one.flag], one.meaning)->type_name(one.type)->group(grains_heading);
 }
 
 }  // namespace
@@ -126,16 +127,20 @@ void SoilBinFlags::add_measures_to(CLI::App& command) {
 
 void SoilBinFlags::add_rig_to(CLI::App& command) {
   add_measures_to(command);
-  command.add_option("--packing", packing, "dem: seed of the bed, 1")->type_name("SEED");
+  command.add_option("--packing", packing, "seed of the bed; 1")->type_name("SEED")->group(grains_heading);
   add(command, settling_flag, texts);
-  command.add_option("--threads", threads, "dem: 0, one a core")->type_name("N");
+  command
+      .add_option("--threads", threads, "number of threads, which changes no bit of the answer; 0: one for each core")
+      ->type_name("N")
+      ->group(grains_heading);
 }
 
 void SoilBinFlags::add_starting_to(CLI::App& command) { add(command, starting_flag, texts); }
 
 void SoilBinFlags::add_packings_to(CLI::App& command) {
-  command.add_option("--packings", packings, "dem: runs on so many packings, from --packing on, and their mean; 1")
-      ->type_name("N");
+  command.add_option("--packings", packings, "number of beds, from --packing on; answers are means over them; 1")
+      ->type_name("N")
+      ->group(grains_heading);
 }
 
 compare::TestStep SoilBinFlags::tests_step(const Case& question) const {
@@ -147,19 +152,22 @@ compare::TestStep SoilBinFlags::tests_step(const Case& question) const {
 void SoilBinFlags::add_half_step_to(CLI::App& command) {
   command
       .add_option("--half-step", half_step,
-                  "dem: first the hardest condition also at half the time step, and stop where its answer differs; yes "
+                  "run the hardest condition first, also at half the time step, and stop where its answer differs; yes "
                   "for a dozen runs or more")
+      ->group(grains_heading)
       ->type_name("yes|no")
       ->check(CLI::IsMember({"yes", "no"}));
 }
 
 void SoilBinFlags::add_shard_to(CLI::App& command) {
   command.add_option("--shard", shard, "only the K-th of N parts of the work; parts may be made at once, anywhere")
+      ->group(grains_heading)
       ->type_name("K/N");
 }
 
 void SoilBinFlags::add_known_to(CLI::App& command) {
-  command.add_option("--known", known, "dem: records whose runs are not made again")
+  command.add_option("--known", known, "records whose runs are not made again")
+      ->group(grains_heading)
       ->type_name("RECORD.json")
       ->allow_extra_args(true);
 }
@@ -168,10 +176,13 @@ void SoilBinFlags::add_to(CLI::App& command) {
   add_rig_to(command);
   add_starting_to(command);
   add_packings_to(command);
-  add_file(command, "--record", record, "FILE.json", "dem: keep each run in this file, and go on with what is there");
+  add_file(command, "--record", record, "FILE.json",
+           "keep each run in this file as it is finished, and go on with what is there")
+      ->group(grains_heading);
   command
       .add_option("--recorded", recorded,
-                  "dem: answer from this record, without running; without a file from the one in the library")
+                  "answer from this record, without running; without a file from the one in the library")
+      ->group(grains_heading)
       ->type_name("[FILE.json]")
       ->expected(0, 1)
       ->default_str(library_record)

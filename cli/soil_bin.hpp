@@ -15,6 +15,9 @@
 
 namespace soilbin::cli {
 
+/// Heading of the flags of the virtual soil bin in --help.
+inline constexpr const char* grains_heading = "Grains, in the virtual soil bin (model dem)";
+
 /// Where settled beds are kept: $SOILBIN_BEDS, else soilbin/beds in the user's cache; empty where there is no home.
 std::filesystem::path folder_of_beds();
 

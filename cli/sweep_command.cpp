@@ -276,13 +276,13 @@ int sweep(const SweepOptions& asked, const CLI::App& command, const Session& ses
 }  // namespace
 
 void add_sweep(CLI::App& app, Session& session) {
-  CLI::App* command = app.add_subcommand("sweep", "a study's runs of grains as jobs: of Slurm, or on this machine");
+  CLI::App* command = app.add_subcommand("sweep", "make a study's runs of grains as jobs, of Slurm or on this machine");
   const auto asked = std::make_shared<SweepOptions>();
-  command->add_option("study", asked->study, "of the library, or a case file; or the word status")
+  command->add_option("study", asked->study, "a study of the library, or a case file; or the word status")
       ->type_name("STUDY|status")
       ->required();
-  command->add_option("folder", asked->folder, "with status: of the sweep")->type_name("DIR");
-  command->add_option("--on", asked->on, "who does the jobs")
+  command->add_option("folder", asked->folder, "with status: folder of the sweep")->type_name("DIR");
+  command->add_option("--on", asked->on, "who runs the jobs")
       ->type_name("slurm|local")
       ->check(CLI::IsMember({"slurm", "local"}));
   command->add_option("--output", asked->output, "folder for script, records and logs; sweep-NAME")
@@ -290,7 +290,9 @@ void add_sweep(CLI::App& app, Session& session) {
       ->check(writable_folder());
   command->add_option("--at-least", asked->at_least, "time that a job should take; 30 min on Slurm, 1 min here")
       ->type_name("TIME");
-  command->add_option("--shards", asked->shards, "so many jobs, instead")->type_name("N")->check(CLI::PositiveNumber);
+  command->add_option("--shards", asked->shards, "number of jobs, in place of --at-least")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
   command->add_option("--at-once", asked->at_once, "local: processes side by side; as many as cores")
       ->type_name("N")
       ->check(CLI::PositiveNumber);

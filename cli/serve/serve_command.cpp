@@ -40,10 +40,11 @@ int serve(const CLI::App& command, unsigned short port, const Session& session) 
 }  // namespace
 
 void add_serve(CLI::App& app, Session& session) {
-  CLI::App* command = app.add_subcommand("serve", "a page on this machine: move load, slip, soil; curves follow");
+  CLI::App* command =
+      app.add_subcommand("serve", "a live page on this machine: move load, slip and soil, and the curves follow");
   const auto inputs = std::make_shared<Question>(*command);
   const auto port = std::make_shared<int>(8080);
-  command->add_option(port_flag, *port, "of 127.0.0.1; 0: any free one; 8080")
+  command->add_option(port_flag, *port, "port of 127.0.0.1; 8080; 0: any free one")
       ->type_name("WHOLE")
       ->check(CLI::Range(0, 65535));
   command->footer(
