@@ -33,6 +33,7 @@ void add_limits(CLI::App& app, Session& session);
 void add_predict(CLI::App& app, Session& session);
 void add_calibrate(CLI::App& app, Session& session);
 void add_campaign(CLI::App& app, Session& session);
+void add_design(CLI::App& app, Session& session);
 void add_loop(CLI::App& app, Session& session);
 void add_compare(CLI::App& app, Session& session);
 void add_failure_map(CLI::App& app, Session& session);

@@ -9,13 +9,11 @@
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
+#include "cli/rig_flags.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/measured/condition_views.hpp"
 #include "compare/sweep/result_json.hpp"
-#include "scenario/errors.hpp"
-#include "scenario/nearest_word.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -27,32 +25,6 @@ struct LoopOptions {
   int folds = 5;
   unsigned seed = 1;
 };
-
-/// "load=50N..0.2kN", values with units.
-compare::Limits read_limits(const std::vector<std::string>& texts) {
-  std::vector<std::string> names;
-  for (const compare::ConditionView& view : compare::condition_views)
-    if (view.name != "run") names.emplace_back(view.name);
-  compare::Limits limits;
-  for (const std::string& text : texts) {
-    const std::vector<std::string> parts = split(text, "=");
-    const std::vector<std::string> texts_of_ends = split(parts.back(), "..");
-    if (parts.size() != 2 || texts_of_ends.size() != 2)
-      throw InputError(fmt::format("--limit '{}': expected NAME=LOW..HIGH, such as load=50N..200N", clipped(text)));
-    if (std::find(names.begin(), names.end(), parts[0]) == names.end())
-      throw InputError(
-          fmt::format("--limit: unknown condition '{}'{}", clipped(parts[0]), did_you_mean(parts[0], names)));
-    const compare::ConditionView& view = compare::condition_view(parts[0]);
-    const Range range = view.name == "speed" ? above_zero : view.range;  // a rig that stands still measures nothing
-    const Measure measure{std::string(view.column_unit), range};
-    std::vector<double> ends;
-    for (const std::string& end : texts_of_ends) ends.push_back(read_flag("--limit " + parts[0], end, measure));
-    if (!(ends[0] <= ends[1]))
-      throw InputError(fmt::format("--limit '{}': the lower end is above the upper", clipped(text)));
-    limits[parts[0]] = {ends[0], ends[1]};
-  }
-  return limits;
-}
 
 /// For people: a limit that was given isn't asked for again.
 compare::LoopAnswer without_given_limits(compare::LoopAnswer answer, const compare::Limits& given) {
@@ -127,11 +99,9 @@ void add_loop(CLI::App& app, Session& session) {
       ->type_name("FILE.yaml")
       ->check(writable_file());
   command->add_flag("--next", asked->next, "say only what to measure next");
-  command
-      ->add_option(
-          "--limit", asked->limits,
-          "for what to measure next: range that the rig can reach, where it is not the campaign's own; repeatable")
-      ->type_name("NAME=LOW..HIGH");
+  add_limits_of_the_rig(*command, asked->limits,
+                        "for what to measure next: range that the rig can reach, where it is not the campaign's own; "
+                        "repeatable");
   command
       ->add_option("--folds", asked->folds,
                    "parts into which the conditions are divided; each is predicted from the others; 5")

@@ -29,7 +29,7 @@ struct CommandGroup {
 void add_commands(CLI::App& app, Session& session) {
   const CommandGroup groups[] = {
       {"Ask about a wheel", {add_estimate, add_explain, add_limits, add_run, add_drive, add_serve}},
-      {"Use measured data", {add_predict, add_loop, add_plates}},
+      {"Use measured data", {add_design, add_predict, add_loop, add_plates}},
       {"Set answers side by side", {add_compare, add_report, add_reproduce, add_failure_map}},
       {"Work with grains",
        {add_bed, add_sweep, add_record, add_campaign, add_element_test, add_bevameter, add_calibrate, add_verify}},

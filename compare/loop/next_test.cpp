@@ -92,14 +92,6 @@ std::vector<Contender> contenders(const Attribution& found) {
   return contenders;
 }
 
-/// What the campaign spans, by name.
-Limits ranges_of(const Observations& observations) {
-  Limits ranges;
-  for (const Covariate& c : covariates(observations))
-    if (c.name != "run") ranges[c.name] = {c.values.minCoeff(), c.values.maxCoeff()};
-  return ranges;
-}
-
 /// Names of the conditions that lie outside what was run.
 std::vector<std::string> beyond(const Observations& observations, const OperatingCondition& at) {
   Observations more = observations;
@@ -115,21 +107,15 @@ std::vector<std::string> beyond(const Observations& observations, const Operatin
 std::vector<OperatingCondition> grid(const Observations& observations, const Limits& limits) {
   OperatingCondition centre = observations.rows[observations.rows.size() / 2];
   centre.run.reset();
-  std::vector<OperatingCondition> points = {centre};
+  std::vector<Levels> levels;
+  std::size_t points = 1;
   for (const auto& [name, range] : limits) {
-    const int levels = name == "slip" ? 6 : name == "pass" ? static_cast<int>(range.second - range.first) + 1 : 3;
-    std::vector<OperatingCondition> more;
-    const int used = points.size() * levels > 1000 ? 1 : levels;
-    for (const OperatingCondition& p : points)
-      for (int k = 0; k < used; ++k) {
-        OperatingCondition at = p;
-        const double share = used > 1 ? static_cast<double>(k) / (used - 1) : 0.5;
-        condition_view(name).set(at, range.first + share * (range.second - range.first));
-        more.push_back(at);
-      }
-    points = std::move(more);
+    const int most = name == "slip" ? 6 : name == "pass" ? static_cast<int>(range.second - range.first) + 1 : 3;
+    const int used = points * most > 1000 ? 1 : most;
+    levels.emplace_back(name, evenly(range, used));
+    points *= used;
   }
-  return points;
+  return combinations(centre, levels);
 }
 
 /// What a run at a condition would decide.
@@ -215,16 +201,6 @@ void refine(ConditionSearch& search, const Limits& limits) {
 }
 
 }  // namespace
-
-Limits limits_of(const Observations& observations) {
-  Limits limits = ranges_of(observations);
-  auto& slip = limits.try_emplace("slip", 0.0, 0.0).first->second;
-  slip = {std::min(slip.first, thresholds::lowest_slip), std::max(slip.second, thresholds::highest_slip)};
-  const double load = observations.rows.front().load;
-  auto& loads = limits.try_emplace("load", load, load).first->second;
-  loads = {thresholds::lowest_load_share * loads.first, thresholds::highest_load_share * loads.second};
-  return limits;
-}
 
 std::optional<NextTest> next_test(const Attribution& found, const Limits& given) {
   const Dataset& data = found.base.data();

@@ -1,22 +1,15 @@
 // Stage 7 of the loop: the next run to make, where the candidates disagree most in units of what a run can tell.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "compare/loop/choice.hpp"
+#include "compare/loop/rig_limits.hpp"
 
 namespace soilbin::compare {
-
-/// Closed ranges within which the rig can go, by condition name (slip, load, speed, yaw, pass, ...) [SI].
-using Limits = std::map<std::string, std::pair<double, double>>;
-
-/// Where a campaign's rig can go as long as nobody says otherwise: the ranges that the campaign spans; loads from 0.7
-/// to 1.4 times them; slip at least -0.2 .. 0.8. Candidates that fit the same runs part best a little beyond them.
-Limits limits_of(const Observations& observations);
 
 struct NextTest {
   OperatingCondition at;

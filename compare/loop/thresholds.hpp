@@ -145,6 +145,18 @@ inline constexpr double least_learned_range = 0.05;
 /// Chosen after ten made campaigns had been seen (docs/lab/loop-measured.md), of which they refuse two.
 inline constexpr double least_learned_gain = 0.03, most_learned_loss = 0.05;
 
+// --- a test that is designed before any run ---
+
+/// Conditions among which a plan is chosen at the most; more are drawn from. Chosen for time.
+inline constexpr std::size_t most_choices = 600;
+/// Loads that the declared soil must carry, over the load of a run [-]. Chosen: near the largest one sinkage is unsure.
+inline constexpr double spare_load = 1.25;
+/// Runs of a plan at one condition, where there are conditions enough. Chosen: noise shows, and shapes that no form has
+/// do so too.
+inline constexpr std::size_t most_repeats = 2;
+/// Rounds in which every run of a plan may move. Chosen; four or five suffice.
+inline constexpr int most_passes = 12;
+
 // --- the next test ---
 
 /// Runs beyond which a condition is not proposed. Chosen.

@@ -118,6 +118,7 @@ std::vector<ColumnChoice> choose_columns(const CsvTable& table, Renames& renames
 }
 
 void check_amount(const Campaign& campaign, const SourceText& csv, CampaignUse use) {
+  if (use == CampaignUse::design) return;
   const auto rows = std::count_if(campaign.runs.begin(), campaign.runs.end(), has_channel);
   if (rows == 0) csv.refuse(0, "no measured channel: no row holds a measured value");
   const int parameters = free_parameters(campaign.soil);
@@ -191,6 +192,7 @@ Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(c
   Renames renames =
       read_renames(value_of(document, "columns", Need::optional, "names and units; {} for none", reading), reading);
   const SourceText csv = open(campaign.data);
+  if (use == CampaignUse::design && csv.text.empty()) return campaign;
   const CsvTable table = parse_csv(csv);
   const std::vector<ColumnChoice> columns = choose_columns(table, renames, csv);
   for (const auto& [name, renamed] : renames)
@@ -207,7 +209,11 @@ Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(c
 Campaign read_campaign(const fs::path& path, const Library& library, const EffectVocabulary& effects, CampaignUse use) {
   std::error_code error;
   const fs::path file = fs::is_directory(path, error) ? path / "campaign.yaml" : path;
-  const auto open = [&](const std::string& name) { return read_source_text(file.parent_path() / name, largest_csv); };
+  const auto open = [&](const std::string& name) {
+    const fs::path data = file.parent_path() / name;
+    if (use == CampaignUse::design && !fs::exists(data)) return SourceText{data.string(), ""};
+    return read_source_text(data, largest_csv);
+  };
   return parse_campaign(read_source_text(file, largest_yaml), open, library, effects, use);
 }
 

@@ -63,8 +63,9 @@ Scenario scenario_of(const Campaign& campaign);
 /// Soil values that a fit may move: those with sd > 0, of the eight of the semi-empirical model.
 int free_parameters(const SemiEmpiricalSoil& soil);
 
-/// What a campaign is read for. A fit needs a row with a measured value for each free value of the soil.
-enum class CampaignUse { prediction, fit };
+/// What a campaign is read for. A fit needs a row with a measured value for each free value of the soil; a design none:
+/// its data file may hold no row with one, and may be missing.
+enum class CampaignUse { prediction, fit, design };
 
 /// Reads a campaign: its folder or its campaign.yaml. Throws InputError with file, line, column and the nearest right
 /// word for everything that the contract refuses. A wheel or soil that it names is looked up beside the file, then in

@@ -3,9 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <numeric>
-#include <random>
 
+#include "compare/design/drawn_order.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/measured/run_columns.hpp"
 #include "compare/sweep/varying.hpp"
@@ -33,15 +32,6 @@ std::size_t setpoint_of(const OperatingCondition& at, std::vector<OperatingCondi
   if (found != known.end()) return static_cast<std::size_t>(found - known.begin()) + 1;
   known.push_back(at);
   return known.size();
-}
-
-/// 0 .. count - 1 in an order drawn from the seed (Fisher and Yates), the same bits everywhere.
-std::vector<std::size_t> drawn_order(std::size_t count, std::uint64_t seed) {
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::mt19937_64 random(seed);
-  for (std::size_t k = count; k > 1; --k) std::swap(order[k - 1], order[random() % k]);
-  return order;
 }
 
 bool has_side(const RecordedRun& run) { return run.answer.at.yaw != 0 || run.answer.at.transverse_incline != 0; }

@@ -1,0 +1,85 @@
+// soilbin design: the runs that are expected to tell effects apart best, before any is made.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
+#include "cli/progress.hpp"
+#include "cli/rig_flags.hpp"
+#include "cli/text_output.hpp"
+#include "compare/loop/test_design.hpp"
+#include "compare/sweep/result_json.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+struct DesignFlags {
+  std::string campaign, csv;
+  std::vector<std::string> limits, effects, noise;
+  int runs = 24;
+  unsigned seed = 1;
+  bool json = false;
+};
+
+void print_design(const compare::TestDesign& design) {
+  fmt::print("{}\n", design.campaign);
+  for (const std::string& sentence : compare::in_sentences(design)) fmt::print("\n{}\n", sentence);
+  for (const compare::MarkedTable& table : {compare::runs_table(design), compare::rivals_table(design)})
+    fmt::print("\n{}", as_text(compare::without_marks(table)));
+}
+
+int design(const DesignFlags& asked, const Session& session) {
+  const compare::Campaign campaign = find_campaign(session.place, asked.campaign, compare::CampaignUse::design);
+  compare::DesignOptions options;
+  options.runs = asked.runs;
+  options.limits = read_limits(asked.limits);
+  options.effects = asked.effects;
+  options.noise = read_noise(asked.noise);
+  options.seed = asked.seed;
+  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  options.progress = shown_progress();
+  const compare::TestDesign design = compare::design_test(campaign, options);
+  clear_progress_line();
+  Outputs outputs;
+  outputs.file(asked.csv, [&] { return compare::rows_to_fill_in(design); });
+  if (asked.json)
+    fmt::print("{}", compare::json_text(compare::to_json(design)));
+  else
+    print_design(design);
+  return outputs.status(done);
+}
+
+}  // namespace
+
+void add_design(CLI::App& app, Session& session) {
+  CLI::App* command = app.add_subcommand("design", "the runs that tell effects apart best, before any is made");
+  const auto asked = std::make_shared<DesignFlags>();
+  command
+      ->add_option("campaign", asked->campaign,
+                   "wheel, soil and the runs that are made, if any: of the library, or its folder")
+      ->type_name("CAMPAIGN")
+      ->required();
+  command->add_option("--runs", asked->runs, "how many to make, 24")->type_name("N")->check(CLI::Range(4, 400));
+  add_limits_of_the_rig(*command, asked->limits,
+                        "range that the rig can reach, where it isn't that of the runs made; repeatable");
+  command->add_option("--effect", asked->effects, "to tell apart; repeatable; all that these ranges can show")
+      ->type_name("ID")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--noise", asked->noise,
+                   "sd of one run, for each channel that is measured; repeatable; 2 % of the channel's range")
+      ->type_name("CHANNEL=SD")
+      ->allow_extra_args(false);
+  add_file(*command, "--csv", asked->csv, "FILE.csv", "save the rows, to fill in as the campaign's runs");
+  command->add_option("--seed", asked->seed, "of the order of the runs, 1")->type_name("N");
+  command->add_flag("--json", asked->json, "soilbin-design/1");
+  command->footer(
+      "Example: soilbin design FOLDER --runs 24 --limit load=60N..140N --limit slip=-20%..60% --csv runs.csv");
+  command->callback([=, &session] { session.action = [=, &session] { return design(*asked, session); }; });
+}
+
+}  // namespace soilbin::cli
