@@ -19,7 +19,7 @@ namespace soilbin::cli {
 namespace {
 
 struct LoopOptions {
-  std::string campaign, report, model;
+  std::string campaign, report, model, proposal;
   std::vector<std::string> limits;
   bool json = false, details = false, next = false;
   int folds = 5;
@@ -72,6 +72,11 @@ int loop(const LoopOptions& asked, const Session& session) {
   });
   outputs.file(asked.model,
                [&] { return write_case(compare::resolved_model(campaign, answer), session.place.effects); });
+  if (!asked.proposal.empty() && !answer.formula)
+    print_warnings({"no formula does as well as a learned effect here: nothing is proposed, " + asked.proposal +
+                    " is not written"});
+  else
+    outputs.file(asked.proposal, [&] { return compare::proposed_effect(answer); });
   if (asked.json) {
     nlohmann::ordered_json document = compare::to_json(answer);
     if (asked.details) document["details"] = compare::details_json(answer);
@@ -98,6 +103,8 @@ void add_loop(CLI::App& app, Session& session) {
   command->add_option("--save-model", asked->model, "write soil and effects as a case that other commands take")
       ->type_name("FILE.yaml")
       ->check(writable_file());
+  add_file(*command, "--propose", asked->proposal, "FILE.cpp",
+           "write a learned effect's formula, where there is one, as an entry of the catalogue of effects");
   command->add_flag("--next", asked->next, "say only what to measure next");
   add_limits_of_the_rig(*command, asked->limits,
                         "for what to measure next: range that the rig can reach, where it is not the campaign's own; "

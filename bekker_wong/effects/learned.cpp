@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "bekker_wong/effects/scaled_soil.hpp"
+#include "bekker_wong/effects/learned_joints.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::bekker_wong {
@@ -14,7 +14,7 @@ namespace {
 using At = const OperatingCondition&;
 
 constexpr int degree_of_one = 4, degree_of_two = 3;
-constexpr double largest_value = 2.0, largest_weight = 20.0, widest_range = 1e9;
+constexpr double largest_weight = 20.0, widest_range = 1e9;
 
 LearnedFunction function_of(std::vector<LearnedVariable> of) {
   LearnedFunction function{std::move(of), {}};
@@ -31,7 +31,6 @@ LearnedFunction function_of(std::vector<LearnedVariable> of) {
 class Smooth {
  public:
   Smooth(const LearnedFunction& function, const std::vector<double>& p) : function_(function), p_(p) {}
-  bool is_nothing() const { return p_[0] == 0.0; }
   /// 0 where a condition isn't told.
   double operator()(At at) const {
     std::array<double, 2> x{};
@@ -48,7 +47,7 @@ class Smooth {
         product *= std::legendre(static_cast<unsigned>(function_.degrees[k][v]), x[v]);
       sum += product;
     }
-    return std::clamp(p_[0] * sum, -largest_value, largest_value);
+    return held_change(p_[0] * sum);
   }
 
  private:
@@ -56,82 +55,19 @@ class Smooth {
   std::vector<double> p_;
 };
 
-template <class Joint>
-class Learned final : public Effect {
- public:
-  explicit Learned(Smooth g) : g_(std::move(g)) {}
-  void soil(SoilValues& soil, const Surroundings& around) const override {
-    if constexpr (requires { Joint::soil(soil, 0.0); })
-      if (!g_.is_nothing()) Joint::soil(soil, std::exp(g_(around.at)));
-  }
-  void added_forces(ForceLedger& ledger, const Rolling& rolling) const override {
-    if constexpr (requires { Joint::force(rolling, 0.0); })
-      if (!g_.is_nothing()) ledger.add(Joint::force(rolling, rolling.around.normal_load * g_(rolling.around.at)));
-  }
-  void sensor(Reading& reading, const Surroundings& around) const override {
-    if constexpr (requires { Joint::sensor(reading, 0.0); })
-      if (!g_.is_nothing()) Joint::sensor(reading, std::exp(g_(around.at)));
-  }
-
- private:
-  Smooth g_;
-};
-
-struct Pull {
-  static AddedForce force(const Rolling&, double size) { return {.name = "learned", .forward = size}; }
-};
-struct Side {
-  static AddedForce force(const Rolling& rolling, double size) {
-    return {.name = "learned", .lateral = size * std::sin(rolling.around.at.yaw)};
-  }
-};
-struct Turning {
-  static AddedForce force(const Rolling& rolling, double size) {
-    return {.name = "learned", .torque = size * rolling.outline.radius};
-  }
-};
-struct Depth {
-  static void sensor(Reading& reading, double factor) { reading.sinkage *= factor; }
-};
-struct Stiffness {
-  static void soil(SoilValues& soil, double factor) { scale_stiffness(soil, factor); }
-};
-struct Strength {
-  static void soil(SoilValues& soil, double factor) { scale_strength(soil, factor); }
-};
-
-/// Where a function joins the model.
-struct Joint {
-  std::string_view name, equation;
-  std::unique_ptr<const Effect> (*make)(Smooth);
-};
-
-template <class Where>
-std::unique_ptr<const Effect> joined(Smooth g) {
-  return std::make_unique<const Learned<Where>>(std::move(g));
-}
-
-constexpr std::array<Joint, 6> joints = {{
-    {"drawbar_pull", "force W_n a g along the wheel's plane", joined<Pull>},
-    {"lateral_force", "force W_n a g sin(yaw) across it", joined<Side>},
-    {"torque", "torque W_n r a g", joined<Turning>},
-    {"sinkage", "measured sinkage times exp(a g)", joined<Depth>},
-    {"stiffness", "k times exp(a g)", joined<Stiffness>},
-    {"strength", "c and tan(phi) times exp(a g)", joined<Strength>},
-}};
-
-EffectForm form_of(const Joint& joint, const LearnedFunction& function) {
-  EffectForm form{
-      .id = std::string(learned_id),
-      .form = std::string(joint.name),
-      .equation = std::string(joint.equation) + ", g a sum of products of Legendre polynomials",
-      .source = "learned from a campaign",
-      .parameters = {{"a", "-", 1.0, 0.0, 1.0, "1 with the effect, 0 without"}},
-      .measurement = false,
-      .form_tolerance = 0.0,
-      .steady_only = "it was learned from steady runs",
-      .presumes = {},
-      .make = [&function, make = joint.make](const std::vector<double>& p) { return make(Smooth(function, p)); }};
+EffectForm form_of(const LearnedJoint& joint, const LearnedFunction& function) {
+  EffectForm form{.id = std::string(learned_id),
+                  .form = std::string(joint.name),
+                  .equation = std::string(joint.equation) + ", g a sum of products of Legendre polynomials",
+                  .source = "learned from a campaign",
+                  .parameters = {{"a", "-", 1.0, 0.0, 1.0, "1 with the effect, 0 without"}},
+                  .measurement = false,
+                  .form_tolerance = 0.0,
+                  .steady_only = "it was learned from steady runs",
+                  .presumes = {},
+                  .make = [&function, make = joint.make](const std::vector<double>& p) {
+                    return make(p[0] == 0.0 ? LearnedChange() : Smooth(function, p));
+                  }};
   for (std::size_t v = 0; v < function.variables.size(); ++v) {
     const LearnedVariable& variable = function.variables[v];
     const std::string name(variable.name), unit(variable.unit);
@@ -167,7 +103,7 @@ const std::vector<LearnedFunction>& functions() {
 const std::vector<EffectForm>& learned_forms() {
   static const std::vector<EffectForm> all = [] {
     std::vector<EffectForm> forms;
-    for (const Joint& joint : joints)
+    for (const LearnedJoint& joint : learned_joints)
       for (const LearnedFunction& function : functions()) forms.push_back(form_of(joint, function));
     return forms;
   }();

@@ -145,6 +145,21 @@ ordered_json ambiguity_json(const LoopAnswer& answer) {
   return all;
 }
 
+/// A formula that does as well as the learned effect.
+ordered_json formula_json(const LoopAnswer& answer) {
+  if (!answer.formula) return nullptr;
+  ordered_json terms = ordered_json::array();
+  for (std::size_t k = 0; k < answer.formula->terms.size(); ++k)
+    terms.push_back({{"term", answer.formula->terms[k].text},
+                     {"weight", finite(answer.formula->weights[k].value)},
+                     {"sd", finite(answer.formula->weights[k].std_error)}});
+  return {{"joint", answer.formula->joint},
+          {"words", formula_text(*answer.formula)},
+          {"terms", terms},
+          {"gain_over_learned", finite(answer.formula->over_learned.mean)},
+          {"gain_std_error", finite(answer.formula->over_learned.std_error)}};
+}
+
 /// The learned effect: where it joins the model, of which conditions, the ranges where it holds [SI].
 ordered_json learned_json(const LoopAnswer& answer) {
   if (!answer.learned) return nullptr;
@@ -160,7 +175,8 @@ ordered_json learned_json(const LoopAnswer& answer) {
           {"valid", valid},
           {"log_evidence", finite(answer.learned->log_evidence)},
           {"gain", finite(answer.learned->gain.mean)},
-          {"gain_std_error", finite(answer.learned->gain.std_error)}};
+          {"gain_std_error", finite(answer.learned->gain.std_error)},
+          {"formula", formula_json(answer)}};
 }
 
 /// What the residual depends on, and how many of these may be false.

@@ -73,6 +73,14 @@ std::string stand_in_words(const LoopAnswer& answer) {
   return in_a_row(words);
 }
 
+/// The learned change as people would write it.
+std::string formula_sentence(const LearnedFormula& formula) {
+  return fmt::format(
+      " A formula that does as well on conditions left out as the learned curve: {}, with {} (W_n: the load normal to "
+      "the ground; r: the radius).",
+      formula.joint, formula_text(formula));
+}
+
 /// Sets from the first one on, with their shares; those of next to none are only counted.
 std::string sets_with_shares(const std::vector<Weighted>& sets, std::size_t first) {
   std::vector<std::string> said;
@@ -128,6 +136,7 @@ std::string how_sure(const LoopAnswer& answer) {
         text += fmt::format(
             " The saved model takes {} as a stand-in: that explains nothing, but predicts conditions left out better.",
             stand_in_words(answer));
+      if (answer.formula) text += formula_sentence(*answer.formula);
       return text + (answer.ambiguity_set.size() > 1 ? why_taken(answer.ambiguity_set) : "");
     }
     case Verdict::nothing_missing:

@@ -53,28 +53,6 @@ struct LearnedProspect {
   double log_evidence = 0.0;  ///< mean over the sizes
 };
 
-/// What each weight does to the cells, of 1 sd where the size is 1; nothing where the form leaves no trace.
-std::optional<MatrixXd> columns_of_weights(const FittedModel& beside, const Term& term) {
-  const WheelPredictor predictor = beside.predictor().with({term});
-  const Index known = beside.fit().theta.size();
-  VectorXd theta = predictor.start();
-  theta.head(known) = beside.fit().theta;
-  BalanceMemory memory = giving_way();
-  VectorXd without, with;
-  if (!predictor.predict(theta, without, memory)) return std::nullopt;
-  MatrixXd columns(without.size(), term.free.size());
-  for (Index k = 0; k < columns.cols(); ++k) {
-    constexpr double step = 0.01;
-    BalanceMemory own = memory;
-    theta[known + k] = step;
-    if (!predictor.predict(theta, with, own)) return std::nullopt;
-    theta[known + k] = 0.0;
-    columns.col(k) = (with - without) * (term.spread[term.free[k]] / step);
-  }
-  const MatrixXd white = beside.data().whitening(columns);
-  return white.norm() > thresholds::least_signature ? std::optional(white) : std::nullopt;
-}
-
 std::optional<LearnedProspect> learned_prospect(const FittedModel& beside, const LinearProblem& problem,
                                                 const EffectForm& form) {
   const Observations& observations = beside.data().observations;
@@ -106,15 +84,35 @@ std::vector<LearnedProspect> learned_prospects(const FittedModel& beside, const 
   return prospects;
 }
 
-/// The model with the term, from where it ended without.
+}  // namespace
+
+std::optional<MatrixXd> columns_of_weights(const FittedModel& beside, const Term& term) {
+  const WheelPredictor predictor = beside.predictor().with({term});
+  const Index known = beside.fit().theta.size();
+  VectorXd theta = predictor.start();
+  theta.head(known) = beside.fit().theta;
+  BalanceMemory memory = giving_way();
+  VectorXd without, with;
+  if (!predictor.predict(theta, without, memory)) return std::nullopt;
+  MatrixXd columns(without.size(), term.free.size());
+  for (Index k = 0; k < columns.cols(); ++k) {
+    constexpr double step = 0.01;
+    BalanceMemory own = memory;
+    theta[known + k] = step;
+    if (!predictor.predict(theta, with, own)) return std::nullopt;
+    theta[known + k] = 0.0;
+    columns.col(k) = (with - without) * (term.spread[term.free[k]] / step);
+  }
+  const MatrixXd white = beside.data().whitening(columns);
+  return white.norm() > thresholds::least_signature ? std::optional(white) : std::nullopt;
+}
+
 std::optional<FittedModel> fitted_with_learned(const FittedModel& beside, const Term& term) {
   const WheelPredictor predictor = beside.predictor().with({term});
   VectorXd start = predictor.start();
   start.head(beside.fit().restart.size()) = beside.fit().restart;
   return fitted(beside.shared_data(), predictor, start);
 }
-
-}  // namespace
 
 FittedModel beside_exact(const FittedModel& base, const FittedModel* chosen) {
   if (!chosen) return base;

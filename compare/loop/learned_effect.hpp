@@ -31,4 +31,11 @@ FittedModel beside_exact(const FittedModel& base, const FittedModel* chosen);
 ///     if (learned && learned->stands) learned->candidate.ids;   // {"learned", "slip_sinkage"}
 std::optional<LearnedEffect> learn_effect(const FittedModel& beside, const AttributionOptions& options);
 
+/// What each weight of a term with a learned form, or with a formula, does to the cells: whitened, of 1 sd of the
+/// weight; nothing where the form leaves no trace.
+std::optional<Eigen::MatrixXd> columns_of_weights(const FittedModel& beside, const Term& term);
+
+/// The model with such a term, from where it ended without.
+std::optional<FittedModel> fitted_with_learned(const FittedModel& beside, const Term& term);
+
 }  // namespace soilbin::compare

@@ -192,6 +192,10 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
                                         }});
   take_learned(std::move(learned), base, answer);
   whole.pool.pulse = [&] { report(all_steps - 1); };
+  if (answer.learned)
+    answer.formula =
+        find_formula(beside_exact(base, answer.judgement->takes_best() ? &answer.found().best().model : nullptr),
+                     *answer.learned, whole);
   if (answer.verdict == Verdict::effect_found) answer.effects = accepted_effects(answer.found(), whole);
   answer.reason += held_out_clause(answer);
   if (answer.verdict != Verdict::nothing_missing && answer.found().candidates.best) {

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "compare/loop/accepted_model.hpp"
-#include "compare/loop/learned_effect.hpp"
+#include "compare/loop/learned_formula.hpp"
 #include "compare/loop/next_test.hpp"
 #include "compare/loop/validation.hpp"
 #include "compare/loop/verdict.hpp"
@@ -62,7 +62,8 @@ struct LoopAnswer {
   /// Of an unknown effect: a smooth function of one condition or two that predicts conditions left out better still,
   /// where there is one. It stands among the stand-ins, at the end, and the soil is fitted with it.
   std::optional<LearnedEffect> learned;
-  std::vector<Weighted> ambiguity_set;  ///< best first; empty unless effects compete
+  std::optional<LearnedFormula> formula;  ///< of what is learned, where a few terms do as well
+  std::vector<Weighted> ambiguity_set;    ///< best first; empty unless effects compete
   /// Sets that only the attribution which does not decide leaves: indices are those of its candidates, weights 0.
   std::vector<Weighted> noted_sets;
   std::optional<SecondAttribution> second;
@@ -107,6 +108,9 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options);
 
 /// The answer in the contract's form, soilbin-loop/1.
 nlohmann::ordered_json to_json(const LoopAnswer& answer);
+
+/// The formula as a file for the catalogue of effects (bekker_wong/effects); empty where there is none.
+std::string proposed_effect(const LoopAnswer& answer);
 
 /// What stands behind it: p-values, chi2, evidence, every set of effects that competed, the choice of each fold.
 nlohmann::ordered_json details_json(const LoopAnswer& answer);

@@ -145,6 +145,10 @@ inline constexpr double least_learned_range = 0.05;
 /// Chosen after ten made campaigns had been seen (docs/lab/loop-measured.md), of which they refuse two.
 inline constexpr double least_learned_gain = 0.03, most_learned_loss = 0.05;
 
+/// Terms of a formula in place of a learned curve at the most; pairs of terms that three are built on. Chosen.
+inline constexpr int most_formula_terms = 3;
+inline constexpr std::size_t best_pairs = 30;
+
 // --- a test that is designed before any run ---
 
 /// Conditions among which a plan is chosen at the most; more are drawn from. Chosen for time.
