@@ -37,10 +37,15 @@ HtmlTable dependence_table(const LoopAnswer& answer) {
 }
 
 HtmlTable noise_table(const LoopAnswer& answer) {
-  HtmlTable table{"Noise of one run at a predicted value f: sqrt(a² + b² f²)",
+  const bool unsteady = std::any_of(answer.noise.channels.begin(), answer.noise.channels.end(),
+                                    [](const ChannelNoise& n) { return n.unsteady > 0.0; });
+  HtmlTable table{unsteady ? "Noise of one run that scattered by s in time, at a predicted value f: "
+                             "sqrt(a² + b² f² + q² s²)"
+                           : "Noise of one run at a predicted value f: sqrt(a² + b² f²)",
                   {"channel", "a", "b [%]", "degrees of freedom", "sd within re-runs"},
                   {},
                   {}};
+  if (unsteady) table.header.insert(table.header.end(), {"q", "s (median)"});
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const ChannelNoise& n = answer.noise.channels[c];
     if (!n.measured) continue;
@@ -48,6 +53,9 @@ HtmlTable noise_table(const LoopAnswer& answer) {
     table.rows.push_back({std::string(view.title), fmt::format("{} {}", number(n.floor * view.per_si), view.unit),
                           number(100 * n.growth), number(n.freedom),
                           n.rerun_sd > 0 ? fmt::format("{} {}", number(n.rerun_sd * view.per_si), view.unit) : "-"});
+    if (unsteady)
+      table.rows.back().insert(table.rows.back().end(),
+                               {number(n.unsteady), fmt::format("{} {}", number(n.spread * view.per_si), view.unit)});
   }
   return table;
 }
