@@ -58,25 +58,23 @@ int design(const DesignFlags& asked, const Session& session) {
 void add_design(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("design", "the runs that tell effects apart best, before any is made");
   const auto asked = std::make_shared<DesignFlags>();
-  command
-      ->add_option("campaign", asked->campaign,
-                   "wheel, soil and the runs that are made, if any: of the library, or its folder")
+  command->add_option("campaign", asked->campaign, "a campaign of the library, or its folder; it needs no runs yet")
       ->type_name("CAMPAIGN")
       ->required();
-  command->add_option("--runs", asked->runs, "how many to make, 24")->type_name("N")->check(CLI::Range(4, 400));
+  command->add_option("--runs", asked->runs, "number of runs to make; 24")->type_name("N")->check(CLI::Range(4, 400));
   add_limits_of_the_rig(*command, asked->limits,
-                        "range that the rig can reach, where it isn't that of the runs made; repeatable");
-  command->add_option("--effect", asked->effects, "to tell apart; repeatable; all that these ranges can show")
+                        "range that the rig can reach, where it is not that of the runs made; repeatable");
+  command->add_option("--effect", asked->effects, "effect to tell apart; repeatable; all that these ranges can show")
       ->type_name("ID")
       ->allow_extra_args(false);
   command
       ->add_option("--noise", asked->noise,
-                   "sd of one run, for each channel that is measured; repeatable; 2 % of the channel's range")
+                   "standard deviation of one run, for each channel that is measured; repeatable; 2 % of its range")
       ->type_name("CHANNEL=SD")
       ->allow_extra_args(false);
   add_file(*command, "--csv", asked->csv, "FILE.csv", "save the rows, to fill in as the campaign's runs");
-  command->add_option("--seed", asked->seed, "of the order of the runs, 1")->type_name("N");
-  command->add_flag("--json", asked->json, "soilbin-design/1");
+  command->add_option("--seed", asked->seed, "seed of the order of the runs; 1")->type_name("N");
+  command->add_flag("--json", asked->json, "the answer as JSON, soilbin-design/1");
   command->footer(
       "Example: soilbin design FOLDER --runs 24 --limit load=60N..140N --limit slip=-20%..60% --csv runs.csv");
   command->callback([=, &session] { session.action = [=, &session] { return design(*asked, session); }; });
