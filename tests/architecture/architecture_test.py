@@ -65,6 +65,13 @@ class TheRules(unittest.TestCase):
         self.assertEqual(len(self.breaches("floors", cli__a_dot_cpp='#include "../scenario/tire.hpp"\n')), 1)
         self.assertEqual(len(self.breaches("floors", cli__a_dot_cpp='#include "print.hpp"\n')), 1)
 
+    def test_an_include_of_its_own_in_brackets_or_in_a_file_of_another_ending(self):
+        self.assertEqual(self.breaches("floors", cli__a_dot_cpp="#include <scenario/tire.hpp>\n"),
+                         ["cli/a.cpp:1: <scenario/tire.hpp> is the project's own: in quotes"])
+        self.assertEqual(self.breaches("floors", cli__a_dot_cpp="#include <CLI/CLI.hpp>\n#include <compare>\n"), [])
+        for ending in ("inl", "hh", "tpp"):
+            self.assertEqual(len(self.breaches("floors", **{f"scenario__a_dot_{ending}": '#include "cli/outputs.hpp"\n'})), 1)
+
     def test_a_floor_of_its_own(self):
         self.assertEqual(len(self.breaches("floors", engine__a_dot_cpp='#include "scenario/tire.hpp"\n')), 1)
 

@@ -55,7 +55,7 @@ INTERFACES = [
 ]
 # Files that include more than that from before the rule; the list only gets shorter.
 INCLUDE_TOO_MUCH = {"cli/calibrate_command.cpp"}
-CPP = {".cpp", ".hpp", ".h", ".cc", ".ipp"}
+CPP = {".cpp", ".hpp", ".h", ".cc", ".ipp", ".cxx", ".hh", ".hxx", ".inl", ".inc", ".tpp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 # Folders of one machine, or beside the checkout. Spelt in pieces, or this file would breach its own rule.
 MACHINE_PATH = re.compile(r"(?<![\w.])/(?:" + "|".join(("tmp", "work", "root", "farm", "home")) + r")/|\.\./" + "shared")
@@ -83,9 +83,13 @@ def includes(root, files):
 
 
 def floor_breaches(root, files):
-    for name, number, quoted, _ in includes(root, files):
+    for name, number, quoted, bracketed in includes(root, files):
         floor = name.parts[0]
-        if not quoted or "consumer" in name.parts:  # the consumer is a project of its own
+        if "consumer" in name.parts:  # a project of its own
+            continue
+        if "/" in bracketed and bracketed.split("/")[0] in FLOORS:  # not <compare>; the other rules look at what is quoted
+            yield f"{name}:{number}: <{bracketed}> is the project's own: in quotes"
+        if not quoted:
             continue
         target = quoted.split("/")[0]
         if floor not in FLOORS:
