@@ -9,14 +9,29 @@
 #include "cli/soil_bin.hpp"
 #include "compare/recorded/run_list.hpp"
 #include "compare/report/number_text.hpp"
+#include "dem/bed/relative_density.hpp"
+#include "scenario/errors.hpp"
 
 namespace soilbin::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
+/// The loosest and the densest bed of these grains; none where they don't come to rest.
+std::optional<dem::DensityLimits> limits_of(dem::DemSettings settings, const Scenario& scenario) {
+  settings.how.progress = [](const dem::Progress& progress) { show_progress_of("loosest and densest bed", progress); };
+  dem::BedStore store(settings.beds);
+  try {
+    return dem::density_limits(dem::DemModel(settings).recipe(scenario).soil, store, settings.how);
+  } catch (const dem::RunStopped& stopped) {
+    tell_beside_progress(fmt::format("note: no relative density: {}", stopped.what()));
+    return std::nullopt;
+  }
+}
+
 /// Settles the bed of one packing, unless it is there. Throws std::runtime_error where it can't be kept.
-void settle(dem::DemSettings settings, const Scenario& scenario, std::uint64_t packing) {
+void settle(dem::DemSettings settings, const Scenario& scenario, std::uint64_t packing,
+            const std::optional<dem::DensityLimits>& limits) {
   settings.packing = packing;
   const std::string name = fmt::format("bed of packing {}", packing);
   settings.how.progress = [&](const dem::Progress& progress) { show_progress_of(name, progress); };
@@ -27,7 +42,10 @@ void settle(dem::DemSettings settings, const Scenario& scenario, std::uint64_t p
   const auto bed = store.bed(recipe, settings.how);
   clear_progress_line();
   if (!fs::exists(file)) throw std::runtime_error(fmt::format("{}: {} can't be kept", file.string(), name));
-  fmt::print("{}: {} grains, void ratio {:.3f}, {} {}\n", name, bed->report.grains, bed->report.void_ratio,
+  const std::string density =
+      limits ? fmt::format(", relative density {:.0f} %", 100 * dem::relative_density(bed->report.void_ratio, *limits))
+             : "";
+  fmt::print("{}: {} grains, void ratio {:.3f}{}, {} {}\n", name, bed->report.grains, bed->report.void_ratio, density,
              was_there ? "is there:" : "settled:", file.string());
 }
 
@@ -41,7 +59,10 @@ int beds(const std::string& study, const SoilBinFlags& flags, const Session& ses
     packings.push_back({{}, packing});
   if (!flags.shard.empty()) packings = compare::shard_of(packings, compare::parse_shard(flags.shard));
   try {
-    for (const compare::AskedRun& bed : packings) settle(settings, question.scenario, bed.packing);
+    const std::optional<dem::DensityLimits> limits = limits_of(settings, question.scenario);
+    if (limits)
+      fmt::print("void ratios of these grains: {:.3f} loosest, {:.3f} densest\n", limits->loosest, limits->densest);
+    for (const compare::AskedRun& bed : packings) settle(settings, question.scenario, bed.packing, limits);
   } catch (const Interrupted&) {
     return unfinished;
   }
@@ -63,7 +84,7 @@ void add_bed(CLI::App& app, Session& session) {
       "of\n"
       "processes on any number of machines may fill one folder. Stopped, it ends with status 3: the same command goes\n"
       "on.\n"
-      "Example: soilbin bed paper-straight --settling-friction 0 --packings 3");
+      "Example: soilbin bed paper-straight --settling-friction dense --packings 3");
   command->callback([=, &session] { session.action = [=, &session] { return beds(*study, *flags, session); }; });
 }
 

@@ -141,7 +141,7 @@ compare::VirtualTest test_of(const CalibrateOptions& asked, ContactKind kind, co
   compare::ContactQuestion question;
   question.kind = kind, question.factors = factors_of(asked, kind), question.targets = targets_of(asked, kind, soil);
   question.packings = asked.packings, question.across = asked.across;
-  question.settling_friction = read_flag("--settling-friction", asked.settling_friction, {"-", fractions});
+  question.settling_friction = read_settling_friction(asked.settling_friction, question.settling_friction);
   question.stresses.clear();
   for (const std::string& stress : split(asked.stresses, ","))
     question.stresses.push_back(read_flag("--stresses", stress, {"kPa", above_zero}));
@@ -284,9 +284,10 @@ void add_options(CLI::App& command, CalibrateOptions& asked) {
   command.add_option("--stresses", asked.stresses, "normal stresses of the shear box; 10kPa,20kPa,40kPa")
       ->type_name("P,P,...");
   command
-      .add_option("--settling-friction", asked.settling_friction,
-                  "share of friction while the sheared sample, or the soil bin's bed, settles; 1")
-      ->type_name("SHARE");
+      .add_option(
+          "--settling-friction", asked.settling_friction,
+          "how the sheared sample, or the soil bin's bed, settles: loose, medium, dense, or a share of friction; 1")
+      ->type_name(settling_type);
   command
       .add_option("--rolling", asked.rolling,
                   "law of rolling resistance: elastic_plastic, directional, directional_with_twist; the soil's own")

@@ -26,8 +26,9 @@ void ElementTestFlags::add_to(CLI::App& command) {
   command.add_option("--packing", packing, "seed of the first specimen; 1")->type_name("SEED");
   command
       .add_option("--settling-friction", settling_friction,
-                  "share of the friction that acts while the specimen settles; 1: loose (the default), 0: densest")
-      ->type_name("SHARE");
+                  "how dense the specimen settles: loose (the default), medium, dense, or the share of the friction "
+                  "that acts meanwhile: 1 loose .. 0 densest")
+      ->type_name(settling_type);
   command
       .add_option(
           "--rolling", rolling,
@@ -44,7 +45,7 @@ dem::SpecimenSettings ElementTestFlags::specimen(const GranularSoil& soil) const
   if (packing < 0) throw InputError("--packing: a seed is 0 or more");
   if (!(size >= 0.4 && size <= 10)) throw InputError("--size: a factor from 0.4 to 10");
   out.packing = static_cast<std::uint64_t>(packing);
-  set_where_given("--settling-friction", settling_friction, {"-", fractions}, out.settling_friction);
+  out.settling_friction = read_settling_friction(settling_friction, out.settling_friction);
   if (rolling == "none")
     out.laws.rolling = dem::RollingLaw::none;
   else if (!rolling.empty())

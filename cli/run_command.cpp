@@ -13,6 +13,7 @@
 #include "cli/run_plan.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "compare/doubts/grain_resolution.hpp"
 #include "compare/experiments/convergence.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/result_json.hpp"
@@ -62,12 +63,26 @@ struct Answered {
   std::optional<dem::StepCriteria> step;  ///< of grains
 };
 
+/// rows_json, with what the size of the grains does to their answers.
+nlohmann::ordered_json rows_of(const Case& question, const Answered& answered) {
+  nlohmann::ordered_json rows = compare::rows_json(answered.study);
+  auto row = rows.begin();
+  for (const compare::ModelAnswers& model : answered.study)
+    for (const compare::Answer& answer : model.answers) {
+      if (model.choice.model == ModelKind::dem && answer.result)
+        (*row)["resolution_error"] =
+            compare::to_json(compare::resolution_error(question.scenario, answer.at, answer.result->sinkage.value));
+      ++row;
+    }
+  return rows;
+}
+
 nlohmann::ordered_json document_of(const Case& question, const Answered& answered) {
   nlohmann::ordered_json document = {{"format", "soilbin-run/1"},
                                      {"study", question.study.name},
                                      {"tire", question.scenario.tire.name},
                                      {"soil", question.scenario.soil.name},
-                                     {"rows", compare::rows_json(answered.study)}};
+                                     {"rows", rows_of(question, answered)}};
   compare::tell_doubts(document, answered.doubts);
   if (answered.step) document["dem"] = compare::to_json(*answered.step);
   return document;
@@ -205,7 +220,8 @@ int run(RunOptions options, const Session& session) {
     fmt::print("{}: {} on {}\n{}\n{}\n{}", question.study.name, in_words(question.scenario.tire),
                compare::in_words(question.scenario.soil), compare::errors_in_words(question.scenario.soil),
                answered.step ? compare::in_words(*answered.step) : "", study_text(answered.study));
-    if (const std::string notes = compare::notes_on(*log); !notes.empty()) fmt::print("\n{}", notes);
+    if (const std::string notes = compare::notes_on(*log); !notes.empty())
+      fmt::print("\n{}{}", notes, relative_density_of(*log, question.scenario.soil));
   }
   forget_runs(*log, outputs);
   if (compare::any_result(answered.study)) return outputs.status(done);

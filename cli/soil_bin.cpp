@@ -3,14 +3,19 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/versions.hpp"
+#include "dem/bed/relative_density.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
 #include "scenario/quantity.hpp"
+#include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
 
@@ -80,16 +85,26 @@ constexpr SettingFlag measure_flags[] = {
      {.lower = 0.05, .upper = 2}}};
 constexpr SettingFlag starting_flag{"--starting", "TIME", "time in which speed and rotation come on; 0.2 s",
                                     rig<&R::starting>};
-constexpr SettingFlag settling_flag{
-    "--settling-friction", "SHARE",
-    "share of the friction that acts while the bed settles; 1: loose (the default), 0: densest",
-    [](dem::DemSettings& s) -> double& { return s.settling_friction; }, fractions};
 
 void add(CLI::App& command, const SettingFlag& one, std::map<std::string, std::string>& texts) {
   command.add_option(one.flag, texts[one.flag], one.meaning)->type_name(one.type)->group(grains_heading);
 }
 
 }  // namespace
+
+double read_settling_friction(const std::string& text, double unless_given) {
+  if (text.empty()) return unless_given;
+  std::vector<std::string> names;
+  for (const dem::NamedDensity& bed : dem::named_densities) {
+    if (text == bed.name) return bed.settling_friction;
+    names.emplace_back(bed.name);
+  }
+  if (std::isalpha(static_cast<unsigned char>(text.front())) != 0)
+    throw InputError(
+        fmt::format("--settling-friction: '{}' is none of {}{}\n  hint: or a share of the friction, 0 .. 1",
+                    clipped(text), listed(names), did_you_mean(text, names)));
+  return read_flag("--settling-friction", text, {"-", fractions});
+}
 
 void check_threads(int threads) {
   if (threads < 0 || threads > dem::most_threads())
@@ -102,7 +117,8 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
     set_where_given(one.flag, flags.text(one.flag), one.measure(), one.of(settings));
   };
   for (const SettingFlag& one : measure_flags) set(one);
-  set(starting_flag), set(settling_flag);
+  set(starting_flag);
+  settings.settling_friction = read_settling_friction(flags.text("--settling-friction"), settings.settling_friction);
   if (flags.packing < 0) throw InputError("--packing: a seed is 0 or more");
   if (flags.packings < 1) throw InputError("--packings: 1 or more");
   check_threads(flags.threads);
@@ -128,7 +144,12 @@ void SoilBinFlags::add_measures_to(CLI::App& command) {
 void SoilBinFlags::add_rig_to(CLI::App& command) {
   add_measures_to(command);
   command.add_option("--packing", packing, "seed of the bed; 1")->type_name("SEED")->group(grains_heading);
-  add(command, settling_flag, texts);
+  command
+      .add_option("--settling-friction", texts["--settling-friction"],
+                  "how dense the bed settles: loose (the default), medium, dense, or the share of the friction that "
+                  "acts meanwhile: 1 loose .. 0 densest")
+      ->type_name(settling_type)
+      ->group(grains_heading);
   command
       .add_option("--threads", threads, "number of threads, which changes no bit of the answer; 0: one for each core")
       ->type_name("N")
@@ -225,6 +246,22 @@ void tell_unsealed(const compare::ExperimentStore& store, const fs::path& file) 
                "note: {}: {} of its {} experiments carry no seal, as from before there were any: damage to them can't "
                "be told\n",
                file.string(), store.unsealed(), store.size());
+}
+
+std::string relative_density_of(const std::vector<compare::RecordedRun>& runs, const Soil& soil) {
+  dem::BedStore store(folder_of_beds());
+  if (!soil.granular) return "";
+  const auto limits = dem::known_density_limits(*soil.granular, store);
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const compare::RecordedRun& run : runs)
+    if (limits && std::isfinite(run.bed.void_ratio)) {
+      const double density = dem::relative_density(run.bed.void_ratio, *limits);
+      least = std::min(least, density), most = std::max(most, density);
+    }
+  if (!(least <= most)) return "";
+  const std::string low = fmt::format("{:.0f}", 100 * least), high = fmt::format("{:.0f}", 100 * most);
+  return fmt::format("relative density {} % (void ratios {:.3f} loosest, {:.3f} densest)\n",
+                     low == high ? low : low + " to " + high, limits->loosest, limits->densest);
 }
 
 void forget_runs(const std::vector<compare::RecordedRun>& runs, const Outputs& outputs) {

@@ -29,6 +29,10 @@ void show_progress_of(const std::string& work, const dem::Progress& progress);
 /// A line on standard error that progress doesn't write over.
 void tell_beside_progress(const std::string& words);
 
+/// What --settling-friction says: a name (dem::named_densities) or a share of friction. Throws InputError.
+double read_settling_friction(const std::string& text, double unless_given);
+inline constexpr const char* settling_type = "loose|medium|dense|SHARE";
+
 /// Throws InputError for a --threads that no machine has.
 void check_threads(int threads);
 
@@ -67,6 +71,10 @@ dem::DemSettings settings_of(const SoilBinFlags& flags);
 
 /// What the flags have kept of runs, by this program.
 compare::RunKeeping keeping_of(const SoilBinFlags& flags);
+
+/// How dense the runs' beds are between the loosest and the densest of these grains, where `soilbin bed` has made those
+/// two; "" elsewhere.
+std::string relative_density_of(const std::vector<compare::RecordedRun>& runs, const Soil& soil);
 
 /// The runs behind a model's answers, in the order in which they came.
 using RunLog = std::shared_ptr<std::vector<compare::RecordedRun>>;

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include "compare/discrepancy/comparison_page.hpp"
+#include "compare/doubts/grain_resolution.hpp"
 #include "compare/loop/loop.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
@@ -11,7 +12,8 @@
 namespace soilbin::compare {
 namespace {
 
-Json side_json(const Side& side, const std::vector<OperatingCondition>& conditions) {
+Json side_json(const Side& side, const Case& question) {
+  const std::vector<OperatingCondition>& conditions = question.study.conditions;
   Json json = {{"label", side.label}, {"kind", std::string(word_of(side.kind))}, {"points", Json::array()}};
   for (std::size_t i = 0; i < side.points.size(); ++i) {
     const SidePoint& point = side.points[i];
@@ -20,6 +22,9 @@ Json side_json(const Side& side, const std::vector<OperatingCondition>& conditio
     for (std::size_t c = 0; c < channel_views.size(); ++c)
       one["scatter"][std::string(channel_views[c].name)] = finite(point.scatter[c]);
     one["doubts"] = point.doubts;
+    if (side.kind == SideKind::grains && point.result)
+      one["resolution_error"] =
+          to_json(resolution_error(question.scenario, conditions[i], point.result->sinkage.value));
     json["points"].push_back(std::move(one));
   }
   return json;
@@ -66,7 +71,7 @@ Json comparison_json(const Comparison& comparison, const ComparisonAbout& about)
     json["summary"].push_back(
         {{"about", clause.about}, {"text", clause.text}, {"rows", clause.rows}, {"evidence", clause.evidence}});
   json["sides"] = json["rows"] = json["tallies"] = json["joint_tests"] = Json::array();
-  for (const Side& side : comparison.sides) json["sides"].push_back(side_json(side, study.conditions));
+  for (const Side& side : comparison.sides) json["sides"].push_back(side_json(side, comparison.question));
   for (const Difference& d : comparison.differences) json["rows"].push_back(difference_json(comparison, d));
   for (const Tally& t : comparison.tallies) json["tallies"].push_back(tally_json(comparison, t));
   for (const JointTest& test : comparison.joint)

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "compare/doubts/grain_resolution.hpp"
 #include "compare/sweep/varying.hpp"
 #include "dem/bed/settled_bed.hpp"
 
@@ -15,11 +16,37 @@ namespace {
 
 constexpr std::string_view coarse_grains = "the grains are coarse";  // how the sentence begins
 
-double contact_length(double sinkage, double radius) {
-  return radius * std::acos(1.0 - std::clamp(sinkage / radius, 0.0, 1.0));
+/// Answers of grains, or where there are none those of other models: at which grains would be asked.
+template <class Use>
+void each_answer_for_grains(const std::vector<ModelAnswers>& study, const Use& use) {
+  const bool of_grains = std::any_of(study.begin(), study.end(), [](const ModelAnswers& model) {
+    return model.choice.model == ModelKind::dem && any_result({model});
+  });
+  for (const ModelAnswers& model : study)
+    for (const Answer& answer : model.answers)
+      if (answer.result && (!of_grains || model.choice.model == ModelKind::dem))
+        use(answer, of_grains ? SinkageOf::grains : SinkageOf::another_model);
 }
 
-std::string coarse(const GrainCounts& counts) {
+/// By how much coarse grains change an answer: where the study of it tells, at the condition where that is most.
+std::string by_how_much(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
+  std::optional<ResolutionError> told;
+  OperatingCondition told_at;
+  std::string beyond;
+  each_answer_for_grains(study, [&](const Answer& answer, SinkageOf whose) {
+    ResolutionError error = resolution_error(scenario, answer.at, answer.result->sinkage.value, whose);
+    if (!error.known() && beyond.empty()) beyond = error.beyond;
+    if (!error.known() || (told && std::abs(error.drawbar_pull.value) <= std::abs(told->drawbar_pull.value))) return;
+    told = std::move(error), told_at = answer.at;
+  });
+  const std::string by = ". By the study of grain sizes (docs/lab/grain-size.md) ";
+  if (told)
+    return by + fmt::format("they change {} against infinitely fine ones ({})", in_words(*told), in_words(told_at));
+  return beyond.empty() ? "" : by + "nothing is known of how much, for it doesn't reach here: " + beyond;
+}
+
+std::string coarse(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
+  const GrainCounts counts = count_grains(scenario, study);
   const bool few = counts.width < grains_wanted || counts.contact.value_or(grains_wanted) < grains_wanted;
   const bool low_lugs = counts.lug.value_or(grains_wanted_in_a_lug) < grains_wanted_in_a_lug;
   if (!few && !low_lugs) return "";
@@ -39,7 +66,7 @@ std::string coarse(const GrainCounts& counts) {
         ". A few grains then carry it: pull and sinkage scatter from packing to packing (--packings tells how much) "
         "and are those of this grain size, not of sand";
   if (low_lugs) text += ". Lugs lower than a grain act as roughness, they don't dig";
-  return text;
+  return text + by_how_much(scenario, study);
 }
 
 /// The angular speed below which two mean grains that 100 N press together are damped by I*/dt instead of by mu_r.
@@ -69,23 +96,18 @@ GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswer
   counts.diameter = scenario.soil.granular->radius_min + scenario.soil.granular->radius_max;
   counts.width = tire.width / counts.diameter;
   if (is_lugged(tire)) counts.lug = tire.lugs.height / counts.diameter;
-  const bool of_grains = std::any_of(study.begin(), study.end(), [](const ModelAnswers& model) {
-    return model.choice.model == ModelKind::dem && any_result({model});
+  each_answer_for_grains(study, [&](const Answer& answer, SinkageOf) {
+    const double count = contact_length(answer.result->sinkage.value, tire.radius) / counts.diameter;
+    if (counts.contact && !(count < *counts.contact)) return;
+    counts.contact = count, counts.at = answer.at;
   });
-  for (const ModelAnswers& model : study)
-    for (const Answer& answer : model.answers) {
-      if (!answer.result || (of_grains && model.choice.model != ModelKind::dem)) continue;
-      const double count = contact_length(answer.result->sinkage.value, tire.radius) / counts.diameter;
-      if (counts.contact && !(count < *counts.contact)) continue;
-      counts.contact = count, counts.at = answer.at;
-    }
   return counts;
 }
 
 std::vector<std::string> grain_doubts(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
   std::vector<std::string> doubts;
   if (!scenario.soil.granular) return doubts;
-  for (const std::string& doubt : {coarse(count_grains(scenario, study)), depends_on_the_step(*scenario.soil.granular)})
+  for (const std::string& doubt : {coarse(scenario, study), depends_on_the_step(*scenario.soil.granular)})
     if (!doubt.empty()) doubts.push_back(doubt);
   return doubts;
 }

@@ -101,6 +101,25 @@ TEST(DoubtsOfCommands, RecordsOfCoarseGrainsSaySo) {
   EXPECT_THAT(soilbin("estimate paper-straight --load 4kN --slip 20%").err, Not(HasSubstr("grains")));
 }
 
+// The wheel, load and slip of the study of grain sizes (docs/lab/grain-size.md): 0.040 m of its slopes, with the
+// recorded sinkage of 11.6 mm in place of its 11.1. The words and both documents tell the same.
+TEST(DoubtsOfCommands, TellTheErrorOfResolutionOfGrains) {
+  const std::string at = "paper-straight --recorded --load 4kN --slip 20% --json ";
+  const Outcome run = soilbin("run " + at), compared = soilbin("compare --no-loop " + at);
+  const nlohmann::json ran = run.json(), sides = compared.json();
+  nlohmann::json of_run, of_side;
+  for (const auto& row : ran.at("rows"))
+    if (row.at("model") == "dem") of_run = row.at("resolution_error");
+  for (const auto& side : sides.at("sides"))
+    if (side.at("kind") == "grains") of_side = side.at("points").at(0).at("resolution_error");
+  EXPECT_EQ(of_run.dump(), of_side.dump());
+  EXPECT_NEAR(of_run.at("drawbar_pull").at("value").get<double>(), 40 * 16.2, 20);
+  EXPECT_NEAR(of_run.at("torque").at("value").get<double>(), 40 * 7.5, 10);
+  EXPECT_NEAR(of_run.at("sinkage").at("value").get<double>(), -0.0239, 2e-4);
+  EXPECT_THAT(run.err, HasSubstr("they change the drawbar pull by +64"));
+  EXPECT_THAT(soilbin("check paper-straight").out, HasSubstr("they change the drawbar pull by +"));
+}
+
 TEST(DoubtsOfCommands, ALawOfRollingThatHangsOnTheStepSaysSo) {
   const Scratch scratch;
   const auto changed = [](std::string text, const std::string& from, const std::string& to) {

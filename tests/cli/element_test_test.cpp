@@ -22,6 +22,8 @@ TEST(ElementTestCommand, RefusesWhatMakesNoSenseWithAHint) {
       {"element-test direct-shear dry-sand", "has no grains: an element test needs its section 'granular'"},
       {"element-test direct-shear paper-sand --stress 20", "kPa"},
       {"element-test direct-shear paper-sand --size 0.1", "--size"},
+      {"element-test direct-shear paper-sand --settling-friction lose", "did you mean 'loose'"},
+      {"element-test direct-shear paper-sand --settling-friction 2", "--settling-friction"},
       {"element-test direct-shear paper-sand --rolling directionl", "did you mean 'directional'"},
   };
   for (const auto& [arguments, says] : wrong) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "compare/doubts/grain_doubts.hpp"
+#include "compare/doubts/grain_resolution.hpp"
 #include "compare/doubts/unheard.hpp"
 #include "tests/fixtures.hpp"
 
@@ -255,6 +256,16 @@ TEST(Doubts, ThePapersStraightCaseHasCoarseGrains) {
               Contains(AllOf(HasSubstr("mean diameter, 40 mm, 7.6 lie across it, 0.39 along its contact (load 4 kN"),
                              HasSubstr("0.27 in a lug's height; at least 10, 10, 1 are wanted"),
                              HasSubstr("scatter from packing to packing"), HasSubstr("don't dig"))));
+}
+
+// The study of grain sizes speaks of this wheel at 20 % slip, 11 mm deep; of no wheel at all at 90 %.
+TEST(Doubts, CoarseGrainsAreToldWithWhatTheyDoToTheAnswer) {
+  const Case question = papers_case();
+  std::vector<ModelAnswers> answers = answer_of_grains(0.011);
+  const ResolutionError error = resolution_error(question.scenario, answers[0].answers[0].at, 0.011);
+  EXPECT_THAT(doubts(question, answers), Contains(HasSubstr("they change " + in_words(error) + " against")));
+  answers[0].answers[0].at.slip = 0.9;
+  EXPECT_THAT(doubts(question, answers), Contains(HasSubstr("it doesn't reach here: slip 90 %")));
 }
 
 TEST(Doubts, GrainsAreCoarseByEachOfTheirLengths) {

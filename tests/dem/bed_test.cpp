@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "dem/bed/bed_store.hpp"
+#include "dem/bed/relative_density.hpp"
 #include "dem/bed/settled_bed.hpp"
 #include "scenario/errors.hpp"
 #include "tests/dem/small_bed.hpp"
@@ -199,6 +200,43 @@ TEST_F(SlowBedStore, SettlesAnewWhereTheFileIsDamaged) {
   std::ofstream(store.file(small_recipe())) << "not a bed";
   EXPECT_EQ(store.bed(small_recipe(), with_threads(1))->state.grains.count(), small_bed().state.grains.count());
   EXPECT_GT(std::filesystem::file_size(store.file(small_recipe())), 1000);
+}
+
+TEST(RelativeDensity, RunsFromTheLoosestToTheDensest) {
+  const DensityLimits limits{.loosest = 0.8, .densest = 0.5};
+  EXPECT_DOUBLE_EQ(relative_density(0.8, limits), 0);
+  EXPECT_DOUBLE_EQ(relative_density(0.5, limits), 1);
+  EXPECT_NEAR(relative_density(0.71, limits), 0.3, 1e-12);
+  EXPECT_TRUE(std::isnan(relative_density(0.6, {0.6, 0.6})));
+}
+
+// The limits' own beds lie at 0 and 1, friction that keeps grains from sliding lies between, and what is not made yet
+// is not made by asking whether it is known.
+TEST(SlowRelativeDensity, OfABedByNameLiesBetweenItsLimits) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "relative-density";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  const GranularSoil soil = test::soft_soil();
+  BedStore store(folder);
+  EXPECT_FALSE(known_density_limits(soil, store));
+  const DensityLimits limits = density_limits(soil, store, with_threads(1));
+  EXPECT_GT(limits.loosest, limits.densest + 0.05);
+  BedStore again(folder);
+  const auto known = known_density_limits(soil, again);
+  ASSERT_TRUE(known);
+  EXPECT_EQ(known->loosest, limits.loosest);
+  EXPECT_EQ(known->densest, limits.densest);
+  std::vector<double> densities;
+  for (const NamedDensity& name : named_densities) {
+    BedRecipe recipe = limit_beds(soil)[0];
+    recipe.settling_friction = name.settling_friction;
+    densities.push_back(relative_density(store.bed(recipe, with_threads(1))->report.void_ratio, limits));
+  }
+  EXPECT_DOUBLE_EQ(densities[0], 0) << "loose";
+  EXPECT_GT(densities[1], 0.2) << "medium";
+  EXPECT_LT(densities[1], 0.8) << "medium";
+  EXPECT_DOUBLE_EQ(densities[2], 1) << "dense";
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

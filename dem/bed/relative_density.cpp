@@ -1,0 +1,36 @@
+#include "dem/bed/relative_density.hpp"
+
+#include <filesystem>
+
+#include "scenario/estimate.hpp"
+
+namespace soilbin::dem {
+
+std::array<BedRecipe, 2> limit_beds(const GranularSoil& soil) {
+  BedRecipe recipe;
+  recipe.soil = soil;
+  static_cast<LawFlags&>(recipe.laws) = laws_of(soil);
+  const double d = soil.radius_min + soil.radius_max;
+  recipe.size = {.length = 15 * d, .width = 10 * d, .depth = 10 * d};
+  std::array<BedRecipe, 2> both = {recipe, recipe};
+  both[0].settling_friction = 1, both[1].settling_friction = 0;
+  return both;
+}
+
+DensityLimits density_limits(const GranularSoil& soil, BedStore& store, const WorkOptions& how) {
+  const auto [loosest, densest] = limit_beds(soil);
+  return {store.bed(loosest, how)->report.void_ratio, store.bed(densest, how)->report.void_ratio};
+}
+
+std::optional<DensityLimits> known_density_limits(const GranularSoil& soil, BedStore& store) {
+  for (const BedRecipe& recipe : limit_beds(soil))
+    if (!std::filesystem::exists(store.file(recipe))) return std::nullopt;
+  return density_limits(soil, store);
+}
+
+double relative_density(double void_ratio, const DensityLimits& limits) {
+  const double apart = limits.loosest - limits.densest;
+  return apart > 0 ? (limits.loosest - void_ratio) / apart : not_a_number;
+}
+
+}  // namespace soilbin::dem
