@@ -132,7 +132,7 @@ void add_loop(CLI::App& app, Session& session) {
       ->type_name("NAME=LOW..HIGH");
   command->add_option("--folds", asked->folds, "parts into which conditions are dealt for the honest errors")
       ->type_name("N")
-      ->check(CLI::Range(2, 50));
+      ->check(whole_number(2, 50));
   command->add_option("--seed", asked->seed, "of the simulations and the folds")->type_name("N");
   command->add_flag("--json", asked->json, "soilbin-loop/1");
   command->add_flag("--details", asked->details, "with --json: what stands behind the answer");
