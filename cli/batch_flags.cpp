@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "compare/recorded/run_list.hpp"
@@ -19,7 +20,7 @@ void BatchFlags::add_to(CLI::App& command) {
           "make nothing: write the next experiments, N chosen at once, to --batch and end with status 3; 0 when "
           "none is left")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1));
   command.add_option("--batch", batch, "with --ask: the file to write; without: make its experiments, into --store")
       ->type_name("FILE.json");
   command.add_option("--shard", shard, "with --batch: only the K-th of N parts of it")->type_name("K/N");

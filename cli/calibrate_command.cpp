@@ -297,7 +297,7 @@ void add_options(CLI::App& command, CalibrateOptions& asked) {
       ->type_name("N");
   command.add_option("--seed", asked.options.seed, "seed of packings and search; 1")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1));
   command.add_option("--threads", asked.threads, "0, one a core")->type_name("N");
   add_file(command, "--store", asked.store, "FILE.json", "where finished experiments are kept; the user's cache");
   add_file(command, "--output", asked.output, "FILE.yaml", "write the soil with the calibrated contact");

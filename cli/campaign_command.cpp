@@ -11,7 +11,7 @@
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
-#include "compare/recorded/told_campaign.hpp"
+#include "compare/recorded/campaign_of_records.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
@@ -59,7 +59,7 @@ std::string told_words(const CampaignOptions& asked) {
 
 /// README.md of the campaign: how it was made, and the run behind each row.
 std::string provenance(const CampaignOptions& asked, const std::string& command, const Runs& runs,
-                       const compare::ToldCampaign& told) {
+                       const compare::CampaignOfRecords& told) {
   std::string text = fmt::format(
       "# {}\n\nRuns of soilbin's virtual soil bin, told as a campaign. {}\n\nMade by soilbin {} ({}) with\n\n    "
       "{}\n\n",
@@ -95,7 +95,7 @@ compare::Telling telling_of(const CampaignOptions& asked, const Runs& runs, cons
 
 int campaign(const CampaignOptions& asked, const Session& session) {
   const Runs runs = read_runs(asked, session.place);
-  const compare::ToldCampaign told =
+  const compare::CampaignOfRecords told =
       compare::tell_campaign(runs.scenario, runs.all, telling_of(asked, runs, session.place));
   compare::write_campaign(asked.output, told.campaign, session.place.effects);
   write_file_atomically(fs::path(asked.output) / "README.md", provenance(asked, session.command, runs, told));

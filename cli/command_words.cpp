@@ -47,7 +47,43 @@ std::string suggestion(const std::string& flag, const std::vector<std::string>& 
   return did_you_mean(flag, flags);
 }
 
+/// CLI11's sentences, and ours: what stands before the mark, what follows it, up to the end of a sentence of its own.
+struct Sentence {
+  std::string_view begins, between, ends;
+  const char* ours;  ///< {0}: what stands between begin and mark; {1}: what stands between mark and end
+};
+
+constexpr Sentence sentences[] = {
+    {"Could not convert: ", " = ", "", "{0}: expected a whole number, such as 1, not '{1}'"},
+    {"", ": At Most 1 required but received ", "", "{0} is given more than once"},
+    {"", ": 1 required ", " missing", "{0} needs a value ({1})"},
+    {"A subcommand", "", " is required", "a command is missing"},
+    {"", "", " is required", "'{0}' is missing"},
+    {"The following argument was not expected: ", "", "", "'{0}' is one word too many"},
+    {"The following arguments were not expected: ", "", "", "these words are too many: {0}"},
+    {"", " requires ", "", "{0} needs {1}"},
+    {"", " excludes ", "", "{0} and {1} exclude each other"},
+};
+
 }  // namespace
+
+std::string refusal_of(const CLI::ParseError& error, const std::string& command) {
+  const std::string_view theirs = error.what();
+  std::string text(theirs);
+  const bool of_a_check = dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;  // these speak our words
+  for (const Sentence& one : sentences) {
+    if (of_a_check || !theirs.starts_with(one.begins) || !theirs.ends_with(one.ends)) continue;
+    const std::string_view inner =
+        theirs.substr(one.begins.size(), theirs.size() - std::min(theirs.size(), one.begins.size() + one.ends.size()));
+    const std::size_t mark = one.between.empty() ? inner.size() : inner.find(one.between);
+    if (mark == inner.npos) continue;
+    const std::string_view rest = inner.substr(std::min(mark + one.between.size(), inner.size()));
+    text = fmt::format(fmt::runtime(one.ours), clipped(inner.substr(0, mark)), clipped(rest));
+    break;
+  }
+  if (text.find("\n  hint: ") == text.npos) text += fmt::format("\n  hint: see soilbin {}--help", command);
+  return text;
+}
 
 std::string unknown_flag(const CLI::App& command, const std::vector<std::string>& words) {
   std::vector<std::string> flags;

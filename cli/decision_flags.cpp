@@ -86,7 +86,7 @@ void DecisionFlags::add_to(CLI::App& command) {
       ->group(group);
   command.add_option("--bed-packings", packings, "beds on which each candidate runs, from --seed on; 1")
       ->type_name("N")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_number(1))
       ->needs(decide)
       ->group(group);
   const std::vector<CLI::Option*> before = command.get_options();

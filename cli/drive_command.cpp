@@ -217,7 +217,7 @@ void add_drive(CLI::App& app, Session& session) {
   add_file(*command, "--report", options->report, "FILE.html", "save a page to open in a browser");
   command->add_option("--samples", options->samples, "intervals of time that are recorded; 400")
       ->type_name("WHOLE")
-      ->check(CLI::Range(1, 1000000));
+      ->check(whole_number(1, 1000000));
   command->add_flag("--json", options->json, "soilbin-drive/1, with grains soilbin-drive-sides/1; in SI");
   options->soil_bin.add_rig_to(*command);
   command

@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <charconv>
+#include <system_error>
+
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
@@ -37,6 +40,20 @@ std::pair<double, double> read_range(const std::string& flag, const std::string&
   if (!(range.first < range.second))
     throw InputError(fmt::format("{}: the lower end must be below the upper one, not '{}'", flag, clipped(text)));
   return range;
+}
+
+CLI::Validator whole_number(long long lower, long long upper) {
+  return {[=](std::string& text) -> std::string {
+            long long value = 0;
+            const char* end = text.data() + text.size();
+            const auto read = std::from_chars(text.data(), end, value);
+            if (read.ec == std::errc() && read.ptr == end && value >= lower && value <= upper) return "";
+            const std::string range = upper < std::numeric_limits<long long>::max()
+                                          ? fmt::format("from {} to {}", lower, upper)
+                                          : fmt::format("of at least {}", lower);
+            return fmt::format("expected a whole number {}, not '{}'", range, clipped(text));
+          },
+          ""};
 }
 
 CLI::Validator writable_file() {

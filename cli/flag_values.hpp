@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,6 +23,9 @@ void set_where_given(const std::string& flag, const std::string& text, const Mea
 
 /// "LOW..HIGH" [SI], the lower end below the upper one. Throws InputError that names the flag.
 std::pair<double, double> read_range(const std::string& flag, const std::string& text, const Measure& measure);
+
+/// For flags that are whole numbers of at least `lower`, and at most `upper`.
+CLI::Validator whole_number(long long lower, long long upper = std::numeric_limits<long long>::max());
 
 /// For every flag that names a file to write: tries the place before any work is done, and refuses what can't become
 /// one. Folders that are missing are made when the file is written.

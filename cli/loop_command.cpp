@@ -113,7 +113,7 @@ void add_loop(CLI::App& app, Session& session) {
       ->add_option("--folds", asked->folds,
                    "parts into which the conditions are divided; each is predicted from the others; 5")
       ->type_name("N")
-      ->check(CLI::Range(2, 50));
+      ->check(whole_number(2, 50));
   command->add_option("--seed", asked->seed, "seed of the simulations and the folds")->type_name("N");
   command->add_flag("--json", asked->json, "the answer as JSON, soilbin-loop/1");
   command->add_flag("--details", asked->details, "with --json: what stands behind the answer");

@@ -50,7 +50,10 @@ int refuse(const std::string& message) {
 std::string misspelt(const CLI::App& app, const std::vector<std::string>& words) {
   if (words.empty()) return "";
   const std::string& first = words.front();
-  if (first.starts_with("-")) return "";
+  if (first.starts_with("-"))
+    return first == "--help" || first == "-h" || first == "--version"
+               ? ""
+               : fmt::format("'{}' stands where a command is to be\n  hint: soilbin --help lists them", clipped(first));
   const CLI::App* command = nullptr;
   std::vector<std::string> commands;
   for (const CLI::App* known : app.get_subcommands({})) {
@@ -82,8 +85,7 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    return refuse(fmt::format("{}\n  hint: see soilbin {}--help", error.what(),
-                              words.front().starts_with("-") ? "" : words.front() + " "));
+    return refuse(refusal_of(error, words.front().starts_with("-") ? "" : words.front() + " "));
   }
   return session.action();
 }

@@ -158,6 +158,7 @@ auto recording(const RunOptions& options, const Work& work) {
 
 /// The study's only condition, again with each numerical choice changed.
 int converge(const RunOptions& options, const Case& question, const Session& session) {
+  print_warnings(compare::doubts(question));
   const auto runs = compare::run_variants(settings_of(options.soil_bin), question, session.place.effects,
                                           keeping_of(options.soil_bin));
   if (options.json) {
@@ -190,7 +191,11 @@ int run(RunOptions options, const Session& session) {
   check_flags(options, question);
   if (options.dry_run) {
     const RunPlan plan = plan_of(question, options.soil_bin, options.soil_bin.tests_step(question));
-    fmt::print("{}", options.json ? compare::json_text(plan_json(plan)) : plan_text(plan));
+    const std::vector<std::string> doubts = compare::doubts(question);
+    print_warnings(doubts);
+    nlohmann::ordered_json document = plan_json(plan);
+    compare::tell_doubts(document, doubts);
+    fmt::print("{}", options.json ? compare::json_text(document) : plan_text(plan));
     return done;
   }
   if (!options.soil_bin.shard.empty()) try {

@@ -93,6 +93,7 @@ void tell_unsealed(const compare::ExperimentStore& store, const std::filesystem:
 /// After the answer and all files are written: what the runs could be had again from is removed. Where a file is
 /// missing it stays, and the person is told.
 void forget_runs(const std::vector<compare::RecordedRun>& runs, const Outputs& outputs);
-inline constexpr const char* finished_runs_stay = "finished runs are kept: the same command goes on from there";
+inline constexpr const char* finished_runs_stay =
+    "finished runs are kept where their restarts could be written: the same command goes on from there";
 
 }  // namespace soilbin::cli

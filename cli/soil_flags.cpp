@@ -71,6 +71,8 @@ void SoilFlags::apply(Soil& soil) const {
       values.sources[p.name] = "given on the command line";
     }
   if (const std::string& text = texts_.at(density_key); !text.empty()) {
+    if (!value_and_deviation(text).second.empty())
+      throw InputError("--density: a density has no standard deviation here\n  hint: such as --density 1600kg/m^3");
     values.density = read_flag(flag_of("", density_key), text, density_measure);
     values.sources[density_key] = "given on the command line";
   }

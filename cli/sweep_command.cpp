@@ -19,6 +19,7 @@
 #include "cli/question.hpp"
 #include "cli/sweep_script.hpp"
 #include "cli/text_output.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/json_file.hpp"
 #include "compare/sweep/result_json.hpp"
@@ -219,9 +220,7 @@ int show_status(const fs::path& folder, bool json) {
   return unfinished;
 }
 
-SweepJobs jobs_of(const SweepOptions& asked, const CLI::App& command, const Session& session) {
-  Case question = find_study(session.place, asked.study);
-  asked.conditions.pick(question.study, question.scenario.tire);
+SweepJobs jobs_of(const SweepOptions& asked, const Case& question, const CLI::App& command) {
   SweepJobs jobs;
   jobs.on = asked.on == "slurm" ? SweepOn::slurm : SweepOn::local;
   SoilBinFlags flags = asked.soil_bin;
@@ -255,7 +254,10 @@ int sweep(const SweepOptions& asked, const CLI::App& command, const Session& ses
   if (!asked.folder.empty()) throw InputError("sweep: one study, not also '" + clipped(asked.folder) + "'");
   if (asked.on.empty())
     throw InputError("sweep: where?\n  hint: --on slurm, or --on local for processes of this machine");
-  const SweepJobs jobs = jobs_of(asked, command, session);
+  Case question = find_study(session.place, asked.study);
+  asked.conditions.pick(question.study, question.scenario.tire);
+  print_warnings(compare::doubts(question));
+  const SweepJobs jobs = jobs_of(asked, question, command);
   for (const char* part : {"shards", "logs", "running"}) make_folder(jobs.folder / part);
   const fs::path script = jobs.folder / "sweep.sh";
   write_file_atomically(jobs.folder / "sweep.json", compare::json_text(sweep_json(jobs)));
@@ -292,10 +294,10 @@ void add_sweep(CLI::App& app, Session& session) {
       ->type_name("TIME");
   command->add_option("--shards", asked->shards, "number of jobs, in place of --at-least")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1));
   command->add_option("--at-once", asked->at_once, "local: processes side by side; as many as cores")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1));
   command->add_flag("--submit", asked->submit, "start it now");
   command->add_flag("--json", asked->json, "status: as JSON, in SI");
   asked->conditions.add_to(*command);

@@ -195,14 +195,14 @@ void FreshFile::put_in_place() {
 }
 
 void FreshFile::fail(const char* step, int reason) const {
-  throw std::runtime_error(fmt::format("{}: can't {}: {}", target_.string(), step, reason_of(reason)));
+  throw CannotWrite(fmt::format("{}: can't {}: {}", target_.string(), step, reason_of(reason)));
 }
 
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error && !fs::is_directory(folder, error))
-    throw std::runtime_error(fmt::format("{}: can't make the folder: {}", folder.string(), error.message()));
+    throw CannotWrite(fmt::format("{}: can't make the folder: {}", folder.string(), error.message()));
 }
 
 void write_file_atomically(const fs::path& path, std::string_view content) {

@@ -2,10 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
 namespace soilbin {
+
+/// A file or a folder that can't be made; what() names it, the step and the system's reason.
+struct CannotWrite : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// What becomes of a name that is a symbolic link: the file that it leads to is written, as for names that a person
 /// gave; or the link gives way to a file, as for names that the program chose in a folder that others may write to.
@@ -17,7 +23,7 @@ enum class Links { followed, replaced };
 /// share; the next one that replaces the file removes it. A name that is a device or a pipe is written to as it comes.
 class FreshFile {
  public:
-  /// Makes missing folders. Throws std::runtime_error with the file, the step and the system's reason, as do all.
+  /// Makes missing folders. Throws CannotWrite, as do all.
   explicit FreshFile(const std::filesystem::path& path, Links links = Links::followed);
   FreshFile(const FreshFile&) = delete;
   FreshFile& operator=(const FreshFile&) = delete;
@@ -43,11 +49,11 @@ class FreshFile {
   Kind kind_ = Kind::unnamed;
 };
 
-/// Makes a folder and those above it, where they are missing. Throws std::runtime_error with the system's reason.
+/// Makes a folder and those above it, where they are missing. Throws CannotWrite.
 void make_folder(const std::filesystem::path& folder);
 
-/// Writes a whole file or nothing, and makes missing folders. On failure the target is as it was, and
-/// std::runtime_error names the file, the step and the system's reason.
+/// Writes a whole file or nothing, and makes missing folders. On failure the target is as it was.
+/// Throws CannotWrite.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
 /// Why no file of this name could be written now, for people; "" where it could. Tries it in the nearest folder that is

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <cstddef>
 
+#include "scenario/source_text.hpp"
+
 namespace soilbin {
 namespace {
 
@@ -50,7 +52,7 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 
 std::string listed(const std::vector<std::string>& words) {
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + clipped(word);
   return text;
 }
 

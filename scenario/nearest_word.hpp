@@ -13,7 +13,7 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
 /// ", did you mean 'radius'?" for the end of a message, or "" where no word is near enough.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& right);
 
-/// "radius, width, lugs"
+/// "radius, width, lugs"; a word that is longer than any of ours is clipped.
 std::string listed(const std::vector<std::string>& words);
 
 }  // namespace soilbin

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/question.hpp"
 #include "cli/serve/server.hpp"
 
@@ -46,7 +47,7 @@ void add_serve(CLI::App& app, Session& session) {
   const auto port = std::make_shared<int>(8080);
   command->add_option(port_flag, *port, "port of 127.0.0.1; 8080; 0: any free one")
       ->type_name("WHOLE")
-      ->check(CLI::Range(0, 65535));
+      ->check(whole_number(0, 65535));
   command->footer(
       "Examples: soilbin serve\n"
       "          soilbin serve rover-slip --effect slip_sinkage\n"

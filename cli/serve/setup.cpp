@@ -137,7 +137,7 @@ Asked Setup::put_together(const std::vector<Flag>& query) const {
   try {
     app.parse(std::vector<std::string>(asked.words.rbegin(), asked.words.rend() - 1));
   } catch (const CLI::ParseError& error) {
-    throw InputError(fmt::format("{}\n  hint: see soilbin estimate --help", error.what()));
+    throw InputError(refusal_of(error, "estimate "));
   }
   asked.question = question.ask(place_);
   return asked;

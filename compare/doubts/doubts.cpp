@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
 #include <tuple>
 
 #include "bekker_wong/closed_forms.hpp"
@@ -15,8 +14,8 @@
 #include "bekker_wong/presumption.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "compare/doubts/grain_doubts.hpp"
+#include "compare/doubts/row_doubts.hpp"
 #include "compare/doubts/unheard.hpp"
-#include "compare/measured/within_run_scatter.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/unit.hpp"
 
@@ -306,110 +305,6 @@ Case question_of(const Campaign& campaign, const Scenario& asked) {
   return question;
 }
 
-void add_row_doubts(const Campaign& campaign, Warnings& warnings) {
-  for (const Run& run : campaign.runs) {
-    if (run.sinkage && std::abs(*run.sinkage) > 2 * campaign.wheel.radius)
-      warnings.push_back(fmt::format("line {}: a measured sinkage of {:.4g} mm is more than the wheel's diameter",
-                                     run.csv_line, 1000 * *run.sinkage));
-    if (run.drawbar_pull && std::abs(*run.drawbar_pull) > 3 * run.at.load)
-      warnings.push_back(fmt::format("line {}: a drawbar pull of {:.4g} N is more than three times the load",
-                                     run.csv_line, *run.drawbar_pull));
-  }
-}
-
-/// Runs that scattered in time far more than the campaign's usual run: their means may be of no steady state.
-void add_unsteady_runs(const std::vector<Run>& runs, Warnings& warnings) {
-  constexpr double usual = 5.0;  // times the median
-  for (std::size_t c = 0; c < channel_views.size(); ++c) {
-    const double median = usual_scatter(runs, c).value_or(0.0);
-    const ChannelView& view = channel_views[c];
-    for (const Run& run : runs)
-      if (run.within_run_sd[c] && median > 0.0 && *run.within_run_sd[c] > usual * median)
-        warnings.push_back(fmt::format(
-            "line {}: an unsteady run: the {} scattered by {:.3g} {} in time, the median run "
-            "by {:.3g} {}",
-            run.csv_line, view.title, *run.within_run_sd[c] * view.per_si, view.unit, median * view.per_si, view.unit));
-  }
-}
-
-/// Wheels stand above the undisturbed surface here and there; not in most runs.
-void add_flipped_sinkage(const std::vector<Run>& runs, Warnings& warnings) {
-  const auto measured = std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.sinkage.has_value(); });
-  const auto above =
-      std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.sinkage.value_or(0.0) < 0.0; });
-  if (2 * above > measured)
-    warnings.push_back(
-        fmt::format("{} of {} measured sinkages are negative: is their sign flipped? Below the undisturbed surface is "
-                    "positive",
-                    above, measured));
-}
-
-/// All that was set and measured in a run, but for the line it stands in.
-auto values_of(const Run& run) {
-  return std::tie(run.setpoint, run.drawbar_pull, run.torque, run.sinkage, run.lateral_force, run.at);
-}
-
-/// Rows that were copied: a run's number that was there before, or every value equal to that of an earlier row.
-void add_repeated_rows(const std::vector<Run>& runs, Warnings& warnings) {
-  std::map<decltype(values_of(runs.front())), int> line_of_values;
-  std::map<int, int> line_of_number;
-  for (const Run& run : runs) {
-    const int same = line_of_values.try_emplace(values_of(run), run.csv_line).first->second;
-    const int numbered = run.at.run ? line_of_number.try_emplace(*run.at.run, run.csv_line).first->second : same;
-    const int earlier = std::min(same, numbered);
-    if (earlier == run.csv_line) continue;
-    warnings.push_back(
-        earlier == same
-            ? fmt::format("line {}: all its values are those of line {}: counted twice", run.csv_line, earlier)
-            : fmt::format("line {}: run {} stands in line {} already", run.csv_line, *run.at.run, earlier));
-  }
-}
-
-/// Correlation within groups of two columns; 0 where one of them doesn't vary.
-double correlation(const std::vector<double>& x, const std::vector<double>& y, const std::vector<std::size_t>& group) {
-  const std::size_t groups = group.empty() ? 0 : *std::max_element(group.begin(), group.end()) + 1;
-  std::vector<double> n(groups), sum_x(groups), sum_y(groups);
-  for (std::size_t i = 0; i < x.size(); ++i) n[group[i]] += 1, sum_x[group[i]] += x[i], sum_y[group[i]] += y[i];
-  double xx = 0, xy = 0, yy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const std::size_t g = group[i];
-    const double dx = x[i] - sum_x[g] / n[g], dy = y[i] - sum_y[g] / n[g];
-    xx += dx * dx, xy += dx * dy, yy += dy * dy;
-  }
-  return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0.0;
-}
-
-/// A pull whose sign is flipped falls along each curve against slip while the torque rises, and lies nearer to what the
-/// model says once it is turned round.
-void add_flipped_pull(const Campaign& campaign, const Case& question, const std::vector<Answer>& answers,
-                      Warnings& warnings) {
-  constexpr std::size_t fewest = 6;
-  constexpr double clearly = 0.7;
-  const std::vector<std::size_t> curve_of = curves_against_slip(question.study.conditions, Spread::measured).curve_of;
-  std::vector<double> slip, pull, torque;
-  std::vector<std::size_t> curve;
-  for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
-    const Run& run = campaign.runs[i];
-    if (!run.drawbar_pull || !run.torque) continue;
-    slip.push_back(run.at.slip), pull.push_back(*run.drawbar_pull), torque.push_back(*run.torque);
-    curve.push_back(curve_of[i]);
-  }
-  if (slip.size() < fewest ||
-      !(correlation(slip, pull, curve) < -clearly && correlation(slip, torque, curve) > clearly))
-    return;
-  double as_told = 0, turned_round = 0;
-  for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
-    const auto& measured = campaign.runs[i].drawbar_pull;
-    const auto& predicted = answers[i].result;
-    if (!measured || !predicted) continue;
-    as_told += std::pow(*measured - predicted->drawbar_pull.value, 2);
-    turned_round += std::pow(*measured + predicted->drawbar_pull.value, 2);
-  }
-  if (turned_round < as_told)
-    warnings.emplace_back(
-        "the drawbar pull falls as slip rises while the torque rises: is its sign flipped? Positive pulls forward");
-}
-
 /// Each row has a run and a place: so a campaign is told, whether or not its model asks for them.
 bool only_tells_the_row(const Unheard& one) { return one.key == "run" || one.key == "position"; }
 
@@ -417,16 +312,11 @@ enum class NextIs { nothing, a_fit_for_effects };
 
 Warnings doubts_of(const Campaign& campaign, const Case& question, const std::vector<ModelAnswers>& study,
                    Answered answered, NextIs next) {
-  Warnings warnings = doubts_but_unheard(question, study, answered), of_rows;
+  Warnings warnings = doubts_but_unheard(question, study, answered);
   if (next == NextIs::nothing)
     for (Unheard& one : unheard(question))
       if (!only_tells_the_row(one)) warnings.push_back(std::move(one.words));
-  add_row_doubts(campaign, of_rows);
-  add_flipped_sinkage(campaign.runs, of_rows);
-  add_repeated_rows(campaign.runs, of_rows);
-  add_unsteady_runs(campaign.runs, of_rows);
-  add_flipped_pull(campaign, question, study.front().answers, of_rows);
-  for (std::string& warning : once_each(of_rows)) warnings.push_back(std::move(warning));
+  append(warnings, row_doubts(campaign, study.front().answers));
   return warnings;
 }
 

@@ -67,11 +67,12 @@ double RunCosts::trial(dem::DemSettings settings) const {
   const double grain = recipe_.soil.radius_min + recipe_.soil.radius_max;
   dem::BedRecipe recipe = recipe_;
   recipe.size = {12 * grain, 12 * grain, 8 * grain};
-  settings.how.progress = {};
-  const std::clock_t began = std::clock();  // of the processor: what runs beside it now will not run beside the jobs
-  const dem::SettledBed bed = dem::settle_bed(recipe, settings.how);
   const int threads =
       settings.how.threads > 0 ? settings.how.threads : static_cast<int>(std::thread::hardware_concurrency());
+  settings.how.progress = {};
+  settings.how.threads = 1;                 // so small a bed keeps more than one waiting, which a run's does not
+  const std::clock_t began = std::clock();  // of the processor: what runs beside it now will not run beside the jobs
+  const dem::SettledBed bed = dem::settle_bed(recipe, settings.how);
   const double seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC / std::max(1, threads);
   const double step = recipe.dt > 0 ? recipe.dt : dem::longest_step(recipe.soil);
   return static_cast<double>(bed.report.grains) * bed.report.settling_time / step / seconds;

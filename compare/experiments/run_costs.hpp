@@ -18,7 +18,8 @@ class RunCosts {
  public:
   /// The speed comes from the runs of `records` where they tell one: their seconds, as they were measured then, with
   /// however many threads and whatever ran beside them; else from a trial: a small bed of the same grains is settled
-  /// for about a second of processor time with the settings' threads. Throws InputError without granular values.
+  /// for about a second of processor time on one thread, and more are taken to share the work evenly. Throws InputError
+  /// without granular values.
   RunCosts(const Scenario& scenario, const dem::DemSettings& settings, const std::vector<Record>& records);
 
   /// That the bed will hold, about: six tenths of its volume in grains of the mean volume.

@@ -131,8 +131,7 @@ RunOnce run_once(const dem::DemSettings& settings, const Case& question, const E
     return (*runs)(scenario, at, packing);
   };
   if (keeping.record.empty()) return run;
-  run = kept_runs(keeping.record, settings, question, effects, keeping.version, std::move(run), &Record::runs,
-                  keeping.writers);
+  run = kept_runs(keeping, settings, question, effects, std::move(run));
   if (keeping.known.empty()) return run;
   return [known = read_known(keeping, inputs_of(settings, question.scenario)), run = std::move(run)](
              const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
@@ -184,8 +183,7 @@ void make_runs(const std::vector<AskedRun>& list, const dem::DemSettings& settin
                           const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
     return (*runs)(scenario, at, packing);
   };
-  const RunOnce half_step = kept_runs(keeping.record, settings, question, effects, keeping.version,
-                                      std::move(half_runs), &Record::half_step, keeping.writers);
+  const RunOnce half_step = kept_runs(keeping, settings, question, effects, std::move(half_runs), &Record::half_step);
   std::size_t place = 0;
   for (const AskedRun& run : list) {
     if (missing_runs({run}, known).empty()) {
@@ -241,15 +239,15 @@ nlohmann::ordered_json to_json(const dem::StepCriteria& step) {
           {"hertz_time", step.hertz}};
 }
 
-RunOnce kept_runs(const std::filesystem::path& file, const dem::DemSettings& settings, const Case& question,
-                  const EffectVocabulary& effects, std::string version, RunOnce run, RunList list, Writers writers) {
-  Record empty{.soilbin = std::move(version),
+RunOnce kept_runs(const RunKeeping& keeping, const dem::DemSettings& settings, const Case& question,
+                  const EffectVocabulary& effects, RunOnce run, RunList list) {
+  Record empty{.soilbin = keeping.version,
                .model = "dem",
                .question = write_case(question, effects),
                .inputs = inputs_of(settings, question.scenario),
                .runs = {},
                .half_step = {}};
-  return kept_in(file, std::move(empty), std::move(run), list, writers);
+  return kept_in(keeping.record, std::move(empty), std::move(run), list, keeping.writers);
 }
 
 Inputs inputs_of(const dem::DemSettings& settings, const Scenario& scenario) {

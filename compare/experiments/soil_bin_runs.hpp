@@ -87,10 +87,9 @@ std::optional<dem::StepCriteria> step_of(dem::DemSettings settings, const Case& 
 std::string in_words(const dem::StepCriteria& step);
 nlohmann::ordered_json to_json(const dem::StepCriteria& step);
 
-/// The runs of a case, kept in a file (kept_in) that is begun by `version` of soilbin.
-RunOnce kept_runs(const std::filesystem::path& file, const dem::DemSettings& settings, const Case& question,
-                  const EffectVocabulary& effects, std::string version, RunOnce run, RunList list = &Record::runs,
-                  Writers writers = Writers::several);
+/// The runs of a case, kept in keeping's record (kept_in), which is begun by its version of soilbin.
+RunOnce kept_runs(const RunKeeping& keeping, const dem::DemSettings& settings, const Case& question,
+                  const EffectVocabulary& effects, RunOnce run, RunList list = &Record::runs);
 
 /// What a run follows from beside condition and packing.
 Inputs inputs_of(const dem::DemSettings& settings, const Scenario& scenario);

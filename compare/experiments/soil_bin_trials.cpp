@@ -49,8 +49,9 @@ class Trials {
     };
     if (!recorded) return run;
     const std::string key = inputs_key(inputs_of(settings_.bin, question.scenario));
-    return kept_runs(settings_.records / (key + ".json"), settings_.bin, question, effects_, settings_.version,
-                     std::move(run));
+    RunKeeping keeping;
+    keeping.record = settings_.records / (key + ".json"), keeping.version = settings_.version;
+    return kept_runs(keeping, settings_.bin, question, effects_, std::move(run));
   }
 
   RunOnce counted(RunOnce run) {

@@ -77,13 +77,9 @@ ColumnChoice choose_column(const CsvCell& header, Renames& renames, const Source
     right.push_back(column.canonical);
   }
   for (const auto& [name, renamed] : renames) right.push_back(name);
-  const bool semicolons = header.text.find(';') != std::string::npos,
-             tabs = header.text.find('\t') != std::string::npos;
   csv.refuse(header.offset,
              fmt::format("unknown column '{}'{}", clipped(header.text), did_you_mean(header.text, right)),
-             semicolons || tabs ? fmt::format("columns are parted by commas, not by {}, and the decimal point is '.'",
-                                              semicolons ? "semicolons" : "tabs")
-                                : "columns: " + listed(right) + "; others are named in campaign.yaml under 'columns'");
+             "columns: " + listed(right) + "; others are named in campaign.yaml under 'columns'");
 }
 
 std::vector<ColumnChoice> choose_columns(const CsvTable& table, Renames& renames, const SourceText& csv) {

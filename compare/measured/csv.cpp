@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 #include <string_view>
+#include <utility>
 
 namespace soilbin::compare {
 namespace {
@@ -95,6 +96,10 @@ void check_header(const CsvRow& header, const SourceText& source) {
   std::set<std::string_view> seen;
   for (const CsvCell& cell : header.cells) {
     if (cell.text.empty()) source.refuse(cell.offset, "a column without a name");
+    for (const auto& [mark, name] : {std::pair{';', "semicolons"}, {'\t', "tabs"}})
+      if (cell.text.find(mark) != std::string::npos)
+        source.refuse(cell.offset, fmt::format("'{}' is no column's name", clipped(cell.text)),
+                      fmt::format("columns are parted by commas, not by {}, and the decimal point is '.'", name));
     if (!seen.insert(cell.text).second)
       source.refuse(cell.offset, fmt::format("column '{}' appears twice", clipped(cell.text)));
   }

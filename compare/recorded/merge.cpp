@@ -29,7 +29,7 @@ std::string made_by(const FoundRun& found) {
 
 void add(std::vector<FoundRun>& all, FoundRun fresh, bool half_step) {
   const auto known = std::find_if(all.begin(), all.end(), [&](const FoundRun& one) {
-    return find_run(std::vector{one.run}, fresh.run.answer.at, fresh.run.packing) != nullptr;
+    return answers(one.run, fresh.run.answer.at, fresh.run.packing);
   });
   if (known == all.end()) return all.push_back(std::move(fresh));
   if (answer_text(known->run) != answer_text(fresh.run))

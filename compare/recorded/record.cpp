@@ -264,10 +264,13 @@ void refuse_other_inputs(const Record& record, const Inputs& asked, const std::f
       file.string(), differing));
 }
 
+bool answers(const RecordedRun& run, const OperatingCondition& at, std::uint64_t packing) {
+  return run.packing == packing && alike(run.answer.at, at);
+}
+
 const RecordedRun* find_run(const std::vector<RecordedRun>& runs, const OperatingCondition& at, std::uint64_t packing) {
-  const auto found = std::find_if(runs.begin(), runs.end(), [&](const RecordedRun& run) {
-    return run.packing == packing && alike(run.answer.at, at);
-  });
+  const auto found =
+      std::find_if(runs.begin(), runs.end(), [&](const RecordedRun& run) { return answers(run, at, packing); });
   return found == runs.end() ? nullptr : &*found;
 }
 

@@ -81,6 +81,9 @@ std::string inputs_key(const Inputs& inputs);
 void refuse_other_inputs(const Record& record, const Inputs& asked, const std::filesystem::path& file,
                          const std::vector<std::string>& only = {});
 
+/// Whether this is the run of a condition on a packing.
+bool answers(const RecordedRun& run, const OperatingCondition& at, std::uint64_t packing);
+
 /// The run of a condition on a packing; nullptr where there is none.
 const RecordedRun* find_run(const std::vector<RecordedRun>& runs, const OperatingCondition& at, std::uint64_t packing);
 

@@ -9,6 +9,7 @@
 
 #include "compare/measured/channels.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -141,6 +142,22 @@ TractionResult mean_of_packings(const Runs& runs) {
   return mean;
 }
 
+namespace {
+
+/// What a run answers, in a line: for a person who has nothing else of it.
+std::string in_a_line(const RecordedRun& run) {
+  std::string line = fmt::format("{}, packing {}:", in_words(run.answer.at), run.packing);
+  if (!run.answer.result) return line + " " + run.answer.error;
+  for (const TractionChannel& channel : traction_channels) {
+    const Estimate& value = (*run.answer.result).*channel.predicted;
+    line += fmt::format(" {} {:.6g} ± {:.2g} {};", channel.title, value.value * channel.per_si,
+                        value.std_error * channel.per_si, channel.unit);
+  }
+  return line.substr(0, line.size() - 1);
+}
+
+}  // namespace
+
 RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run, RunList list, Writers writers) {
   const auto seen = std::make_shared<Record>(empty);  // the file as it was read last
   const auto look = [=] {
@@ -157,7 +174,11 @@ RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run, Ru
     if (const RecordedRun* known = find_run((*seen).*list, at, packing)) return *known;
     RecordedRun fresh = run(scenario, at, packing);
     // Without a lock a second process may have written over ours: each writes all that it knows of.
-    add_run(file, writers == Writers::one ? *seen : empty, fresh, list, writers);
+    try {
+      add_run(file, writers == Writers::one ? *seen : empty, fresh, list, writers);
+    } catch (const CannotWrite& error) {  // where its restart can't be written either, this is all that is left of it
+      throw CannotWrite(fmt::format("{}\n  the run that is not in it: {}", error.what(), in_a_line(fresh)));
+    }
     ((*seen).*list).push_back(fresh);
     return fresh;
   };

@@ -2,15 +2,15 @@
 
 #include <fmt/core.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
 
 namespace soilbin::compare {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t largest_page = 1U << 28U;  ///< [bytes]
 
 /// The text from `begin` to `end`, both left out, or with both; "" where it isn't there.
 std::string between(const std::string& text, const std::string& begin, const std::string& end, bool with_both = false) {
@@ -25,10 +25,7 @@ std::string between(const std::string& text, const std::string& begin, const std
 }  // namespace
 
 PageCard page_card(const fs::path& page, const fs::path& from) {
-  std::ifstream in(page, std::ios::binary);
-  std::ostringstream read;
-  read << in.rdbuf();
-  const std::string text = read.str();
+  const std::string text = read_bytes(page, largest_page);
   PageCard card{fs::relative(page, from.parent_path().empty() ? fs::path(".") : from.parent_path()).generic_string(),
                 between(text, "<title>", "</title>"), between(text, "<meta name=\"description\" content=\"", "\">"),
                 between(text, "<svg class=\"plot\"", "</svg>", true)};

@@ -1,8 +1,8 @@
 // compare/recorded: runs of the soil bin kept in a file.
 #include <fmt/core.h>
 
+#include "compare/recorded/campaign_of_records.hpp"
 #include "compare/recorded/recorded_model.hpp"
-#include "compare/recorded/told_campaign.hpp"
 #include "notebooks/bindings/bindings.hpp"
 #include "notebooks/bindings/scenario.hpp"
 #include "scenario/case.hpp"

@@ -41,27 +41,24 @@ class SoilBin {
 
   /// Each condition of a case on each packing; what the file has isn't run again.
   compare::Record record(const Case& question, const std::filesystem::path& file, int packings,
-                         const py::object& progress) const {
+                         const py::object& progress, bool half_step) const {
     if (packings < 1) throw InputError("packings: 1 or more");
-    const std::size_t all = question.study.conditions.size() * static_cast<std::size_t>(packings);
-    if (all == 0) throw InputError("the case has no condition to run");
+    if (question.study.conditions.empty()) throw InputError("the case has no condition to run");
+    using compare::TestStep;
+    const std::vector<compare::AskedRun> runs =
+        compare::runs_of(question, settings_, packings, half_step ? TestStep::yes : TestStep::no);
     Watch watch(progress);
-    std::size_t done = 0;
+    std::size_t at_run = 0;
     DemSettings settings = settings_;
     settings.how.progress = [&](const dem::Progress& p) {
-      watch((static_cast<double>(done) + std::min(p.done, 0.999)) / static_cast<double>(all),
-            fmt::format("run {} of {}, {}", done + 1, all, p.stage));
+      watch((static_cast<double>(at_run) + std::min(p.done, 0.999)) / static_cast<double>(runs.size()),
+            fmt::format("run {} of {}, {}", at_run + 1, runs.size(), p.stage));
     };
+    compare::RunKeeping keeping;
+    keeping.record = file, keeping.version = SOILBIN_VERSION, keeping.source = source_state();
     unlocked([&] {
-      const auto runs = std::make_shared<compare::SoilBinRuns>(settings, source_state());
-      const compare::RunOnce run =
-          compare::kept_runs(file, settings, question, effect_vocabulary(), SOILBIN_VERSION,
-                             [runs](const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
-                               return (*runs)(scenario, at, packing);
-                             });
-      for (const OperatingCondition& at : question.study.conditions)
-        for (int k = 0; k < packings; ++k, ++done)
-          run(question.scenario, at, settings.packing + static_cast<std::uint64_t>(k));
+      compare::make_runs(runs, settings, question, effect_vocabulary(), keeping,
+                         [&](std::size_t place, const compare::AskedRun&) { at_run = place; });
     });
     return compare::read_record(file);
   }
@@ -211,10 +208,12 @@ void bind_soil_bin(py::module_& module) {
            "One run. progress: called with (share done, stage). Raises InputError for a bed too small and for what "
            "grains can't do (effects, a second pass), NoSolution where the wheel digs itself in, RunStopped.")
       .def("record", &SoilBin::record, py::arg("case"), py::arg("file"), py::arg("packings") = 1,
-           py::arg("progress") = py::none(),
+           py::arg("progress") = py::none(), py::arg("half_step") = false,
            "Runs the conditions of a case's study, each on so many packings from the bin's on, and keeps each run in "
-           "the file as it is finished; what is there isn't run again. Gives the record. What grains can't answer is a "
-           "run with its error. Raises InputError for a file of other inputs, which it names.")
+           "the file as it is finished; what is there isn't run again. half_step: first the hardest condition also at "
+           "half the time step, as soilbin run --half-step yes does. Gives the record. What grains can't answer is a "
+           "run with its error. Raises InputError for a file of other inputs, which it names, and RuntimeError where "
+           "the half step's answer differs.")
       .def("inputs", &SoilBin::inputs, py::arg("scenario"),
            "Everything that a run follows from beside condition and packing, as names and values.");
 }

@@ -46,6 +46,19 @@ TEST(DoubtsOfCommands, AreTheSameInAllOfThem) {
   EXPECT_THAT(checked.out, HasSubstr("1 model at 1 condition"));
 }
 
+// Before core-hours are spent: who only plans them hears of the grains too.
+TEST(DoubtsOfCommands, AreToldBeforeGrainsAreRun) {
+  const Outcome plan = soilbin("run paper-straight --load 4kN --model dem --dry-run --json");
+  ASSERT_EQ(plan.status, 0) << plan.err;
+  EXPECT_THAT(plan.err, HasSubstr("warning: the grains are coarse for this wheel"));
+  EXPECT_THAT(plan.json()["warnings"].dump(), HasSubstr("the grains are coarse for this wheel"));
+  const Scratch scratch;
+  const Outcome sweep =
+      soilbin("sweep paper-straight --load 4kN --on local --output '" + (scratch / "sweep").string() + "'");
+  ASSERT_EQ(sweep.status, 0) << sweep.err;
+  EXPECT_THAT(sweep.err, HasSubstr("warning: the grains are coarse for this wheel"));
+}
+
 TEST(DoubtsOfCommands, StandOnPages) {
   const Scratch scratch;
   const std::string study = " '" + scratch.write("case.yaml", doubtful).string() + "' ";

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "bekker_wong/effect_vocabulary.hpp"
+#include "compare/measured/csv.hpp"
 #include "scenario/case.hpp"
 #include "scenario/library.hpp"
 #include "scenario/soil_parameters.hpp"
@@ -141,6 +142,15 @@ TEST(CampaignRefuses, UnknownColumns) {
   EXPECT_THAT(refused_csv("torque_Nm", "drawbar_pull_N"), HasSubstr("column 'drawbar_pull_N' appears twice"));
   EXPECT_THAT(refused_csv("torque_Nm", ""), HasSubstr("a column without a name"));
   EXPECT_THAT(refused_csv("torque_Nm", "torque_Nm;x"), HasSubstr("parted by commas, not by semicolons"));
+}
+
+// As spreadsheets of half of Europe write it: the commas in the rows are no cells, and must not be told as such.
+TEST(CampaignRefuses, SemicolonsWithDecimalCommas) {
+  for (const std::string mark : {";", "\t"})
+    EXPECT_THAT(
+        refusal([&] { parse_csv(make_source_text("load_N" + mark + "slip\n22,5" + mark + "0,1\n", "runs.csv")); }),
+        AllOf(StartsWith("runs.csv:1:1: "), HasSubstr("parted by commas, not by "),
+              HasSubstr("the decimal point is '.'")));
 }
 
 TEST(CampaignRefuses, TextInANumber) {

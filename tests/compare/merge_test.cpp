@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <ctime>
 
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/recorded/run_list.hpp"
@@ -173,6 +174,22 @@ TEST_F(SlowShardFiles, TwoAtOneShardLoseNothing) {
   made_ = 0;
   for (const std::size_t k : {2U, 3U, 4U, 5U}) other({}, list[k].at, list[k].packing);
   EXPECT_EQ(made_, 0);
+}
+
+// Six thousand runs with what a run holds: a copy of one for each that it is compared with took a minute and a half.
+TEST(SlowMerge, OfManyRunsCopiesNone) {
+  std::vector<NamedRecord> shards = {{"a.json", begun}, {"b.json", begun}};
+  for (int k = 0; k < 6000; ++k) {
+    OperatingCondition at;
+    at.load = 100.0 + k, at.slip = 0.1;
+    RecordedRun run = answered({at, 1, false});
+    run.answer.result->patch.resize(180);
+    shards[static_cast<std::size_t>(k % 2)].record.runs.push_back(std::move(run));
+  }
+  const std::clock_t began = std::clock();
+  const Record whole = merged(shards);
+  EXPECT_LT(static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC, 10.0);
+  EXPECT_EQ(whole.runs.size(), 6000U);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Records: what comes back is what was kept, nothing else is answered, and nobody mixes up two questions.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -9,6 +10,7 @@
 
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/sweep/result_json.hpp"
+#include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -317,6 +319,26 @@ TEST_F(SlowKeptRuns, ARunIsSafeOnlyOnceItIsInTheFile) {
   std::filesystem::remove_all(file());
   add_run(file(), empty_, run);
   EXPECT_EQ(safe, 1);
+}
+
+// Where the disk takes neither record nor restart, what the run found is said: it may have taken hours.
+TEST_F(SlowKeptRuns, ARunThatFindsNoPlaceIsTold) {
+  const std::filesystem::path lost = folder_ / "lost" / "record.json";
+  const RunOnce run =
+      kept_in(lost, empty_, [&](const Scenario& s, const OperatingCondition& at, std::uint64_t packing) {
+        std::ofstream(folder_ / "lost") << "in the way";
+        return counted()(s, at, packing);
+      });
+  std::string said;
+  try {
+    run({}, recorded_condition(1, 0.1), 1);
+  } catch (const CannotWrite& error) {
+    said = error.what();
+  }
+  const double pull = made_run(1, 0.1, 1).answer.result->drawbar_pull.value;
+  EXPECT_THAT(said, HasSubstr("can't make the folder"));
+  EXPECT_THAT(said, HasSubstr("the run that is not in it: load 1 N, slip 10 %"));
+  EXPECT_THAT(said, HasSubstr(fmt::format("drawbar pull {:.6g} ± ", pull)));
 }
 
 TEST_F(SlowKeptRuns, WhatIsFinishedStaysWhereTheRestIsStopped) {

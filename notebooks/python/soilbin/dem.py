@@ -126,16 +126,18 @@ def run_wheel(bin: SoilBin, scenario: Scenario, at: OperatingCondition, progress
 
 
 def record_runs(case: Union[Case, str], file: Union[str, Path], bin: Optional[SoilBin] = None, *, packings: int = 1,
-                progress: Progress = "shown") -> Record:
+                half_step: bool = False, progress: Progress = "shown") -> Record:
     """Runs the conditions of a case's study in the virtual soil bin and keeps them in a file (docs/guide/recorded.md).
 
     Each run is added as it is finished, and what the file has isn't run again: stopped work goes on by the same call, in
     the middle of a run too where `bin` has a folder for beds. bin: bed, rig, threads; absent: the usual ones. packings:
-    runs of each condition, on beds of the seeds from the bin's on. What grains can't answer is a run with its error.
-    `soilbin run --recorded` and compare.record_frame answer from the file. Raises InputError for a file of other inputs.
+    runs of each condition, on beds of the seeds from the bin's on. half_step: first the hardest condition also at half
+    the time step, which shows whether answers depend on it. What grains can't answer is a run with its error.
+    `soilbin run --recorded` and compare.record_frame answer from the file. Raises InputError for a file of other inputs
+    and RuntimeError where the half step's answer differs.
     """
     question = find_case(case) if isinstance(case, str) else case
-    return (bin or SoilBin()).record(question, Path(file), packings, told_to(progress))
+    return (bin or SoilBin()).record(question, Path(file), packings, told_to(progress), half_step)
 
 
 def samples_frame(run: WheelRun) -> pd.DataFrame:

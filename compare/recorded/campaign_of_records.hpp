@@ -24,7 +24,7 @@ struct Telling {
 std::vector<std::string> things_to_hide();
 
 /// A campaign and the run behind each of its rows, in the same order.
-struct ToldCampaign {
+struct CampaignOfRecords {
   Campaign campaign;
   std::vector<RecordedRun> runs;
   std::size_t without_result = 0, not_steady = 0;  ///< runs left out, and why
@@ -35,6 +35,6 @@ struct ToldCampaign {
 /// lateral force is told where any run was asked for at yaw or on a cross slope: elsewhere it is zero by symmetry. The
 /// soil is the scenario's, which needs semi-empirical values. Throws InputError without them, for a word in `hide` that
 /// isn't one of things_to_hide(), and where no run is left.
-ToldCampaign tell_campaign(const Scenario& scenario, const std::vector<RecordedRun>& runs, const Telling& telling);
+CampaignOfRecords tell_campaign(const Scenario& scenario, const std::vector<RecordedRun>& runs, const Telling& telling);
 
 }  // namespace soilbin::compare

@@ -1,5 +1,5 @@
 // Runs of grains told as a campaign: every row is a run, what is hidden is gone, and the loop finds what was left out.
-#include "compare/recorded/told_campaign.hpp"
+#include "compare/recorded/campaign_of_records.hpp"
 
 #include <gmock/gmock.h>
 
@@ -42,8 +42,8 @@ const Scenario& sand_scenario() {
   return scenario;
 }
 
-TEST(ToldCampaign, HasARowForEachRunAndKnowsRerunsByTheirConditions) {
-  const ToldCampaign told = tell_campaign(sand_scenario(), on_a_slope(), {.name = "made"});
+TEST(CampaignOfRecords, HasARowForEachRunAndKnowsRerunsByTheirConditions) {
+  const CampaignOfRecords told = tell_campaign(sand_scenario(), on_a_slope(), {.name = "made"});
   ASSERT_EQ(told.campaign.runs.size(), 3U);
   ASSERT_EQ(told.runs.size(), 3U);
   std::multiset<double> pulls;
@@ -62,11 +62,11 @@ TEST(ToldCampaign, HasARowForEachRunAndKnowsRerunsByTheirConditions) {
   EXPECT_EQ(told.campaign.soil.exponent.std_error, 0.05) << "the declared doubt";
 }
 
-TEST(ToldCampaign, LeavesOutWhatIsHidden) {
+TEST(CampaignOfRecords, LeavesOutWhatIsHidden) {
   Scenario lugged = sand_scenario();
   lugged.tire.lugs = {.height = 0.01, .count = 12, .thickness = 0.005};
   lugged.bin = Bin{0.2, 0.5};
-  const ToldCampaign told =
+  const CampaignOfRecords told =
       tell_campaign(lugged, on_a_slope(), {.name = "made", .hide = {"longitudinal_incline", "lugs", "bin"}});
   for (const auto& row : told.campaign.runs) EXPECT_EQ(row.at.longitudinal_incline, 0);
   EXPECT_EQ(told.runs.front().answer.at.longitudinal_incline, 5 * degree) << "the truth stays with the runs";
@@ -75,7 +75,7 @@ TEST(ToldCampaign, LeavesOutWhatIsHidden) {
   EXPECT_TRUE(is_lugged(tell_campaign(lugged, on_a_slope(), {}).campaign.wheel));
 }
 
-TEST(ToldCampaign, TheOrderIsDrawnFromTheSeed) {
+TEST(CampaignOfRecords, TheOrderIsDrawnFromTheSeed) {
   const auto order = [](std::uint64_t seed) {
     std::vector<RecordedRun> runs;
     OperatingCondition at;
@@ -91,7 +91,7 @@ TEST(ToldCampaign, TheOrderIsDrawnFromTheSeed) {
   EXPECT_FALSE(std::is_sorted(order(1).begin(), order(1).end()));
 }
 
-TEST(ToldCampaign, TellsTheLateralForceWhereARunLeansOrIsYawed) {
+TEST(CampaignOfRecords, TellsTheLateralForceWhereARunLeansOrIsYawed) {
   std::vector<RecordedRun> runs = on_a_slope();
   runs[1].answer.at.yaw = 0.1;
   const std::vector<compare::Run> told = tell_campaign(sand_scenario(), runs, {}).campaign.runs;
@@ -99,16 +99,16 @@ TEST(ToldCampaign, TellsTheLateralForceWhereARunLeansOrIsYawed) {
   for (const compare::Run& row : told) EXPECT_EQ(row.lateral_force, -*row.drawbar_pull);
 }
 
-TEST(ToldCampaign, CountsWhatItLeavesOut) {
+TEST(CampaignOfRecords, CountsWhatItLeavesOut) {
   std::vector<RecordedRun> runs = on_a_slope();
   runs[0].answer.result.reset(), runs[1].steady = false;
   EXPECT_EQ(tell_campaign(sand_scenario(), runs, {}).without_result, 1U);
-  const ToldCampaign told = tell_campaign(sand_scenario(), runs, {.only_steady = true});
+  const CampaignOfRecords told = tell_campaign(sand_scenario(), runs, {.only_steady = true});
   EXPECT_EQ(told.not_steady, 1U);
   EXPECT_EQ(told.campaign.runs.size(), 1U);
 }
 
-TEST(ToldCampaign, RefusesWhatItCannotTell) {
+TEST(CampaignOfRecords, RefusesWhatItCannotTell) {
   const auto refusal = [](const Scenario& scenario, const Telling& telling) -> std::string {
     try {
       tell_campaign(scenario, on_a_slope(), telling);
@@ -126,7 +126,7 @@ TEST(ToldCampaign, RefusesWhatItCannotTell) {
 }
 
 // A nature that is the base model on a bed that tilts by 4 deg, told as level: the loop names the tilt and its size.
-TEST(SlowToldCampaign, TheLoopFindsATiltThatWasNotTold) {
+TEST(SlowCampaignOfRecords, TheLoopFindsATiltThatWasNotTold) {
   Case question = sand_study({});
   std::vector<RecordedRun> runs;
   std::mt19937_64 random(5);
@@ -145,7 +145,7 @@ TEST(SlowToldCampaign, TheLoopFindsATiltThatWasNotTold) {
         run.answer = answer, run.packing = static_cast<std::uint64_t>(packing);
         runs.push_back(run);
       }
-  const ToldCampaign told =
+  const CampaignOfRecords told =
       tell_campaign(question.scenario, runs, {.name = "tilted", .hide = {"longitudinal_incline"}});
   LoopOptions options;
   options.validate = false;

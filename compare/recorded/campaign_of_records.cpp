@@ -1,4 +1,4 @@
-#include "compare/recorded/told_campaign.hpp"
+#include "compare/recorded/campaign_of_records.hpp"
 
 #include <fmt/core.h>
 
@@ -68,14 +68,15 @@ std::vector<std::string> things_to_hide() {
   return things;
 }
 
-ToldCampaign tell_campaign(const Scenario& scenario, const std::vector<RecordedRun>& runs, const Telling& telling) {
+CampaignOfRecords tell_campaign(const Scenario& scenario, const std::vector<RecordedRun>& runs,
+                                const Telling& telling) {
   check_words(telling.hide);
   if (!scenario.soil.semi_empirical)
     throw InputError(
         fmt::format("soil '{}' has no semi-empirical values, which a campaign declares\n  hint: soilbin "
                     "bevameter gives them from the grains; --soil takes the file",
                     scenario.soil.name));
-  ToldCampaign told;
+  CampaignOfRecords told;
   if (!runs.empty()) told.campaign = empty_campaign(scenario, telling, runs.front().answer.at);
   const bool sideways = std::any_of(runs.begin(), runs.end(), has_side);
   std::vector<OperatingCondition> setpoints;

@@ -1,0 +1,60 @@
+// What the command says to words that it can't take: ours, never those of the library that reads them.
+#include <gmock/gmock.h>
+
+#include <utility>
+
+#include "cli/command.hpp"
+
+namespace soilbin::cli::test {
+namespace {
+
+using testing::AnyOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+TEST(CommandWords, AreRefusedInOurs) {
+  const std::pair<const char*, const char*> refused[] = {
+      {"estimate --soil dry-sand --load 1N --load 2N", "--load is given more than once"},
+      {"estimate --slip", "--slip needs a value (NUMBER|%)"},
+      {"estimate a.yaml b.yaml", "'b.yaml' is one word too many"},
+      {"estimate a b c", "these words are too many: "},
+      {"run", "'study' is missing"},
+      {"loop made-lesson --seed -1", "--seed: expected a whole number, such as 1, not '-1'"},
+      {"loop made-lesson --folds abc", "--folds: expected a whole number from 2 to 50, not 'abc'"},
+      {"loop made-lesson --folds 51", "--folds: expected a whole number from 2 to 50, not '51'"},
+      {"calibrate paper-sand --ask 0", "--ask: expected a whole number of at least 1, not '0'"},
+      {"calibrate paper-sand --seed 1.5", "--seed: expected a whole number of at least 1, not '1.5'"},
+      {"calibrate paper-sand --decide-at load=1N..2N", "--decide-at needs --decide"},
+      {"run rover-slip --record a.json --recorded b.json", " exclude each other"},
+      {"--nope", "'--nope' stands where a command is to be"},
+      {"estimate --soil dry-sand --radius 1m --width 1m --load 1kN --slip 0.1 --density 1600kg/m^3+-100kg/m^3",
+       "--density: a density has no standard deviation here"},
+  };
+  for (const auto& [words, said] : refused) {
+    const Outcome r = soilbin(words);
+    EXPECT_EQ(r.status, 2) << words;
+    EXPECT_THAT(r.err, StartsWith("soilbin: ")) << words;
+    EXPECT_THAT(r.err, HasSubstr(said)) << words;
+    EXPECT_THAT(r.err, HasSubstr("\n  hint: ")) << words;
+    EXPECT_THAT(r.err, Not(AnyOf(HasSubstr("At Most"), HasSubstr("Could not convert"), HasSubstr("not in range"),
+                                 HasSubstr("required"), HasSubstr("expected: "))))
+        << words;
+    EXPECT_LT(r.err.size(), 300U) << words;
+  }
+}
+
+TEST(CommandWords, AHintIsGivenOnce) {
+  const std::string err = soilbin("run rover-slip --plot x.jpg").err;
+  EXPECT_THAT(err, HasSubstr("hint: .svg, .png or .pdf"));
+  EXPECT_EQ(err.find("hint: "), err.rfind("hint: ")) << err;
+}
+
+TEST(CommandWords, ALinkedPageIsAFileOfBoundedSize) {
+  const Outcome endless = soilbin("report rover-slip --link /dev/zero --output /dev/null", "timeout 20 ");
+  EXPECT_EQ(endless.status, 2) << endless.err;
+  EXPECT_THAT(endless.err, HasSubstr("/dev/zero: is not a regular file"));
+}
+
+}  // namespace
+}  // namespace soilbin::cli::test
