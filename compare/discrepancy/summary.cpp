@@ -68,7 +68,7 @@ Clause tally_clause(const Comparison& comparison, const Tally& t) {
 
 /// How many rows differ at all, and where the sides are widest apart.
 Clause in_short(const Comparison& comparison, const Tally& widest) {
-  Clause clause{"in short", "", {}, {}};
+  Clause clause{"In short", "", {}, {}};
   std::size_t judged = 0;
   for (std::size_t i = 0; i < comparison.differences.size(); ++i) {
     judged += comparison.differences[i].finding != DifferenceFinding::not_judged;
@@ -82,7 +82,8 @@ Clause in_short(const Comparison& comparison, const Tally& widest) {
   clause.text += fmt::format("Widest apart is the {}, of {} and {}: {} of {}, root mean square.",
                              channel_views[widest.channel].title, comparison.sides[widest.side].label,
                              comparison.sides[widest.reference].label, percent(widest.rms_share), measure_of(widest));
-  clause.rows.push_back(widest.worst);
+  if (std::find(clause.rows.begin(), clause.rows.end(), widest.worst) == clause.rows.end())
+    clause.rows.push_back(widest.worst);
   return clause;
 }
 
@@ -93,7 +94,7 @@ constexpr double joint_level = 0.01;  // p below which more is left than noise
 
 Clause joint_clause(const Comparison& comparison, const JointTest& test) {
   const std::string side = comparison.sides[test.side].label, reference = comparison.sides[test.reference].label;
-  Clause clause{"all together", "", {}, {"joint test"}};
+  Clause clause{"All together", "", {}, {"joint test"}};
   const std::string p = test.p_value < 1e-300 ? "p < 1e-300" : fmt::format("p = {:.2g}", test.p_value);
   const std::string errors =
       std::isinf(test.freedom) ? "" : fmt::format("; the noise rests on {:.0f} degrees of freedom", test.freedom);
@@ -117,7 +118,7 @@ std::optional<Clause> soil_clause(const Comparison& comparison) {
   }
   std::string share = fmt::format("{:.0f} %", 100 * most);
   if (std::lround(100 * least) != std::lround(100 * most)) share = fmt::format("{:.0f} to {}", 100 * least, share);
-  return Clause{"the soil",
+  return Clause{"The soil",
                 fmt::format("A better known soil could explain {} of the squared difference: that much goes away with "
                             "other soil values within their declared bands. {}.",
                             share,
@@ -139,7 +140,7 @@ std::vector<Clause> cause_clauses(const Comparison& comparison) {
     const auto part = widest_part(comparison, t.side, t.reference, worst.condition);
     if (!part) continue;
     clauses.push_back(
-        {"why",
+        {"Why",
          fmt::format("At {} the pull of {} and {} is {} apart; the widest part of that is the {}: {} N "
                      "against {} N.",
                      in_words(comparison.question.study.conditions[worst.condition]), comparison.sides[t.side].label,
@@ -165,7 +166,7 @@ Clause chance_clause(const Comparison& comparison) {
                                         " Errors that rest on few re-runs count more (Student's t): {:.3g} of them at "
                                         "{:.3g} degrees of freedom, the fewest here.",
                                         counting_errors(fewest), fewest);
-  return {"how sure",
+  return {"How sure",
           fmt::format("A row counts as a difference beyond two standard errors of both sides together and beyond the "
                       "scatter of one run.{} Of {} rows about {:.0f} would pass the errors by chance alone.",
                       student, counted, std::ceil(chance_level * static_cast<double>(counted))),
@@ -187,7 +188,7 @@ std::vector<Clause> doubt_clauses(const Comparison& comparison) {
         if (told.insert(doubt).second && first.empty()) first = doubt;
     }
     if (doubted == 0) continue;
-    clauses.push_back({"limits",
+    clauses.push_back({"Limits",
                        fmt::format("{}: {} of {} points carry a doubt ({}{}).", side.label, doubted, with_result, first,
                                    told.size() > 1 ? fmt::format("; and {} more, in the table", told.size() - 1) : ""),
                        {},

@@ -123,7 +123,7 @@ struct BoxSearch {
   }
 };
 
-std::string bare(const Factor& factor, double value) { return number(value * per_unit(factor.unit)); }
+std::string bare(const Factor& factor, double value) { return fmt::format("{:.3g}", value * per_unit(factor.unit)); }
 
 std::string with_unit(const Factor& factor, double value) {
   return bare(factor, value) + (factor.unit == "-" ? "" : " " + factor.unit);

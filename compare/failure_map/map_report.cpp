@@ -45,12 +45,14 @@ std::string rows_sentence(const MapStory& story) {
     answered += row.difference.has_value();
     if (row.beyond(tolerance)) ++(row.difference->value > 0 ? high : low);
   }
-  std::string text = fmt::format(
-      "{}: of {} conditions run, {} are beyond {:.3g} % of the load and two standard errors: the analytic pull is too "
-      "high at {}, too low at {}",
-      story.question.name, answered, high + low, 100 * tolerance, high, low);
+  const std::string side = low == 0    ? "too high at all of them"
+                           : high == 0 ? "too low at all of them"
+                                       : fmt::format("too high at {}, too low at {}", high, low);
+  std::string text = fmt::format("{}: of {} conditions run, {} are beyond {:.3g} % of the load and two standard errors",
+                                 story.question.name, answered, high + low, 100 * tolerance);
+  if (high + low > 0) text += ": the analytic pull is " + side;
   if (answered < story.rows.rows.size())
-    text += fmt::format("; {} more have no answer of one of the models", story.rows.rows.size() - answered);
+    text += fmt::format("; at {} more one of the models has no answer", story.rows.rows.size() - answered);
   if (const FailureRow* worst = worst_of(story.rows))
     text += fmt::format("; farthest off is {} % of the load, at {}", in_percent(*worst->difference),
                         factors_in_words(story.question.factors, worst->values));
@@ -185,14 +187,16 @@ std::vector<std::pair<std::string, std::string>> opening(const MapStory& story) 
     boxes += (boxes.empty() ? "" : " Also ") +
              (clause.text.starts_with(before) ? clause.text.substr(before.size()) : clause.text) + ".";
   parts.emplace_back(
-      "Trust it", story.clauses.empty()
-                      ? fmt::format("Nowhere for sure: no box of conditions is within {:.3g} % of the load with 95 % "
-                                    "confidence.",
-                                    tolerance)
-                      : fmt::format("To {:.3g} % of the load, with 95 % confidence, {}", tolerance, boxes));
+      "Trust it",
+      story.clauses.empty()
+          ? fmt::format("Nowhere for sure: no box of conditions is within {:.3g} % of the load with 95 % "
+                        "confidence.",
+                        tolerance)
+          : fmt::format("The estimate is within {:.3g} % of the load of what grains give, with 95 % confidence, {}",
+                        tolerance, boxes));
   const double beyond = 100 * share_beyond(story);
   parts.emplace_back("Do not trust it",
-                     fmt::format("By the map {:.0f} % of the conditions asked for are off by more. {}", beyond,
+                     fmt::format("By the map it is off by more in {:.0f} % of the conditions asked for. {}", beyond,
                                  capital(rows_sentence(story))));
   std::string sure = fmt::format(
       "The map predicts a condition that it has not seen to {:.1f} % of the load (root mean "

@@ -105,6 +105,8 @@ class Page {
     fill();
     close_fold();
   }
+  /// What the page says first, for who links to it; without it the summary's first sentence.
+  void describe(const std::string& text);
   /// HTML that the caller answers for.
   void raw(const std::string& html) { body_ += html; }
 
@@ -114,8 +116,6 @@ class Page {
   void open_fold(const std::string& title, const std::string& anchor);
   void close_fold();
   std::string scripts() const;
-
-  void describe(const std::string& text);
 
   std::string title_, subtitle_, body_, extra_scripts_;
   std::string description_;                                    ///< what the page says first, for who links to it

@@ -199,10 +199,10 @@ std::vector<std::pair<std::string, std::string>> opening(const Reproduction& rep
     const auto asked = static_cast<long>(rows.size()) - count(FindingVerdict::no_data);
     sentences.emplace_back(
         reproduction.labels[k],
-        fmt::format("shows {} of {} findings, contradicts {} and leaves {} open{}.", count(FindingVerdict::shown),
+        fmt::format("{} of {} findings are shown, {} contradicted and {} left open{}.", count(FindingVerdict::shown),
                     asked, count(FindingVerdict::contradicted), count(FindingVerdict::not_shown),
                     asked < static_cast<long>(rows.size())
-                        ? fmt::format("; of {} more it has no answer", rows.size() - asked)
+                        ? fmt::format("; to {} more it has no answer", rows.size() - asked)
                         : ""));
   }
   std::string contradicted;
@@ -287,7 +287,9 @@ void add_finding(Page& page, const ReproducedFinding& row, const std::vector<std
 std::string reproduction_page(const Reproduction& reproduction, const PageAbout& about, const Libraries& libraries) {
   Page page(about.title, reproduction.findings.source);
   page.enliven(libraries);
-  page.summary(opening(reproduction));
+  const auto sentences = opening(reproduction);
+  if (!sentences.empty()) page.describe(sentences.front().first + ": " + sentences.front().second);
+  page.summary(sentences);
   page.section("Findings against models", "matrix");
   page.raw(marked_html(findings_matrix(reproduction)));
   page.section("How it is judged", "method");

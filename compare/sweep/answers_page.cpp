@@ -56,13 +56,13 @@ std::string force(const Estimate& pull) {
   return number(pull, kilo ? 1e-3 : 1.0) + (kilo ? " kN" : " N");
 }
 
-/// "The most it can pull rises from 817 N (2 kN) to 2.06 kN (8 kN)."
+/// "The largest pull rises from 817 N (2 kN) to 2.06 kN (8 kN)."
 std::string change(const Peak& first, const Peak& last) {
   const double a = first.pull->drawbar_pull.value, b = last.pull->drawbar_pull.value;
   if (std::abs(b - a) < 0.01 * std::abs(a))
-    return fmt::format("From {} to {} the most it can pull hardly changes.", first.label, last.label);
-  return fmt::format("The most it can pull {} from {} ({}) to {} ({}){}.", b > a ? "rises" : "falls", force(a),
-                     first.label, force(b), last.label, b < 0.0 ? ", where it has to be pushed" : "");
+    return fmt::format("From {} to {} the largest pull hardly changes.", first.label, last.label);
+  return fmt::format("The largest pull {} from {} ({}) to {} ({}){}.", b > a ? "rises" : "falls", force(a), first.label,
+                     force(b), last.label, b < 0.0 ? ", where it has to be pushed" : "");
 }
 
 std::string largest_pull(const Peak& peak) {

@@ -133,7 +133,7 @@ TEST_F(Pair, EveryClauseOfTheSummaryHasItsRows) {
     EXPECT_FALSE(clause.rows.empty() && clause.evidence.empty()) << clause.text;
     for (const std::size_t row : clause.rows) EXPECT_LT(row, comparison.differences.size());
   }
-  EXPECT_EQ(clauses[0].about, "in short");
+  EXPECT_EQ(clauses[0].about, "In short");
   const std::size_t first = opening(comparison).size();
   EXPECT_EQ(clauses[first].about, "drawbar pull") << "the largest difference comes first";
   EXPECT_THAT(clauses[first].text, HasSubstr("30 % of the load"));

@@ -106,7 +106,7 @@ class Pages(unittest.TestCase):
 
     def test_a_cell_of_the_reproduction_opens_its_figure(self):
         self.show("reproduction")
-        self.assertIn("shows 37 of 48 findings", self.js("document.querySelector('.summary').textContent"))
+        self.assertIn("37 of 48 findings are shown", self.js("document.querySelector('.summary').textContent"))
         self.assertEqual(self.js("document.querySelectorAll('.marked tbody tr').length"), 48)
         self.assertTrue(self.js("[...document.querySelectorAll('.marked td a')].every("
                                 "a => document.getElementById(a.hash.slice(1)).matches('details'))"))
