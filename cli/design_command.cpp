@@ -61,7 +61,7 @@ void add_design(CLI::App& app, Session& session) {
   command->add_option("campaign", asked->campaign, "a campaign of the library, or its folder; it needs no runs yet")
       ->type_name("CAMPAIGN")
       ->required();
-  command->add_option("--runs", asked->runs, "number of runs to make; 24")->type_name("N")->check(CLI::Range(4, 400));
+  command->add_option("--runs", asked->runs, "number of runs to make; 24")->type_name("N")->check(whole_number(4, 400));
   add_limits_of_the_rig(*command, asked->limits,
                         "range that the rig can reach, where it is not that of the runs made; repeatable");
   command->add_option("--effect", asked->effects, "effect to tell apart; repeatable; all that these ranges can show")
