@@ -214,10 +214,13 @@ void RollingWheel::refuse(const Prepared& p, double highest, ContactPatch& patch
   const double load = p.around.normal_load, carried = vertical(p, patch), most = share_of(highest) * load;
   if (!std::isfinite(carried))
     throw NoSolution("the wheel or its load is too large or too small for the model's numbers");
+  const auto force = [](double newton) {
+    return std::abs(newton) < 1e4 ? fmt::format("{:.4g} N", newton) : fmt::format("{:.4g} kN", newton / 1000);
+  };
   throw NoSolution(fmt::format(
-      "the wheel would sink deeper than {} of its radius: there the soil carries {:.4g} N of {:.4g} N{}",
-      max_sinkage_share, carried, load,
-      most > carried + 1e-6 * load ? fmt::format(", and at most {:.4g} N at any depth above", most) : std::string()));
+      "the wheel would sink deeper than {} of its radius: there the soil carries {} of {}{}", max_sinkage_share,
+      force(carried), force(load),
+      most > carried + 1e-6 * load ? fmt::format(", and at most {} at any depth above", force(most)) : std::string()));
 }
 
 void RollingWheel::settle(const Prepared& p, RolledWheel& wheel) const {

@@ -177,8 +177,8 @@ compare::Sheet limits_sheet(const Case& question, const std::vector<LimitsAnswer
       sheet.plots[plot].series.push_back(std::move(series));
     };
     add(0, "", 0, [](const SlopeRow& row) { return row.best.drawbar_pull; });
-    add(1, "while it travels", 0, [](const SlopeRow& row) { return row.slip ? 100 * *row.slip : not_a_number; });
-    add(1, "where it pulls most", 1, [](const SlopeRow& row) { return 100 * row.best.slip; });
+    add(1, "to climb this slope", 0, [](const SlopeRow& row) { return row.slip ? 100 * *row.slip : not_a_number; });
+    add(1, "of the largest pull", 1, [](const SlopeRow& row) { return 100 * row.best.slip; });
   }
   return sheet;
 }

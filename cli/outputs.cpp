@@ -61,7 +61,7 @@ int Outputs::status(int so_far) const { return complete_ ? so_far : failed; }
 CLI::Validator drawing_file() {
   const auto problem = [](std::string& name) -> std::string {
     if (drawing_format_of(name) == nullptr)
-      return fmt::format("'{}' has no ending that tells a format\n  hint: .svg, .png or .pdf", clipped(name));
+      return fmt::format("'{}' names no format by its ending\n  hint: .svg, .png or .pdf", clipped(name));
     return writable_file()(name);
   };
   return {problem, ""};

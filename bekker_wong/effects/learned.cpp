@@ -73,8 +73,9 @@ EffectForm form_of(const LearnedJoint& joint, const LearnedFunction& function) {
     const std::string name(variable.name), unit(variable.unit);
     form.form += (v == 0 ? "_by_" : "_and_") + name;
     form.parameters.push_back(
-        {name + "_from", unit, 0.0, -widest_range, widest_range, "least that it was learned from"});
-    form.parameters.push_back({name + "_to", unit, 0.0, -widest_range, widest_range, "most that it was learned from"});
+        {name + "_from", unit, 0.0, -widest_range, widest_range, "smallest value that it was learned from"});
+    form.parameters.push_back(
+        {name + "_to", unit, 0.0, -widest_range, widest_range, "largest value that it was learned from"});
   }
   for (std::size_t k = 0; k < function.degrees.size(); ++k) {
     std::string meaning = "weight of";

@@ -139,9 +139,10 @@ std::vector<EffectForm> slip_sinkage_forms() {
            "across over the way rolled, held below 100 (driven x = s/(1 - s)), d_b for d where braked; stresses "
            "scaled to carry the load",
        .source = "stated: after Reece 1965, Proc. IMechE 180(2A), his h s/(1 - s) taken for sliding in any direction",
-       .parameters = {{"h", "mm", 0.015, 0.0, 0.2, "length of soil that sliding digs away"},
-                      {"d", "-", 0.3, 0.02, 1.0, "most that a driven tread digs, over the radius", {}, 0.2},
-                      {"d_b", "-", 0.4, 0.02, 1.0, "most that a braked tread digs, over the radius", {}, 0.2}},
+       .parameters =
+           {{"h", "mm", 0.015, 0.0, 0.2, "length of soil that sliding digs away"},
+            {"d", "-", 0.3, 0.02, 1.0, "depth that a driven tread digs at most, as a share of the radius", {}, 0.2},
+            {"d_b", "-", 0.4, 0.02, 1.0, "depth that a braked tread digs at most, as a share of the radius", {}, 0.2}},
        .steady_only = settles,
        .make = maker<Sliding>()},
   };

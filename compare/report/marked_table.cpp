@@ -12,10 +12,12 @@ bool to_the_left(const MarkedTable& table, std::size_t column) {
 }
 
 std::string marked_cell(const MarkedCell& cell, bool left) {
-  constexpr std::size_t long_text = 48;
+  constexpr std::size_t phrase = 24, long_text = 48;
   std::string classes = tone_words[static_cast<std::size_t>(cell.tone)];
   if (left) classes += classes.empty() ? "t" : " t";
-  if (cell.text.size() + cell.note.size() > long_text) classes += classes.empty() ? "wide" : " wide";
+  const std::size_t length = cell.text.size() + cell.note.size();
+  const std::string width = length > long_text ? "wide" : left && length > phrase ? "phrase" : "";
+  if (!width.empty()) classes += classes.empty() ? width : " " + width;
   std::string inside = escaped(cell.text);
   if (!cell.anchor.empty()) inside = fmt::format("<a href=\"#{}\">{}</a>", escaped(cell.anchor), inside);
   if (!cell.note.empty()) inside += fmt::format(" <small>{}</small>", escaped(cell.note));
