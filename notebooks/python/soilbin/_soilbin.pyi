@@ -1551,10 +1551,10 @@ class SoilBin:
         """
     def record(self, case: Case, file: Union[str, PathLike[str]], packings: int = ..., progress: Optional[Told] = ..., half_step: bool = ...) -> Record:
         """Runs the conditions of a case's study, each on so many packings from the bin's on, and keeps each run in the
-        file as it is finished; what is there isn't run again. half_step: first the hardest condition also at half
-        the time step, as soilbin run --half-step yes does. Gives the record. What grains can't answer is a run with
-        its error. Raises InputError for a file of other inputs, which it names, and RuntimeError where the half
-        step's answer differs.
+        file as it is finished; what is there isn't run again. half_step: first the hardest condition also at half the
+        time step, as soilbin run --half-step yes does. Gives the record. What grains can't answer is a run with its
+        error. Raises InputError for a file of other inputs, which it names, and RuntimeError where the half step's
+        answer differs.
         """
     def inputs(self, scenario: Scenario) -> list[tuple[str, str]]:
         """Everything that a run follows from beside condition and packing, as names and values."""

@@ -91,9 +91,9 @@ def run_loop(campaign: Union[Campaign, str], *, folds: int = 5, seed: int = 1, v
              progress: Progress = "shown") -> LoopAnswer:
     """What the model lacks: residual, cause, effect added, error before and after (docs/guide/loop.md).
 
-    folds: parts into which conditions are dealt for the honest errors, 2 .. 50. validate: redo the whole procedure in
-    each fold; without it those errors are absent. threads change the time, never the answer. Raises InputError for a
-    campaign that can't be used; one too small to say anything is a verdict.
+    folds: parts into which the conditions are divided, each predicted from the others, 2 .. 50. validate: redo the whole
+    procedure in each fold; without it those errors are absent. threads change the time, never the answer. Raises
+    InputError for a campaign that can't be used; one too small to say anything is a verdict.
     """
     known = find_campaign(campaign) if isinstance(campaign, str) else campaign
     return _soilbin.run_loop(known, folds, seed, validate, threads, told_to(progress))
