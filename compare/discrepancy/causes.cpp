@@ -74,7 +74,7 @@ std::optional<BudgetGap> widest_part(const Comparison& comparison, std::size_t s
 std::vector<SinkageSplit> sinkage_splits(const Comparison& comparison) {
   constexpr double no_slip = 1e-6;
   const std::vector<OperatingCondition>& conditions = comparison.question.study.conditions;
-  const Curves curves = curves_against_slip(conditions, Spread::exact);
+  const Curves& curves = comparison.curves;
   std::vector<SinkageSplit> splits;
   for (std::size_t s = 0; s < comparison.sides.size(); ++s) {
     std::map<std::size_t, double> at_rest;

@@ -73,7 +73,8 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<Side
 
 Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& choices, std::vector<Side> sides) {
   std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.kind < b.kind; });
-  Comparison comparison{question, std::move(sides), {}, {}, {}, {}};
+  Comparison comparison{
+      question, curves_against_slip(question.study.conditions, Spread::exact), std::move(sides), {}, {}, {}, {}};
   for (const auto& [side, reference] : pairs_of(comparison.sides)) {
     const std::vector<Difference> rows =
         differences(comparison.sides, side, reference, question.study.conditions, question.scenario.tire);

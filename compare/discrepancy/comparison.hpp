@@ -9,6 +9,7 @@
 
 #include "compare/discrepancy/difference.hpp"
 #include "compare/discrepancy/joint_test.hpp"
+#include "compare/sweep/varying.hpp"
 
 namespace soilbin::compare {
 
@@ -25,6 +26,7 @@ struct Tally {
 
 struct Comparison {
   Case question;
+  Curves curves;                          ///< the question's conditions, sorted against slip
   std::vector<Side> sides;                ///< analytic first, then grains, then measured
   std::vector<Difference> differences;    ///< by pair, channel, condition
   std::vector<Tally> tallies;             ///< by pair, channel

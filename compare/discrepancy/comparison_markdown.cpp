@@ -89,7 +89,7 @@ void add_causes(Markdown& md, const Comparison& comparison) {
     md.table(budget_table(comparison, condition));
   }
   md.figure("stresses", stress_sheet(comparison, condition));
-  for (std::size_t c = 0; c < curve_names(comparison).size(); ++c)
+  for (std::size_t c = 0; c < comparison.curves.labels.size(); ++c)
     md.figure(fmt::format("contact-{}", c + 1), contact_sheet(comparison, c));
   if (const HtmlTable table = sinkage_table(comparison); !table.rows.empty()) md.table(table);
 }
@@ -106,7 +106,7 @@ void write_markdown(const fs::path& folder, const Comparison& comparison, const 
   for (const std::string& doubt : about.page.doubts) md.text("- " + plain(doubt));
   md.text("## Curves");
   md.figure("overview", overview_sheet(comparison));
-  for (std::size_t c = 0; c < curve_names(comparison).size(); ++c)
+  for (std::size_t c = 0; c < comparison.curves.labels.size(); ++c)
     md.figure(fmt::format("curve-{}", c + 1), curve_sheet(comparison, c));
   add_differences(md, comparison);
   add_causes(md, comparison);

@@ -52,7 +52,7 @@ void add_opening(Page& page, const Comparison& comparison) {
 
 void add_curves(Page& page, const Comparison& comparison, bool coarse_grains) {
   page.section("Curves", "curves");
-  const std::vector<std::string> names = curve_names(comparison);
+  const std::vector<std::string>& names = comparison.curves.labels;
   std::vector<Choice> parts;
   for (std::size_t c = 0; c < names.size(); ++c)
     parts.push_back({named(names[c]), [&page, &comparison, c, coarse_grains] {
@@ -119,7 +119,7 @@ void add_causes(Page& page, const Comparison& comparison) {
   const auto first = std::find_if(parts.begin(), parts.end(), [&](const Choice& c) { return c.name == telling; });
   page.choices("Condition", parts, first == parts.end() ? 0 : static_cast<std::size_t>(first - parts.begin()));
   page.subsection("Contact and sinkage");
-  const std::vector<std::string> names = curve_names(comparison);
+  const std::vector<std::string>& names = comparison.curves.labels;
   std::vector<Choice> contacts;
   for (std::size_t c = 0; c < names.size(); ++c)
     contacts.push_back({named(names[c]), [&page, &comparison, c] {

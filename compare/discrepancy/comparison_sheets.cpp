@@ -20,13 +20,9 @@ namespace {
 
 using Reader = std::function<Estimate(const SidePoint&, std::size_t condition)>;
 
-Curves curves_of(const Comparison& comparison) {
-  return curves_against_slip(comparison.question.study.conditions, Spread::exact);
-}
-
 /// The conditions of one curve in rising order of slip.
 std::vector<std::size_t> members_of(const Comparison& comparison, std::size_t curve) {
-  const Curves curves = curves_of(comparison);
+  const Curves& curves = comparison.curves;
   std::vector<std::size_t> members;
   for (std::size_t i = 0; i < curves.curve_of.size(); ++i)
     if (curves.curve_of[i] == curve) members.push_back(i);
@@ -131,17 +127,15 @@ Sheet overview_sheet(const Comparison& comparison) {
     study.push_back(std::move(answers));
   }
   Sheet sheet = study_sheet(comparison.question, study);
-  const std::size_t curves = curve_names(comparison).size();  // a plot's series go by model, then by curve
+  const std::size_t curves = comparison.curves.labels.size();  // a plot's series go by model, then by curve
   for (Plot& plot : sheet.plots)
     for (std::size_t k = 0; k < plot.series.size(); ++k)
       plot.series[k].mark = mark_of(comparison.sides[k / curves].kind);
   return sheet;
 }
 
-std::vector<std::string> curve_names(const Comparison& comparison) { return curves_of(comparison).labels; }
-
 Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_grains) {
-  Sheet sheet{curve_names(comparison)[curve], {}, Palette::named};
+  Sheet sheet{comparison.curves.labels[curve], {}, Palette::named};
   const std::vector<std::size_t> members = members_of(comparison, curve);
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const ChannelView& channel = channel_views[c];
@@ -167,7 +161,7 @@ Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_g
 }
 
 Sheet contact_sheet(const Comparison& comparison, std::size_t curve) {
-  Sheet sheet{curve_names(comparison)[curve], {}, Palette::named};
+  Sheet sheet{comparison.curves.labels[curve], {}, Palette::named};
   const std::vector<std::size_t> members = members_of(comparison, curve);
   const std::pair<const char*, double TractionResult::*> angles[] = {
       {"Entry angle [deg]", &TractionResult::entry_angle},
@@ -204,7 +198,7 @@ Sheet stress_sheet(const Comparison& comparison, std::size_t condition) {
 }
 
 HeatMap heat_map_of(const Comparison& comparison, const Tally& tally) {
-  const Curves curves = curves_of(comparison);
+  const Curves& curves = comparison.curves;
   const auto& conditions = comparison.question.study.conditions;
   std::vector<double> slips;
   for (const OperatingCondition& at : conditions)

@@ -12,9 +12,6 @@ namespace soilbin::compare {
 /// All curves of all sides, as study_sheet draws them; grains with points on their lines, measurements as points.
 Sheet overview_sheet(const Comparison& comparison);
 
-/// The study's curves against slip, by curves_against_slip's labels ("" alone).
-std::vector<std::string> curve_names(const Comparison& comparison);
-
 /// One curve: each channel against slip, a colour for each side, with bands of one standard error. What limits grains
 /// is marked: in the legend where it holds for all their points (one packing each, grains too coarse), else and for a
 /// negative sinkage at the points.

@@ -131,7 +131,7 @@ HtmlTable sinkage_table(const Comparison& comparison) {
                   {},
                   {true, true}};
   const auto& conditions = comparison.question.study.conditions;
-  const Curves curves = curves_against_slip(conditions, Spread::exact);
+  const Curves& curves = comparison.curves;
   std::map<std::pair<std::size_t, std::size_t>, SinkageSplit> last;  // by curve, side
   for (const SinkageSplit& split : sinkage_splits(comparison)) {
     const auto [place, fresh] = last.insert({{curves.curve_of[split.condition], split.side}, split});

@@ -39,10 +39,13 @@ std::string by_how_much(const Scenario& scenario, const std::vector<ModelAnswers
     if (!error.known() || (told && std::abs(error.drawbar_pull.value) <= std::abs(told->drawbar_pull.value))) return;
     told = std::move(error), told_at = answer.at;
   });
-  const std::string by = ". By the study of grain sizes (docs/lab/grain-size.md) ";
+  constexpr std::string_view study_of_sizes = "the study of grain sizes (docs/lab/grain-size.md)";
   if (told)
-    return by + fmt::format("they change {} against infinitely fine ones ({})", in_words(*told), in_words(told_at));
-  return beyond.empty() ? "" : by + "nothing is known of how much, for it doesn't reach here: " + beyond;
+    return fmt::format(" By {} they change {} against infinitely fine ones ({}).", study_of_sizes, in_words(*told),
+                       in_words(told_at));
+  return beyond.empty()
+             ? ""
+             : fmt::format(" By how much that changes the answer, {} does not say: {}.", study_of_sizes, beyond);
 }
 
 std::string coarse(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
@@ -59,14 +62,12 @@ std::string coarse(const Scenario& scenario, const std::vector<ModelAnswers>& st
     lengths += fmt::format(", {:.2g} in a lug's height", *counts.lug);
     wanted += fmt::format(", {}", grains_wanted_in_a_lug);
   }
-  std::string text = fmt::format("{} for this wheel: of their mean diameter, {:.3g} mm, {}; at least {} are wanted",
-                                 coarse_grains, 1000 * counts.diameter, lengths, wanted);
-  if (few)
-    text +=
-        ". A few grains then carry it: pull and sinkage scatter from packing to packing (--packings tells how much) "
-        "and are those of this grain size, not of sand";
-  if (low_lugs) text += ". Lugs lower than a grain act as roughness, they don't dig";
-  return text + by_how_much(scenario, study);
+  std::string text = fmt::format("{} for this wheel.{} Of their mean diameter, {:.3g} mm, {}; at least {} are wanted.",
+                                 coarse_grains, by_how_much(scenario, study), 1000 * counts.diameter, lengths, wanted);
+  if (few) text += " Answers of so few grains scatter from packing to packing (--packings tells how much).";
+  if (low_lugs) text += " Lugs lower than a grain act as roughness: they do not dig.";
+  text.pop_back();  // a doubt ends without a full stop
+  return text;
 }
 
 /// The angular speed below which two mean grains that 100 N press together are damped by I*/dt instead of by mu_r.
