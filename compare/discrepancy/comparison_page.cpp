@@ -27,11 +27,12 @@ std::vector<std::pair<std::string, std::string>> evidence_of(const Comparison& c
                        fmt::format("{} row{}", clause.rows.size(), clause.rows.size() == 1 ? "" : "s"));
   }
   for (const std::string& evidence : clause.evidence) {
-    const std::string anchor = evidence == "budget"            ? "why"
-                               : evidence == "the loop"        ? "loop"
-                               : evidence == "rule"            ? "method"
-                               : evidence == "table of points" ? "points"
-                                                               : "tallies";
+    const std::string anchor = evidence == "budget"             ? "why"
+                               : evidence == "the loop"         ? "loop"
+                               : evidence == "rule"             ? "method"
+                               : evidence == "table of points"  ? "points"
+                               : evidence == "what is doubtful" ? "doubts"
+                                                                : "tallies";
     links.emplace_back(anchor, evidence);
   }
   return links;
@@ -171,8 +172,9 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
        "conditions together; the joint test takes that in.",
        "Grains: block averages of each run, or the spread between packings where that is larger. A point from one "
        "packing says nothing of that spread, and its row carries the doubt.",
-       "Convergence of the balance: 1e-14 of the load; of its quadrature 1e-9. Of grains with their size, the time "
-       "step and the bed: not part of a comparison; see docs/guide/soil-bin.md.",
+       "Convergence of the balance: 1e-14 of the load; of its quadrature 1e-9. Of grains with their size: by the "
+       "study of grain sizes (docs/lab/grain-size.md), where it reaches; with the time step and the bed: not part of a "
+       "comparison; see docs/guide/soil-bin.md.",
        "Measured: the noise of one run, pooled over all setpoints that were run twice or more, over the root of the "
        "number of runs near a condition. Slips and forces are turned to the study's definitions by each run's yaw."});
   page.folded("The whole comparison in sentences", [&] {

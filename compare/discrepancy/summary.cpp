@@ -9,6 +9,7 @@
 #include <set>
 
 #include "compare/discrepancy/causes.hpp"
+#include "compare/doubts/grain_resolution.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
@@ -129,6 +130,37 @@ std::optional<Clause> soil_clause(const Comparison& comparison) {
                 {"joint test"}};
 }
 
+/// What the size of the grains does to their own pull, where the study of it tells; nothing where that is little.
+std::optional<Clause> grains_clause(const Comparison& comparison) {
+  constexpr double worth_a_line = 0.01;  // of the load (chosen)
+  const Scenario& scenario = comparison.question.scenario;
+  if (!scenario.soil.granular) return std::nullopt;
+  double sum = 0.0, squares = 0.0;
+  std::size_t told = 0, with_result = 0;
+  for (const Side& side : comparison.sides)
+    for (std::size_t i = 0; i < side.points.size(); ++i) {
+      if (side.kind != SideKind::grains || !side.points[i].result) continue;
+      ++with_result;
+      const OperatingCondition& at = comparison.question.study.conditions[i];
+      const ResolutionError error = resolution_error(scenario, at, side.points[i].result->sinkage.value);
+      if (!error.known()) continue;
+      const double share = error.drawbar_pull.value / at.load;
+      ++told, sum += share, squares += share * share;
+    }
+  if (told == 0) return std::nullopt;
+  const double rms = std::sqrt(squares / static_cast<double>(told));
+  if (rms < worth_a_line) return std::nullopt;
+  const GranularSoil& grains = *scenario.soil.granular;
+  return Clause{"The grains",
+                fmt::format("Grains of {:.3g} mm are coarse for this wheel: their own drawbar pull is estimated to be "
+                            "too {} by {} of the load against infinitely fine ones (root mean square of the {} of {} "
+                            "points that the study of grain sizes reaches).",
+                            1000 * (grains.radius_min + grains.radius_max), sum > 0 ? "large" : "small", percent(rms),
+                            told, with_result),
+                {},
+                {"what is doubtful"}};
+}
+
 }  // namespace
 
 /// Where the widest gap in pull comes from.
@@ -215,6 +247,7 @@ std::vector<Clause> opening(const Comparison& comparison) {
   std::vector<Clause> clauses;
   if (!comparison.tallies.empty()) clauses.push_back(in_short(comparison, *widest_first(comparison).front()));
   if (auto soil = soil_clause(comparison)) clauses.push_back(std::move(*soil));
+  if (auto grains = grains_clause(comparison)) clauses.push_back(std::move(*grains));
   return clauses;
 }
 

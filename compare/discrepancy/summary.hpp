@@ -17,8 +17,9 @@ struct Clause {
   std::vector<std::string> evidence;  ///< what is not a row: "joint test", "budget", "the loop"
 };
 
-/// The two lines that a page opens with: how many numbers differ and where the sides are widest apart; how much of that
-/// a better known soil could explain. The second is absent where nothing can be said of it.
+/// The lines that a page opens with: how many numbers differ and where the sides are widest apart; how much of that a
+/// better known soil could explain; what the size of the grains does to their answers. The last two are absent where
+/// nothing can be said of them.
 std::vector<Clause> opening(const Comparison& comparison);
 
 /// Where the widest gap in pull comes from.

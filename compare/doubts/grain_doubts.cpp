@@ -99,7 +99,7 @@ GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswer
   if (is_lugged(tire)) counts.lug = tire.lugs.height / counts.diameter;
   each_answer_for_grains(study, [&](const Answer& answer, SinkageOf) {
     const double count = contact_length(answer.result->sinkage.value, tire.radius) / counts.diameter;
-    if (counts.contact && !(count < *counts.contact)) return;
+    if (!(count > 0.0) || (counts.contact && !(count < *counts.contact))) return;  // a wheel may stand on their tops
     counts.contact = count, counts.at = answer.at;
   });
   return counts;
