@@ -151,12 +151,12 @@ class SemiEmpiricalSoil:
     def k_phi(self, value: Estimate) -> None: ...
     @property
     def cohesion(self) -> Estimate:
-        """c [Pa], at least 0 Pa"""
+        """cohesion c of tau_max = c + p tan phi [Pa], at least 0 Pa"""
     @cohesion.setter
     def cohesion(self, value: Estimate) -> None: ...
     @property
     def friction_angle(self) -> Estimate:
-        """phi [rad], at least 0 rad and below 1.5708 rad"""
+        """angle of shearing resistance phi [rad], at least 0 rad and below 1.5708 rad"""
     @friction_angle.setter
     def friction_angle(self, value: Estimate) -> None: ...
     @property
