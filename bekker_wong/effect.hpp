@@ -137,6 +137,8 @@ struct EffectForm {
 
 /// Every form of every effect, in the catalogue's order. Built once.
 const std::vector<EffectForm>& effect_catalogue();
+/// The ids of its effects, each once, in its order.
+std::vector<std::string> effect_ids();
 
 /// The form that a choice names. Throws InputError with the nearest right word for an unknown id, form or parameter,
 /// and for a value outside its bounds.

@@ -8,9 +8,7 @@
 namespace soilbin::bekker_wong {
 
 std::vector<std::string> CatalogueVocabulary::ids() const {
-  std::vector<std::string> all;
-  for (const EffectForm& form : effect_catalogue())
-    if (std::find(all.begin(), all.end(), form.id) == all.end()) all.push_back(form.id);
+  std::vector<std::string> all = effect_ids();
   all.emplace_back(learned_id);
   return all;
 }

@@ -70,7 +70,7 @@ Measured measure(const BevameterOptions& options, const GranularSoil& grains) {
   for (int k = 0; k < options.packings; ++k) {
     compare::PlateSet set;
     for (const dem::PlateRun& run : dem::plate_sinkage(grains, plates, how, &beds)) {
-      set.push_back(curve_of(run, dem::mean_diameter(grains)));
+      set.push_back(curve_of(run, mean_diameter(grains)));
       out.density = run.density;
     }
     out.plates.push_back(std::move(set));

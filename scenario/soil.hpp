@@ -70,6 +70,9 @@ struct GranularSoil {
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "grain_tire.restitution"
 };
 
+/// Mean diameter of a soil's grains [m].
+inline double mean_diameter(const GranularSoil& soil) { return soil.radius_min + soil.radius_max; }
+
 /// A soil: what the analytic model needs, what the grains need, or both.
 struct Soil {
   std::string name;

@@ -65,6 +65,13 @@ const std::vector<EffectForm>& effect_catalogue() {
   return all;
 }
 
+std::vector<std::string> effect_ids() {
+  std::vector<std::string> ids;
+  for (const EffectForm& form : effect_catalogue())
+    if (ids.empty() || ids.back() != form.id) ids.push_back(form.id);
+  return ids;
+}
+
 const EffectForm& find_form(const EffectChoice& choice) {
   std::vector<std::string> ids, forms;
   for (const EffectForm& f : choice.id == learned_id ? learned_forms() : effect_catalogue()) {

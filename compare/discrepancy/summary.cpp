@@ -150,12 +150,11 @@ std::optional<Clause> grains_clause(const Comparison& comparison) {
   if (told == 0) return std::nullopt;
   const double rms = std::sqrt(squares / static_cast<double>(told));
   if (rms < worth_a_line) return std::nullopt;
-  const GranularSoil& grains = *scenario.soil.granular;
   return Clause{"The grains",
                 fmt::format("Grains of {:.3g} mm are coarse for this wheel: their own drawbar pull is estimated to be "
                             "too {} by {} of the load against infinitely fine ones (root mean square of the {} of {} "
                             "points that the study of grain sizes reaches).",
-                            1000 * (grains.radius_min + grains.radius_max), sum > 0 ? "large" : "small", percent(rms),
+                            1000 * mean_diameter(*scenario.soil.granular), sum > 0 ? "large" : "small", percent(rms),
                             told, with_result),
                 {},
                 {"what is doubtful"}};

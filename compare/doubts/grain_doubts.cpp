@@ -75,15 +75,14 @@ std::string depends_on_the_step(const GranularSoil& grains) {
   const bool resisted = grains.grain_grain.rolling_friction > 0.0 || grains.grain_tire.rolling_friction > 0.0;
   const bool with_twist = grains.rolling_resistance == RollingResistance::directional_with_twist;
   if ((grains.rolling_resistance != RollingResistance::directional && !with_twist) || !resisted) return "";
-  const double r = (grains.radius_min + grains.radius_max) / 2.0, step = dem::longest_step(grains);
+  const double r = mean_diameter(grains) / 2.0, step = dem::longest_step(grains);
   const double mass = 4.0 / 3.0 * std::numbers::pi * grains.grain_density * r * r * r, inertia = 0.2 * mass * r * r;
   const double speed = grains.grain_grain.rolling_friction * r / 2.0 * 100.0 * step / inertia;
   std::string text = fmt::format(
       "the grains' rolling law '{}' makes answers depend on the time step: below the angular speed mu_r R* F_N dt/I* a "
       "contact is a dashpot of I*/dt, whatever mu_r. At the longest step, {:.3g} ms, two mean grains that 100 N press "
       "together are so below {:.2g} rad/s. At a quarter of the step the paper's tire at 4 kN, 20 % slip pulled 1183 ± "
-      "43 "
-      "N in place of 773 ± 19 N. rolling_resistance: elastic_plastic does not depend on it",
+      "43 N in place of 773 ± 19 N. rolling_resistance: elastic_plastic does not depend on it",
       with_twist ? "directional_with_twist" : "directional", 1e3 * step, speed);
   if (with_twist) text += ". This law also resists spin about the contact's normal, which the published one does not";
   return text;
@@ -94,7 +93,7 @@ std::string depends_on_the_step(const GranularSoil& grains) {
 GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
   const Tire& tire = scenario.tire;
   GrainCounts counts;
-  counts.diameter = scenario.soil.granular->radius_min + scenario.soil.granular->radius_max;
+  counts.diameter = mean_diameter(*scenario.soil.granular);
   counts.width = tire.width / counts.diameter;
   if (is_lugged(tire)) counts.lug = tire.lugs.height / counts.diameter;
   each_answer_for_grains(study, [&](const Answer& answer, SinkageOf) {

@@ -121,7 +121,7 @@ ResolutionError resolution_error(const Scenario& scenario, const OperatingCondit
                                  SinkageOf whose) {
   if (!scenario.soil.granular) throw InputError("the soil has no grains");
   const Tire& tire = scenario.tire;
-  const double d = scenario.soil.granular->radius_min + scenario.soil.granular->radius_max;
+  const double d = mean_diameter(*scenario.soil.granular);
   static const std::vector<Slopes> lugged = slopes_of(StudiedWheel::lugged), bare = slopes_of(StudiedWheel::bare);
   const std::vector<Slopes>& studied = is_lugged(tire) ? lugged : bare;
   const double coarsest = with_lugs.front().diameter;

@@ -64,7 +64,7 @@ double RunCosts::memory() const { return 60e6 + 900 * grains_; }
 double RunCosts::bed_bytes() const { return 250 * grains_; }
 
 double RunCosts::trial(dem::DemSettings settings) const {
-  const double grain = recipe_.soil.radius_min + recipe_.soil.radius_max;
+  const double grain = mean_diameter(recipe_.soil);
   dem::BedRecipe recipe = recipe_;
   recipe.size = {12 * grain, 12 * grain, 8 * grain};
   const int threads =

@@ -41,12 +41,6 @@ std::string thousands_apart(long long value) {
   return text;
 }
 
-std::size_t known_effects() {
-  std::set<std::string> ids;
-  for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue()) ids.insert(form.id);
-  return ids.size();
-}
-
 // What is missing.
 
 /// "slip 5 to 70 %, load 40 to 90 N": where a learned change holds.
@@ -382,7 +376,8 @@ std::string verdict_sentence(const LoopAnswer& answer) {
     case Verdict::nothing_missing:
       return "Nothing is missing that these data show.";
     case Verdict::unknown_effect:
-      return fmt::format("Something is missing that none of the {} known effects explains.", known_effects());
+      return fmt::format("Something is missing that none of the {} known effects explains.",
+                         bekker_wong::effect_ids().size());
     case Verdict::not_enough_data:
       return fmt::format("These data cannot decide: {}.", answer.reason);
   }

@@ -72,12 +72,8 @@ bool is_among(const std::vector<std::string>& wanted, const std::string& id) {
 
 /// Effects of the catalogue that the campaign does not declare.
 std::vector<std::string> undeclared_effects(const Campaign& campaign) {
-  std::vector<std::string> ids;
-  for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue()) {
-    const bool declared = std::any_of(campaign.effects.begin(), campaign.effects.end(),
-                                      [&](const EffectChoice& choice) { return choice.id == form.id; });
-    if (!declared && (ids.empty() || ids.back() != form.id)) ids.push_back(form.id);
-  }
+  std::vector<std::string> ids = bekker_wong::effect_ids();
+  for (const EffectChoice& declared : campaign.effects) std::erase(ids, declared.id);
   return ids;
 }
 
@@ -109,6 +105,10 @@ std::vector<double> distances(const EffectShapes& shapes, const MatrixXd& s, Ind
 double told_right(double distance) { return 0.5 * std::erfc(-std::sqrt(distance) / (2 * std::sqrt(2.0))); }
 
 }  // namespace
+
+MatrixXd EffectShapes::information_of(std::size_t condition) const {
+  return tells[condition].transpose() * tells[condition];
+}
 
 MatrixXd EffectShapes::off_soil(const MatrixXd& information) const {
   const Index k = static_cast<Index>(shapes.size());

@@ -39,6 +39,8 @@ struct EffectShapes {
   std::vector<Eigen::MatrixXd> tells;  ///< of each condition: whitened, a row a channel, a column a shape, then J
   NoiseFloor noise;                    ///< of one run
   Eigen::Index soil = 0;               ///< columns of J, in units of the priors' sd
+  /// What a run at one of the conditions tells: tells' tells.
+  Eigen::MatrixXd information_of(std::size_t condition) const;
   /// S off the soil for so many runs' sum of tells' tells.
   Eigen::MatrixXd off_soil(const Eigen::MatrixXd& information) const;
   /// Columns of `tells`.

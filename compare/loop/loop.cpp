@@ -1,7 +1,6 @@
 #include "compare/loop/loop.hpp"
 
 #include <algorithm>
-#include <map>
 
 #include "compare/loop/answer_words.hpp"
 #include "compare/loop/model_discrepancy.hpp"
@@ -16,15 +15,10 @@ constexpr std::size_t all_steps = 100, attributed = 30, chosen = 40, pulses_a_st
 
 /// Effects of the catalogue, but for the declared ones, that no form of theirs would show.
 std::vector<std::string> not_testable(const Attribution& found) {
-  std::map<std::string, bool> testable;
-  for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue()) testable[form.id] = false;
+  std::vector<std::string> hidden = bekker_wong::effect_ids();
   for (const Signature& s : found.signatures.all)
-    if (s.testable) testable[s.term.form->id] = true;
-  for (const EffectChoice& declared : found.base.data().campaign->effects) testable.erase(declared.id);
-  std::vector<std::string> hidden;
-  for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue())
-    if (testable.count(form.id) && !testable[form.id] && (hidden.empty() || hidden.back() != form.id))
-      hidden.push_back(form.id);
+    if (s.testable) std::erase(hidden, s.term.form->id);
+  for (const EffectChoice& declared : found.base.data().campaign->effects) std::erase(hidden, declared.id);
   return hidden;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "compare/design/drawn_order.hpp"
 #include "compare/loop/thresholds.hpp"
@@ -154,7 +153,7 @@ class Exchange {
   double worth(const Places& plan) const { return share_named_right(shapes_, information(plan)); }
   MatrixXd information(const Places& plan) const {
     MatrixXd sum = made_;
-    for (const std::size_t place : plan) sum += tells(place);
+    for (const std::size_t place : plan) sum += shapes_.information_of(place);
     return sum;
   }
 
@@ -187,8 +186,6 @@ class Exchange {
   }
 
  private:
-  MatrixXd tells(std::size_t place) const { return shapes_.tells[place].transpose() * shapes_.tells[place]; }
-
   /// The choice that tells most beside these runs, and what all then tell.
   std::pair<std::size_t, double> best_beside(const Places& others) const {
     const MatrixXd known = information(others);
@@ -197,7 +194,7 @@ class Exchange {
     ThreadPool{options_.threads}.each(parts, [&](int part, const Pulse&) {
       for (std::size_t c = part; c < choices_; c += parts)
         if (static_cast<std::size_t>(std::count(others.begin(), others.end(), c)) < most_often_)
-          worths[c] = share_named_right(shapes_, known + tells(c));
+          worths[c] = share_named_right(shapes_, known + shapes_.information_of(c));
     });
     const auto best = std::max_element(worths.begin(), worths.end());
     return {static_cast<std::size_t>(best - worths.begin()), *best};
@@ -237,12 +234,11 @@ ExpectedNoise noise_of(const Campaign& campaign, const Conditions& conditions, c
 }
 
 void refuse_unknown(const Campaign& campaign, const std::vector<std::string>& wanted) {
-  std::set<std::string> known;
-  for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue()) known.insert(form.id);
+  const std::vector<std::string> known = bekker_wong::effect_ids();
   for (const std::string& id : wanted) {
-    if (!known.contains(id))
+    if (std::find(known.begin(), known.end(), id) == known.end())
       throw InputError(fmt::format("--effect: unknown effect '{}'{}\n  hint: see soilbin list effects", id,
-                                   did_you_mean(id, {known.begin(), known.end()})));
+                                   did_you_mean(id, known)));
     for (const EffectChoice& declared : campaign.effects)
       if (declared.id == id) throw InputError(fmt::format("--effect {}: the campaign's model has it already", id));
   }
@@ -308,8 +304,7 @@ TestDesign design_test(const Campaign& campaign, const DesignOptions& options) {
   design.effects = shapes.ids, design.not_shown = shapes.not_shown;
 
   MatrixXd information = MatrixXd::Zero(shapes.columns(), shapes.columns());
-  for (std::size_t i = choices + swept.size(); i < conditions.size(); ++i)
-    information += shapes.tells[i].transpose() * shapes.tells[i];
+  for (std::size_t i = choices + swept.size(); i < conditions.size(); ++i) information += shapes.information_of(i);
   const Exchange exchange(shapes, choices, information, options);
   Places sweep;
   for (std::size_t i = 0; i < swept.size(); ++i) sweep.push_back(choices + i);

@@ -10,6 +10,7 @@
 #include "compare/measured/run_columns.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "scenario/nearest_word.hpp"
 
 namespace soilbin::compare {
 
@@ -51,8 +52,7 @@ std::vector<std::string> in_sentences(const TestDesign& design) {
   const std::string runs = counted(design.runs.size(), "run");
   sentences.push_back(fmt::format(
       "{}{} to tell {} apart. If one of them is there, as large as the noise of a run, it is expected to be named "
-      "right "
-      "in {} of all cases; by a sweep of one condition at a time with as many runs in {}.",
+      "right in {} of all cases; by a sweep of one condition at a time with as many runs in {}.",
       runs, design.made > 0 ? fmt::format(", beside {} that are made,", counted(design.made, "run")) : "",
       counted(design.effects.size(), "effect"), share(design.planned.named_right), share(design.swept.named_right)));
   std::string noise = "Noise of a run taken for that:";
@@ -65,9 +65,9 @@ std::vector<std::string> in_sentences(const TestDesign& design) {
                       " Of two names 2 standard deviations apart the right one fits better in 84 %, 3 apart in 93 "
                       "%; an effect twice as large is twice as far from every other.");
   if (!design.not_shown.empty()) {
-    std::string names;
-    for (const std::string& id : design.not_shown) names += (names.empty() ? "" : ", ") + effect_name(id);
-    sentences.push_back("Not shown by what varies here: " + names + ".");
+    std::vector<std::string> names;
+    for (const std::string& id : design.not_shown) names.push_back(effect_name(id));
+    sentences.push_back("Not shown by what varies here: " + listed(names) + ".");
   }
   return sentences;
 }

@@ -10,7 +10,7 @@ std::array<BedRecipe, 2> limit_beds(const GranularSoil& soil) {
   BedRecipe recipe;
   recipe.soil = soil;
   static_cast<LawFlags&>(recipe.laws) = laws_of(soil);
-  const double d = soil.radius_min + soil.radius_max;
+  const double d = mean_diameter(soil);
   recipe.size = {.length = 15 * d, .width = 10 * d, .depth = 10 * d};
   std::array<BedRecipe, 2> both = {recipe, recipe};
   both[0].settling_friction = 1, both[1].settling_friction = 0;

@@ -195,7 +195,7 @@ SettledBed settle_bed(const BedRecipe& recipe, const WorkOptions& how) {
   poured.kinetic *= before_levelling, poured.unbalanced *= before_levelling;
   come_to_rest(simulation, poured, how, 0.0, 0.8);
   simulation.set_interaction(grain_material, grain_material, full);
-  level(simulation, recipe.size, (soil.radius_min + soil.radius_max) / 2);
+  level(simulation, recipe.size, mean_diameter(soil) / 2);
   come_to_rest(simulation, recipe.rest, how, 0.8, 0.2);
 
   SettledBed bed{.recipe = recipe, .setup = simulation.setup(), .state = simulation.state(), .report = {}};

@@ -15,8 +15,6 @@ void Requirements::operator()(bool holds, const std::string& what) const {
   if (!holds) throw InputError(fmt::format("{}: {}", test_, what));
 }
 
-double mean_diameter(const GranularSoil& soil) { return soil.radius_min + soil.radius_max; }
-
 BedRecipe specimen_recipe(const GranularSoil& soil, const BedSize& size, const SpecimenSettings& settings) {
   BedRecipe recipe;
   recipe.soil = soil;

@@ -33,9 +33,6 @@ struct SpecimenSettings {
   ContactLaws laws = BedRecipe{}.laws;
 };
 
-/// Mean diameter of a soil's grains [m].
-double mean_diameter(const GranularSoil& soil);
-
 /// The recipe of a bed that fills a box of this size, to be poured, levelled and settled by settle_bed.
 BedRecipe specimen_recipe(const GranularSoil& soil, const BedSize& size, const SpecimenSettings& settings);
 

@@ -39,7 +39,7 @@ Setup WheelInBin::setup_for(const ContactPair& tire_contact, int threads) const 
   setup.numerics.threads = threads;
   setup.numerics.deepest_overlap = rig_.deepest_overlap;
   setup.numerics.ledger = rig_.ledger;
-  const double g = bed_.recipe.gravity, d = bed_.recipe.soil.radius_min + bed_.recipe.soil.radius_max;
+  const double g = bed_.recipe.gravity, d = mean_diameter(bed_.recipe.soil);
   setup.numerics.sleep = {rig_.sleep_speed * std::sqrt(g * d), rig_.sleep_time * std::sqrt(d / g)};
   return setup;
 }

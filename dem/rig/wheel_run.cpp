@@ -116,7 +116,7 @@ void Ride::let_turn() {
 FlowMeter Ride::flow_meter() const {
   const GranularSoil& soil = bed_.recipe.soil;
   const double depth = bed_.recipe.size.depth, rim = tire_.radius + tire_.lugs.height;
-  return FlowMeter(soil.radius_min + soil.radius_max, 2 * rim, rim + depth, 0);
+  return FlowMeter(mean_diameter(soil), 2 * rim, rim + depth, 0);
 }
 
 /// Samples until the bed ends; over the second half of the way also what the soil does round the wheel.
