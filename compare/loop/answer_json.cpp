@@ -244,6 +244,8 @@ ordered_json details_json(const LoopAnswer& answer) {
                     {"forms", forms},
                     {"weight", finite(listed == answer.ambiguity_set.end() ? 0.0 : listed->weight)},
                     {"log_evidence", finite(candidate.log_evidence)},
+                    {"set_log_evidence", finite(w.log_evidence)},
+                    {"share", finite(w.weight)},
                     {"chi2", finite(candidate.fit().chi2)},
                     {"parameters", candidate.fit().theta.size()}});
   }
