@@ -7,7 +7,7 @@
 SET: a folder made by `python3 -m nature --only one_rich` (or one_poor), with its hidden .nature/.
 
 For each effect the oracle weighs nature's own forms, all equally likely, with the generator's prior on the effect's
-size (ln of its ratio to the detectable size uniform from 1.2 to 9, held at the form's largest scale), draws of the form's
+size (ln of its ratio to the detectable size uniform over a wide range, held at the form's largest scale), draws of the form's
 other constants, the declared priors of the soil's eight values, and the true noise law, which no method knows. The evidence
 is Laplace's over the soil, a sum over sizes, and importance sampling for the forms that matter. The mean of the largest
 posterior is the expected share of right names of the best possible method (after Ishida and others 2023, arXiv 2202.00395,
@@ -28,9 +28,9 @@ from nature import campaign, design, noise, sensitivity, sets
 from nature import wheel as base
 from nature.families import Form, build, catalogue
 
-# ln of the ratio to the detectable size: sets.ratio_range, wider because nature sizes by a non-linear refit
-SIZES = np.log([1.2, 9.0])
-GRID = np.linspace(*SIZES, 25)
+# Ratios to the detectable size, as sets.ratio_range but wider: nature takes them from a non-linear refit about the true
+# soil, the oracle from the linearised one about the declared soil.
+SIZES = (0.4, 12.0)
 SHAPES = 16  # draws of a form's other constants
 SAMPLES = 48  # importance samples of a form that matters
 ENOUGH = 6.0  # effective samples below which Laplace's value stands
@@ -45,7 +45,8 @@ def log_mean(logs):
 class Oracle:
     """One campaign: readings, whitener, declared soil, and the linearised fit of the base model."""
 
-    def __init__(self, record):
+    def __init__(self, record, sizes=SIZES):
+        self.sizes = np.linspace(*np.log(sizes), 25)
         self.world = world = campaign.restore(record)
         count = len(world.rows["load"])
         read = [record["read"].get(c, [None] * count) for c in base.CHANNELS]
@@ -102,8 +103,8 @@ class Oracle:
         return sensitivity.ratio(d - self.basis @ (self.basis.T @ d))
 
     def scales(self, kind, shape, sign):
-        """The form's scale at each size of GRID, and {scale: prediction} of those tried; None where it stays too small."""
-        tried, sizes = {}, {}
+        """The form's scale at each of the sizes, and {scale: prediction} of those tried; None where it stays too small."""
+        tried, sizes, (least, most) = {}, {}, np.exp(self.sizes[[0, -1]])
 
         def size(a):
             if a not in sizes:
@@ -115,26 +116,26 @@ class Oracle:
 
         low = high = 0.5 * kind.TYPICAL
         for _ in range(8):  # a scale below which nature makes none
-            if size(low) <= 1.2:
+            if size(low) <= least:
                 break
-            low *= float(np.clip(1.0 / size(low), 0.2, 0.8))
+            low *= float(np.clip(0.8 * least / size(low), 0.2, 0.8))
         for _ in range(12):  # and one above; some forms are nothing below a threshold
-            if size(high) >= 9.0 or high >= kind.LARGEST:
+            if size(high) >= most or high >= kind.LARGEST:
                 break
-            high = min(high * float(np.clip(10.0 / max(size(high), 1e-9), 1.2, 2.0)), kind.LARGEST)
+            high = min(high * float(np.clip(1.1 * most / max(size(high), 1e-9), 1.2, 2.0)), kind.LARGEST)
         for _ in range(8):  # no gap between neighbours wider than a factor of two in size
             known = sorted(a for a in sizes if low <= a <= high)
             gaps = [(a, b) for a, b in zip(known, known[1:])
-                    if sizes[b] > 1.2 and sizes[a] < 9 and sizes[b] > 2 * sizes[a] and b > 1.02 * a]
+                    if sizes[b] > least and sizes[a] < most and sizes[b] > 2 * sizes[a] and b > 1.02 * a]
             if not gaps:
                 break
             size(math.sqrt(gaps[0][0] * gaps[0][1]))
         known = sorted(tried)
         ratios = np.maximum.accumulate([max(sizes[a], 1e-6) for a in known])
-        if not known or ratios[-1] < 1.2:
+        if not known or ratios[-1] < least:
             return None
         ratios = ratios * (1 + 1e-9 * np.arange(len(known)))
-        return np.exp(np.interp(GRID, np.log(ratios), np.log(known))), tried
+        return np.exp(np.interp(self.sizes, np.log(ratios), np.log(known))), tried
 
     def profile(self, u, columns, scales, tried):
         """For every scale the best soil near u, ln evidence (up to a constant of the data), and the curvature's factor.
@@ -223,9 +224,9 @@ def hint(plan, kind):
     return sum(-np.log(odds * (0.6 if need == "transverse" else 1.0)) for need in kind.NEEDS if need in design.FACTORS)
 
 
-def posterior(record, seed=1):
+def posterior(record, sizes=SIZES, seed=1):
     """{id: probability} of one campaign without and with the plan's hint, and the least effective number of samples."""
-    oracle, rng = Oracle(record), np.random.default_rng([seed, len(record["rows"]["load"])])
+    oracle, rng = Oracle(record, sizes), np.random.default_rng([seed, len(record["rows"]["load"])])
     looks = []  # (id, ln prior, look)
     for name, kinds in catalogue().items():
         for kind in kinds:
@@ -315,6 +316,8 @@ def main():
     parser.add_argument("folders", nargs="*", type=Path)
     parser.add_argument("--posteriors", type=Path, help="keep the posteriors in this file, and go on from it")
     parser.add_argument("--first", type=int, help="so many campaigns of each set")
+    parser.add_argument("--sizes", nargs=2, type=float, default=SIZES, metavar=("LOW", "HIGH"),
+                        help="ratios to the detectable size that an effect may have; 0.4 12")
     parser.add_argument("--self-test", action="store_true")
     options = parser.parse_args()
     if options.self_test:
@@ -326,7 +329,7 @@ def main():
         for name in sorted(truth)[:options.first]:
             key = f"{folder.name}/{name}"
             if key not in kept:
-                kept[key] = posterior(campaign.read(folder / name))
+                kept[key] = posterior(campaign.read(folder / name), options.sizes)
                 if options.posteriors:
                     options.posteriors.write_text(json.dumps(kept, indent=1) + "\n")
             if kept[key]:
