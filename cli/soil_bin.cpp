@@ -48,6 +48,10 @@ template <double dem::BedSize::*side>
 double& bed(dem::DemSettings& settings) {
   return settings.size.*side;
 }
+template <double dem::DemSettings::*which>
+double& setting(dem::DemSettings& settings) {
+  return settings.*which;
+}
 template <double dem::Rig::*number>
 double& rig(dem::DemSettings& settings) {
   return settings.rig.*number;
@@ -66,6 +70,12 @@ constexpr SettingFlag measure_flags[] = {
     {"--bed-length", "LENGTH", "length of the bed; 2.5 m", bed<&dem::BedSize::length>},
     {"--bed-width", "LENGTH", "width of the bed; 0.8 m", bed<&dem::BedSize::width>},
     {"--bed-depth", "LENGTH", "depth of the bed; 0.3 m", bed<&dem::BedSize::depth>},
+    {"--graded",
+     "FACTOR",
+     "grains below and beside the track up to so many times larger than the soil's, which stay under the wheel; "
+     "1 .. 4; 1: the soil's grains everywhere",
+     setting<&dem::DemSettings::graded>,
+     {.lower = 1, .upper = 4}},
     {"--behind", "LENGTH", "distance from the axle to the bin's rear end at the start; 0.35 m", rig<&R::behind>},
     {"--ahead", "LENGTH", "distance from the axle to the bin's front end when the run ends; 0.5 m", rig<&R::ahead>},
     {"--travel", "LENGTH", "distance that the axle travels; as far as the bin allows", rig<&R::travel>},

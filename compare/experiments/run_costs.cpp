@@ -22,7 +22,8 @@ double mean_volume(const GranularSoil& soil) {
 }
 
 double grains_of(const dem::BedRecipe& recipe) {
-  return solid_share * recipe.size.length * recipe.size.width * recipe.size.depth / mean_volume(recipe.soil);
+  return solid_share * recipe.size.length * recipe.size.width * recipe.size.depth / mean_volume(recipe.soil) *
+         recipe.grading.share_of_grains(recipe.size);
 }
 
 }  // namespace
@@ -67,6 +68,7 @@ double RunCosts::trial(dem::DemSettings settings) const {
   const double grain = mean_diameter(recipe_.soil);
   dem::BedRecipe recipe = recipe_;
   recipe.size = {12 * grain, 12 * grain, 8 * grain};
+  recipe.grading = {};  // there is no room for coarser ones
   const int threads =
       settings.how.threads > 0 ? settings.how.threads : static_cast<int>(std::thread::hardware_concurrency());
   settings.how.progress = {};

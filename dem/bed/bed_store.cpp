@@ -38,6 +38,16 @@ std::optional<SettledBed> read_bed(const std::filesystem::path& file, const BedR
   }
 }
 
+std::string zones_in_words(const SettledBed& bed) {
+  const Grading& graded = bed.recipe.grading;
+  const double mm = 1000 * mean_diameter(bed.recipe.soil);
+  return fmt::format(
+      "note: a graded bed of {} grains: {:.3g} mm on average to {:.3g} mm below the surface and {:.3g} mm to both "
+      "sides of the middle; {:.3g} mm from {:.3g} mm beyond",
+      bed.report.grains, mm, 1000 * graded.depth, 1000 * graded.half_width, graded.factor * mm,
+      1000 * graded.transition);
+}
+
 }  // namespace
 
 std::string recipe_text(const BedRecipe& recipe) {
@@ -51,6 +61,10 @@ std::string recipe_text(const BedRecipe& recipe) {
   if (soil.grain_grain.cohesion > 0) add("cohesion", soil.grain_grain.cohesion);  // keys of beds without it stay
   add("length", recipe.size.length), add("width", recipe.size.width), add("depth", recipe.size.depth);
   text += fmt::format("packing {}\n", recipe.packing);
+  if (const Grading& graded = recipe.grading; graded.factor > 1) {
+    add("graded", graded.factor), add("fine_half_width", graded.half_width), add("fine_depth", graded.depth);
+    add("transition", graded.transition);
+  }
   add("settling_friction", recipe.settling_friction), add("gravity", recipe.gravity), add("dt", recipe.dt);
   text += fmt::format("laws {} {} {}\n", static_cast<int>(recipe.laws.normal), static_cast<int>(recipe.laws.rolling),
                       static_cast<int>(recipe.laws.cohesion));
@@ -76,6 +90,7 @@ std::shared_ptr<const SettledBed> BedStore::bed(const BedRecipe& recipe, const W
     found = settle_bed(recipe, how);
     if (!folder_.empty()) keep(*found, text, how);
   }
+  if (recipe.grading.factor > 1 && how.tell) how.tell(zones_in_words(*found));
   kept_.emplace_back(text, std::make_shared<const SettledBed>(std::move(*found)));
   return kept_.back().second;
 }

@@ -2,8 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "dem/bed/random.hpp"
 #include "scenario/errors.hpp"
@@ -48,6 +51,53 @@ void insert_loosely(Simulation& simulation, const Region& region, const RadiusRa
     };
     const double x = at(region.lower.x, width.x, ix), y = at(region.lower.y, width.y, iy);
     simulation.add_grain({x, y, at(region.lower.z, width.z, iz)}, radius, material);
+  }
+}
+
+void insert_graded(Simulation& simulation, const Region& region, const RadiusRange& radii, double most,
+                   const std::function<double(const Vec3&)>& scale, int material, double volume, std::uint64_t seed) {
+  const Vec3 side = region.upper - region.lower;
+  const double cell = 2 * most * radii.largest;  // two grains that overlap lie in neighbouring ones
+  const auto count = [&](double length) { return std::max(1, static_cast<int>(length / cell)); };
+  const std::array<int, 3> cells{count(side.x), count(side.y), count(side.z)};
+  const auto cell_along = [](double at, double length, int n) {
+    return std::clamp(static_cast<int>(at / length * n), 0, n - 1);
+  };
+  struct Ball {
+    Vec3 at;
+    double radius;
+  };
+  std::vector<std::vector<Ball>> in(static_cast<std::size_t>(cells[0]) * cells[1] * cells[2]);
+  const auto in_cell = [&](int x, int y, int z) -> std::vector<Ball>& {
+    return in[(static_cast<std::size_t>(z) * cells[1] + y) * cells[0] + x];
+  };
+  Random random(seed);
+  double placed = 0;
+  int refused = 0;
+  constexpr int most_refused = 100000;  // in a row
+  while (placed < volume) {
+    if (++refused > most_refused) throw InputError("grains of this volume don't fit into the region");
+    const double x = random.uniform(0, side.x), y = random.uniform(0, side.y);
+    const Vec3 at{x, y, random.uniform(0, side.z)};
+    const double larger = scale(region.lower + at), keep = random.uniform(0, 1);
+    const double radius = larger * random.uniform(radii.smallest, radii.largest);
+    // As many tries a volume of a grain everywhere: then all sizes come to the same share.
+    if (keep > 1 / (larger * larger * larger)) continue;
+    if (x < radius || y < radius || at.z < radius || x > side.x - radius || y > side.y - radius) continue;
+    if (at.z > side.z - radius) continue;
+    const int cx = cell_along(x, side.x, cells[0]), cy = cell_along(y, side.y, cells[1]);
+    const int cz = cell_along(at.z, side.z, cells[2]);
+    bool free = true;
+    for (int k = std::max(0, cz - 1); k <= std::min(cz + 1, cells[2] - 1); ++k)
+      for (int j = std::max(0, cy - 1); j <= std::min(cy + 1, cells[1] - 1); ++j)
+        for (int i = std::max(0, cx - 1); i <= std::min(cx + 1, cells[0] - 1); ++i)
+          for (const Ball& other : in_cell(i, j, k))
+            free &= squared(other.at - at) >= (other.radius + radius) * (other.radius + radius);
+    if (!free) continue;
+    in_cell(cx, cy, cz).push_back({at, radius});
+    simulation.add_grain(region.lower + at, radius, material);
+    placed += 4.0 / 3 * std::numbers::pi * radius * radius * radius;
+    refused = 0;
   }
 }
 

@@ -17,11 +17,17 @@ namespace {
 constexpr double densest = 0.64;          // share of grains in random packing, without friction
 constexpr double spare = 1.03;            // of grains, so that levelling finds enough
 constexpr double before_levelling = 100;  // so much less rest is asked for, as levelling disturbs it anyway
+constexpr double loosely = 0.22;          // share of grains where they are put at random, without a lattice
+constexpr double most_grading = 4;        // beyond it fine grains begin to fall through coarse ones
 constexpr double headroom = 20;           // of the domain, for grains that are thrown [m]
 
 void check(const BedRecipe& recipe) {
   const auto& [length, width, depth] = recipe.size;
-  const double largest = recipe.soil.radius_max;
+  const Grading& grading = recipe.grading;
+  if (!(grading.factor >= 1 && grading.factor <= most_grading))
+    throw InputError(fmt::format("a graded bed's coarse grains are 1 .. {} times as large as its fine ones, not {:.4g}",
+                                 most_grading, grading.factor));
+  const double largest = grading.factor * recipe.soil.radius_max;
   if (!(recipe.soil.radius_min > 0 && largest >= recipe.soil.radius_min && std::isfinite(largest)))
     throw InputError("a bed needs grains: radius_min above 0, radius_max not below it");
   if (!(length >= 4 * largest && width >= 4 * largest && depth >= 4 * largest) ||
@@ -42,11 +48,14 @@ void check(const BedRecipe& recipe) {
   if (!(recipe.gravity > 0)) throw InputError("a bed settles under gravity: it must be above 0");
 }
 
-int grain_count(const BedRecipe& recipe) {
-  const double a = recipe.soil.radius_min, b = recipe.soil.radius_max;
-  const double mean_cube = (a + b) * (a * a + b * b) / 4;  // of a uniform radius
+/// Of all grains that are put in [m^3].
+double volume_of_grains(const BedRecipe& recipe) {
   const auto& [length, width, depth] = recipe.size;
-  const double count = spare * densest * length * width * (depth + b) / (4.0 / 3 * std::numbers::pi * mean_cube);
+  return spare * densest * length * width * (depth + recipe.grading.factor * recipe.soil.radius_max);
+}
+
+int grain_count(const BedRecipe& recipe) {
+  const double count = expected_grains(recipe);
   if (count > 2e7) throw InputError(fmt::format("a bed of {:.3g} grains is beyond this program", count));
   return static_cast<int>(std::ceil(count));
 }
@@ -57,7 +66,7 @@ Setup setup_of(const BedRecipe& recipe, int threads) {
   setup.materials.add({"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio},
                       interaction_of(soil.grain_grain));
   setup.laws = with_cohesion_of(soil.grain_grain, recipe.laws);
-  const double r = soil.radius_max;
+  const double r = recipe.grading.factor * soil.radius_max;
   setup.domain.lower = {-r, -r, -r};
   setup.domain.upper = {recipe.size.length + r, recipe.size.width + r, headroom};
   setup.numerics.dt = recipe.dt > 0 ? recipe.dt : longest_step(soil);
@@ -111,7 +120,8 @@ void come_to_rest(Simulation& simulation, const RestTest& test, const WorkOption
 
 /// Takes away grains above a height chosen such that the surface seen from
 /// above comes to `depth` on average.
-void level(Simulation& simulation, const BedSize& size, double radius) {
+/// radius: mean, of fine grains; coarse: of coarse ones [m].
+void level(Simulation& simulation, const BedSize& size, double radius, double coarse) {
   const Footprint over{radius, size.length - radius, radius, size.width - radius};
   const Grains& grains = simulation.state().grains;
   const auto mean_below = [&](double cut) {
@@ -122,7 +132,7 @@ void level(Simulation& simulation, const BedSize& size, double radius) {
     }
     return surface_height(kept, over, radius / 4).mean();
   };
-  double low = size.depth - 2 * radius, high = size.depth + 4 * radius;
+  double low = size.depth - 2 * coarse, high = size.depth + 4 * coarse;
   if (mean_below(high) < size.depth)
     throw RunStopped(fmt::format("the settled grains fill the bin only to {} m", number_or_words(mean_below(high))));
   for (int turn = 0; turn < 12; ++turn) {
@@ -132,6 +142,32 @@ void level(Simulation& simulation, const BedSize& size, double radius) {
   simulation.remove_grains([&](const GrainNow& grain) { return grain.position.z + grain.radius > high; });
 }
 
+/// The soil's grains everywhere, on a lattice.
+void pour(Simulation& simulation, const BedRecipe& recipe) {
+  const GranularSoil& soil = recipe.soil;
+  const int count = grain_count(recipe);
+  const RadiusRange radii{soil.radius_min, soil.radius_max};
+  Region region{{0, 0, 0}, {recipe.size.length, recipe.size.width, 0}};
+  while (room_for(region, radii) < count) region.upper.z += soil.radius_max;
+  if (region.upper.z > headroom) throw InputError("the bed is too high to be poured");
+  insert_loosely(simulation, region, radii, grain_material, count, recipe.packing);
+}
+
+/// Grains of each place's own sizes, equally loose everywhere, so that all of the bed comes down by the same share and
+/// the zones come to lie where they belong.
+void pour_graded(Simulation& simulation, const BedRecipe& recipe) {
+  grain_count(recipe);
+  const GranularSoil& soil = recipe.soil;
+  const auto& [length, width, depth] = recipe.size;
+  const double volume = volume_of_grains(recipe), height = volume / (loosely * length * width);
+  if (height > headroom) throw InputError("the bed is too high to be poured");
+  const double settles = volume / (densest * length * width) / height;
+  insert_graded(
+      simulation, {{0, 0, 0}, {length, width, height}}, {soil.radius_min, soil.radius_max}, recipe.grading.factor,
+      [&](const Vec3& at) { return recipe.grading.scale(recipe.size, at.y, settles * at.z); }, grain_material, volume,
+      recipe.packing);
+}
+
 Interaction with_friction(Interaction interaction, double share) {
   interaction.sliding_friction *= share;
   interaction.rolling_friction *= share;
@@ -139,6 +175,37 @@ Interaction with_friction(Interaction interaction, double share) {
 }
 
 }  // namespace
+
+double Grading::scale(const BedSize& bed, double y, double z) const {
+  if (factor == 1) return 1;
+  const double aside = std::max(0.0, std::abs(y - bed.width / 2) - half_width);
+  const double below = std::max(0.0, bed.depth - depth - z);
+  return 1 + (factor - 1) * std::min(1.0, std::max(aside, below) / transition);
+}
+
+double Grading::share_of_grains(const BedSize& bed) const {
+  if (factor == 1) return 1;
+  constexpr int points = 100;  // along both sides of the bed's cross-section
+  double share = 0;
+  for (int k = 0; k < points * points; ++k) {
+    const double y = (k % points + 0.5) / points * bed.width, z = (k / points + 0.5) / points * bed.depth;
+    share += std::pow(scale(bed, y, z), -3) / (points * points);
+  }
+  return share;
+}
+
+Grading grading_for(const Tire& tire, const GranularSoil& soil, double factor) {
+  if (factor == 1) return {};
+  const double contact = 0.4 * tire.radius;
+  return {factor, tire.width / 2 + contact / 4, contact / 2, factor * mean_diameter(soil)};
+}
+
+double expected_grains(const BedRecipe& recipe) {
+  const double a = recipe.soil.radius_min, b = recipe.soil.radius_max;
+  const double mean_cube = (a + b) * (a * a + b * b) / 4;  // of a uniform radius
+  return volume_of_grains(recipe) / (4.0 / 3 * std::numbers::pi * mean_cube) *
+         recipe.grading.share_of_grains(recipe.size);
+}
 
 RollingLaw rolling_law(RollingResistance resistance) {
   switch (resistance) {
@@ -182,12 +249,10 @@ SettledBed settle_bed(const BedRecipe& recipe, const WorkOptions& how) {
   Simulation simulation(setup_of(recipe, how.threads));
   simulation.set_gravity({0, 0, -recipe.gravity});
   simulation.add_body(bin_of(recipe.size));
-  const int count = grain_count(recipe);
-  const RadiusRange radii{soil.radius_min, soil.radius_max};
-  Region region{{0, 0, 0}, {recipe.size.length, recipe.size.width, 0}};
-  while (room_for(region, radii) < count) region.upper.z += soil.radius_max;
-  if (region.upper.z > headroom) throw InputError("the bed is too high to be poured");
-  insert_loosely(simulation, region, radii, grain_material, count, recipe.packing);
+  if (recipe.grading.factor > 1)
+    pour_graded(simulation, recipe);
+  else
+    pour(simulation, recipe);
 
   const Interaction full = interaction_of(soil.grain_grain);
   simulation.set_interaction(grain_material, grain_material, with_friction(full, recipe.settling_friction));
@@ -195,7 +260,8 @@ SettledBed settle_bed(const BedRecipe& recipe, const WorkOptions& how) {
   poured.kinetic *= before_levelling, poured.unbalanced *= before_levelling;
   come_to_rest(simulation, poured, how, 0.0, 0.8);
   simulation.set_interaction(grain_material, grain_material, full);
-  level(simulation, recipe.size, mean_diameter(soil) / 2);
+  const double radius = mean_diameter(soil) / 2;
+  level(simulation, recipe.size, radius, recipe.grading.factor * radius);
   come_to_rest(simulation, recipe.rest, how, 0.8, 0.2);
 
   SettledBed bed{.recipe = recipe, .setup = simulation.setup(), .state = simulation.state(), .report = {}};

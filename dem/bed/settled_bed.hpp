@@ -8,6 +8,7 @@
 #include "dem/engine/simulation.hpp"
 #include "dem/engine/time_step.hpp"
 #include "scenario/soil.hpp"
+#include "scenario/tire.hpp"
 
 namespace soilbin::dem {
 
@@ -19,11 +20,32 @@ struct RestTest {
   double at_most = 10;       ///< [s], then the bed is given up
 };
 
+/// Where grains may be coarser: below and beside a zone of the soil's own grains that runs along the bed's middle line.
+/// Away from it sizes grow evenly over a transition, so that no fine grains stand on grains whose pores let them
+/// through.
+struct Grading {
+  double factor = 1;      ///< largest size of a grain over the soil's own, 1 .. 4; 1: the soil's grains everywhere
+  double half_width = 0;  ///< of the fine zone, from the middle line [m]
+  double depth = 0;       ///< of the fine zone under the surface [m]
+  double transition = 0;  ///< from the fine zone to where the factor is reached [m]
+
+  /// By what the soil's sizes are multiplied, in a bed of this size.
+  double scale(const BedSize& bed, double y, double z) const;
+  /// Number of grains over that of a bed of the soil's own, about.
+  double share_of_grains(const BedSize& bed) const;
+};
+
+/// The fine zone for a tire. Its contact is taken as l = 0.4 r long (that of a sinkage of 8 % of the radius). Fine
+/// grains reach l/2 below the surface and l/4 to both sides of the tire; the transition is a diameter of the coarse
+/// grains.
+Grading grading_for(const Tire& tire, const GranularSoil& soil, double factor);
+
 /// All that a bed follows from. The tire's contact with the soil is not read.
 struct BedRecipe {
   GranularSoil soil;
   BedSize size;
-  std::uint64_t packing = 1;     ///< seed of the random places and radii
+  std::uint64_t packing = 1;  ///< seed of the random places and radii
+  Grading grading;
   double settling_friction = 1;  ///< share of sliding and rolling friction while grains fall; less makes a denser bed
   double gravity = 9.81;         ///< [m/s^2]
   double dt = 0;                 ///< [s]; 0: longest_step
@@ -58,6 +80,9 @@ inline double longest_step(const GranularSoil& soil) {
   const Material grains{"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio};
   return 0.999 * Numerics{}.safe_share * rayleigh_time(grains, soil.radius_min);
 }
+
+/// How many grains are put into a bed, about.
+double expected_grains(const BedRecipe& recipe);
 
 /// Puts grains in loosely, lets them fall, takes away what stands above the depth so that the surface seen from above
 /// is on average there, and lets the rest settle again. The same recipe gives the same bed, for any number of threads.

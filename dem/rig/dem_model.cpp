@@ -20,6 +20,7 @@ BedRecipe DemModel::recipe(const Scenario& scenario) const {
   recipe.size = settings_.size;
   if (scenario.bin) recipe.size.depth = scenario.bin->depth, recipe.size.width = scenario.bin->width;
   recipe.packing = settings_.packing;
+  recipe.grading = grading_for(scenario.tire, recipe.soil, settings_.graded);
   recipe.settling_friction = settings_.settling_friction;
   recipe.dt = settings_.bed_dt.value_or(settings_.rig.dt);
   return recipe;

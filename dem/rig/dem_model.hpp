@@ -15,6 +15,7 @@ struct DemSettings {
   BedSize size;                  ///< of the bed; a scenario's bin replaces depth and width
   std::uint64_t packing = 1;     ///< seed of the bed
   double settling_friction = 1;  ///< as in BedRecipe
+  double graded = 1;             ///< grains below and beside the track up to so many times coarser (Grading)
   std::filesystem::path beds;    ///< folder that keeps beds; empty: none is kept on disk
   Rig rig;
   std::optional<double> bed_dt;  ///< step with which beds settle [s], 0 as in BedRecipe; without one the rig's
