@@ -39,6 +39,30 @@ constexpr std::pair<std::string_view, std::string_view> everyday_words[] = {{"--
                                                                             {"--velocity", "--speed"},
                                                                             {"--pressure", "--inflation-pressure"}};
 
+/// Flags that people give to a command which another one has: who meets them is sent there.
+struct Elsewhere {
+  std::vector<std::string_view> commands, flags;
+  const char* hint;
+};
+const Elsewhere elsewhere[] = {
+    {{"estimate", "explain"},
+     {"--plot", "--csv", "--report", "--slips"},
+     "this is one answer; for curves over slip: soilbin init mine, then soilbin run mine/case.yaml --plot curves.svg; "
+     "over slope, from these flags: soilbin limits --plot slope.svg"},
+    {{"run", "compare", "sweep"},
+     {"--tire", "--soil", "--radius", "--width", "--lug-height"},
+     "it takes a case file, where tire and soil stand: soilbin init mine writes one to change; soilbin estimate takes "
+     "them as flags"}};
+
+std::string sent_elsewhere(const std::string& command, const std::string& flag) {
+  const auto holds = [](const auto& words, const std::string& word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
+  for (const Elsewhere& one : elsewhere)
+    if (holds(one.commands, command) && holds(one.flags, flag)) return one.hint;
+  return "";
+}
+
 /// What a command has for a flag that it doesn't know, or "".
 std::string suggestion(const std::string& flag, const std::vector<std::string>& flags) {
   for (const auto& [word, meant] : everyday_words)
@@ -93,6 +117,8 @@ std::string unknown_flag(const CLI::App& command, const std::vector<std::string>
     if (word == "--") break;
     const std::string flag = word.substr(0, word.find('='));
     if (!flag.starts_with("--") || std::find(flags.begin(), flags.end(), flag) != flags.end()) continue;
+    if (const std::string hint = sent_elsewhere(command.get_name(), flag); !hint.empty())
+      return fmt::format("'{}' has no option '{}'\n  hint: {}", command.get_name(), clipped(flag), hint);
     return fmt::format("'{}' has no option '{}'{}\n  hint: see soilbin {} --help", command.get_name(), clipped(flag),
                        suggestion(flag, flags), command.get_name());
   }

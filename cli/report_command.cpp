@@ -1,7 +1,6 @@
 // soilbin report: studies and measured campaigns as one HTML page that needs nothing but a browser.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -9,6 +8,7 @@
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "compare/doubts/named_doubts.hpp"
 #include "compare/sweep/answers_page.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
@@ -35,28 +35,6 @@ std::string command_of(const ReportOptions& options) {
   return command + " --title " + quoted(options.title) + " --output " + quoted(options.output);
 }
 
-/// Doubts, each once, under the names of the studies and campaigns that they are of.
-class NamedDoubts {
- public:
-  void add(const std::string& name, const std::vector<std::string>& doubts) {
-    for (const std::string& doubt : doubts) {
-      const auto known = std::find_if(all_.begin(), all_.end(), [&](const auto& one) { return one.second == doubt; });
-      if (known == all_.end())
-        all_.emplace_back(name, doubt);
-      else
-        known->first += ", " + name;
-    }
-  }
-  std::vector<std::string> lines() const {
-    std::vector<std::string> lines;
-    for (const auto& [names, doubt] : all_) lines.push_back(names + ": " + doubt);
-    return lines;
-  }
-
- private:
-  std::vector<std::pair<std::string, std::string>> all_;
-};
-
 int report(const ReportOptions& options, const Session& session) {
   if (options.studies.empty() && options.campaigns.empty())
     throw InputError("name a study or a campaign: soilbin report paper-straight --measured cmu-smooth");
@@ -64,13 +42,13 @@ int report(const ReportOptions& options, const Session& session) {
   std::vector<compare::StudyPart> studies;
   std::vector<compare::PageCard> links;
   for (const std::string& link : options.links) links.push_back(compare::page_card(link, options.output));
-  NamedDoubts named;
+  compare::NamedDoubts named;
   for (const std::string& name : options.studies) {
     compare::StudyPart part{find_study(session.place, name), {}, {}, {}};
     part.study = compare::run_study(part.question, shown_progress());
     part.curves = compare::with_smooth_curves(part.question, smooth_points);
     part.along_curves = compare::run_study(part.curves, shown_progress());
-    named.add(name, compare::doubts(part.question, part.study));
+    named.add(name, part.question, part.study);
     studies.push_back(std::move(part));
   }
   const auto model = compare::make_model(ModelKind::bekker_wong);

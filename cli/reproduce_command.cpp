@@ -13,7 +13,7 @@
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
-#include "compare/doubts/doubts.hpp"
+#include "compare/doubts/named_doubts.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/reproduction/reproduction_report.hpp"
 #include "compare/sweep/result_json.hpp"
@@ -59,7 +59,7 @@ struct Recorded {
 /// What is to be known of the answers beside them.
 struct Notes {
   std::vector<std::string> remarks;  ///< on errors
-  std::vector<std::string> doubts;   ///< each with the study that it is of
+  compare::NamedDoubts doubts;       ///< each with the studies that it is of
 };
 
 /// Those of the analytic models and of grains that a record answers by.
@@ -69,8 +69,7 @@ void add_doubts(Notes& notes, Case question, std::vector<compare::ModelAnswers> 
     question.study.models.push_back({ModelKind::dem, {}, "dem"});
     study.push_back({question.study.models.back(), grains});
   }
-  for (const std::string& doubt : compare::doubts(question, study))
-    notes.doubts.push_back(question.study.name + ": " + doubt);
+  notes.doubts.add(question.study.name, question, study);
 }
 
 /// Answers of every model to every study that the findings speak of.
@@ -146,16 +145,17 @@ int reproduce(const ReproduceOptions& options, const Session& session) {
   compare::Reproduction reproduction =
       compare::reproduce(findings, answers_of(findings, records, session.place, notes));
   reproduction.remarks = notes.remarks;
-  print_warnings(notes.doubts);
+  const std::vector<std::string> doubts = notes.doubts.lines();
+  print_warnings(doubts);
   Outputs outputs;
   outputs.file(options.report, [&] {
     return compare::reproduction_page(
-        reproduction, {"What of " + findings.name + " is reproduced", session.command, versions(), notes.doubts},
+        reproduction, {"What of " + findings.name + " is reproduced", session.command, versions(), doubts},
         compare::find_libraries());
   });
   if (options.json) {
     nlohmann::ordered_json document = compare::to_json(reproduction);
-    compare::tell_doubts(document, notes.doubts);
+    compare::tell_doubts(document, doubts);
     fmt::print("{}", compare::json_text(document));
   } else {
     print_text(reproduction);

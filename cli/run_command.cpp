@@ -198,6 +198,7 @@ int run(RunOptions options, const Session& session) {
     fmt::print("{}", options.json ? compare::json_text(document) : plan_text(plan));
     return done;
   }
+  if (asks_dem(question) && options.soil_bin.recorded.empty()) tell_coarse_grains(question.scenario);
   if (!options.soil_bin.shard.empty()) try {
       recording(options, [&] { make_runs(question, whole, options, session); });
       return done;

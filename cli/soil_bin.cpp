@@ -11,6 +11,7 @@
 #include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/versions.hpp"
+#include "compare/doubts/grain_doubts.hpp"
 #include "dem/bed/relative_density.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -256,6 +257,12 @@ void tell_unsealed(const compare::ExperimentStore& store, const fs::path& file) 
                "note: {}: {} of its {} experiments carry no seal, as from before there were any: damage to them can't "
                "be told\n",
                file.string(), store.unsealed(), store.size());
+}
+
+void tell_coarse_grains(const Scenario& scenario) {
+  if (!scenario.soil.granular) return;
+  if (const std::string doubt = compare::coarse_grain_doubt(scenario, {}); !doubt.empty())
+    fmt::print(stderr, "note: {}\n", doubt);
 }
 
 std::string relative_density_of(const std::vector<compare::RecordedRun>& runs, const Soil& soil) {

@@ -72,6 +72,10 @@ dem::DemSettings settings_of(const SoilBinFlags& flags);
 /// What the flags have kept of runs, by this program.
 compare::RunKeeping keeping_of(const SoilBinFlags& flags);
 
+/// On standard error, before minutes of grains: that they are coarse for the wheel. Beside the answer stands what that
+/// does to it.
+void tell_coarse_grains(const Scenario& scenario);
+
 /// How dense the runs' beds are between the loosest and the densest of these grains, where `soilbin bed` has made those
 /// two; "" elsewhere.
 std::string relative_density_of(const std::vector<compare::RecordedRun>& runs, const Soil& soil);

@@ -63,7 +63,9 @@ fs::path find_record(const Workplace& place, const std::string& study) {
 }
 
 fs::path find_record(const Workplace& place, const std::string& study, const std::string& recorded) {
-  return recorded == library_record ? find_record(place, study) : fs::path(recorded);
+  if (recorded == library_record) return find_record(place, study);
+  const bool a_name = recorded.find('/') == recorded.npos && !recorded.ends_with(".json") && !fs::exists(recorded);
+  return a_name ? find_record(place, recorded) : fs::path(recorded);
 }
 
 compare::Campaign find_campaign(const Workplace& place, const std::string& name, compare::CampaignUse use) {

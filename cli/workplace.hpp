@@ -37,7 +37,8 @@ Case find_study(const Workplace& place, const std::string& name);
 std::filesystem::path place_of_record(const Workplace& place, const std::string& study);
 /// The record of a study's runs that lies beside it in the library. Throws InputError with a hint where there is none.
 std::filesystem::path find_record(const Workplace& place, const std::string& study);
-/// The same where `recorded`, an option's value, is library_record; else `recorded` itself.
+/// The same where `recorded`, an option's value, is library_record; of that study where it is a name, neither a path
+/// nor NAME.json; else `recorded` itself.
 std::filesystem::path find_record(const Workplace& place, const std::string& study, const std::string& recorded);
 inline constexpr const char* library_record = "library";
 

@@ -39,36 +39,27 @@ std::string by_how_much(const Scenario& scenario, const std::vector<ModelAnswers
     if (!error.known() || (told && std::abs(error.drawbar_pull.value) <= std::abs(told->drawbar_pull.value))) return;
     told = std::move(error), told_at = answer.at;
   });
-  constexpr std::string_view study_of_sizes = "the study of grain sizes (docs/lab/grain-size.md)";
   if (told)
-    return fmt::format(" By {} they change {} against infinitely fine ones ({}).", study_of_sizes, in_words(*told),
+    return fmt::format(": they are estimated to change {} against infinitely fine ones ({})", in_words(*told),
                        in_words(told_at));
-  return beyond.empty()
-             ? ""
-             : fmt::format(" By how much that changes the answer, {} does not say: {}.", study_of_sizes, beyond);
+  return beyond.empty() ? "" : fmt::format(": by how much that changes the answer is not known, since {}", beyond);
 }
 
-std::string coarse(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
+}  // namespace
+
+std::string coarse_grain_doubt(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
   const GrainCounts counts = count_grains(scenario, study);
   const bool few = counts.width < grains_wanted || counts.contact.value_or(grains_wanted) < grains_wanted;
   const bool low_lugs = counts.lug.value_or(grains_wanted_in_a_lug) < grains_wanted_in_a_lug;
   if (!few && !low_lugs) return "";
-  std::string lengths = fmt::format("{:.2g} lie across it", counts.width), wanted = fmt::format("{}", grains_wanted);
-  if (counts.contact) {
-    lengths += fmt::format(", {:.2g} along its contact ({})", *counts.contact, in_words(counts.at));
-    wanted += fmt::format(", {}", grains_wanted);
-  }
-  if (counts.lug) {
-    lengths += fmt::format(", {:.2g} in a lug's height", *counts.lug);
-    wanted += fmt::format(", {}", grains_wanted_in_a_lug);
-  }
-  std::string text = fmt::format("{} for this wheel.{} Of their mean diameter, {:.3g} mm, {}; at least {} are wanted.",
-                                 coarse_grains, by_how_much(scenario, study), 1000 * counts.diameter, lengths, wanted);
-  if (few) text += " Answers of so few grains scatter from packing to packing (--packings tells how much).";
-  if (low_lugs) text += " Lugs lower than a grain act as roughness: they do not dig.";
-  text.pop_back();  // a doubt ends without a full stop
-  return text;
+  std::string lengths = fmt::format("{:.2g} lie across it ({} wanted)", counts.width, grains_wanted);
+  if (counts.contact) lengths += fmt::format(", {:.2g} along its contact ({})", *counts.contact, grains_wanted);
+  if (counts.lug) lengths += fmt::format(", {:.2g} in a lug's height ({})", *counts.lug, grains_wanted_in_a_lug);
+  return fmt::format("{} for this wheel{}. Of their mean diameter, {:.3g} mm, {}: see docs/lab/grain-size.md",
+                     coarse_grains, by_how_much(scenario, study), 1000 * counts.diameter, lengths);
 }
+
+namespace {
 
 /// The angular speed below which two mean grains that 100 N press together are damped by I*/dt instead of by mu_r.
 std::string depends_on_the_step(const GranularSoil& grains) {
@@ -107,14 +98,15 @@ GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswer
 std::vector<std::string> grain_doubts(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
   std::vector<std::string> doubts;
   if (!scenario.soil.granular) return doubts;
-  for (const std::string& doubt : {coarse(scenario, study), depends_on_the_step(*scenario.soil.granular)})
+  for (const std::string& doubt : {coarse_grain_doubt(scenario, study), depends_on_the_step(*scenario.soil.granular)})
     if (!doubt.empty()) doubts.push_back(doubt);
   return doubts;
 }
 
+bool speaks_of_coarse_grains(const std::string& doubt) { return doubt.starts_with(coarse_grains); }
+
 bool speak_of_coarse_grains(const std::vector<std::string>& doubts) {
-  return std::any_of(doubts.begin(), doubts.end(),
-                     [](const std::string& one) { return one.starts_with(coarse_grains); });
+  return std::any_of(doubts.begin(), doubts.end(), speaks_of_coarse_grains);
 }
 
 }  // namespace soilbin::compare

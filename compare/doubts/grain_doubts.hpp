@@ -26,12 +26,18 @@ inline constexpr double grains_wanted = 10.0, grains_wanted_in_a_lug = 1.0;
 /// r acos(1 - z/r) with the answer's sinkage z; those of grains are taken where there are any.
 GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswers>& study);
 
+/// Two sentences on grains that are coarse for the wheel: what that is estimated to do to the answer where that is
+/// most, and how many lie along its lengths. "" where they are fine. Of several studies of one wheel: their answers
+/// together.
+std::string coarse_grain_doubt(const Scenario& scenario, const std::vector<ModelAnswers>& study);
+
+/// Whether it is a doubt that begins as that one.
+bool speaks_of_coarse_grains(const std::string& doubt);
 /// Whether one of them speaks of grains that are coarse for the wheel.
 bool speak_of_coarse_grains(const std::vector<std::string>& doubts);
 
-/// Sentences, each kind once: grains that are coarse for the wheel, with all counts and what that does to the answer;
-/// the directional rolling laws, whose answers depend on the time step, with where they turn into a dashpot. Empty
-/// where the soil has no grains.
+/// Sentences, each kind once: grains that are coarse for the wheel (coarse_grain_doubt); the directional rolling laws,
+/// whose answers depend on the time step, with where they turn into a dashpot. Empty where the soil has no grains.
 std::vector<std::string> grain_doubts(const Scenario& scenario, const std::vector<ModelAnswers>& study);
 
 }  // namespace soilbin::compare

@@ -27,6 +27,8 @@ TEST(CommandWords, AreRefusedInOurs) {
       {"calibrate paper-sand --seed 1.5", "--seed: expected a whole number of at least 1, not '1.5'"},
       {"calibrate paper-sand --decide-at load=1N..2N", "--decide-at needs --decide"},
       {"run rover-slip --record a.json --recorded b.json", " exclude each other"},
+      {"estimate --soil dry-sand --plot a.svg", "soilbin run mine/case.yaml --plot curves.svg"},
+      {"run --soil dry-sand", "soilbin init mine writes one to change"},
       {"--nope", "'--nope' stands where a command is to be"},
       {"estimate --soil dry-sand --radius 1m --width 1m --load 1kN --slip 0.1 --density 1600kg/m^3+-100kg/m^3",
        "--density: a density has no standard deviation here"},

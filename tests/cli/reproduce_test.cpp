@@ -19,6 +19,29 @@ TEST(RecordedStudies, AnswerAsTheFileThatIsNamed) {
   EXPECT_THAT(found.out, HasSubstr("dem: 3 runs"));
 }
 
+// An own case of the recorded wheel, at three of the recorded conditions.
+TEST(RecordedStudies, AnswerAnOwnCaseByTheNameOfTheRecordedStudy) {
+  const Scratch scratch;
+  const std::string own = "'" +
+                          scratch
+                              .write("own.yaml", R"(format: soilbin-case/1
+name: own
+tire: paper-lugged
+soil: paper-sand
+study:
+  models: [bekker_wong]
+  conditions: {load: 4 kN, slip: [0 %, 20 %, 40 %], rotation: 10 rpm}
+)")
+                              .string() +
+                          "' ";
+  const Outcome r = soilbin("run " + own + "--recorded paper-straight --slip 20%");
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("dem: 3 runs"));
+  const Outcome misspelt = soilbin("run " + own + "--recorded paper-strait");
+  EXPECT_EQ(misspelt.status, 2);
+  EXPECT_THAT(misspelt.err, HasSubstr("did you mean 'paper-straight'"));
+}
+
 TEST(RecordedStudies, AStudyWithoutRunsSaysHowToMakeThem) {
   const Outcome outcome = soilbin("run rover-slip --recorded");
   EXPECT_EQ(outcome.status, 2);
@@ -38,7 +61,11 @@ TEST(ReproduceCommand, CallsFindingsOfThePaperByTheirNames) {
   ASSERT_NE(steep, all.end());
   EXPECT_EQ(steep->at("answers").at("dem").at("verdict"), "shown");
   const std::string warnings = told.at("warnings").dump();
-  EXPECT_THAT(warnings, HasSubstr("paper-straight: the grains are coarse for this wheel"));
+  EXPECT_THAT(warnings,
+              HasSubstr("paper-horizontal, paper-longitudinal, paper-straight, paper-transverse: the grains are "
+                        "coarse for this wheel"));
+  EXPECT_EQ(warnings.find("coarse"), warnings.rfind("coarse")) << "once for all studies of the one wheel";
+  EXPECT_THAT(warnings, HasSubstr("+1030 ± 115 N")) << "where it is worst: 8 kN, 10 % slip, of paper-straight";
   EXPECT_THAT(warnings, Not(HasSubstr("the grains' rolling")));  // no law that hangs on the time step
 }
 

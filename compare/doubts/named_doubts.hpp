@@ -1,0 +1,41 @@
+// Doubts of several studies and campaigns, each said once under the names of those that it is of.
+//
+//   NamedDoubts named;
+//   for (...) named.add(question.study.name, question, study);
+//   print_warnings(named.lines());  // "paper-straight, paper-transverse: the tire's lugs change nothing: ..."
+//
+// Studies that ask the same wheel on the same grains differ in the figures of coarse grains alone: these are told once,
+// where they are worst.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/sweep/answers.hpp"
+#include "scenario/case.hpp"
+
+namespace soilbin::compare {
+
+class NamedDoubts {
+ public:
+  /// Those of a study and its answers.
+  void add(const std::string& name, const Case& question, const std::vector<ModelAnswers>& study);
+  /// Those that somebody else has found.
+  void add(const std::string& name, const std::vector<std::string>& doubts);
+  /// In the order in which they came.
+  std::vector<std::string> lines() const;
+
+ private:
+  struct OnGrains {
+    Scenario scenario;
+    std::vector<ModelAnswers> study;  ///< of all that share the doubt
+  };
+  struct Entry {
+    std::string names, doubt;
+    std::optional<OnGrains> grains;  ///< the doubt is made from these
+  };
+  std::vector<Entry> entries_;
+};
+
+}  // namespace soilbin::compare
