@@ -163,9 +163,14 @@ std::string limits_csv(const std::vector<LimitsAnswer>& answers) {
 /// Largest pull against the slope, and the slips: a colour for each model and load.
 compare::Sheet limits_sheet(const Case& question, const std::vector<LimitsAnswer>& answers) {
   const compare::Axis slope{"slope [deg]", {}, {}};
-  compare::Sheet sheet{fmt::format("{} on {}", question.scenario.tire.name, compare::in_words(question.scenario.soil)),
-                       {{"Largest pull [N]", slope, {}, {}}, {"Slip [%]", slope, {}, {}}},
-                       compare::Palette::named};
+  const bool one_load = std::all_of(answers.begin(), answers.end(), [&](const LimitsAnswer& answer) {
+    return answer.at.load == answers.front().at.load;
+  });
+  compare::Sheet sheet{
+      fmt::format("{} on {}{}", question.scenario.tire.name, compare::in_words(question.scenario.soil),
+                  one_load && !answers.empty() ? ", load " + number(answers.front().at.load) + " N" : ""),
+      {{"Largest pull [N]", slope, {}, {}}, {"Slip [%]", slope, {}, {}}},
+      compare::Palette::named};
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const LimitsAnswer& answer = answers[i];
     const std::string which =

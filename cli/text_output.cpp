@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <numeric>
 
 #include "compare/measured/channels.hpp"
 #include "compare/sweep/varying.hpp"
@@ -59,6 +60,46 @@ std::string efficiency(const TractionResult& result) {
 
 std::string heading(const ChannelView& channel) { return fmt::format("{} [{}]", channel.title, channel.unit); }
 
+constexpr std::size_t widest_line = 120;
+constexpr std::size_t between_columns = 2;
+
+/// The words of a cell, in lines of at most `wide` characters where no word is longer.
+std::vector<std::string> folded(const std::string& cell, std::size_t wide) {
+  std::vector<std::string> lines{""};
+  for (std::size_t at = 0; at <= cell.size();) {
+    const std::size_t end = std::min(cell.find(' ', at), cell.size());
+    const std::string word = cell.substr(at, end - at);
+    if (at > 0 && width(lines.back()) + 1 + width(word) > wide)
+      lines.push_back(word);
+    else
+      lines.back() += (at > 0 ? " " : "") + word;
+    at = end + 1;
+  }
+  return lines;
+}
+
+std::size_t longest_word(const std::string& cell) {
+  std::size_t longest = 0;
+  for (const std::string& word : folded(cell, 0)) longest = std::max(longest, width(word));
+  return longest;
+}
+
+/// Narrows the widest columns, a character at a time, until a line fits. Where it cannot fit all stays as it is.
+void narrow(std::vector<std::size_t>& widths, const std::vector<std::size_t>& least) {
+  const std::size_t gaps = between_columns * (widths.size() - 1);
+  const auto line_of = [&](const std::vector<std::size_t>& all) {
+    return std::accumulate(all.begin(), all.end(), gaps);
+  };
+  if (line_of(least) > widest_line) return;
+  for (std::size_t line = line_of(widths); line > widest_line; --line) {
+    std::size_t widest = widths.size();
+    for (std::size_t c = 0; c < widths.size(); ++c)
+      if (widths[c] > least[c] && (widest == widths.size() || widths[c] > widths[widest])) widest = c;
+    if (widest == widths.size()) return;
+    --widths[widest];
+  }
+}
+
 }  // namespace
 
 std::string with_unit(const SoilParameter& parameter) {
@@ -75,18 +116,33 @@ std::string TextTable::text() const {
       widths[c] = std::max(widths[c], width(rows_[r][c]));
       if (r > 0 && !is_number(rows_[r][c])) right[c] = false;
     }
+  const auto has_note = [](const std::string& cell) { return cell.find(" (") != std::string::npos; };
+  std::vector<std::size_t> least(widths.size(), 0);  // figures stay in one line, words may be folded
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    for (std::size_t c = 0; c < rows_[r].size() && !is_title(rows_[r]); ++c)
+      least[c] = std::max(least[c],
+                          r > 0 && right[c] && !has_note(rows_[r][c]) ? width(rows_[r][c]) : longest_word(rows_[r][c]));
+  narrow(widths, least);
   std::string text;
   for (const std::vector<std::string>& row : rows_) {
     if (is_title(row)) {
       text += "\n" + row.front() + "\n";
       continue;
     }
-    std::string line;
+    std::vector<std::vector<std::string>> cells;
+    std::size_t lines = 1;
     for (std::size_t c = 0; c < row.size(); ++c) {
-      const std::string blanks(widths[c] - width(row[c]), ' ');
-      line += (c == 0 ? "" : "  ") + (right[c] ? blanks + row[c] : row[c] + blanks);
+      cells.push_back(width(row[c]) > widths[c] ? folded(row[c], widths[c]) : std::vector{row[c]});
+      lines = std::max(lines, cells.back().size());
     }
-    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    for (std::size_t l = 0; l < lines; ++l) {
+      std::string line;
+      for (std::size_t c = 0; c < row.size(); ++c) {
+        const std::string part = l < cells[c].size() ? cells[c][l] : "", blanks(widths[c] - width(part), ' ');
+        line += (c == 0 ? "" : std::string(between_columns, ' ')) + (right[c] ? blanks + part : part + blanks);
+      }
+      text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    }
   }
   return text;
 }

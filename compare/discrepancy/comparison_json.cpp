@@ -93,16 +93,16 @@ Json comparison_json(const Comparison& comparison, const ComparisonAbout& about)
 
 std::string differences_csv(const Comparison& comparison) {
   std::string text =
-      "side,reference,channel,condition,value,value_se,reference_value,reference_se,scatter,difference,std_error,"
+      "side,reference,channel,unit,condition,value,value_se,reference_value,reference_se,scatter,difference,std_error,"
       "freedom,share_of_load,sigma,finding\n";
   const auto cell = [](double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); };
   for (const Difference& d : comparison.differences)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(comparison.sides[d.side].label),
-                        csv_cell(comparison.sides[d.reference].label), channel_views[d.channel].name,
-                        csv_cell(in_words(comparison.question.study.conditions[d.condition])), cell(d.value.value),
-                        cell(d.value.std_error), cell(d.reference_value.value), cell(d.reference_value.std_error),
-                        cell(d.scatter), cell(d.difference), cell(d.std_error), cell(d.freedom), cell(d.share),
-                        cell(d.sigma), word(d.finding));
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(comparison.sides[d.side].label),
+        csv_cell(comparison.sides[d.reference].label), channel_views[d.channel].name, channel_views[d.channel].si_unit,
+        csv_cell(in_words(comparison.question.study.conditions[d.condition])), cell(d.value.value),
+        cell(d.value.std_error), cell(d.reference_value.value), cell(d.reference_value.std_error), cell(d.scatter),
+        cell(d.difference), cell(d.std_error), cell(d.freedom), cell(d.share), cell(d.sigma), word(d.finding));
   return text;
 }
 

@@ -57,10 +57,10 @@ void add_curves(Page& page, const Comparison& comparison, bool coarse_grains) {
   std::vector<Choice> parts;
   for (std::size_t c = 0; c < names.size(); ++c)
     parts.push_back({named(names[c]), [&page, &comparison, c, coarse_grains] {
-                       page.figure(
-                           curve_sheet(comparison, c, coarse_grains),
-                           "Lines: models. Points on lines: grains. Points: measured. Band and bars: one standard "
-                           "error of the soil's values, of the grains' runs, of the measured runs.");
+                       page.figure(curve_sheet(comparison, c, coarse_grains),
+                                   "bekker_wong: the analytic wheel. dem: grains. Lines: models. Points on lines: "
+                                   "grains. Points: measured. Band and bars: one standard "
+                                   "error of the soil's values, of the grains' runs, of the measured runs.");
                      }});
   if (names.size() > 1)
     parts.push_back({"all curves at once", [&page, &comparison] {

@@ -38,10 +38,9 @@ MarkedTable tally_table(const Comparison& comparison) {
   const bool several = comparison.sides.size() > more_than_a_channel;
   MarkedTable table{
       "Channel by channel, the widest apart first. Green: no more than the stated errors alone would give",
-      {"channel", "root mean square", "share", "differ", "errors alone", "mean", "within scatter", "within errors",
-       "widest at", "there"},
+      {"channel", "root mean square", "errors alone", "mean", "differ", "widest at"},
       {},
-      {true, false, false, false, false, false, false, false, true, true}};
+      {true, false, false, false, true, true}};
   for (const Tally* t : widest_first(comparison)) {
     const Difference& worst = comparison.differences[t->worst];
     const std::string pair =
@@ -52,15 +51,15 @@ MarkedTable tally_table(const Comparison& comparison) {
                                                   : Tone::none;
     table.rows.push_back(
         {{.text = std::string(channel_views[t->channel].title), .note = several ? pair : "", .anchor = rows_anchor(*t)},
-         {.text = in_unit(t->channel, t->rms), .tone = tone},
-         {.text = percent(t->rms_share), .note = "of " + measure_of(*t)},
-         {.text = t->unknown == t->values ? "not judged" : fmt::format("{} of {}", t->differ, t->values)},
+         {.text = in_unit(t->channel, t->rms),
+          .note = fmt::format("{} of {}", percent(t->rms_share), measure_of(*t)),
+          .tone = tone},
          {.text = t->expected_rms > 0 ? in_unit(t->channel, t->expected_rms) : "-"},
          {.text = in_unit(t->channel, t->bias)},
-         {.text = std::to_string(t->in_scatter)},
-         {.text = std::to_string(t->in_errors)},
-         {.text = in_words(comparison.question.study.conditions[worst.condition])},
-         {.text = fmt::format("{} against {}", in_unit(t->channel, worst.value.value),
+         {.text = t->unknown == t->values ? "not judged" : fmt::format("{} of {}", t->differ, t->values),
+          .note = fmt::format("{} within scatter, {} within errors", t->in_scatter, t->in_errors)},
+         {.text = in_words(comparison.question.study.conditions[worst.condition]),
+          .note = fmt::format("{} against {}", in_unit(t->channel, worst.value.value),
                               in_unit(t->channel, worst.reference_value.value))}});
   }
   return table;

@@ -66,10 +66,12 @@ MarkedTable next_run_table(const LoopAnswer& answer) {
 }
 
 MarkedTable error_table(const LoopAnswer& answer) {
-  MarkedTable table{"Root mean square error on conditions left out: neither the choice nor the fit has seen them",
-                    {"channel", "values", "before", "after", "change", "noise alone"},
-                    {},
-                    {}};
+  MarkedTable table{
+      "Root mean square error on conditions that neither choice nor fit has seen; before: soil refitted, "
+      "no effect added",
+      {"channel", "values", "before", "after", "change", "noise alone"},
+      {},
+      {}};
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const ErrorPair& e = answer.validation.channels[c];
     if (e.cells == 0) continue;
@@ -128,9 +130,9 @@ MarkedTable candidates_table(const LoopAnswer& answer) {
 MarkedTable parameters_table(const LoopAnswer& answer) {
   MarkedTable table{answer.effects.empty() ? "The stand-in of the saved model: its fitted parameters"
                                            : "The effects of the saved model: their fitted parameters",
-                    {"effect", "parameter", "value", "95 %", "unit", "the form allows", "determined?"},
+                    {"effect", "parameter", "value", "95 %", "the form allows", "determined?"},
                     {},
-                    {true, true, false, false, true, false, true}};
+                    {true, true, false, false, false, true}};
   for (const std::vector<AcceptedEffect>* effects : {&answer.effects, &answer.stand_in})
     for (const AcceptedEffect& effect : *effects) {
       const bekker_wong::EffectForm& form = bekker_wong::find_form(effect.choice);
@@ -139,7 +141,6 @@ MarkedTable parameters_table(const LoopAnswer& answer) {
                               {.text = form.equation, .note = "form " + form.form},
                               {.text = std::to_string(effect.fitted.size()) + " weights"},
                               {.text = "-"},
-                              {},
                               {.text = "-"},
                               {.text = "-"}});
         continue;
@@ -148,18 +149,16 @@ MarkedTable parameters_table(const LoopAnswer& answer) {
         const auto p = std::find_if(form.parameters.begin(), form.parameters.end(),
                                     [&](const auto& one) { return one.name == effect.fitted[i]; });
         const double scale = per_unit(p->unit);
-        const auto range = [&](double low, double high) {
-          return fmt::format("{} to {}", number(scale * low), number(scale * high));
-        };
+        const std::string unit = p->unit == "-" ? "" : " " + p->unit;
+        const auto& [low, high] = effect.ci95[i];
         table.rows.push_back({i == 0 ? MarkedCell{.text = std::string(bekker_wong::effect_title(form.id).name),
                                                   .note = form.id + ", form " + form.form}
                                      : MarkedCell{},
                               {.text = p->meaning, .note = p->name},
-                              {.text = number(scale * effect.choice.parameters.at(p->name))},
-                              {.text = range(effect.ci95[i].first, effect.ci95[i].second)},
-                              {.text = p->unit == "-" ? "" : p->unit},
-                              {.text = range(p->lower, p->upper)},
-                              effect.at_bound[i] ? MarkedCell{.text = "no: it stands at its bound", .tone = Tone::bad}
+                              {.text = number(scale * effect.choice.parameters.at(p->name)) + unit},
+                              {.text = fmt::format("{} to {}{}", number(scale * low), number(scale * high), unit)},
+                              {.text = fmt::format("{:.4g} to {:.4g}{}", scale * p->lower, scale * p->upper, unit)},
+                              effect.at_bound[i] ? MarkedCell{.text = "no: at its bound", .tone = Tone::bad}
                                                  : MarkedCell{.text = "yes"}});
       }
     }

@@ -150,15 +150,18 @@ bool falls(const ErrorPair& error) { return error.before > third_digit * error.a
 bool falls_clearly(const ErrorPair& error) { return error.after < worth_saying * error.before; }
 bool hardly_changes(const ErrorPair& error) { return !falls_clearly(error) && !rises(error); }
 
-/// "sinkage (20.6 to 7.04 mm)" of each channel of which `moves` holds.
-std::vector<std::string> channels_that(bool (*moves)(const ErrorPair&), const CrossValidation& validation) {
+/// "sinkage (20.6 to 7.04 mm)" of each channel of which `moves` holds; the noise beside it where that is asked.
+std::vector<std::string> channels_that(bool (*moves)(const ErrorPair&), const CrossValidation& validation,
+                                       bool with_noise = false) {
   std::vector<std::string> said;
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const ErrorPair& e = validation.channels[c];
     const ChannelView& view = channel_views[c];
-    if (e.cells > 0 && moves(e))
-      said.push_back(fmt::format("{} ({:.3g} to {:.3g} {})", view.title, e.before * view.per_si, e.after * view.per_si,
-                                 view.unit));
+    if (e.cells == 0 || !moves(e)) continue;
+    const std::string noise =
+        with_noise ? fmt::format("; noise alone: {:.3g} {}", e.noise_floor * view.per_si, view.unit) : "";
+    said.push_back(fmt::format("{} ({:.3g} to {:.3g} {}{})", view.title, e.before * view.per_si, e.after * view.per_si,
+                               view.unit, noise));
   }
   return said;
 }
@@ -171,31 +174,24 @@ std::string with_the(const std::vector<std::string>& channels) {
 
 std::string error_sentence(const LoopAnswer& answer) {
   const CrossValidation& validation = answer.validation;
-  std::vector<std::string> noise, parts;
-  for (std::size_t c = 0; c < channel_views.size(); ++c) {
-    const ErrorPair& e = validation.channels[c];
-    if (e.cells > 0)
-      noise.push_back(fmt::format("{:.3g} {}{}", e.noise_floor * channel_views[c].per_si, channel_views[c].unit,
-                                  takes_effects(answer) ? "" : " (" + std::string(channel_views[c].title) + ")"));
-  }
+  std::vector<std::string> parts;
   if (!takes_effects(answer)) {
     for (std::size_t c = 0; c < channel_views.size(); ++c)
       if (const ErrorPair& e = validation.channels[c]; e.cells > 0)
-        parts.push_back(fmt::format("{} {:.3g} {}", channel_views[c].title, e.before * channel_views[c].per_si,
+        parts.push_back(fmt::format("{0} {1:.3g} {3} (noise alone: {2:.3g} {3})", channel_views[c].title,
+                                    e.before * channel_views[c].per_si, e.noise_floor * channel_views[c].per_si,
                                     channel_views[c].unit));
-    return fmt::format(
-        "With the soil refitted the error on conditions left out is: {} (root mean square). Noise alone: {}.",
-        in_a_row(parts), in_a_row(noise));
+    return fmt::format("With the soil refitted the root mean square error on conditions left out is: {}.",
+                       in_a_row(parts));
   }
   const auto add = [&](const char* what, const std::vector<std::string>& channels) {
     if (!channels.empty()) parts.push_back(fmt::format("{} {}", what, with_the(channels)));
   };
-  add("rises for", channels_that(rises, validation));
-  add("falls for", channels_that(falls_clearly, validation));
-  add("hardly changes for", channels_that(hardly_changes, validation));
-  return fmt::format(
-      "On conditions that neither the choice nor the fit has seen the error {} (root mean square). Noise alone: {}.",
-      in_a_row(parts), in_a_row(noise));
+  add("rises for", channels_that(rises, validation, true));
+  add("falls for", channels_that(falls_clearly, validation, true));
+  add("hardly changes for", channels_that(hardly_changes, validation, true));
+  return fmt::format("On conditions that neither the choice nor the fit has seen the root mean square error {}.",
+                     in_a_row(parts));
 }
 
 // What to measure next.
@@ -429,7 +425,7 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
                     condition_words(next), behind, std::sqrt(next.distance)));
   else
     sentences.push_back(
-        fmt::format("{}: {}. {} run{} there should decide between {} and {}.",
+        fmt::format("{}: {}. {} run{} there should decide between {} on the one hand and {} on the other.",
                     unknown ? "To choose between the named effects that come nearest, measure" : "Measure",
                     condition_words(next), next.runs, next.runs == 1 ? "" : "s", ahead, behind));
   if (next.beyond.empty()) return sentences;

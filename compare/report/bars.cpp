@@ -37,6 +37,7 @@ std::string bars_svg(const Bars& bars, const std::vector<int>& colors_of_sides) 
   for (const BarGroup& group : bars.groups) {
     body += fmt::format(R"(<text class="ink" fill="#1a1d23" x="4" y="{:.0f}">{}</text>)", y + 12, escaped(group.name));
     y += 18;
+    const double first = y;
     for (std::size_t s = 0; s < group.values.size(); ++s, y += thick + 2) {
       const double value = group.values[s], from = x(0.0), to = std::isfinite(value) ? x(value) : from;
       const std::string tip = fmt::format("{}, {}: {} N", group.name, bars.sides[s], number(value));
@@ -50,11 +51,12 @@ std::string bars_svg(const Bars& bars, const std::vector<int>& colors_of_sides) 
       body += fmt::format(R"(<text class="quiet" fill="#5a6270" x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text></g>)",
                           negative ? to - 5 : to + 5, y + 11, negative ? "end" : "start", number(value));
     }
+    body +=  // beside the bars alone: it would cross the names
+        fmt::format(
+            R"(<line class="quiet-line" stroke="#8a919c" x1="{0:.1f}" x2="{0:.1f}" y1="{1:.0f}" y2="{2:.0f}"/>)",
+            x(0.0), first - 2, y);
     y += gap - 18;
   }
-  body +=
-      fmt::format(R"(<line class="quiet-line" stroke="#8a919c" x1="{0:.1f}" x2="{0:.1f}" y1="{1:.0f}" y2="{2:.0f}"/>)",
-                  x(0.0), top, y - 6);
   for (std::size_t s = 0; s < bars.sides.size(); ++s, y += 18)
     body += fmt::format(R"(<rect {} x="8" y="{:.0f}" width="18" height="10"/>)"
                         R"(<text class="ink" fill="#1a1d23" x="34" y="{:.0f}">{}</text>)",

@@ -221,7 +221,7 @@ std::vector<std::pair<std::string, std::string>> opening(const Reproduction& rep
 MarkedTable findings_matrix(const Reproduction& reproduction) {
   MarkedTable table{
       fmt::format("Shown: the whole {:.0f} % interval lies in what is claimed. Contradicted: no part of it does. Open: "
-                  "between. A cell opens its figure",
+                  "between. A cell opens its figure. bekker_wong: the analytic wheel; dem: grains",
                   100 * reproduction.findings.level),
       {"section", "finding"},
       {},

@@ -2,6 +2,7 @@
 
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <sstream>
 
 #include "cli/command.hpp"
 
@@ -10,6 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 constexpr const char* cmu = R"(format: soilbin-case/1
 name: cmu
@@ -63,8 +65,22 @@ TEST(Compare, WritesThePageMarkdownAndData) {
     EXPECT_THAT(html.substr(0, html.find("<script")), Not(HasSubstr(loads)));
   EXPECT_THAT(text_of(folder / "report.md"), HasSubstr("![")) << "its drawings";
   EXPECT_EQ(text_of(folder / "differences.csv"), text_of(csv));
+  EXPECT_THAT(text_of(csv), StartsWith("side,reference,channel,unit,"));
+  EXPECT_THAT(text_of(csv), HasSubstr(",drawbar_pull,N,"));
+  EXPECT_THAT(text_of(csv), HasSubstr(",sinkage,m,"));
   EXPECT_EQ(soilbin("run '" + (folder / "case.yaml").string() + "' --json").status, 0) << "the resolved case runs";
   EXPECT_EQ(nlohmann::json::parse(text_of(folder / "comparison.json"))["format"], "soilbin-compare/1");
+}
+
+// A table of words and figures is folded to the width of a terminal; figures stay whole.
+TEST(Compare, ItsTableFitsATerminalOf120Columns) {
+  const Outcome r = soilbin("compare paper-straight --recorded --no-loop --load 4kN --slip 20%");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const std::size_t begin = r.out.find("channel "), end = r.out.find("\n\n", begin);
+  ASSERT_NE(end, std::string::npos) << r.out;
+  std::istringstream table(r.out.substr(begin, end - begin));
+  for (std::string line; std::getline(table, line);) EXPECT_LE(line.size(), 120U) << line;
+  EXPECT_THAT(r.out, HasSubstr("sinkage"));
 }
 
 // An effect that the study asks for already stays one side; one more form of it is one side more.

@@ -261,6 +261,9 @@ TEST(LimitsCommand, TheSlipOnASlopeIsTheSlipOfNoPullThere) {
   const std::string table = text_of(csv);
   EXPECT_EQ(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')), 1 + row["slopes"].size());
   EXPECT_THAT(text_of(plot), StartsWith("\x89PNG"));
+  const std::string drawing = (scratch / "l.svg").string();
+  ASSERT_EQ(soilbin("limits --tire rover-wheel --soil dry-sand --load 64.68N --plot '" + drawing + "'").status, 0);
+  EXPECT_THAT(text_of(drawing), HasSubstr("rover-wheel on dry-sand, load 64.68 N"));
 }
 
 TEST(LimitsCommand, AsksForTheLoadAndNoMore) {

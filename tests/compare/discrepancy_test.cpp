@@ -144,7 +144,7 @@ TEST_F(Pair, TheTableOfChannelsPutsTheWidestFirstAndMarksIt) {
   const MarkedTable apart = tally_table(against({300}, 40.0));
   EXPECT_EQ(apart.rows.at(0).at(0).text, "drawbar pull");
   EXPECT_EQ(apart.rows.at(0).at(1).tone, Tone::bad);
-  EXPECT_EQ(apart.rows.at(0).at(3).text, "4 of 4");
+  EXPECT_EQ(apart.rows.at(0).at(4).text, "4 of 4");
   EXPECT_EQ(apart.rows.at(0).at(0).anchor, "rows-0-1-0");
   const Comparison near = against({10}, 40.0);
   const MarkedTable table = tally_table(near);

@@ -10,9 +10,9 @@ namespace {
 /// Held out, sinkage falls by two thirds, the pull rises by 6 %, the torque stays within its third digit.
 CrossValidation mixed() {
   CrossValidation validation;
-  validation.channels[drawbar_pull] = {.cells = 90, .before = 5.95, .after = 6.30};
-  validation.channels[torque] = {.cells = 90, .before = 2.000, .after = 2.001};
-  validation.channels[sinkage] = {.cells = 90, .before = 0.0206, .after = 0.00704};
+  validation.channels[drawbar_pull] = {.cells = 90, .before = 5.95, .after = 6.30, .noise_floor = 5.0};
+  validation.channels[torque] = {.cells = 90, .before = 2.000, .after = 2.001, .noise_floor = 1.9};
+  validation.channels[sinkage] = {.cells = 90, .before = 0.0206, .after = 0.00704, .noise_floor = 0.0034};
   validation.overall = {.cells = 270, .before = 6.0, .after = 2.6};
   validation.gain = 29.4, validation.gain_error = 6.2;
   return validation;
@@ -52,9 +52,10 @@ TEST(ErrorSentence, TellsGainLossAndWhatHardlyChanges) {
   const auto parts = headline(answer);
   ASSERT_EQ(parts.size(), 2u);
   EXPECT_EQ(parts[1].first, "What it does to the error");
-  EXPECT_EQ(parts[1].second.find("On conditions that neither the choice nor the fit has seen the error rises for the "
-                                 "drawbar pull (5.95 to 6.3 N), falls for the sinkage (20.6 to 7.04 mm) and hardly "
-                                 "changes for the torque (2 to 2 N m) (root mean square)."),
+  EXPECT_EQ(parts[1].second.find(
+                "On conditions that neither the choice nor the fit has seen the root mean square error rises for the "
+                "drawbar pull (5.95 to 6.3 N; noise alone: 5 N), falls for the sinkage (20.6 to 7.04 mm; "
+                "noise alone: 3.4 mm) and hardly changes for the torque (2 to 2 N m; noise alone: 1.9 N m)."),
             0u)
       << parts[1].second;
   const MarkedTable table = error_table(answer);
@@ -82,11 +83,12 @@ TEST(ParametersTable, ShowsUnitsMeaningAndBounds) {
   const MarkedTable table = parameters_table(answer);
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_EQ(table.rows[0][0].text, "hard layer");
-  EXPECT_EQ(table.rows[0][6].tone, Tone::bad);
+  EXPECT_EQ(table.rows[0][5].tone, Tone::bad);
   EXPECT_EQ(table.rows[1][1].text, "depth at which the firm layer begins");
-  EXPECT_EQ(table.rows[1][2].text, "41.10");
-  EXPECT_EQ(table.rows[1][4].text, "mm");
-  EXPECT_EQ(table.rows[1][6].text, "yes");
+  EXPECT_EQ(table.rows[1][2].text, "41.10 mm");
+  EXPECT_EQ(table.rows[1][3].text, "37.30 to 45.00 mm");
+  EXPECT_EQ(table.rows[1][4].text, "1 to 1000 mm");
+  EXPECT_EQ(table.rows[1][5].text, "yes");
 }
 
 // A set's forms stand in the order of its ids, whichever was fitted first.
