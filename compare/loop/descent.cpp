@@ -119,12 +119,19 @@ VectorXd Descent::residual(const Point& at) const {
   return residual;
 }
 
-std::optional<Descent::Point> Descent::try_at(const VectorXd& theta) {
+std::optional<Descent::Point> Descent::try_at(const VectorXd& theta, double limit) {
   Point point{.theta = theta, .prediction = {}, .memory = here_.memory};
-  if (!predictor_.predict(theta, point.prediction, point.memory)) {
-    here_.memory.weakest = point.memory.weakest;
-    return {};
-  }
+  PartialChi2 chi2(whitening_);
+  chi2.add(prior_residual(predictor_.parameters(), theta).squaredNorm());
+  const double beyond = limit * (1 + 1e-9);  // more than another order of the sum makes of it
+  const auto goes_on = [&](Index first, Index count, const VectorXd& prediction, double shortfall) {
+    chi2.add(std::pow(shortfall / thresholds::carried_to, 2));
+    chi2.add(first, values_.segment(first, count) - prediction.segment(first, count));
+    return !chi2.exceeds(beyond);
+  };
+  const bool ended = !predictor_.predict(theta, point.prediction, point.memory, goes_on);
+  here_.memory.order = point.memory.order;
+  if (ended) return {};
   point.chi2 = residual(point).squaredNorm();
   return point;
 }
@@ -184,7 +191,7 @@ double Descent::step_down(const AugmentedLine& l) {
   double growth = 2.0;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const VectorXd step = damped_step(l, walls_, room, damping_);
-    if (auto there = try_at(predictor_.within_bounds(here_.theta + step.cwiseProduct(scale_)));
+    if (auto there = try_at(predictor_.within_bounds(here_.theta + step.cwiseProduct(scale_)), here_.chi2);
         there && there->chi2 < here_.chi2) {
       const double gain = here_.chi2 - there->chi2, kept = 2 * gain / promised_gain(l, step) - 1;
       if (stand_at(std::move(*there))) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -49,7 +50,9 @@ class Descent {
     double chi2 = 0.0;
   };
   Eigen::VectorXd residual(const Point& at) const;
-  std::optional<Point> try_at(const Eigen::VectorXd& theta);
+  /// The point at theta; nothing where it is no soil for all rows, or where chi2 is surely greater than `limit`: then
+  /// it was not read to the end.
+  std::optional<Point> try_at(const Eigen::VectorXd& theta, double limit = std::numeric_limits<double>::infinity());
   static bool carries(const Point& at);
   /// Moves there if there are slopes there.
   bool stand_at(Point point);

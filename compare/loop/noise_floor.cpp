@@ -85,6 +85,28 @@ Whitening Whitening::beside(const MatrixXd& columns) const {
   return joined;
 }
 
+PartialChi2::PartialChi2(const Whitening& whitening) : whitening_(whitening) {
+  const Index n = whitening.term_columns_.cols();
+  information_ = MatrixXd::Identity(n, n);
+  projection_ = VectorXd::Zero(n);
+}
+
+void PartialChi2::add(Index first, const VectorXd& residual) {
+  const auto block = std::lower_bound(whitening_.blocks_.begin(), whitening_.blocks_.end(), first,
+                                      [](const Whitening::Block& b, Index f) { return b.first < f; });
+  const VectorXd white = block->inverse_factor * residual;
+  squares_ += white.squaredNorm();
+  if (projection_.size() == 0) return;
+  const auto term = whitening_.term_columns_.middleRows(first, white.size());
+  information_.noalias() += term.transpose() * term;
+  projection_.noalias() += term.transpose() * white;
+}
+
+bool PartialChi2::exceeds(double limit) const {
+  if (!(squares_ > limit)) return false;
+  return projection_.size() == 0 || squares_ - projection_.dot(information_.llt().solve(projection_)) > limit;
+}
+
 MatrixXd Whitening::term() const {
   MatrixXd columns = term_columns_;
   for (const Block& b : blocks_) {

@@ -45,6 +45,7 @@ class Whitening {
   Eigen::MatrixXd term() const;
 
  private:
+  friend class PartialChi2;
   struct Block {
     Eigen::Index first;
     Eigen::MatrixXd inverse_factor;
@@ -55,6 +56,24 @@ class Whitening {
   std::vector<Block> blocks_;
   /// Beside a term of columns U = Q R: then v becomes v + Q (L^-1 - 1) Q' v, L L' = 1 + R R'. Empty: no term.
   Eigen::MatrixXd term_basis_, term_change_, term_columns_;
+};
+
+/// chi2 of the rows heard so far: never more than that of all rows. Beside a term it is that of these rows alone, with
+/// the covariance 1 + U U' that the term's whitened columns U give them.
+class PartialChi2 {
+ public:
+  explicit PartialChi2(const Whitening& whitening);
+  /// The residuals of a row, whose cells begin at `first`. Rows come in any order, each once.
+  void add(Eigen::Index first, const Eigen::VectorXd& residual);
+  /// A square that has no part in the term.
+  void add(double square) { squares_ += square; }
+  bool exceeds(double limit) const;
+
+ private:
+  const Whitening& whitening_;
+  double squares_ = 0.0;
+  Eigen::MatrixXd information_;  ///< 1 + U'U of the rows heard; empty: no term
+  Eigen::VectorXd projection_;   ///< U' times their whitened residuals
 };
 
 /// What a noise estimate starts from: the cells' residuals about the declared soil's linearised prediction,

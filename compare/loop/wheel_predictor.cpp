@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "bekker_wong/contact_stages.hpp"
 #include "bekker_wong/model.hpp"
@@ -199,38 +200,50 @@ bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& pred
   return predict(theta, prediction, memory);
 }
 
-bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction, BalanceMemory& memory) const
-    try {
-  const RollingWheel wheel = wheel_at(theta);
-  const std::vector<Cell>& cells = observations_->cells;
-  const int rows = this->rows();
-  prediction.resize(cells.size());
-  std::vector<double> angles(rows), shortfall(rows);
-  for (int k = 0, first = memory.weakest; k < rows; ++k) {
-    const int row = (first + k) % rows;
-    auto cell = std::lower_bound(cells.begin(), cells.end(), row, [](const Cell& c, int r) { return c.row < r; });
-    if (cell == cells.end() || cell->row != row) continue;
-    memory.weakest = row;
-    const std::size_t r = row;
-    const OperatingCondition& at = observations_->rows[r];
-    const RolledWheel rolled =
-        memory.gives_way ? wheel.roll_or_give_way(at, memory.angles.empty() ? 0.0 : memory.angles[r]) : wheel.roll(at);
-    if (!all_finite(rolled.reading) || rolled.shortfall > most_shortfall) return false;
-    angles[r] = rolled.balance_angle;
-    shortfall[r] = rolled.gives_way ? std::max(rolled.shortfall, least_shortfall) : 0.0;
-    for (; cell != cells.end() && cell->row == row; ++cell)
-      prediction[cell - cells.begin()] = channel_of(rolled.reading, cell->channel);
-    memory.weakest = first;
+bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction, BalanceMemory& memory,
+                             const RowWatch& watch) const {
+  if (memory.order.size() != observations_->rows.size()) {
+    memory.order.resize(observations_->rows.size());
+    std::iota(memory.order.begin(), memory.order.end(), 0);
   }
-  memory.angles = std::move(angles);
-  memory.shortfall = std::move(shortfall);
-  return true;
-} catch (const NoSolution&) {
-  return false;
-} catch (const InputError&) {
-  return false;  // a trial value outside what the wheel accepts
-} catch (const std::domain_error&) {
-  return false;
+  std::size_t tried = 0;
+  const auto ends_at = [&] {
+    const auto first = memory.order.begin(), here = first + static_cast<std::ptrdiff_t>(tried);
+    if (tried > 0) std::rotate(first, here, here + 1);
+    return false;
+  };
+  try {
+    const RollingWheel wheel = wheel_at(theta);
+    const std::vector<Cell>& cells = observations_->cells;
+    prediction.resize(cells.size());
+    std::vector<double> angles(memory.order.size()), shortfall(memory.order.size());
+    for (; tried < memory.order.size(); ++tried) {
+      const int row = memory.order[tried];
+      auto cell = std::lower_bound(cells.begin(), cells.end(), row, [](const Cell& c, int r) { return c.row < r; });
+      if (cell == cells.end() || cell->row != row) continue;
+      const std::size_t r = row;
+      const OperatingCondition& at = observations_->rows[r];
+      const RolledWheel rolled = memory.gives_way
+                                     ? wheel.roll_or_give_way(at, memory.angles.empty() ? 0.0 : memory.angles[r])
+                                     : wheel.roll(at);
+      if (!all_finite(rolled.reading) || rolled.shortfall > most_shortfall) return ends_at();
+      angles[r] = rolled.balance_angle;
+      shortfall[r] = rolled.gives_way ? std::max(rolled.shortfall, least_shortfall) : 0.0;
+      const Eigen::Index first = cell - cells.begin();
+      for (; cell != cells.end() && cell->row == row; ++cell)
+        prediction[cell - cells.begin()] = channel_of(rolled.reading, cell->channel);
+      if (watch && !watch(first, cell - cells.begin() - first, prediction, shortfall[r])) return ends_at();
+    }
+    memory.angles = std::move(angles);
+    memory.shortfall = std::move(shortfall);
+    return true;
+  } catch (const NoSolution&) {
+    return ends_at();
+  } catch (const InputError&) {
+    return ends_at();  // a trial value outside what the wheel accepts
+  } catch (const std::domain_error&) {
+    return ends_at();
+  }
 }
 
 /// Wheels with one parameter moved each.

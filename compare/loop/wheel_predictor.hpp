@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -47,7 +48,7 @@ Term make_term(const bekker_wong::EffectForm& form, const Observations& observat
 /// What one prediction tells the next.
 struct BalanceMemory {
   bool gives_way = false;         ///< rows that no sinkage carries are read where the soil carries most
-  int weakest = 0;                ///< the row that had no balance at last: tried first, for it fails again
+  std::vector<int> order;         ///< rows as they are predicted: those that may end a prediction first
   std::vector<double> angles;     ///< theta_1 of each row, of the last prediction that succeeded [rad]
   std::vector<double> shortfall;  ///< of each row, of that prediction: ln(load/most carried); 0: balanced
 };
@@ -58,6 +59,10 @@ inline BalanceMemory giving_way() {
   memory.gives_way = true;
   return memory;
 }
+
+/// Hears each row of a prediction: where its cells stand, how many, and ln(load/most carried). False ends it.
+using RowWatch =
+    std::function<bool(Eigen::Index first, Eigen::Index count, const Eigen::VectorXd& prediction, double shortfall)>;
 
 /// What the declared campaign and some terms predict. theta: the soil's free values in the contract's order (those
 /// declared with sd > 0), then each term's free parameters. All const members may be called from any thread.
@@ -84,9 +89,11 @@ class WheelPredictor {
   std::vector<Wall> walls() const;
 
   /// Predictions of all cells; false where any row has no balance at theta, or with memory.gives_way where the soil
-  /// carries less than a fifth of any row's load.
+  /// carries less than a fifth of any row's load, or where the watch ends it. The row that ended it stands first in
+  /// memory.order then, for it is the likeliest to end the next one.
   bool predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction) const;
-  bool predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction, BalanceMemory& memory) const;
+  bool predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction, BalanceMemory& memory,
+               const RowWatch& watch = {}) const;
 
   /// The predictions' Jacobian over theta by implicit differentiation of the balance: at fixed theta_1 the forces and
   /// the carried load are differenced, then dtheta_1 = -dV/(dV/dtheta_1). All on the same nodes, half as many as a

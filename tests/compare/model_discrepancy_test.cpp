@@ -53,6 +53,30 @@ TEST(Whitening, BesideATermIsThatOfTheirJointCovariance) {
               1e-9 * white.squaredNorm());
 }
 
+// A trial point is given up once the rows read so far cost more than the best one in all: right only if no partial sum
+// passes the whole, in whatever order rows are read, and the last one is the whole.
+TEST(PartialChi2, NeverPassesTheWholeAndEndsAtIt) {
+  const FittedModel base = settled();
+  const Observations& seen = base.data().observations;
+  const Eigen::VectorXd residual = Eigen::VectorXd::LinSpaced(base.data().cells(), -3.0, 2.0);
+  for (const Whitening& whitening :
+       {base.data().whitening, base.data().whitening.beside(0.5 * model_discrepancy_columns(base))}) {
+    const double whole = whitening(residual).squaredNorm() + 4.0;
+    PartialChi2 partial(whitening);
+    partial.add(4.0);  // a prior's square
+    const auto last = static_cast<Eigen::Index>(seen.cells.size());
+    for (Eigen::Index end = last; end > 0;) {  // rows from the last to the first
+      Eigen::Index first = end - 1;
+      while (first > 0 && seen.cells[first - 1].row == seen.cells[first].row) --first;
+      EXPECT_FALSE(partial.exceeds(whole * (1 - 1e-12)));
+      partial.add(first, residual.segment(first, end - first));
+      end = first;
+    }
+    EXPECT_TRUE(partial.exceeds(whole * (1 - 1e-9)));
+    EXPECT_FALSE(partial.exceeds(whole * (1 + 1e-9)));
+  }
+}
+
 // ln N(r; 0, 1 + s^2 U U') - ln N(r; 0, 1), by the joint covariance itself.
 TEST(JoinedColumns, GainTheRatioOfNormalDensities) {
   const FittedModel base = settled();
