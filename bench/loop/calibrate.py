@@ -22,6 +22,9 @@ import math
 import sys
 from pathlib import Path
 
+from measure import in_set, interval, named
+from nature.selftest import Checks
+
 CLASSES = (("rich, one effect", lambda t: t["kind"] == "one_rich"), ("poor, one effect", lambda t: t["kind"] == "one_poor"),
            ("two effects", lambda t: t["kind"] == "two"))
 RULES = ("behind", "growing", "share")
@@ -73,18 +76,6 @@ def told(answer, rule, q):
     return sum(s <= q for s in found[rule].values()) if found else 0
 
 
-def in_todays(case):
-    return any(set(s["effects"]) == set(case[0]["effects"]) for s in case[1]["ambiguity_set"])
-
-
-def interval(hits, n):
-    """Wilson's 95 % interval of a share [%]."""
-    p, z = hits / n, 1.96
-    middle, half = p + z * z / (2 * n), z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
-    low, high = (100 * max(0.0, middle + side * half) / (1 + z * z / n) for side in (-1, 1))
-    return f"{hits}/{n} = {100 * p:.0f} % ({low:.0f} .. {high:.0f})"
-
-
 def mean(values):
     return sum(values) / max(1, len(values))
 
@@ -99,7 +90,7 @@ def conformal(one, other, coverage):
         weighed = sum(math.isfinite(of_truth(c, "behind")) for c in every)
         some = [c for c in every if c[1]["ambiguity_set"]]
         print(f"{name}: {len(every)} campaigns; the truth was fitted and weighed in {interval(weighed, len(every))}")
-        print(f"  today    covers {interval(sum(map(in_todays, every)), len(every))}, "
+        print(f"  today    covers {interval(sum(in_set(t, a) for t, a in every), len(every))}, "
               f"mean size {mean([len(a['ambiguity_set']) for _, a in some]):.2f}")
         for rule in RULES:
             limits = [quantile([of_truth(c, rule) for c in half], coverage) for half in halves]
@@ -143,7 +134,7 @@ def confidence(answer):
 
 def right(case):
     """Whether the names told are the truth."""
-    return {e["id"] for e in case[1]["effects"]} == set(case[0]["effects"])
+    return named(case[1]) == set(case[0]["effects"])
 
 
 def curve(cases):
@@ -196,29 +187,22 @@ def figure(cases):
 def self_test():
     """The conformal rank, a made answer, and coverage of a made score."""
     import random
-    failed = 0
-
-    def check(what, good):
-        nonlocal failed
-        failed += not good
-        print(("ok    " if good else "FAILED ") + what)
-
-    check("the 19th smallest of 19 at 95 %, none of 18", quantile(list(range(19)), 0.95) == 18 and quantile(list(range(18)), 0.95) == math.inf)
+    check = Checks()
+    check.true("the 19th smallest of 19 at 95 %, none of 18", quantile(list(range(19)), 0.95) == 18 and quantile(list(range(18)), 0.95) == math.inf)
     draw = random.Random(5)
     hits = sum(draw.random() <= quantile([draw.random() for _ in range(39)], 0.9) for _ in range(4000))
-    check(f"fresh draws are covered in {hits / 40:.1f} % (90)", abs(hits / 4000 - 0.9) < 0.02)
+    check.true(f"fresh draws are covered in {hits / 40:.1f} % (90)", abs(hits / 4000 - 0.9) < 0.02)
     answer = {"verdict": "effect_found", "effects": [{"id": "a"}],
               "ambiguity_set": [{"effects": ["a"], "weight": 0.8}, {"effects": ["b"], "weight": 0.2}],
               "details": {"values": 800, "log_evidence_base": -100.0,
                           "sets": [{"effects": [n], "set_log_evidence": e, "share": s} for n, e, s in (("a", 0, .8), ("b", -3.5, .2), ("c", -14, 0))]}}
     truth = {"kind": "one_rich", "effects": ["c"]}
-    check("7 is allowed behind a set that explains 100, so 14 is twice that", of_truth((truth, answer), "growing") == 2.0)
-    check("one set within 3, two within 4", told(answer, "behind", 3) == 1 and told(answer, "behind", 4) == 2)
-    check("a truth that was not weighed is never covered", of_truth(({**truth, "effects": ["d"]}, answer), "share") == math.inf)
+    check.true("7 is allowed behind a set that explains 100, so 14 is twice that", of_truth((truth, answer), "growing") == 2.0)
+    check.true("one set within 3, two within 4", told(answer, "behind", 3) == 1 and told(answer, "behind", 4) == 2)
+    check.true("a truth that was not weighed is never covered", of_truth(({**truth, "effects": ["d"]}, answer), "share") == math.inf)
     cases = [({"kind": "one_rich", "effects": [n]}, answer) for n in "ab"]
-    check("equal confidence is one point of the curve", curve(cases) == [(1.0, 0.5, 0.8)])
-    print("self-test: " + (f"{failed} FAILED" if failed else "all good"))
-    return int(failed > 0)
+    check.true("equal confidence is one point of the curve", curve(cases) == [(1.0, 0.5, 0.8)])
+    return check.status()
 
 
 def main():

@@ -27,6 +27,7 @@ import numpy as np
 from nature import campaign, design, noise, sensitivity, sets
 from nature import wheel as base
 from nature.families import Form, build, catalogue
+from nature.selftest import Checks
 
 # Ratios to the detectable size, as sets.ratio_range but wider: nature takes them from a non-linear refit about the true
 # soil, the oracle from the linearised one about the declared soil.
@@ -283,14 +284,8 @@ def summary(cases, key):
 
 def self_test():
     """The evidence of a problem whose answer is known: sampling and Laplace agree where the model is all but linear."""
-    failed = 0
-
-    def check(what, good):
-        nonlocal failed
-        failed += not good
-        print(("ok    " if good else "FAILED ") + what)
-
-    check("mean of logs", abs(log_mean(np.log([1.0, 3.0])) - np.log(2.0)) < 1e-12)
+    check = Checks()
+    check.true("mean of logs", abs(log_mean(np.log([1.0, 3.0])) - np.log(2.0)) < 1e-12)
     record, truth = sets.draw("check", 21, 1, "one_rich", ["sensor_offset"])
     record["sd"] = {k: 0.02 * v for k, v in record["sd"].items()}  # so narrow that the soil acts linearly
     record["declared"] = {k: record["soil"][k] for k in base.SOIL_KEYS}
@@ -299,15 +294,14 @@ def self_test():
     kind = type(build(effect))
     look = oracle.second_look(oracle.first_look(kind, effect["shape"], np.sign(effect["a"])))
     by_samples, effective = oracle.sampled(look, rng)
-    check(f"Laplace {look['log']:.2f} and sampling {by_samples:.2f} agree", abs(look["log"] - by_samples) < 0.5 and effective > 8)
+    check.true(f"Laplace {look['log']:.2f} and sampling {by_samples:.2f} agree", abs(look["log"] - by_samples) < 0.5 and effective > 8)
     gap = oracle.read - oracle.predict(np.zeros(8), build(effect))
     cells = int(oracle.world.present.sum())
-    check(f"the true soil and effect leave noise: chi2/N {gap @ gap / cells:.2f}", abs(gap @ gap / cells - 1) < 5 * np.sqrt(2 / cells))
+    check.true(f"the true soil and effect leave noise: chi2/N {gap @ gap / cells:.2f}", abs(gap @ gap / cells - 1) < 5 * np.sqrt(2 / cells))
     found = posterior(record)
-    check("the posteriors sum to 1", all(abs(sum(found[k].values()) - 1) < 1e-4 for k in ("posterior", "hint")))
-    check("an offset among known soils is named", next(iter(found["posterior"])) == truth["effects"][0])
-    print("self-test: " + (f"{failed} FAILED" if failed else "all good"))
-    return int(failed > 0)
+    check.true("the posteriors sum to 1", all(abs(sum(found[k].values()) - 1) < 1e-4 for k in ("posterior", "hint")))
+    check.true("an offset among known soils is named", next(iter(found["posterior"])) == truth["effects"][0])
+    return check.status()
 
 
 def main():

@@ -33,8 +33,7 @@ class OddRequests(Attack):
         process = self.start("run", "paper-straight", "--model", "dem", "--load", "4kN", "--slip", "20%", "--threads", "1")
         began = time.monotonic()
         os.set_blocking(process.stderr.fileno(), True)
-        while (line := process.stderr.readline()).startswith("note: the grains are coarse"):
-            pass
+        line = self.first_progress(process)
         waited = time.monotonic() - began
         process.send_signal(signal.SIGTERM)
         process.communicate(timeout=30)
