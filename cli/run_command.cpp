@@ -198,6 +198,8 @@ int run(RunOptions options, const Session& session) {
     fmt::print("{}", options.json ? compare::json_text(document) : plan_text(plan));
     return done;
   }
+  const std::optional<dem::StepCriteria> step =
+      compare::step_of(settings_of(options.soil_bin), question, options.soil_bin.recorded);
   if (asks_dem(question) && options.soil_bin.recorded.empty()) tell_coarse_grains(question.scenario);
   if (!options.soil_bin.shard.empty()) try {
       recording(options, [&] { make_runs(question, whole, options, session); });
@@ -207,8 +209,6 @@ int run(RunOptions options, const Session& session) {
     }
   const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
   const compare::MakeModel make = models_with(options.soil_bin, whole, session.place.effects, log);
-  const std::optional<dem::StepCriteria> step =
-      compare::step_of(settings_of(options.soil_bin), question, options.soil_bin.recorded);
   if (asks_dem(question) && !options.soil_bin.record.empty())
     recording(options, [&] { make_runs(question, whole, options, session); });
   Answered answered{.study = {}, .doubts = {}, .step = step};

@@ -31,17 +31,12 @@ void append(Warnings& all, Warnings more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// "n = 0.12 is outside 0.3 .. 1.6, ..." where it is.
-void expect(Warnings& warnings, const char* name, double value, double lower, double upper, const char* unit,
-            const char* why) {
-  if (value < lower || value > upper)
-    warnings.push_back(fmt::format("{} = {:.4g}{}{} is outside {:.4g} .. {:.4g}: {}", name, value, *unit ? " " : "",
-                                   unit, lower, upper, why));
-}
-
 /// What a wheel and a soil say together, before any condition.
 void add_wheel_doubts(const Tire& tire, const std::optional<SemiEmpiricalSoil>& soil, Warnings& warnings) {
-  expect(warnings, "the wheel's radius", tire.radius * 1000, 20, 2000, "mm", "the model is tested from 50 mm to 2 m");
+  if (tire.radius < 0.02 || tire.radius > 2)
+    warnings.push_back(
+        fmt::format("the wheel's radius = {:.4g} mm is outside 20 .. 2000: the model is tested from 50 mm to 2 m",
+                    1000 * tire.radius));
   if (tire.width > 2 * tire.radius)
     warnings.push_back(fmt::format("the wheel is wider ({:.4g} mm) than its diameter ({:.4g} mm)", 1000 * tire.width,
                                    2000 * tire.radius));

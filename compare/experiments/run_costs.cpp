@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <numbers>
 #include <thread>
 
 #include "dem/rig/step_criteria.hpp"
@@ -11,28 +10,11 @@
 #include "dem/rig/wheel_motion.hpp"
 
 namespace soilbin::compare {
-namespace {
-
-constexpr double solid_share = 0.6;  // of a bed's volume
-
-/// Of radii that are spread evenly [m^3].
-double mean_volume(const GranularSoil& soil) {
-  const double a = soil.radius_min, b = soil.radius_max;
-  return 4.0 / 3 * std::numbers::pi * (a + b) * (a * a + b * b) / 4;  // (b^4 - a^4)/(4 (b - a)) without the quotient
-}
-
-double grains_of(const dem::BedRecipe& recipe) {
-  return solid_share * recipe.size.length * recipe.size.width * recipe.size.depth / mean_volume(recipe.soil) *
-         recipe.grading.share_of_grains(recipe.size);
-}
-
-}  // namespace
-
 RunCosts::RunCosts(const Scenario& scenario, const dem::DemSettings& settings, const std::vector<Record>& records)
     : scenario_(scenario),
       settings_(settings),
       recipe_(dem::DemModel(settings).recipe(scenario)),
-      grains_(grains_of(recipe_)) {
+      grains_(dem::expected_grains(recipe_)) {
   double work = 0, seconds = 0;
   for (const Record& record : records)
     for (RunList list : {&Record::runs, &Record::half_step})

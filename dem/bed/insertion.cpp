@@ -54,10 +54,11 @@ void insert_loosely(Simulation& simulation, const Region& region, const RadiusRa
   }
 }
 
-void insert_graded(Simulation& simulation, const Region& region, const RadiusRange& radii, double most,
-                   const std::function<double(const Vec3&)>& scale, int material, double volume, std::uint64_t seed) {
+void insert_graded(Simulation& simulation, const Region& region, const GradedGrains& grains, int material,
+                   std::uint64_t seed) {
   const Vec3 side = region.upper - region.lower;
-  const double cell = 2 * most * radii.largest;  // two grains that overlap lie in neighbouring ones
+  const double cell =
+      2 * grains.largest_scale * grains.radii.largest;  // two grains that overlap lie in neighbouring ones
   const auto count = [&](double length) { return std::max(1, static_cast<int>(length / cell)); };
   const std::array<int, 3> cells{count(side.x), count(side.y), count(side.z)};
   const auto cell_along = [](double at, double length, int n) {
@@ -75,12 +76,12 @@ void insert_graded(Simulation& simulation, const Region& region, const RadiusRan
   double placed = 0;
   int refused = 0;
   constexpr int most_refused = 100000;  // in a row
-  while (placed < volume) {
+  while (placed < grains.volume) {
     if (++refused > most_refused) throw InputError("grains of this volume don't fit into the region");
     const double x = random.uniform(0, side.x), y = random.uniform(0, side.y);
     const Vec3 at{x, y, random.uniform(0, side.z)};
-    const double larger = scale(region.lower + at), keep = random.uniform(0, 1);
-    const double radius = larger * random.uniform(radii.smallest, radii.largest);
+    const double larger = grains.scale(region.lower + at), keep = random.uniform(0, 1);
+    const double radius = larger * random.uniform(grains.radii.smallest, grains.radii.largest);
     // As many tries a volume of a grain everywhere: then all sizes come to the same share.
     if (keep > 1 / (larger * larger * larger)) continue;
     if (x < radius || y < radius || at.z < radius || x > side.x - radius || y > side.y - radius) continue;

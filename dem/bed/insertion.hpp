@@ -24,11 +24,19 @@ struct Region {
 void insert_loosely(Simulation& simulation, const Region& region, const RadiusRange& radii, int material, int count,
                     std::uint64_t seed);
 
-/// Fills a region at random with grains of the radii times `scale` at their centre, 1 .. most: as many as have this
-/// volume [m^3], equally loose everywhere, whatever their sizes. For a share of a quarter of the region and less.
-/// Clears no grains that are there already. Throws InputError where they don't find room.
-void insert_graded(Simulation& simulation, const Region& region, const RadiusRange& radii, double most,
-                   const std::function<double(const Vec3&)>& scale, int material, double volume, std::uint64_t seed);
+/// Grains whose size depends on their place.
+struct GradedGrains {
+  RadiusRange radii;                         ///< before they are scaled
+  std::function<double(const Vec3&)> scale;  ///< of the radii, at a grain's centre, 1 .. largest_scale
+  double largest_scale = 1;
+  double volume = 0;  ///< of all grains [m^3]
+};
+
+/// Fills a region at random with graded grains, equally loose everywhere, whatever their sizes. For a share of a
+/// quarter of the region and less. Clears no grains that are there already. Throws InputError where they don't find
+/// room.
+void insert_graded(Simulation& simulation, const Region& region, const GradedGrains& grains, int material,
+                   std::uint64_t seed);
 
 /// How many grains insert_loosely can put into a region.
 int room_for(const Region& region, const RadiusRange& radii);

@@ -19,6 +19,7 @@ constexpr double spare = 1.03;            // of grains, so that levelling finds 
 constexpr double before_levelling = 100;  // so much less rest is asked for, as levelling disturbs it anyway
 constexpr double loosely = 0.22;          // share of grains where they are put at random, without a lattice
 constexpr double most_grading = 4;        // beyond it fine grains begin to fall through coarse ones
+constexpr double most_grains = 2e7;       // 20 GB of memory
 constexpr double headroom = 20;           // of the domain, for grains that are thrown [m]
 
 void check(const BedRecipe& recipe) {
@@ -46,18 +47,15 @@ void check(const BedRecipe& recipe) {
                     "  hint: {:.3g} s or more",
                     recipe.dt, usual, least_share * usual));
   if (!(recipe.gravity > 0)) throw InputError("a bed settles under gravity: it must be above 0");
+  if (const double count = expected_grains(recipe); count > most_grains)
+    throw InputError(
+        fmt::format("a bed of {:.3g} grains is beyond this program, which takes {:.0e} at most", count, most_grains));
 }
 
 /// Of all grains that are put in [m^3].
 double volume_of_grains(const BedRecipe& recipe) {
   const auto& [length, width, depth] = recipe.size;
   return spare * densest * length * width * (depth + recipe.grading.factor * recipe.soil.radius_max);
-}
-
-int grain_count(const BedRecipe& recipe) {
-  const double count = expected_grains(recipe);
-  if (count > 2e7) throw InputError(fmt::format("a bed of {:.3g} grains is beyond this program", count));
-  return static_cast<int>(std::ceil(count));
 }
 
 Setup setup_of(const BedRecipe& recipe, int threads) {
@@ -145,7 +143,7 @@ void level(Simulation& simulation, const BedSize& size, double radius, double co
 /// The soil's grains everywhere, on a lattice.
 void pour(Simulation& simulation, const BedRecipe& recipe) {
   const GranularSoil& soil = recipe.soil;
-  const int count = grain_count(recipe);
+  const int count = static_cast<int>(std::ceil(expected_grains(recipe)));
   const RadiusRange radii{soil.radius_min, soil.radius_max};
   Region region{{0, 0, 0}, {recipe.size.length, recipe.size.width, 0}};
   while (room_for(region, radii) < count) region.upper.z += soil.radius_max;
@@ -156,16 +154,15 @@ void pour(Simulation& simulation, const BedRecipe& recipe) {
 /// Grains of each place's own sizes, equally loose everywhere, so that all of the bed comes down by the same share and
 /// the zones come to lie where they belong.
 void pour_graded(Simulation& simulation, const BedRecipe& recipe) {
-  grain_count(recipe);
   const GranularSoil& soil = recipe.soil;
   const auto& [length, width, depth] = recipe.size;
   const double volume = volume_of_grains(recipe), height = volume / (loosely * length * width);
   if (height > headroom) throw InputError("the bed is too high to be poured");
   const double settles = volume / (densest * length * width) / height;
-  insert_graded(
-      simulation, {{0, 0, 0}, {length, width, height}}, {soil.radius_min, soil.radius_max}, recipe.grading.factor,
-      [&](const Vec3& at) { return recipe.grading.scale(recipe.size, at.y, settles * at.z); }, grain_material, volume,
-      recipe.packing);
+  const auto scale = [&](const Vec3& at) { return recipe.grading.scale(recipe.size, at.y, settles * at.z); };
+  insert_graded(simulation, {{0, 0, 0}, {length, width, height}},
+                {{soil.radius_min, soil.radius_max}, scale, recipe.grading.factor, volume}, grain_material,
+                recipe.packing);
 }
 
 Interaction with_friction(Interaction interaction, double share) {

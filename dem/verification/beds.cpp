@@ -169,8 +169,8 @@ double drained_angle(const BedMaterial& of, std::uint64_t seed, int threads) {
   return std::atan(-slope(x, z));
 }
 
-Craters craters(const BedMaterial& of, double mu, double diameter, double density, const std::vector<double>& heights,
-                std::uint64_t seed, int threads) {
+Craters craters(const BedMaterial& of, double mu, const BallDrops& drops, std::uint64_t seed, int threads) {
+  const auto& [diameter, density, heights] = drops;
   const double r = of.radius, side = 5 * diameter, deep = 2.5 * diameter;
   Simulation bed = empty(of, {{0, 0, -r}, {side, side, 1}, {true, true, false}}, threads);
   Body floor;

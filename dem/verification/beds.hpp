@@ -27,6 +27,12 @@ struct Drop {
   double law = 0;     ///< 0.14/mu (rho_b/rho_g)^(1/2) D^(2/3) H^(1/3), H = height + depth [m]
 };
 
+/// A ball and the heights that it falls from.
+struct BallDrops {
+  double diameter, density;     ///< D [m], rho_b [kg/m^3]
+  std::vector<double> heights;  ///< [m]
+};
+
 struct Craters {
   double bulk_density = 0;  ///< rho_g [kg/m^3]
   double level = 0;         ///< of the bed's surface [m]
@@ -34,9 +40,7 @@ struct Craters {
   double exponent = 0;  ///< of depth over H, least squares in logarithms
 };
 
-/// Drops a ball of diameter D [m] and density rho_b [kg/m^3] on a bed from several heights, each on the same bed. mu:
-/// the tangent of the bed's angle of repose.
-Craters craters(const BedMaterial& of, double mu, double diameter, double density, const std::vector<double>& heights,
-                std::uint64_t seed, int threads = 1);
+/// Drops a ball on a bed from several heights, each on the same bed. mu: the tangent of the bed's angle of repose.
+Craters craters(const BedMaterial& of, double mu, const BallDrops& drops, std::uint64_t seed, int threads = 1);
 
 }  // namespace soilbin::dem

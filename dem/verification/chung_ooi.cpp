@@ -80,9 +80,14 @@ Interaction contact_of(double restitution, double friction) {
   return contact;
 }
 
+/// Two bodies that meet, as Hertz's theory sees them: all but the speed reduced as of a sphere on a rigid wall.
+struct Collision {
+  double mass, radius, young, speed;
+};
+
 /// Greatest overlap and force and the duration against Hertz theory's.
-void elastic_rows(Rows& rows, const std::string& name, const Impact& ours, double mass, double radius, double young,
-                  double speed) {
+void elastic_rows(Rows& rows, const std::string& name, const Impact& ours, const Collision& theory) {
+  const auto& [mass, radius, young, speed] = theory;
   const double overlap = hertz_overlap(mass, radius, young, speed);
   const double force = 4.0 / 3 * young * std::sqrt(radius) * std::pow(overlap, 1.5);
   const double time = hertz_time(mass, radius, young, speed);
@@ -97,8 +102,8 @@ void test_1(Rows& rows, const StartEngine& start) {
                                        {"limestone", Material{"limestone", 2500, 20e9, 0.25}}}) {
     const Shot shot{material, contact_of(1, 0.35), 0.01, 10};
     const double young = material.young / (2 * (1 - material.poisson * material.poisson));
-    elastic_rows(rows, fmt::format("T1 {}", name), fire_two(start, shot), sphere_mass(material.density, 0.01) / 2,
-                 0.005, young, 20);
+    elastic_rows(rows, fmt::format("T1 {}", name), fire_two(start, shot),
+                 {sphere_mass(material.density, 0.01) / 2, 0.005, young, 20});
   }
 }
 
@@ -106,8 +111,8 @@ void test_2(Rows& rows, const StartEngine& start) {
   for (const auto& [name, material] : {std::pair{"aluminium alloy", Material{"aluminium alloy", 2699, 70e9, 0.30}},
                                        {"magnesium alloy", Material{"magnesium alloy", 1800, 40e9, 0.35}}}) {
     const Shot shot{material, contact_of(1, 0), 0.1, 0.2};
-    elastic_rows(rows, fmt::format("T2 {}", name), fire(start, shot), sphere_mass(material.density, 0.1), 0.1,
-                 reduced(shot), 0.2);
+    elastic_rows(rows, fmt::format("T2 {}", name), fire(start, shot),
+                 {sphere_mass(material.density, 0.1), 0.1, reduced(shot), 0.2});
   }
 }
 
@@ -130,10 +135,19 @@ Impact test_4_at(const StartEngine& start, double degrees) {
   return fire(start, {aluminium_oxide, contact_of(0.98, 0.092), 0.0025, 3.9 * std::cos(angle), 3.9 * std::sin(angle)});
 }
 
-/// Rows of one curve, and of its mean deviation as a share of its mean size. `measure` gives ours at an abscissa.
+/// A curve of the paper, and how near ours should come.
+struct PublishedCurve {
+  std::string name, abscissa;
+  std::vector<Point> points;
+  double tolerance;       ///< of a point, in the ordinate's unit
+  double mean_tolerance;  ///< of the mean deviation, as a share of the ordinates' mean size
+  std::string unit;       ///< of the ordinate
+};
+
+/// Rows of one curve, and of its mean deviation. `measure` gives ours at an abscissa.
 template <class Measure>
-void curve_rows(Rows& rows, const std::string& name, const std::string& abscissa, const std::vector<Point>& points,
-                double tolerance, double mean_tolerance, const std::string& unit, const Measure& measure) {
+void curve_rows(Rows& rows, const PublishedCurve& published, const Measure& measure) {
+  const auto& [name, abscissa, points, tolerance, mean_tolerance, unit] = published;
   double off = 0, size = 0;
   for (const auto& [x, y] : points) {
     rows.push_back({fmt::format("{}, {} {:.4g}", name, abscissa, x), y, measure(x), tolerance, unit, curve});
@@ -152,51 +166,66 @@ void test_4(Rows& rows, const StartEngine& start) {
     const Impact out = test_4_at(start, x);
     return std::atan2(out.velocity.x - r * out.spin.y, out.velocity.z) / degree;
   };
-  curve_rows(rows, "T4 restitution along the wall", "deg",
-             {{5, .9481},
-              {10, .6870},
-              {15, .6244},
-              {20, .6161},
-              {25, .6343},
-              {30, .6837},
-              {35, .7372},
-              {40, .7809},
-              {50, .8451},
-              {60, .8929},
-              {70, .9316},
-              {80, .9662},
-              {85, .9827}},
-             0.016, 0.016, "-", along);
-  curve_rows(rows, "T4 spin", "deg",
-             {{5, -19.27},
-              {10, -213.0},
-              {15, -377.8},
-              {20, -510.6},
-              {25, -599.4},
-              {30, -616.5},
-              {35, -582.3},
-              {40, -544.8},
-              {50, -457.0},
-              {60, -357.5},
-              {70, -246.2},
-              {80, -126.3},
-              {85, -63.15}},
-             0.022 * 616.5, 0.022, "rad/s", spin);
-  curve_rows(rows, "T4 angle of the patch", "deg",
-             {{5, 3.761},
-              {10, -1.556},
-              {15, -5.544},
-              {20, -7.538},
-              {25, -7.538},
-              {30, -3.550},
-              {35, 3.429},
-              {40, 11.57},
-              {50, 29.35},
-              {60, 47.79},
-              {70, 64.58},
-              {80, 78.70},
-              {85, 84.52}},
-             0.025 * 84.52, 0.025, "deg", patch);
+  curve_rows(rows,
+             {"T4 restitution along the wall",
+              "deg",
+              {{5, .9481},
+               {10, .6870},
+               {15, .6244},
+               {20, .6161},
+               {25, .6343},
+               {30, .6837},
+               {35, .7372},
+               {40, .7809},
+               {50, .8451},
+               {60, .8929},
+               {70, .9316},
+               {80, .9662},
+               {85, .9827}},
+              0.016,
+              0.016,
+              "-"},
+             along);
+  curve_rows(rows,
+             {"T4 spin",
+              "deg",
+              {{5, -19.27},
+               {10, -213.0},
+               {15, -377.8},
+               {20, -510.6},
+               {25, -599.4},
+               {30, -616.5},
+               {35, -582.3},
+               {40, -544.8},
+               {50, -457.0},
+               {60, -357.5},
+               {70, -246.2},
+               {80, -126.3},
+               {85, -63.15}},
+              0.022 * 616.5,
+              0.022,
+              "rad/s"},
+             spin);
+  curve_rows(rows,
+             {"T4 angle of the patch",
+              "deg",
+              {{5, 3.761},
+               {10, -1.556},
+               {15, -5.544},
+               {20, -7.538},
+               {25, -7.538},
+               {30, -3.550},
+               {35, 3.429},
+               {40, 11.57},
+               {50, 29.35},
+               {60, 47.79},
+               {70, 64.58},
+               {80, 78.70},
+               {85, 84.52}},
+              0.025 * 84.52,
+              0.025,
+              "deg"},
+             patch);
 }
 
 /// Where it slides throughout, as a rigid sphere does.
@@ -224,8 +253,8 @@ void test_5(Rows& rows, const StartEngine& start) {
     return (out.velocity.x - r * out.spin.y) / (mu * v);
   };
   const auto spin = [&](double x) { return -r * shot(x).spin.y / (mu * v); };
-  curve_rows(rows, "T5 Psi2", "Psi1", {{9.988, 3.013}, {12.96, 6.013}}, 0.05, 0.02, "-", patch);
-  curve_rows(rows, "T5 spin r/(mu v_n)", "Psi1", {{6.006, -5.006}, {10.01, -5.004}, {20., -4.991}}, 0.05, 0.02, "-",
+  curve_rows(rows, {"T5 Psi2", "Psi1", {{9.988, 3.013}, {12.96, 6.013}}, 0.05, 0.02, "-"}, patch);
+  curve_rows(rows, {"T5 spin r/(mu v_n)", "Psi1", {{6.006, -5.006}, {10.01, -5.004}, {20., -4.991}}, 0.05, 0.02, "-"},
              spin);
   for (const double x : {6.3, 7.0, 10.0, 20.0}) {
     rows.push_back({fmt::format("T5 sliding, spin r/(mu v_n), Psi1 {}", x), -5, spin(x), 0.02, "-", paper});
@@ -253,11 +282,22 @@ void test_6(Rows& rows, const StartEngine& start) {
     const Impact out = shot(x * S::v);
     return (out.velocity.x - S::r * out.spin.y) / out.velocity.z;
   };
-  curve_rows(rows, "T6 restitution of the patch", "3.5 mu (1+e) v_n/v_t",
-             {{.1762, -.8200}, {.3524, -.6335}, {.5507, -.4447}, {.7709, -.2428}, {.9692, -.0277}}, 0.04, 0.05, "-",
+  curve_rows(rows,
+             {"T6 restitution of the patch",
+              "3.5 mu (1+e) v_n/v_t",
+              {{.1762, -.8200}, {.3524, -.6335}, {.5507, -.4447}, {.7709, -.2428}, {.9692, -.0277}},
+              0.04,
+              0.05,
+              "-"},
              back);
-  curve_rows(rows, "T6 tangent of recoil", "v_t/v_n", {{2.747, 1.272}, {3.733, 3.241}, {5.677, 7.127}, {6.106, 7.985}},
-             0.2, 0.03, "-", tangent);
+  curve_rows(rows,
+             {"T6 tangent of recoil",
+              "v_t/v_n",
+              {{2.747, 1.272}, {3.733, 3.241}, {5.677, 7.127}, {6.106, 7.985}},
+              0.2,
+              0.03,
+              "-"},
+             tangent);
   for (const double x : {0.1, 0.3, 0.5, 0.7, 0.9})
     rows.push_back({fmt::format("T6 sliding, restitution of the patch, 3.5 mu (1+e) v_n/v_t {}", x), -1 + x, back(x),
                     0.04 * x, "-", paper});
@@ -286,8 +326,13 @@ void test_8(Rows& rows, const StartEngine& start) {
     setup.dt = hertz_time(sphere_mass(2700, S::r), S::r, young, S::v) / steps_an_impact;
     return S::restitution(impact(start, setup, 1, static_cast<long>(20 * steps_an_impact)), speed);
   };
-  curve_rows(rows, "T8 restitution of the patch", "3.5 mu (1+e) v_n/v_t",
-             {{.1872, -.8152}, {.3583, -.6262}, {.5508, -.4394}, {.7647, -.2378}, {.9786, -.0173}}, 0.04, 0.05, "-",
+  curve_rows(rows,
+             {"T8 restitution of the patch",
+              "3.5 mu (1+e) v_n/v_t",
+              {{.1872, -.8152}, {.3583, -.6262}, {.5508, -.4394}, {.7647, -.2378}, {.9786, -.0173}},
+              0.04,
+              0.05,
+              "-"},
              back);
 }
 

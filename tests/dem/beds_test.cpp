@@ -39,7 +39,7 @@ TEST(SlowCrater, IsAsDeepAsTheLawOfLooseSand) {
   BedMaterial sand;
   const double mu = std::tan(angle_of(sand) * degree);
   sand.radius = 0.006;
-  const Craters out = craters(sand, mu, 0.05, 7800, {0.05, 0.1, 0.2, 0.4}, 1);
+  const Craters out = craters(sand, mu, {0.05, 7800, {0.05, 0.1, 0.2, 0.4}}, 1);
   for (const Drop& drop : out.drops) EXPECT_NEAR(drop.depth / drop.law, 1, 0.2) << drop.height;
   EXPECT_NEAR(out.exponent, 1.0 / 3, 0.1);
 }
