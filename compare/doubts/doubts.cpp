@@ -31,12 +31,22 @@ void append(Warnings& all, Warnings more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+/// What a value usually is, in a unit.
+struct UsualRange {
+  double lower, upper;
+  const char *unit, *why;
+};
+
+/// "n = 0.12 is outside 0.3 .. 1.6, ..." where it is.
+void expect(Warnings& warnings, const char* name, double value, const UsualRange& usual) {
+  if (value < usual.lower || value > usual.upper)
+    warnings.push_back(fmt::format("{} = {:.4g}{}{} is outside {:.4g} .. {:.4g}: {}", name, value,
+                                   *usual.unit ? " " : "", usual.unit, usual.lower, usual.upper, usual.why));
+}
+
 /// What a wheel and a soil say together, before any condition.
 void add_wheel_doubts(const Tire& tire, const std::optional<SemiEmpiricalSoil>& soil, Warnings& warnings) {
-  if (tire.radius < 0.02 || tire.radius > 2)
-    warnings.push_back(
-        fmt::format("the wheel's radius = {:.4g} mm is outside 20 .. 2000: the model is tested from 50 mm to 2 m",
-                    1000 * tire.radius));
+  expect(warnings, "the wheel's radius", tire.radius * 1000, {20, 2000, "mm", "the model is tested from 50 mm to 2 m"});
   if (tire.width > 2 * tire.radius)
     warnings.push_back(fmt::format("the wheel is wider ({:.4g} mm) than its diameter ({:.4g} mm)", 1000 * tire.width,
                                    2000 * tire.radius));
@@ -131,11 +141,11 @@ Warnings doubts(const SemiEmpiricalSoil& soil) {
   if (!(soil.k_c.value > 0.0) && !(soil.k_phi.value > 0.0))
     warnings.emplace_back("neither k_c nor k_phi is positive: this soil carries nothing, at any width of wheel");
   const double phi = soil.friction_angle.value / degree, c = soil.cohesion.value / 1000;
-  expect(warnings, "n", soil.exponent.value, 0.3, 1.8, "", "plate tests give 0.5 .. 1.6");
-  expect(warnings, "c", c, 0, 100, "kPa", "soft soils have 0 .. 70 kPa");
-  expect(warnings, "phi", phi, 0, 50, "deg", "the densest sand has some 45 deg");
-  expect(warnings, "K", 1000 * soil.shear_modulus.value, 0.5, 120, "mm", "6 mm in firm clay, 25 mm in loose sand");
-  expect(warnings, "density", bulk_density(soil), 200, 2400, "kg/m^3", "fresh snow has some 250, dense gravel 2200");
+  expect(warnings, "n", soil.exponent.value, {0.3, 1.8, "", "plate tests give 0.5 .. 1.6"});
+  expect(warnings, "c", c, {0, 100, "kPa", "soft soils have 0 .. 70 kPa"});
+  expect(warnings, "phi", phi, {0, 50, "deg", "the densest sand has some 45 deg"});
+  expect(warnings, "K", 1000 * soil.shear_modulus.value, {0.5, 120, "mm", "6 mm in firm clay, 25 mm in loose sand"});
+  expect(warnings, "density", bulk_density(soil), {200, 2400, "kg/m^3", "fresh snow has some 250, dense gravel 2200"});
   for (const auto& [key, name, value] :
        {std::tuple{"stress_angle_c1", "c1", soil.stress_angle_c1}, {"stress_angle_c2", "c2", soil.stress_angle_c2}})
     if (const auto from = soil.sources.find(key);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <regex>
 #include <set>
 #include <utility>
 
@@ -19,6 +20,10 @@ namespace soilbin::compare {
 namespace {
 
 using bekker_wong::effect_title;
+
+// Shares of the evidence.
+constexpr double little = 0.005;        // is told as "< 1 %"
+constexpr double worth_listing = 0.05;  // in a sentence, where a table lists them all
 
 /// "a", "a and b", "a, b and c".
 std::string in_a_row(const std::vector<std::string>& words) {
@@ -67,24 +72,33 @@ std::string stand_in_words(const LoopAnswer& answer) {
   return in_a_row(words);
 }
 
-/// The learned change as people would write it.
-std::string formula_sentence(const LearnedFormula& formula) {
-  return fmt::format(
-      " A formula that does as well on conditions left out as the learned curve: {}, with {} (W_n: the load normal to "
-      "the ground; r: the radius).",
-      formula.joint, formula_text(formula));
+/// "(W_n: the load normal to the ground)": the symbols that a formula has; "" where it has none of its own.
+std::string legend_of(const std::string& formula) {
+  const std::pair<const char*, const char*> symbols[] = {{"W_n", "the load normal to the ground"}, {"r", "the radius"}};
+  std::string text;
+  for (const auto& [symbol, meaning] : symbols)
+    if (std::regex_search(formula, std::regex(fmt::format("\\b{}\\b", symbol))))
+      text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", symbol, meaning);
+  return text.empty() ? "" : " (" + text + ")";
 }
 
-/// Sets from the first one on, with their shares; those of next to none are only counted.
-std::string sets_with_shares(const std::vector<Weighted>& sets, std::size_t first) {
+/// The learned change as people would write it.
+std::string formula_sentence(const LearnedFormula& formula) {
+  const std::string text = fmt::format("{}, with {}", formula.joint, formula_text(formula));
+  return fmt::format(" A formula that does as well on conditions left out as the learned curve: {}{}.", text,
+                     legend_of(text));
+}
+
+/// Sets from the first one on, with their shares; those below `least`, of the evidence, are only counted.
+std::string sets_with_shares(const std::vector<Weighted>& sets, std::size_t first, double least) {
   std::vector<std::string> said;
   std::size_t unsaid = 0;
   for (std::size_t i = first; i < sets.size(); ++i)
-    if (i > 0 && share_words(sets[i].weight).front() == '<')
+    if (i > 0 && sets[i].weight < least)
       ++unsaid;
     else
       said.push_back(fmt::format("{} ({})", named_effects(sets[i].ids), share_words(sets[i].weight)));
-  if (unsaid > 0) said.push_back(fmt::format("{} more of less than 1 % each", unsaid));
+  if (unsaid > 0) said.push_back(fmt::format("{} more of less than {:.0f} % each", unsaid, std::ceil(100 * least)));
   std::string text;
   for (std::size_t i = 0; i < said.size(); ++i) text += (i == 0 ? "" : "; ") + said[i];
   return text;
@@ -119,26 +133,28 @@ std::string how_sure(const LoopAnswer& answer) {
     case Verdict::effect_found:
       return " " + noise_alone +
              (answer.ambiguity_set.size() > 1
-                  ? " These data cannot separate it from: " + sets_with_shares(answer.ambiguity_set, 1) + "." +
+                  ? " These data cannot separate it from: " + sets_with_shares(answer.ambiguity_set, 1, little) + "." +
                         why_taken(answer.ambiguity_set)
                   : next_candidate(answer));
-    case Verdict::unknown_effect: {
-      std::string text = fmt::format(" {}. {}", capital(answer.judgement->reason), noise_alone);
-      if (answer.ambiguity_set.size() > 1)
-        text += " Of the known effects these come nearest: " + sets_with_shares(answer.ambiguity_set, 0) + ".";
-      if (!answer.stand_in.empty())
-        text += fmt::format(
-            " The saved model takes {} as a stand-in: that explains nothing, but predicts conditions left out better.",
-            stand_in_words(answer));
-      if (answer.formula) text += formula_sentence(*answer.formula);
-      return text + (answer.ambiguity_set.size() > 1 ? why_taken(answer.ambiguity_set) : "");
-    }
+    case Verdict::unknown_effect:  // its reason holds the odds
+      return fmt::format(" {}.", capital(answer.judgement->reason)) +
+             (answer.ambiguity_set.size() > 1
+                  ? " Of the known effects these come nearest: " +
+                        sets_with_shares(answer.ambiguity_set, 0, worth_listing) + "." + why_taken(answer.ambiguity_set)
+                  : "");
     case Verdict::nothing_missing:
       return fmt::format(" {}. {}", capital(answer.judgement->reason), noise_alone);
     case Verdict::not_enough_data:
       return "";
   }
   return "";
+}
+
+/// What predicts in the place of what has no name; "" where nothing does.
+std::string stand_in_sentence(const LoopAnswer& answer) {
+  if (answer.stand_in.empty()) return "";
+  return fmt::format("The saved model takes {}. That explains nothing, but predicts conditions left out better.{}",
+                     stand_in_words(answer), answer.formula ? formula_sentence(*answer.formula) : "");
 }
 
 // What it does to the error.
@@ -150,6 +166,9 @@ bool falls(const ErrorPair& error) { return error.before > third_digit * error.a
 bool falls_clearly(const ErrorPair& error) { return error.after < worth_saying * error.before; }
 bool hardly_changes(const ErrorPair& error) { return !falls_clearly(error) && !rises(error); }
 
+/// "6.30": an error in a sentence.
+std::string error_number(double value) { return number(value, 3); }
+
 /// "sinkage (20.6 to 7.04 mm)" of each channel of which `moves` holds; the noise beside it where that is asked.
 std::vector<std::string> channels_that(bool (*moves)(const ErrorPair&), const CrossValidation& validation,
                                        bool with_noise = false) {
@@ -159,9 +178,9 @@ std::vector<std::string> channels_that(bool (*moves)(const ErrorPair&), const Cr
     const ChannelView& view = channel_views[c];
     if (e.cells == 0 || !moves(e)) continue;
     const std::string noise =
-        with_noise ? fmt::format("; noise alone: {:.3g} {}", e.noise_floor * view.per_si, view.unit) : "";
-    said.push_back(fmt::format("{} ({:.3g} to {:.3g} {}{})", view.title, e.before * view.per_si, e.after * view.per_si,
-                               view.unit, noise));
+        with_noise ? fmt::format("; noise alone: {} {}", error_number(e.noise_floor * view.per_si), view.unit) : "";
+    said.push_back(fmt::format("{} ({} to {} {}{})", view.title, error_number(e.before * view.per_si),
+                               error_number(e.after * view.per_si), view.unit, noise));
   }
   return said;
 }
@@ -178,9 +197,9 @@ std::string error_sentence(const LoopAnswer& answer) {
   if (!takes_effects(answer)) {
     for (std::size_t c = 0; c < channel_views.size(); ++c)
       if (const ErrorPair& e = validation.channels[c]; e.cells > 0)
-        parts.push_back(fmt::format("{0} {1:.3g} {3} (noise alone: {2:.3g} {3})", channel_views[c].title,
-                                    e.before * channel_views[c].per_si, e.noise_floor * channel_views[c].per_si,
-                                    channel_views[c].unit));
+        parts.push_back(fmt::format("{0} {1} {3} (noise alone: {2} {3})", channel_views[c].title,
+                                    error_number(e.before * channel_views[c].per_si),
+                                    error_number(e.noise_floor * channel_views[c].per_si), channel_views[c].unit));
     return fmt::format("With the soil refitted the root mean square error on conditions left out is: {}.",
                        in_a_row(parts));
   }
@@ -334,6 +353,10 @@ std::string odds_words(double p) {
   return fmt::format("1 of {} campaigns", thousands_apart(std::llround(std::round(one_in / step) * step)));
 }
 
+std::string odds_and_p(double p) {
+  return fmt::format("noise alone would look like this in {}, p = {:.2g}", odds_words(p), p);
+}
+
 std::vector<const Weighted*> sets_shown(const LoopAnswer& answer) {
   constexpr std::size_t most = 8;
   std::vector<const Weighted*> sets;
@@ -347,10 +370,7 @@ std::vector<const Weighted*> sets_shown(const LoopAnswer& answer) {
   return sets;
 }
 
-std::string share_words(double weight) {
-  constexpr double little = 0.005;  // of the evidence
-  return weight < little ? "< 1 %" : fmt::format("{:.0f} %", 100 * weight);
-}
+std::string share_words(double weight) { return weight < little ? "< 1 %" : fmt::format("{:.0f} %", 100 * weight); }
 
 std::string setting(double value) {
   if (std::abs(value) < 1e-9) return "0";
@@ -383,6 +403,8 @@ std::string verdict_sentence(const LoopAnswer& answer) {
 std::vector<std::pair<std::string, std::string>> headline(const LoopAnswer& answer) {
   std::vector<std::pair<std::string, std::string>> parts = {
       {"What is missing", verdict_sentence(answer) + how_sure(answer)}};
+  if (const std::string stand_in = stand_in_sentence(answer); !stand_in.empty())
+    parts.emplace_back("What stands in for it", stand_in);
   if (answer.validation.overall.cells > 0)
     parts.emplace_back(takes_effects(answer) ? "What it does to the error" : "How large the error is",
                        error_sentence(answer));
@@ -456,6 +478,7 @@ std::vector<std::string> notes(const LoopAnswer& answer) {
 std::vector<std::string> explanation(const LoopAnswer& answer) {
   std::vector<std::string> sentences;
   if (std::string sure = how_sure(answer); !sure.empty()) sentences.push_back(sure.substr(1));
+  if (std::string stand_in = stand_in_sentence(answer); !stand_in.empty()) sentences.push_back(std::move(stand_in));
   for (const std::vector<AcceptedEffect>* effects : {&answer.effects, &answer.stand_in})
     for (const AcceptedEffect& effect : *effects) sentences.push_back(effect_sentence(effect));
   if (answer.validation.overall.cells > 0) sentences.push_back(error_sentence(answer));

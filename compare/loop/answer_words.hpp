@@ -25,6 +25,8 @@ std::string named_effects(const std::set<std::string>& ids);
 
 /// A share of campaigns: "1 of 4,000 campaigns", "30 of 100 campaigns".
 std::string odds_words(double p);
+/// "noise alone would look like this in 1 of 4,000 campaigns, p = 0.00025".
+std::string odds_and_p(double p);
 
 /// Odds from their logarithm: "132 times", "more than a million times".
 std::string times_likelier(double log_odds);
@@ -32,8 +34,9 @@ std::string times_likelier(double log_odds);
 /// The verdict as one sentence.
 std::string verdict_sentence(const LoopAnswer& answer);
 
-/// What a page opens with, (what it is about, sentences): what is missing and how sure that is; what it does to the
-/// error, gain and loss alike; what to measure next. The last is absent where no question is open.
+/// What a page opens with, (what it is about, sentences): what is missing and how sure that is; at an
+/// unknown effect what the saved model takes in its place; what that does to the error, gain and loss alike; what to
+/// measure next. The last is absent where no question is open.
 std::vector<std::pair<std::string, std::string>> headline(const LoopAnswer& answer);
 
 /// What else there is to know, a string a sentence: the reading that does not decide, what is presumed, set aside, not
@@ -51,7 +54,7 @@ bool rises(const ErrorPair& error);
 std::vector<int> worse_channels(const LoopAnswer& answer);
 
 /// "held-out error falls by 28 +- 5 sigma^2 a value; predicted better: sinkage (20.6 to 7.04 mm); predicted worse:
-/// drawbar pull (5.95 to 6.3 N)".
+/// drawbar pull (5.95 to 6.30 N)".
 std::string held_out_words(const CrossValidation& validation);
 
 /// The same as the end of a reason; empty where the model takes no effects or nothing was held out.

@@ -10,12 +10,12 @@
 
 namespace soilbin::compare {
 
-std::string number(double value) {
+std::string number(double value, int digits) {
   if (!std::isfinite(value)) return "-";
   if (value == 0.0) return "0";
   const double size = std::abs(value);
-  if (size < 1e-4 || size >= 1e7) return fmt::format("{:.3e}", value);
-  const int places = std::clamp(3 - static_cast<int>(std::floor(std::log10(size))), 0, 7);
+  if (size < 1e-4 || size >= 1e7) return fmt::format("{:.{}e}", value, digits - 1);
+  const int places = std::clamp(digits - 1 - static_cast<int>(std::floor(std::log10(size))), 0, 7);
   return fmt::format("{:.{}f}", value, places);
 }
 

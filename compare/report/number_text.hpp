@@ -7,8 +7,9 @@
 
 namespace soilbin::compare {
 
-/// Four digits, never "-0", an exponent only beyond everyday sizes; "-" for what is not a number.
-std::string number(double value);
+/// So many significant digits, zeros at their end included, never "-0", an exponent only beyond everyday sizes; "-" for
+/// what is not a number.
+std::string number(double value, int digits = 4);
 
 /// "4.18 ± 0.31": the error to two digits, the value to the error's place; the value alone for an error of 0.
 std::string number(const Estimate& estimate, double per_unit = 1.0);

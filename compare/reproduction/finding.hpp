@@ -1,5 +1,5 @@
 // Findings of a publication as rows of a file: what it says, word by word, and the statistic that would show it.
-// The format soilbin-findings/1 is told in docs/lab/reproduction.md.
+// The format soilbin-findings/1 is told in docs/reference/findings.md.
 #pragma once
 
 #include <array>
@@ -69,7 +69,9 @@ constexpr std::array<Word<FindingTest>, 10> words_of(std::type_identity<FindingT
 using Where = std::map<FindingAxis, std::pair<double, double>>;
 
 struct Finding {
-  std::string id, section;
+  std::string id;
+  std::string title;  ///< what is claimed, as a sentence; "" where the file has none
+  std::string section;
   std::string quote;   ///< the publication's own words
   std::string study;   ///< of the library, whose conditions are looked at
   std::string chosen;  ///< what of the test isn't in the publication
@@ -90,6 +92,7 @@ struct Finding {
 template <class Visitor>
 void describe(Visitor& v, std::type_identity<Finding>) {
   v.text("id", &Finding::id, Need::required, "a name of its own");
+  v.text("title", &Finding::title, Need::optional, "what is claimed, as a sentence");
   v.text("section", &Finding::section, Need::required, "of the publication");
   v.text("quote", &Finding::quote, Need::required, "the publication's own words");
   v.text("study", &Finding::study, Need::required, "of the library, whose conditions are looked at");

@@ -58,10 +58,12 @@ QuantityScale scale_of(FindingQuantity quantity) {
   return {1, ""};
 }
 
-/// "uphill-pull-falls" as "Uphill pull falls".
-std::string in_plain_words(std::string id) {
-  std::replace(id.begin(), id.end(), '-', ' ');
-  return capital(std::move(id));
+/// Its title; where it has none, "Uphill pull falls" of "uphill-pull-falls".
+std::string title_of(const Finding& finding) {
+  if (!finding.title.empty()) return finding.title;
+  std::string words = finding.id;
+  std::replace(words.begin(), words.end(), '-', ' ');
+  return capital(std::move(words));
 }
 
 std::string finding_anchor(const std::string& id) { return "finding-" + id; }
@@ -176,6 +178,7 @@ nlohmann::ordered_json to_json(const Reproduction& reproduction) {
       answers[reproduction.labels[k]] = std::move(one);
     }
     document["rows"].push_back({{"id", finding.id},
+                                {"title", title_of(finding)},
                                 {"section", finding.section},
                                 {"quote", finding.quote},
                                 {"study", finding.study},
@@ -212,7 +215,7 @@ std::vector<std::pair<std::string, std::string>> opening(const Reproduction& rep
     const bool all = std::all_of(row.evidence.begin(), row.evidence.end(), [](const Evidence& e) {
       return e.verdict == FindingVerdict::contradicted || e.verdict == FindingVerdict::no_data;
     });
-    if (any && all) contradicted += (contradicted.empty() ? "" : ", ") + in_plain_words(row.finding.id);
+    if (any && all) contradicted += (contradicted.empty() ? "" : "; ") + title_of(row.finding);
   }
   if (!contradicted.empty()) sentences.emplace_back("Contradicted by every model that answers", contradicted + ".");
   return sentences;
@@ -229,7 +232,7 @@ MarkedTable findings_matrix(const Reproduction& reproduction) {
   table.header.insert(table.header.end(), reproduction.labels.begin(), reproduction.labels.end());
   table.text_columns.resize(table.header.size(), true);
   for (const ReproducedFinding& row : reproduction.rows) {
-    std::vector<MarkedCell> cells = {{.text = row.finding.section}, {.text = in_plain_words(row.finding.id)}};
+    std::vector<MarkedCell> cells = {{.text = row.finding.section}, {.text = title_of(row.finding)}};
     for (const Evidence& evidence : row.evidence) cells.push_back(verdict_cell(evidence.verdict, row.finding.id));
     table.rows.push_back(std::move(cells));
   }
@@ -302,7 +305,7 @@ std::string reproduction_page(const Reproduction& reproduction, const PageAbout&
   page.section("Each finding: words, figure, intervals", "findings");
   for (const ReproducedFinding& row : reproduction.rows)
     page.folded(
-        fmt::format("{}: {}", row.finding.section, in_plain_words(row.finding.id)),
+        fmt::format("{}: {}", row.finding.section, title_of(row.finding)),
         [&] { add_finding(page, row, reproduction.labels); }, finding_anchor(row.finding.id));
   page.section("How this page was made", "repeat");
   page.code(about.command);

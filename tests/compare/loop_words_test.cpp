@@ -21,7 +21,7 @@ CrossValidation mixed() {
 TEST(HeldOutWords, TellGainAndLossInTheSameBreath) {
   EXPECT_EQ(held_out_words(mixed()),
             "held-out error falls by 29 +- 6.2 sigma^2 a value; predicted better: sinkage (20.6 to 7.04 mm); predicted "
-            "worse: drawbar pull (5.95 to 6.3 N)");
+            "worse: drawbar pull (5.95 to 6.30 N)");
 }
 
 TEST(HeldOutWords, SayThatAllInAllTheErrorRises) {
@@ -54,8 +54,8 @@ TEST(ErrorSentence, TellsGainLossAndWhatHardlyChanges) {
   EXPECT_EQ(parts[1].first, "What it does to the error");
   EXPECT_EQ(parts[1].second.find(
                 "On conditions that neither the choice nor the fit has seen the root mean square error rises for the "
-                "drawbar pull (5.95 to 6.3 N; noise alone: 5 N), falls for the sinkage (20.6 to 7.04 mm; "
-                "noise alone: 3.4 mm) and hardly changes for the torque (2 to 2 N m; noise alone: 1.9 N m)."),
+                "drawbar pull (5.95 to 6.30 N; noise alone: 5.00 N), falls for the sinkage (20.6 to 7.04 mm; "
+                "noise alone: 3.40 mm) and hardly changes for the torque (2.00 to 2.00 N m; noise alone: 1.90 N m)."),
             0u)
       << parts[1].second;
   const MarkedTable table = error_table(answer);

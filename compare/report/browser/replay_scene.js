@@ -117,17 +117,33 @@ soilbin.ReplayScene = class {
     }
     for (const x of [x0, x1]) for (const y of [y0, y1]) line(x, y, z0, x, y, z1);
     this.marks = new THREE.Group();
-    const small = 0.03 * Math.max(x1 - x0, y1 - y0), label = (text, x, y, z) => this.marks.add(this.textAt(text, x, y, z, 1.1 * small));
-    for (const x of soilbin.evenSteps(x0, x1, 6)) { line(x, y0, z0, x, y0 - small, z0); label(soilbin.formatNumber(x), x, y0 - 2.2 * small, z0); }
-    for (const y of soilbin.evenSteps(y0, y1, 3)) { line(x0, y, z0, x0 - small, y, z0); label(soilbin.formatNumber(y), x0 - 2.2 * small, y, z0); }
-    for (const z of soilbin.evenSteps(z0, z1, 3)) { line(x0, y0, z, x0 - small, y0, z); label(soilbin.formatNumber(z), x0 - 2.2 * small, y0, z); }
+    this.labels = [];
+    const small = 0.03 * Math.max(x1 - x0, y1 - y0), label = (text, x, y, z) => this.labels.push(this.textAt(text, x, y, z, 1.1 * small));
     label('x [m], along travel', (x0 + x1) / 2, y0 - 4 * small, z0);
     label('y [m]', x0 - 4 * small, (y0 + y1) / 2, z0);
     label('z [m]', x0 - 4 * small, y0, (z0 + z1) / 2);
+    for (const x of soilbin.evenSteps(x0, x1, 6)) { line(x, y0, z0, x, y0 - small, z0); label(soilbin.formatNumber(x), x, y0 - 2.2 * small, z0); }
+    for (const y of soilbin.evenSteps(y0, y1, 3)) { line(x0, y, z0, x0 - small, y, z0); label(soilbin.formatNumber(y), x0 - 2.2 * small, y, z0); }
+    for (const z of soilbin.evenSteps(z0, z1, 3)) { line(x0, y0, z, x0 - small, y0, z); label(soilbin.formatNumber(z), x0 - 2.2 * small, y0, z); }
+    this.marks.add(...this.labels);
     const lines = new THREE.BufferGeometry();
     lines.setAttribute('position', new THREE.BufferAttribute(Float32Array.from(points), 3));
     this.marks.add(new THREE.LineSegments(lines, new THREE.LineBasicMaterial({color: 0x8a919c})));
     this.scene.add(this.marks);
+  }
+
+  // Of labels that would lie over each other from here, the first stays: the axes' names before their ticks.
+  thinLabels() {
+    this.camera.updateMatrixWorld();
+    const [across, , , , , up] = this.camera.projectionMatrix.elements, kept = [];
+    for (const label of this.labels) {
+      const depth = -label.position.clone().applyMatrix4(this.camera.matrixWorldInverse).z;
+      const {x, y} = label.position.clone().project(this.camera);
+      const box = {x, y, width: label.scale.x * across / depth, height: label.scale.y * up / depth};
+      label.visible = depth > 0 && !kept.some(other => Math.abs(other.x - x) < (other.width + box.width) / 2 &&
+        Math.abs(other.y - y) < (other.height + box.height) / 2);
+      if (label.visible) kept.push(box);
+    }
   }
 
   // A text that faces the camera, `height` metres high.
@@ -210,6 +226,7 @@ soilbin.ReplayScene = class {
       this.camera.updateProjectionMatrix();
       this.uniforms.pixels.value = ratio * height / (2 * Math.tan(this.camera.fov * Math.PI / 360));
     }
+    this.thinLabels();
     this.renderer.render(this.scene, this.camera);
   }
 
