@@ -95,17 +95,21 @@ class RollingWheel {
   void fill_patch(const Prepared&, double theta_1, ContactPatch&, const DisplacementFill& displacement = {}) const;
   NodeLayout layout_at(const Prepared&, double theta_1) const;
   WheelForces integrate(const Prepared&, const ContactPatch&) const;
+  static double pressed(const Prepared&, const ContactPatch&);
+  double lifted(const Prepared&, const ContactPatch&) const;
   double vertical(const Prepared&, const ContactPatch&) const;
   /// Finds ln(theta_1) and leaves the patch filled for it; refines p's node layout on the way. Looks from `about` [rad]
   /// where that is known, and then for no higher place than the one that a climb from there leads to.
   FirstRoot balance(Prepared& p, double about, ContactPatch& patch) const;
   double static_angle(const Prepared&) const;
-  bool is_smallest(const Prepared&, double log_theta, ContactPatch& patch) const;
+  bool is_smallest(const Prepared&, double log_theta) const;
   [[noreturn]] void refuse(const Prepared&, double highest, ContactPatch& patch) const;
   /// Forces, where the wheel settles and readings of a wheel whose patch is filled for theta_1; gives the load that it
   /// carried before it settled.
   double finish(const Prepared&, double theta_1, RolledWheel&) const;
-  void settle(const Prepared&, RolledWheel&) const;
+  /// The sinkage that the effects make of one that balances the load, and the wheel moved there.
+  double settled(const Prepared&, const ContactPatch&, double sinkage) const;
+  void settle(const Prepared&, double deeper, RolledWheel&) const;
   void read(const Prepared&, RolledWheel&) const;
 
   Tire tire_;

@@ -79,6 +79,7 @@ template <class Resistance>
 class SideWall final : public Effect {
  public:
   explicit SideWall(const std::vector<double>& p) : amplitude_(p[0]), friction_(p.size() > 1 ? p[1] : 0.0) {}
+  bool lifts() const override { return amplitude_ != 0.0 && friction_ > 0.0; }
   void added_forces(ForceLedger& ledger, const Rolling& r) const override {
     const double downhill = downhill_share(r.around);
     if (amplitude_ == 0.0 || (r.around.motion.lateral == 0.0 && downhill == 0.0)) return;
@@ -111,6 +112,7 @@ class SideWall final : public Effect {
 class SideArea final : public Effect {
  public:
   explicit SideArea(const std::vector<double>& p) : amplitude_(p[0]) {}
+  bool lifts() const override { return false; }
   void added_forces(ForceLedger& ledger, const Rolling& r) const override {
     const Kinematics& motion = r.around.motion;
     const double downhill = downhill_share(r.around);

@@ -125,17 +125,23 @@ std::optional<LearnedEffect> learn_effect(const FittedModel& beside, const Attri
   const std::vector<LearnedProspect> prospects = learned_prospects(beside, options.pool);
   const double choice = std::log(static_cast<double>(std::max<std::size_t>(1, prospects.size())));
   std::optional<LearnedEffect> best;
+  std::optional<std::vector<FoldDensity>> without;
   for (std::size_t i = 0; i < prospects.size() && i < thresholds::learned_refits; ++i) {
     const double evidence = prospects[i].log_evidence - choice;
     if (evidence <= 0.0) break;
     auto model = fitted_with_learned(beside, prospects[i].term);
     if (!model) continue;
-    const PredictiveGain gain = predictive_gain(*model, beside, options.seed, options.pool);
+    if (!without) without = fold_densities(beside, options.seed, options.pool);
+    auto held_out = fold_densities(*model, options.seed, options.pool);
+    const PredictiveGain gain = predictive_gain(held_out, *without);
     if (best && gain.mean <= best->gain.mean) continue;
     std::set<std::string> ids;
     for (const Term& term : model->terms()) ids.insert(term.form->id);
-    best =
-        LearnedEffect{{std::move(ids), std::move(*model), evidence}, evidence, gain, earns_its_place(gain, evidence)};
+    best = LearnedEffect{{std::move(ids), std::move(*model), evidence},
+                         evidence,
+                         std::move(held_out),
+                         gain,
+                         earns_its_place(gain, evidence)};
   }
   return best;
 }

@@ -118,7 +118,7 @@ std::optional<LearnedFormula> tried(const FittedModel& beside, const LearnedEffe
   LearnedFormula found{std::move(terms),
                        {},
                        bekker_wong::joint_equation(form),
-                       predictive_gain(*model, learned.candidate.model, options.seed, options.pool)};
+                       predictive_gain(fold_densities(*model, options.seed, options.pool), learned.held_out)};
   const VectorXd errors = model->standard_errors();
   const Index first = model->predictor().amplitude_index(static_cast<int>(model->terms().size()) - 1);
   for (Index k = 0; k < std::ssize(found.terms); ++k)

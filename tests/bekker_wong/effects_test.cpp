@@ -286,6 +286,17 @@ TEST(Effects, NeverAnswerWithANumberThatIsNone) {
   }));
 }
 
+// The search for the balance asks those forms alone that say that they may lift the wheel: none does it unasked.
+TEST(Effects, EveryFormLeavesTheLoadCarried) {
+  for (const EffectForm& form : effect_catalogue())
+    for (const Setting& s : settings())
+      for (const Question& q : questions) {
+        const OperatingCondition at = condition(s, q);
+        const double load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
+        EXPECT_NEAR(wheel_with(s, form).roll(at).forces.vertical, load, 1e-9 * load) << label(form, s, q);
+      }
+}
+
 TEST(Effects, DerivativeAtZeroIsThatOfTheImplicitFunctionTheorem) {
   for (const EffectForm& form : effect_catalogue()) {
     if (not_smooth_at_zero.contains(key(form))) continue;
