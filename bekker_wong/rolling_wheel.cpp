@@ -201,22 +201,26 @@ bool RollingWheel::is_smallest(const Prepared& p, double log_theta) const {
   return true;
 }
 
-FirstRoot RollingWheel::balance(Prepared& p, double about, ContactPatch& patch) const {
+FirstRoot RollingWheel::balance(Prepared& p, const NearBalance& known, ContactPatch& patch) const {
   const double load = p.around.normal_load, upper = std::log(deepest_angle());
   // ln(carried/load) against ln(theta_1) is nearly a line of slope 2n + 1.
   const auto imbalance = [&](double log_theta) {
     fill_patch(p, std::exp(log_theta), patch);
     return log_share(vertical(p, patch) / load);
   };
-  const double start = about > 0.0 ? about : static_angle(p);
-  p.layout = coarse(layout_at(p, start));
+  const double start = known.angle > 0.0 ? known.angle : static_angle(p);
+  p.layout = layout_at(p, start);
+  if (known.steepness > 0.0)
+    if (const auto root = rising_root(imbalance, std::log(start), known.steepness, upper, 1e-8))
+      if (is_smallest(p, root->x)) return {root->x, {}};
+  p.layout = coarse(p.layout);
   const auto near = rising_root(imbalance, std::log(start), 2 * p.soil.exponent + 1, upper, 1e-4);
   if (near && is_smallest(p, near->x)) {
     p.layout = layout_at(p, std::exp(near->x));
     if (const auto root = rising_root(imbalance, near->x, near->slope, upper, 1e-12)) return {root->x, {}};
   }
-  if (about > 0.0)
-    if (const gsl::Sample top = climb(imbalance, std::log(about), upper); top.f < 0.0) return {{}, top};
+  if (known.angle > 0.0)
+    if (const gsl::Sample top = climb(imbalance, std::log(known.angle), upper); top.f < 0.0) return {{}, top};
   p.layout = layout_at(p, deepest_angle());
   const FirstRoot found = first_rising_root(imbalance, upper);
   if (found.x) fill_patch(p, std::exp(*found.x), patch);
@@ -296,16 +300,16 @@ double RollingWheel::finish(const Prepared& p, double theta_1, RolledWheel& whee
 RolledWheel RollingWheel::roll(const OperatingCondition& at) const {
   Prepared p = prepare(at);
   RolledWheel wheel;
-  const FirstRoot found = balance(p, 0.0, wheel.patch);
+  const FirstRoot found = balance(p, {}, wheel.patch);
   if (!found.x) refuse(p, found.highest.f, wheel.patch);
   finish(p, std::exp(*found.x), wheel);
   return wheel;
 }
 
-RolledWheel RollingWheel::roll_or_give_way(const OperatingCondition& at, double about) const {
+RolledWheel RollingWheel::roll_or_give_way(const OperatingCondition& at, const NearBalance& near) const {
   Prepared p = prepare(at);
   RolledWheel wheel;
-  const FirstRoot found = balance(p, about, wheel.patch);
+  const FirstRoot found = balance(p, near, wheel.patch);
   wheel.gives_way = !found.x;
   const double theta_1 = std::exp(found.x.value_or(found.highest.x));
   if (wheel.gives_way) {

@@ -76,8 +76,8 @@ bool stiffen(Descent& descent, const WheelPredictor& predictor) {
 }  // namespace
 
 std::optional<Fit> fit(const WheelPredictor& predictor, const VectorXd& values, const Whitening& whitening,
-                       const VectorXd& start) {
-  Descent descent(predictor, values, whitening);
+                       const VectorXd& start, BalanceMemory near) {
+  Descent descent(predictor, values, whitening, std::move(near));
   if (!put_near(descent, predictor, start)) return std::nullopt;
   descent.go();
   Fit end;
@@ -94,6 +94,7 @@ std::optional<Fit> fit(const WheelPredictor& predictor, const VectorXd& values, 
   end.residual = line.residual;
   end.chi2 = line.residual.squaredNorm();
   end.chi2_cells = line.residual.head(values.size()).squaredNorm();
+  end.balance = descent.balance();
   return end;
 }
 

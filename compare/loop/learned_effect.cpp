@@ -91,7 +91,7 @@ std::optional<MatrixXd> columns_of_weights(const FittedModel& beside, const Term
   const Index known = beside.fit().theta.size();
   VectorXd theta = predictor.start();
   theta.head(known) = beside.fit().theta;
-  BalanceMemory memory = giving_way();
+  BalanceMemory memory = beside.fit().balance;
   VectorXd without, with;
   if (!predictor.predict(theta, without, memory)) return std::nullopt;
   MatrixXd columns(without.size(), term.free.size());
@@ -111,7 +111,7 @@ std::optional<FittedModel> fitted_with_learned(const FittedModel& beside, const 
   const WheelPredictor predictor = beside.predictor().with({term});
   VectorXd start = predictor.start();
   start.head(beside.fit().restart.size()) = beside.fit().restart;
-  return fitted(beside.shared_data(), predictor, start);
+  return fitted(beside.shared_data(), predictor, start, beside.fit().balance);
 }
 
 FittedModel beside_exact(const FittedModel& base, const FittedModel* chosen) {

@@ -38,7 +38,7 @@ std::optional<FittedModel> refitted(const FittedModel& model, const Observations
   if (!model.predictor().over(runs).predict(model.fit().restart, about, memory)) return std::nullopt;
   const auto data = std::make_shared<const Dataset>(
       Dataset{whole.campaign, runs, {}, whole.noise, Whitening(runs, whole.noise, about)});
-  return fitted(data, model.predictor().over(data->observations), model.fit().restart);
+  return fitted(data, model.predictor().over(data->observations), model.fit().restart, std::move(memory));
 }
 
 /// ln density of each cell left out under the model fitted to the rest.
