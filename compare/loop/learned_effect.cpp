@@ -44,6 +44,9 @@ std::optional<Term> learned_term(const EffectForm& form, const Observations& obs
     term.free.push_back(static_cast<int>(i));
     term.spread[i] = size * freedom_of_weight(function.degrees[k]);
   }
+  term.weighs = [&function, ranges = term.defaults](const OperatingCondition& at) {
+    return bekker_wong::weighed_products(function, ranges, at);
+  };
   return term;
 }
 

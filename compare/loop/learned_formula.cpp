@@ -37,6 +37,11 @@ Term formula_term(const EffectForm& form, const std::vector<FormulaTerm>& terms,
     term.free.push_back(static_cast<int>(k + 1));
     term.spread.push_back(size / usual_size(terms[k], observations));
   }
+  term.weighs = [terms](const OperatingCondition& at) {
+    std::vector<double> values;
+    for (const FormulaTerm& one : terms) values.push_back(one.value(at));
+    return values;
+  };
   return term;
 }
 

@@ -97,6 +97,13 @@ bekker_wong::NearBalance BalanceMemory::near_of(int row) const {
   return {.angle = angles.empty() ? 0.0 : angles[r]};
 }
 
+void PredictionSlopes::take(Eigen::Index p, double times, Eigen::Index from, int row,
+                            std::pair<Eigen::Index, Eigen::Index> cells) {
+  for (Eigen::Index i = cells.first; i < cells.second; ++i) jacobian(i, p) = times * jacobian(i, from);
+  short_of(row, p) = times * short_of(row, from);
+  turn(row, p) = times * turn(row, from);
+}
+
 BalanceMemory BalanceMemory::moved_by(const Eigen::VectorXd& step, const PredictionSlopes& slopes) const {
   constexpr double farthest = 0.5;  // in ln(theta_1)
   BalanceMemory moved = *this;
@@ -309,7 +316,7 @@ std::optional<PredictionSlopes> WheelPredictor::linearise(const Eigen::VectorXd&
     const double stiffness = (here.forces.vertical - turned.forces.vertical) / turn;
     const bool gives_way = known.shortfall[r] > 0.0;
     if (!gives_way) slopes.steepness[row] = stiffness * theta_1 / here.forces.vertical;
-    for (Eigen::Index p = 0; p < theta.size(); ++p) {
+    const auto difference = [&](Eigen::Index p) {
       const std::size_t q = p;
       const RolledWheel there = moved.wheels[q].at_entry_angle(at, theta_1, nodes);
       const double carries_more = there.forces.vertical - here.forces.vertical;
@@ -321,6 +328,22 @@ std::optional<PredictionSlopes> WheelPredictor::linearise(const Eigen::VectorXd&
         const double value = channel_of(here.reading, c);
         const double by_angle = (value - channel_of(turned.reading, c)) / turn;
         slopes.jacobian(i, p) = (channel_of(there.reading, c) - value + by_angle * roll_by) / moved.steps[q];
+      }
+    };
+    for (Eigen::Index p = 0; p < soil_parameters(); ++p) difference(p);
+    for (std::size_t t = 0; t < terms_.size(); ++t) {
+      const Eigen::Index begin = first_of_term_[t], size = std::ssize(terms_[t].free);
+      const std::vector<double> products = terms_[t].weighs ? terms_[t].weighs(at) : std::vector<double>();
+      const auto largest = std::max_element(products.begin(), products.end(),
+                                            [](double a, double b) { return std::abs(a) < std::abs(b); });
+      const bool as_one = largest != products.end() && *largest != 0.0;
+      const Eigen::Index leads = as_one ? begin + (largest - products.begin()) : begin;
+      if (as_one) difference(leads);
+      for (Eigen::Index p = begin; p < begin + size; ++p) {
+        if (!as_one)
+          difference(p);
+        else if (p != leads)
+          slopes.take(p, products[p - begin] / *largest, leads, row, {first, cell});
       }
     }
   }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bekker_wong/effect.hpp"
@@ -40,6 +41,9 @@ struct Term {
   std::vector<double> defaults;  ///< parameters' values to start from [SI], reference values already centred
   std::vector<int> free;         ///< indices of the parameters that a fit moves; 0 is the amplitude
   std::vector<double> spread;    ///< sd of each parameter's prior about its default [SI]; 0: none stated
+  /// Where the free ones are the weights of one function of the condition: what each of them multiplies there. Their
+  /// slopes are then one slope, times that.
+  std::function<std::vector<double>(const OperatingCondition&)> weighs = {};
 };
 
 /// A form with its reference values set to the observations' means (moisture, position, run). free_shape: the other
@@ -52,6 +56,10 @@ struct PredictionSlopes {
   Eigen::MatrixXd short_of;   ///< of ln(load/most carried), rows x parameters; zero but where the soil gives way
   Eigen::MatrixXd turn;       ///< of ln(theta_1), rows x parameters; zero where the soil gives way
   Eigen::VectorXd steepness;  ///< d ln(load carried)/d ln(theta_1) of each row; zero where the soil gives way
+
+  /// Of one row, whose cells are from .first to before .second: a parameter's slopes as those of another, times that.
+  void take(Eigen::Index parameter, double times, Eigen::Index from, int row,
+            std::pair<Eigen::Index, Eigen::Index> cells);
 };
 
 /// What one prediction tells the next.
