@@ -293,7 +293,8 @@ TEST(Effects, EveryFormLeavesTheLoadCarried) {
       for (const Question& q : questions) {
         const OperatingCondition at = condition(s, q);
         const double load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
-        EXPECT_NEAR(wheel_with(s, form).roll(at).forces.vertical, load, 1e-9 * load) << label(form, s, q);
+        const double small = 0.1 * form.parameters[0].fallback;  // so that none digs itself in
+        EXPECT_NEAR(wheel_with(s, form, small).roll(at).forces.vertical, load, 1e-9 * load) << label(form, s, q);
       }
 }
 
