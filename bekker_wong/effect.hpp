@@ -91,6 +91,8 @@ class Effect {
                         const Surroundings&) const {}
   /// Forces beside the stress integrals.
   virtual void added_forces(ForceLedger&, const Rolling&) const {}
+  /// Whether they may have a vertical part; the search for the balance leaves out those that have none.
+  virtual bool lifts() const { return true; }
   /// After the balance: total sinkage from the one that balances the load [m]. Where an effect deepens it, forces are
   /// taken at the deeper position with the stresses scaled so that they still carry the load.
   virtual double settle(double sinkage, const Rolling&) const { return sinkage; }

@@ -61,6 +61,11 @@ const std::vector<EffectForm>& learned_forms();
 /// What a learned form is a function of; empty variables for a form of the catalogue.
 const LearnedFunction& learned_function(const EffectForm& form);
 
+/// What each weight of a learned form multiplies at a condition, in their order: products of Legendre's polynomials;
+/// zeros where the condition does not tell one of the variables. parameters: the form's.
+std::vector<double> weighed_products(const LearnedFunction& function, const std::vector<double>& parameters,
+                                     const OperatingCondition& at);
+
 /// Where a condition lies outside the range that a learned effect was learned in: "slip"; empty inside, and for every
 /// other effect. Outside, the function has the value of the nearest edge.
 std::vector<std::string> outside_learned(const EffectChoice& choice, const OperatingCondition& at);

@@ -151,12 +151,26 @@ NodeLayout RollingWheel::layout_at(const Prepared& p, double theta_1) const {
   return node_layout(p.soil, p.outline, p.motion, angles(p, theta_1));
 }
 
-/// Load carried [N]: all that a search asks of a trial sinkage.
-double RollingWheel::vertical(const Prepared& p, const ContactPatch& patch) const {
-  if (!effects_.empty()) return integrate(p, patch).vertical;
+/// Load that the stresses carry [N].
+double RollingWheel::pressed(const Prepared& p, const ContactPatch& patch) {
   return p.outline.width * sum_over(patch, [&](std::size_t i) {
            return patch.arc[i] * (patch.sigma[i] * patch.normal_cosine[i] + patch.tau_x[i] * patch.normal_sine[i]);
          });
+}
+
+/// Load that the added forces carry [N].
+double RollingWheel::lifted(const Prepared& p, const ContactPatch& patch) const {
+  if (std::none_of(effects_.begin(), effects_.end(), [](const auto& effect) { return effect->lifts(); })) return 0.0;
+  const Rolling rolling{p.around, p.soil, p.outline, patch, sinkage_of(patch, p.outline)};
+  ForceLedger added;
+  for (const auto& effect : effects_)
+    if (effect->lifts()) effect->added_forces(added, rolling);
+  return added.vertical();
+}
+
+/// Load carried [N]: all that a search asks of a trial sinkage.
+double RollingWheel::vertical(const Prepared& p, const ContactPatch& patch) const {
+  return pressed(p, patch) + lifted(p, patch);
 }
 
 /// theta_1 of the wheel standing still, by Bekker's formula: where a search starts.
@@ -171,9 +185,10 @@ double RollingWheel::static_angle(const Prepared& p) const {
 /// A braked wheel's shear stress pushes it down, so that the load carried may rise, fall and, where the shear
 /// displacement turns back, rise again. Looks from a root downward until even what lifts the wheel would not carry the
 /// load.
-bool RollingWheel::is_smallest(const Prepared& p, double log_theta, ContactPatch& patch) const {
+bool RollingWheel::is_smallest(const Prepared& p, double log_theta) const {
   if (!p.motion.locked && p.motion.forward <= 1.0) return true;
   constexpr double step = 0.05, lowest = -7.0;
+  ContactPatch patch;
   for (double x = log_theta - step; x > lowest; x -= step) {
     fill_patch(p, std::exp(x), patch);
     if (vertical(p, patch) > p.around.normal_load) return false;
@@ -186,22 +201,26 @@ bool RollingWheel::is_smallest(const Prepared& p, double log_theta, ContactPatch
   return true;
 }
 
-FirstRoot RollingWheel::balance(Prepared& p, double about, ContactPatch& patch) const {
+FirstRoot RollingWheel::balance(Prepared& p, const NearBalance& known, ContactPatch& patch) const {
   const double load = p.around.normal_load, upper = std::log(deepest_angle());
   // ln(carried/load) against ln(theta_1) is nearly a line of slope 2n + 1.
   const auto imbalance = [&](double log_theta) {
     fill_patch(p, std::exp(log_theta), patch);
     return log_share(vertical(p, patch) / load);
   };
-  const double start = about > 0.0 ? about : static_angle(p);
-  p.layout = coarse(layout_at(p, start));
+  const double start = known.angle > 0.0 ? known.angle : static_angle(p);
+  p.layout = layout_at(p, start);
+  if (known.steepness > 0.0)
+    if (const auto root = rising_root(imbalance, std::log(start), known.steepness, upper, 1e-8))
+      if (is_smallest(p, root->x)) return {root->x, {}};
+  p.layout = coarse(p.layout);
   const auto near = rising_root(imbalance, std::log(start), 2 * p.soil.exponent + 1, upper, 1e-4);
-  if (near && is_smallest(p, near->x, patch)) {
+  if (near && is_smallest(p, near->x)) {
     p.layout = layout_at(p, std::exp(near->x));
     if (const auto root = rising_root(imbalance, near->x, near->slope, upper, 1e-12)) return {root->x, {}};
   }
-  if (about > 0.0)
-    if (const gsl::Sample top = climb(imbalance, std::log(about), upper); top.f < 0.0) return {{}, top};
+  if (known.angle > 0.0)
+    if (const gsl::Sample top = climb(imbalance, std::log(known.angle), upper); top.f < 0.0) return {{}, top};
   p.layout = layout_at(p, deepest_angle());
   const FirstRoot found = first_rising_root(imbalance, upper);
   if (found.x) fill_patch(p, std::exp(*found.x), patch);
@@ -223,25 +242,23 @@ void RollingWheel::refuse(const Prepared& p, double highest, ContactPatch& patch
       most > carried + 1e-6 * load ? fmt::format(", and at most {} at any depth above", force(most)) : std::string()));
 }
 
-void RollingWheel::settle(const Prepared& p, RolledWheel& wheel) const {
-  wheel.sinkage = sinkage_of(wheel.patch, p.outline);
-  if (effects_.empty()) return;
-  double deeper = wheel.sinkage;
-  for (const auto& effect : effects_)
-    deeper = effect->settle(deeper, {p.around, p.soil, p.outline, wheel.patch, wheel.sinkage});
-  if (deeper == wheel.sinkage) return;
+double RollingWheel::settled(const Prepared& p, const ContactPatch& patch, double sinkage) const {
+  double deeper = sinkage;
+  for (const auto& effect : effects_) deeper = effect->settle(deeper, {p.around, p.soil, p.outline, patch, sinkage});
+  return deeper;
+}
+
+void RollingWheel::settle(const Prepared& p, double deeper, RolledWheel& wheel) const {
   const double share = (deeper + wheel.patch.deflection) / p.outline.radius;
   if (share > max_settled_share)
     throw NoSolution(
         fmt::format("the wheel would dig itself in to {:.3g} of its radius, deeper than {}", share, max_settled_share));
   fill_patch(p, std::acos(1.0 - share), wheel.patch);
-  const WheelForces unscaled = integrate(p, wheel.patch);
-  const double added = unscaled.added.vertical();
-  const double scale = (p.around.normal_load - added) / (unscaled.vertical - added);
+  const double added = lifted(p, wheel.patch), unscaled = pressed(p, wheel.patch) + added;
+  const double scale = (p.around.normal_load - added) / (unscaled - added);
   if (!(scale > 0.0) || !std::isfinite(scale)) throw NoSolution("no balance of the load at the deeper position");
   for (auto member : {&ContactPatch::sigma, &ContactPatch::tau_x, &ContactPatch::tau_y})
     for (double& stress : wheel.patch.of(member)) stress *= scale;
-  wheel.forces = integrate(p, wheel.patch);
   wheel.sinkage = deeper;
 }
 
@@ -270,26 +287,29 @@ double RollingWheel::finish(const Prepared& p, double theta_1, RolledWheel& whee
   wheel.at = p.at;
   wheel.motion = p.motion;
   wheel.balance_angle = theta_1;
+  wheel.sinkage = sinkage_of(wheel.patch, p.outline);
+  const double deeper = settled(p, wheel.patch, wheel.sinkage);
+  const bool settles = deeper != wheel.sinkage;
+  const double carried = settles ? vertical(p, wheel.patch) : 0.0;
+  if (settles) settle(p, deeper, wheel);
   wheel.forces = integrate(p, wheel.patch);
-  const double carried = wheel.forces.vertical;
-  settle(p, wheel);
   read(p, wheel);
-  return carried;
+  return settles ? carried : wheel.forces.vertical;
 }
 
 RolledWheel RollingWheel::roll(const OperatingCondition& at) const {
   Prepared p = prepare(at);
   RolledWheel wheel;
-  const FirstRoot found = balance(p, 0.0, wheel.patch);
+  const FirstRoot found = balance(p, {}, wheel.patch);
   if (!found.x) refuse(p, found.highest.f, wheel.patch);
   finish(p, std::exp(*found.x), wheel);
   return wheel;
 }
 
-RolledWheel RollingWheel::roll_or_give_way(const OperatingCondition& at, double about) const {
+RolledWheel RollingWheel::roll_or_give_way(const OperatingCondition& at, const NearBalance& near) const {
   Prepared p = prepare(at);
   RolledWheel wheel;
-  const FirstRoot found = balance(p, about, wheel.patch);
+  const FirstRoot found = balance(p, near, wheel.patch);
   wheel.gives_way = !found.x;
   const double theta_1 = std::exp(found.x.value_or(found.highest.x));
   if (wheel.gives_way) {

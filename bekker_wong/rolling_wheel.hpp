@@ -45,6 +45,12 @@ struct RolledWheel {
   Reading reading;             ///< what conventions.md calls F_DP, M, z, F_y, after the sensor joint
 };
 
+/// Where a search for the balance may begin.
+struct NearBalance {
+  double angle = 0.0;      ///< theta_1 of this wheel on a soil nearby [rad]; 0: none is known
+  double steepness = 0.0;  ///< d ln(load carried)/d ln(theta_1) there [-]; 0: not known
+};
+
 /// Deepest sinkage at which the model balances a load, as a share of the radius.
 inline constexpr double max_sinkage_share = 0.9;
 /// Deepest sinkage to which an effect may settle the wheel: the contact then reaches above the axle.
@@ -64,8 +70,8 @@ class RollingWheel {
 
   /// The same; where the soil gives way, because no sinkage down to 0.9 r carries the load, the wheel at the depth at
   /// which the soil carries most: its readings go on smoothly from those of the last load carried. For fits, which may
-  /// cross such soils. about: theta_1 of this wheel on a soil nearby, to look from [rad]; 0: none is known.
-  RolledWheel roll_or_give_way(const OperatingCondition& at, double about = 0.0) const;
+  /// cross such soils. Where a balance nearby is known with its steepness, to 1e-8 of the load.
+  RolledWheel roll_or_give_way(const OperatingCondition& at, const NearBalance& near = {}) const;
 
   /// The wheel at a given theta_1 [rad], balanced or not: forces.vertical says what it carries. For derivatives by the
   /// implicit function theorem and for looking at the balance.
@@ -95,17 +101,21 @@ class RollingWheel {
   void fill_patch(const Prepared&, double theta_1, ContactPatch&, const DisplacementFill& displacement = {}) const;
   NodeLayout layout_at(const Prepared&, double theta_1) const;
   WheelForces integrate(const Prepared&, const ContactPatch&) const;
+  static double pressed(const Prepared&, const ContactPatch&);
+  double lifted(const Prepared&, const ContactPatch&) const;
   double vertical(const Prepared&, const ContactPatch&) const;
-  /// Finds ln(theta_1) and leaves the patch filled for it; refines p's node layout on the way. Looks from `about` [rad]
+  /// Finds ln(theta_1) and leaves the patch filled for it; refines p's node layout on the way. Looks from `known`
   /// where that is known, and then for no higher place than the one that a climb from there leads to.
-  FirstRoot balance(Prepared& p, double about, ContactPatch& patch) const;
+  FirstRoot balance(Prepared& p, const NearBalance& known, ContactPatch& patch) const;
   double static_angle(const Prepared&) const;
-  bool is_smallest(const Prepared&, double log_theta, ContactPatch& patch) const;
+  bool is_smallest(const Prepared&, double log_theta) const;
   [[noreturn]] void refuse(const Prepared&, double highest, ContactPatch& patch) const;
   /// Forces, where the wheel settles and readings of a wheel whose patch is filled for theta_1; gives the load that it
   /// carried before it settled.
   double finish(const Prepared&, double theta_1, RolledWheel&) const;
-  void settle(const Prepared&, RolledWheel&) const;
+  /// The sinkage that the effects make of one that balances the load, and the wheel moved there.
+  double settled(const Prepared&, const ContactPatch&, double sinkage) const;
+  void settle(const Prepared&, double deeper, RolledWheel&) const;
   void read(const Prepared&, RolledWheel&) const;
 
   Tire tire_;

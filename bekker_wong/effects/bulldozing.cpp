@@ -28,6 +28,7 @@ double met(const Rolling& r) { return std::max(0.0, std::cos(r.around.at.yaw)); 
 class PowerOfSinkage final : public Effect {
  public:
   explicit PowerOfSinkage(const std::vector<double>& p) : amplitude_(p[0]), power_(p[1]) {}
+  bool lifts() const override { return false; }
   void added_forces(ForceLedger& ledger, const Rolling& r) const override {
     if (amplitude_ == 0.0 || !(r.sinkage > 0.0)) return;
     const double depth = r.around.tire.radius / 5;
@@ -55,6 +56,7 @@ template <double (*Resistance)(const Rolling&)>
 class BowWave final : public Effect {
  public:
   explicit BowWave(const std::vector<double>& p) : amplitude_(p[0]) {}
+  bool lifts() const override { return false; }
   void added_forces(ForceLedger& ledger, const Rolling& r) const override {
     if (amplitude_ == 0.0 || !(r.sinkage > 0.0)) return;
     ledger.add({.name = "bulldozing", .forward = -amplitude_ * met(r) * Resistance(r)});

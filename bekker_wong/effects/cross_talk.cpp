@@ -63,7 +63,8 @@ class Turned final : public Effect {
   double cosine_, sine_;
 };
 
-/// The frame yields under the load: the depth gauge shows a more at 1 kN.
+/// The frame yields under the load: the depth gauge shows a more at 1 kN, never less, for what gives way stands between
+/// the gauge and the wheel.
 class Yielding final : public Effect {
  public:
   explicit Yielding(const std::vector<double>& p) : amplitude_(p[0]) {}
@@ -104,7 +105,7 @@ std::vector<EffectForm> cross_talk_forms() {
                    .form = "sinkage_from_load",
                    .equation = "z + a W/(1 kN)",
                    .source = "stated here",
-                   .parameters = {{"a", "mm", 0.001, -0.2, 0.2, "yielding of the frame at a load of 1 kN"}},
+                   .parameters = {{"a", "mm", 0.001, 0.0, 0.2, "yielding of the frame at a load of 1 kN"}},
                    .measurement = true,
                    .form_tolerance = 0.08,
                    .steady_only = of_an_instrument,

@@ -31,22 +31,10 @@ LearnedFunction function_of(std::vector<LearnedVariable> of) {
 class Smooth {
  public:
   Smooth(const LearnedFunction& function, const std::vector<double>& p) : function_(function), p_(p) {}
-  /// 0 where a condition isn't told.
   double operator()(At at) const {
-    std::array<double, 2> x{};
-    for (std::size_t v = 0; v < function_.variables.size(); ++v) {
-      const double value = function_.variables[v].value(at), from = p_[LearnedFunction::from(v)],
-                   to = p_[LearnedFunction::to(v)];
-      if (std::isnan(value)) return 0.0;
-      x[v] = to > from ? std::clamp(2 * (value - from) / (to - from) - 1, -1.0, 1.0) : 0.0;
-    }
+    const std::vector<double> products = weighed_products(function_, p_, at);
     double sum = 0.0;
-    for (std::size_t k = 0; k < function_.degrees.size(); ++k) {
-      double product = p_[function_.first_weight() + k];
-      for (std::size_t v = 0; v < function_.variables.size(); ++v)
-        product *= std::legendre(static_cast<unsigned>(function_.degrees[k][v]), x[v]);
-      sum += product;
-    }
+    for (std::size_t k = 0; k < products.size(); ++k) sum += p_[function_.first_weight() + k] * products[k];
     return held_change(p_[0] * sum);
   }
 
@@ -120,6 +108,23 @@ const LearnedFunction& learned_function(const EffectForm& form) {
     return names;
   }();
   return form.id == learned_id ? *by_name.at(form.form) : none;
+}
+
+std::vector<double> weighed_products(const LearnedFunction& function, const std::vector<double>& p, At at) {
+  std::array<double, 2> x{};
+  std::vector<double> products(function.degrees.size(), 0.0);
+  for (std::size_t v = 0; v < function.variables.size(); ++v) {
+    const double value = function.variables[v].value(at), from = p[LearnedFunction::from(v)],
+                 to = p[LearnedFunction::to(v)];
+    if (std::isnan(value)) return products;
+    x[v] = to > from ? std::clamp(2 * (value - from) / (to - from) - 1, -1.0, 1.0) : 0.0;
+  }
+  for (std::size_t k = 0; k < products.size(); ++k) {
+    products[k] = 1.0;
+    for (std::size_t v = 0; v < function.variables.size(); ++v)
+      products[k] *= std::legendre(static_cast<unsigned>(function.degrees[k][v]), x[v]);
+  }
+  return products;
 }
 
 std::vector<std::string> outside_learned(const EffectChoice& choice, const OperatingCondition& at) {

@@ -27,6 +27,7 @@ template <class Joint>
 class Learned final : public Effect {
  public:
   explicit Learned(LearnedChange g) : g_(std::move(g)) {}
+  bool lifts() const override { return false; }
   void soil(SoilValues& soil, const Surroundings& around) const override {
     if constexpr (requires { Joint::soil(soil, 0.0); })
       if (g_) Joint::soil(soil, std::exp(g_(around.at)));

@@ -110,6 +110,7 @@ class Blade final : public Effect {
 class LevelBlade final : public Effect {
  public:
   explicit LevelBlade(const std::vector<double>& p) : share_(p[0]) {}
+  bool lifts() const override { return false; }
   void added_forces(ForceLedger& ledger, const Rolling& r) const override {
     const Kinematics& motion = r.around.motion;
     const double slide = motion.locked ? -motion.forward : 1 - motion.forward;  // of the tread, over its way rolled

@@ -101,6 +101,7 @@ class ShearLog final : public Effect {
 class Inertial final : public Effect {
  public:
   explicit Inertial(const std::vector<double>& p) : amplitude_(p[0]) {}
+  bool lifts() const override { return false; }
   void added_forces(ForceLedger& ledger, const Rolling& rolling) const override {
     if (amplitude_ == 0.0) return;
     const OperatingCondition& at = rolling.around.at;

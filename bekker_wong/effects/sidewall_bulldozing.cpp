@@ -15,6 +15,7 @@
 #include "bekker_wong/earth_pressure.hpp"
 #include "bekker_wong/effects/edge.hpp"
 #include "bekker_wong/effects/forms.hpp"
+#include "bekker_wong/node_functions.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
@@ -55,10 +56,10 @@ struct GroundPressure {
   double pressure;
 };
 
-/// j_y/K, or its limit where the wheel is locked.
-double sideways_travel(const Rolling& r, int i) {
+/// j_y, or its limit where the wheel is locked [m].
+double sideways_travel(const Rolling& r, std::size_t i) {
   const double j_y = r.patch.j_y[i];
-  if (!r.around.motion.locked) return j_y / r.patch.modulus[i];
+  if (!r.around.motion.locked) return j_y;
   return std::abs(r.around.motion.lateral) > 1e-12 ? std::copysign(std::numeric_limits<double>::infinity(), j_y) : 0.0;
 }
 
@@ -79,23 +80,29 @@ template <class Resistance>
 class SideWall final : public Effect {
  public:
   explicit SideWall(const std::vector<double>& p) : amplitude_(p[0]), friction_(p.size() > 1 ? p[1] : 0.0) {}
+  bool lifts() const override { return amplitude_ != 0.0 && friction_ > 0.0; }
   void added_forces(ForceLedger& ledger, const Rolling& r) const override {
     const double downhill = downhill_share(r.around);
     if (amplitude_ == 0.0 || (r.around.motion.lateral == 0.0 && downhill == 0.0)) return;
     const Resistance resistance(r);
     const Rim rim(r);
     std::array<Edge, ContactPatch::capacity> edges;
-    ContactPatch::Array resisting;
+    ContactPatch::Array resisting, travel, way, called_up;
+    const auto count = static_cast<std::size_t>(r.patch.count);
     double whole = 0.0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(r.patch.count); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       edges[i] = rim.at(static_cast<int>(i));
       whole += resisting[i] = r.patch.arc[i] * resistance(edges[i]);
     }
     if (!(whole > 0.0)) return;
+    for (std::size_t i = 0; i < count; ++i) {
+      travel[i] = sideways_travel(r, i) + r.patch.modulus[i] * (downhill / whole);  // q K
+      way[i] = std::abs(travel[i]);
+    }
+    mobilised_share({way.data(), count}, r.patch.of(&ContactPatch::modulus), {called_up.data(), count});
     AddedForce sum{.name = "sidewall_bulldozing"};
-    for (std::size_t i = 0; i < static_cast<std::size_t>(r.patch.count); ++i) {
-      const double q = sideways_travel(r, static_cast<int>(i)) + downhill / whole;
-      const double force = amplitude_ * resisting[i] * std::copysign(-std::expm1(-std::abs(q)), q);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double force = amplitude_ * resisting[i] * std::copysign(called_up[i], travel[i]);
       sum.lateral += force;
       if (friction_ > 0.0) rub(sum, friction_, std::abs(force), Resistance::acts_at, edges[i], r);
     }
@@ -111,6 +118,7 @@ class SideWall final : public Effect {
 class SideArea final : public Effect {
  public:
   explicit SideArea(const std::vector<double>& p) : amplitude_(p[0]) {}
+  bool lifts() const override { return false; }
   void added_forces(ForceLedger& ledger, const Rolling& r) const override {
     const Kinematics& motion = r.around.motion;
     const double downhill = downhill_share(r.around);

@@ -15,9 +15,13 @@
 // S takes the declared soil.
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <tuple>
+#include <utility>
 
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/effects/forms.hpp"
+#include "bekker_wong/node_functions.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
@@ -42,8 +46,9 @@ constexpr Presumption inflation_pressure = {.key = "inflation_pressure",
 
 double ground_pressure(const Tire& tire) { return inflation_pressure(tire) + carcass_pressure(tire); }
 
-struct Depth {
-  double value, slope;  // S(d) and dS/dd
+/// S(d) and dS/dd at the depths d of many nodes.
+struct Depths {
+  ContactPatch::Array value, slope;
 };
 
 /// Wong's flat: the pressure stays below p_g/a, so the depth below z_g = (p_g/(a k))^(1/n). The corner is rounded by
@@ -53,9 +58,15 @@ struct PressureCap {
   PressureCap(double a, const Outline& outline, const Surroundings& around)
       : deepest(std::pow(ground_pressure(around.tire) / (a * around.declared.pressure_modulus(outline.width)),
                          1 / around.declared.exponent)) {}
-  Depth operator()(double d) const {
-    const double x = d / deepest, square = x * x, q = 1 + square * square * square, root = 1 / std::cbrt(std::sqrt(q));
-    return {d * root, root / q};
+  void operator()(std::span<const double> d, Depths& reached) const {
+    constexpr double largest = 1e50;  // of d/z_g, whose sixth power is still a number
+    ContactPatch::Array q, root;
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      const double x = std::min(d[i] / deepest, largest), square = x * x;
+      q[i] = 1 + square * square * square;
+    }
+    scaled_power({q.data(), d.size()}, -1.0 / 6, 1.0, {root.data(), d.size()});
+    for (std::size_t i = 0; i < d.size(); ++i) reached.value[i] = d[i] * root[i], reached.slope[i] = root[i] / q[i];
   }
 };
 
@@ -67,9 +78,12 @@ struct CarcassSpring {
         give(0.5 * a * a * outline.radius * around.declared.pressure_modulus(outline.width) /
              ground_pressure(around.tire)),
         log_give(std::log(give)) {}
+  void operator()(std::span<const double> d, Depths& reached) const {
+    for (std::size_t i = 0; i < d.size(); ++i) std::tie(reached.value[i], reached.slope[i]) = at(d[i]);
+  }
   /// u = S/d solves u + B u^n = 1. In t = ln u that is ln(e^t + B e^(n t)) = 0, a convex function of slope 1 .. n:
   /// Newton falls monotonically to the root from where the larger term is 1, in three or four steps.
-  Depth operator()(double d) const {
+  std::pair<double, double> at(double d) const {
     if (!(d > 0.0)) return {0.0, n > 1.0 ? 1.0 : n < 1.0 ? 0.0 : 1 / (1 + give)};
     const double log_b = log_give + (n - 1) * std::log(d);
     double t = std::min(0.0, -log_b / n), step = 1.0;
@@ -98,17 +112,23 @@ class Flattening final : public Effect {
     if (amplitude_ == 0.0) return;
     const Law law(amplitude_, outline, around);
     const double r = outline.radius, axle = r * std::cos(p.angles.entry);
+    const auto count = static_cast<std::size_t>(p.count);
+    ContactPatch::Array depth;
+    for (std::size_t i = 0; i < count; ++i) depth[i] = std::max(0.0, r * p.normal_cosine[i] - axle);
+    Depths tread, mirrored;
+    law({depth.data(), count}, tread);
+    std::size_t first_rear = 0;  // behind theta_m the pressure law looks at the mirror angle's depth
+    while (first_rear < count && p.theta[first_rear] >= p.angles.max_stress) ++first_rear;
+    law({&p.depth[first_rear], count - first_rear}, mirrored);
     double lost = 0.0, rate_before = 0.0, angle_before = p.angles.entry;
-    for (int i = 0; i < p.count; ++i) {  // from the entry to the exit
+    for (std::size_t i = 0; i < count; ++i) {  // from the entry to the exit
       const double sine = p.normal_sine[i], cosine = p.normal_cosine[i];
-      const Depth outline_depth = law(std::max(0.0, r * cosine - axle));
-      const double rise = outline_depth.slope * sine;
+      const double rise = tread.slope[i] * sine;
       const double stretch = std::sqrt(rise * rise + cosine * cosine);  // arc length of the tread over the circle's
       p.normal_sine[i] = rise / stretch;
       p.normal_cosine[i] = cosine / stretch;
       p.arc[i] *= stretch;
-      const bool mirrored = p.theta[i] < p.angles.max_stress;
-      p.depth[i] = mirrored ? law(p.depth[i]).value : outline_depth.value;
+      p.depth[i] = i < first_rear ? tread.value[i] : mirrored.value[i - first_rear];
       lost += 0.5 * (1 - stretch + rate_before) * (angle_before - p.theta[i]);
       p.since_entry[i] -= lost;  // the belt's travel since the entry, over r
       rate_before = 1 - stretch;
@@ -120,7 +140,9 @@ class Flattening final : public Effect {
  private:
   static double deflection_of(const Law& law, double entry, const Outline& outline) {
     const double half = std::sin(0.5 * entry), depth = 2 * outline.radius * half * half;
-    return depth - law(depth).value;
+    Depths reached;
+    law({&depth, 1}, reached);
+    return depth - reached.value[0];
   }
   double amplitude_;
 };

@@ -103,11 +103,10 @@ JointOutcome joint_test(const Side& reference, const Case& question, const std::
   const Estimated estimated = estimated_of(observations, reference);
   if (std::string why = why_not_tested(errors, estimated); !why.empty()) return {std::nullopt, why};
   VectorXd predicted;
-  MatrixXd jacobian;
   BalanceMemory balanced;
-  if (!predictor.predict(predictor.start(), predicted, balanced) ||
-      !predictor.linearise(predictor.start(), jacobian, balanced))
-    return {std::nullopt, "the model has no balance at some condition"};
+  const bool balances = predictor.predict(predictor.start(), predicted, balanced);
+  const auto slopes = balances ? predictor.linearise(predictor.start(), balanced) : std::nullopt;
+  if (!slopes) return {std::nullopt, "the model has no balance at some condition"};
   JointTest test;
   VectorXd sd(predictor.soil_parameters());
   for (int i = 0; i < predictor.soil_parameters(); ++i) {
@@ -117,7 +116,7 @@ JointOutcome joint_test(const Side& reference, const Case& question, const std::
   }
   const InErrors in_errors(observations, reference, errors);
   const VectorXd white = in_errors(predicted - observations.values());
-  const MatrixXd columns = in_errors(jacobian.leftCols(predictor.soil_parameters()) * sd.asDiagonal());
+  const MatrixXd columns = in_errors(slopes->jacobian.leftCols(predictor.soil_parameters()) * sd.asDiagonal());
   // d' (1 + A A')^-1 d = d' d - (A' d)' (1 + A' A)^-1 (A' d): Woodbury's identity.
   const VectorXd along = columns.transpose() * white;
   MatrixXd inner = columns.transpose() * columns;

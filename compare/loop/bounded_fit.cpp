@@ -20,12 +20,15 @@ std::optional<Index> k_phi_of(const std::vector<FreeParameter>& parameters) {
   return k_phi == parameters.end() ? std::nullopt : std::optional(k_phi - parameters.begin());
 }
 
-/// Indices of the parameters that no bound holds: those off their bounds, and those pushed inward.
+/// Indices of the parameters that no bound holds: those off their bounds, by more than a last digit, and those pushed
+/// inward.
 std::vector<int> free_of_bounds(const WheelPredictor& predictor, const VectorXd& theta, const VectorXd& downhill) {
   std::vector<int> free;
   for (Index i = 0; i < theta.size(); ++i) {
     const FreeParameter& p = predictor.parameters()[i];
-    const bool held = (theta[i] <= p.lower && downhill[i] < 0) || (theta[i] >= p.upper && downhill[i] > 0);
+    const double last_digit = 1e-9 * p.scale;
+    const bool held =
+        (theta[i] <= p.lower + last_digit && downhill[i] < 0) || (theta[i] >= p.upper - last_digit && downhill[i] > 0);
     if (!held) free.push_back(static_cast<int>(i));
   }
   return free;
@@ -76,8 +79,8 @@ bool stiffen(Descent& descent, const WheelPredictor& predictor) {
 }  // namespace
 
 std::optional<Fit> fit(const WheelPredictor& predictor, const VectorXd& values, const Whitening& whitening,
-                       const VectorXd& start) {
-  Descent descent(predictor, values, whitening);
+                       const VectorXd& start, BalanceMemory near) {
+  Descent descent(predictor, values, whitening, std::move(near));
   if (!put_near(descent, predictor, start)) return std::nullopt;
   descent.go();
   Fit end;
@@ -94,6 +97,7 @@ std::optional<Fit> fit(const WheelPredictor& predictor, const VectorXd& values, 
   end.residual = line.residual;
   end.chi2 = line.residual.squaredNorm();
   end.chi2_cells = line.residual.head(values.size()).squaredNorm();
+  end.balance = descent.balance();
   return end;
 }
 

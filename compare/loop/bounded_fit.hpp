@@ -23,12 +23,13 @@ struct Fit {
   std::vector<int> column_parameter;  ///< which parameter each column belongs to
   double chi2 = 0.0;                  ///< |residual|^2: cells and priors
   double chi2_cells = 0.0;
+  BalanceMemory balance;  ///< at theta, to look from nearby; the soil may give way there
 };
 
 /// The least chi2 near `start` with a soil that carries the wheel in every condition; nothing where none is found. The
 /// way there may cross soils that do not (Descent); where it ends at one, the soil is made firmer (k_phi, or where that
-/// is known what costs chi2 least) until all is carried.
+/// is known what costs chi2 least) until all is carried. near: what is known of the balances at the start.
 std::optional<Fit> fit(const WheelPredictor& predictor, const Eigen::VectorXd& values, const Whitening& whitening,
-                       const Eigen::VectorXd& start);
+                       const Eigen::VectorXd& start, BalanceMemory near = {});
 
 }  // namespace soilbin::compare

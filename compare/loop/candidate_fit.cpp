@@ -23,26 +23,28 @@ void put(VectorXd& start, const WheelPredictor& predictor, int term, const std::
 }
 
 /// Soil values and earlier terms as known, then the estimated terms, their amplitudes halved until every run is
-/// carried.
-VectorXd start_of(const WheelPredictor& predictor, const CandidateStart& from, double share) {
+/// carried; and the balances there.
+std::pair<VectorXd, BalanceMemory> start_of(const WheelPredictor& predictor, const CandidateStart& known,
+                                            double share) {
   VectorXd start = predictor.start(), prediction;
-  start.head(from.known.size()) = from.known;
-  for (const auto& [term, values] : from.estimated) put(start, predictor, term, values, share);
-  BalanceMemory memory = giving_way();
+  start.head(known.from->restart.size()) = known.from->restart;
+  for (const auto& [term, values] : known.estimated) put(start, predictor, term, values, share);
+  BalanceMemory memory = known.from->balance;
   for (int halving = 0; halving < 6 && !predictor.predict(start, prediction, memory); ++halving)
-    for (const auto& [term, values] : from.estimated) start[predictor.amplitude_index(term)] *= 0.5;
-  return start;
+    for (const auto& [term, values] : known.estimated) start[predictor.amplitude_index(term)] *= 0.5;
+  return {std::move(start), std::move(memory)};
 }
 
 }  // namespace
 
 std::optional<FittedModel> fit_terms(const FittedModel& base, const std::vector<Term>& terms,
-                                     const CandidateStart& from) {
+                                     const CandidateStart& known) {
   const WheelPredictor predictor = base.predictor().with(terms);
   std::optional<FittedModel> best;
   for (const double share : {1.0, 0.3, 0.0}) {
-    if (best && best->fit().chi2 < from.chi2 - (share > 0.0 ? 0.5 * from.promised : 0.0)) break;
-    auto found = fitted(base.shared_data(), predictor, start_of(predictor, from, share));
+    if (best && best->fit().chi2 < known.from->chi2 - (share > 0.0 ? 0.5 * known.promised : 0.0)) break;
+    auto [start, near] = start_of(predictor, known, share);
+    auto found = fitted(base.shared_data(), predictor, start, std::move(near));
     if (found && (!best || found->fit().chi2 < best->fit().chi2)) best = std::move(found);
   }
   return best;

@@ -22,17 +22,16 @@ struct CandidateModel {
 
 /// Where a fit of terms starts.
 struct CandidateStart {
-  Eigen::VectorXd known;  ///< values of the soil, and of the first terms; the others start at their defaults
-  double chi2 = 0.0;      ///< that these leave
+  const Fit* from;  ///< of the soil, and of the first terms; the others start at their defaults
   std::map<int, std::vector<double>>
       estimated;          ///< a term's parameters, amplitude first, where its signature puts them [SI]
-  double promised = 0.0;  ///< what the signatures promise to take off chi2
+  double promised = 0.0;  ///< what the signatures promise to take off its chi2
 };
 
 /// Fits the terms in full beside the base model; again from smaller amplitudes where that gained less than half of what
 /// was promised, and from next to none where it gained nothing: an effect that joins others leaves no more than they
 /// did. Nothing where no start balances.
 std::optional<FittedModel> fit_terms(const FittedModel& base, const std::vector<Term>& terms,
-                                     const CandidateStart& from);
+                                     const CandidateStart& known);
 
 }  // namespace soilbin::compare

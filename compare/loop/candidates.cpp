@@ -120,8 +120,7 @@ class Search {
   /// The strongest forms, one by one.
   void fit_singles() {
     fit_each(strongest_forms(signatures_, thresholds::most_refits), [&](const Signature* s) {
-      return fit_terms(base_, {free_term(*s->term.form)},
-                       {base_.fit().restart, base_.fit().chi2, {{0, estimate_of(*s)}}, s->score * s->score});
+      return fit_terms(base_, {free_term(*s->term.form)}, {&base_.fit(), {{0, estimate_of(*s)}}, s->score * s->score});
     });
   }
 
@@ -257,10 +256,9 @@ std::optional<FittedModel> Search::fit_pair(const SignaturePair& pair) const {
   const Signature *first = pair.a, *second = pair.b;
   const CandidateModel* single = best_single({first->term.form, second->term.form});
   if (single && single->terms().front().form == second->term.form) std::swap(first, second);
-  const double base = base_.fit().chi2;
-  CandidateStart start{base_.fit().restart, base, {{1, estimate_of(*second)}}, pair.gain};
+  CandidateStart start{&base_.fit(), {{1, estimate_of(*second)}}, pair.gain};
   if (single)
-    start.known = single->fit().restart, start.chi2 = single->fit().chi2, start.promised -= base - start.chi2;
+    start.from = &single->fit(), start.promised -= base_.fit().chi2 - single->fit().chi2;
   else
     start.estimated[0] = estimate_of(*first);
   return fit_terms(base_, {free_term(*first->term.form), free_term(*second->term.form)}, start);
@@ -277,8 +275,7 @@ void Search::extend(std::size_t index) {
   fit_each(strongest_forms(signatures, thresholds::most_refits / 2), [&](const Signature* s) {
     std::vector<Term> terms = from.terms();
     terms.push_back(free_term(*s->term.form));
-    return fit_terms(base_, terms,
-                     {from.fit().restart, from.fit().chi2, {{added, estimate_of(*s)}}, s->score * s->score});
+    return fit_terms(base_, terms, {&from.fit(), {{added, estimate_of(*s)}}, s->score * s->score});
   });
 }
 
@@ -289,7 +286,7 @@ std::optional<FittedModel> Search::fit_other_form(const OtherForm& other) const 
   if (!single || (found && found->fit().chi2 <= single->fit().chi2)) return found;
   const int joins = other.terms.front().form == single->terms().front().form ? 1 : 0;
   auto beside = fit_terms(base_, {single->terms().front(), other.terms[joins]},
-                          {single->fit().restart, single->fit().chi2, {{1, other.start.estimated.at(joins)}}, 0.0});
+                          {&single->fit(), {{1, other.start.estimated.at(joins)}}, 0.0});
   return beside && (!found || beside->fit().chi2 < found->fit().chi2) ? beside : found;
 }
 
@@ -310,8 +307,7 @@ void Search::fit_other_forms(const CandidateModel& from, std::set<FormSet>& trie
         estimated[t].front() = from.fit().theta[from.model.predictor().amplitude_index(t)];
       }
       estimated[m] = estimate_of(s);
-      const Fit& base = base_.fit();
-      others.push_back({std::move(terms), {base.restart, base.chi2, estimated, base.chi2 - from.fit().chi2}});
+      others.push_back({std::move(terms), {&base_.fit(), estimated, base_.fit().chi2 - from.fit().chi2}});
     }
   fit_each(others, [&](const OtherForm& other) { return fit_other_form(other); });
 }

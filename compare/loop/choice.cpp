@@ -37,17 +37,17 @@ ResidualTests test_residual(const FittedModel& model) { return {lack_of_fit(mode
 ChosenCandidate choose(const Attribution& found, const AttributionOptions& options) {
   const Candidates& all = found.candidates;
   const auto evidence = [&](std::size_t i) { return all.weighed(all.models[i].ids).log_evidence; };
-  const auto gain_over = [&](std::size_t i, const FittedModel& less) {
-    return predictive_gain(all.models[i].model, less, options.seed, options.pool);
-  };
+  const auto densities = [&](const FittedModel& model) { return fold_densities(model, options.seed, options.pool); };
   std::size_t best = *all.best;
+  std::vector<FoldDensity> held_out = densities(all.models[best].model);
   for (auto fewer = best_with_one_fewer(all, all.models[best].ids); fewer;
        fewer = best_with_one_fewer(all, all.models[best].ids)) {
-    if (earns_its_place(gain_over(best, all.models[*fewer].model), evidence(best) - evidence(*fewer))) break;
-    best = *fewer;
+    auto without = densities(all.models[*fewer].model);
+    if (earns_its_place(predictive_gain(held_out, without), evidence(best) - evidence(*fewer))) break;
+    best = *fewer, held_out = std::move(without);
   }
   const FittedModel& model = all.models[best].model;
-  const PredictiveGain gain = gain_over(best, found.base);
+  const PredictiveGain gain = predictive_gain(held_out, densities(found.base));
   return {.candidate = best,
           .gain = gain,
           .after = test_residual(model),

@@ -94,8 +94,10 @@ double promised_gain(const AugmentedLine& l, const VectorXd& step) {
 
 }  // namespace
 
-Descent::Descent(const WheelPredictor& predictor, const VectorXd& values, const Whitening& whitening)
+Descent::Descent(const WheelPredictor& predictor, const VectorXd& values, const Whitening& whitening,
+                 BalanceMemory near)
     : predictor_(predictor), values_(values), whitening_(whitening) {
+  here_.memory = std::move(near);
   const Index n = predictor.parameters().size();
   scale_.resize(n);
   for (Index i = 0; i < n; ++i) scale_[i] = predictor.parameters()[i].scale;
@@ -121,6 +123,7 @@ VectorXd Descent::residual(const Point& at) const {
 
 std::optional<Descent::Point> Descent::try_at(const VectorXd& theta, double limit) {
   Point point{.theta = theta, .prediction = {}, .memory = here_.memory};
+  if (here_.theta.size() > 0) point.memory = here_.memory.moved_by(theta - here_.theta, slopes_);
   PartialChi2 chi2(whitening_);
   chi2.add(prior_residual(predictor_.parameters(), theta).squaredNorm());
   const double beyond = limit * (1 + 1e-9);  // more than another order of the sum makes of it
@@ -137,9 +140,9 @@ std::optional<Descent::Point> Descent::try_at(const VectorXd& theta, double limi
 }
 
 bool Descent::stand_at(Point point) {
-  MatrixXd jacobian, short_of;
-  if (!predictor_.linearise(point.theta, jacobian, point.memory, &short_of)) return false;
-  here_ = std::move(point), jacobian_ = std::move(jacobian), short_of_ = std::move(short_of);
+  auto slopes = predictor_.linearise(point.theta, point.memory);
+  if (!slopes) return false;
+  here_ = std::move(point), slopes_ = std::move(*slopes);
   return true;
 }
 
@@ -162,20 +165,26 @@ bool Descent::would_carry(const VectorXd& theta) {
   return there && carries(*there);
 }
 
+BalanceMemory Descent::balance() const {
+  BalanceMemory memory = here_.memory.moved_by(VectorXd::Zero(scale_.size()), slopes_);
+  memory.gives_way = true;
+  return memory;
+}
+
 AugmentedLine Descent::line() const {
   AugmentedLine l;
   l.residual = residual(here_);
   l.columns.resize(l.residual.size(), scale_.size());
-  l.columns << whitening_(MatrixXd(jacobian_ * scale_.asDiagonal())), prior_columns(predictor_.parameters()),
-      short_of_ * (scale_ / thresholds::carried_to).asDiagonal();
+  l.columns << whitening_(MatrixXd(slopes_.jacobian * scale_.asDiagonal())), prior_columns(predictor_.parameters()),
+      slopes_.short_of * (scale_ / thresholds::carried_to).asDiagonal();
   return l;
 }
 
 VectorXd Descent::firmer() const {
-  const MatrixXd all = line().columns, kept = all.topRows(all.rows() - short_of_.rows());
+  const MatrixXd all = line().columns, kept = all.topRows(all.rows() - slopes_.short_of.rows());
   MatrixXd cost = kept.transpose() * kept;
   cost.diagonal().array() += 1e-10;
-  const VectorXd carries_more = -(short_of_ * scale_.asDiagonal()).colwise().sum().transpose();
+  const VectorXd carries_more = -(slopes_.short_of * scale_.asDiagonal()).colwise().sum().transpose();
   return cost.ldlt().solve(carries_more).cwiseProduct(scale_);
 }
 

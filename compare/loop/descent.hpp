@@ -24,7 +24,9 @@ struct AugmentedLine {
 /// would sink away, and a step need not stop there.
 class Descent {
  public:
-  Descent(const WheelPredictor& predictor, const Eigen::VectorXd& values, const Whitening& whitening);
+  /// near: what is known of the balances where it will be put.
+  Descent(const WheelPredictor& predictor, const Eigen::VectorXd& values, const Whitening& whitening,
+          BalanceMemory near = {});
 
   /// Puts it at theta, moved inside the walls; false where that is no soil for all of the rows. gives_way: may the soil
   /// give way, here and on the way from here?
@@ -38,7 +40,9 @@ class Descent {
   bool carries() const { return carries(here_); }
   const Eigen::VectorXd& theta() const { return here_.theta; }
   const Eigen::VectorXd& prediction() const { return here_.prediction; }
-  const Eigen::MatrixXd& jacobian() const { return jacobian_; }
+  const Eigen::MatrixXd& jacobian() const { return slopes_.jacobian; }
+  /// The balances there, to look from nearby; the soil may give way there.
+  BalanceMemory balance() const;
   AugmentedLine line() const;
   /// Where some row falls short: the way that carries more at the least cost in chi2, of any length.
   Eigen::VectorXd firmer() const;
@@ -67,8 +71,7 @@ class Descent {
   Eigen::MatrixXd walls_;  ///< one a row, in units of scale
   Eigen::VectorXd limits_;
   Point here_;
-  Eigen::MatrixXd jacobian_;
-  Eigen::MatrixXd short_of_;  ///< slopes of what each row falls short of
+  PredictionSlopes slopes_;  ///< there
   double damping_ = 1e-3;
 };
 

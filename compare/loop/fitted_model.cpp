@@ -57,7 +57,7 @@ double FittedModel::absorbed_freedom() const {
 VectorXd FittedModel::contribution(int term) const {
   VectorXd theta = fit_.theta, without;
   theta[predictor_.amplitude_index(term)] = 0.0;
-  BalanceMemory memory = giving_way();
+  BalanceMemory memory = fit_.balance;
   if (!predictor_.predict(theta, without, memory)) return VectorXd::Zero(fit_.prediction.size());
   return fit_.prediction - without;
 }
@@ -73,21 +73,21 @@ SemiEmpiricalSoil FittedModel::soil() const {
 std::optional<Forecast> FittedModel::forecast(const Observations& runs, BalanceMemory memory) const {
   const WheelPredictor predictor = predictor_.over(runs);
   Forecast forecast;
-  MatrixXd jacobian;
-  if (!predictor.predict(fit_.theta, forecast.prediction, memory) || !predictor.linearise(fit_.theta, jacobian, memory))
-    return std::nullopt;
-  forecast.slopes.resize(jacobian.rows(), fit_.columns.cols());
+  if (!predictor.predict(fit_.theta, forecast.prediction, memory)) return std::nullopt;
+  const auto slopes = predictor.linearise(fit_.theta, memory);
+  if (!slopes) return std::nullopt;
+  forecast.slopes.resize(slopes->jacobian.rows(), fit_.columns.cols());
   for (Index c = 0; c < forecast.slopes.cols(); ++c) {
     const int p = fit_.column_parameter[c];
-    forecast.slopes.col(c) = jacobian.col(p) * predictor_.parameters()[p].scale;
+    forecast.slopes.col(c) = slopes->jacobian.col(p) * predictor_.parameters()[p].scale;
   }
   forecast.solved = information(ridge_of_forecasts).solve(forecast.slopes.transpose());
   return forecast;
 }
 
 std::optional<FittedModel> fitted(const std::shared_ptr<const Dataset>& data, const WheelPredictor& predictor,
-                                  const VectorXd& start) {
-  auto found = fit(predictor, data->observations.values(), data->whitening, start);
+                                  const VectorXd& start, BalanceMemory near) {
+  auto found = fit(predictor, data->observations.values(), data->whitening, start, std::move(near));
   if (!found) return std::nullopt;
   return FittedModel(data, predictor, std::move(*found));
 }

@@ -79,6 +79,6 @@ class FittedModel {
 
 /// The least chi2 near `start` (bounded_fit.hpp); nothing where no soil near it carries the wheel in every run.
 std::optional<FittedModel> fitted(const std::shared_ptr<const Dataset>& data, const WheelPredictor& predictor,
-                                  const Eigen::VectorXd& start);
+                                  const Eigen::VectorXd& start, BalanceMemory near = {});
 
 }  // namespace soilbin::compare

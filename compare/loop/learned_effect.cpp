@@ -44,6 +44,9 @@ std::optional<Term> learned_term(const EffectForm& form, const Observations& obs
     term.free.push_back(static_cast<int>(i));
     term.spread[i] = size * freedom_of_weight(function.degrees[k]);
   }
+  term.weighs = [&function, ranges = term.defaults](const OperatingCondition& at) {
+    return bekker_wong::weighed_products(function, ranges, at);
+  };
   return term;
 }
 
@@ -91,7 +94,7 @@ std::optional<MatrixXd> columns_of_weights(const FittedModel& beside, const Term
   const Index known = beside.fit().theta.size();
   VectorXd theta = predictor.start();
   theta.head(known) = beside.fit().theta;
-  BalanceMemory memory = giving_way();
+  BalanceMemory memory = beside.fit().balance;
   VectorXd without, with;
   if (!predictor.predict(theta, without, memory)) return std::nullopt;
   MatrixXd columns(without.size(), term.free.size());
@@ -111,7 +114,7 @@ std::optional<FittedModel> fitted_with_learned(const FittedModel& beside, const 
   const WheelPredictor predictor = beside.predictor().with({term});
   VectorXd start = predictor.start();
   start.head(beside.fit().restart.size()) = beside.fit().restart;
-  return fitted(beside.shared_data(), predictor, start);
+  return fitted(beside.shared_data(), predictor, start, beside.fit().balance);
 }
 
 FittedModel beside_exact(const FittedModel& base, const FittedModel* chosen) {
@@ -125,17 +128,23 @@ std::optional<LearnedEffect> learn_effect(const FittedModel& beside, const Attri
   const std::vector<LearnedProspect> prospects = learned_prospects(beside, options.pool);
   const double choice = std::log(static_cast<double>(std::max<std::size_t>(1, prospects.size())));
   std::optional<LearnedEffect> best;
+  std::optional<std::vector<FoldDensity>> without;
   for (std::size_t i = 0; i < prospects.size() && i < thresholds::learned_refits; ++i) {
     const double evidence = prospects[i].log_evidence - choice;
     if (evidence <= 0.0) break;
     auto model = fitted_with_learned(beside, prospects[i].term);
     if (!model) continue;
-    const PredictiveGain gain = predictive_gain(*model, beside, options.seed, options.pool);
+    if (!without) without = fold_densities(beside, options.seed, options.pool);
+    auto held_out = fold_densities(*model, options.seed, options.pool);
+    const PredictiveGain gain = predictive_gain(held_out, *without);
     if (best && gain.mean <= best->gain.mean) continue;
     std::set<std::string> ids;
     for (const Term& term : model->terms()) ids.insert(term.form->id);
-    best =
-        LearnedEffect{{std::move(ids), std::move(*model), evidence}, evidence, gain, earns_its_place(gain, evidence)};
+    best = LearnedEffect{{std::move(ids), std::move(*model), evidence},
+                         evidence,
+                         std::move(held_out),
+                         gain,
+                         earns_its_place(gain, evidence)};
   }
   return best;
 }

@@ -12,10 +12,11 @@ namespace soilbin::compare {
 
 /// A learned effect, fitted together with the soil and with the named effects that it stands beside.
 struct LearnedEffect {
-  CandidateModel candidate;   ///< the learned term is its last
-  double log_evidence = 0.0;  ///< gained over the model without it, the choice among all forms and sizes paid
-  PredictiveGain gain;        ///< over that model
-  bool stands = false;        ///< by the rule of a named effect (choice.hpp)
+  CandidateModel candidate;           ///< the learned term is its last
+  double log_evidence = 0.0;          ///< gained over the model without it, the choice among all forms and sizes paid
+  std::vector<FoldDensity> held_out;  ///< what it gives to conditions left out
+  PredictiveGain gain;                ///< over that model
+  bool stands = false;                ///< by the rule of a named effect (choice.hpp)
 };
 
 /// A chosen model (null: the base model) fitted to the data of the base model taken as exact: beside a model

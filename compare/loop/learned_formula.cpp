@@ -37,6 +37,11 @@ Term formula_term(const EffectForm& form, const std::vector<FormulaTerm>& terms,
     term.free.push_back(static_cast<int>(k + 1));
     term.spread.push_back(size / usual_size(terms[k], observations));
   }
+  term.weighs = [terms](const OperatingCondition& at) {
+    std::vector<double> values;
+    for (const FormulaTerm& one : terms) values.push_back(one.value(at));
+    return values;
+  };
   return term;
 }
 
@@ -118,7 +123,7 @@ std::optional<LearnedFormula> tried(const FittedModel& beside, const LearnedEffe
   LearnedFormula found{std::move(terms),
                        {},
                        bekker_wong::joint_equation(form),
-                       predictive_gain(*model, learned.candidate.model, options.seed, options.pool)};
+                       predictive_gain(fold_densities(*model, options.seed, options.pool), learned.held_out)};
   const VectorXd errors = model->standard_errors();
   const Index first = model->predictor().amplitude_index(static_cast<int>(model->terms().size()) - 1);
   for (Index k = 0; k < std::ssize(found.terms); ++k)

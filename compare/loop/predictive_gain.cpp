@@ -38,7 +38,7 @@ std::optional<FittedModel> refitted(const FittedModel& model, const Observations
   if (!model.predictor().over(runs).predict(model.fit().restart, about, memory)) return std::nullopt;
   const auto data = std::make_shared<const Dataset>(
       Dataset{whole.campaign, runs, {}, whole.noise, Whitening(runs, whole.noise, about)});
-  return fitted(data, model.predictor().over(data->observations), model.fit().restart);
+  return fitted(data, model.predictor().over(data->observations), model.fit().restart, std::move(memory));
 }
 
 /// ln density of each cell left out under the model fitted to the rest.
@@ -59,12 +59,11 @@ std::optional<VectorXd> density_of(const FittedModel& model, const Observations&
 
 }  // namespace
 
-PredictiveGain predictive_gain(const FittedModel& model, const FittedModel& over, std::uint64_t seed,
-                               const ThreadPool& pool) {
+std::vector<FoldDensity> fold_densities(const FittedModel& model, std::uint64_t seed, const ThreadPool& pool) {
   const Observations& all = model.data().observations;
   const int folds = std::min(thresholds::choice_folds, all.conditions);
   const std::vector<int> fold = deal_folds(all.conditions, folds, seed);
-  std::vector<std::map<int, double>> gains(folds);  // of each condition left out
+  std::vector<FoldDensity> densities(folds);
   pool.each(folds, [&](int f, const Pulse& pulse) {
     pulse();
     std::vector<bool> keep(fold.size()), held(fold.size());
@@ -73,14 +72,20 @@ PredictiveGain predictive_gain(const FittedModel& model, const FittedModel& over
       keep[c] = fold[c] != f, held[c] = !keep[c];
       if (held[c]) original.push_back(static_cast<int>(c));
     }
-    const Observations training = of_conditions(all, keep), rest = of_conditions(all, held);
-    const auto base = density_of(over, training, rest), better = density_of(model, training, rest);
-    if (!base || !better) return;
-    for (std::size_t i = 0; i < rest.cells.size(); ++i)
-      gains[f][original[rest.condition[rest.cells[i].row]]] += (*better)[i] - (*base)[i];
+    const Observations rest = of_conditions(all, held);
+    for (const Cell& cell : rest.cells) densities[f].condition.push_back(original[rest.condition[cell.row]]);
+    densities[f].log_density = density_of(model, of_conditions(all, keep), rest);
   });
-  std::map<int, double> gain;
-  for (std::map<int, double>& of_fold : gains) gain.merge(of_fold);
+  return densities;
+}
+
+PredictiveGain predictive_gain(const std::vector<FoldDensity>& model, const std::vector<FoldDensity>& over) {
+  std::map<int, double> gain;  // of each condition
+  for (std::size_t f = 0; f < model.size(); ++f) {
+    const auto &better = model[f].log_density, &base = over[f].log_density;
+    if (!better || !base) continue;
+    for (Index i = 0; i < better->size(); ++i) gain[model[f].condition[i]] += (*better)[i] - (*base)[i];
+  }
   if (gain.size() < 2) return {};
   const auto [mean, error] = over_conditions(gain);
   return {mean, error, static_cast<int>(gain.size())};

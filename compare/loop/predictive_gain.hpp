@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -25,8 +26,14 @@ struct PredictiveGain {
   int conditions = 0;
 };
 
-/// Both models are of one data set, and are fitted anew to the conditions of all folds but one.
-PredictiveGain predictive_gain(const FittedModel& model, const FittedModel& over, std::uint64_t seed,
-                               const ThreadPool& pool = {});
+/// The ln density that a model gives to the cells of a fold, fitted anew to the conditions of all other folds.
+struct FoldDensity {
+  std::vector<int> condition;                  ///< of each cell
+  std::optional<Eigen::VectorXd> log_density;  ///< of each cell; nothing where no fit carries every run
+};
+std::vector<FoldDensity> fold_densities(const FittedModel& model, std::uint64_t seed, const ThreadPool& pool = {});
+
+/// Of models of one data set, with one seed.
+PredictiveGain predictive_gain(const std::vector<FoldDensity>& model, const std::vector<FoldDensity>& over);
 
 }  // namespace soilbin::compare

@@ -25,7 +25,7 @@ VectorXd extended(const VectorXd& theta, const Term& term, double amplitude) {
 /// stand where the least push makes it give way.
 bool secant(const FittedModel& model, const Term& term, double& amplitude, VectorXd& change) {
   const WheelPredictor predictor = model.predictor().with({term});
-  BalanceMemory memory = giving_way();
+  BalanceMemory memory = model.fit().balance;
   for (int attempt = 0; attempt < 8; ++attempt, amplitude *= 0.5) {
     if (!predictor.predict(extended(model.fit().theta, term, amplitude), change, memory)) continue;
     change -= model.fit().prediction;

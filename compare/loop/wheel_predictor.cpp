@@ -91,6 +91,30 @@ Term make_term(const bekker_wong::EffectForm& form, const Observations& observat
   return term;
 }
 
+bekker_wong::NearBalance BalanceMemory::near_of(int row) const {
+  const std::size_t r = row;
+  if (!near.empty()) return near[r];
+  return {.angle = angles.empty() ? 0.0 : angles[r]};
+}
+
+void PredictionSlopes::take(Eigen::Index p, double times, Eigen::Index from, int row,
+                            std::pair<Eigen::Index, Eigen::Index> cells) {
+  for (Eigen::Index i = cells.first; i < cells.second; ++i) jacobian(i, p) = times * jacobian(i, from);
+  short_of(row, p) = times * short_of(row, from);
+  turn(row, p) = times * turn(row, from);
+}
+
+BalanceMemory BalanceMemory::moved_by(const Eigen::VectorXd& step, const PredictionSlopes& slopes) const {
+  constexpr double farthest = 0.5;  // in ln(theta_1)
+  BalanceMemory moved = *this;
+  moved.near.clear();
+  const Eigen::VectorXd turn = slopes.turn * step;
+  for (std::size_t r = 0; r < angles.size(); ++r)
+    moved.near.push_back(
+        {.angle = angles[r] * std::exp(std::clamp(turn[r], -farthest, farthest)), .steepness = slopes.steepness[r]});
+  return moved;
+}
+
 WheelPredictor::WheelPredictor(const Campaign& campaign, const Observations& observations, std::vector<Term> terms)
     : campaign_(&campaign),
       observations_(&observations),
@@ -223,9 +247,7 @@ bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& pred
       if (cell == cells.end() || cell->row != row) continue;
       const std::size_t r = row;
       const OperatingCondition& at = observations_->rows[r];
-      const RolledWheel rolled = memory.gives_way
-                                     ? wheel.roll_or_give_way(at, memory.angles.empty() ? 0.0 : memory.angles[r])
-                                     : wheel.roll(at);
+      const RolledWheel rolled = memory.gives_way ? wheel.roll_or_give_way(at, memory.near_of(row)) : wheel.roll(at);
       if (!all_finite(rolled.reading) || rolled.shortfall > most_shortfall) return ends_at();
       angles[r] = rolled.balance_angle;
       shortfall[r] = rolled.gives_way ? std::max(rolled.shortfall, least_shortfall) : 0.0;
@@ -236,6 +258,8 @@ bool WheelPredictor::predict(const Eigen::VectorXd& theta, Eigen::VectorXd& pred
     }
     memory.angles = std::move(angles);
     memory.shortfall = std::move(shortfall);
+    for (std::size_t r = 0; r < memory.near.size(); ++r)
+      memory.near[r] = {memory.angles[r], memory.shortfall[r] > 0.0 ? 0.0 : memory.near[r].steepness};
     return true;
   } catch (const NoSolution&) {
     return ends_at();
@@ -269,13 +293,15 @@ WheelPredictor::Moved WheelPredictor::moved_from(const Eigen::VectorXd& theta) c
   return moved;
 }
 
-bool WheelPredictor::linearise(const Eigen::VectorXd& theta, Eigen::MatrixXd& jacobian, const BalanceMemory& known,
-                               Eigen::MatrixXd* short_of) const try {
+std::optional<PredictionSlopes> WheelPredictor::linearise(const Eigen::VectorXd& theta,
+                                                          const BalanceMemory& known) const try {
   const RollingWheel wheel = wheel_at(theta);
   const Moved moved = moved_from(theta);
   const std::vector<Cell>& cells = observations_->cells;
-  jacobian.resize(cells.size(), theta.size());
-  if (short_of) short_of->setZero(rows(), theta.size());
+  PredictionSlopes slopes{.jacobian = Eigen::MatrixXd::Zero(std::ssize(cells), theta.size()),
+                          .short_of = Eigen::MatrixXd::Zero(rows(), theta.size()),
+                          .turn = Eigen::MatrixXd::Zero(rows(), theta.size()),
+                          .steepness = Eigen::VectorXd::Zero(rows())};
   std::size_t cell = 0;
   for (int row = 0; row < rows(); ++row) {
     const std::size_t first = cell, r = row;
@@ -286,30 +312,48 @@ bool WheelPredictor::linearise(const Eigen::VectorXd& theta, Eigen::MatrixXd& ja
     const bekker_wong::NodeLayout nodes = bekker_wong::coarse(wheel.nodes(at, theta_1));
     const RolledWheel here = wheel.at_entry_angle(at, theta_1, nodes);
     const RolledWheel turned = wheel.at_entry_angle(at, theta_1 - turn, nodes);
-    if (!all_finite(here.reading)) return false;
+    if (!all_finite(here.reading)) return std::nullopt;
     const double stiffness = (here.forces.vertical - turned.forces.vertical) / turn;
     const bool gives_way = known.shortfall[r] > 0.0;
-    for (Eigen::Index p = 0; p < theta.size(); ++p) {
+    if (!gives_way) slopes.steepness[row] = stiffness * theta_1 / here.forces.vertical;
+    const auto difference = [&](Eigen::Index p) {
       const std::size_t q = p;
       const RolledWheel there = moved.wheels[q].at_entry_angle(at, theta_1, nodes);
       const double carries_more = there.forces.vertical - here.forces.vertical;
       const double roll_by = gives_way ? 0.0 : -carries_more / stiffness;
-      if (gives_way && short_of) (*short_of)(row, p) = -carries_more / (here.forces.vertical * moved.steps[q]);
+      if (gives_way) slopes.short_of(row, p) = -carries_more / (here.forces.vertical * moved.steps[q]);
+      slopes.turn(row, p) = roll_by / (theta_1 * moved.steps[q]);
       for (std::size_t i = first; i < cell; ++i) {
         const int c = cells[i].channel;
         const double value = channel_of(here.reading, c);
         const double by_angle = (value - channel_of(turned.reading, c)) / turn;
-        jacobian(i, p) = (channel_of(there.reading, c) - value + by_angle * roll_by) / moved.steps[q];
+        slopes.jacobian(i, p) = (channel_of(there.reading, c) - value + by_angle * roll_by) / moved.steps[q];
+      }
+    };
+    for (Eigen::Index p = 0; p < soil_parameters(); ++p) difference(p);
+    for (std::size_t t = 0; t < terms_.size(); ++t) {
+      const Eigen::Index begin = first_of_term_[t], size = std::ssize(terms_[t].free);
+      const std::vector<double> products = terms_[t].weighs ? terms_[t].weighs(at) : std::vector<double>();
+      const auto largest = std::max_element(products.begin(), products.end(),
+                                            [](double a, double b) { return std::abs(a) < std::abs(b); });
+      const bool as_one = largest != products.end() && *largest != 0.0;
+      const Eigen::Index leads = as_one ? begin + (largest - products.begin()) : begin;
+      if (as_one) difference(leads);
+      for (Eigen::Index p = begin; p < begin + size; ++p) {
+        if (!as_one)
+          difference(p);
+        else if (p != leads)
+          slopes.take(p, products[p - begin] / *largest, leads, row, {first, cell});
       }
     }
   }
-  return jacobian.allFinite();
+  return slopes.jacobian.allFinite() ? std::optional(std::move(slopes)) : std::nullopt;
 } catch (const NoSolution&) {
-  return false;
+  return std::nullopt;
 } catch (const InputError&) {
-  return false;
+  return std::nullopt;
 } catch (const std::domain_error&) {
-  return false;
+  return std::nullopt;
 }
 
 bekker_wong::Reading WheelPredictor::reading(const Eigen::VectorXd& theta, const OperatingCondition& at) const {

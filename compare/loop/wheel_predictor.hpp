@@ -4,7 +4,9 @@
 #include <Eigen/Dense>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bekker_wong/effect.hpp"
@@ -39,18 +41,38 @@ struct Term {
   std::vector<double> defaults;  ///< parameters' values to start from [SI], reference values already centred
   std::vector<int> free;         ///< indices of the parameters that a fit moves; 0 is the amplitude
   std::vector<double> spread;    ///< sd of each parameter's prior about its default [SI]; 0: none stated
+  /// Where the free ones are the weights of one function of the condition: what each of them multiplies there. Their
+  /// slopes are then one slope, times that.
+  std::function<std::vector<double>(const OperatingCondition&)> weighs = {};
 };
 
 /// A form with its reference values set to the observations' means (moisture, position, run). free_shape: the other
 /// parameters move as well, a reference value where its form says that nobody knows it.
 Term make_term(const bekker_wong::EffectForm& form, const Observations& observations, bool free_shape);
 
+/// The predictions' first derivatives over theta, at one theta.
+struct PredictionSlopes {
+  Eigen::MatrixXd jacobian;   ///< cells x parameters
+  Eigen::MatrixXd short_of;   ///< of ln(load/most carried), rows x parameters; zero but where the soil gives way
+  Eigen::MatrixXd turn;       ///< of ln(theta_1), rows x parameters; zero where the soil gives way
+  Eigen::VectorXd steepness;  ///< d ln(load carried)/d ln(theta_1) of each row; zero where the soil gives way
+
+  /// Of one row, whose cells are from .first to before .second: a parameter's slopes as those of another, times that.
+  void take(Eigen::Index parameter, double times, Eigen::Index from, int row,
+            std::pair<Eigen::Index, Eigen::Index> cells);
+};
+
 /// What one prediction tells the next.
 struct BalanceMemory {
-  bool gives_way = false;         ///< rows that no sinkage carries are read where the soil carries most
-  std::vector<int> order;         ///< rows as they are predicted: those that may end a prediction first
-  std::vector<double> angles;     ///< theta_1 of each row, of the last prediction that succeeded [rad]
-  std::vector<double> shortfall;  ///< of each row, of that prediction: ln(load/most carried); 0: balanced
+  bool gives_way = false;                      ///< rows that no sinkage carries are read where the soil carries most
+  std::vector<int> order;                      ///< rows as they are predicted: those that may end a prediction first
+  std::vector<double> angles;                  ///< theta_1 of each row, of the last prediction that succeeded [rad]
+  std::vector<double> shortfall;               ///< of each row, of that prediction: ln(load/most carried); 0: balanced
+  std::vector<bekker_wong::NearBalance> near;  ///< where the next prediction looks first; empty: at `angles`
+
+  bekker_wong::NearBalance near_of(int row) const;
+  /// The memory of a prediction, with what its slopes expect of one that is `step` away in theta.
+  BalanceMemory moved_by(const Eigen::VectorXd& step, const PredictionSlopes& slopes) const;
 };
 
 /// For predictions that go on where the soil gives way.
@@ -95,13 +117,12 @@ class WheelPredictor {
   bool predict(const Eigen::VectorXd& theta, Eigen::VectorXd& prediction, BalanceMemory& memory,
                const RowWatch& watch = {}) const;
 
-  /// The predictions' Jacobian over theta by implicit differentiation of the balance: at fixed theta_1 the forces and
+  /// The predictions' slopes over theta by implicit differentiation of the balance: at fixed theta_1 the forces and
   /// the carried load are differenced, then dtheta_1 = -dV/(dV/dtheta_1). All on the same nodes, half as many as a
   /// prediction's: slopes to about 1e-4, less well near a fold, where dV/dtheta_1 is small. known: of a prediction at
   /// this theta; its rows that give way stay at their theta_1, as the theorem of the envelope says of what they carry
-  /// at most: d ln(load/V) = -dV/V, into `short_of`. False where a derivative is not finite.
-  bool linearise(const Eigen::VectorXd& theta, Eigen::MatrixXd& jacobian, const BalanceMemory& known,
-                 Eigen::MatrixXd* short_of = nullptr) const;
+  /// at most: d ln(load/V) = -dV/V. Nothing where a derivative is not finite.
+  std::optional<PredictionSlopes> linearise(const Eigen::VectorXd& theta, const BalanceMemory& known) const;
 
   /// One condition's four channels at theta. Throws NoSolution.
   bekker_wong::Reading reading(const Eigen::VectorXd& theta, const OperatingCondition& at) const;

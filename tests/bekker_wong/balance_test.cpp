@@ -182,11 +182,14 @@ TEST(GivingWay, AWheelThatIsCarriedRollsAsItDoes) {
     const double load = 0.9 * most_carried(wheel).first;
     const RolledWheel rolled = wheel.roll(locked(load));
     for (const double about : {0.0, 0.9 * rolled.balance_angle, 1.1 * rolled.balance_angle}) {
-      const RolledWheel same = wheel.roll_or_give_way(locked(load), about);
+      const RolledWheel same = wheel.roll_or_give_way(locked(load), {about});
       EXPECT_FALSE(same.gives_way);
       EXPECT_EQ(same.shortfall, 0.0);
       EXPECT_NEAR(same.balance_angle, rolled.balance_angle, 1e-10);
       EXPECT_NEAR(same.reading.lateral_force, rolled.reading.lateral_force, 1e-8 * load);
+      const RolledWheel near = wheel.roll_or_give_way(locked(load), {about, 2 * soil.exponent + 1});
+      EXPECT_FALSE(near.gives_way);
+      EXPECT_NEAR(near.forces.vertical, load, 1e-8 * load);
     }
   }
 }
@@ -198,7 +201,7 @@ TEST(GivingWay, ASoilThatFallsShortIsReadWhereItCarriesMost) {
     const double load = 1.2 * most;
     EXPECT_THAT(refusal(wheel, locked(load)), HasSubstr("sink deeper"));
     for (const double about : {0.0, 0.9 * theta_1, theta_1, 0.5 * (theta_1 + std::acos(0.1))}) {
-      const RolledWheel yielding = wheel.roll_or_give_way(locked(load), about);
+      const RolledWheel yielding = wheel.roll_or_give_way(locked(load), {about});
       EXPECT_TRUE(yielding.gives_way);
       EXPECT_NEAR(yielding.shortfall, std::log(1.2), 1e-4) << about / theta_1;
       EXPECT_NEAR(yielding.balance_angle, theta_1, 1e-2 * theta_1) << about / theta_1;

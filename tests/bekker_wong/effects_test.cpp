@@ -286,6 +286,18 @@ TEST(Effects, NeverAnswerWithANumberThatIsNone) {
   }));
 }
 
+// The search for the balance asks those forms alone that say that they may lift the wheel: none does it unasked.
+TEST(Effects, EveryFormLeavesTheLoadCarried) {
+  for (const EffectForm& form : effect_catalogue())
+    for (const Setting& s : settings())
+      for (const Question& q : questions) {
+        const OperatingCondition at = condition(s, q);
+        const double load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
+        const double small = 0.1 * form.parameters[0].fallback;  // so that none digs itself in
+        EXPECT_NEAR(wheel_with(s, form, small).roll(at).forces.vertical, load, 1e-9 * load) << label(form, s, q);
+      }
+}
+
 TEST(Effects, DerivativeAtZeroIsThatOfTheImplicitFunctionTheorem) {
   for (const EffectForm& form : effect_catalogue()) {
     if (not_smooth_at_zero.contains(key(form))) continue;

@@ -20,6 +20,34 @@ Campaign with_bent_pull(std::uint64_t seed, double share) {
   return campaign;
 }
 
+// The weights act through one number of the condition: differenced one by one they give the same slopes.
+TEST(LearnedEffect, WeightsHaveOneSlope) {
+  const Campaign campaign = with_bent_pull(3, 0.03);
+  const Observations observations = observe(campaign);
+  for (const char* name : {"drawbar_pull_by_slip", "strength_by_slip"}) {
+    const bekker_wong::EffectForm& form = bekker_wong::find_form({"learned", name, {}});
+    const bekker_wong::LearnedFunction& function = bekker_wong::learned_function(form);
+    Term term = make_term(form, observations, false);
+    term.free.clear();
+    for (std::size_t k = 0; k < function.degrees.size(); ++k)
+      term.free.push_back(static_cast<int>(function.first_weight() + k));
+    term.defaults[0] = 1.0, term.defaults[1] = 0.0, term.defaults[2] = 0.8;
+    const WheelPredictor one_by_one(campaign, observations, {term});
+    term.weighs = [&](const OperatingCondition& at) {
+      return bekker_wong::weighed_products(function, term.defaults, at);
+    };
+    const WheelPredictor at_once(campaign, observations, {term});
+    Eigen::VectorXd theta = at_once.start(), prediction;
+    theta.tail(std::ssize(function.degrees)) << 0.01, 0.02, -0.01, 0.0, 0.005;
+    BalanceMemory balanced = giving_way();
+    ASSERT_TRUE(at_once.predict(theta, prediction, balanced));
+    const auto each = one_by_one.linearise(theta, balanced), all = at_once.linearise(theta, balanced);
+    ASSERT_TRUE(each && all);
+    EXPECT_LT((each->jacobian - all->jacobian).norm(), 1e-5 * each->jacobian.norm()) << name;
+    EXPECT_LT((each->turn - all->turn).norm(), 1e-5 * each->turn.norm()) << name;
+  }
+}
+
 // The pull's own joint is chosen, over the slips that were run, and the function is the one that was put in: to within
 // 1 % of the load at each slip, up to what a change of the soil's values makes as well.
 TEST(SlowLearnedEffect, FindsTheFunctionAndItsJoint) {

@@ -33,10 +33,10 @@ TEST(WheelPredictor, JacobianIsTheSlopeOfBalancedPredictions) {
   VectorXd theta = predictor.start();
   theta[predictor.amplitude_index(0)] = 0.4;
   VectorXd here, up, down;
-  MatrixXd jacobian;
   BalanceMemory balanced;
   ASSERT_TRUE(predictor.predict(theta, here, balanced));
-  ASSERT_TRUE(predictor.linearise(theta, jacobian, balanced));
+  const auto slopes = predictor.linearise(theta, balanced);
+  ASSERT_TRUE(slopes);
   for (Eigen::Index p = 0; p < theta.size(); ++p) {
     const double step = 1e-3 * predictor.parameters()[static_cast<std::size_t>(p)].scale;
     VectorXd moved = theta;
@@ -45,7 +45,7 @@ TEST(WheelPredictor, JacobianIsTheSlopeOfBalancedPredictions) {
     moved[p] -= 2 * step;
     ASSERT_TRUE(predictor.predict(moved, down));
     const VectorXd slope = (up - down) / (2 * step);
-    EXPECT_LT((jacobian.col(p) - slope).norm(), 2e-4 * slope.norm() + 1e-9)
+    EXPECT_LT((slopes->jacobian.col(p) - slope).norm(), 2e-4 * slope.norm() + 1e-9)
         << predictor.parameters()[static_cast<std::size_t>(p)].name;
   }
 }
@@ -66,8 +66,9 @@ TEST(WheelPredictor, SlopesOfWhatTheSoilFallsShortOf) {
   EXPECT_FALSE(predictor.predict(theta, prediction));
   BalanceMemory here = giving_way();
   ASSERT_TRUE(predictor.predict(theta, prediction, here));
-  MatrixXd jacobian, short_of;
-  ASSERT_TRUE(predictor.linearise(theta, jacobian, here, &short_of));
+  const auto slopes = predictor.linearise(theta, here);
+  ASSERT_TRUE(slopes);
+  const MatrixXd& short_of = slopes->short_of;
   int giving = 0;
   for (int row = 0; row < predictor.rows(); ++row) {
     const std::size_t r = static_cast<std::size_t>(row);
