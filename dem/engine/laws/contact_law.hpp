@@ -168,6 +168,12 @@ template <class Real>
   return out;
 }
 
+/// Linear cohesion: pi k_c R* delta, pulls the two together [N].
+template <class Real>
+[[gnu::always_inline]] inline Real linear_pull(const LawConstants<Real>& c, Real radius, Real overlap) {
+  return c.cohesion * radius * max(overlap, Real(0.0));
+}
+
 [[gnu::always_inline]] inline bool is_directional(RollingLaw rolling) {
   return rolling == RollingLaw::directional || rolling == RollingLaw::directional_with_twist;
 }
@@ -244,7 +250,7 @@ template <class Real>
   Real push = normal.elastic - normal.damping * approach;
   Response<Real> out;
   out.pressing = push;
-  if (laws.cohesion == CohesionLaw::linear) push = push - c.cohesion * at.radius * max(at.overlap, Real(0.0));
+  if (laws.cohesion == CohesionLaw::linear) push = push - law::linear_pull(c, at.radius, at.overlap);
   if (laws.cohesion == CohesionLaw::jkr) out.pressing = out.pressing + c.pull_off * at.radius;
   out.pressing = max(out.pressing, Real(0.0));
 
