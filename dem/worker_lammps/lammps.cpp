@@ -1,0 +1,78 @@
+#include "dem/worker_lammps/lammps.hpp"
+
+#define LAMMPS_LIB_MPI  // lammps_open with a communicator
+#include <lammps/library.h>
+
+#include <array>
+#include <vector>
+
+#include "scenario/errors.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+template <class T>
+T of_atoms(void* handle, const char* name) {
+  return static_cast<T>(lammps_extract_atom(handle, name));
+}
+
+}  // namespace
+
+Lammps::Lammps(MPI_Comm world, const std::string& log) {
+  std::array<std::string, 7> words{"soilbin-lammps",           "-screen", "none", "-log",
+                                   log.empty() ? "none" : log, "-nocite", ""};
+  std::vector<char*> pointers;
+  for (std::size_t k = 0; k + 1 < words.size(); ++k) pointers.push_back(words[k].data());
+  handle_ = lammps_open(static_cast<int>(pointers.size()), pointers.data(), world, nullptr);
+  if (!handle_) throw InputError("LAMMPS could not be started");
+}
+
+Lammps::~Lammps() { lammps_close(handle_); }
+
+void Lammps::command(const std::string& line) const { lammps_command(handle_, line.c_str()); }
+
+void Lammps::call_for_forces(const std::string& fix, ForceCall call, void* who) const {
+  lammps_set_fix_external_callback(handle_, fix.c_str(), call, who);
+}
+
+void Lammps::add_grains(std::span<const int> ids, std::span<const Vec3> positions,
+                        std::span<const Vec3> velocities) const {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  const std::vector<int> types(ids.size(), 1);
+  lammps_create_atoms(handle_, static_cast<int>(ids.size()), ids.data(), types.data(), &positions.data()->x,
+                      &velocities.data()->x, nullptr, 0);
+}
+
+int Lammps::count() const { return lammps_extract_setting(handle_, "nlocal"); }
+int Lammps::with_ghosts() const { return lammps_extract_setting(handle_, "nall"); }
+double Lammps::total() const { return lammps_get_natoms(handle_); }
+
+int* Lammps::ids() const { return of_atoms<int*>(handle_, "id"); }
+double* Lammps::radius() const { return of_atoms<double*>(handle_, "radius"); }
+double* Lammps::mass() const { return of_atoms<double*>(handle_, "rmass"); }
+double** Lammps::position() const { return of_atoms<double**>(handle_, "x"); }
+double** Lammps::velocity() const { return of_atoms<double**>(handle_, "v"); }
+double** Lammps::spin() const { return of_atoms<double**>(handle_, "omega"); }
+double** Lammps::torque() const { return of_atoms<double**>(handle_, "torque"); }
+
+Lammps::Neighbours Lammps::neighbours() const {
+  return {handle_, lammps_find_pair_neighlist(handle_, "granular", 1, 0, 0)};
+}
+
+int Lammps::Neighbours::size() const { return list_ < 0 ? 0 : lammps_neighlist_num_elements(handle_, list_); }
+
+int Lammps::Neighbours::of(int k, std::span<const int>& rows) const {
+  int row = 0, count = 0;
+  int* first = nullptr;
+  lammps_neighlist_element_neighbors(handle_, list_, k, &row, &count, &first);
+  rows = {first, static_cast<std::size_t>(count)};
+  return row;
+}
+
+double Lammps::memory() const {
+  std::array<double, 3> megabytes{};  // LAMMPS's own count, the C library's, the largest resident size
+  lammps_memory_usage(handle_, megabytes.data());
+  return megabytes[0];
+}
+
+}  // namespace soilbin::dem

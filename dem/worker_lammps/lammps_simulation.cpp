@@ -1,0 +1,435 @@
+#include "dem/worker_lammps/lammps_simulation.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include "dem/bed/settled_bed.hpp"
+#include "dem/engine/laws/contact_law.hpp"
+#include "dem/engine/simulation.hpp"
+#include "dem/worker_lammps/pair_commands.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+constexpr std::int64_t between_looks = 100;  // steps from one look at the deepest overlap to the next
+
+void check(const Setup& setup, const State& begin) {
+  if (begin.grains.count() == 0) throw InputError("LAMMPS needs grains: there are none");
+  const auto& periodic = setup.domain.periodic;
+  if (periodic[0] || periodic[1] || periodic[2]) throw InputError("a bin in LAMMPS has no periodic sides");
+  for (std::size_t k = 0; k < begin.grains.count(); ++k)
+    if (begin.grains.motion[k].held() || begin.grains.material[k] != grain_material)
+      throw InputError("grains in LAMMPS are free and of one material");
+}
+
+Vec3 vec(const double* a) { return {a[0], a[1], a[2]}; }
+void add(double* to, const Vec3& a) { to[0] += a.x, to[1] += a.y, to[2] += a.z; }
+
+bool comes_first(const SurfaceContact& a, const SurfaceContact& b) {
+  return std::tie(a.who.grain, a.who.body, a.who.surface) < std::tie(b.who.grain, b.who.body, b.who.surface);
+}
+
+/// Of all processes; the same bits on each.
+void sum_up(MPI_Comm world, std::span<double> numbers) {
+  int rank = 0;
+  MPI_Comm_rank(world, &rank);
+  const int count = static_cast<int>(numbers.size());
+  MPI_Reduce(rank == 0 ? MPI_IN_PLACE : numbers.data(), numbers.data(), count, MPI_DOUBLE, MPI_SUM, 0, world);
+  MPI_Bcast(numbers.data(), count, MPI_DOUBLE, 0, world);
+}
+
+}  // namespace
+
+LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& begin)
+    : world_(world), setup_(std::move(setup)), lammps_(world) {
+  check(setup_, begin);
+  MPI_Comm_rank(world_, &rank_);
+  state_.gravity = begin.gravity;
+  const double largest = begin.grains.largest_radius();
+  laws_.fill(setup_.materials, setup_.laws, largest);
+  margin_ = setup_.numerics.skin > 0 ? setup_.numerics.skin : 0.2 * largest;
+  all_grains_ = static_cast<std::int64_t>(begin.grains.count());
+  const Simulation engine(setup_, begin);  // for velocities of the whole step
+  lammps_.command("units si");
+  lammps_.command("atom_style sphere");
+  lammps_.command("newton off");
+  lammps_.command("comm_modify vel yes");
+  lammps_.command("boundary f f fs");   // a grain that is thrown up raises the box, as no other leaves it
+  lammps_.command("processors * * 1");  // beds are flat
+  // Wider than the domain, so that the engine's own check comes before LAMMPS forgets a grain.
+  const Vec3 low = setup_.domain.lower - Vec3{largest, largest, largest};
+  const Vec3 high = setup_.domain.upper + Vec3{largest, largest, largest};
+  lammps_.command(fmt::format("region box block {} {} {} {} {} {}", low.x, high.x, low.y, high.y, low.z, high.z));
+  lammps_.command("create_box 1 box");
+  put_in(engine);
+  write_commands(begin);
+  for (const Body& body : begin.bodies) add_body(body);
+}
+
+void LammpsSimulation::put_in(const Simulation& begin) const {
+  const Grains& grains = begin.state().grains;
+  std::vector<int> ids;
+  std::vector<Vec3> positions, velocities;
+  const std::vector<GrainNow> now = begin.grains();
+  std::unordered_map<int, std::size_t> row_of;
+  for (std::size_t k = 0; k < grains.count(); ++k) {
+    ids.push_back(static_cast<int>(grains.id[k]) + 1);
+    row_of[ids.back()] = k;
+    positions.push_back(now[k].position), velocities.push_back(now[k].velocity);
+  }
+  lammps_.add_grains(ids, positions, velocities);
+  for (int row = 0; row < lammps_.count(); ++row) {
+    const std::size_t k = row_of.at(lammps_.ids()[row]);
+    lammps_.radius()[row] = now[k].radius;
+    lammps_.mass()[row] = 1 / grains.motion[k].inverse_mass;
+    const Vec3& spin = now[k].spin;
+    std::copy_n(&spin.x, 3, lammps_.spin()[row]);
+  }
+}
+
+void LammpsSimulation::write_commands(const State& begin) const {
+  const RollingSpring rolling = rolling_spring(setup_, begin.grains, mean_contact_radius(setup_, begin));
+  for (const std::string& line : pair_commands(setup_, rolling)) lammps_.command(line);
+  lammps_.command(fmt::format("neighbor {} bin", margin_));
+  lammps_.command("neigh_modify delay 0 every 1 check yes");
+  lammps_.command(fmt::format("timestep {}", setup_.numerics.dt));
+  lammps_.command("fix move all nve/sphere");
+  lammps_.command("fix soil all external pf/callback 1 1");
+  lammps_.command("thermo_style custom step");
+  lammps_.command("thermo_modify lost ignore");  // join_loads counts them, and says which
+}
+
+int LammpsSimulation::add_body(Body body) {
+  check(body, static_cast<int>(setup_.materials.all.size()));
+  const double reach = own_grains().largest_radius();
+  double largest = reach;
+  join_largest(*this, {&largest, 1});
+  for (Surface& surface : body.surfaces)
+    if (auto* mesh = std::get_if<MeshSurface>(&surface.shape))
+      mesh->grid = std::make_shared<TriangleGrid>(*mesh->mesh, largest + margin_);
+  state_.bodies.push_back(std::move(body));
+  travel_ = 2 * margin_ + 1;  // the next step searches
+  return static_cast<int>(state_.bodies.size()) - 1;
+}
+
+void LammpsSimulation::run(std::int64_t steps) {
+  if (!prepared_) {
+    lammps_.call_for_forces("soil", &LammpsSimulation::on_forces, this);
+    lammps_.command("run 0 post no");
+    prepared_ = true;
+  }
+  for (std::int64_t k = 0; k < steps && stopped_.empty(); ++k) lammps_.command("run 1 pre no post no");
+  if (!stopped_.empty()) throw RunStopped(stopped_);
+}
+
+void LammpsSimulation::on_forces(void* self, std::int64_t step, int rows, int* ids, double** x, double** force) {
+  static_cast<LammpsSimulation*>(self)->add_forces(step, rows, ids, x, force);
+}
+
+/// A step of the engine, from LAMMPS's places on: forces, and the motion of the bodies. LAMMPS asks again for the same
+/// step where it is set up anew: nothing then moves on or is remembered.
+void LammpsSimulation::add_forces(std::int64_t step, int rows, const int* ids, double** x, double** force) {
+  const bool again = step == done_;
+  fault_.clear();
+  follow_grains(rows, ids);
+  travel_ += setup_.numerics.dt * (weigh(rows, x, force) + body_speed_);
+  if (travel_ > margin_) find_near(rows);
+  placed_.place(state_.bodies);
+  if (setup_.laws.cohesion == CohesionLaw::linear || step % between_looks == 0) add_pair_forces(rows, x, force);
+  add_surface_forces(force, !again);
+  join_loads(rows);
+  if (again) return;
+  if (done_ >= 0) ++state_.step, state_.time += setup_.numerics.dt;
+  done_ = step;
+  move_bodies();
+}
+
+/// Gravity, and the checks of each grain's motion. Gives the speed of the fastest [m/s].
+double LammpsSimulation::weigh(int rows, double** x, double** force) {
+  const double* mass = lammps_.mass();
+  double** velocity = lammps_.velocity();
+  double fastest = 0;
+  for (int row = 0; row < rows; ++row) {
+    const Vec3 weight = mass[row] * state_.gravity, at = vec(x[row]);
+    std::copy_n(&weight.x, 3, force[row]);
+    const double speed2 = squared(vec(velocity[row]));
+    if (!(speed2 < 1e30))
+      fail(fmt::format("the motion of grain {} is not finite", ids_[static_cast<std::size_t>(row)] - 1));
+    else if (!setup_.domain.contains(at))
+      fail(fmt::format("grain {} has left the bin at ({:.4g}, {:.4g}, {:.4g}) m",
+                       ids_[static_cast<std::size_t>(row)] - 1, at.x, at.y, at.z));
+    fastest = std::max(fastest, speed2);
+  }
+  return std::sqrt(fastest);
+}
+
+/// Where rows hold other grains than a step ago, on any process: what contacts remember goes where their grains are.
+void LammpsSimulation::follow_grains(int rows, const int* ids) {
+  const auto count = static_cast<std::size_t>(rows);
+  int moved = count != ids_.size() || std::memcmp(ids, ids_.data(), count * sizeof(int)) != 0;
+  MPI_Allreduce(MPI_IN_PLACE, &moved, 1, MPI_INT, MPI_MAX, world_);
+  if (!moved) return;
+  std::vector<Travelling> all;
+  for (const SurfaceContact& contact : made_) all.push_back({ids_[contact.who.grain], contact});
+  made_.clear();
+  take_over(all, rows, ids);  // leaves those whose grain is elsewhere now
+  int size = 0, bytes = static_cast<int>(all.size() * sizeof(Travelling));
+  MPI_Comm_size(world_, &size);
+  std::vector<int> sizes(size), begins(size);
+  MPI_Allgather(&bytes, 1, MPI_INT, sizes.data(), 1, MPI_INT, world_);
+  int sum = 0;
+  for (int k = 0; k < size; ++k) begins[k] = std::exchange(sum, sum + sizes[k]);
+  std::vector<Travelling> gathered(static_cast<std::size_t>(sum) / sizeof(Travelling));
+  MPI_Allgatherv(all.data(), bytes, MPI_BYTE, gathered.data(), sizes.data(), begins.data(), MPI_BYTE, world_);
+  take_over(gathered, rows, ids);
+  std::stable_sort(made_.begin(), made_.end(), comes_first);
+  ids_.assign(ids, ids + rows);
+  find_near(rows);
+}
+
+/// Moves to made_ those of the contacts whose grains this process has.
+void LammpsSimulation::take_over(std::vector<Travelling>& contacts, int rows, const int* ids) {
+  if (contacts.empty()) return;
+  std::unordered_map<int, int> row_of;
+  for (const Travelling& one : contacts) row_of[one.id] = -1;
+  for (int row = 0; row < rows; ++row)
+    if (const auto asked = row_of.find(ids[row]); asked != row_of.end()) asked->second = row;
+  std::vector<Travelling> others;
+  for (Travelling& one : contacts) {
+    const int row = row_of[one.id];
+    if (row < 0) {
+      others.push_back(one);
+      continue;
+    }
+    one.contact.who.grain = static_cast<std::uint32_t>(row);
+    made_.push_back(one.contact);
+  }
+  contacts.swap(others);
+}
+
+void LammpsSimulation::find_near(int rows) {
+  near_.clear();
+  for (int row = 0; row < rows; ++row)
+    add_near(state_.bodies, motion_of(row), static_cast<std::uint32_t>(row), margin_, near_);
+  travel_ = 0;
+}
+
+/// Linear cohesion, which pair_style granular has not, and the look at the deepest overlap.
+void LammpsSimulation::add_pair_forces(int rows, double** x, double** force) {
+  const LawConstants<double>& constants = laws_[laws_.kind(grain_material, grain_material)];
+  const double* radius = lammps_.radius();
+  const double deepest = setup_.numerics.deepest_overlap;
+  const Lammps::Neighbours pairs = lammps_.neighbours();
+  std::span<const int> others;
+  for (int k = 0; k < pairs.size(); ++k) {
+    const int i = pairs.of(k, others);
+    const Vec3 at = vec(x[i]);
+    Vec3 pulled;
+    for (const int marked : others) {
+      const int j = marked & Lammps::Neighbours::mask;
+      const Vec3 between = at - vec(x[j]);
+      const double sum = radius[i] + radius[j], distance2 = squared(between);
+      if (distance2 >= sum * sum) continue;
+      const double distance = std::sqrt(distance2), overlap = sum - distance;
+      if (overlap > deepest * std::min(radius[i], radius[j]))
+        fail(fmt::format("grain {} overlaps another by {:.3g} of the smaller radius, more than {:.3g}",
+                         ids_[static_cast<std::size_t>(i)] - 1, overlap / std::min(radius[i], radius[j]), deepest));
+      const Vec3 pull = (-law::linear_pull(constants, radius[i] * radius[j] / sum, overlap) / distance) * between;
+      pulled += pull;
+      if (j < rows) add(force[j], -pull);
+    }
+    add(force[i], pulled);
+  }
+}
+
+void LammpsSimulation::add_surface_forces(double** force, bool keeps) {
+  loads_.assign(state_.bodies.size(), {});
+  making_.clear(), contacts_.clear();
+  double** torque = lammps_.torque();
+  std::array<SurfaceTouch, 8> touches;
+  std::size_t old = 0;
+  for (const NearSurface& near : near_) {
+    while (old < made_.size() && comes_first(made_[old], {near, -1, {}, {}})) ++old;
+    const std::size_t begin = old, first = making_.size();
+    while (old < made_.size() && made_[old].who == near) ++old;
+    const Motion grain = motion_of(static_cast<int>(near.grain));
+    const int material = state_.bodies[near.body].surfaces[near.surface].material;
+    const GrainOnSurface at{.who = near,
+                            .grain = grain,
+                            .surface = placed_.at(near),
+                            .constants = laws_[laws_.kind(grain_material, material)],
+                            .adhesion_reach = 0,
+                            .before = {made_.data() + begin, old - begin}};
+    const int found = find_contacts(at, making_, touches);
+    if (found > 0) press(near, first, found, touches, force[near.grain], torque[near.grain]);
+  }
+  if (keeps) made_.swap(making_);
+}
+
+/// The law for the contacts that were found of one grain on one surface, making_[first] and on.
+void LammpsSimulation::press(const NearSurface& near, std::size_t first, int found,
+                             std::span<const SurfaceTouch, 8> touches, double* force, double* torque) {
+  const int row = static_cast<int>(near.grain);
+  const Motion grain = motion_of(row);
+  const Spin spin = spin_of(row);
+  const Body& body = state_.bodies[near.body];
+  const LawConstants<double>& constants = laws_[laws_.kind(grain_material, body.surfaces[near.surface].material)];
+  Load load;
+  for (int k = 0; k < found; ++k) {
+    const SurfaceTouch& at = touches[static_cast<std::size_t>(k)];
+    if (at.overlap > setup_.numerics.deepest_overlap * grain.radius)
+      fail(fmt::format("grain {} overlaps body {} by {:.3g} of its radius, more than {:.3g}", ids_[near.grain] - 1,
+                       body.name, at.overlap / grain.radius, setup_.numerics.deepest_overlap));
+    const Response<double> does =
+        contact_response<double>(setup_.laws, constants, touch_of(body, at, grain, spin),
+                                 making_[first + static_cast<std::size_t>(k)].memory, setup_.numerics.dt, nullptr);
+    add_loads(at, grain.radius, vec3(does.force), vec3(does.couple), body.position, load, loads_[near.body]);
+    if (at.triangle >= 0)
+      contacts_.push_back({.first = static_cast<GrainId>(ids_[near.grain] - 1),
+                           .second = -1 - static_cast<std::int64_t>(near.body),
+                           .triangle = at.triangle,
+                           .point = at.point,
+                           .normal = at.normal,
+                           .overlap = at.overlap,
+                           .force = vec3(does.force),
+                           .couple = vec3(does.couple),
+                           .pressing = does.pressing});
+  }
+  add(force, load.force), add(torque, load.torque);
+}
+
+/// Sums of the loads on bodies over all processes, of their grains, and whether anyone found a fault.
+void LammpsSimulation::join_loads(int rows) {
+  std::vector<double> numbers{static_cast<double>(rows), fault_.empty() ? 0.0 : 1.0};
+  for (const BodyLoad& load : loads_)
+    numbers.insert(numbers.end(),
+                   {load.force.x, load.force.y, load.force.z, load.torque.x, load.torque.y, load.torque.z});
+  sum_up(world_, numbers);
+  for (std::size_t b = 0; b < loads_.size(); ++b) {
+    state_.bodies[b].force = vec(&numbers[2 + 6 * b]);
+    state_.bodies[b].torque = vec(&numbers[5 + 6 * b]);
+  }
+  if (numbers[1] > 0) {  // the lowest of those who found one says it
+    int size = 0;
+    MPI_Comm_size(world_, &size);
+    int who = fault_.empty() ? size : rank_;
+    MPI_Allreduce(MPI_IN_PLACE, &who, 1, MPI_INT, MPI_MIN, world_);
+    std::array<char, 400> words{};
+    fault_.copy(words.data(), words.size() - 1);
+    MPI_Bcast(words.data(), static_cast<int>(words.size()), MPI_CHAR, who, world_);
+    stopped_ = fmt::format("{}, time {:.6g} s, step {}, on rank {}", words.data(), state_.time, state_.step, who);
+  } else if (static_cast<std::int64_t>(numbers[0]) != all_grains_) {
+    name_lost_grain();
+  }
+}
+
+void LammpsSimulation::name_lost_grain() {
+  std::int64_t highest = 0;
+  for (const int id : ids_) highest = std::max<std::int64_t>(highest, id);
+  MPI_Allreduce(MPI_IN_PLACE, &highest, 1, MPI_INT64_T, MPI_MAX, world_);
+  std::vector<unsigned char> there(static_cast<std::size_t>(highest) + 1);
+  for (const int id : ids_) there[static_cast<std::size_t>(id)] = 1;
+  MPI_Allreduce(MPI_IN_PLACE, there.data(), static_cast<int>(there.size()), MPI_UNSIGNED_CHAR, MPI_MAX, world_);
+  const std::int64_t left = std::count(there.begin(), there.end(), 1);
+  const auto lost = std::find(there.begin() + 1, there.end(), 0) - there.begin() - 1;
+  stopped_ = fmt::format("LAMMPS has lost {} of {} grains, the first is grain {}, time {:.6g} s, step {}",
+                         all_grains_ - left, all_grains_, lost, state_.time, state_.step);
+}
+
+void LammpsSimulation::move_bodies() {
+  body_speed_ = 0;
+  for (Body& body : state_.bodies) {
+    advance(body, state_.gravity, setup_.numerics.dt);
+    const double farthest = extent(body), speed = length(body.velocity) + length(body.spin) * std::max(farthest, 0.0);
+    if (farthest < 0 && speed + length(body.spin) > 0) stopped_ = fmt::format("body {}: planes stay still", body.name);
+    if (!(speed < 1e15))
+      stopped_ = fmt::format("the motion of body {} is not finite, time {:.6g} s", body.name, state_.time);
+    body_speed_ = std::max(body_speed_, speed);
+  }
+}
+
+Motion LammpsSimulation::motion_of(int row) const {
+  return {.position = vec(lammps_.position()[row]),
+          .radius = lammps_.radius()[row],
+          .velocity = vec(lammps_.velocity()[row]),
+          .inverse_mass = 1 / lammps_.mass()[row]};
+}
+
+Spin LammpsSimulation::spin_of(int row) const {
+  const double radius = lammps_.radius()[row];
+  return {.rate = vec(lammps_.spin()[row]), .inverse_inertia = 2.5 / (lammps_.mass()[row] * radius * radius)};
+}
+
+void LammpsSimulation::fail(const std::string& what) {
+  if (fault_.empty()) fault_ = what;
+}
+
+const Grains& LammpsSimulation::own_grains() const {
+  own_ = {};
+  for (int row = 0; row < lammps_.count(); ++row)
+    own_.add({.id = static_cast<GrainId>(lammps_.ids()[row] - 1),
+              .radius = lammps_.radius()[row],
+              .mass = lammps_.mass()[row],
+              .material = grain_material,
+              .position = vec(lammps_.position()[row]),
+              .velocity = vec(lammps_.velocity()[row]),
+              .spin = vec(lammps_.spin()[row])});
+  return own_;
+}
+
+LammpsSimulation::PairMeans LammpsSimulation::pair_means() const {
+  const Lammps::Neighbours pairs = lammps_.neighbours();
+  const int rows = lammps_.count();
+  double** x = lammps_.position();
+  const double* radius = lammps_.radius();
+  std::array<double, 2> sums{};  // contacts, overlaps
+  std::span<const int> others;
+  for (int k = 0; k < pairs.size(); ++k) {
+    const int i = pairs.of(k, others);
+    for (const int marked : others) {
+      const int j = marked & Lammps::Neighbours::mask;
+      const double overlap = radius[i] + radius[j] - length(vec(x[i]) - vec(x[j]));
+      const double share = j < rows ? 1 : 0.5;  // two processes have it
+      if (overlap > 0) sums[0] += share, sums[1] += share * overlap;
+    }
+  }
+  sum_up(world_, sums);
+  return {sums[0], sums[0] > 0 ? sums[1] / sums[0] : 0};
+}
+
+double LammpsSimulation::kinetic(double diameter) const {
+  double sum = 0;
+  for (int row = 0; row < lammps_.count(); ++row) sum += squared(vec(lammps_.velocity()[row]));
+  sum_up(world_, {&sum, 1});
+  return 0.5 * sum / (grain_count() * length(state_.gravity) * diameter);
+}
+
+double LammpsSimulation::memory_a_grain() const {
+  double megabytes = lammps_.memory();
+  sum_up(world_, {&megabytes, 1});
+  return 1e6 * megabytes / grain_count();
+}
+
+void join_largest(const LammpsSimulation& simulation, std::span<double> numbers) {
+  MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_MAX,
+                simulation.world());
+}
+
+void join_sums(const LammpsSimulation& simulation, std::span<double> numbers) { sum_up(simulation.world(), numbers); }
+
+void add_to_flow(const LammpsSimulation& simulation, const Vec3& axle, FlowMeter& flow) {
+  FlowMeter now = flow.empty_one();
+  now.add(simulation.own_grains(), axle);
+  now.join([&](std::vector<double>& sums) { join_sums(simulation, sums); });
+  flow += now;
+}
+
+}  // namespace soilbin::dem
