@@ -60,6 +60,7 @@ LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& beg
   const Simulation engine(setup_, begin);  // for velocities of the whole step
   lammps_.command("units si");
   lammps_.command("atom_style sphere");
+  lammps_.command("atom_modify sort 0 0");
   lammps_.command("newton off");
   lammps_.command("comm_modify vel yes");
   lammps_.command("boundary f f fs");   // a grain that is thrown up raises the box, as no other leaves it

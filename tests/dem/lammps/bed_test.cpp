@@ -1,0 +1,161 @@
+// A bed and a wheel on it, with the grains in LAMMPS and in the engine.
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "dem/rig/ride.hpp"
+#include "dem/rig/wheel_job.hpp"
+#include "dem/worker_lammps/lammps_run.hpp"
+#include "tests/dem/small_bed.hpp"
+
+namespace soilbin::dem {
+namespace {
+
+namespace fs = std::filesystem;
+
+class LammpsBed : public testing::Test {
+ protected:
+  static const SettledBed& bed() {
+    static const SettledBed settled = settle_bed(test::small_recipe({0.5, 0.16, 0.08}), test::with_threads(1));
+    return settled;
+  }
+};
+
+Tire lugged() {
+  Tire tire = test::small_wheel();
+  tire.lugs = {.height = 0.008, .count = 12, .thickness = 0.01};
+  return tire;
+}
+
+Rig brief_rig() {
+  Rig rig;
+  rig.behind = 0.12, rig.ahead = 0.12, rig.travel = 0.25;
+  rig.lowering = 0.1, rig.resting = 0.02, rig.starting = 0.05;
+  return rig;
+}
+
+OperatingCondition driven() {
+  OperatingCondition at;
+  at.load = 20, at.slip = 0.3, at.speed = 0.3;
+  return at;
+}
+
+/// The bed's grains where they lie, at rest, with nothing remembered: how LAMMPS gets them.
+Simulation without_memory(const SettledBed& bed) {
+  Simulation fresh(bed.setup);
+  fresh.set_gravity(bed.state.gravity);
+  for (const Body& body : bed.state.bodies) fresh.add_body(body);
+  for (const Motion& grain : std::span(bed.state.grains.motion).first(bed.state.grains.count()))
+    fresh.add_grain(grain.position, grain.radius, grain_material);
+  return fresh;
+}
+
+TEST_F(LammpsBed, RestsWithTheEnginesContactsAndForces) {
+  Simulation engine = without_memory(bed());
+  LammpsSimulation lammps(MPI_COMM_WORLD, engine.setup(), engine.state());
+  const std::int64_t steps = std::llround(0.1 / engine.setup().numerics.dt);
+  engine.run(steps), lammps.run(steps);
+  double contacts = 0, overlap = 0;
+  for (const Contact& contact : engine.contacts())
+    if (contact.second >= 0) ++contacts, overlap += contact.overlap;
+  const LammpsSimulation::PairMeans there = lammps.pair_means();
+  EXPECT_GT(contacts, 1000);
+  EXPECT_NEAR(there.contacts, contacts, 0.005 * contacts);
+  EXPECT_NEAR(there.overlap, overlap / contacts, 0.005 * overlap / contacts);
+}
+
+/// Positions of all grains, by id, on each process.
+std::vector<double> places(const LammpsSimulation& simulation) {
+  std::vector<double> numbers(3 * static_cast<std::size_t>(simulation.grain_count()));
+  const Grains& own = own_grains(simulation);
+  for (std::size_t k = 0; k < own.count(); ++k) {
+    std::copy_n(&own.motion[k].position.x, 3, &numbers[3 * own.id[k]]);
+  }
+  join_sums(simulation, numbers);
+  return numbers;
+}
+
+/// A wheel driven down into the bed and along it: alone on each process, and on all of them together. The numbers
+/// differ by the order of sums alone, until a grain changes its process: LAMMPS then turns the rolling memory of its
+/// contacts round (pair_commands.hpp).
+TEST_F(LammpsBed, MovesAlikeOnAnyNumberOfProcesses) {
+  const Simulation begin = without_memory(bed());
+  const Tire tire = lugged();
+  const dem::Setup setup = run_setup({bed(), tire, bed().recipe.soil.grain_tire, brief_rig()}, 1);
+  Body wheel;
+  wheel.name = "wheel", wheel.mass = 2, wheel.free_translation = {false, false, true};
+  wheel.surfaces.push_back({MeshSurface{std::make_shared<TriangleMesh>(tire_surface(tire)), nullptr}, 1});
+  wheel.position = {0.25, 0.08, 0.2}, wheel.velocity = {0.3, 0, -0.3}, wheel.spin = {0, 4, 0};
+  wheel.applied_force = {0, 0, -20};
+  LammpsSimulation alone(MPI_COMM_SELF, setup, begin.state()), together(MPI_COMM_WORLD, setup, begin.state());
+  alone.add_body(wheel), together.add_body(wheel);
+  constexpr int before_grains_change_process = 80;
+  alone.run(before_grains_change_process), together.run(before_grains_change_process);
+  const std::vector<double> here = places(alone), there = places(together);
+  double farthest = 0;
+  for (std::size_t n = 0; n < here.size(); ++n) farthest = std::max(farthest, std::abs(here[n] - there[n]));
+  EXPECT_LT(farthest, 1e-10 * bed().recipe.soil.radius_min);
+  const double force = length(alone.body(1).force);
+  EXPECT_GT(force, 5);
+  EXPECT_LT(length(alone.body(1).force - together.body(1).force), 1e-10 * force);
+  alone.run(400), together.run(400);  // from here on it is chaos, and the wheel still stands on the bed
+  EXPECT_NEAR(alone.body(1).position.z, together.body(1).position.z, 0.1 * bed().recipe.soil.radius_min);
+}
+
+/// What stands in the files of a job is what was put there.
+TEST_F(LammpsBed, GoesThroughFilesWhole) {
+  const fs::path folder = fs::path(testing::TempDir()) / fmt::format("soilbin-lammps-{}", ::getpid());
+  const SettledBed& settled = bed();
+  const Tire tire = lugged();
+  const WheelOnBed there{settled, tire, settled.recipe.soil.grain_tire, brief_rig()};
+  write_job(folder / "job.h5", there, driven(), "inputs of it\n");
+  const WheelJob job = read_job(folder / "job.h5");
+  EXPECT_EQ(job.inputs, "inputs of it\n");
+  EXPECT_EQ(job.at, driven());
+  EXPECT_EQ(job.tire.lugs.count, lugged().lugs.count);
+  EXPECT_EQ(job.rig.travel, brief_rig().travel);
+  EXPECT_EQ(job.bed.state.grains.count(), settled.state.grains.count());
+  EXPECT_EQ(job.setup.materials.all.size(), 2u);
+  fs::remove_all(folder);
+}
+
+TEST_F(LammpsBed, CarriesTheWheelAsTheEnginesBedDoes) {
+  const Tire tire = lugged();
+  WheelJob job{.setup = {},
+               .bed = bed(),
+               .tire = tire,
+               .contact = bed().recipe.soil.grain_tire,
+               .rig = brief_rig(),
+               .at = driven(),
+               .inputs = {}};
+  const WheelOnBed on = job.wheel();
+  job.setup = run_setup(on, 1);
+  const WheelRun engine = run_wheel(on, job.at, test::with_threads(1));
+  const WorkOptions how = test::with_threads(1);
+  const WheelRun lammps = Ride<LammpsRun>(on, job.at, [&] { return LammpsRun(MPI_COMM_WORLD, job, how); }).run();
+  const auto alike = [](const Estimate& a, const Estimate& b) {  // within four standard errors of the difference
+    EXPECT_NEAR(a.value, b.value, 4 * std::hypot(a.std_error, b.std_error));
+  };
+  alike(lammps.result.drawbar_pull, engine.result.drawbar_pull);
+  alike(lammps.result.torque, engine.result.torque);
+  alike(lammps.result.sinkage, engine.result.sinkage);
+  EXPECT_EQ(lammps.samples.size(), engine.samples.size());
+  EXPECT_NEAR(lammps.power.rest, 0, 0.03 * lammps.power.drive);
+  EXPECT_NEAR(lammps.samples.back().travel, engine.samples.back().travel, 1e-9);
+
+  const fs::path file = fs::path(testing::TempDir()) / fmt::format("soilbin-answer-{}.txt", ::getpid());
+  write_answer(file, lammps);
+  const WheelRun read = read_answer(file, tire, job.at, job.rig);
+  EXPECT_EQ(read.result.drawbar_pull.value, lammps.result.drawbar_pull.value);
+  EXPECT_EQ(read.power.rest, lammps.power.rest);
+  EXPECT_EQ(read.result.patch.size(), lammps.result.patch.size());
+  EXPECT_EQ(read.flow.solid, lammps.flow.solid);
+  fs::remove(file);
+}
+
+}  // namespace
+}  // namespace soilbin::dem
