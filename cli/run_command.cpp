@@ -260,6 +260,7 @@ void add_run(CLI::App& app, Session& session) {
   options->errors.add_to(*command);
   options->soil_bin.add_to(*command);
   options->soil_bin.add_half_step_to(*command);
+  options->soil_bin.add_engine_to(*command);
   command
       ->add_flag("--dry-run", options->dry_run,
                  "make nothing; list the runs, which are recorded, and what the others will cost")

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "dem/rig/lammps_worker.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
@@ -68,7 +69,10 @@ StagedRun::~StagedRun() {
 }
 
 void forget_run(const fs::path& restart) {
-  if (restart.empty() || !has_restart(restart)) return;
+  if (restart.empty()) return;
+  std::error_code never_mind;  // a folder that may only be read
+  fs::remove_all(lammps_folder(restart), never_mind);
+  if (!has_restart(restart)) return;
   try {
     const FileLock lock(lock_of(restart), FileLock::Wait::no);
     if (!lock.is_held()) return;  // another process is at it

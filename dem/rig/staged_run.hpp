@@ -103,7 +103,7 @@ class StagedRun {
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
-/// Removes what is kept of a run whose answer is safe, unless another process is at it.
+/// Removes what is kept of a run whose answer is safe, unless another process is at it; its folder of LAMMPS too.
 void forget_run(const std::filesystem::path& restart);
 
 template <class Part>

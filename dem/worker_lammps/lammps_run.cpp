@@ -14,8 +14,8 @@ constexpr std::int64_t between_words = 100;  // steps, as StagedRun
 
 }  // namespace
 
-LammpsRun::LammpsRun(MPI_Comm world, const WheelJob& job, const WorkOptions& how)
-    : job_(job), how_(how), simulation_(world, job.setup, job.bed.state) {}
+LammpsRun::LammpsRun(MPI_Comm world, const WheelJob& job, const WorkOptions& how, const std::string& log)
+    : job_(job), how_(how), simulation_(world, job.setup, job.bed.state, log) {}
 
 double LammpsRun::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();

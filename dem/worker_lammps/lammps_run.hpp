@@ -22,7 +22,7 @@ namespace soilbin::dem {
 class LammpsRun {
  public:
   /// `how`: progress is told by the first process, and a stop of any stops all. Job and options must outlive it.
-  LammpsRun(MPI_Comm world, const WheelJob& job, const WorkOptions& how);
+  LammpsRun(MPI_Comm world, const WheelJob& job, const WorkOptions& how, const std::string& log = "");
   LammpsRun(const LammpsRun&) = delete;
   LammpsRun& operator=(const LammpsRun&) = delete;
 

@@ -19,6 +19,7 @@
 namespace soilbin::dem {
 namespace {
 
+constexpr std::int64_t between_logs = 1000;  // steps after which LAMMPS's log begins anew: it has some lines a step
 constexpr std::int64_t between_looks = 100;  // steps from one look at the deepest overlap to the next
 
 void check(const Setup& setup, const State& begin) {
@@ -48,8 +49,8 @@ void sum_up(MPI_Comm world, std::span<double> numbers) {
 
 }  // namespace
 
-LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& begin)
-    : world_(world), setup_(std::move(setup)), lammps_(world) {
+LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log)
+    : world_(world), setup_(std::move(setup)), log_(std::move(log)), lammps_(world, log_) {
   check(setup_, begin);
   MPI_Comm_rank(world_, &rank_);
   state_.gravity = begin.gravity;
@@ -127,7 +128,10 @@ void LammpsSimulation::run(std::int64_t steps) {
     lammps_.command("run 0 post no");
     prepared_ = true;
   }
-  for (std::int64_t k = 0; k < steps && stopped_.empty(); ++k) lammps_.command("run 1 pre no post no");
+  for (std::int64_t k = 0; k < steps && stopped_.empty(); ++k) {
+    if (!log_.empty() && done_ % between_logs == 0) lammps_.command("log " + log_);  // begins it anew
+    lammps_.command("run 1 pre no post no");
+  }
   if (!stopped_.empty()) throw RunStopped(stopped_);
 }
 

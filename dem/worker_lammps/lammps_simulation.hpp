@@ -35,7 +35,8 @@ class LammpsSimulation {
   /// Begins with grains and bodies of the engine's state, the same on each process of `world`. Grains keep places,
   /// velocities and ids; what their contacts remember is not taken over, so a settled bed must rest anew. Throws
   /// InputError for laws that LAMMPS has not, for held grains, periodic sides and a second material of grains.
-  LammpsSimulation(MPI_Comm world, Setup setup, const State& begin);
+  /// `log`: file that gets LAMMPS's own words of the last thousand steps, so that what ends the process is found there.
+  LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log = "");
   LammpsSimulation(const LammpsSimulation&) = delete;
   LammpsSimulation& operator=(const LammpsSimulation&) = delete;
 
@@ -100,6 +101,7 @@ class LammpsSimulation {
   MPI_Comm world_;
   int rank_ = 0;
   Setup setup_;
+  std::string log_;
   State state_;
   LawTable laws_;
   Lammps lammps_;
