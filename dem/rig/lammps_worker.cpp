@@ -144,13 +144,19 @@ std::optional<Progress> progress_in(const std::string& line, std::string& stage)
 }
 
 /// Hands on what the worker says until it ends; gives its exit status. Whatever `how` throws stops the worker first.
-int follow(Child& child, const WorkOptions& how) {
+/// Throws Stopped where someone else stopped it.
+int follow(Child& child, const WorkOptions& how, const std::function<void()>& when_stopped) {
   constexpr double between_looks = 0.2;  // [s]
   std::string stage = "starting LAMMPS";
   Progress last{stage, 0, not_a_number};
   while (true) {
     const std::optional<std::string> line = child.line(between_looks);
-    if (!line) return child.end();
+    if (!line) {
+      const int status = child.end();
+      if (status != stopped) return status;
+      when_stopped();
+      throw Stopped();
+    }
     if (const std::optional<Progress> now = progress_in(*line, stage))
       last = *now;
     else if (!line->empty() && how.tell)
@@ -162,6 +168,7 @@ int follow(Child& child, const WorkOptions& how) {
       child.signal(SIGUSR1);  // mpirun hands it on
       while (child.line(between_looks)) {}
       child.end();
+      when_stopped();
       throw;
     }
   }
@@ -242,8 +249,10 @@ WheelRun run_in_lammps(const LammpsWorker& worker, const WheelOnBed& on, const O
     if (words.empty()) throw InputError("nothing is named that starts processes\n  hint: SOILBIN_MPIRUN=mpirun");
     words.insert(words.end(), {"-n", std::to_string(worker.ranks), worker.program.string(), folder.path().string()});
     Child child(words, folder.path() / "stderr.txt");
-    const int status = follow(child, how);
-    if (status == stopped) throw Stopped();
+    const int status = follow(child, how, [&] {
+      if (checkpoints.tell && fs::exists(folder.path() / "state"))
+        checkpoints.tell("the run in LAMMPS is kept: the same command goes on from there");
+    });
     if (status != answered || !fs::exists(answer)) throw_error_of(folder.path(), status, worker.ranks);
   }
   if (how.progress) how.progress({"done", 1, 0});

@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "dem/archive/note_text.hpp"
 #include "dem/bed/settled_bed.hpp"
 #include "dem/engine/laws/contact_law.hpp"
 #include "dem/engine/simulation.hpp"
@@ -17,6 +18,31 @@
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
+
+template <class Notes>
+void parts(Notes& notes, Rotation& q) {
+  notes(q.w, q.x, q.y, q.z);
+}
+
+/// All but its name and surfaces, which come from elsewhere, and a servo, which no wheel has.
+template <class Notes>
+void parts(Notes& notes, Body& body) {
+  notes(body.mass, body.inertia, body.free_translation, body.turning, body.axis, body.weighs, body.applied_force,
+        body.applied_torque, body.position, body.rotation, body.velocity, body.spin, body.force, body.torque, body.work,
+        body.driven_work, body.travel);
+}
+
+template <class Notes>
+void parts(Notes& notes, Triple<double>& t) {
+  notes(t.x, t.y, t.z);
+}
+
+template <class Notes>
+void parts(Notes& notes, LammpsTravelling& t) {
+  SurfaceContact& c = t.contact;
+  notes(t.id, c.who.body, c.who.surface, c.triangle, c.normal, c.memory.slide, c.memory.roll);
+}
+
 namespace {
 
 constexpr std::int64_t between_logs = 1000;  // steps after which LAMMPS's log begins anew: it has some lines a step
@@ -49,31 +75,71 @@ void sum_up(MPI_Comm world, std::span<double> numbers) {
 
 }  // namespace
 
-LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log)
+/// What both ways of beginning have in common, up to the box.
+LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, std::string log, const State& begin)
     : world_(world), setup_(std::move(setup)), log_(std::move(log)), lammps_(world, log_) {
   check(setup_, begin);
   MPI_Comm_rank(world_, &rank_);
   state_.gravity = begin.gravity;
-  const double largest = begin.grains.largest_radius();
-  laws_.fill(setup_.materials, setup_.laws, largest);
-  margin_ = setup_.numerics.skin > 0 ? setup_.numerics.skin : 0.2 * largest;
+  largest_ = begin.grains.largest_radius();
+  laws_.fill(setup_.materials, setup_.laws, largest_);
+  margin_ = setup_.numerics.skin > 0 ? setup_.numerics.skin : 0.2 * largest_;
   all_grains_ = static_cast<std::int64_t>(begin.grains.count());
-  const Simulation engine(setup_, begin);  // for velocities of the whole step
   lammps_.command("units si");
   lammps_.command("atom_style sphere");
-  lammps_.command("atom_modify sort 0 0");
+  lammps_.command("atom_modify sort 0 0");  // pair_commands.hpp tells why
   lammps_.command("newton off");
   lammps_.command("comm_modify vel yes");
   lammps_.command("boundary f f fs");   // a grain that is thrown up raises the box, as no other leaves it
   lammps_.command("processors * * 1");  // beds are flat
+}
+
+LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log)
+    : LammpsSimulation(world, std::move(setup), std::move(log), begin) {
   // Wider than the domain, so that the engine's own check comes before LAMMPS forgets a grain.
-  const Vec3 low = setup_.domain.lower - Vec3{largest, largest, largest};
-  const Vec3 high = setup_.domain.upper + Vec3{largest, largest, largest};
+  const Vec3 low = setup_.domain.lower - Vec3{largest_, largest_, largest_};
+  const Vec3 high = setup_.domain.upper + Vec3{largest_, largest_, largest_};
   lammps_.command(fmt::format("region box block {} {} {} {} {} {}", low.x, high.x, low.y, high.y, low.z, high.z));
   lammps_.command("create_box 1 box");
-  put_in(engine);
+  put_in(Simulation(setup_, begin));  // it knows velocities of the whole step
   write_commands(begin);
   for (const Body& body : begin.bodies) add_body(body);
+}
+
+LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log,
+                                   const std::string& grains, const std::string& notes, std::vector<Body> added)
+    : LammpsSimulation(world, std::move(setup), std::move(log), begin) {
+  lammps_.command("read_restart " + grains);
+  write_commands(begin);
+  state_.bodies = begin.bodies;
+  for (Body& body : added) state_.bodies.push_back(std::move(body));
+  before_ = state_.bodies;
+  NoteReader reader("LAMMPS's run", notes);
+  keep_in(reader);
+  reader.end();
+  for (Body& body : state_.bodies) get_ready(body);
+  for (Body& body : before_) get_ready(body);
+}
+
+/// All but what LAMMPS keeps itself.
+template <class Notes>
+void LammpsSimulation::keep_in(Notes& notes) {
+  notes(state_.step, state_.time, state_.gravity, done_, arriving_, state_.bodies, before_);
+}
+
+std::string LammpsSimulation::notes() {
+  arriving_ = all_contacts();
+  NoteWriter writer;
+  keep_in(writer);
+  arriving_.clear();
+  return writer.text();
+}
+
+/// Of all processes, by grain.
+std::vector<LammpsTravelling> LammpsSimulation::all_contacts() const {
+  std::vector<LammpsTravelling> mine;
+  for (const SurfaceContact& contact : made_) mine.push_back({ids_[contact.who.grain], contact});
+  return gathered(mine);
 }
 
 void LammpsSimulation::put_in(const Simulation& begin) const {
@@ -111,15 +177,18 @@ void LammpsSimulation::write_commands(const State& begin) const {
 
 int LammpsSimulation::add_body(Body body) {
   check(body, static_cast<int>(setup_.materials.all.size()));
-  const double reach = own_grains().largest_radius();
-  double largest = reach;
-  join_largest(*this, {&largest, 1});
-  for (Surface& surface : body.surfaces)
-    if (auto* mesh = std::get_if<MeshSurface>(&surface.shape))
-      mesh->grid = std::make_shared<TriangleGrid>(*mesh->mesh, largest + margin_);
+  get_ready(body);
   state_.bodies.push_back(std::move(body));
+  before_ = state_.bodies;
   travel_ = 2 * margin_ + 1;  // the next step searches
   return static_cast<int>(state_.bodies.size()) - 1;
+}
+
+/// Each mesh gets the index that finds the triangles a grain may touch before the next search.
+void LammpsSimulation::get_ready(Body& body) const {
+  for (Surface& surface : body.surfaces)
+    if (auto* mesh = std::get_if<MeshSurface>(&surface.shape); mesh && !mesh->grid)
+      mesh->grid = std::make_shared<TriangleGrid>(*mesh->mesh, largest_ + margin_);
 }
 
 void LammpsSimulation::run(std::int64_t steps) {
@@ -143,6 +212,7 @@ void LammpsSimulation::on_forces(void* self, std::int64_t step, int rows, int* i
 /// step where it is set up anew: nothing then moves on or is remembered.
 void LammpsSimulation::add_forces(std::int64_t step, int rows, const int* ids, double** x, double** force) {
   const bool again = step == done_;
+  if (again) state_.bodies.swap(before_);  // where they were at this step
   fault_.clear();
   follow_grains(rows, ids);
   travel_ += setup_.numerics.dt * (weigh(rows, x, force) + body_speed_);
@@ -151,7 +221,8 @@ void LammpsSimulation::add_forces(std::int64_t step, int rows, const int* ids, d
   if (setup_.laws.cohesion == CohesionLaw::linear || step % between_looks == 0) add_pair_forces(rows, x, force);
   add_surface_forces(force, !again);
   join_loads(rows);
-  if (again) return;
+  if (again) return state_.bodies.swap(before_);
+  before_ = state_.bodies;
   if (done_ >= 0) ++state_.step, state_.time += setup_.numerics.dt;
   done_ = step;
   move_bodies();
@@ -182,33 +253,41 @@ void LammpsSimulation::follow_grains(int rows, const int* ids) {
   int moved = count != ids_.size() || std::memcmp(ids, ids_.data(), count * sizeof(int)) != 0;
   MPI_Allreduce(MPI_IN_PLACE, &moved, 1, MPI_INT, MPI_MAX, world_);
   if (!moved) return;
-  std::vector<Travelling> all;
+  std::vector<LammpsTravelling> all;
   for (const SurfaceContact& contact : made_) all.push_back({ids_[contact.who.grain], contact});
   made_.clear();
   take_over(all, rows, ids);  // leaves those whose grain is elsewhere now
-  int size = 0, bytes = static_cast<int>(all.size() * sizeof(Travelling));
-  MPI_Comm_size(world_, &size);
-  std::vector<int> sizes(size), begins(size);
-  MPI_Allgather(&bytes, 1, MPI_INT, sizes.data(), 1, MPI_INT, world_);
-  int sum = 0;
-  for (int k = 0; k < size; ++k) begins[k] = std::exchange(sum, sum + sizes[k]);
-  std::vector<Travelling> gathered(static_cast<std::size_t>(sum) / sizeof(Travelling));
-  MPI_Allgatherv(all.data(), bytes, MPI_BYTE, gathered.data(), sizes.data(), begins.data(), MPI_BYTE, world_);
-  take_over(gathered, rows, ids);
+  take_over(arriving_, rows, ids);
+  arriving_.clear();  // each process had them all
+  std::vector<LammpsTravelling> others = gathered(all);
+  take_over(others, rows, ids);
   std::stable_sort(made_.begin(), made_.end(), comes_first);
   ids_.assign(ids, ids + rows);
   find_near(rows);
 }
 
+/// Those of all processes, on each.
+std::vector<LammpsTravelling> LammpsSimulation::gathered(const std::vector<LammpsTravelling>& mine) const {
+  int size = 0, bytes = static_cast<int>(mine.size() * sizeof(LammpsTravelling));
+  MPI_Comm_size(world_, &size);
+  std::vector<int> sizes(size), begins(size);
+  MPI_Allgather(&bytes, 1, MPI_INT, sizes.data(), 1, MPI_INT, world_);
+  int sum = 0;
+  for (int k = 0; k < size; ++k) begins[k] = std::exchange(sum, sum + sizes[k]);
+  std::vector<LammpsTravelling> all(static_cast<std::size_t>(sum) / sizeof(LammpsTravelling));
+  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), sizes.data(), begins.data(), MPI_BYTE, world_);
+  return all;
+}
+
 /// Moves to made_ those of the contacts whose grains this process has.
-void LammpsSimulation::take_over(std::vector<Travelling>& contacts, int rows, const int* ids) {
+void LammpsSimulation::take_over(std::vector<LammpsTravelling>& contacts, int rows, const int* ids) {
   if (contacts.empty()) return;
   std::unordered_map<int, int> row_of;
-  for (const Travelling& one : contacts) row_of[one.id] = -1;
+  for (const LammpsTravelling& one : contacts) row_of[one.id] = -1;
   for (int row = 0; row < rows; ++row)
     if (const auto asked = row_of.find(ids[row]); asked != row_of.end()) asked->second = row;
-  std::vector<Travelling> others;
-  for (Travelling& one : contacts) {
+  std::vector<LammpsTravelling> others;
+  for (LammpsTravelling& one : contacts) {
     const int row = row_of[one.id];
     if (row < 0) {
       others.push_back(one);

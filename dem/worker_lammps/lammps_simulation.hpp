@@ -30,6 +30,12 @@ namespace soilbin::dem {
 
 class Simulation;
 
+/// A contact with a surface on its way to another process, or to a file.
+struct LammpsTravelling {
+  int id = 0;  ///< LAMMPS's, of its grain
+  SurfaceContact contact{};
+};
+
 class LammpsSimulation {
  public:
   /// Begins with grains and bodies of the engine's state, the same on each process of `world`. Grains keep places,
@@ -37,6 +43,11 @@ class LammpsSimulation {
   /// InputError for laws that LAMMPS has not, for held grains, periodic sides and a second material of grains.
   /// `log`: file that gets LAMMPS's own words of the last thousand steps, so that what ends the process is found there.
   LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log = "");
+  /// Goes on from what write_grains and notes() kept, on any number of processes. `begin`: what the run began with;
+  /// `added`: the bodies added since, whose surfaces are taken. Velocities go through the disk at whole steps and
+  /// LAMMPS computes the forces of the last step anew, so the bits are others than without the stop.
+  LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log, const std::string& grains,
+                   const std::string& notes, std::vector<Body> added);
   LammpsSimulation(const LammpsSimulation&) = delete;
   LammpsSimulation& operator=(const LammpsSimulation&) = delete;
 
@@ -54,6 +65,10 @@ class LammpsSimulation {
 
   /// Throws RunStopped, on all processes alike: a grain out of the domain, lost or not finite, an overlap too deep.
   void run(std::int64_t steps);
+
+  /// Grains and their contacts as LAMMPS keeps them, in a file; and all else, as a text. All processes call both.
+  void write_grains(const std::string& file) const { lammps_.command("write_restart " + file); }
+  std::string notes();
 
   /// Contacts of this process's grains with meshes, as of the last step.
   const std::vector<Contact>& contacts() const { return contacts_; }
@@ -73,19 +88,19 @@ class LammpsSimulation {
   double memory_a_grain() const;
 
  private:
-  /// What a contact with a surface takes along to another process.
-  struct Travelling {
-    int id;
-    SurfaceContact contact;
-  };
-
+  template <class Notes>
+  void keep_in(Notes& notes);
+  LammpsSimulation(MPI_Comm world, Setup setup, std::string log, const State& begin);
+  void get_ready(Body& body) const;
+  std::vector<LammpsTravelling> gathered(const std::vector<LammpsTravelling>& mine) const;
+  std::vector<LammpsTravelling> all_contacts() const;
   static void on_forces(void* self, std::int64_t step, int rows, int* ids, double** x, double** force);
   void add_forces(std::int64_t step, int rows, const int* ids, double** x, double** force);
   void write_commands(const State& begin) const;
   void put_in(const Simulation& begin) const;
   double weigh(int rows, double** x, double** force);
   void follow_grains(int rows, const int* ids);
-  void take_over(std::vector<Travelling>& mine, int rows, const int* ids);
+  void take_over(std::vector<LammpsTravelling>& mine, int rows, const int* ids);
   void find_near(int rows);
   void add_pair_forces(int rows, double** x, double** force);
   void add_surface_forces(double** force, bool keeps);
@@ -106,11 +121,14 @@ class LammpsSimulation {
   LawTable laws_;
   Lammps lammps_;
   Placed placed_;
+  double largest_ = 0;    ///< radius of any grain [m]
   double margin_ = 0;     ///< of the search for surfaces [m]
   std::vector<int> ids_;  ///< LAMMPS's, of the rows at the last step: the engine's plus 1
   std::vector<NearSurface> near_;
   std::vector<SurfaceContact> made_, making_;
-  std::vector<BodyLoad> loads_;  ///< of this process's grains on each body
+  std::vector<LammpsTravelling> arriving_;  ///< of the file that the run goes on from, each on every process
+  std::vector<Body> before_;                ///< bodies as the last forces saw them
+  std::vector<BodyLoad> loads_;             ///< of this process's grains on each body
   std::vector<Contact> contacts_;
   double travel_ = 0;       ///< bound on what a grain and a body came nearer since the last search [m]
   double body_speed_ = 0;   ///< of the fastest point of any body [m/s]

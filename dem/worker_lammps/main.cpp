@@ -71,8 +71,7 @@ int make_run(const fs::path& folder, bool writes, const std::stop_token& stop) {
     const dem::WheelJob job = dem::read_job(folder / "job.h5");
     const dem::WheelOnBed wheel = job.wheel();
     const dem::WorkOptions how{.threads = 1, .progress = print_progress, .stop = stop, .tell = print_line};
-    dem::Ride<dem::LammpsRun> ride(wheel, job.at,
-                                   [&] { return dem::LammpsRun(MPI_COMM_WORLD, job, how, folder / "log.lammps"); });
+    dem::Ride<dem::LammpsRun> ride(wheel, job.at, [&] { return dem::LammpsRun(MPI_COMM_WORLD, job, how, folder); });
     const dem::WheelRun run = ride.run();
     if (writes) dem::write_answer(folder / "answer.txt", run);
     return answered;
