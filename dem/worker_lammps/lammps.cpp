@@ -1,7 +1,10 @@
 #include "dem/worker_lammps/lammps.hpp"
 
 #define LAMMPS_LIB_MPI  // lammps_open with a communicator
+#define LMP_UTILS_H  // its templates want an older fmt than Debian has; nothing of it is called here
+#include <lammps/lammps.h>
 #include <lammps/library.h>
+#include <lammps/neighbor.h>
 
 #include <array>
 #include <vector>
@@ -56,8 +59,10 @@ double** Lammps::spin() const { return of_atoms<double**>(handle_, "omega"); }
 double** Lammps::torque() const { return of_atoms<double**>(handle_, "torque"); }
 
 Lammps::Neighbours Lammps::neighbours() const {
-  return {handle_, lammps_find_pair_neighlist(handle_, "granular", 1, 0, 0)};
+  return {handle_, lammps_find_pair_neighlist(handle_, "gran/hooke", 1, 0, 0)};
 }
+
+bool Lammps::listed_anew() const { return static_cast<LAMMPS_NS::LAMMPS*>(handle_)->neighbor->ago == 0; }
 
 int Lammps::Neighbours::size() const { return list_ < 0 ? 0 : lammps_neighlist_num_elements(handle_, list_); }
 

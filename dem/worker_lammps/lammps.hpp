@@ -60,8 +60,11 @@ class Lammps {
     void* handle_;
     int list_;
   };
-  /// Of pair_style granular. Only while forces are computed, or after.
+  /// Of pair_style gran/hooke. Only while forces are computed, or after.
   Neighbours neighbours() const;
+  /// Whether they were listed anew, and grains went to other processes and rows, just before these forces; the same on all
+  /// processes.
+  bool listed_anew() const;
 
   /// Memory of this process [MB], as LAMMPS counts its arrays.
   double memory() const;

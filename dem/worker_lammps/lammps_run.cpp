@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "dem/archive/sealed_file.hpp"
 #include "dem/surface/shapes.hpp"
@@ -29,6 +28,10 @@ constexpr std::int64_t between_words = 100;  // steps, as StagedRun
 const FileKind state_kind{"lammps", 1, "notes of a run follow at byte 512: dem/worker_lammps/lammps_run.cpp"};
 
 fs::path grains_file(const fs::path& folder, std::int64_t step) { return folder / fmt::format("grains-{}", step); }
+
+bool is_old(const std::string& name, const std::string& newest) {
+  return name.starts_with("grains-") && name != newest && !name.starts_with(newest + ".");
+}
 
 std::map<std::string, std::string> read_notes(const fs::path& file) {
   const SealedFile sealed(file, state_kind);
@@ -80,7 +83,6 @@ double LammpsRun::seconds() const {
 }
 
 void LammpsRun::through(const std::function<void()>& stages) {
-  rest();
   stages();
   tell_cost();
 }
@@ -94,24 +96,6 @@ void LammpsRun::tell_cost() const {
     how_.tell(fmt::format("{} grains, {} steps on {} {} in {:.4g} s: {:.3g} grain-steps/s; {:.0f} bytes a grain",
                           grains, taken, ranks, ranks == 1 ? "process" : "processes", time, grains * taken / time,
                           bytes));
-}
-
-/// Until the grains are as slow as the bed's own test asks.
-void LammpsRun::rest() {
-  const RestTest& test = job_.bed.recipe.rest;
-  const double diameter = mean_diameter(job_.bed.recipe.soil), dt = simulation_->setup().numerics.dt;
-  const std::int64_t every = std::max<std::int64_t>(1, std::llround(test.every / dt));
-  loop(
-      "resting", [&] { return !rested_; },
-      [&] {
-        simulation_->run(1);
-        if ((at_.taken + 1) % every != 0) return;
-        const double kinetic = simulation_->kinetic(diameter);
-        rested_ = kinetic < test.kinetic;
-        if (!rested_ && simulation_->time() > test.at_most)
-          throw RunStopped(fmt::format("the bed did not come to rest again in {:.3g} s: kinetic {:.3g}, asked {:.3g}",
-                                       test.at_most, kinetic, test.kinetic));
-      });
 }
 
 void LammpsRun::once(const std::function<void()>& what) {
@@ -150,7 +134,7 @@ void LammpsRun::tell(std::string_view stage) {
 
 void LammpsRun::write_restart() {
   const std::int64_t step = simulation_->state().step;
-  if (step == 0) return;  // nothing is lost yet
+  if (step == begun_at_) return;  // nothing is lost
   const fs::path grains = grains_file(folder_, step);
   simulation_->write_grains(grains.string());
   std::vector<NamedNote> notes{
@@ -163,7 +147,7 @@ void LammpsRun::write_restart() {
     writer(notes);
     write_sealed(folder_ / "state", state_kind, writer.text(), Keep::nothing);
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
-      if (entry.path().filename().string().starts_with("grains-") && entry.path() != grains) fs::remove(entry.path());
+      if (is_old(entry.path().filename().string(), grains.filename().string())) fs::remove(entry.path());
   }
   MPI_Barrier(simulation_->world());
   written_ = std::chrono::steady_clock::now();

@@ -39,7 +39,6 @@ class LammpsRun {
   template <class Part>
   void keep(const std::string& name, Part& part);
   void plan(double steps) { all_steps_ = steps; }
-  /// Lets the bed rest first: what its contacts remembered stayed behind.
   void through(const std::function<void()>& stages);
   void once(const std::function<void()>& what);
   void steps(std::string_view stage, std::int64_t steps, const std::function<void(std::int64_t)>& each);
@@ -52,7 +51,7 @@ class LammpsRun {
   /// Where it is.
   template <class Notes>
   void state(Notes& notes) {
-    notes(at_.reached, at_.taken, steps_, earlier_, rested_);
+    notes(at_.reached, at_.taken, steps_, earlier_);
   }
 
  private:
@@ -62,7 +61,6 @@ class LammpsRun {
   };
 
   std::unique_ptr<LammpsSimulation> begin(MPI_Comm world);
-  void rest();
   void tell(std::string_view stage);
   void write_restart();
   /// Grains times steps in a second and memory a grain: what one asks before a huge run.
@@ -81,7 +79,6 @@ class LammpsRun {
   StageCounter at_;
   std::int64_t steps_ = 0, begun_at_ = 0;
   double all_steps_ = 1, earlier_ = 0;
-  bool rested_ = false;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now(), written_ = began_;
 };
 

@@ -7,14 +7,15 @@
 #include <cmath>
 #include <cstring>
 #include <tuple>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 
 #include "dem/archive/note_text.hpp"
+#include "dem/archive/sealed_file.hpp"
 #include "dem/bed/settled_bed.hpp"
 #include "dem/engine/laws/contact_law.hpp"
-#include "dem/engine/simulation.hpp"
-#include "dem/worker_lammps/pair_commands.hpp"
+#include "dem/engine/pair_touch.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
@@ -46,7 +47,6 @@ void parts(Notes& notes, LammpsTravelling& t) {
 namespace {
 
 constexpr std::int64_t between_logs = 1000;  // steps after which LAMMPS's log begins anew: it has some lines a step
-constexpr std::int64_t between_looks = 100;  // steps from one look at the deepest overlap to the next
 
 void check(const Setup& setup, const State& begin) {
   if (begin.grains.count() == 0) throw InputError("LAMMPS needs grains: there are none");
@@ -55,6 +55,12 @@ void check(const Setup& setup, const State& begin) {
   for (std::size_t k = 0; k < begin.grains.count(); ++k)
     if (begin.grains.motion[k].held() || begin.grains.material[k] != grain_material)
       throw InputError("grains in LAMMPS are free and of one material");
+  if (!begin.new_grains.empty() && begin.new_grains.size() != begin.grains.count())
+    throw InputError("grains in LAMMPS all begin at a whole step, or at the half step before");
+  if (setup.laws.cohesion == CohesionLaw::jkr)
+    throw InputError(
+        "LAMMPS lists no pairs of grains that adhere beyond their contact (jkr)\n  hint: linear cohesion, or --engine "
+        "soilbin");
 }
 
 Vec3 vec(const double* a) { return {a[0], a[1], a[2]}; }
@@ -73,6 +79,27 @@ void sum_up(MPI_Comm world, std::span<double> numbers) {
   MPI_Bcast(numbers.data(), count, MPI_DOUBLE, 0, world);
 }
 
+/// Those of all processes, on each.
+template <class T>
+std::vector<T> gathered(MPI_Comm world, const std::vector<T>& mine) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  int size = 0, bytes = static_cast<int>(mine.size() * sizeof(T));
+  MPI_Comm_size(world, &size);
+  std::vector<int> sizes(size), begins(size);
+  MPI_Allgather(&bytes, 1, MPI_INT, sizes.data(), 1, MPI_INT, world);
+  int sum = 0;
+  for (int k = 0; k < size; ++k) begins[k] = std::exchange(sum, sum + sizes[k]);
+  std::vector<T> all(static_cast<std::size_t>(sum) / sizeof(T));
+  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), sizes.data(), begins.data(), MPI_BYTE, world);
+  return all;
+}
+
+const FileKind pairs_kind{"contacts", 1, "contacts of pairs follow at byte 512: dem/worker_lammps/pair_memory.hpp"};
+
+std::filesystem::path contacts_file(const std::string& grains, int rank) {
+  return fmt::format("{}.contacts-{}", grains, rank);
+}
+
 }  // namespace
 
 /// What both ways of beginning have in common, up to the box.
@@ -80,14 +107,14 @@ LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, std::string log,
     : world_(world), setup_(std::move(setup)), log_(std::move(log)), lammps_(world, log_) {
   check(setup_, begin);
   MPI_Comm_rank(world_, &rank_);
-  state_.gravity = begin.gravity;
+  state_.gravity = begin.gravity, state_.time = begin.time, state_.step = begin.step;
+  here_.resize(begin.next_id + std::size_t{1});
   largest_ = begin.grains.largest_radius();
   laws_.fill(setup_.materials, setup_.laws, largest_);
   margin_ = setup_.numerics.skin > 0 ? setup_.numerics.skin : 0.2 * largest_;
   all_grains_ = static_cast<std::int64_t>(begin.grains.count());
   lammps_.command("units si");
   lammps_.command("atom_style sphere");
-  lammps_.command("atom_modify sort 0 0");  // pair_commands.hpp tells why
   lammps_.command("newton off");
   lammps_.command("comm_modify vel yes");
   lammps_.command("boundary f f fs");   // a grain that is thrown up raises the box, as no other leaves it
@@ -101,22 +128,41 @@ LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& beg
   const Vec3 high = setup_.domain.upper + Vec3{largest_, largest_, largest_};
   lammps_.command(fmt::format("region box block {} {} {} {} {} {}", low.x, high.x, low.y, high.y, low.z, high.z));
   lammps_.command("create_box 1 box");
-  put_in(Simulation(setup_, begin));  // it knows velocities of the whole step
-  write_commands(begin);
+  put_in(begin.grains);
+  at_half_steps_ = begin.new_grains.empty();
+  write_commands();
   for (const Body& body : begin.bodies) add_body(body);
+  take_contacts(begin);
+}
+
+/// What the engine's contacts remember, all on each process: the first step leaves each with its grains.
+void LammpsSimulation::take_contacts(const State& begin) {
+  const Grains& grains = begin.grains;
+  const auto id_of = [&](std::uint32_t row) { return static_cast<int>(grains.id[row]) + 1; };
+  for (const SurfaceContacts& slab : begin.surfaces)
+    for (const SurfaceContact& contact : slab.made) arriving_.push_back({id_of(contact.who.grain), contact});
+  const PairList& pairs = begin.pairs;
+  for (std::size_t pair = 0; pair < pairs.first.size(); ++pair) {
+    if (!pairs.touches(pair) || pairs.first[pair] >= grains.count() || pairs.second[pair] >= grains.count()) continue;
+    const auto kept = [&](int what) { return pairs.remembered(pair, what); };
+    arriving_pairs_.push_back({.first = id_of(pairs.first[pair]),
+                               .second = id_of(pairs.second[pair]),
+                               .memory = {{kept(0), kept(1), kept(2)}, {kept(3), kept(4), kept(5)}}});
+  }
 }
 
 LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log,
                                    const std::string& grains, const std::string& notes, std::vector<Body> added)
     : LammpsSimulation(world, std::move(setup), std::move(log), begin) {
   lammps_.command("read_restart " + grains);
-  write_commands(begin);
+  write_commands();
   state_.bodies = begin.bodies;
   for (Body& body : added) state_.bodies.push_back(std::move(body));
   before_ = state_.bodies;
   NoteReader reader("LAMMPS's run", notes);
   keep_in(reader);
   reader.end();
+  for (int rank = 0; rank < ranks_that_wrote_; ++rank) read_pairs(contacts_file(grains, rank));
   for (Body& body : state_.bodies) get_ready(body);
   for (Body& body : before_) get_ready(body);
 }
@@ -124,48 +170,61 @@ LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& beg
 /// All but what LAMMPS keeps itself.
 template <class Notes>
 void LammpsSimulation::keep_in(Notes& notes) {
-  notes(state_.step, state_.time, state_.gravity, done_, arriving_, state_.bodies, before_);
+  notes(state_.step, state_.time, state_.gravity, done_, ranks_that_wrote_, arriving_, state_.bodies, before_);
 }
 
 std::string LammpsSimulation::notes() {
   arriving_ = all_contacts();
+  MPI_Comm_size(world_, &ranks_that_wrote_);
   NoteWriter writer;
   keep_in(writer);
   arriving_.clear();
   return writer.text();
 }
 
+void LammpsSimulation::write_grains(const std::string& file) const {
+  lammps_.command("write_restart " + file);
+  const std::vector<PairContact>& mine = pairs_.contacts();
+  write_sealed(contacts_file(file, rank_), pairs_kind,
+               {reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(PairContact)}, Keep::nothing);
+}
+
+void LammpsSimulation::read_pairs(const std::filesystem::path& file) {
+  const SealedFile sealed(file, pairs_kind);
+  std::vector<PairContact> all(sealed.content().size() / sizeof(PairContact));
+  std::memcpy(all.data(), sealed.content().data(), all.size() * sizeof(PairContact));
+  arriving_pairs_.insert(arriving_pairs_.end(), all.begin(), all.end());
+}
+
 /// Of all processes, by grain.
 std::vector<LammpsTravelling> LammpsSimulation::all_contacts() const {
   std::vector<LammpsTravelling> mine;
   for (const SurfaceContact& contact : made_) mine.push_back({ids_[contact.who.grain], contact});
-  return gathered(mine);
+  return gathered(world_, mine);
 }
 
-void LammpsSimulation::put_in(const Simulation& begin) const {
-  const Grains& grains = begin.state().grains;
+void LammpsSimulation::put_in(const Grains& grains) const {
   std::vector<int> ids;
   std::vector<Vec3> positions, velocities;
-  const std::vector<GrainNow> now = begin.grains();
   std::unordered_map<int, std::size_t> row_of;
   for (std::size_t k = 0; k < grains.count(); ++k) {
     ids.push_back(static_cast<int>(grains.id[k]) + 1);
     row_of[ids.back()] = k;
-    positions.push_back(now[k].position), velocities.push_back(now[k].velocity);
+    positions.push_back(grains.motion[k].position), velocities.push_back(grains.motion[k].velocity);
   }
   lammps_.add_grains(ids, positions, velocities);
   for (int row = 0; row < lammps_.count(); ++row) {
     const std::size_t k = row_of.at(lammps_.ids()[row]);
-    lammps_.radius()[row] = now[k].radius;
+    lammps_.radius()[row] = grains.motion[k].radius;
     lammps_.mass()[row] = 1 / grains.motion[k].inverse_mass;
-    const Vec3& spin = now[k].spin;
-    std::copy_n(&spin.x, 3, lammps_.spin()[row]);
+    std::copy_n(&grains.spin[k].rate.x, 3, lammps_.spin()[row]);
   }
 }
 
-void LammpsSimulation::write_commands(const State& begin) const {
-  const RollingSpring rolling = rolling_spring(setup_, begin.grains, mean_contact_radius(setup_, begin));
-  for (const std::string& line : pair_commands(setup_, rolling)) lammps_.command(line);
+void LammpsSimulation::write_commands() const {
+  // Without stiffness, damping and friction: it lists the pairs nearer than their radii and a skin, and presses none.
+  lammps_.command("pair_style gran/hooke 0 NULL 0 NULL 0 0");
+  lammps_.command("pair_coeff * *");
   lammps_.command(fmt::format("neighbor {} bin", margin_));
   lammps_.command("neigh_modify delay 0 every 1 check yes");
   lammps_.command(fmt::format("timestep {}", setup_.numerics.dt));
@@ -218,9 +277,10 @@ void LammpsSimulation::add_forces(std::int64_t step, int rows, const int* ids, d
   travel_ += setup_.numerics.dt * (weigh(rows, x, force) + body_speed_);
   if (travel_ > margin_) find_near(rows);
   placed_.place(state_.bodies);
-  if (setup_.laws.cohesion == CohesionLaw::linear || step % between_looks == 0) add_pair_forces(rows, x, force);
+  add_pair_forces(rows, force, !again);
   add_surface_forces(force, !again);
   join_loads(rows);
+  if (std::exchange(at_half_steps_, false)) kick(rows, force);
   if (again) return state_.bodies.swap(before_);
   before_ = state_.bodies;
   if (done_ >= 0) ++state_.step, state_.time += setup_.numerics.dt;
@@ -247,36 +307,51 @@ double LammpsSimulation::weigh(int rows, double** x, double** force) {
   return std::sqrt(fastest);
 }
 
-/// Where rows hold other grains than a step ago, on any process: what contacts remember goes where their grains are.
+/// LAMMPS has velocities of whole steps between two steps: here are those of the half step before. It adds the other half
+/// of the step itself.
+void LammpsSimulation::kick(int rows, double** force) const {
+  double **velocity = lammps_.velocity(), **spin = lammps_.spin(), **torque = lammps_.torque();
+  const double half = setup_.numerics.dt / 2;
+  for (int row = 0; row < rows; ++row) {
+    add(velocity[row], half / lammps_.mass()[row] * vec(force[row]));
+    add(spin[row], half * spin_of(row).inverse_inertia * vec(torque[row]));
+  }
+}
+
+/// Where LAMMPS has sorted its grains anew: what contacts remember goes where their grains are.
 void LammpsSimulation::follow_grains(int rows, const int* ids) {
-  const auto count = static_cast<std::size_t>(rows);
-  int moved = count != ids_.size() || std::memcmp(ids, ids_.data(), count * sizeof(int)) != 0;
-  MPI_Allreduce(MPI_IN_PLACE, &moved, 1, MPI_INT, MPI_MAX, world_);
-  if (!moved) return;
+  if (!lammps_.listed_anew()) return;
+  std::vector<bool> were_here(here_.size());
+  were_here.swap(here_);
+  for (int row = 0; row < rows; ++row) here_[static_cast<std::size_t>(ids[row])] = true;
   std::vector<LammpsTravelling> all;
   for (const SurfaceContact& contact : made_) all.push_back({ids_[contact.who.grain], contact});
   made_.clear();
   take_over(all, rows, ids);  // leaves those whose grain is elsewhere now
   take_over(arriving_, rows, ids);
   arriving_.clear();  // each process had them all
-  std::vector<LammpsTravelling> others = gathered(all);
+  std::vector<LammpsTravelling> others = gathered(world_, all);
   take_over(others, rows, ids);
   std::stable_sort(made_.begin(), made_.end(), comes_first);
+  follow_pairs(were_here);
   ids_.assign(ids, ids + rows);
   find_near(rows);
 }
 
-/// Those of all processes, on each.
-std::vector<LammpsTravelling> LammpsSimulation::gathered(const std::vector<LammpsTravelling>& mine) const {
-  int size = 0, bytes = static_cast<int>(mine.size() * sizeof(LammpsTravelling));
-  MPI_Comm_size(world_, &size);
-  std::vector<int> sizes(size), begins(size);
-  MPI_Allgather(&bytes, 1, MPI_INT, sizes.data(), 1, MPI_INT, world_);
-  int sum = 0;
-  for (int k = 0; k < size; ++k) begins[k] = std::exchange(sum, sum + sizes[k]);
-  std::vector<LammpsTravelling> all(static_cast<std::size_t>(sum) / sizeof(LammpsTravelling));
-  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), sizes.data(), begins.data(), MPI_BYTE, world_);
-  return all;
+/// Contacts of two grains are known where either of them is.
+void LammpsSimulation::follow_pairs(const std::vector<bool>& were_here) {
+  const auto left = [&](int id) {
+    const auto at = static_cast<std::size_t>(id);
+    return were_here[at] && !here_[at];
+  };
+  const auto is_here = [&](int id) { return here_[static_cast<std::size_t>(id)]; };
+  std::vector<PairContact> leaving;
+  for (const PairContact& contact : pairs_.contacts())
+    if (left(contact.first) || left(contact.second)) leaving.push_back(contact);
+  pairs_.forget_order();
+  for (const std::vector<PairContact>& from : {gathered(world_, leaving), std::exchange(arriving_pairs_, {})})
+    for (const PairContact& contact : from)
+      if (is_here(contact.first) || is_here(contact.second)) pairs_.take(contact);
 }
 
 /// Moves to made_ those of the contacts whose grains this process has.
@@ -306,32 +381,53 @@ void LammpsSimulation::find_near(int rows) {
   travel_ = 0;
 }
 
-/// Linear cohesion, which pair_style granular has not, and the look at the deepest overlap.
-void LammpsSimulation::add_pair_forces(int rows, double** x, double** force) {
-  const LawConstants<double>& constants = laws_[laws_.kind(grain_material, grain_material)];
+/// The engine's law for each pair that LAMMPS lists. A pair of two processes is worked out on both, each for its grain.
+void LammpsSimulation::add_pair_forces(int rows, double** force, bool keeps) {
+  double **x = lammps_.position(), **torque = lammps_.torque();
   const double* radius = lammps_.radius();
-  const double deepest = setup_.numerics.deepest_overlap;
   const Lammps::Neighbours pairs = lammps_.neighbours();
   std::span<const int> others;
+  pairs_.begin_step();
   for (int k = 0; k < pairs.size(); ++k) {
     const int i = pairs.of(k, others);
-    const Vec3 at = vec(x[i]);
-    Vec3 pulled;
+    const Motion motion = motion_of(i);
+    const Spin spin = spin_of(i);
+    Load load;
     for (const int marked : others) {
       const int j = marked & Lammps::Neighbours::mask;
-      const Vec3 between = at - vec(x[j]);
-      const double sum = radius[i] + radius[j], distance2 = squared(between);
-      if (distance2 >= sum * sum) continue;
-      const double distance = std::sqrt(distance2), overlap = sum - distance;
-      if (overlap > deepest * std::min(radius[i], radius[j]))
-        fail(fmt::format("grain {} overlaps another by {:.3g} of the smaller radius, more than {:.3g}",
-                         ids_[static_cast<std::size_t>(i)] - 1, overlap / std::min(radius[i], radius[j]), deepest));
-      const Vec3 pull = (-law::linear_pull(constants, radius[i] * radius[j] / sum, overlap) / distance) * between;
-      pulled += pull;
-      if (j < rows) add(force[j], -pull);
+      const Vec3 between = motion.position - vec(x[j]);
+      const double sum = motion.radius + radius[j];
+      if (squared(between) >= sum * sum) {
+        pairs_.pass(i, j);
+        continue;
+      }
+      const Load on_other = press_pair(i, {motion, spin}, j, between, keeps, load);
+      if (j < rows) add(force[j], on_other.force), add(torque[j], on_other.torque);
     }
-    add(force[i], pulled);
+    add(force[i], load.force), add(torque[i], load.torque);
   }
+  pairs_.end_step();
+}
+
+/// Adds what the grain of row j does to that of row i to `load`; gives what is done to j.
+Load LammpsSimulation::press_pair(int i, const GrainMotion& first, int j, const Vec3& between, bool keeps, Load& load) {
+  const Motion motion = motion_of(j);
+  const Spin spin = spin_of(j);
+  const int* ids = lammps_.ids();
+  const double dt = setup_.numerics.dt, smaller = std::min(first.motion.radius, motion.radius);
+  const Touch<double> touch = touch_of_grains(first, {motion, spin}, between, dt);
+  if (touch.overlap > setup_.numerics.deepest_overlap * smaller)
+    fail(fmt::format("grain {} overlaps grain {} by {:.3g} of the smaller radius, more than {:.3g}", ids[i] - 1,
+                     ids[j] - 1, touch.overlap / smaller, setup_.numerics.deepest_overlap));
+  const Memory<double> before = pairs_.before(i, j, ids).value_or(Memory<double>{});
+  Memory<double> after = before;
+  const Response<double> does = contact_response<double>(
+      setup_.laws, laws_[laws_.kind(grain_material, grain_material)], touch, after, dt, nullptr);
+  pairs_.keep({i, j, ids[i], ids[j], keeps ? after : before});
+  const PairTorques<double> torques =
+      pair_torques(touch.normal, does, first.motion.radius - touch.overlap / 2, motion.radius - touch.overlap / 2);
+  load.force += vec3(does.force), load.torque += vec3(torques.first);
+  return {.force = -vec3(does.force), .torque = vec3(torques.second)};
 }
 
 void LammpsSimulation::add_surface_forces(double** force, bool keeps) {
@@ -489,17 +585,10 @@ LammpsSimulation::PairMeans LammpsSimulation::pair_means() const {
   return {sums[0], sums[0] > 0 ? sums[1] / sums[0] : 0};
 }
 
-double LammpsSimulation::kinetic(double diameter) const {
-  double sum = 0;
-  for (int row = 0; row < lammps_.count(); ++row) sum += squared(vec(lammps_.velocity()[row]));
-  sum_up(world_, {&sum, 1});
-  return 0.5 * sum / (grain_count() * length(state_.gravity) * diameter);
-}
-
 double LammpsSimulation::memory_a_grain() const {
-  double megabytes = lammps_.memory();
-  sum_up(world_, {&megabytes, 1});
-  return 1e6 * megabytes / grain_count();
+  double bytes = 1e6 * lammps_.memory() + 2.0 * static_cast<double>(pairs_.contacts().capacity() * sizeof(PairContact));
+  sum_up(world_, {&bytes, 1});
+  return bytes / grain_count();
 }
 
 void join_largest(const LammpsSimulation& simulation, std::span<double> numbers) {

@@ -5,30 +5,34 @@
 //   const int wheel = simulation.add_body(body);                     // an index, as in the engine
 //   simulation.body(wheel).velocity.x = 0.3;
 //
-// LAMMPS moves the grains and computes their forces on each other (pair_commands.hpp). Floor, walls and wheel are the
-// engine's bodies: contact search, memory and law of grains on surfaces are the engine's functions, called for the
-// grains of this process, and each process moves the bodies by the same sum over all. LAMMPS's velocity Verlet and the
-// engine's leapfrog are the same scheme: forces see places of the step and velocities of the half step before.
+// LAMMPS divides the bed among the processes, copies grains to those beside them, lists neighbours, moves the grains and
+// writes restarts. Forces are the engine's: its law for pairs of grains, its contact search, memory and law for grains on
+// surfaces, its bodies, called for the grains of this process (fix external); each process moves the bodies by the same
+// sum over all. LAMMPS's velocity Verlet and the engine's leapfrog are one scheme: forces see places of the step and
+// velocities of the half step before. So a run is the engine's but for the order of sums.
 //
-// What contacts with surfaces remember lies beside LAMMPS: where LAMMPS sorts its grains anew, a grain that goes to
-// another process takes it along. What grains remember of each other is LAMMPS's.
+// LAMMPS's own granular laws are left out (docs/guide/past-one-machine.md): its sds rolling has one stiffness for all
+// contacts, and turns its memory round where a pair changes the order in which it is stored.
+//
+// What contacts remember lies beside LAMMPS: where it sorts its grains anew, a grain that goes to another process takes
+// it along.
 #pragma once
 
 #include <mpi.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "dem/engine/evaluation.hpp"
+#include "dem/engine/pair_touch.hpp"
 #include "dem/engine/world.hpp"
 #include "dem/rig/soil_flow.hpp"
 #include "dem/worker_lammps/lammps.hpp"
+#include "dem/worker_lammps/pair_memory.hpp"
 
 namespace soilbin::dem {
-
-class Simulation;
 
 /// A contact with a surface on its way to another process, or to a file.
 struct LammpsTravelling {
@@ -38,9 +42,9 @@ struct LammpsTravelling {
 
 class LammpsSimulation {
  public:
-  /// Begins with grains and bodies of the engine's state, the same on each process of `world`. Grains keep places,
-  /// velocities and ids; what their contacts remember is not taken over, so a settled bed must rest anew. Throws
-  /// InputError for laws that LAMMPS has not, for held grains, periodic sides and a second material of grains.
+  /// Goes on with the engine's state, the same on each process of `world`: grains, bodies, and what contacts remember.
+  /// Throws InputError for jkr, held grains, periodic sides, a second material of grains, and where some grains alone
+  /// were added since the last step.
   /// `log`: file that gets LAMMPS's own words of the last thousand steps, so that what ends the process is found there.
   LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log = "");
   /// Goes on from what write_grains and notes() kept, on any number of processes. `begin`: what the run began with;
@@ -66,8 +70,9 @@ class LammpsSimulation {
   /// Throws RunStopped, on all processes alike: a grain out of the domain, lost or not finite, an overlap too deep.
   void run(std::int64_t steps);
 
-  /// Grains and their contacts as LAMMPS keeps them, in a file; and all else, as a text. All processes call both.
-  void write_grains(const std::string& file) const { lammps_.command("write_restart " + file); }
+  /// Grains, as LAMMPS keeps them, in a file, and their contacts in files of that name and more; and all else, as a
+  /// text. All processes call both.
+  void write_grains(const std::string& file) const;
   std::string notes();
 
   /// Contacts of this process's grains with meshes, as of the last step.
@@ -82,9 +87,7 @@ class LammpsSimulation {
     double overlap = 0;   ///< mean [m]
   };
   PairMeans pair_means() const;
-  /// Mean energy of a grain's straight motion over its weight times `diameter` [m], as Unrest::kinetic.
-  double kinetic(double diameter) const;
-  /// Memory of LAMMPS's arrays, over all processes, a grain [byte].
+  /// Memory of LAMMPS's arrays and of contacts of pairs, over all processes, a grain [byte].
   double memory_a_grain() const;
 
  private:
@@ -92,17 +95,21 @@ class LammpsSimulation {
   void keep_in(Notes& notes);
   LammpsSimulation(MPI_Comm world, Setup setup, std::string log, const State& begin);
   void get_ready(Body& body) const;
-  std::vector<LammpsTravelling> gathered(const std::vector<LammpsTravelling>& mine) const;
   std::vector<LammpsTravelling> all_contacts() const;
   static void on_forces(void* self, std::int64_t step, int rows, int* ids, double** x, double** force);
   void add_forces(std::int64_t step, int rows, const int* ids, double** x, double** force);
-  void write_commands(const State& begin) const;
-  void put_in(const Simulation& begin) const;
+  void write_commands() const;
+  void put_in(const Grains& grains) const;
+  void take_contacts(const State& begin);
+  void read_pairs(const std::filesystem::path& file);
   double weigh(int rows, double** x, double** force);
   void follow_grains(int rows, const int* ids);
   void take_over(std::vector<LammpsTravelling>& mine, int rows, const int* ids);
   void find_near(int rows);
-  void add_pair_forces(int rows, double** x, double** force);
+  void follow_pairs(const std::vector<bool>& were_here);
+  void kick(int rows, double** force) const;
+  void add_pair_forces(int rows, double** force, bool keeps);
+  Load press_pair(int i, const GrainMotion& first, int j, const Vec3& between, bool keeps, Load& load);
   void add_surface_forces(double** force, bool keeps);
   void press(const NearSurface& near, std::size_t first, int found, std::span<const SurfaceTouch, 8> touches,
              double* force, double* torque);
@@ -126,15 +133,21 @@ class LammpsSimulation {
   std::vector<int> ids_;  ///< LAMMPS's, of the rows at the last step: the engine's plus 1
   std::vector<NearSurface> near_;
   std::vector<SurfaceContact> made_, making_;
-  std::vector<LammpsTravelling> arriving_;  ///< of the file that the run goes on from, each on every process
-  std::vector<Body> before_;                ///< bodies as the last forces saw them
-  std::vector<BodyLoad> loads_;             ///< of this process's grains on each body
+  PairMemory pairs_;
+  std::vector<bool> here_;  ///< by LAMMPS's id: whether the grain is this process's, at the last listing
+  // Of what the run begins with or goes on from, each on every process.
+  std::vector<LammpsTravelling> arriving_;
+  std::vector<PairContact> arriving_pairs_;
+  int ranks_that_wrote_ = 0;
+  std::vector<Body> before_;     ///< bodies as the last forces saw them
+  std::vector<BodyLoad> loads_;  ///< of this process's grains on each body
   std::vector<Contact> contacts_;
   double travel_ = 0;       ///< bound on what a grain and a body came nearer since the last search [m]
   double body_speed_ = 0;   ///< of the fastest point of any body [m/s]
   std::int64_t done_ = -1;  ///< the last step whose forces were computed
   std::int64_t all_grains_ = 0;
   bool prepared_ = false;
+  bool at_half_steps_ = false;  ///< velocities given to LAMMPS are those of the half step before
   std::string fault_;    ///< what this process found in this step
   std::string stopped_;  ///< why the run can't go on, the same on all
   mutable Grains own_;

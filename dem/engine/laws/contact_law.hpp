@@ -285,6 +285,19 @@ template <class Real>
   return out;
 }
 
+/// What a contact of two grains does to their torques, its arms from their centres to the middle of the overlap.
+template <class Real>
+struct PairTorques {
+  Triple<Real> first, second;  ///< [N m]
+};
+
+template <class Real>
+[[gnu::always_inline]] inline PairTorques<Real> pair_torques(const Triple<Real>& normal, const Response<Real>& does,
+                                                             Real arm_first, Real arm_second) {
+  const Triple<Real> lever = cross(normal, does.tangential);
+  return {does.couple - arm_first * lever, -(does.couple + arm_second * lever)};
+}
+
 /// Energy stored in a contact's springs [J]: normal with cohesion, tangential, rolling with twisting. jkr counts from
 /// the moment at which the contact is made.
 template <class Real>

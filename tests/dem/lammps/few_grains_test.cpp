@@ -8,9 +8,9 @@
 #include "dem/engine/simulation.hpp"
 #include "dem/surface/shapes.hpp"
 #include "dem/worker_lammps/lammps_simulation.hpp"
-#include "dem/worker_lammps/pair_commands.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/tire.hpp"
+#include "tests/dem/worlds.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -78,16 +78,6 @@ Simulation two_grains(const Setup& setup, const Vec3& velocity, const Vec3& spin
   return simulation;
 }
 
-TEST(LammpsGrains, TsujisPolynomialGivesTheDampingOfTheRestitution) {
-  for (const double e : {0.1, 0.3, 0.5, 0.8, 0.95}) {
-    const double alpha = std::sqrt(5.0) * damping_share(e), x = tsuji_restitution(alpha);
-    EXPECT_NEAR(1.2728 - 4.2783 * x + 11.087 * std::pow(x, 2) - 22.348 * std::pow(x, 3) + 27.467 * std::pow(x, 4) -
-                    18.022 * std::pow(x, 5) + 4.8218 * std::pow(x, 6),
-                alpha, 1e-9)
-        << e;
-  }
-}
-
 TEST(LammpsGrains, MeetHeadOnAsInTheEngine) {
   for (const double restitution : {0.2, 0.5, 0.9}) {
     Interaction interaction = rough();
@@ -106,22 +96,21 @@ TEST(LammpsGrains, MeetHeadOnAsInTheEngine) {
   }
 }
 
-/// LAMMPS takes the whole radius for the arm of a spin, the engine the radius less half the overlap. So, within
-/// Coulomb's limit, spins differ by no more than the overlap's share of the radius, up to the deepest overlap; the more
-/// slowly the grains meet, the less.
-TEST(LammpsGrains, MeetObliquelyAsInTheEngineButForTheArm) {
-  Interaction interaction = rough();
-  interaction.sliding_friction = 5, interaction.rolling_friction = 0;
-  for (const double speed : {0.3, 0.03, 0.003}) {
-    Simulation engine(setup_of(interaction));
-    engine.add_grain({0, 0, -grain_radius}, grain_radius, 0, {speed / 3, 0, speed}, {});
-    engine.add_grain({0, 0, grain_radius}, grain_radius, 0, {-speed / 3, 0, -speed}, {});
+/// Sticking, sliding, rolling and twisting, by every law that has no adhesion beyond the contact.
+TEST(LammpsGrains, MeetObliquelyAsInTheEngineByEachLaw) {
+  for (const ContactLaws& laws : test::all_laws()) {
+    if (laws.cohesion == CohesionLaw::jkr) continue;
+    dem::Setup setup = test::soft_stone(laws);
+    setup.domain = {{-1, -1, -1}, {1, 1, 1}, {false, false, false}};
+    Simulation engine = two_grains(setup, {0.1, 0.02, 0.3}, {3, -20, 10});
     LammpsSimulation lammps(MPI_COMM_WORLD, engine.setup(), engine.state());
-    while (engine.grain(0).velocity.z > 0) engine.run(1), lammps.run(1);
-    const double overlap = engine.contacts().front().overlap / grain_radius, spin = length(engine.grain(0).spin);
-    const Apart now = apart(lammps, engine);
-    EXPECT_LT(now.spin, overlap * spin) << speed;
-    EXPECT_GT(spin, 5 * speed);  // r w is a share of the speed: it does turn
+    for (int k = 0; k < 10; ++k) {
+      engine.run(60), lammps.run(60);
+      const Apart now = apart(lammps, engine);
+      ASSERT_LT(now.velocity, 1e-9 * 0.3) << test::name_of(laws) << ", " << k;
+      ASSERT_LT(now.spin, 1e-9 * 20) << test::name_of(laws) << ", " << k;
+    }
+    EXPECT_GT(length(engine.grain(0).spin - Vec3{3, -20, 10}), 0.2) << test::name_of(laws);  // they have met
   }
 }
 
@@ -173,12 +162,11 @@ TEST(LammpsGrains, RollOnMeshAndFloorAsInTheEngine) {
   EXPECT_GT(pressed, 10);
 }
 
-TEST(LammpsGrains, RefuseLawsThatLammpsHasNot) {
-  for (const RollingLaw rolling : {RollingLaw::directional, RollingLaw::torsion_spring}) {
-    dem::Setup setup = setup_of(rough());
-    setup.laws.rolling = rolling;
-    EXPECT_THROW(pair_commands(setup, {}), InputError);
-  }
+TEST(LammpsGrains, RefuseAdhesionBeyondContact) {
+  dem::Setup setup = setup_of(rough());
+  setup.laws.cohesion = CohesionLaw::jkr;
+  Simulation engine = two_grains(setup, {});
+  EXPECT_THROW(LammpsSimulation(MPI_COMM_WORLD, engine.setup(), engine.state()), InputError);
 }
 
 TEST(LammpsGrains, SayWhichOneLeavesTheBin) {
