@@ -1,7 +1,7 @@
 #include "dem/worker_lammps/lammps.hpp"
 
 #define LAMMPS_LIB_MPI  // lammps_open with a communicator
-#define LMP_UTILS_H  // its templates want an older fmt than Debian has; nothing of it is called here
+#define LMP_UTILS_H     // its templates want an older fmt than Debian has; nothing of it is called here
 #include <lammps/lammps.h>
 #include <lammps/library.h>
 #include <lammps/neighbor.h>

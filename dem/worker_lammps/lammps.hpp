@@ -62,8 +62,8 @@ class Lammps {
   };
   /// Of pair_style gran/hooke. Only while forces are computed, or after.
   Neighbours neighbours() const;
-  /// Whether they were listed anew, and grains went to other processes and rows, just before these forces; the same on all
-  /// processes.
+  /// Whether they were listed anew, and grains went to other processes and rows, just before these forces; the same on
+  /// all processes.
   bool listed_anew() const;
 
   /// Memory of this process [MB], as LAMMPS counts its arrays.

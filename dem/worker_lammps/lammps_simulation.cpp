@@ -307,8 +307,8 @@ double LammpsSimulation::weigh(int rows, double** x, double** force) {
   return std::sqrt(fastest);
 }
 
-/// LAMMPS has velocities of whole steps between two steps: here are those of the half step before. It adds the other half
-/// of the step itself.
+/// LAMMPS has velocities of whole steps between two steps: here are those of the half step before. It adds the other
+/// half of the step itself.
 void LammpsSimulation::kick(int rows, double** force) const {
   double **velocity = lammps_.velocity(), **spin = lammps_.spin(), **torque = lammps_.torque();
   const double half = setup_.numerics.dt / 2;
@@ -421,8 +421,8 @@ Load LammpsSimulation::press_pair(int i, const GrainMotion& first, int j, const 
                      ids[j] - 1, touch.overlap / smaller, setup_.numerics.deepest_overlap));
   const Memory<double> before = pairs_.before(i, j, ids).value_or(Memory<double>{});
   Memory<double> after = before;
-  const Response<double> does = contact_response<double>(
-      setup_.laws, laws_[laws_.kind(grain_material, grain_material)], touch, after, dt, nullptr);
+  const Response<double> does = contact_response<double>(setup_.laws, laws_[laws_.kind(grain_material, grain_material)],
+                                                         touch, after, dt, nullptr);
   pairs_.keep({i, j, ids[i], ids[j], keeps ? after : before});
   const PairTorques<double> torques =
       pair_torques(touch.normal, does, first.motion.radius - touch.overlap / 2, motion.radius - touch.overlap / 2);

@@ -5,11 +5,11 @@
 //   const int wheel = simulation.add_body(body);                     // an index, as in the engine
 //   simulation.body(wheel).velocity.x = 0.3;
 //
-// LAMMPS divides the bed among the processes, copies grains to those beside them, lists neighbours, moves the grains and
-// writes restarts. Forces are the engine's: its law for pairs of grains, its contact search, memory and law for grains on
-// surfaces, its bodies, called for the grains of this process (fix external); each process moves the bodies by the same
-// sum over all. LAMMPS's velocity Verlet and the engine's leapfrog are one scheme: forces see places of the step and
-// velocities of the half step before. So a run is the engine's but for the order of sums.
+// LAMMPS divides the bed among the processes, copies grains to those beside them, lists neighbours, moves the grains
+// and writes restarts. Forces are the engine's: its law for pairs of grains, its contact search, memory and law for
+// grains on surfaces, its bodies, called for the grains of this process (fix external); each process moves the bodies
+// by the same sum over all. LAMMPS's velocity Verlet and the engine's leapfrog are one scheme: forces see places of the
+// step and velocities of the half step before. So a run is the engine's but for the order of sums.
 //
 // LAMMPS's own granular laws are left out (docs/guide/past-one-machine.md): its sds rolling has one stiffness for all
 // contacts, and turns its memory round where a pair changes the order in which it is stored.
@@ -148,8 +148,8 @@ class LammpsSimulation {
   std::int64_t all_grains_ = 0;
   bool prepared_ = false;
   bool at_half_steps_ = false;  ///< velocities given to LAMMPS are those of the half step before
-  std::string fault_;    ///< what this process found in this step
-  std::string stopped_;  ///< why the run can't go on, the same on all
+  std::string fault_;           ///< what this process found in this step
+  std::string stopped_;         ///< why the run can't go on, the same on all
   mutable Grains own_;
 };
 

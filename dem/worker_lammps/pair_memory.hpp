@@ -1,5 +1,5 @@
-// What the contacts of this process's grains with each other remember, while LAMMPS moves grains from process to process
-// and lists their neighbours anew.
+// What the contacts of this process's grains with each other remember, while LAMMPS moves grains from process to
+// process and lists their neighbours anew.
 //
 //   memory.begin_step();                                     // then pair by pair, as LAMMPS lists them
 //   if (!touch(i, j)) memory.pass(i, j);
