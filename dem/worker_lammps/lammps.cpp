@@ -50,13 +50,15 @@ int Lammps::count() const { return lammps_extract_setting(handle_, "nlocal"); }
 int Lammps::with_ghosts() const { return lammps_extract_setting(handle_, "nall"); }
 double Lammps::total() const { return lammps_get_natoms(handle_); }
 
-int* Lammps::ids() const { return of_atoms<int*>(handle_, "id"); }
-double* Lammps::radius() const { return of_atoms<double*>(handle_, "radius"); }
-double* Lammps::mass() const { return of_atoms<double*>(handle_, "rmass"); }
-double** Lammps::position() const { return of_atoms<double**>(handle_, "x"); }
-double** Lammps::velocity() const { return of_atoms<double**>(handle_, "v"); }
-double** Lammps::spin() const { return of_atoms<double**>(handle_, "omega"); }
-double** Lammps::torque() const { return of_atoms<double**>(handle_, "torque"); }
+Lammps::Rows Lammps::rows() const {
+  return {.id = of_atoms<int*>(handle_, "id"),
+          .radius = of_atoms<double*>(handle_, "radius"),
+          .mass = of_atoms<double*>(handle_, "rmass"),
+          .position = of_atoms<double**>(handle_, "x"),
+          .velocity = of_atoms<double**>(handle_, "v"),
+          .spin = of_atoms<double**>(handle_, "omega"),
+          .torque = of_atoms<double**>(handle_, "torque")};
+}
 
 Lammps::Neighbours Lammps::neighbours() const {
   return {handle_, lammps_find_pair_neighlist(handle_, "gran/hooke", 1, 0, 0)};

@@ -37,14 +37,13 @@ class Lammps {
   int with_ghosts() const;  ///< rows of its own and of copies of others' behind them
   double total() const;     ///< grains of all processes
 
-  // Rows of own grains and copies. Pointers hold until the next step.
-  int* ids() const;
-  double* radius() const;
-  double* mass() const;
-  double** position() const;
-  double** velocity() const;
-  double** spin() const;
-  double** torque() const;
+  /// Rows of own grains and, behind them, of copies. Pointers hold until the next step.
+  struct Rows {
+    int* id;
+    double *radius, *mass;
+    double **position, **velocity, **spin, **torque;
+  };
+  Rows rows() const;
 
   /// The pairs of grains that LAMMPS looks at, grain by grain; each pair once on a process that holds one of the two.
   class Neighbours {

@@ -213,11 +213,12 @@ void LammpsSimulation::put_in(const Grains& grains) const {
     positions.push_back(grains.motion[k].position), velocities.push_back(grains.motion[k].velocity);
   }
   lammps_.add_grains(ids, positions, velocities);
+  const Lammps::Rows rows = lammps_.rows();
   for (int row = 0; row < lammps_.count(); ++row) {
-    const std::size_t k = row_of.at(lammps_.ids()[row]);
-    lammps_.radius()[row] = grains.motion[k].radius;
-    lammps_.mass()[row] = 1 / grains.motion[k].inverse_mass;
-    std::copy_n(&grains.spin[k].rate.x, 3, lammps_.spin()[row]);
+    const std::size_t k = row_of.at(rows.id[row]);
+    rows.radius[row] = grains.motion[k].radius;
+    rows.mass[row] = 1 / grains.motion[k].inverse_mass;
+    std::copy_n(&grains.spin[k].rate.x, 3, rows.spin[row]);
   }
 }
 
@@ -271,6 +272,7 @@ void LammpsSimulation::on_forces(void* self, std::int64_t step, int rows, int* i
 /// step where it is set up anew: nothing then moves on or is remembered.
 void LammpsSimulation::add_forces(std::int64_t step, int rows, const int* ids, double** x, double** force) {
   const bool again = step == done_;
+  now_ = lammps_.rows();
   if (again) state_.bodies.swap(before_);  // where they were at this step
   fault_.clear();
   follow_grains(rows, ids);
@@ -290,13 +292,11 @@ void LammpsSimulation::add_forces(std::int64_t step, int rows, const int* ids, d
 
 /// Gravity, and the checks of each grain's motion. Gives the speed of the fastest [m/s].
 double LammpsSimulation::weigh(int rows, double** x, double** force) {
-  const double* mass = lammps_.mass();
-  double** velocity = lammps_.velocity();
   double fastest = 0;
   for (int row = 0; row < rows; ++row) {
-    const Vec3 weight = mass[row] * state_.gravity, at = vec(x[row]);
+    const Vec3 weight = now_.mass[row] * state_.gravity, at = vec(x[row]);
     std::copy_n(&weight.x, 3, force[row]);
-    const double speed2 = squared(vec(velocity[row]));
+    const double speed2 = squared(vec(now_.velocity[row]));
     if (!(speed2 < 1e30))
       fail(fmt::format("the motion of grain {} is not finite", ids_[static_cast<std::size_t>(row)] - 1));
     else if (!setup_.domain.contains(at))
@@ -310,11 +310,10 @@ double LammpsSimulation::weigh(int rows, double** x, double** force) {
 /// LAMMPS has velocities of whole steps between two steps: here are those of the half step before. It adds the other
 /// half of the step itself.
 void LammpsSimulation::kick(int rows, double** force) const {
-  double **velocity = lammps_.velocity(), **spin = lammps_.spin(), **torque = lammps_.torque();
   const double half = setup_.numerics.dt / 2;
   for (int row = 0; row < rows; ++row) {
-    add(velocity[row], half / lammps_.mass()[row] * vec(force[row]));
-    add(spin[row], half * spin_of(row).inverse_inertia * vec(torque[row]));
+    add(now_.velocity[row], half / now_.mass[row] * vec(force[row]));
+    add(now_.spin[row], half * spin_of(row).inverse_inertia * vec(now_.torque[row]));
   }
 }
 
@@ -383,8 +382,6 @@ void LammpsSimulation::find_near(int rows) {
 
 /// The engine's law for each pair that LAMMPS lists. A pair of two processes is worked out on both, each for its grain.
 void LammpsSimulation::add_pair_forces(int rows, double** force, bool keeps) {
-  double **x = lammps_.position(), **torque = lammps_.torque();
-  const double* radius = lammps_.radius();
   const Lammps::Neighbours pairs = lammps_.neighbours();
   std::span<const int> others;
   pairs_.begin_step();
@@ -395,16 +392,16 @@ void LammpsSimulation::add_pair_forces(int rows, double** force, bool keeps) {
     Load load;
     for (const int marked : others) {
       const int j = marked & Lammps::Neighbours::mask;
-      const Vec3 between = motion.position - vec(x[j]);
-      const double sum = motion.radius + radius[j];
+      const Vec3 between = motion.position - vec(now_.position[j]);
+      const double sum = motion.radius + now_.radius[j];
       if (squared(between) >= sum * sum) {
         pairs_.pass(i, j);
         continue;
       }
       const Load on_other = press_pair(i, {motion, spin}, j, between, keeps, load);
-      if (j < rows) add(force[j], on_other.force), add(torque[j], on_other.torque);
+      if (j < rows) add(force[j], on_other.force), add(now_.torque[j], on_other.torque);
     }
-    add(force[i], load.force), add(torque[i], load.torque);
+    add(force[i], load.force), add(now_.torque[i], load.torque);
   }
   pairs_.end_step();
 }
@@ -413,7 +410,7 @@ void LammpsSimulation::add_pair_forces(int rows, double** force, bool keeps) {
 Load LammpsSimulation::press_pair(int i, const GrainMotion& first, int j, const Vec3& between, bool keeps, Load& load) {
   const Motion motion = motion_of(j);
   const Spin spin = spin_of(j);
-  const int* ids = lammps_.ids();
+  const int* ids = now_.id;
   const double dt = setup_.numerics.dt, smaller = std::min(first.motion.radius, motion.radius);
   const Touch<double> touch = touch_of_grains(first, {motion, spin}, between, dt);
   if (touch.overlap > setup_.numerics.deepest_overlap * smaller)
@@ -433,7 +430,6 @@ Load LammpsSimulation::press_pair(int i, const GrainMotion& first, int j, const 
 void LammpsSimulation::add_surface_forces(double** force, bool keeps) {
   loads_.assign(state_.bodies.size(), {});
   making_.clear(), contacts_.clear();
-  double** torque = lammps_.torque();
   std::array<SurfaceTouch, 8> touches;
   std::size_t old = 0;
   for (const NearSurface& near : near_) {
@@ -449,7 +445,7 @@ void LammpsSimulation::add_surface_forces(double** force, bool keeps) {
                             .adhesion_reach = 0,
                             .before = {made_.data() + begin, old - begin}};
     const int found = find_contacts(at, making_, touches);
-    if (found > 0) press(near, first, found, touches, force[near.grain], torque[near.grain]);
+    if (found > 0) press(near, first, found, touches, force[near.grain], now_.torque[near.grain]);
   }
   if (keeps) made_.swap(making_);
 }
@@ -537,15 +533,15 @@ void LammpsSimulation::move_bodies() {
 }
 
 Motion LammpsSimulation::motion_of(int row) const {
-  return {.position = vec(lammps_.position()[row]),
-          .radius = lammps_.radius()[row],
-          .velocity = vec(lammps_.velocity()[row]),
-          .inverse_mass = 1 / lammps_.mass()[row]};
+  return {.position = vec(now_.position[row]),
+          .radius = now_.radius[row],
+          .velocity = vec(now_.velocity[row]),
+          .inverse_mass = 1 / now_.mass[row]};
 }
 
 Spin LammpsSimulation::spin_of(int row) const {
-  const double radius = lammps_.radius()[row];
-  return {.rate = vec(lammps_.spin()[row]), .inverse_inertia = 2.5 / (lammps_.mass()[row] * radius * radius)};
+  const double radius = now_.radius[row];
+  return {.rate = vec(now_.spin[row]), .inverse_inertia = 2.5 / (now_.mass[row] * radius * radius)};
 }
 
 void LammpsSimulation::fail(const std::string& what) {
@@ -554,29 +550,29 @@ void LammpsSimulation::fail(const std::string& what) {
 
 const Grains& LammpsSimulation::own_grains() const {
   own_ = {};
+  const Lammps::Rows rows = lammps_.rows();
   for (int row = 0; row < lammps_.count(); ++row)
-    own_.add({.id = static_cast<GrainId>(lammps_.ids()[row] - 1),
-              .radius = lammps_.radius()[row],
-              .mass = lammps_.mass()[row],
+    own_.add({.id = static_cast<GrainId>(rows.id[row] - 1),
+              .radius = rows.radius[row],
+              .mass = rows.mass[row],
               .material = grain_material,
-              .position = vec(lammps_.position()[row]),
-              .velocity = vec(lammps_.velocity()[row]),
-              .spin = vec(lammps_.spin()[row])});
+              .position = vec(rows.position[row]),
+              .velocity = vec(rows.velocity[row]),
+              .spin = vec(rows.spin[row])});
   return own_;
 }
 
 LammpsSimulation::PairMeans LammpsSimulation::pair_means() const {
   const Lammps::Neighbours pairs = lammps_.neighbours();
   const int rows = lammps_.count();
-  double** x = lammps_.position();
-  const double* radius = lammps_.radius();
+  const Lammps::Rows now = lammps_.rows();
   std::array<double, 2> sums{};  // contacts, overlaps
   std::span<const int> others;
   for (int k = 0; k < pairs.size(); ++k) {
     const int i = pairs.of(k, others);
     for (const int marked : others) {
       const int j = marked & Lammps::Neighbours::mask;
-      const double overlap = radius[i] + radius[j] - length(vec(x[i]) - vec(x[j]));
+      const double overlap = now.radius[i] + now.radius[j] - length(vec(now.position[i]) - vec(now.position[j]));
       const double share = j < rows ? 1 : 0.5;  // two processes have it
       if (overlap > 0) sums[0] += share, sums[1] += share * overlap;
     }

@@ -127,6 +127,7 @@ class LammpsSimulation {
   State state_;
   LawTable laws_;
   Lammps lammps_;
+  Lammps::Rows now_{};  ///< of this step
   Placed placed_;
   double largest_ = 0;    ///< radius of any grain [m]
   double margin_ = 0;     ///< of the search for surfaces [m]
