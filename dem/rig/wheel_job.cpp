@@ -15,6 +15,8 @@ namespace {
 
 constexpr const char* job_wheel_note = "wheel";
 constexpr const char* job_inputs_note = "inputs";
+fs::path grains_of(const fs::path& job) { return job.parent_path() / "bed.h5"; }
+
 constexpr const char* answer_mark = "soilbin-wheel-answer/1 ";
 
 }  // namespace
@@ -82,11 +84,16 @@ void write_job(const fs::path& file, const WheelOnBed& on, const OperatingCondit
                .inputs = {}};
   NoteWriter writer;
   writer(job);
-  write_restart(file, run_setup(on, 1), on.bed.state, {{job_wheel_note, writer.text()}, {job_inputs_note, inputs}},
+  const Setup setup = run_setup(on, 1);
+  State without_grains;
+  without_grains.step = on.bed.state.step, without_grains.time = on.bed.state.time;
+  without_grains.gravity = on.bed.state.gravity, without_grains.bodies = on.bed.state.bodies;
+  write_restart(grains_of(file), setup, on.bed.state, {}, Keep::nothing);
+  write_restart(file, setup, without_grains, {{job_wheel_note, writer.text()}, {job_inputs_note, inputs}},
                 Keep::nothing);
 }
 
-WheelJob read_job(const fs::path& file) {
+WheelJob read_job(const fs::path& file, WithGrains grains) {
   Restart restart = read_restart(file);
   WheelJob job{};
   NoteReader reader(file.string(), restart.notes[job_wheel_note]);
@@ -95,6 +102,7 @@ WheelJob read_job(const fs::path& file) {
   job.inputs = restart.notes[job_inputs_note];
   job.setup = restart.setup;
   job.bed.setup = std::move(restart.setup), job.bed.state = std::move(restart.state);
+  if (grains == WithGrains::yes) job.bed.state = read_restart(grains_of(file)).state;
   return job;
 }
 

@@ -28,11 +28,13 @@ struct WheelJob {
   WheelOnBed wheel() const { return {bed, tire, contact, rig}; }
 };
 
-/// Throws std::runtime_error where the disk refuses.
+/// The bed's grains go to a file of their own, bed.h5 beside it. Throws std::runtime_error where the disk refuses.
 void write_job(const std::filesystem::path& file, const WheelOnBed& on, const OperatingCondition& at,
                const std::string& inputs);
+/// Whether the bed's grains are read too, or the state holds all but them.
+enum class WithGrains { yes, no };
 /// Throws InputError for a file that can't be read, is damaged or holds something else.
-WheelJob read_job(const std::filesystem::path& file);
+WheelJob read_job(const std::filesystem::path& file, WithGrains grains = WithGrains::yes);
 
 /// Keeps what a run measured: samples, flow, rut, surface, density of the bed; the rest follows (summarise).
 void write_answer(const std::filesystem::path& file, const WheelRun& run);

@@ -48,19 +48,21 @@ namespace {
 
 constexpr std::int64_t between_logs = 1000;  // steps after which LAMMPS's log begins anew: it has some lines a step
 
-void check(const Setup& setup, const State& begin) {
-  if (begin.grains.count() == 0) throw InputError("LAMMPS needs grains: there are none");
+/// Why LAMMPS can't take this over; "" where it can.
+std::string fault_of(const Setup& setup, const State& begin) {
+  if (begin.grains.count() == 0) return "LAMMPS needs grains: there are none";
   const auto& periodic = setup.domain.periodic;
-  if (periodic[0] || periodic[1] || periodic[2]) throw InputError("a bin in LAMMPS has no periodic sides");
+  if (periodic[0] || periodic[1] || periodic[2]) return "a bin in LAMMPS has no periodic sides";
   for (std::size_t k = 0; k < begin.grains.count(); ++k)
     if (begin.grains.motion[k].held() || begin.grains.material[k] != grain_material)
-      throw InputError("grains in LAMMPS are free and of one material");
+      return "grains in LAMMPS are free and of one material";
   if (!begin.new_grains.empty() && begin.new_grains.size() != begin.grains.count())
-    throw InputError("grains in LAMMPS all begin at a whole step, or at the half step before");
+    return "grains in LAMMPS all begin at a whole step, or at the half step before";
   if (setup.laws.cohesion == CohesionLaw::jkr)
-    throw InputError(
-        "LAMMPS lists no pairs of grains that adhere beyond their contact (jkr)\n  hint: linear cohesion, or --engine "
-        "soilbin");
+    return "LAMMPS lists no pairs of grains that adhere beyond their contact (jkr)\n  hint: linear cohesion, or "
+           "--engine "
+           "soilbin";
+  return "";
 }
 
 Vec3 vec(const double* a) { return {a[0], a[1], a[2]}; }
@@ -94,6 +96,32 @@ std::vector<T> gathered(MPI_Comm world, const std::vector<T>& mine) {
   return all;
 }
 
+/// Hands a list of the first process to all, in parts that have room everywhere.
+template <class T, class Visit>
+void in_parts(MPI_Comm world, const std::vector<T>& of_first, const Visit& visit) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  constexpr std::size_t most = 100'000;
+  int rank = 0;
+  MPI_Comm_rank(world, &rank);
+  std::uint64_t total = of_first.size();
+  MPI_Bcast(&total, 1, MPI_UINT64_T, 0, world);
+  for (std::size_t from = 0; from < total; from += most) {
+    std::vector<T> part(std::min<std::size_t>(most, total - from));
+    if (rank == 0) std::copy_n(of_first.begin() + static_cast<std::ptrdiff_t>(from), part.size(), part.begin());
+    MPI_Bcast(part.data(), static_cast<int>(part.size() * sizeof(T)), MPI_BYTE, 0, world);
+    visit(part);
+  }
+}
+
+/// What all processes must know of the state that the first one has.
+struct Beginning {
+  double largest = 0, time = 0;
+  Vec3 gravity;
+  std::int64_t step = 0, grains = 0;
+  std::uint32_t next_id = 0;
+  bool at_half_steps = false;
+};
+
 const FileKind pairs_kind{"contacts", 1, "contacts of pairs follow at byte 512: dem/worker_lammps/pair_memory.hpp"};
 
 std::filesystem::path contacts_file(const std::string& grains, int rank) {
@@ -105,14 +133,22 @@ std::filesystem::path contacts_file(const std::string& grains, int rank) {
 /// What both ways of beginning have in common, up to the box.
 LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, std::string log, const State& begin)
     : world_(world), setup_(std::move(setup)), log_(std::move(log)), lammps_(world, log_) {
-  check(setup_, begin);
   MPI_Comm_rank(world_, &rank_);
-  state_.gravity = begin.gravity, state_.time = begin.time, state_.step = begin.step;
-  here_.resize(begin.next_id + std::size_t{1});
-  largest_ = begin.grains.largest_radius();
+  if (const std::string fault = fault_of_any(world_, rank_ == 0 ? fault_of(setup_, begin) : ""); !fault.empty())
+    throw InputError(fault);
+  Beginning first{begin.grains.largest_radius(),
+                  begin.time,
+                  begin.gravity,
+                  begin.step,
+                  static_cast<std::int64_t>(begin.grains.count()),
+                  begin.next_id,
+                  begin.new_grains.empty()};
+  MPI_Bcast(&first, sizeof(first), MPI_BYTE, 0, world_);
+  state_.gravity = first.gravity, state_.time = first.time, state_.step = first.step;
+  largest_ = first.largest, all_grains_ = first.grains, at_half_steps_ = first.at_half_steps;
+  here_.resize(first.next_id + std::size_t{1});
   laws_.fill(setup_.materials, setup_.laws, largest_);
   margin_ = setup_.numerics.skin > 0 ? setup_.numerics.skin : 0.2 * largest_;
-  all_grains_ = static_cast<std::int64_t>(begin.grains.count());
   lammps_.command("units si");
   lammps_.command("atom_style sphere");
   lammps_.command("newton off");
@@ -129,26 +165,45 @@ LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& beg
   lammps_.command(fmt::format("region box block {} {} {} {} {} {}", low.x, high.x, low.y, high.y, low.z, high.z));
   lammps_.command("create_box 1 box");
   put_in(begin.grains);
-  at_half_steps_ = begin.new_grains.empty();
   write_commands();
   for (const Body& body : begin.bodies) add_body(body);
   take_contacts(begin);
 }
 
-/// What the engine's contacts remember, all on each process: the first step leaves each with its grains.
+/// What the first process's engine remembers of contacts goes to those that have the grains.
 void LammpsSimulation::take_contacts(const State& begin) {
   const Grains& grains = begin.grains;
   const auto id_of = [&](std::uint32_t row) { return static_cast<int>(grains.id[row]) + 1; };
+  std::vector<LammpsTravelling> on_surfaces;
+  std::vector<PairContact> of_pairs;
   for (const SurfaceContacts& slab : begin.surfaces)
-    for (const SurfaceContact& contact : slab.made) arriving_.push_back({id_of(contact.who.grain), contact});
+    for (const SurfaceContact& contact : slab.made) on_surfaces.push_back({id_of(contact.who.grain), contact});
   const PairList& pairs = begin.pairs;
   for (std::size_t pair = 0; pair < pairs.first.size(); ++pair) {
     if (!pairs.touches(pair) || pairs.first[pair] >= grains.count() || pairs.second[pair] >= grains.count()) continue;
     const auto kept = [&](int what) { return pairs.remembered(pair, what); };
-    arriving_pairs_.push_back({.first = id_of(pairs.first[pair]),
-                               .second = id_of(pairs.second[pair]),
-                               .memory = {{kept(0), kept(1), kept(2)}, {kept(3), kept(4), kept(5)}}});
+    of_pairs.push_back({.first = id_of(pairs.first[pair]),
+                        .second = id_of(pairs.second[pair]),
+                        .memory = {{kept(0), kept(1), kept(2)}, {kept(3), kept(4), kept(5)}}});
   }
+  note_who_is_here();
+  in_parts(world_, on_surfaces, [&](const std::vector<LammpsTravelling>& part) {
+    for (const LammpsTravelling& one : part)
+      if (is_here(one.id)) arriving_.push_back(one);
+  });
+  in_parts(world_, of_pairs, [&](const std::vector<PairContact>& part) { take_pairs(part); });
+}
+
+void LammpsSimulation::note_who_is_here() {
+  std::fill(here_.begin(), here_.end(), false);
+  const Lammps::Rows rows = lammps_.rows();
+  for (int row = 0; row < lammps_.count(); ++row) here_[static_cast<std::size_t>(rows.id[row])] = true;
+}
+
+/// Those of this process's grains, for its next step.
+void LammpsSimulation::take_pairs(const std::vector<PairContact>& contacts) {
+  for (const PairContact& contact : contacts)
+    if (is_here(contact.first) || is_here(contact.second)) pairs_.take(contact);
 }
 
 LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log,
@@ -162,7 +217,10 @@ LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& beg
   NoteReader reader("LAMMPS's run", notes);
   keep_in(reader);
   reader.end();
+  note_who_is_here();
   for (int rank = 0; rank < ranks_that_wrote_; ++rank) read_pairs(contacts_file(grains, rank));
+  std::erase_if(arriving_, [&](const LammpsTravelling& one) { return !is_here(one.id); });
+  at_half_steps_ = false;
   for (Body& body : state_.bodies) get_ready(body);
   for (Body& body : before_) get_ready(body);
 }
@@ -193,7 +251,7 @@ void LammpsSimulation::read_pairs(const std::filesystem::path& file) {
   const SealedFile sealed(file, pairs_kind);
   std::vector<PairContact> all(sealed.content().size() / sizeof(PairContact));
   std::memcpy(all.data(), sealed.content().data(), all.size() * sizeof(PairContact));
-  arriving_pairs_.insert(arriving_pairs_.end(), all.begin(), all.end());
+  take_pairs(all);
 }
 
 /// Of all processes, by grain.
@@ -203,23 +261,35 @@ std::vector<LammpsTravelling> LammpsSimulation::all_contacts() const {
   return gathered(world_, mine);
 }
 
+/// The first process's, on those in whose part of the box they lie.
 void LammpsSimulation::put_in(const Grains& grains) const {
-  std::vector<int> ids;
-  std::vector<Vec3> positions, velocities;
-  std::unordered_map<int, std::size_t> row_of;
-  for (std::size_t k = 0; k < grains.count(); ++k) {
-    ids.push_back(static_cast<int>(grains.id[k]) + 1);
-    row_of[ids.back()] = k;
-    positions.push_back(grains.motion[k].position), velocities.push_back(grains.motion[k].velocity);
-  }
-  lammps_.add_grains(ids, positions, velocities);
-  const Lammps::Rows rows = lammps_.rows();
-  for (int row = 0; row < lammps_.count(); ++row) {
-    const std::size_t k = row_of.at(rows.id[row]);
-    rows.radius[row] = grains.motion[k].radius;
-    rows.mass[row] = 1 / grains.motion[k].inverse_mass;
-    std::copy_n(&grains.spin[k].rate.x, 3, rows.spin[row]);
-  }
+  std::vector<NewGrain> all;
+  for (std::size_t k = 0; k < grains.count(); ++k)
+    all.push_back({.id = grains.id[k],
+                   .radius = grains.motion[k].radius,
+                   .mass = 1 / grains.motion[k].inverse_mass,
+                   .material = grain_material,
+                   .position = grains.motion[k].position,
+                   .velocity = grains.motion[k].velocity,
+                   .spin = grains.spin[k].rate});
+  in_parts(world_, all, [&](const std::vector<NewGrain>& part) {
+    std::vector<int> ids;
+    std::vector<Vec3> positions, velocities;
+    std::unordered_map<int, const NewGrain*> by_id;
+    for (const NewGrain& grain : part) {
+      ids.push_back(static_cast<int>(grain.id) + 1);
+      positions.push_back(grain.position), velocities.push_back(grain.velocity);
+      by_id[ids.back()] = &grain;
+    }
+    const int before = lammps_.count();
+    lammps_.add_grains(ids, positions, velocities);
+    const Lammps::Rows rows = lammps_.rows();
+    for (int row = before; row < lammps_.count(); ++row) {
+      const NewGrain& grain = *by_id.at(rows.id[row]);
+      rows.radius[row] = grain.radius, rows.mass[row] = grain.mass;
+      std::copy_n(&grain.spin.x, 3, rows.spin[row]);
+    }
+  });
 }
 
 void LammpsSimulation::write_commands() const {
@@ -328,7 +398,7 @@ void LammpsSimulation::follow_grains(int rows, const int* ids) {
   made_.clear();
   take_over(all, rows, ids);  // leaves those whose grain is elsewhere now
   take_over(arriving_, rows, ids);
-  arriving_.clear();  // each process had them all
+  arriving_.clear();
   std::vector<LammpsTravelling> others = gathered(world_, all);
   take_over(others, rows, ids);
   std::stable_sort(made_.begin(), made_.end(), comes_first);
@@ -343,14 +413,11 @@ void LammpsSimulation::follow_pairs(const std::vector<bool>& were_here) {
     const auto at = static_cast<std::size_t>(id);
     return were_here[at] && !here_[at];
   };
-  const auto is_here = [&](int id) { return here_[static_cast<std::size_t>(id)]; };
   std::vector<PairContact> leaving;
   for (const PairContact& contact : pairs_.contacts())
     if (left(contact.first) || left(contact.second)) leaving.push_back(contact);
   pairs_.forget_order();
-  for (const std::vector<PairContact>& from : {gathered(world_, leaving), std::exchange(arriving_pairs_, {})})
-    for (const PairContact& contact : from)
-      if (is_here(contact.first) || is_here(contact.second)) pairs_.take(contact);
+  take_pairs(gathered(world_, leaving));
 }
 
 /// Moves to made_ those of the contacts whose grains this process has.
@@ -493,15 +560,8 @@ void LammpsSimulation::join_loads(int rows) {
     state_.bodies[b].force = vec(&numbers[2 + 6 * b]);
     state_.bodies[b].torque = vec(&numbers[5 + 6 * b]);
   }
-  if (numbers[1] > 0) {  // the lowest of those who found one says it
-    int size = 0;
-    MPI_Comm_size(world_, &size);
-    int who = fault_.empty() ? size : rank_;
-    MPI_Allreduce(MPI_IN_PLACE, &who, 1, MPI_INT, MPI_MIN, world_);
-    std::array<char, 400> words{};
-    fault_.copy(words.data(), words.size() - 1);
-    MPI_Bcast(words.data(), static_cast<int>(words.size()), MPI_CHAR, who, world_);
-    stopped_ = fmt::format("{}, time {:.6g} s, step {}, on rank {}", words.data(), state_.time, state_.step, who);
+  if (numbers[1] > 0) {
+    stopped_ = fmt::format("{}, time {:.6g} s, step {}", fault_of_any(world_, fault_), state_.time, state_.step);
   } else if (static_cast<std::int64_t>(numbers[0]) != all_grains_) {
     name_lost_grain();
   }
@@ -585,6 +645,18 @@ double LammpsSimulation::memory_a_grain() const {
   double bytes = 1e6 * lammps_.memory() + 2.0 * static_cast<double>(pairs_.contacts().capacity() * sizeof(PairContact));
   sum_up(world_, {&bytes, 1});
   return bytes / grain_count();
+}
+
+std::string fault_of_any(MPI_Comm world, const std::string& mine) {
+  int rank = 0, size = 0;
+  MPI_Comm_rank(world, &rank), MPI_Comm_size(world, &size);
+  int who = mine.empty() ? size : rank;
+  MPI_Allreduce(MPI_IN_PLACE, &who, 1, MPI_INT, MPI_MIN, world);
+  if (who == size) return "";
+  std::array<char, 1000> words{};
+  mine.copy(words.data(), words.size() - 1);
+  MPI_Bcast(words.data(), static_cast<int>(words.size()), MPI_CHAR, who, world);
+  return words.data();
 }
 
 void join_largest(const LammpsSimulation& simulation, std::span<double> numbers) {

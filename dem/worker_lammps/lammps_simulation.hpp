@@ -1,6 +1,6 @@
 // The grains of a run in LAMMPS, over MPI, with the engine's own surfaces: what Simulation is for one process.
 //
-//   LammpsSimulation simulation(MPI_COMM_WORLD, setup, bed.state);   // the same on each process
+//   LammpsSimulation simulation(MPI_COMM_WORLD, setup, bed.state);   // the first process has the bed
 //   simulation.run(1000);
 //   const int wheel = simulation.add_body(body);                     // an index, as in the engine
 //   simulation.body(wheel).velocity.x = 0.3;
@@ -42,10 +42,10 @@ struct LammpsTravelling {
 
 class LammpsSimulation {
  public:
-  /// Goes on with the engine's state, the same on each process of `world`: grains, bodies, and what contacts remember.
-  /// Throws InputError for jkr, held grains, periodic sides, a second material of grains, and where some grains alone
-  /// were added since the last step.
-  /// `log`: file that gets LAMMPS's own words of the last thousand steps, so that what ends the process is found there.
+  /// Goes on with the engine's state: grains and what contacts remember are those that the first process of `world`
+  /// has, bodies each one's own. Throws InputError for jkr, held grains, periodic sides, a second material of grains,
+  /// and where some grains alone were added since the last step. `log`: file that gets LAMMPS's own words of the last
+  /// thousand steps, so that what ends the process is found there.
   LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log = "");
   /// Goes on from what write_grains and notes() kept, on any number of processes. `begin`: what the run began with;
   /// `added`: the bodies added since, whose surfaces are taken. Velocities go through the disk at whole steps and
@@ -101,6 +101,9 @@ class LammpsSimulation {
   void write_commands() const;
   void put_in(const Grains& grains) const;
   void take_contacts(const State& begin);
+  void take_pairs(const std::vector<PairContact>& contacts);
+  void note_who_is_here();
+  bool is_here(int id) const { return here_[static_cast<std::size_t>(id)]; }
   void read_pairs(const std::filesystem::path& file);
   double weigh(int rows, double** x, double** force);
   void follow_grains(int rows, const int* ids);
@@ -136,9 +139,7 @@ class LammpsSimulation {
   std::vector<SurfaceContact> made_, making_;
   PairMemory pairs_;
   std::vector<bool> here_;  ///< by LAMMPS's id: whether the grain is this process's, at the last listing
-  // Of what the run begins with or goes on from, each on every process.
-  std::vector<LammpsTravelling> arriving_;
-  std::vector<PairContact> arriving_pairs_;
+  std::vector<LammpsTravelling> arriving_;  ///< of what the run begins with or goes on from
   int ranks_that_wrote_ = 0;
   std::vector<Body> before_;     ///< bodies as the last forces saw them
   std::vector<BodyLoad> loads_;  ///< of this process's grains on each body
@@ -153,6 +154,9 @@ class LammpsSimulation {
   std::string stopped_;         ///< why the run can't go on, the same on all
   mutable Grains own_;
 };
+
+/// What the first of the processes that found a fault says of it; "" where none did. All call it.
+std::string fault_of_any(MPI_Comm world, const std::string& mine);
 
 // What dem/rig/shares.hpp asks for.
 inline const Grains& own_grains(const LammpsSimulation& simulation) { return simulation.own_grains(); }

@@ -61,6 +61,20 @@ void print_line(const std::string& line) {
   std::fflush(stdout);
 }
 
+/// The first process alone takes the grains.
+dem::WheelJob read_job(const fs::path& folder, bool first) {
+  dem::WheelJob job;
+  std::string fault;
+  try {
+    job = dem::read_job(folder / "job.h5", first ? dem::WithGrains::yes : dem::WithGrains::no);
+  } catch (const InputError& error) {
+    fault = error.what();
+  }
+  fault = dem::fault_of_any(MPI_COMM_WORLD, fault);
+  if (!fault.empty()) throw InputError(fault);
+  return job;
+}
+
 /// The same on all processes, but the first writes.
 int make_run(const fs::path& folder, bool writes, const std::stop_token& stop) {
   const auto fail = [&](const char* kind, const std::exception& error) {
@@ -68,7 +82,7 @@ int make_run(const fs::path& folder, bool writes, const std::stop_token& stop) {
     return failed;
   };
   try {
-    const dem::WheelJob job = dem::read_job(folder / "job.h5");
+    const dem::WheelJob job = read_job(folder, writes);
     const dem::WheelOnBed wheel = job.wheel();
     const dem::WorkOptions how{.threads = 1, .progress = print_progress, .stop = stop, .tell = print_line};
     dem::Ride<dem::LammpsRun> ride(wheel, job.at, [&] { return dem::LammpsRun(MPI_COMM_WORLD, job, how, folder); });

@@ -151,7 +151,7 @@ TEST(LammpsGrains, RollOnMeshAndFloorAsInTheEngine) {
   const int index = engine.add_body(wheel);
   ASSERT_EQ(lammps.add_body(wheel), index);
   double pressed = 0;
-  for (int k = 0; k < 300; ++k) {
+  for (int k = 0; k < 150; ++k) {
     engine.run(100), lammps.run(k == 0 ? 99 : 100);  // LAMMPS has computed the forces of its first step before it moves
     const Body &here = engine.body(index), &there = lammps.body(index);
     pressed = std::max(pressed, length(here.force));
