@@ -49,6 +49,13 @@ void keep_model(Case& question, const std::string& name) {
   question.study.models = std::move(kept);
 }
 
+/// Answers by LAMMPS carry its name.
+void name_engine(Case& question, const std::string& engine) {
+  if (engine != "lammps") return;
+  for (ModelChoice& choice : question.study.models)
+    if (choice.model == ModelKind::dem) choice.label = "dem-lammps";
+}
+
 /// A record answers beside the study's own models.
 void add_dem(Case& question) {
   for (const ModelChoice& choice : question.study.models)
@@ -182,6 +189,7 @@ int run(RunOptions options, const Session& session) {
   options.errors.apply(question.scenario.soil);
   keep_model(question, options.model);
   if (!options.soil_bin.recorded.empty() && options.model.empty()) add_dem(question);
+  name_engine(question, options.soil_bin.engine);
   if (options.converge) {
     options.conditions.pick(question.study, question.scenario.tire);
     return converge(options, question, session);
@@ -260,6 +268,7 @@ void add_run(CLI::App& app, Session& session) {
   options->errors.add_to(*command);
   options->soil_bin.add_to(*command);
   options->soil_bin.add_half_step_to(*command);
+  options->soil_bin.add_engine_to(*command);
   command
       ->add_flag("--dry-run", options->dry_run,
                  "make nothing; list the runs, which are recorded, and what the others will cost")

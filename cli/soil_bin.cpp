@@ -122,6 +122,19 @@ void check_threads(int threads) {
     throw InputError(fmt::format("--threads: 0 (one a core) .. {}", dem::most_threads()));
 }
 
+/// Of --engine and --ranks. The program lies beside this one; SOILBIN_MPIRUN says what starts it.
+std::optional<dem::LammpsWorker> lammps_of(const SoilBinFlags& flags) {
+  if (flags.engine != "lammps") {
+    if (flags.ranks != 1) throw InputError("--ranks is for grains in LAMMPS\n  hint: --engine lammps, or --threads");
+    return std::nullopt;
+  }
+  if (flags.ranks < 1) throw InputError("--ranks: 1 or more");
+  dem::LammpsWorker worker{.ranks = flags.ranks,
+                           .program = fs::read_symlink("/proc/self/exe").parent_path() / "soilbin-lammps"};
+  if (const char* launcher = std::getenv("SOILBIN_MPIRUN")) worker.launcher = launcher;
+  return worker;
+}
+
 dem::DemSettings settings_of(const SoilBinFlags& flags) {
   dem::DemSettings settings;
   const auto set = [&](const SettingFlag& one) {
@@ -140,6 +153,7 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   settings.how.tell = tell_beside_progress;
   settings.checkpoints.restart = settings.beds;
   settings.checkpoints.tell = tell_beside_progress;
+  settings.lammps = lammps_of(flags);
   return settings;
 }
 
@@ -189,6 +203,18 @@ void SoilBinFlags::add_half_step_to(CLI::App& command) {
       ->group(grains_heading)
       ->type_name("yes|no")
       ->check(CLI::IsMember({"yes", "no"}));
+}
+
+void SoilBinFlags::add_engine_to(CLI::App& command) {
+  command
+      .add_option(
+          "--engine", engine,
+          "who moves the grains under the wheel: soilbin, or LAMMPS over MPI, for beds that fit no workstation; "
+          "soilbin")
+      ->type_name("soilbin|lammps")
+      ->group(grains_heading)
+      ->check(CLI::IsMember({"soilbin", "lammps"}));
+  command.add_option("--ranks", ranks, "number of processes of LAMMPS; 1")->type_name("N")->group(grains_heading);
 }
 
 void SoilBinFlags::add_shard_to(CLI::App& command) {

@@ -27,7 +27,7 @@ endforeach()
 foreach(floor IN LISTS floors)
   # Headers are included as in the project itself, "scenario/tire.hpp", from a folder of soilbin's own.
   install(DIRECTORY ${floor} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/soilbin COMPONENT development
-    FILES_MATCHING PATTERN "*.hpp")
+    FILES_MATCHING PATTERN "*.hpp" PATTERN worker_lammps EXCLUDE)  # a program's own, and MPI's
 endforeach()
 install(EXPORT soilbin NAMESPACE soilbin:: DESTINATION ${package_folder} FILE soilbin-targets.cmake COMPONENT development)
 

@@ -198,8 +198,8 @@ void make_runs(const std::vector<AskedRun>& list, const dem::DemSettings& settin
 
 std::unique_ptr<const Model> soil_bin_model(const dem::DemSettings& settings, int packings, RunOnce run,
                                             RunListener on_run) {
-  return std::make_unique<const RunOnPackings>("dem", packings_from(settings, packings), std::move(run),
-                                               std::move(on_run));
+  return std::make_unique<const RunOnPackings>(dem::model_name(settings), packings_from(settings, packings),
+                                               std::move(run), std::move(on_run));
 }
 
 std::unique_ptr<const Model> recorded_soil_bin(Record record, const Scenario& scenario,
@@ -242,7 +242,7 @@ nlohmann::ordered_json to_json(const dem::StepCriteria& step) {
 RunOnce kept_runs(const RunKeeping& keeping, const dem::DemSettings& settings, const Case& question,
                   const EffectVocabulary& effects, RunOnce run, RunList list) {
   Record empty{.soilbin = keeping.version,
-               .model = "dem",
+               .model = dem::model_name(settings),
                .question = write_case(question, effects),
                .inputs = inputs_of(settings, question.scenario),
                .runs = {},
@@ -251,7 +251,9 @@ RunOnce kept_runs(const RunKeeping& keeping, const dem::DemSettings& settings, c
 }
 
 Inputs inputs_of(const dem::DemSettings& settings, const Scenario& scenario) {
-  return dem::run_inputs(dem::DemModel(settings).recipe(scenario), scenario.tire, settings.rig);
+  Inputs inputs = dem::run_inputs(dem::DemModel(settings).recipe(scenario), scenario.tire, settings.rig);
+  if (settings.lammps) inputs.emplace_back("engine", "lammps");  // on how many processes changes no more than chance
+  return inputs;
 }
 
 }  // namespace soilbin::compare

@@ -22,9 +22,8 @@ constexpr std::size_t header_bytes = 512;  // where HDF5 looks for its own begin
 constexpr std::string_view programme = "soilbin ";
 
 std::string header_of(const FileKind& kind, std::string_view content) {
-  std::string text = fmt::format(
-      "{}{} {}\nbytes {}\nfnv1a {:016x}\nHDF5 follows at byte {}, layout in docs/reference/dem-archive.md\n", programme,
-      kind.name, kind.version, content.size(), fnv1a(content), header_bytes);
+  std::string text = fmt::format("{}{} {}\nbytes {}\nfnv1a {:016x}\n{}\n", programme, kind.name, kind.version,
+                                 content.size(), fnv1a(content), kind.content);
   text.resize(header_bytes, '\n');
   return text;
 }

@@ -10,8 +10,9 @@ namespace soilbin::dem {
 
 /// What a sealed file holds, and the version of its layout.
 struct FileKind {
-  std::string name;
+  std::string name;  ///< of letters a .. z
   int version;
+  std::string content = "HDF5 follows at byte 512, layout in docs/reference/dem-archive.md";  ///< for people
 };
 
 /// Beside the file: where the last one but one is kept.

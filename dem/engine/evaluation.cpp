@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dem/engine/pair_touch.hpp"
 #include "dem/engine/world.hpp"
 
 namespace soilbin::dem {
@@ -19,23 +20,6 @@ struct Evaluated {
   Memory<double> memory;
   Response<double> does;
 };
-
-Touch<double> touch_of(const Grains& grains, std::uint32_t i, std::uint32_t j, const Vec3& between, double dt) {
-  const Motion &a = grains.motion[i], &b = grains.motion[j];
-  const Spin &wa = grains.spin[i], &wb = grains.spin[j];
-  const Vec3 normal = unit(between);
-  const double overlap = a.radius + b.radius - length(between);
-  const Vec3 turn = (a.radius - overlap / 2) * wa.rate + (b.radius - overlap / 2) * wb.rate;
-  return {.normal = triple(normal),
-          .overlap = overlap,
-          .radius = a.radius * b.radius / (a.radius + b.radius),
-          .mass = 1 / (a.inverse_mass + b.inverse_mass),
-          .velocity = triple(a.velocity - b.velocity - cross(turn, normal)),
-          .rotation = triple(wa.rate - wb.rate),
-          .inertia = 1 / (wa.inverse_inertia + wb.inverse_inertia),
-          .turning = 0.5 * dot(wa.rate + wb.rate, normal),
-          .before = triple(unit(between - dt * (a.velocity - b.velocity)))};
-}
 
 Memory<double> memory_of(const PairList& pairs, std::size_t pair) {
   return {{pairs.remembered(pair, 0), pairs.remembered(pair, 1), pairs.remembered(pair, 2)},
@@ -61,7 +45,7 @@ void for_each_pair_contact(const World& world, const Visit& visit) {
                 .point = {},
                 .arm_second = 0,
                 .constants = world.laws[world.kind(i, j)],
-                .touch = touch_of(s.grains, i, j, between, dt),
+                .touch = touch_of_grains({a, s.grains.spin[i]}, {b, s.grains.spin[j]}, between, dt),
                 .memory = memory_of(s.pairs, pair),
                 .does = {}};
     const bool adheres = setup.laws.cohesion == CohesionLaw::jkr && s.pairs.touches(pair) &&

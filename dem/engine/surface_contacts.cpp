@@ -67,16 +67,19 @@ PlacedSurface place(const Body& body, const Surface& surface) {
 
 }  // namespace
 
+void add_near(std::span<const Body> bodies, const Motion& grain, std::uint32_t row, double margin,
+              std::vector<NearSurface>& near) {
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (std::size_t s = 0; s < bodies[b].surfaces.size(); ++s)
+      if (is_near(bodies[b], bodies[b].surfaces[s], grain, margin))
+        near.push_back({row, static_cast<std::uint16_t>(b), static_cast<std::uint16_t>(s)});
+}
+
 std::vector<NearSurface> find_near(std::span<const Body> bodies, const Grains& grains, std::uint32_t first,
                                    std::uint32_t last, double margin) {
   std::vector<NearSurface> near;
-  for (std::uint32_t grain = first; grain < last; ++grain) {
-    if (grains.motion[grain].held()) continue;
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-      for (std::size_t s = 0; s < bodies[b].surfaces.size(); ++s)
-        if (is_near(bodies[b], bodies[b].surfaces[s], grains.motion[grain], margin))
-          near.push_back({grain, static_cast<std::uint16_t>(b), static_cast<std::uint16_t>(s)});
-  }
+  for (std::uint32_t grain = first; grain < last; ++grain)
+    if (!grains.motion[grain].held()) add_near(bodies, grains.motion[grain], grain, margin, near);
   return near;
 }
 

@@ -63,6 +63,10 @@ struct SurfaceTouch {
 std::vector<NearSurface> find_near(std::span<const Body> bodies, const Grains& grains, std::uint32_t first,
                                    std::uint32_t last, double margin);
 
+/// Adds to `near` the surfaces that one grain, of this row, comes within `margin` of.
+void add_near(std::span<const Body> bodies, const Motion& grain, std::uint32_t row, double margin,
+              std::vector<NearSurface>& near);
+
 /// A grain near a surface, and what its contacts there follow from.
 struct GrainOnSurface {
   const NearSurface& who;
@@ -81,6 +85,16 @@ int find_contacts(const GrainOnSurface& at, std::vector<SurfaceContact>& made, s
 
 /// What contact_response needs to know of it.
 Touch<double> touch_of(const Body& body, const SurfaceTouch& at, const Motion& grain, const Spin& spin);
+
+/// Adds what a contact does to the loads of its grain and of its body, which is at `centre`; force and couple on the
+/// grain.
+inline void add_loads(const SurfaceTouch& at, double radius, const Vec3& force, const Vec3& couple, const Vec3& centre,
+                      Load& on_grain, BodyLoad& on_body) {
+  on_grain.force += force;
+  on_grain.torque += couple - (radius - at.overlap / 2) * cross(at.normal, force);
+  on_body.force -= force;
+  on_body.torque -= couple + cross(at.point - centre, force);
+}
 
 /// Where each surface of each body is now, body by body.
 class Placed {

@@ -10,7 +10,7 @@ namespace {
 /// Contacts of one slab on their way through the law.
 struct TouchWork {
   TouchBatch batch{};
-  std::array<Vec3, batch_size> points;
+  std::array<SurfaceTouch, batch_size> touches;
   int count = 0;
 
   void add(const Touch<double>& touch, const Memory<double>& memory, const Motion& grain, const Spin& spin);
@@ -50,12 +50,8 @@ void add_touch(World& world, int slab, const TouchWork& work, int k, SurfaceCont
     taking.slide += column_of(batch.slide, k);
     taking.couple += couple;
   }
-  Load& load = s.grains.load[who.grain];
-  load.force += force;
-  load.torque += couple - (batch.radius[k] - batch.overlap[k] / 2) * cross(contact.normal, force);
-  BodyLoad& on_body = s.body_loads[slab * s.bodies.size() + who.body];
-  on_body.force -= force;
-  on_body.torque -= couple + cross(work.points[k] - s.bodies[who.body].position, force);
+  add_loads(work.touches[k], batch.radius[k], force, couple, s.bodies[who.body].position, s.grains.load[who.grain],
+            s.body_loads[slab * s.bodies.size() + who.body]);
 }
 
 /// The law for a batch: the last work.count contacts of `made`.
@@ -102,7 +98,7 @@ void surface_forces(World& world, int slab) {
       if (touches[k].overlap > deepest * grain.radius) world.found[slab].too_deep = true;
       work.add(touch_of(s.bodies[near.body], touches[k], grain, spin), made[first + k].memory, grain, spin);
       work.batch.kind[work.count] = static_cast<std::uint8_t>(kind);
-      work.points[work.count++] = touches[k].point;
+      work.touches[work.count++] = touches[k];
       if (work.count == batch_size) press_batch(world, slab, work, {made.data(), first + k + 1});
     }
   }

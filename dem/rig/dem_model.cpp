@@ -40,7 +40,9 @@ TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondi
   };
   WheelRun run;
   try {
-    run = run_wheel({*bed, scenario.tire, contact, settings_.rig}, at, settings_.how, kept);
+    const WheelOnBed on{*bed, scenario.tire, contact, settings_.rig};
+    run = settings_.lammps ? run_in_lammps(*settings_.lammps, on, at, settings_.how, kept)
+                           : run_wheel(on, at, settings_.how, kept);
   } catch (const NoSolution&) {
     finished();
     throw;
@@ -60,6 +62,7 @@ TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondi
 
 GrainDriveRecord DemModel::drive(const Scenario& scenario, const Drive& drive, int samples) const {
   check_drive(drive);
+  if (settings_.lammps) throw InputError("a wheel that is free along the bin is driven by the engine alone");
   const auto bed = beds_.bed(recipe(scenario), settings_.how);
   return drive_freely({*bed, scenario.tire, scenario.soil.granular->grain_tire, settings_.rig}, drive, samples,
                       settings_.how, checkpoints_of(scenario, drive, samples));

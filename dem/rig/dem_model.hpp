@@ -6,6 +6,7 @@
 
 #include "dem/bed/bed_store.hpp"
 #include "dem/rig/free_drive.hpp"
+#include "dem/rig/lammps_worker.hpp"
 #include "dem/rig/wheel_run.hpp"
 #include "scenario/scenario.hpp"
 
@@ -26,15 +27,21 @@ struct DemSettings {
   /// A finished run's restart goes when evaluate returns; false: it stays until whoever has put the answer where it is
   /// safe calls forget.
   bool forget_finished = true;
+  /// Who moves the grains of wheel runs: this program's own engine, or LAMMPS in processes of its own (beds and drives
+  /// stay with the engine).
+  std::optional<LammpsWorker> lammps;
   bool only_steady = false;                     ///< NoSolution where a run didn't become steady, instead of its means
   std::function<void(const WheelRun&)> on_run;  ///< gets everything a run told, before evaluate returns
 };
+
+/// What answers carry: "dem", and "dem-lammps" where LAMMPS moves the grains.
+inline std::string model_name(const DemSettings& settings) { return settings.lammps ? "dem-lammps" : "dem"; }
 
 class DemModel : public Model {
  public:
   explicit DemModel(DemSettings settings = {}) : settings_(std::move(settings)), beds_(settings_.beds) {}
 
-  std::string name() const override { return "dem"; }
+  std::string name() const override { return model_name(settings_); }
   /// Sinkage, forces and torque are means over the steady part of one run, with the errors of its fluctuations; the
   /// scatter between packings comes on top. Throws InputError without granular values, for effects, and
   /// what run_wheel throws. One call at a time: a run uses all the threads it is given. Where runs are kept, what is

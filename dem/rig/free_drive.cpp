@@ -42,8 +42,10 @@ class FreeDrive {
         gravity_(on.bed.recipe.gravity),
         way_(drive.profile, on.tire.radius),
         place_(way_.at(0)),
-        bin_(on_, condition_at(place_, drive.load), how, checkpoints,
-             inputs_text(on.bed.recipe, on.tire, on.contact, on.rig, drive, samples)) {
+        bin_(on_, condition_at(place_, drive.load), [&] {
+          const BedRecipe& recipe = on.bed.recipe;
+          return staged_run(on_, how, checkpoints, inputs_text(recipe, on.tire, on.contact, on.rig, drive, samples));
+        }) {
     bin_.run().keep("drive", *this);
     if (rig_.onlooker.keeper) bin_.run().keep("onlooker", *rig_.onlooker.keeper);
   }

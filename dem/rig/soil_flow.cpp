@@ -1,5 +1,6 @@
 #include "dem/rig/soil_flow.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -30,6 +31,20 @@ void FlowMeter::add(const Grains& grains, const Vec3& axle) {
     volume_[at] += volume;
     vx_[at] += volume * grain.velocity.x, vz_[at] += volume * grain.velocity.z;
   }
+}
+
+FlowMeter FlowMeter::empty_one() const {
+  FlowMeter out = *this;
+  out.moments_ = 0;
+  for (std::vector<double>* sums : {&out.volume_, &out.vx_, &out.vz_}) std::fill(sums->begin(), sums->end(), 0.0);
+  return out;
+}
+
+FlowMeter& FlowMeter::operator+=(const FlowMeter& other) {
+  moments_ += other.moments_;
+  for (std::size_t k = 0; k < volume_.size(); ++k)
+    volume_[k] += other.volume_[k], vx_[k] += other.vx_[k], vz_[k] += other.vz_[k];
+  return *this;
 }
 
 SoilFlow FlowMeter::flow() const {

@@ -18,6 +18,16 @@ class FlowMeter {
   /// The means so far.
   SoilFlow flow() const;
 
+  /// One of the same cells, with nothing in it yet.
+  FlowMeter empty_one() const;
+  /// What several processes saw of one moment: `join` makes each list of sums that of all.
+  template <class Join>
+  void join(const Join& join_sums) {
+    join_sums(volume_), join_sums(vx_), join_sums(vz_);
+  }
+  /// Other moments, of the same cells.
+  FlowMeter& operator+=(const FlowMeter& other);
+
   /// For StagedRun::keep: all but the cells' layout.
   template <class Notes>
   void state(Notes& notes) {

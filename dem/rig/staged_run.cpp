@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "dem/rig/lammps_worker.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
@@ -68,7 +69,10 @@ StagedRun::~StagedRun() {
 }
 
 void forget_run(const fs::path& restart) {
-  if (restart.empty() || !has_restart(restart)) return;
+  if (restart.empty()) return;
+  std::error_code never_mind;  // a folder that may only be read
+  fs::remove_all(lammps_folder(restart), never_mind);
+  if (!has_restart(restart)) return;
   try {
     const FileLock lock(lock_of(restart), FileLock::Wait::no);
     if (!lock.is_held()) return;  // another process is at it
@@ -100,8 +104,8 @@ void StagedRun::through(const std::function<void()>& stages) {
     remove_restart(checkpoints_.restart);
     throw;
   }
-  const bool was_through = reached_ > stage_;
-  reached_ = stage_ + 1, taken_ = 0;
+  const bool was_through = at_.reached > at_.stage;
+  at_.reached = at_.stage + 1, at_.taken = 0;
   if (!was_through) write_restart();
   tell("done", 1);
 }
@@ -119,27 +123,20 @@ bool StagedRun::write_restart() {
   }
 }
 
-/// Whether the next stage is still to be done, or to be gone on with.
-bool StagedRun::enters() {
-  ++stage_;
-  if (stage_ > reached_) reached_ = stage_, taken_ = 0;
-  return stage_ == reached_;
-}
-
 void StagedRun::once(const std::function<void()>& what) {
-  if (enters()) what();
+  if (at_.enters()) what();
 }
 
 void StagedRun::steps(std::string_view stage, std::int64_t steps, const std::function<void(std::int64_t)>& each) {
   loop(
-      stage, [&] { return taken_ < steps; }, [&] { each(taken_); });
+      stage, [&] { return at_.taken < steps; }, [&] { each(at_.taken); });
 }
 
 void StagedRun::loop(std::string_view stage, const std::function<bool()>& goes_on, const std::function<void()>& each,
                      const std::function<double()>& share) {
-  if (!enters()) return;
-  for (; goes_on(); ++taken_) {
-    if (taken_ % between_words == 0) {
+  if (!at_.enters()) return;
+  for (; goes_on(); ++at_.taken) {
+    if (at_.taken % between_words == 0) {
       tell(stage, share ? share() : done());
       if (is_kept() && checkpointer_.is_due(simulation().state().step)) write_restart();
     }

@@ -22,6 +22,7 @@
 #include "dem/archive/note_text.hpp"
 #include "dem/bed/work_options.hpp"
 #include "dem/engine/simulation.hpp"
+#include "dem/rig/stage_counter.hpp"
 #include "scenario/file_lock.hpp"
 
 namespace soilbin::dem {
@@ -72,7 +73,7 @@ class StagedRun {
   /// Where it is.
   template <class Notes>
   void state(Notes& notes) {
-    notes(reached_, taken_, steps_, earlier_);
+    notes(at_.reached, at_.taken, steps_, earlier_);
   }
 
  private:
@@ -82,7 +83,6 @@ class StagedRun {
   };
 
   bool is_kept() const { return !checkpoints_.restart.empty(); }
-  bool enters();
   bool write_restart();
   void tell(std::string_view stage, double share);
   Notes notes();
@@ -95,15 +95,13 @@ class StagedRun {
   std::vector<Kept> kept_;
   Start start_;
   Checkpointer checkpointer_;
-  int stage_ = 0;           ///< of those that were come by now
-  int reached_ = 0;         ///< the one that it is in
-  std::int64_t taken_ = 0;  ///< of its steps
+  StageCounter at_;
   std::int64_t steps_ = 0;
   double all_steps_ = 1, earlier_ = 0;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
-/// Removes what is kept of a run whose answer is safe, unless another process is at it.
+/// Removes what is kept of a run whose answer is safe, unless another process is at it; its folder of LAMMPS too.
 void forget_run(const std::filesystem::path& restart);
 
 template <class Part>

@@ -1,11 +1,20 @@
-// A wheel put on a settled bed and loaded: what every way of driving it along the bin begins with.
+// A wheel put on a settled bed and loaded: what every way of driving it along the bin begins with. Grains may be those
+// of the engine (WheelInBin) or of whoever else runs in stages and shares its grains (dem/rig/shares.hpp):
+//
+//   WheelInBinOf<Run> bin(on, at, [&] { return Run(...); });
+//   bin.tilt(), bin.put_wheel(), bin.lower(load);
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <type_traits>
 
 #include "dem/bed/settled_bed.hpp"
-#include "dem/bed/surface_height.hpp"
+#include "dem/rig/rut.hpp"
+#include "dem/rig/shares.hpp"
 #include "dem/rig/staged_run.hpp"
 #include "dem/rig/wheel_motion.hpp"
 #include "dem/rig/wheel_run.hpp"
@@ -53,12 +62,23 @@ void parts(Notes& notes, SampleUnderWay& s) {
 /// That the axle may go [m]. Throws InputError for a bed too short or narrow.
 double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig);
 
-/// The stages before a wheel is driven, its steps and its samples. `on` and options must outlive it. Of the condition
-/// load, inclines and yaw are read. `inputs`: what the whole run follows from (StagedRun).
-class WheelInBin {
+/// The bed's setup with the tire's material and the rig's numerics.
+Setup run_setup(const WheelOnBed& on, int threads);
+
+/// The engine's run on a bed; `on` and options must outlive it. `inputs`: what the whole run follows from (StagedRun).
+StagedRun staged_run(const WheelOnBed& on, const WorkOptions& how, const Checkpoints& checkpoints, std::string inputs);
+
+/// The stages before a wheel is driven, its steps and its samples. `on` must outlive it. Of the condition load,
+/// inclines and yaw are read. Run: StagedRun, or what has its once, steps, loop, step, keep and simulation().
+template <class Run>
+class WheelInBinOf {
  public:
-  WheelInBin(const WheelOnBed& on, const OperatingCondition& at, const WorkOptions& how, const Checkpoints& checkpoints,
-             std::string inputs);
+  /// `make`: gives the Run, whose bed is that of `on`.
+  template <class Make>
+  WheelInBinOf(const WheelOnBed& on, const OperatingCondition& at, const Make& make)
+      : bed_(on.bed), tire_(on.tire), at_(at), rig_(on.rig), stance_(wheel_stance(at)), run_(make()) {
+    run_.keep("bin", *this);
+  }
 
   /// way_in_bin of this bed, tire and rig.
   double way() const { return way_in_bin(bed_.recipe.size, tire_, rig_); }
@@ -67,7 +87,7 @@ class WheelInBin {
   std::int64_t steps_of(double time) const;
 
   /// The stages; what is done between them goes through StagedRun::once.
-  StagedRun& run() { return run_; }
+  Run& run() { return run_; }
   /// Turns gravity to the incline and lets the bed come to terms with it.
   void tilt();
   /// Measures the surface and puts the wheel over it.
@@ -89,8 +109,8 @@ class WheelInBin {
   /// Means over the steps that were taken. What is at the sample's end is there too, but for tread and ledger.
   WheelSample end_sample();
 
-  Simulation& simulation() { return run_.simulation(); }
-  const Simulation& simulation() const { return run_.simulation(); }
+  auto& simulation() { return run_.simulation(); }
+  const auto& simulation() const { return run_.simulation(); }
   Body& wheel() { return simulation().body(wheel_); }
   const Body& wheel() const { return simulation().body(wheel_); }
   int wheel_index() const { return wheel_; }
@@ -112,7 +132,6 @@ class WheelInBin {
   }
 
  private:
-  Setup setup_for(const ContactPair& tire_contact, int threads) const;
   void put_body();
   void show();
 
@@ -121,12 +140,136 @@ class WheelInBin {
   OperatingCondition at_;
   const Rig& rig_;
   WheelStance stance_;
-  StagedRun run_;
+  Run run_;
   int wheel_ = -1;
   double surface_ = 0, next_look_ = 0;
   SurfaceHeight before_;
   Vec3 moment_at_rest_;
   SampleUnderWay sample_;
 };
+
+template <class Run>
+double WheelInBinOf<Run>::tilting() const {
+  return at_.longitudinal_incline != 0 || at_.transverse_incline != 0 ? rig_.tilting : 0;
+}
+
+template <class Run>
+std::int64_t WheelInBinOf<Run>::steps_of(double time) const {
+  return std::llround(time / simulation().setup().numerics.dt);
+}
+
+template <class Run>
+void WheelInBinOf<Run>::tilt() {
+  const std::int64_t steps = steps_of(tilting());
+  run_.steps("tilting", steps, [&](std::int64_t k) {
+    const double share = std::min(1.0, 1.5 * static_cast<double>(k + 1) / static_cast<double>(steps));
+    OperatingCondition part = at_;
+    part.longitudinal_incline *= share, part.transverse_incline *= share;
+    simulation().set_gravity(-bed_.recipe.gravity * wheel_stance(part).up);
+    step();
+  });
+}
+
+template <class Run>
+double WheelInBinOf<Run>::free_height() const {
+  const double rim = tire_.radius + tire_.lugs.height, y = bed_.recipe.size.width / 2;
+  double z = 0;
+  const Grains& grains = own_grains(simulation());
+  for (std::size_t k = 0; k < grains.count(); ++k) {
+    const Vec3 from = grains.motion[k].position - Vec3{rig_.behind, y, 0};
+    const double x = dot(from, stance_.heading), apart = rim + grains.motion[k].radius + wheel_gap;
+    if (std::abs(dot(from, stance_.axle)) > tire_.width || std::abs(x) >= apart) continue;
+    z = std::max(z, from.z + std::sqrt(apart * apart - x * x));
+  }
+  return largest_of_all(simulation(), z);
+}
+
+template <class Run>
+void WheelInBinOf<Run>::put_wheel() {
+  run_.once([&] { put_body(); });
+}
+
+template <class Run>
+void WheelInBinOf<Run>::put_body() {
+  const Grains& grains = own_grains(simulation());
+  const double y = bed_.recipe.size.width / 2, radius = bed_.recipe.soil.radius_min;
+  const Footprint track{rig_.behind, rig_.behind + way(), y - tire_.width / 2, y + tire_.width / 2};
+  surface_ = surface_of_all(simulation(), surface_height(grains, track, radius / 4)).mean();
+  before_ = surface_of_all(simulation(), bed_surface(grains, bed_.recipe.size, radius));
+
+  Body body;
+  body.name = "wheel";
+  body.surfaces.push_back({MeshSurface{std::make_shared<TriangleMesh>(tire_surface(tire_, rig_.meshing)), nullptr},
+                           static_cast<int>(simulation().setup().materials.all.size()) - 1});
+  body.mass = rig_.mass > 0 ? rig_.mass : at_.load / bed_.recipe.gravity;
+  const double inertia = rig_.inertia > 0 ? rig_.inertia : body.mass * tire_.radius * tire_.radius / 2;
+  body.inertia = {inertia, inertia, inertia};
+  body.free_translation = {false, false, true};
+  body.axis = stance_.axle;
+  body.rotation = rotation_by({0, 0, at_.yaw});
+  body.position = {rig_.behind, y, free_height()};
+  wheel_ = simulation().add_body(body);
+}
+
+template <class Run>
+void WheelInBinOf<Run>::lower(const Vec3& force) {
+  const std::int64_t ramp = steps_of(rig_.lowering), steps = ramp + steps_of(rig_.resting);
+  const std::int64_t from = ramp + (steps - ramp) / 2;
+  run_.once([&] { next_look_ = begin(), moment_at_rest_ = {}; });
+  run_.steps("lowering", steps, [&](std::int64_t k) {
+    const double share = k < ramp ? static_cast<double>(k + 1) / static_cast<double>(ramp) : 1.0;
+    wheel().applied_force = share * force;
+    step();
+    if (k >= from) moment_at_rest_ += 1 / static_cast<double>(steps - from) * wheel().torque;
+  });
+}
+
+template <class Run>
+void WheelInBinOf<Run>::begin_sample(std::int64_t steps) {
+  show();
+  sample_ = {
+      .sum = {}, .steps = steps, .taken = 0, .begun = simulation().time(), .travel = travel(), .work = wheel().work};
+}
+
+template <class Run>
+void WheelInBinOf<Run>::step() {
+  run_.step();
+  if (!is_sampling()) return;
+  ++sample_.taken;
+  const double each = 1 / static_cast<double>(sample_.steps);
+  WheelSample& sum = sample_.sum;
+  const Body& now = wheel();
+  sum.force += each * now.force;
+  sum.moment += each * now.torque;
+  sum.sinkage += each * sinkage();
+  sum.speed += each * now.velocity.x;
+  sum.heave += each * now.velocity.z;
+  sum.rotation += each * dot(now.spin, stance_.axle);
+}
+
+template <class Run>
+WheelSample WheelInBinOf<Run>::end_sample() {
+  WheelSample out = sample_.sum;
+  if (!is_full()) {
+    const double more = static_cast<double>(sample_.steps) / static_cast<double>(sample_.taken);
+    out.force = more * out.force, out.moment = more * out.moment;
+    for (double* mean : {&out.sinkage, &out.speed, &out.heave, &out.rotation}) *mean *= more;
+  }
+  out.time = simulation().time();
+  out.travel = travel();
+  out.into_soil = (wheel().work - sample_.work) / (out.time - sample_.begun);
+  sample_ = {};
+  return out;
+}
+
+template <class Run>
+void WheelInBinOf<Run>::show() {
+  if (!rig_.onlooker.look || wheel().position.x < next_look_) return;
+  if constexpr (std::is_same_v<Run, StagedRun>) rig_.onlooker.look(simulation(), wheel_, surface_);
+  next_look_ += rig_.onlooker.every;
+}
+
+extern template class WheelInBinOf<StagedRun>;
+using WheelInBin = WheelInBinOf<StagedRun>;
 
 }  // namespace soilbin::dem

@@ -41,6 +41,8 @@ LIBRARIES = {
     "hwy/": ["dem/"],
     "assimp/": ["dem/"],
     "omp.h": ["dem/", "compare/"],
+    "mpi.h": ["dem/worker_lammps/", "tests/dem/lammps/"],
+    "lammps/": ["dem/worker_lammps/lammps.cpp"],  # the wrapper
     "zlib": ["compare/replay/", "tests/"],
     "pybind11/": ["notebooks/"],
 }

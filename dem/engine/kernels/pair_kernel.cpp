@@ -141,9 +141,9 @@ HWY_INLINE void respond(const PairSweep& sweep, const Asked& asked, const LawCon
   keep(kept.slide, m.touching, memory);
   if (law::keeps_roll(asked.laws)) keep(kept.roll, m.touching, memory + 24);
 
-  const Triad lever = cross(m.touch.normal, does.tangential);
-  scatter(sweep, at.pair, where(m.touching, does.force), where(m.touching, does.couple - m.arm_i * lever),
-          where(m.touching, -(does.couple + m.arm_j * lever)));
+  const PairTorques<Pack> torques = pair_torques(m.touch.normal, does, m.arm_i, m.arm_j);
+  scatter(sweep, at.pair, where(m.touching, does.force), where(m.touching, torques.first),
+          where(m.touching, torques.second));
 }
 
 /// One pack of contacts. `one` holds the constants where all contacts are of one kind.

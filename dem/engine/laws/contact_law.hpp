@@ -168,6 +168,12 @@ template <class Real>
   return out;
 }
 
+/// Linear cohesion: pi k_c R* delta, pulls the two together [N].
+template <class Real>
+[[gnu::always_inline]] inline Real linear_pull(const LawConstants<Real>& c, Real radius, Real overlap) {
+  return c.cohesion * radius * max(overlap, Real(0.0));
+}
+
 [[gnu::always_inline]] inline bool is_directional(RollingLaw rolling) {
   return rolling == RollingLaw::directional || rolling == RollingLaw::directional_with_twist;
 }
@@ -244,7 +250,7 @@ template <class Real>
   Real push = normal.elastic - normal.damping * approach;
   Response<Real> out;
   out.pressing = push;
-  if (laws.cohesion == CohesionLaw::linear) push = push - c.cohesion * at.radius * max(at.overlap, Real(0.0));
+  if (laws.cohesion == CohesionLaw::linear) push = push - law::linear_pull(c, at.radius, at.overlap);
   if (laws.cohesion == CohesionLaw::jkr) out.pressing = out.pressing + c.pull_off * at.radius;
   out.pressing = max(out.pressing, Real(0.0));
 
@@ -277,6 +283,19 @@ template <class Real>
     losses->into_roll = -dot(out.couple, at.rotation);
   }
   return out;
+}
+
+/// What a contact of two grains does to their torques, its arms from their centres to the middle of the overlap.
+template <class Real>
+struct PairTorques {
+  Triple<Real> first, second;  ///< [N m]
+};
+
+template <class Real>
+[[gnu::always_inline]] inline PairTorques<Real> pair_torques(const Triple<Real>& normal, const Response<Real>& does,
+                                                             Real arm_first, Real arm_second) {
+  const Triple<Real> lever = cross(normal, does.tangential);
+  return {does.couple - arm_first * lever, -(does.couple + arm_second * lever)};
 }
 
 /// Energy stored in a contact's springs [J]: normal with cohesion, tangential, rolling with twisting. jkr counts from

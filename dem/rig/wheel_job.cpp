@@ -1,0 +1,128 @@
+#include "dem/rig/wheel_job.hpp"
+
+#include "dem/archive/note_text.hpp"
+#include "dem/rig/wheel_in_bin.hpp"
+#include "dem/rig/wheel_result.hpp"
+#include "scenario/atomic_file.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
+
+namespace soilbin::dem {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* job_wheel_note = "wheel";
+constexpr const char* job_inputs_note = "inputs";
+fs::path grains_of(const fs::path& job) { return job.parent_path() / "bed.h5"; }
+
+constexpr const char* answer_mark = "soilbin-wheel-answer/1 ";
+
+}  // namespace
+
+template <class Notes>
+void parts(Notes& notes, OperatingCondition& at) {
+  auto& [load, slip, speed, longitudinal_incline, transverse_incline, yaw, pass, slip_by, force_frame, moisture,
+         position, run] = at;
+  notes(load, slip, speed, longitudinal_incline, transverse_incline, yaw, pass, slip_by, force_frame, moisture,
+        position, run);
+}
+
+template <class Notes>
+void parts(Notes& notes, ContactPair& pair) {
+  auto& [restitution, sliding_friction, rolling_friction, rolling_damping, cohesion, rolling_stiffness] = pair;
+  notes(restitution, sliding_friction, rolling_friction, rolling_damping, cohesion, rolling_stiffness);
+}
+
+template <class Notes>
+void parts(Notes& notes, Rig& rig) {
+  auto& [mass, tilting, lowering, resting, starting, behind, ahead, travel, sampling, sectors, inertia, meshing, young,
+         poisson, dt, skin, deepest_overlap, sleep_speed, sleep_time, ledger, steady_drift, drive_torque, onlooker] =
+      rig;  // the onlooker stays with the command
+  notes(mass, tilting, lowering, resting, starting, behind, ahead, travel, sampling, sectors, inertia, meshing.edge,
+        meshing.chevron_angle, young, poisson, dt, skin, deepest_overlap, sleep_speed, sleep_time, ledger, steady_drift,
+        drive_torque);
+}
+
+template <class Notes>
+void parts(Notes& notes, WheelJob& job) {
+  BedRecipe& bed = job.bed.recipe;
+  notes(bed.soil.radius_min, bed.soil.radius_max, bed.size.length, bed.size.width, bed.size.depth, bed.gravity);
+  notes(bed.rest.kinetic, bed.rest.unbalanced, bed.rest.every, bed.rest.at_most);
+  notes(job.bed.report.void_ratio, job.bed.report.bulk_density, job.bed.report.coordination);
+  Tire& tire = job.tire;
+  notes(tire.radius, tire.width, tire.lugs.height, tire.lugs.count, tire.lugs.thickness, tire.lugs.pattern);
+  notes(job.contact, job.rig, job.at);
+}
+
+template <class Notes>
+void parts(Notes& notes, SoilFlow& flow) {
+  auto& [cell, nx, nz, x, z, vx, vz, solid] = flow;
+  notes(cell, nx, nz, x, z, vx, vz, solid);
+}
+
+template <class Notes>
+void parts(Notes& notes, Rut& rut) {
+  auto& [from, to, axle, y, across, x, along, volume, heaped, dug] = rut;
+  notes(from, to, axle, y, across, x, along, volume, heaped, dug);
+}
+
+template <class Notes>
+void parts(Notes& notes, WheelRun& run) {
+  notes(run.samples, run.surface, run.bed.void_ratio, run.bed.bulk, run.bed.coordination, run.rut, run.flow,
+        run.earlier);
+}
+
+void write_job(const fs::path& file, const WheelOnBed& on, const OperatingCondition& at, const std::string& inputs) {
+  WheelJob job{.setup = {},
+               .bed = {on.bed.recipe, {}, {}, on.bed.report},
+               .tire = on.tire,
+               .contact = on.contact,
+               .rig = on.rig,
+               .at = at,
+               .inputs = {}};
+  NoteWriter writer;
+  writer(job);
+  const Setup setup = run_setup(on, 1);
+  State without_grains;
+  without_grains.step = on.bed.state.step, without_grains.time = on.bed.state.time;
+  without_grains.gravity = on.bed.state.gravity, without_grains.bodies = on.bed.state.bodies;
+  write_restart(grains_of(file), setup, on.bed.state, {}, Keep::nothing);
+  write_restart(file, setup, without_grains, {{job_wheel_note, writer.text()}, {job_inputs_note, inputs}},
+                Keep::nothing);
+}
+
+WheelJob read_job(const fs::path& file, WithGrains grains) {
+  Restart restart = read_restart(file);
+  WheelJob job{};
+  NoteReader reader(file.string(), restart.notes[job_wheel_note]);
+  reader(job);
+  reader.end();
+  job.inputs = restart.notes[job_inputs_note];
+  job.setup = restart.setup;
+  job.bed.setup = std::move(restart.setup), job.bed.state = std::move(restart.state);
+  if (grains == WithGrains::yes) job.bed.state = read_restart(grains_of(file)).state;
+  return job;
+}
+
+void write_answer(const fs::path& file, const WheelRun& run) {
+  NoteWriter writer;
+  WheelRun copy = run;
+  writer(copy);
+  write_file_atomically(file, answer_mark + writer.text());
+}
+
+WheelRun read_answer(const fs::path& file, const Tire& tire, const OperatingCondition& at, const Rig& rig) {
+  constexpr std::size_t largest = std::size_t{1} << 30;
+  const std::string text = read_bytes(file, largest);
+  if (!text.starts_with(answer_mark)) throw InputError({file.string(), 0, 0}, "is no answer of a wheel's run", "", "");
+  WheelRun run;
+  NoteReader reader(file.string(), std::string_view(text).substr(std::string_view(answer_mark).size()));
+  reader(run);
+  reader.end();
+  summarise(run, tire, at, rig);
+  return run;
+}
+
+}  // namespace soilbin::dem

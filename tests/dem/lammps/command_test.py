@@ -1,0 +1,139 @@
+"""soilbin run --engine lammps: records, flags that it has not, a process that dies, Ctrl-C and going on, damage.
+
+Usage: command_test.py SOILBIN      with soilbin-lammps beside it; mpirun may start more processes than there are cores
+"""
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+SOILBIN = Path(sys.argv.pop(1)).resolve()
+CASE = """format: soilbin-case/1
+name: small-wheel
+tire: {name: small, radius: 100 mm, width: 80 mm, lugs: {height: 8 mm, count: 12, thickness: 10 mm}}
+soil:
+  name: coarse
+  granular:
+    radius_min: 8 mm
+    radius_max: 12 mm
+    grain_density: 2500 kg/m^3
+    youngs_modulus: 5 MPa
+    poisson_ratio: 0.2
+    rolling_resistance: elastic_plastic
+    grain_grain: {restitution: 0.4, sliding_friction: 0.5, rolling_friction: 0.1, cohesion: 5 kJ/m^3}
+    grain_tire: {restitution: 0.4, sliding_friction: 0.5, rolling_friction: 0.1}
+study: {models: [{model: dem}], conditions: {load: 20 N, slip: 30 %, speed: 0.3 m/s}}
+"""
+BIN = ("--bed-length 0.4m --bed-width 0.16m --bed-depth 0.08m --behind 0.12m --ahead 0.12m --lowering 0.1s "
+       "--resting 0.05s --starting 0.05s").split()
+PATIENCE = 240  # seconds that anything may take
+
+
+class Lammps(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.scratch.name)
+        (cls.folder / "small.yaml").write_text(CASE, encoding="utf-8")
+        cls.environment = {**os.environ, "SOILBIN_BEDS": str(cls.folder / "beds"),
+                           "SOILBIN_MPIRUN": "mpirun --allow-run-as-root --oversubscribe --mca mpi_yield_when_idle 1"}
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def words(self, *flags):
+        return [str(SOILBIN), "run", "small.yaml", "--model", "dem", *BIN, *flags]
+
+    def run_it(self, *flags):
+        return subprocess.run(self.words(*flags), cwd=self.folder, env=self.environment, text=True,
+                              capture_output=True, timeout=PATIENCE, check=False)
+
+    def start(self, *flags):
+        """A run in LAMMPS that has begun to move grains."""
+        child = subprocess.Popen(self.words("--engine", "lammps", *flags), cwd=self.folder, env=self.environment,
+                                 text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            if any("run 1 pre no" in log.read_text(errors="replace") for log in self.logs()):
+                return child
+            self.assertIsNone(child.poll(), "it ended before it moved anything")
+            time.sleep(0.05)
+        self.fail("it moved nothing")
+
+    def logs(self):
+        return list((self.folder / "beds").glob("lammps-*/log.lammps"))
+
+    def workers(self):
+        """Processes of soilbin-lammps on a folder of this test."""
+        found = []
+        for entry in Path("/proc").glob("[0-9]*"):
+            try:
+                command = (entry / "cmdline").read_bytes().decode(errors="replace").split("\0")
+            except OSError:
+                continue
+            if Path(command[0]).name == "soilbin-lammps" and str(self.folder) in command[1]:
+                found.append(int(entry.name))
+        return found
+
+    def test_a_run_is_recorded_as_that_of_dem_lammps(self):
+        done = self.run_it("--engine", "lammps", "--ranks", "2", "--record", "two.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("dem-lammps", done.stdout)
+        self.assertIn("grain-steps/s", done.stderr)
+        record = json.loads((self.folder / "two.json").read_text(encoding="utf-8"))
+        self.assertEqual(record["model"], "dem-lammps")
+        self.assertEqual(record["inputs"]["engine"], "lammps")
+        self.assertEqual(len(record["runs"]), 1)
+        self.assertEqual(self.logs(), [], "what is kept of a run goes when its answer is safe")
+        engine = self.run_it("--record", "two.json")
+        self.assertEqual(engine.returncode, 2)  # one record, one engine
+        self.assertIn("engine", engine.stderr)
+
+    def test_flags_that_lammps_has_not_are_refused(self):
+        ranks = self.run_it("--ranks", "2")
+        self.assertEqual(ranks.returncode, 2)
+        self.assertIn("--engine lammps", ranks.stderr)
+        replay = self.run_it("--engine", "lammps", "--record", "replay.json", "--replay", "motion.replay")
+        self.assertEqual(replay.returncode, 2)
+        self.assertIn("keep no motion", replay.stderr)
+
+    def test_a_process_that_dies_is_told_and_the_record_stays_whole(self):
+        child = self.start("--ranks", "2", "--record", "dead.json")
+        os.kill(self.workers()[0], signal.SIGKILL)
+        _, errors = child.communicate(timeout=PATIENCE)
+        self.assertEqual(child.returncode, 1, errors)
+        self.assertIn("soilbin-lammps ended without an answer, on 2 processes", errors)
+        self.assertIn("signal 9", errors)
+        if (self.folder / "dead.json").exists():
+            self.assertEqual(json.loads((self.folder / "dead.json").read_text(encoding="utf-8"))["runs"], [])
+        again = self.run_it("--engine", "lammps", "--ranks", "1", "--record", "dead.json")
+        self.assertEqual(again.returncode, 0, again.stderr)
+
+    def test_stopped_it_goes_on_from_there_and_says_what_is_damaged(self):
+        child = self.start("--load", "25N", "--record", "stopped.json")
+        time.sleep(1)
+        child.send_signal(signal.SIGINT)
+        _, errors = child.communicate(timeout=PATIENCE)
+        self.assertNotEqual(child.returncode, 0)
+        self.assertIn("the same command goes on from there", errors)
+        self.assertEqual(self.workers(), [])
+        [state] = (self.folder / "beds").glob("lammps-*/state")
+        whole = state.read_bytes()
+        state.write_bytes(whole[:-10])
+        damaged = self.run_it("--engine", "lammps", "--load", "25N", "--record", "stopped.json")
+        self.assertEqual(damaged.returncode, 2, damaged.stderr)
+        self.assertIn(str(state), damaged.stderr)
+        state.write_bytes(whole)
+        again = self.run_it("--engine", "lammps", "--ranks", "2", "--load", "25N", "--record", "stopped.json")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertIn("going on from step", again.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
