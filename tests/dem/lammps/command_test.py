@@ -30,7 +30,8 @@ soil:
 study: {models: [{model: dem}], conditions: {load: 20 N, slip: 30 %, speed: 0.3 m/s}}
 """
 BIN = ("--bed-length 0.4m --bed-width 0.16m --bed-depth 0.08m --behind 0.12m --ahead 0.12m --lowering 0.1s "
-       "--resting 0.05s --starting 0.05s").split()
+       "--starting 0.05s").split()
+LONG = ["--load", "25N", "--resting", "3s"]  # some five seconds, so that a signal finds it at work
 PATIENCE = 240  # seconds that anything may take
 
 
@@ -48,7 +49,8 @@ class Lammps(unittest.TestCase):
         cls.scratch.cleanup()
 
     def words(self, *flags):
-        return [str(SOILBIN), "run", "small.yaml", "--model", "dem", *BIN, *flags]
+        resting = [] if "--resting" in flags else ["--resting", "0.05s"]
+        return [str(SOILBIN), "run", "small.yaml", "--model", "dem", *BIN, *resting, *flags]
 
     def run_it(self, *flags):
         return subprocess.run(self.words(*flags), cwd=self.folder, env=self.environment, text=True,
@@ -104,7 +106,7 @@ class Lammps(unittest.TestCase):
         self.assertIn("keep no motion", replay.stderr)
 
     def test_a_process_that_dies_is_told_and_the_record_stays_whole(self):
-        child = self.start("--ranks", "2", "--record", "dead.json")
+        child = self.start("--ranks", "2", *LONG, "--record", "dead.json")
         os.kill(self.workers()[0], signal.SIGKILL)
         _, errors = child.communicate(timeout=PATIENCE)
         self.assertEqual(child.returncode, 1, errors)
@@ -112,11 +114,11 @@ class Lammps(unittest.TestCase):
         self.assertIn("signal 9", errors)
         if (self.folder / "dead.json").exists():
             self.assertEqual(json.loads((self.folder / "dead.json").read_text(encoding="utf-8"))["runs"], [])
-        again = self.run_it("--engine", "lammps", "--ranks", "1", "--record", "dead.json")
+        again = self.run_it("--engine", "lammps", "--ranks", "1", *LONG, "--record", "dead.json")
         self.assertEqual(again.returncode, 0, again.stderr)
 
     def test_stopped_it_goes_on_from_there_and_says_what_is_damaged(self):
-        child = self.start("--load", "25N", "--record", "stopped.json")
+        child = self.start(*LONG, "--record", "stopped.json")
         time.sleep(1)
         child.send_signal(signal.SIGINT)
         _, errors = child.communicate(timeout=PATIENCE)
@@ -126,11 +128,11 @@ class Lammps(unittest.TestCase):
         [state] = (self.folder / "beds").glob("lammps-*/state")
         whole = state.read_bytes()
         state.write_bytes(whole[:-10])
-        damaged = self.run_it("--engine", "lammps", "--load", "25N", "--record", "stopped.json")
+        damaged = self.run_it("--engine", "lammps", *LONG, "--record", "stopped.json")
         self.assertEqual(damaged.returncode, 2, damaged.stderr)
         self.assertIn(str(state), damaged.stderr)
         state.write_bytes(whole)
-        again = self.run_it("--engine", "lammps", "--ranks", "2", "--load", "25N", "--record", "stopped.json")
+        again = self.run_it("--engine", "lammps", "--ranks", "2", *LONG, "--record", "stopped.json")
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertIn("going on from step", again.stderr)
 
