@@ -2,12 +2,9 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "dem/rig/lammps_worker.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/estimate.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -16,7 +13,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* inputs_note = "inputs";
 constexpr const char* where_note = "stages";
-constexpr std::int64_t between_words = 100;  // steps
 
 fs::path lock_of(const fs::path& restart) { return restart.string() + ".lock"; }
 
@@ -58,6 +54,7 @@ StagedRun::StagedRun(const Checkpoints& checkpoints, std::string inputs, const W
       start_(begin(checkpoints_, inputs_, how.threads, fresh)),
       checkpointer_(checkpoints_, start_.simulation.state().step) {
   if (!is_kept()) return;
+  if (!start_.told.empty()) go_on_from(std::move(start_.notes), checkpoints_.restart.string());
   keep(where_note, *this);
   if (!start_.told.empty() && checkpoints_.tell) checkpoints_.tell(start_.told);
 }
@@ -83,20 +80,6 @@ void forget_run(const fs::path& restart) {
   }
 }
 
-Notes StagedRun::notes() {
-  const double before = std::exchange(earlier_, seconds());
-  Notes notes{{inputs_note, inputs_}};
-  for (const Kept& part : kept_) notes[part.name] = part.text();
-  earlier_ = before;
-  return notes;
-}
-
-double StagedRun::seconds() const {
-  return earlier_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
-}
-
-double StagedRun::done() const { return std::min(1.0, static_cast<double>(steps_) / all_steps_); }
-
 void StagedRun::through(const std::function<void()>& stages) {
   try {
     stages();
@@ -104,9 +87,7 @@ void StagedRun::through(const std::function<void()>& stages) {
     remove_restart(checkpoints_.restart);
     throw;
   }
-  const bool was_through = at_.reached > at_.stage;
-  at_.reached = at_.stage + 1, at_.taken = 0;
-  if (!was_through) write_restart();
+  if (!end_stages()) write_restart();
   tell("done", 1);
 }
 
@@ -114,7 +95,9 @@ void StagedRun::through(const std::function<void()>& stages) {
 bool StagedRun::write_restart() {
   if (!is_kept()) return false;
   try {
-    checkpointer_.write(simulation(), notes());
+    Notes notes = kept_notes();
+    notes[inputs_note] = inputs_;
+    checkpointer_.write(simulation(), notes);
     return true;
   } catch (const std::runtime_error& error) {
     checkpointer_.put_off();
@@ -123,37 +106,21 @@ bool StagedRun::write_restart() {
   }
 }
 
-void StagedRun::once(const std::function<void()>& what) {
-  if (at_.enters()) what();
-}
-
-void StagedRun::steps(std::string_view stage, std::int64_t steps, const std::function<void(std::int64_t)>& each) {
-  loop(
-      stage, [&] { return at_.taken < steps; }, [&] { each(at_.taken); });
-}
-
-void StagedRun::loop(std::string_view stage, const std::function<bool()>& goes_on, const std::function<void()>& each,
-                     const std::function<double()>& share) {
-  if (!at_.enters()) return;
-  for (; goes_on(); ++at_.taken) {
-    if (at_.taken % between_words == 0) {
-      tell(stage, share ? share() : done());
-      if (is_kept() && checkpointer_.is_due(simulation().state().step)) write_restart();
-    }
-    each();
-  }
-}
-
 void StagedRun::step() {
   simulation().run(1);
-  ++steps_;
+  count_step();
+}
+
+void StagedRun::look(std::string_view stage, double share) {
+  tell(stage, share);
+  if (is_kept() && checkpointer_.is_due(simulation().state().step)) write_restart();
 }
 
 /// Whatever stops the work here leaves its state.
 void StagedRun::tell(std::string_view stage, double share) {
   try {
     if (how_.stop.stop_requested()) throw Stopped();
-    if (how_.progress) how_.progress({stage, share, share > 0 ? seconds() * (1 - share) / share : not_a_number});
+    if (how_.progress) how_.progress(progress(stage, share));
   } catch (...) {
     if (write_restart() && checkpoints_.tell)
       checkpoints_.tell(fmt::format("kept at {:.0f} %: the same command goes on from there", 100 * share));

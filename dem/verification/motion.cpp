@@ -66,11 +66,11 @@ constexpr std::pair<const char*, RollingLaw> limited[] = {{"directional", Rollin
                                                           {"elastic_plastic", RollingLaw::elastic_plastic},
                                                           {"spring_slider", RollingLaw::spring_slider}};
 
-struct Motion {
+struct SphereMotion {
   Vec3 velocity, spin;
 };
 
-Motion after(const StartEngine& start, const VerificationSetup& setup, double time) {
+SphereMotion after(const StartEngine& start, const VerificationSetup& setup, double time) {
   const auto engine = start(setup);
   engine->step(std::lround(time / setup.dt));
   return {engine->velocity(0), engine->spin(0)};
@@ -81,7 +81,7 @@ void sliding(Rows& rows, const StartEngine& start) {
   const double u = 0.5, mu = 0.3, r = 0.01, ends = 2 * u / (7 * mu * g);
   const auto setup = floor_of(mu).setup(u, 0);
   const double half = std::round(ends / 2 / setup.dt) * setup.dt;
-  const Motion slides = after(start, setup, half), rolls = after(start, setup, 2 * ends);
+  const SphereMotion slides = after(start, setup, half), rolls = after(start, setup, 2 * ends);
   rows.push_back({"slides: speed", u - mu * g * half, slides.velocity.x, 5e-4, "m/s", lammps});
   rows.push_back({"slides: spin", 2.5 * mu * g * half / r, slides.spin.y, 0.05, "rad/s", lammps});
   rows.push_back({"rolls at last: speed", 5 * u / 7, rolls.velocity.x, 2e-4, "m/s", lammps});
@@ -97,13 +97,13 @@ void slowing(Rows& rows, const StartEngine& start) {
       out.contact.rolling_damping = 0;
       return out;
     };
-    const Motion spins = after(start, undamped(0).setup(0, w), t);
+    const SphereMotion spins = after(start, undamped(0).setup(0, w), t);
     rows.push_back({fmt::format("spins without friction, {}: spin", name), w - 2.5 * mu_r * g * t / r, spins.spin.y,
                     0.02, "rad/s", lammps});
-    const Motion stands = after(start, floor_of(0, law, mu_r).setup(0, w), 0.12);
+    const SphereMotion stands = after(start, floor_of(0, law, mu_r).setup(0, w), 0.12);
     rows.push_back(
         {fmt::format("spins without friction, {}: spin in the end", name), 0, stands.spin.y, 0.01, "rad/s", lammps});
-    const Motion rolls = after(start, undamped(0.8).setup(w * r, w), t);
+    const SphereMotion rolls = after(start, undamped(0.8).setup(w * r, w), t);
     rows.push_back({fmt::format("rolls, {}: speed", name), w * r - 5.0 / 7 * mu_r * g * t, rolls.velocity.x, 2e-4,
                     "m/s", closed_form});
   }

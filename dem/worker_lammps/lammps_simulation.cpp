@@ -512,28 +512,26 @@ void LammpsSimulation::add_surface_forces(double** force, bool keeps) {
                             .adhesion_reach = 0,
                             .before = {made_.data() + begin, old - begin}};
     const int found = find_contacts(at, making_, touches);
-    if (found > 0) press(near, first, found, touches, force[near.grain], now_.torque[near.grain]);
+    if (found > 0) press(at, first, {touches.data(), static_cast<std::size_t>(found)}, force[near.grain]);
   }
   if (keeps) made_.swap(making_);
 }
 
 /// The law for the contacts that were found of one grain on one surface, making_[first] and on.
-void LammpsSimulation::press(const NearSurface& near, std::size_t first, int found,
-                             std::span<const SurfaceTouch, 8> touches, double* force, double* torque) {
-  const int row = static_cast<int>(near.grain);
-  const Motion grain = motion_of(row);
-  const Spin spin = spin_of(row);
+void LammpsSimulation::press(const GrainOnSurface& on, std::size_t first, std::span<const SurfaceTouch> touches,
+                             double* force) {
+  const NearSurface& near = on.who;
+  const Motion& grain = on.grain;
+  const Spin spin = spin_of(static_cast<int>(near.grain));
   const Body& body = state_.bodies[near.body];
-  const LawConstants<double>& constants = laws_[laws_.kind(grain_material, body.surfaces[near.surface].material)];
   Load load;
-  for (int k = 0; k < found; ++k) {
-    const SurfaceTouch& at = touches[static_cast<std::size_t>(k)];
+  for (std::size_t k = 0; k < touches.size(); ++k) {
+    const SurfaceTouch& at = touches[k];
     if (at.overlap > setup_.numerics.deepest_overlap * grain.radius)
       fail(fmt::format("grain {} overlaps body {} by {:.3g} of its radius, more than {:.3g}", ids_[near.grain] - 1,
                        body.name, at.overlap / grain.radius, setup_.numerics.deepest_overlap));
-    const Response<double> does =
-        contact_response<double>(setup_.laws, constants, touch_of(body, at, grain, spin),
-                                 making_[first + static_cast<std::size_t>(k)].memory, setup_.numerics.dt, nullptr);
+    const Response<double> does = contact_response<double>(setup_.laws, on.constants, touch_of(body, at, grain, spin),
+                                                           making_[first + k].memory, setup_.numerics.dt, nullptr);
     add_loads(at, grain.radius, vec3(does.force), vec3(does.couple), body.position, load, loads_[near.body]);
     if (at.triangle >= 0)
       contacts_.push_back({.first = static_cast<GrainId>(ids_[near.grain] - 1),
@@ -546,7 +544,7 @@ void LammpsSimulation::press(const NearSurface& near, std::size_t first, int fou
                            .couple = vec3(does.couple),
                            .pressing = does.pressing});
   }
-  add(force, load.force), add(torque, load.torque);
+  add(force, load.force), add(now_.torque[near.grain], load.torque);
 }
 
 /// Sums of the loads on bodies over all processes, of their grains, and whether anyone found a fault.

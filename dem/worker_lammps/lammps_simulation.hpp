@@ -114,8 +114,7 @@ class LammpsSimulation {
   void add_pair_forces(int rows, double** force, bool keeps);
   Load press_pair(int i, const GrainMotion& first, int j, const Vec3& between, bool keeps, Load& load);
   void add_surface_forces(double** force, bool keeps);
-  void press(const NearSurface& near, std::size_t first, int found, std::span<const SurfaceTouch, 8> touches,
-             double* force, double* torque);
+  void press(const GrainOnSurface& on, std::size_t first, std::span<const SurfaceTouch> touches, double* force);
   void join_loads(int rows);
   void move_bodies();
   void name_lost_grain();

@@ -46,6 +46,19 @@ OperatingCondition driven() {
   return at;
 }
 
+/// The wheel driven over a bed, as the command hands it to the worker.
+WheelJob job_on(const SettledBed& bed) {
+  WheelJob job{.setup = {},
+               .bed = bed,
+               .tire = lugged(),
+               .contact = bed.recipe.soil.grain_tire,
+               .rig = brief_rig(),
+               .at = driven(),
+               .inputs = "of this run\n"};
+  job.setup = run_setup(job.wheel(), 1);
+  return job;
+}
+
 constexpr std::size_t most_ids = 2000;  // of the small bed
 
 /// Positions of all grains, by id, on each process.
@@ -168,17 +181,9 @@ TEST_F(LammpsBed, GoesOnFromItsFiles) {
 
 /// Stopped in the middle, the run keeps its state; the same call goes on from there and has all samples.
 TEST_F(LammpsBed, StopsAndGoesOnInTheMiddleOfARun) {
-  const Tire tire = lugged();
-  WheelJob job{.setup = {},
-               .bed = bed(),
-               .tire = tire,
-               .contact = bed().recipe.soil.grain_tire,
-               .rig = brief_rig(),
-               .at = driven(),
-               .inputs = "of this run\n"};
+  WheelJob job = job_on(bed());
   job.rig.travel = 0.1;
   const WheelOnBed on = job.wheel();
-  job.setup = run_setup(on, 1);
   const SharedFolder folder;
   std::stop_source stop;
   WorkOptions how = test::with_threads(1);
@@ -220,16 +225,8 @@ TEST_F(LammpsBed, GoesThroughFilesWhole) {
 }
 
 TEST_F(LammpsBed, CarriesTheWheelAsTheEnginesBedDoes) {
-  const Tire tire = lugged();
-  WheelJob job{.setup = {},
-               .bed = bed(),
-               .tire = tire,
-               .contact = bed().recipe.soil.grain_tire,
-               .rig = brief_rig(),
-               .at = driven(),
-               .inputs = {}};
+  const WheelJob job = job_on(bed());
   const WheelOnBed on = job.wheel();
-  job.setup = run_setup(on, 1);
   const WheelRun engine = run_wheel(on, job.at, test::with_threads(1));
   const WorkOptions how = test::with_threads(1);
   const WheelRun lammps = Ride<LammpsRun>(on, job.at, [&] { return LammpsRun(MPI_COMM_WORLD, job, how); }).run();
@@ -245,7 +242,7 @@ TEST_F(LammpsBed, CarriesTheWheelAsTheEnginesBedDoes) {
 
   const fs::path file = fs::path(testing::TempDir()) / fmt::format("soilbin-answer-{}.txt", ::getpid());
   write_answer(file, lammps);
-  const WheelRun read = read_answer(file, tire, job.at, job.rig);
+  const WheelRun read = read_answer(file, job.tire, job.at, job.rig);
   EXPECT_EQ(read.result.drawbar_pull.value, lammps.result.drawbar_pull.value);
   EXPECT_EQ(read.power.rest, lammps.power.rest);
   EXPECT_EQ(read.result.patch.size(), lammps.result.patch.size());
