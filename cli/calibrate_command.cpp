@@ -199,14 +199,21 @@ void read_shares(CalibrateOptions& asked) {
                                         {"-", {.lower = 0, .upper = 1, .lower_open = true, .upper_open = true}});
 }
 
+/// What is calibrated: a contact of a soil, by a test.
+struct Calibrated {
+  const Soil& soil;
+  ContactKind kind;
+  const compare::VirtualTest& test;
+};
+
 /// Lets the soil bin decide, where that is asked for; refuses what it couldn't run before any work is done.
-void add_decision(CalibrateOptions& asked, const Soil& soil, const compare::VirtualTest& test, ContactKind kind,
-                  const Workplace& place, const std::shared_ptr<Shown>& shown) {
+void add_decision(CalibrateOptions& asked, const Calibrated& what, fs::path records, const Workplace& place,
+                  const std::shared_ptr<Shown>& shown) {
   if (!asked.decision.given()) return;
   asked.decision.bin.texts["--settling-friction"] = asked.settling_friction, asked.decision.bin.threads = asked.threads;
   compare::TrialQuestion question = asked.decision.question(place);
-  question.soil = soil, question.kind = kind, question.factors = test.factors;
-  compare::TrialSettings settings = asked.decision.settings(asked.options.seed, records_beside(store_of(asked, soil)));
+  question.soil = what.soil, question.kind = what.kind, question.factors = what.test.factors;
+  compare::TrialSettings settings = asked.decision.settings(asked.options.seed, std::move(records));
   settings.bin.how.progress = [shown](const dem::Progress& progress) { shown->within_run(progress); };
   settings.progress = [shown](const compare::TrialProgress& progress) { shown->next(progress); };
   compare::check(question, settings);
@@ -236,7 +243,7 @@ int calibrate(CalibrateOptions asked, const Session& session) {
   asked.options.progress = [shown](const compare::CalibrationProgress& progress) { shown->next(progress); };
   const compare::VirtualTest test = test_of(asked, kind, soil, shown);
   const fs::path file = store_of(asked, soil);
-  add_decision(asked, soil, test, kind, session.place, shown);
+  add_decision(asked, {soil, kind, test}, records_beside(file), session.place, shown);
   asked.batch.check(asked.store);
   compare::ExperimentStore store(file, asked.batch.writers());
   tell_unsealed(store, file);
