@@ -53,7 +53,7 @@ void keep_model(Case& question, const std::string& name) {
 void name_engine(Case& question, const std::string& engine) {
   if (engine != "lammps") return;
   for (ModelChoice& choice : question.study.models)
-    if (choice.model == ModelKind::dem) choice.label = "dem-lammps";
+    if (choice.model == ModelKind::dem) choice.label = dem::lammps_model_name;
 }
 
 /// A record answers beside the study's own models.

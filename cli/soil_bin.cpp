@@ -11,6 +11,7 @@
 #include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/versions.hpp"
+#include "cli/workplace.hpp"
 #include "compare/doubts/grain_doubts.hpp"
 #include "dem/bed/relative_density.hpp"
 #include "scenario/errors.hpp"
@@ -129,8 +130,7 @@ std::optional<dem::LammpsWorker> lammps_of(const SoilBinFlags& flags) {
     return std::nullopt;
   }
   if (flags.ranks < 1) throw InputError("--ranks: 1 or more");
-  dem::LammpsWorker worker{.ranks = flags.ranks,
-                           .program = fs::read_symlink("/proc/self/exe").parent_path() / "soilbin-lammps"};
+  dem::LammpsWorker worker{.ranks = flags.ranks, .program = this_program().parent_path() / "soilbin-lammps"};
   if (const char* launcher = std::getenv("SOILBIN_MPIRUN")) worker.launcher = launcher;
   return worker;
 }

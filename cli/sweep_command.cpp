@@ -54,8 +54,6 @@ std::vector<std::string> typed_again(const CLI::App& command, const CLI::App* un
   return words;
 }
 
-fs::path this_program() { return fs::read_symlink("/proc/self/exe"); }
-
 /// What the sweep is: the script is written from it, and status reads it again.
 Json sweep_json(const SweepJobs& jobs) {
   Json document = plan_json(jobs.plan);

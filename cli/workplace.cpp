@@ -22,6 +22,8 @@ fs::path installed_share(const std::string& what) {
 
 }  // namespace
 
+fs::path this_program() { return fs::read_symlink("/proc/self/exe"); }
+
 Workplace find_workplace() {
   Workplace place;
   place.folders = case_folders(installed_share("cases"), SOILBIN_SOURCE_CASES);

@@ -19,6 +19,9 @@ struct Workplace {
   bekker_wong::CatalogueVocabulary effects;
 };
 
+/// The file of the command that runs. Throws fs::filesystem_error where the system does not tell it.
+std::filesystem::path this_program();
+
 /// Searches $SOILBIN_CASES (folders separated by ':'), then ../share/soilbin/cases beside the program, then the source
 /// tree that the program was built from.
 Workplace find_workplace();

@@ -336,15 +336,14 @@ std::optional<PredictionSlopes> WheelPredictor::linearise(const Eigen::VectorXd&
       const std::vector<double> products = terms_[t].weighs ? terms_[t].weighs(at) : std::vector<double>();
       const auto largest = std::max_element(products.begin(), products.end(),
                                             [](double a, double b) { return std::abs(a) < std::abs(b); });
-      const bool as_one = largest != products.end() && *largest != 0.0;
-      const Eigen::Index leads = as_one ? begin + (largest - products.begin()) : begin;
-      if (as_one) difference(leads);
-      for (Eigen::Index p = begin; p < begin + size; ++p) {
-        if (!as_one)
-          difference(p);
-        else if (p != leads)
-          slopes.take(p, products[p - begin] / *largest, leads, row, {first, cell});
+      if (largest == products.end() || *largest == 0.0) {
+        for (Eigen::Index p = begin; p < begin + size; ++p) difference(p);
+        continue;
       }
+      const Eigen::Index leads = begin + (largest - products.begin());
+      difference(leads);
+      for (Eigen::Index p = begin; p < begin + size; ++p)
+        if (p != leads) slopes.take(p, products[p - begin] / *largest, leads, row, {first, cell});
     }
   }
   return slopes.jacobian.allFinite() ? std::optional(std::move(slopes)) : std::nullopt;

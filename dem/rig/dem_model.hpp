@@ -34,8 +34,9 @@ struct DemSettings {
   std::function<void(const WheelRun&)> on_run;  ///< gets everything a run told, before evaluate returns
 };
 
-/// What answers carry: "dem", and "dem-lammps" where LAMMPS moves the grains.
-inline std::string model_name(const DemSettings& settings) { return settings.lammps ? "dem-lammps" : "dem"; }
+/// What answers carry: "dem", and this where LAMMPS moves the grains.
+inline constexpr const char* lammps_model_name = "dem-lammps";
+inline std::string model_name(const DemSettings& settings) { return settings.lammps ? lammps_model_name : "dem"; }
 
 class DemModel : public Model {
  public:
