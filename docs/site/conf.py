@@ -11,7 +11,6 @@ import re
 import sys
 from pathlib import Path
 
-from docutils.utils.math import latex2mathml
 
 ROOT = Path(__file__).resolve().parents[2]
 project, author, language = "soilbin", "the soilbin authors", "en"
@@ -79,12 +78,6 @@ def prepare(app, name, source):
         source[0] += "\n\n" + importlib.import_module("cpp_reference").reference_text(ROOT, page.read_text(encoding="utf-8"))
     if name == root_doc:
         source[0] += "\n\n" + "\n\n".join(contents()) + "\n"
-
-
-def mathml(code, display):
-    tree = latex2mathml.math(**({"display": "block"} if display else {}))
-    latex2mathml.parse_latex_math(tree, code)
-    return tree.toprettyxml()
 
 
 def inline_formula(writer, node):
