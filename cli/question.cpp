@@ -63,7 +63,8 @@ double implied_speed(const AskedCondition& one, const Tire& tire) {
   try {
     return speed_at_rotation(one.at, *one.rotation, tire);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}\n  hint: the study gives 'rotation'; give --speed too", error.what()));
+    throw InputError(fmt::format(
+        "{}\n  hint: the case gives 'rotation', from which no speed follows here; give --speed too", error.what()));
   }
 }
 

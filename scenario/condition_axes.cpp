@@ -228,7 +228,7 @@ ConditionGrid read_conditions(const YamlNode& node, const Tire& tire, const Read
 }
 
 double speed_at_rotation(const OperatingCondition& at, double rotation, const Tire& tire) {
-  if (at.slip <= -1.0) throw InputError("a wheel at slip -1 is locked: it has no speed of rotation");
+  if (at.slip <= -1.0) throw InputError("a wheel at -100 % slip is locked: it has no speed of rotation");
   const double rim = tire.radius * rotation;
   const double along = at.slip >= 0.0 ? rim * (1.0 - at.slip) : rim / (1.0 + at.slip);
   if (at.slip_by == SlipBy::travel_speed) return along;

@@ -206,7 +206,8 @@ void add_heard_values(Json& numbers, const OperatingCondition& at) {
 std::string shown_unit(const std::string& unit) { return unit == "-" ? "%" : unit; }
 
 std::string without_blanks(std::string text) {
-  std::erase(text, ' ');
+  for (std::size_t at = text.find(' '); at != std::string::npos; at = text.find(' ', at + 1))
+    if (at + 1 == text.size() || text[at + 1] != '1') text.erase(at--, 1);  // '0.2 1/kPa' needs its blank
   return text;
 }
 

@@ -468,6 +468,25 @@ class ThePage(unittest.TestCase):
         self.js("document.getElementById('reset').click()")
         self.assertTrue(self.browser.until("!soilbin.live.asking && !document.querySelector('.parameters .number')"))
 
+    def test_4_a_parameter_of_each_unit_is_spelled_as_the_server_reads_it(self):
+        refused = self.js("""(async () => {
+          const live = soilbin.live, seen = new Set(), refused = [];
+          for (const effect of live.start.effects) for (const form of effect.forms) {
+            const p = form.parameters.find(p => !seen.has(p.unit));
+            if (!p) continue;
+            seen.add(p.unit);
+            effect.show(`${effect.id}:${form.form}`);
+            const {slider, unit} = effect.controls.get(p.key);
+            const word = live.spelled(effect, form, p.key, soilbin.quantity(slider.max, unit));
+            const response = await fetch(`estimate?effect=${encodeURIComponent(word)}`);
+            if (response.status === 400) refused.push(word);
+          }
+          live.showEffects();
+          return seen.size > 5 ? refused : ['too few units'];
+        })()""")
+        self.assertEqual(refused, [])
+        self.browser.errors.clear()
+
     def test_4_what_an_effect_hears_of_comes_with_it(self):
         shown = "['pass', 'moisture', 'position', 'run'].filter(k => !soilbin.live.numbers.get(k).element.hidden).join()"
         self.assertEqual(self.js(shown), "")
@@ -579,7 +598,7 @@ class ThePage(unittest.TestCase):
         before = self.pull()
         self.move("slip", 150, "box")
         self.assertTrue(self.browser.until("!document.getElementById('say').hidden"))
-        self.assertIn("out of range", self.js("document.getElementById('say').textContent"))
+        self.assertIn("\u2018Slip\u2019: '150%' is out of range", self.js("document.getElementById('say').textContent"))
         self.assertEqual(self.pull(), before)
         self.move("slip", 20, "box")
         self.assertTrue(self.browser.until("!document.getElementById('say').textContent.includes('out of range')"))

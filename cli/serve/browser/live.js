@@ -8,6 +8,8 @@ soilbin.make = function (tag, set = {}, ...inside) {
   return element;
 };
 soilbin.part = id => document.getElementById(id);
+// '80N', '0.2 1/kPa'.
+soilbin.quantity = (value, unit) => unit.startsWith('1') ? `${value} ${unit}` : value + unit;
 soilbin.slipRanges = [['0%..100%', '0 to 100 %'], ['0%..40%', '0 to 40 %'], ['-100%..100%', '\u2212100 (braked) to 100 %']];
 
 // Figures of charts, and the sheet of the answer that each shows.
@@ -99,7 +101,7 @@ soilbin.Live = class {
       if (from.value === '') return value === null && changed('');
       to.value = from.value;
       slider.setAttribute('aria-valuetext', `${from.value} ${unit}`);
-      changed(doubtful ? `${box.value}+-${deviation.value || 0}${unit}` : from.value + unit);
+      changed(doubtful ? `${box.value}+-${deviation.value || 0}${unit}` : soilbin.quantity(from.value, unit));
     };
     slider.addEventListener('input', () => moved(slider, box));
     box.addEventListener('input', () => moved(box, slider));
@@ -148,8 +150,8 @@ soilbin.Live = class {
   spelled(effect, form, key, text) {
     const spelled = form.parameters.map(p => {
       const {box, unit} = effect.controls.get(p.key);
-      return [p, p.key === key ? text : box.value + unit];
-    }).filter(([p, value]) => value !== p.value + p.unit);
+      return [p, p.key === key ? text : soilbin.quantity(box.value, unit)];
+    }).filter(([p, value]) => value !== soilbin.quantity(p.value, p.unit));
     return [`${effect.id}:${form.form}`, ...spelled.map(([p, value]) => `${p.key}=${value}`)].join();
   }
 
@@ -206,8 +208,11 @@ soilbin.Live = class {
     soilbin.part('spoken').textContent = this.refused ? '' : said;
   }
 
+  // The words are the command's: its flags are this page's controls.
   complain(error, hint) {
-    const say = soilbin.part('say');
+    const say = soilbin.part('say'), here = text => text && text.replace(/--([a-z0-9-]+)/g, (flag, key) =>
+      this.numbers.has(key) ? `\u2018${this.numbers.get(key).number.title}\u2019` : flag);
+    [error, hint] = [here(error), here(hint)];
     say.hidden = !error;
     say.replaceChildren(...(error ? [soilbin.make('p', {textContent: error})] : []),
                         ...(error && hint ? [soilbin.make('p', {textContent: `Hint: ${hint}`})] : []));
@@ -278,7 +283,8 @@ soilbin.Live = class {
     soilbin.part('ground').querySelector('.panels').replaceChildren(...wheels.map(soilbin.drawWheel));
     if (typeof d3 === 'undefined') return;
     for (const place of soilbin.chartFigures) {
-      const plots = this.answer[place].plots, charts = this.charts[place], figure = soilbin.part(place);
+      const plots = this.answer[place].plots.filter(p => place !== 'budget' || p.series.some(s => s.y.some(y => y !== null)));
+      const charts = this.charts[place], figure = soilbin.part(place);
       const host = figure.querySelector('.panels');
       figure.hidden = !plots.length;
       while (charts.length > plots.length) charts.pop().host.remove();
@@ -295,18 +301,19 @@ soilbin.Live = class {
   keptSeries(place, i) {
     const kept = this.kept && place !== 'budget' ? this.kept[place].plots[i] : null;
     return kept ? kept.series.filter(s => !s.label.endsWith('this point'))
-      .map(s => ({...s, label: s.label ? `kept, ${s.label}` : 'kept', error: [], dash: 1, color: s.color === 'c0' ? 'c2' : 'c3'})) : [];
+      .map(s => ({...s, label: s.label ? `kept, ${s.label}` : 'kept', error: [], dash: 1, color: s.color === 'c0' ? 'c3' : 'c4'})) : [];
   }
 
   showLegend(figure, plots) {
     const entries = new Map();
-    for (const plot of plots) for (const {label, color} of plot.series) if (label && !label.endsWith('this point')) entries.set(label, color);
-    const swatch = color => soilbin.svgOf('svg', {viewBox: '0 0 12 12', width: 12, height: 12, 'aria-hidden': 'true'},
-                                          soilbin.svgOf('circle', {class: `f ${color}`, cx: 6, cy: 6, r: 5}));
+    for (const plot of plots) for (const s of plot.series) if (s.label && !s.label.endsWith('this point')) entries.set(s.label, s);
+    const swatch = ({color, base, dash}) => soilbin.svgOf('svg', {viewBox: '0 0 26 12', width: 26, height: 12, 'aria-hidden': 'true'},
+      base.length ? soilbin.svgOf('circle', {class: `f ${color}`, cx: 13, cy: 6, r: 5})
+        : soilbin.svgOf('line', {class: `s ${color}`, 'stroke-width': 2, x1: 1, x2: 25, y1: 6, y2: 6, 'stroke-dasharray': soilbin.dashes[dash % 4] || 'none'}));
     const list = figure.querySelector('.legend');
     if (list.dataset.shows === [...entries.keys()].join()) return;
     list.dataset.shows = [...entries.keys()].join();
-    list.replaceChildren(...[...entries].map(([label, color]) => soilbin.make('li', {}, swatch(color), label)));
+    list.replaceChildren(...[...entries].map(([label, series]) => soilbin.make('li', {}, swatch(series), label)));
   }
 
   keep(button) {
