@@ -109,7 +109,7 @@ std::string steepest_in_words(double steepest) {
 }
 
 std::string limits_text(const LimitsAnswer& answer) {
-  std::string text = fmt::format("{}, load {} N\n", answer.model.label, number(answer.at.load));
+  std::string text = fmt::format("{}, load {:.6g} N\n", answer.model.label, answer.at.load);
   if (!answer.error.empty()) return text + "no solution: " + answer.error + "\n";
   TextTable table({"slope [deg]", "slip [%]", "largest pull [N]", "at slip [%]"});
   for (const SlopeRow& row : answer.slopes)
@@ -168,13 +168,14 @@ compare::Sheet limits_sheet(const Case& question, const std::vector<LimitsAnswer
   });
   compare::Sheet sheet{
       fmt::format("{} on {}{}", question.scenario.tire.name, compare::in_words(question.scenario.soil),
-                  one_load && !answers.empty() ? ", load " + number(answers.front().at.load) + " N" : ""),
+                  one_load && !answers.empty() ? fmt::format(", load {:.6g} N", answers.front().at.load) : ""),
       {{"Largest pull [N]", slope, {}, {}}, {"Slip [%]", slope, {}, {}}},
       compare::Palette::named};
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const LimitsAnswer& answer = answers[i];
-    const std::string which =
-        answers.size() < 2 ? "" : fmt::format("{}, {} N", answer.model.label, number(answer.at.load));
+    const std::string which = answers.size() < 2 ? ""
+                              : one_load         ? answer.model.label
+                                                 : fmt::format("{}, {:.6g} N", answer.model.label, answer.at.load);
     const auto add = [&](std::size_t plot, const std::string& label, int dash, const auto& value) {
       compare::Series series{which.empty() ? label : which + (label.empty() ? "" : ": " + label), {}, {}, {}};
       series.mark = compare::Mark::line_and_points, series.color = static_cast<int>(i), series.dash = dash;

@@ -127,7 +127,7 @@ std::string svg(const Sheet& sheet, const PanelSize& size) {
   const std::size_t columns = sheet.plots.size() > 1 ? 2 : 1;
   const std::size_t rows = (sheet.plots.size() + columns - 1) / columns;
   const double width = size.width * static_cast<double>(columns);
-  double y = sheet.title.empty() ? 8.0 : 40.0;
+  double y = (sheet.title.empty() ? 8.0 : 40.0) + (sheet.note.empty() ? 0.0 : 18.0);
   std::string body;
   for (std::size_t i = 0; i < sheet.plots.size(); ++i)
     body += fmt::format(R"svg(<g transform="translate({:.0f} {:.0f})">{}</g>)svg",
@@ -140,6 +140,8 @@ std::string svg(const Sheet& sheet, const PanelSize& size) {
   if (!sheet.title.empty())
     title = fmt::format(R"(<text class="ink" fill="#1a1d23" font-size="15" font-weight="600" x="20" y="26">{}</text>)",
                         escaped(sheet.title));
+  if (!sheet.note.empty())
+    title += fmt::format(R"(<text class="quiet" fill="#5a6270" x="20" y="44">{}</text>)", escaped(sheet.note));
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "

@@ -49,6 +49,7 @@ struct Sheet {
   std::string title;
   std::vector<Plot> plots;
   Palette palette = Palette::named;
+  std::string note{};  ///< a line under the title of a stand-alone file: of what it is, what bands are
 };
 
 /// Width and height of one panel [px].

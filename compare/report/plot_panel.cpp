@@ -32,7 +32,7 @@ Span with_room(Span span, const Axis& axis, double room) {
     const double half = span.lower == 0.0 ? 0.5 : 0.1 * std::abs(span.lower);
     span = {span.lower - half, span.upper + half};
   }
-  const double pad = room * span.length();
+  const double pad = room * (span.upper - std::min(span.lower, axis.lower.value_or(span.lower)));
   const bool touches_zero = span.lower == 0.0;
   span = {touches_zero ? 0.0 : span.lower - pad, span.upper + pad};
   return {axis.lower.value_or(span.lower), axis.upper.value_or(span.upper)};
@@ -170,7 +170,7 @@ std::string points(const Sheet& sheet, const Series& series, const Frame& f) {
   std::string out;
   for (std::size_t i = 0; i < series.y.size(); ++i) {
     if (!std::isfinite(series.y[i])) continue;
-    if (series.mark == Mark::points && error_at(series, i) > 0.0)
+    if ((series.mark == Mark::points || series.y.size() == 1) && error_at(series, i) > 0.0)
       out += fmt::format(R"(<line {} x1="{:.1f}" x2="{:.1f}" y1="{:.1f}" y2="{:.1f}"/>)", stroke(sheet.palette, color),
                          f.x(series.x[i]), f.x(series.x[i]), f.y(series.y[i] - error_at(series, i)),
                          f.y(series.y[i] + error_at(series, i)));

@@ -120,7 +120,14 @@ Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, 
   const bool alone = curves.labels.size() == 1;
   if (alone) sheet.palette = Palette::named;
   const bool all_bands = curves.labels.size() * study.size() <= most_bands;
-  const bool first_bands = curves.labels.size() <= most_bands;  // else those of the first model alone
+  const bool first_bands = curves.labels.size() <= most_bands;
+  sheet.note = in_words(question.scenario.tire) + " on " + in_words(question.scenario.soil) + "; ";
+  if (all_bands)
+    sheet.note += "bands and bars: one standard error";
+  else if (first_bands)
+    sheet.note += "bands, of the first model alone: one standard error";
+  else
+    sheet.note += "so many curves are drawn without their standard errors";
   for (const Shown& shown : shown_of(study, panels)) {
     Plot plot = empty_plot(shown);
     for (std::size_t m = 0; m < study.size(); ++m)

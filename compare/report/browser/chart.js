@@ -82,7 +82,7 @@ soilbin.Chart = class {
     const span = (values, axis, room) => {
       let [low, high] = values.length ? d3.extent(values) : [0, 1];
       if (low === high) [low, high] = [low - 0.5 * Math.abs(low || 1), high + 0.5 * Math.abs(high || 1)];
-      const pad = room * (high - low);
+      const pad = room * (high - Math.min(low, axis.lower !== null ? axis.lower : low));
       return [axis.lower !== null ? axis.lower : low - pad, axis.upper !== null ? axis.upper : high + pad];
     };
     if (this.plot.identity_line) { xs.push(...ys); ys.push(...xs); }
@@ -234,7 +234,7 @@ soilbin.drawSeries = function (marks, series, frame) {
       .attr('d', d3.line().defined(there).x(px).y(py)(points));
   if (series.mark === 'line' && points.length > 1) return;
   const each = marks.append('g').selectAll('g').data(points.filter(there)).enter();
-  if (!joined)
+  if (!joined || points.length === 1)
     each.append('line').attr('class', `s ${series.color}`).attr('x1', px).attr('x2', px)
       .attr('y1', p => frame.y(p.y - p.error)).attr('y2', p => frame.y(p.y + p.error));
   each.append('circle').attr('class', `f ${series.color}`).attr('r', 3.4).attr('cx', px).attr('cy', py);
