@@ -18,6 +18,21 @@ namespace {
 
 std::string named(const std::string& curve) { return curve.empty() ? "all conditions" : curve; }
 
+/// ", its effects, grains (dem) and measurements": what stands beside the analytic wheel.
+std::string other_sides(const Comparison& comparison) {
+  bool effects = false, grains = false, measured = false;
+  for (const Side& side : comparison.sides) {
+    effects = effects || (side.kind == SideKind::analytic && side.label != "bekker_wong");
+    grains = grains || side.kind == SideKind::grains;
+    measured = measured || side.kind == SideKind::measured;
+  }
+  std::string text;
+  for (const auto& [there, name] :
+       {std::pair{effects, "the same with effects"}, {grains, "grains (dem)"}, {measured, "measurements"}})
+    if (there) text += std::string(", ") + name;
+  return text;
+}
+
 /// Links from a clause to the tables and sections that hold its rows.
 std::vector<std::pair<std::string, std::string>> evidence_of(const Comparison& comparison, const Clause& clause) {
   std::vector<std::pair<std::string, std::string>> links;
@@ -77,11 +92,13 @@ void add_channels(Page& page, const Comparison& comparison) {
     return std::to_string(std::count_if(comparison.differences.begin(), comparison.differences.end(),
                                         [&](const Difference& d) { return d.finding == finding; }));
   };
-  page.figures_at_a_glance({{std::to_string(comparison.question.study.conditions.size()), "conditions"},
-                            {std::to_string(comparison.differences.size()), "numbers compared"},
-                            {count(DifferenceFinding::difference), "differences"},
-                            {count(DifferenceFinding::within_scatter), "within the scatter of a run"},
-                            {count(DifferenceFinding::within_errors), "covered by the errors"}});
+  page.figures_at_a_glance(
+      {{std::to_string(comparison.question.study.conditions.size()), "conditions"},
+       {std::to_string(comparison.differences.size()), "numbers compared"},
+       {count(DifferenceFinding::difference), "differences"},
+       {count(DifferenceFinding::within_scatter), "within the scatter of a run"},
+       {count(DifferenceFinding::within_errors), "covered by the errors"},
+       {count(DifferenceFinding::not_judged), "not judged: both sides share their errors or state none"}});
 }
 
 void add_differences(Page& page, const Comparison& comparison) {
@@ -190,9 +207,9 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
 
 std::string comparison_page(const Comparison& comparison, const ComparisonAbout& about) {
   const Scenario& scenario = comparison.question.scenario;
-  Page page(about.page.title,
-            fmt::format("{} on {}: models and measurements side by side",
-                        scenario.tire.name.empty() ? "A wheel" : scenario.tire.name, scenario.soil.name));
+  Page page(about.page.title, fmt::format("{} on {}: the analytic wheel (bekker_wong){} side by side",
+                                          scenario.tire.name.empty() ? "A wheel" : scenario.tire.name,
+                                          scenario.soil.name, other_sides(comparison)));
   page.enliven(about.libraries);
   if (!about.libraries.missing.empty()) {
     std::string packages;

@@ -57,7 +57,9 @@ MarkedTable tally_table(const Comparison& comparison) {
          {.text = t->expected_rms > 0 ? in_unit(t->channel, t->expected_rms) : "-"},
          {.text = in_unit(t->channel, t->bias)},
          {.text = t->unknown == t->values ? "not judged" : fmt::format("{} of {}", t->differ, t->values),
-          .note = fmt::format("{} within scatter, {} within errors", t->in_scatter, t->in_errors)},
+          .note = t->unknown == t->values
+                      ? ""
+                      : fmt::format("{} within scatter, {} within errors", t->in_scatter, t->in_errors)},
          {.text = in_words(comparison.question.study.conditions[worst.condition]),
           .note = fmt::format("{} against {}", in_unit(t->channel, worst.value.value),
                               in_unit(t->channel, worst.reference_value.value))}});

@@ -80,9 +80,18 @@ Clause in_short(const Comparison& comparison, const Tally& widest) {
         "{} of {} numbers differ by more than their errors and a run's scatter; the others agree within "
         "them. ",
         clause.rows.size(), judged);
-  clause.text += fmt::format("Widest apart is the {}, of {} and {}: {} of {}, root mean square.",
-                             channel_views[widest.channel].title, comparison.sides[widest.side].label,
-                             comparison.sides[widest.reference].label, percent(widest.rms_share), measure_of(widest));
+  else
+    clause.text =
+        "Which is right only a measurement can tell: these models share the soil's values, so their errors do not "
+        "judge "
+        "a difference. ";
+  const Difference& worst = comparison.differences[widest.worst];
+  clause.text +=
+      fmt::format("Widest apart is the {}, of {} and {}: {} of {}, root mean square; at {} it is {} against {}.",
+                  channel_views[widest.channel].title, comparison.sides[widest.side].label,
+                  comparison.sides[widest.reference].label, percent(widest.rms_share), measure_of(widest),
+                  in_words(comparison.question.study.conditions[worst.condition]),
+                  in_unit(widest.channel, worst.value.value), in_unit(widest.channel, worst.reference_value.value));
   if (std::find(clause.rows.begin(), clause.rows.end(), widest.worst) == clause.rows.end())
     clause.rows.push_back(widest.worst);
   return clause;

@@ -200,8 +200,11 @@ std::vector<std::pair<std::string, std::string>> opening(const Reproduction& rep
                            [&](const auto& row) { return row.evidence[k].verdict == verdict; });
     };
     const auto asked = static_cast<long>(rows.size()) - count(FindingVerdict::no_data);
+    const std::string& label = reproduction.labels[k];
     sentences.emplace_back(
-        reproduction.labels[k],
+        label == "dem"           ? "Grains (dem)"
+        : label == "bekker_wong" ? "The analytic wheel (bekker_wong)"
+                                 : label,
         fmt::format("{} of {} findings are shown, {} contradicted and {} left open{}.", count(FindingVerdict::shown),
                     asked, count(FindingVerdict::contradicted), count(FindingVerdict::not_shown),
                     asked < static_cast<long>(rows.size())
