@@ -57,6 +57,15 @@ class Answers(unittest.TestCase):
         limits = command("limits", "--tire", "rover-wheel", "--soil", "dry-sand", "--load", "64.68N")["rows"][0]
         self.assertEqual(bekker_wong.steepest_slope(ROVER, AT), limits["steepest_slope"])
 
+    def test_limits_take_a_condition_as_keywords_and_refuse_in_plain_words(self):
+        self.assertEqual(bekker_wong.steepest_slope(ROVER, load=64.68), bekker_wong.steepest_slope(ROVER, AT))
+        self.assertEqual(bekker_wong.slip_for_pull(ROVER, load=64.68), bekker_wong.slip_for_pull(ROVER, AT, 0.0))
+        self.assertEqual(bekker_wong.largest_pull(ROVER, load=64.68).slip, bekker_wong.largest_pull(ROVER, AT).slip)
+        for wrong, words in ((lambda: soilbin.estimate("rover-wheel", load=65, slip=0.2), "expected a Scenario"),
+                             (lambda: soilbin.estimate(ROVER, load=[65, 80], slip=0.2), "not 2 of them")):
+            with self.assertRaisesRegex(TypeError, words):
+                wrong()
+
     def test_predictions_and_their_errors_are_the_commands(self):
         known = command("predict", "cmu-smooth")
         errors = compare.error_frame(compare.predict("cmu-smooth"))
@@ -69,6 +78,9 @@ class Answers(unittest.TestCase):
             self.assertGreater(len(soilbin.names(shelf)), 0)
             for name in soilbin.names(shelf):
                 self.assertEqual(read(name).name, name)
+            self.assertEqual(soilbin.names(shelf.name), soilbin.names(shelf))
+        with self.assertRaisesRegex(soilbin.InputError, "no shelf 'wheels'"):
+            soilbin.names("wheels")
 
     def test_the_resolved_case_comes_back(self):
         text = soilbin.find_case("rover-climb").yaml()

@@ -47,12 +47,11 @@ from soilbin._soilbin import (
     find_soil,
     find_tire,
     in_words,
-    names,
     parse_case,
     write_soil,
     write_tire,
 )
-from soilbin.questions import conditions, estimate, run_study, sweep
+from soilbin.questions import conditions, estimate, names, run_study, sweep
 
 __all__ = [
     "Bin", "Case", "ContactPair", "Controller", "Drive", "EffectChoice", "EffectForm", "Estimate", "ForceFrame",

@@ -1,7 +1,7 @@
 """The analytic wheel opened up: its contact, its limits, closed forms, plates, and the wheel driven in time."""
 from __future__ import annotations
 
-from typing import Optional
+from typing import Any, Optional
 
 import pandas as pd
 
@@ -12,27 +12,26 @@ from soilbin._soilbin import (
     DriveEnd,
     DriveRecord,
     Explanation,
+    OperatingCondition,
     PlateCurve,
     PlateExponent,
     PlateFit,
     PlateTest,
     Presumed,
+    PullPeak,
     RolledWheel,
     RollingWheel,
     Scenario,
     bekker_static_sinkage,
     critical_ground_pressure,
-    explain,
     fit_plates,
     fit_plates_at,
-    largest_pull,
     mean_curve,
     presumed,
     rolling_resistance,
-    slip_for_pull,
-    steepest_slope,
 )
 from soilbin.progress import Progress, told_to
+from soilbin.questions import checked, one_condition
 
 __all__ = [
     "BekkerWong", "Drive", "DriveEnd", "DriveRecord", "Explanation", "PlateCurve", "PlateExponent", "PlateFit",
@@ -40,6 +39,34 @@ __all__ = [
     "drive_frame", "drive_wheel", "explain", "fit_plates", "fit_plates_at", "largest_pull", "mean_curve", "presumed",
     "rolling_resistance", "slip_for_pull", "steepest_slope",
 ]
+
+
+def explain(scenario: Scenario, at: Optional[OperatingCondition] = None, **condition: Any) -> Explanation:
+    """The model's equations with their values: explain(wheel, load=80, slip=0.2). Raises as estimate."""
+    return _soilbin.explain(checked(scenario), one_condition(at, condition))
+
+
+def at_any_slip(at: Optional[OperatingCondition], condition: dict[str, Any]) -> OperatingCondition:
+    return one_condition(at, condition if at is not None else {"slip": 0.0, **condition})
+
+
+def largest_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, **condition: Any) -> PullPeak:
+    """Largest drawbar pull over 0 <= slip <= 1: largest_pull(wheel, load=80). The slip of `at` is not read. Raises
+    NoSolution where no slip has a balance.
+    """
+    return _soilbin.largest_pull(checked(scenario), at_any_slip(at, condition))
+
+
+def slip_for_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, drawbar: float = 0.0,
+                  **condition: Any) -> Optional[float]:
+    """Smallest slip above -0.5 at which the wheel pulls `drawbar` [N] on the slope of `at`; None where it can't."""
+    return _soilbin.slip_for_pull(checked(scenario), at_any_slip(at, condition), drawbar)
+
+
+def steepest_slope(scenario: Scenario, at: Optional[OperatingCondition] = None, drawbar: float = 0.0,
+                   **condition: Any) -> Optional[float]:
+    """Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N]; None beyond -60 .. 80 deg."""
+    return _soilbin.steepest_slope(checked(scenario), at_any_slip(at, condition), drawbar)
 
 
 def drive_wheel(scenario: Scenario, drive: Optional[Drive], samples: int = 400,

@@ -9,7 +9,17 @@ import numpy as np
 import pandas as pd
 
 from soilbin import _soilbin
-from soilbin._soilbin import Answer, BekkerWong, Case, Model, ModelKind, OperatingCondition, Scenario, TractionResult
+from soilbin._soilbin import (
+    Answer,
+    BekkerWong,
+    Case,
+    Model,
+    ModelKind,
+    OperatingCondition,
+    Scenario,
+    Shelf,
+    TractionResult,
+)
 from soilbin.progress import Progress, told_to
 
 CONDITION = ("load", "slip", "speed", "longitudinal_incline", "transverse_incline", "yaw", "pass", "moisture",
@@ -28,14 +38,39 @@ def conditions(**axes: Any) -> list[OperatingCondition]:
     return [OperatingCondition(**dict(zip(axes, point))) for point in itertools.product(*values)]
 
 
+def checked(scenario: Scenario) -> Scenario:
+    """The scenario; a TypeError in plain words where it is something else."""
+    if not isinstance(scenario, Scenario):
+        raise TypeError(f"scenario: expected a Scenario, such as Scenario('rover-wheel', 'dry-sand'), not {scenario!r}")
+    return scenario
+
+
+def one_condition(at: Optional[OperatingCondition], keywords: dict[str, Any]) -> OperatingCondition:
+    """`at` with these attributes changed, or a condition of them alone."""
+    for name, value in keywords.items():
+        if np.ndim(value) > 0:
+            raise TypeError(f"{name}: one number is asked for, not {np.size(value)} of them; "
+                            "sweep(wheel, conditions(...)) answers many")
+    return OperatingCondition(**keywords) if at is None else at.replace(**keywords)
+
+
+def names(shelf: Union[Shelf, str]) -> list[str]:
+    """Every name on a shelf of the library, sorted: names("soils"); also tires, studies, measured."""
+    if isinstance(shelf, Shelf):
+        return _soilbin.names(shelf)
+    shelves = ("tires", "soils", "studies", "measured")
+    if shelf not in shelves:
+        raise _soilbin.InputError(f"no shelf {shelf!r}: there are {', '.join(shelves)}")
+    return _soilbin.names(getattr(Shelf, shelf))
+
+
 def estimate(scenario: Scenario, at: Optional[OperatingCondition] = None, **condition: Any) -> TractionResult:
     """The analytic model's answer at one condition: estimate(wheel, load=80, slip=0.2).
 
     Keywords set or change attributes of the condition. Raises InputError for what is refused, NoSolution where the
     wheel would bury itself.
     """
-    asked = OperatingCondition(**condition) if at is None else at.replace(**condition)
-    return BekkerWong().evaluate(scenario, asked)
+    return BekkerWong().evaluate(checked(scenario), one_condition(at, condition))
 
 
 def sweep(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[Model] = None,
@@ -46,7 +81,7 @@ def sweep(scenario: Scenario, at: Iterable[OperatingCondition], model: Optional[
     budget_NAME for each part of the pull, error ('' where there is a result). SI and radians. A condition without
     solution is a row of NaN with its error.
     """
-    answers = _soilbin.answers(model or BekkerWong(patch=False), scenario, list(at), told_to(progress))
+    answers = _soilbin.answers(model or BekkerWong(patch=False), checked(scenario), list(at), told_to(progress))
     return answers_frame(answers)
 
 
