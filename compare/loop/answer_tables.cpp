@@ -101,7 +101,7 @@ MarkedTable candidates_table(const LoopAnswer& answer) {
                               : answer.second->decides ? ", beside a base model that may be off by itself"
                                                        : ", the base model taken as exact";
   MarkedTable table{
-      "Candidates, each fitted in full" + premise + "; shares are of those that these data cannot separate",
+      "Candidates, each fitted in full" + premise + "; shares are of those that these data do not rule out",
       {"effects", "form", "share", "odds to the first", "chi2", "values"},
       {},
       {true, true}};

@@ -124,6 +124,23 @@ std::string next_candidate(const LoopAnswer& answer) {
                      times_likelier(behind));
 }
 
+/// What an accepted effect takes the wheel to have and the campaign does not declare: without it the verdict misleads.
+std::string presumed_of_the_wheel(const LoopAnswer& answer) {
+  std::string text;
+  for (const AcceptedEffect& effect : answer.effects) {
+    std::string values;
+    for (const bekker_wong::Presumed& value :
+         bekker_wong::presumed(bekker_wong::find_form(effect.choice), answer.wheel))
+      values += (values.empty() ? "" : ", ") + value.words;
+    if (!values.empty())
+      text += fmt::format(
+          " The campaign does not declare what {0} needs, so this is presumed: {1}. If the wheel has no such thing, "
+          "something that acts like {0} is missing, not {0} itself.",
+          effect_title(effect.choice.id).name, values);
+  }
+  return text;
+}
+
 std::string how_sure(const LoopAnswer& answer) {
   if (!answer.judgement) return "";
   const double p = answer.found().signatures.p_value;
@@ -133,9 +150,10 @@ std::string how_sure(const LoopAnswer& answer) {
     case Verdict::effect_found:
       return " " + noise_alone +
              (answer.ambiguity_set.size() > 1
-                  ? " These data cannot separate it from: " + sets_with_shares(answer.ambiguity_set, 1, little) + "." +
+                  ? " Other candidates: " + sets_with_shares(answer.ambiguity_set, 1, little) + "." +
                         why_taken(answer.ambiguity_set)
-                  : next_candidate(answer));
+                  : next_candidate(answer)) +
+             presumed_of_the_wheel(answer);
     case Verdict::unknown_effect:  // its reason holds the odds
       return fmt::format(" {}.", capital(answer.judgement->reason)) +
              (answer.ambiguity_set.size() > 1
@@ -234,10 +252,10 @@ std::string to_show_its_shape(const LoopAnswer& answer) {
     return "Where the unexplained part comes from does not show yet: vary one condition alone, each setting run twice.";
   const Dependence* on = &sure.front();
   const auto& looked_at = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
-  const std::string how = on->variable == "run"
-                              ? "one setpoint, repeated through the whole campaign"
-                              : fmt::format("the same run at several settings of the {} alone, each one twice",
-                                            spaced(std::string(condition_view(on->variable).title)));
+  const std::string how =
+      on->variable == "run" ? "one setpoint, repeated through the whole campaign"
+                            : fmt::format("one run, all else kept, at several settings of the {} alone, each one twice",
+                                          spaced(std::string(condition_view(on->variable).title)));
   return fmt::format(
       "The unexplained part of the {} depends most on the {} (p = {:.2g}; false-discovery rate over {} pairs of "
       "channel and variable: {}). Measure next {}.",
@@ -384,7 +402,8 @@ std::string verdict_sentence(const LoopAnswer& answer) {
       const std::set<std::string>& ids = answer.found().best().ids;
       const std::string names = named_effects(ids);
       if (answer.ambiguity_set.size() > 1)
-        return fmt::format("The model lacks an effect, most likely {} ({}).", names,
+        return fmt::format("The model lacks {}, most likely {} ({}).",
+                           ids.size() == 1 ? "an effect" : fmt::format("{} effects", ids.size()), names,
                            share_words(answer.ambiguity_set.front().weight));
       return ids.size() == 1 ? fmt::format("The model lacks {}: {}.", names, effect_title(*ids.begin()).meaning)
                              : fmt::format("The model lacks {}.", names);

@@ -33,7 +33,14 @@ void bind_loop_parts(py::module_& module) {
       .def_readonly("ci95", &AcceptedEffect::ci95, "of each fitted parameter, cut off at its bounds")
       .def_readonly("at_bound", &AcceptedEffect::at_bound, "of each: the fit ended at a bound")
       .def_readonly("p_value", &AcceptedEffect::p_value, "family-wise, beside the other accepted effects")
-      .def_readonly("cosines", &AcceptedEffect::cosines, "of its trace with each other effect's");
+      .def_readonly("cosines", &AcceptedEffect::cosines, "of its trace with each other effect's")
+      .def("__repr__", [](const AcceptedEffect& e) {
+        std::string fitted;
+        for (const std::string& name : e.fitted)
+          fitted += fmt::format(", {}={:.4g}", name, e.choice.parameters.at(name));
+        return fmt::format("AcceptedEffect({}, form={}{}, p_value={:.2g})", e.choice.id, e.choice.form, fitted,
+                           e.p_value);
+      });
   py::class_<Weighted>(module, "Weighted", "A set of effects with its share of the evidence.")
       .def_readonly("ids", &Weighted::ids)
       .def_readonly("weight", &Weighted::weight);
