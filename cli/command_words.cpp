@@ -36,6 +36,7 @@ constexpr std::pair<std::string_view, std::string_view> everyday_words[] = {{"--
                                                                             {"--slip-angle", "--yaw"},
                                                                             {"--steering", "--yaw"},
                                                                             {"--weight", "--load"},
+                                                                            {"--mass", "--load"},
                                                                             {"--velocity", "--speed"},
                                                                             {"--pressure", "--inflation-pressure"}};
 
@@ -49,6 +50,7 @@ const Elsewhere elsewhere[] = {
      {"--plot", "--csv", "--report", "--slips"},
      "this is one answer; for curves over slip: soilbin init mine, then soilbin run mine/case.yaml --plot curves.svg; "
      "over slope, from these flags: soilbin limits --plot slope.svg"},
+    {{"estimate", "explain", "limits", "serve"}, {"--diameter"}, "--radius takes half of it"},
     {{"run", "compare", "sweep"},
      {"--tire", "--soil", "--radius", "--width", "--lug-height"},
      "it takes a case file, where tire and soil stand: soilbin init mine writes one to change; soilbin estimate takes "

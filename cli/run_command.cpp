@@ -41,7 +41,9 @@ void keep_model(Case& question, const std::string& name) {
     if (word.text == name) kind = word.value;
     right.emplace_back(word.text);
   }
-  if (!kind) throw InputError("--model: unknown model '" + clipped(name) + "'" + did_you_mean(name, right));
+  if (!kind)
+    throw InputError("--model: unknown model '" + clipped(name) + "'" + did_you_mean(name, right) +
+                     "\n  hint: bekker_wong is the analytic wheel, dem the grains");
   std::vector<ModelChoice> kept;
   for (const ModelChoice& choice : question.study.models)
     if (choice.model == *kind) kept.push_back(choice);

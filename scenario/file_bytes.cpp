@@ -15,7 +15,12 @@ std::string read_bytes(const std::filesystem::path& path, std::size_t largest) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) throw InputError(where, "no such file");
-  if (fs::is_directory(status)) throw InputError(where, "is a folder; a file is expected");
+  if (fs::is_directory(status)) {
+    std::string in_it;
+    for (const char* name : {"case.yaml", "campaign.yaml"})
+      if (in_it.empty() && fs::exists(path / name, error)) in_it = (path / name).string();
+    throw InputError(where, "is a folder; a file is expected", "", in_it.empty() ? "" : "in it there is " + in_it);
+  }
   if (!fs::is_regular_file(status)) throw InputError(where, "is not a regular file that can be read");
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(where, "can't be opened for reading");

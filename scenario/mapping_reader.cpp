@@ -118,7 +118,11 @@ void expect_format(const YamlNode& document, const std::string& format, const Re
   const YamlNode* node = document.find("format");
   if (node == nullptr) reading.refuse(document, "key 'format' is missing", "format: " + format);
   if (!node->is_scalar() || node->scalar != format)
-    reading.refuse(*node, fmt::format("unknown format '{}': expected '{}'", clipped(node->scalar), format));
+    reading.refuse(*node, fmt::format("unknown format '{}': expected '{}'", clipped(node->scalar), format),
+                   node->scalar == "soilbin-case/1" ? "a case is a question: soilbin run, estimate or compare takes it"
+                   : node->scalar == "soilbin-campaign/1"
+                       ? "a campaign is measured runs: soilbin check, predict or loop takes it"
+                       : "");
 }
 
 }  // namespace soilbin

@@ -81,8 +81,10 @@ SourceText make_source_text(std::string text, const std::string& file) {
       continue;
     }
     const SourcePosition where = source.position(at);  // no excerpt: its bytes are not fit to print
-    throw InputError(where, fmt::format("byte 0x{:02x} is no text: the file must be UTF-8 without control characters",
-                                        static_cast<unsigned>(static_cast<unsigned char>(all[at]))));
+    throw InputError(where,
+                     fmt::format("byte 0x{:02x} is no text: the file must be UTF-8 without control characters",
+                                 static_cast<unsigned>(static_cast<unsigned char>(all[at]))),
+                     "", all.starts_with("PK") ? "a spreadsheet: export it as CSV" : "save it as text in UTF-8");
   }
   return source;
 }

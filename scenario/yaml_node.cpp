@@ -157,6 +157,35 @@ const YamlNode* YamlNode::find(std::string_view key) const {
   return nullptr;
 }
 
+namespace {
+
+/// What most likely went wrong in the line of this place or in the one before it; "" where nothing usual did.
+std::string slip_of_the_pen(const std::string& text, std::size_t at) {
+  std::string before, here;
+  std::istringstream lines(text);
+  for (std::size_t read = 0; read <= at && std::getline(lines, here); read += here.size() + 1)
+    if (read + here.size() < at) before = here;
+  for (const std::string& line : {here, before}) {
+    const std::size_t word = line.find_first_not_of(" \t");
+    if (word == line.npos) continue;
+    if (line.substr(0, word).find('\t') != line.npos) return "a tab stands before the key: indent with blanks";
+    const std::size_t comment = line.find(" #"), colon = line.find(": ");
+    if (comment != line.npos && colon != line.npos && comment < colon)
+      return "'#' after a blank begins a comment: put a name that holds it in quotes, \"Run #\": ...";
+    if (line.find(": %") != line.npos || line.find("{%") != line.npos) return "put the percent sign in quotes: \"%\"";
+    if (std::count(line.begin(), line.end(), '[') != std::count(line.begin(), line.end(), ']'))
+      return "a list is not closed: ']' is missing";
+    if (std::count(line.begin(), line.end(), '{') != std::count(line.begin(), line.end(), '}'))
+      return "a mapping is not closed: '}' is missing";
+    const std::size_t bare = line.find(':');
+    if (colon == line.npos && bare != line.npos && bare + 1 < line.size())
+      return "a blank is missing after ':', as in 'radius: 110 mm'";
+  }
+  return "";
+}
+
+}  // namespace
+
 YamlNode parse_yaml(const SourceText& source) {
   if (source.text.size() > largest_yaml)
     source.refuse(0, fmt::format("larger than the {} bytes that a YAML file may have", largest_yaml));
@@ -169,7 +198,8 @@ YamlNode parse_yaml(const SourceText& source) {
     parser.HandleNextDocument(rest);
   } catch (const YAML::Exception& error) {
     const std::size_t at = error.mark.is_null() ? 0 : offset_of(error.mark);
-    source.refuse(std::min(at, source.text.size()), "not well-formed YAML: " + error.msg);
+    source.refuse(std::min(at, source.text.size()), "not well-formed YAML: " + error.msg,
+                  slip_of_the_pen(source.text, at));
   }
   return builder.take();
 }

@@ -79,7 +79,8 @@ ColumnChoice choose_column(const CsvCell& header, Renames& renames, const Source
   for (const auto& [name, renamed] : renames) right.push_back(name);
   csv.refuse(header.offset,
              fmt::format("unknown column '{}'{}", clipped(header.text), did_you_mean(header.text, right)),
-             "columns: " + listed(right) + "; others are named in campaign.yaml under 'columns'");
+             "give it a quantity in campaign.yaml under 'columns', or take it out of the file; known without that: " +
+                 listed(right));
 }
 
 std::vector<ColumnChoice> choose_columns(const CsvTable& table, Renames& renames, const SourceText& csv) {
@@ -177,6 +178,8 @@ int free_parameters(const SemiEmpiricalSoil& soil) {
 
 Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(const std::string&)>& open,
                         const Library& library, const EffectVocabulary& effects, CampaignUse use) {
+  if (yaml.file.ends_with(".csv"))
+    throw InputError("'" + yaml.file + "' holds the rows\n  hint: name its folder, or the campaign.yaml beside it");
   const YamlNode document = parse_yaml(yaml);
   const Reading reading{&yaml, std::nullopt, nullptr, ""};
   expect_format(document, campaign_format, reading);
@@ -191,8 +194,13 @@ Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(c
   if (use == CampaignUse::design && csv.text.empty()) return campaign;
   const CsvTable table = parse_csv(csv);
   const std::vector<ColumnChoice> columns = choose_columns(table, renames, csv);
+  std::vector<std::string> headers;
+  for (const CsvCell& header : table.header.cells) headers.push_back(header.text);
   for (const auto& [name, renamed] : renames)
-    if (!renamed.used) reading.refuse(*renamed.node, fmt::format("'{}' has no column '{}'", csv.file, clipped(name)));
+    if (!renamed.used)
+      reading.refuse(*renamed.node,
+                     fmt::format("'{}' has no column '{}'{}", csv.file, clipped(name), did_you_mean(name, headers)),
+                     "its columns: " + listed(headers));
   campaign.runs = read_runs(table, columns, csv);
   for (Run& run : campaign.runs) {
     run.at.slip_by = campaign.slip_by;

@@ -34,7 +34,8 @@ class CsvReader {
   void read_row(CsvRow& row, std::size_t most_cells) {
     while (true) {
       if (row.cells.size() >= most_cells)
-        source_.refuse(at_, fmt::format("more cells in a row than the {} expected", most_cells));
+        source_.refuse(at_, fmt::format("more cells in a row than the {} expected", most_cells),
+                       "commas part the cells, so a decimal point is '.': 4.4, not 4,4");
       row.cells.push_back(read_cell());
       if (at_end()) return;
       if (text_[at_] == ',') {

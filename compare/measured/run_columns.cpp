@@ -74,8 +74,11 @@ double read_cell(const CsvCell& cell, const std::string& header, const ColumnCho
   };
   if (!read_number(cell.text)) {
     const bool comma = cell.text.find(',') != std::string::npos;
+    const bool digit = cell.text.find_first_of("0123456789") != std::string::npos;
     refuse(fmt::format("expected a finite number, not '{}'", clipped(cell.text)),
-           comma ? "a decimal point is '.'" : "the unit stands in the column's name, not in the cell");
+           comma   ? "a decimal point is '.'"
+           : digit ? "the unit stands in the column's name, not in the cell"
+                   : "where nothing was measured leave the cell empty");
   }
   double value = 0.0;
   try {

@@ -30,8 +30,8 @@ double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig) {
     throw InputError(
         fmt::format("a bed of {:.4g} m leaves the wheel no way: "
                     "{:.4g} m behind and {:.4g} m ahead are kept"
-                    "\n  hint: a longer bed",
-                    size.length, rig.behind, rig.ahead));
+                    "\n  hint: --bed-length above {:.4g} m, or less --behind and --ahead",
+                    size.length, rig.behind, rig.ahead, rig.behind + rig.ahead));
   if (size.width < 1.4999 * tire.width)  // 150 mm is 1.5 times 100 mm, whatever rounding says
     throw InputError(
         fmt::format("a bed {:.4g} m wide is too narrow for a tire "

@@ -138,7 +138,7 @@ TEST(CampaignRefuses, MissingFiles) {
 TEST(CampaignRefuses, UnknownColumns) {
   EXPECT_THAT(refused_csv("torque_Nm", "torqe_Nm"),
               AllOf(StartsWith("runs.csv:1:71: unknown column 'torqe_Nm', did you mean 'torque_Nm'?"),
-                    HasSubstr("hint: columns: run, setpoint, load_N")));
+                    HasSubstr("known without that: run, setpoint, load_N")));
   EXPECT_THAT(refused_csv("torque_Nm", "drawbar_pull_N"), HasSubstr("column 'drawbar_pull_N' appears twice"));
   EXPECT_THAT(refused_csv("torque_Nm", ""), HasSubstr("a column without a name"));
   EXPECT_THAT(refused_csv("torque_Nm", "torque_Nm;x"), HasSubstr("parted by commas, not by semicolons"));
