@@ -176,7 +176,9 @@ void SoilBinFlags::add_rig_to(CLI::App& command) {
       ->type_name(settling_type)
       ->group(grains_heading);
   command
-      .add_option("--threads", threads, "number of threads, which changes no bit of the answer; 0: one for each core")
+      .add_option("--threads", threads,
+                  "number of threads, which changes no bit of the answer; 0: one for each core; give 1 where other "
+                  "programs use them")
       ->type_name("N")
       ->group(grains_heading);
 }

@@ -244,7 +244,7 @@ std::string prediction_text(const Prediction& prediction) {
   for (const PredictedRun& run : prediction.runs) conditions.push_back(run.measured.at);
   const Curves curves = curves_against_slip(conditions, Spread::measured);
   std::vector<std::string> header = {"run"};
-  if (!curves.varying.empty()) header.push_back(curves.varying);
+  if (!curves.varying.empty()) header.push_back("nominal " + curves.varying);
   header.insert(header.end(), {"load [N]", "slip [%]"});
   for (const ChannelError& error : prediction.errors) {
     const ChannelView& channel = channel_views[error.channel];
