@@ -11,11 +11,11 @@ import re
 import sys
 from pathlib import Path
 
-
 ROOT = Path(__file__).resolve().parents[2]
 project, author, language = "soilbin", "the soilbin authors", "en"
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
 sys.path[:0] = [str(ROOT / "build/release/python"), str(ROOT / "docs/site")]
+mathml = importlib.import_module("formula").mathml
 MODULES = ("soilbin", "soilbin.bekker_wong", "soilbin.dem", "soilbin.compare")
 HAS_PACKAGE = importlib.util.find_spec("soilbin") is not None and importlib.util.find_spec("pandas") is not None
 nitpick_ignore_regex = [("py:.*", ".*")]  # signatures name types that are not documented by themselves
