@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "compare/loop/pooled_runs.hpp"
-#include "compare/loop/unnamed.hpp"
 
 namespace soilbin::compare {
 
@@ -404,7 +403,7 @@ const Weighted& Candidates::weighed(const std::set<std::string>& ids) const {
 
 Attribution attribute(const FittedModel& base, const AttributionOptions& options) {
   const LinearProblem problem = problem_of(base);
-  const double unnamed = unnamed_gain(problem, unnamed_families(base.data(), base.fit().prediction));
+  const UnnamedEvidence unnamed = unnamed_evidence(problem, unnamed_kinds(base));
   ResidualSignatures signatures{residual_signatures(base, problem, options.pool)};
   signatures.p_value = family_wise_p(signatures.all, strongest(signatures.all), base.data().noise.typical_freedom(),
                                      options.simulations, options.seed);

@@ -10,6 +10,7 @@
 #include "compare/loop/base_fit.hpp"
 #include "compare/loop/candidate_fit.hpp"
 #include "compare/loop/signatures.hpp"
+#include "compare/loop/unnamed.hpp"
 
 namespace soilbin::compare {
 
@@ -41,7 +42,7 @@ struct Candidates {
 struct Attribution {
   FittedModel base;
   ResidualSignatures signatures;  ///< against the base model
-  double unnamed_gain = 0.0;      ///< ln evidence that an unnamed term adds to the base model
+  UnnamedEvidence unnamed;        ///< for an unnamed term beside the base model
   Candidates candidates;
   /// The candidate that stands, Candidates::best; there must be one.
   const CandidateModel& best() const { return candidates.models[*candidates.best]; }

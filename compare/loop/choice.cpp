@@ -4,8 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "compare/loop/unnamed.hpp"
-
 namespace soilbin::compare {
 namespace {
 
@@ -32,7 +30,9 @@ bool earns_its_place(const PredictiveGain& gain, double log_odds) {
   return gain.mean > gain.std_error || (gain.mean > 0 && log_odds > thresholds::odds_enough);
 }
 
-ResidualTests test_residual(const FittedModel& model) { return {lack_of_fit(model), rerun_test(model)}; }
+ResidualTests test_residual(const FittedModel& model, std::uint64_t seed) {
+  return {lack_of_fit(model), rerun_test(model), serial_test(model, thresholds::serial_rearrangements, seed)};
+}
 
 ChosenCandidate choose(const Attribution& found, const AttributionOptions& options) {
   const Candidates& all = found.candidates;
@@ -50,8 +50,8 @@ ChosenCandidate choose(const Attribution& found, const AttributionOptions& optio
   const PredictiveGain gain = predictive_gain(held_out, densities(found.base));
   return {.candidate = best,
           .gain = gain,
-          .after = test_residual(model),
-          .unnamed_gain = unnamed_gain(problem_of(model), unnamed_families(model.data(), found.base.fit().prediction)),
+          .after = test_residual(model, options.seed),
+          .unnamed = unnamed_evidence(problem_of(model), unnamed_kinds(found.base)),
           .stands = earns_its_place(gain, evidence(best) - all.base_log_evidence)};
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "compare/loop/candidates.hpp"
@@ -20,15 +21,16 @@ bool earns_its_place(const PredictiveGain& gain, double log_odds);
 struct ResidualTests {
   LackOfFit lack_of_fit;
   RerunTest reruns;
+  SerialTest serial;
 };
-ResidualTests test_residual(const FittedModel& model);
+ResidualTests test_residual(const FittedModel& model, std::uint64_t seed);
 
 /// The candidate that is left after each of its effects had to earn its place.
 struct ChosenCandidate {
   std::size_t candidate = 0;  ///< index in Candidates::models
   PredictiveGain gain;        ///< over the base model
   ResidualTests after;        ///< of what it leaves
-  double unnamed_gain = 0.0;  ///< ln evidence that an unnamed term adds to it, with the tolerance of its forms
+  UnnamedEvidence unnamed;    ///< for an unnamed term beside it, with the tolerance of its forms
   bool stands = false;        ///< against the base model
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "bekker_wong/gsl.hpp"
@@ -48,6 +49,78 @@ RerunTest rerun_test(const FittedModel& model) {
     const double pure = s.within() / reruns, between = s.between() - s.largest();
     test.excess += std::max(0.0, between - freedom * pure);
     least = std::min(least, gsl::f_tail(between / freedom / pure, freedom, reruns));
+  }
+  if (tested > 0) test.p_value = std::min(1.0, tested * least);
+  return test;
+}
+
+namespace {
+
+/// Residuals in the order of the runs, of one channel or of a gain, of unit size where only noise is there.
+struct RunSeries {
+  std::string name;
+  std::vector<double> values;
+};
+
+std::vector<RunSeries> run_series(const FittedModel& model, const VectorXd& order) {
+  const Observations& observations = model.data().observations;
+  std::vector<std::size_t> by_run(observations.cells.size());
+  std::iota(by_run.begin(), by_run.end(), 0u);
+  std::stable_sort(by_run.begin(), by_run.end(), [&](std::size_t a, std::size_t b) {
+    return order[observations.cells[a].row] < order[observations.cells[b].row];
+  });
+  std::vector<RunSeries> all(channel_count + 1);
+  for (int c = 0; c < channel_count; ++c) all[c].name = traction_channels[c].title;
+  RunSeries& gain = all.back();
+  gain.name = "forces";
+  double score = 0.0, weight = 0.0;
+  for (std::size_t k = 0; k < by_run.size(); ++k) {
+    const Cell& cell = observations.cells[by_run[k]];
+    const double f = model.fit().prediction[static_cast<Index>(by_run[k])];
+    const double sd = model.data().noise.channels[cell.channel].sd(f, cell.spread);
+    all[cell.channel].values.push_back((cell.value - f) / sd);
+    if (cell.channel != sinkage) score += (cell.value - f) * f / (sd * sd), weight += f * f / (sd * sd);
+    const bool last = k + 1 == by_run.size() || observations.cells[by_run[k + 1]].row != cell.row;
+    if (!last) continue;
+    if (weight > 0) gain.values.push_back(score / std::sqrt(weight));
+    score = weight = 0.0;
+  }
+  return all;
+}
+
+/// Sum of the correlations with the runs before, Bartlett's weights.
+double serial_correlation(const VectorXd& r, Index lags) {
+  double sum = 0.0;
+  for (Index k = 1; k <= lags; ++k)
+    sum +=
+        (1 - static_cast<double>(k) / static_cast<double>(lags + 1)) * r.head(r.size() - k).dot(r.tail(r.size() - k));
+  return sum;
+}
+
+}  // namespace
+
+SerialTest serial_test(const FittedModel& model, int permutations, std::uint64_t seed) {
+  SerialTest test;
+  const std::vector<Covariate> variables = covariates(model.data().observations);
+  const auto order = std::ranges::find(variables, "run", &Covariate::name);
+  if (order == variables.end()) return test;
+  std::mt19937_64 random(seed);
+  int tested = 0;
+  double least = 2.0;
+  for (const RunSeries& series : run_series(model, order->values)) {
+    if (series.values.size() < thresholds::least_serial_runs) continue;
+    ++tested;
+    VectorXd r = Eigen::Map<const VectorXd>(series.values.data(), static_cast<Index>(series.values.size()));
+    r.array() -= r.mean();
+    const Index lags = std::max<Index>(1, r.size() / 12);
+    const double seen = serial_correlation(r, lags);
+    int reached = 0;
+    for (int k = 0; k < permutations; ++k) {
+      std::shuffle(r.begin(), r.end(), random);
+      if (serial_correlation(r, lags) >= seen) ++reached;
+    }
+    const double p = (reached + 1.0) / (permutations + 1.0);
+    if (p < least) least = p, test.series = series.name;
   }
   if (tested > 0) test.p_value = std::min(1.0, tested * least);
   return test;

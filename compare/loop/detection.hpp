@@ -28,6 +28,17 @@ struct RerunTest {
 };
 RerunTest rerun_test(const FittedModel& model);
 
+/// Do runs made one after the other err alike? Serial correlation of the residuals in the order of the runs: of each
+/// channel, and of a gain that all forces of a run share. An amplifier that warms, a bed that dries, another operator.
+/// It needs no estimate of the noise, which such changes raise.
+struct SerialTest {
+  double p_value = 1.0;  ///< least of the series', times their number; 1 where the order of the runs isn't known
+  std::string series;    ///< the one that reaches it: a channel's title, or "forces"
+};
+/// By the correlations over 1, 2, .. L runs, L a twelfth of them, the nearer the heavier (Bartlett's weights), against
+/// rearrangements of the runs. Deterministic for a seed.
+SerialTest serial_test(const FittedModel& model, int permutations, std::uint64_t seed);
+
 /// Does a channel's residual depend on a variable? Share of its variance that a parabola in the variable explains,
 /// with its p-value from permutations that keep the re-runs of a setpoint together (SetpointPermutation): what they
 /// share, the model's error at that setpoint above all, is seen once, however often it was run.

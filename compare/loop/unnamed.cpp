@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "compare/loop/condition_functions.hpp"
 
@@ -26,14 +28,14 @@ MatrixXd in_every_channel(const Dataset& data, const VectorXd& prediction, const
 
 namespace {
 
-/// Functions of the rows, family by family.
-std::vector<MatrixXd> row_families(const Observations& observations) {
-  const int most = std::clamp(static_cast<int>(observations.rows.size()) / 4, 2, 14);
-  std::vector<MatrixXd> families = {with_constant(smooth_basis(observations, most))};
-  for (const Covariate& c : covariates(observations))
-    if (c.name == "slip" || c.name == "load" || c.name == "position" || c.name == "run")
-      families.push_back(waves(c.values));
-  return families;
+/// Columns at the size of 1 sd a cell, where they are more than nothing.
+MatrixXd of_unit_size(MatrixXd white) {
+  const double size = std::sqrt(white.squaredNorm() / static_cast<double>(std::max<Index>(1, white.size())));
+  return size > 0 ? MatrixXd(white / size) : white;
+}
+
+bool may_wave(const Covariate& c) {
+  return c.name == "slip" || c.name == "load" || c.name == "position" || c.name == "run";
 }
 
 /// Each channel's prediction in the run before, less that of the run: what a lagging instrument or bed would carry
@@ -66,9 +68,7 @@ MatrixXd common_gain(const Dataset& data, const VectorXd& prediction, const Vect
     const Cell& cell = data.observations.cells[i];
     if (cell.channel != sinkage) columns.row(i) = prediction[i] * functions.row(cell.row);
   }
-  const MatrixXd white = data.whitening(columns);
-  const double size = std::sqrt(white.squaredNorm() / static_cast<double>(white.size()));
-  return size > 0 ? MatrixXd(white / size) : white;
+  return of_unit_size(data.whitening(columns));
 }
 
 /// Each channel bent over its own range: Legendre's polynomials of the prediction of order 2 to 4. An instrument that
@@ -94,26 +94,90 @@ MatrixXd bent(const Dataset& data, const VectorXd& prediction) {
   return data.whitening(columns);
 }
 
-}  // namespace
-
-std::vector<MatrixXd> unnamed_families(const Dataset& data, const VectorXd& prediction) {
-  std::vector<MatrixXd> families;
-  for (const MatrixXd& functions : row_families(data.observations))
-    families.push_back(in_every_channel(data, prediction, functions));
-  families.push_back(carried_over(data, prediction));
-  families.push_back(bent(data, prediction));
-  for (const Covariate& c : covariates(data.observations))
-    if (c.name == "run" || c.name == "load") families.push_back(common_gain(data, prediction, c.values));
-  return families;
+/// Slopes of the predictions over one of the conditions.
+std::optional<VectorXd> slope_over(const FittedModel& base, double OperatingCondition::*condition, double step) {
+  Observations moved = base.data().observations;
+  std::array<VectorXd, 2> sides;
+  for (const int side : {0, 1}) {
+    for (std::size_t row = 0; row < moved.rows.size(); ++row) {
+      const double at = base.data().observations.rows[row].*condition;
+      // a slip stays between -1 and 1
+      moved.rows[row].*condition = side == 0 ? at : at + (at > 0.0 ? -step : step);
+    }
+    BalanceMemory memory = base.fit().balance;
+    if (!base.predictor().over(moved).predict(base.fit().theta, sides[side], memory)) return std::nullopt;
+  }
+  for (std::size_t i = 0; i < moved.cells.size(); ++i)
+    if (base.data().observations.rows[moved.cells[i].row].*condition > 0.0)
+      std::swap(sides[0][static_cast<Index>(i)], sides[1][static_cast<Index>(i)]);
+  return (sides[1] - sides[0]) / step;
 }
 
-double unnamed_gain(const LinearProblem& problem, const std::vector<MatrixXd>& families) {
-  std::vector<double> gains;
-  for (const MatrixXd& columns : families) {
-    const JoinedColumns joined(problem, columns);
-    for (const double size : thresholds::term_sizes) gains.push_back(joined.gain(size));
+/// Slopes times 1 and times each condition that varies, taken to -1 .. 1.
+MatrixXd misread(const FittedModel& base, const VectorXd& slope) {
+  const Observations& observations = base.data().observations;
+  const std::vector<Covariate> variables = covariates(observations);
+  MatrixXd columns(slope.size(), 1 + static_cast<Index>(variables.size()));
+  columns.col(0) = slope;
+  for (std::size_t v = 0; v < variables.size(); ++v) {
+    const VectorXd& u = variables[v].values;
+    const double low = u.minCoeff(), high = u.maxCoeff();
+    for (Index i = 0; i < slope.size(); ++i)
+      columns(i, static_cast<Index>(v) + 1) = slope[i] * (2 * (u[observations.cells[i].row] - low) / (high - low) - 1);
   }
-  return log_mean_exp(gains);
+  return of_unit_size(base.data().whitening(columns));
+}
+
+}  // namespace
+
+std::vector<UnnamedKind> unnamed_functions(const Dataset& data, const VectorXd& prediction) {
+  const Observations& observations = data.observations;
+  const int most = std::clamp(static_cast<int>(observations.rows.size()) / 4, 2, 14);
+  UnnamedKind smooth{"a smooth function of the conditions", {}};
+  smooth.families.push_back(in_every_channel(data, prediction, with_constant(smooth_basis(observations, most))));
+  UnnamedKind wave{"waves in one of the conditions", {}}, wave_of_one{"waves of one channel", {}};
+  UnnamedKind gain{"a gain of all forces that waves", {}};
+  for (const Covariate& c : covariates(observations)) {
+    if (!may_wave(c)) continue;
+    const MatrixXd functions = waves(c.values);
+    wave.families.push_back(in_every_channel(data, prediction, functions));
+    for (Index channel = 0; channel < channel_count; ++channel) {
+      const auto own = wave.families.back().middleCols(channel * functions.cols(), functions.cols());
+      if (own.squaredNorm() > 0) wave_of_one.families.emplace_back(own);
+    }
+    if (c.name == "run" || c.name == "load") gain.families.push_back(common_gain(data, prediction, c.values));
+  }
+  UnnamedKind before{"what the run before left behind", {carried_over(data, prediction)}};
+  UnnamedKind bend{"a channel that is not linear", {bent(data, prediction)}};
+  std::vector<UnnamedKind> kinds = {smooth, wave, wave_of_one, gain, before, bend};
+  std::erase_if(kinds, [](const UnnamedKind& kind) { return kind.families.empty(); });
+  return kinds;
+}
+
+std::vector<UnnamedKind> unnamed_kinds(const FittedModel& base) {
+  std::vector<UnnamedKind> kinds = unnamed_functions(base.data(), base.fit().prediction);
+  UnnamedKind misreads{misread_kind, {}};
+  const double load = base.data().observations.rows.front().load;
+  if (const auto slope = slope_over(base, &OperatingCondition::slip, 1e-4))
+    misreads.families.push_back(misread(base, *slope));
+  if (const auto slope = slope_over(base, &OperatingCondition::load, 1e-4 * load))
+    misreads.families.push_back(misread(base, *slope));
+  if (!misreads.families.empty()) kinds.push_back(std::move(misreads));
+  return kinds;
+}
+
+UnnamedEvidence unnamed_evidence(const LinearProblem& problem, const std::vector<UnnamedKind>& kinds) {
+  std::vector<double> of_kinds;
+  for (const UnnamedKind& kind : kinds) {
+    std::vector<double> gains;
+    for (const MatrixXd& columns : kind.families) {
+      const JoinedColumns joined(problem, columns);
+      for (const double size : thresholds::term_sizes) gains.push_back(joined.gain(size));
+    }
+    of_kinds.push_back(log_mean_exp(gains));
+  }
+  const auto likest = std::max_element(of_kinds.begin(), of_kinds.end()) - of_kinds.begin();
+  return {log_mean_exp(of_kinds), kinds[static_cast<std::size_t>(likest)].name};
 }
 
 }  // namespace soilbin::compare

@@ -47,13 +47,18 @@ struct Conclusion {
 Conclusion without_effect(const Attribution& found, const ResidualTests& before, std::string nothing) {
   const double p = before.lack_of_fit.p_value, p_reruns = before.reruns.p_value;
   std::string why;
-  if (found.unnamed_gain > thresholds::unnamed_instead)
-    why = fmt::format("a function of the conditions that none of them makes explains the residual {} better than noise",
-                      times_likelier(found.unnamed_gain));
+  if (found.unnamed.gain > thresholds::unnamed_instead)
+    why = fmt::format(
+        "a function of the conditions that none of them makes explains the residual {} better than noise: it looks "
+        "most like {}",
+        times_likelier(found.unnamed.gain), found.unnamed.likest);
   else if (p <= thresholds::first_test_level)
     why = fmt::format("the residual is more than noise (p = {:.2g})", p);
   else if (p_reruns <= thresholds::rerun_level)
     why = fmt::format("the setpoints are off by more than their re-runs differ (p = {:.2g})", p_reruns);
+  else if (before.serial.p_value <= thresholds::serial_level)
+    why = fmt::format("the residuals of the {} are alike in runs made one after the other (p = {:.2g})",
+                      before.serial.series, before.serial.p_value);
   else
     return {Verdict::nothing_missing, std::move(nothing)};
   return {Verdict::unknown_effect, fmt::format("no effect of the catalogue is accepted ({}), but {}",
@@ -69,11 +74,11 @@ std::optional<std::string> more_than_named(const Attribution& found, const Resid
   const double unnamed_level = one ? thresholds::dominant_unnamed_beside : thresholds::unnamed_beside;
   if (choice.after.lack_of_fit.p_value < test_level && left > thresholds::unexplained_share)
     return fmt::format("but the best set of named effects leaves {:.0f} % of it", 100 * left);
-  if (choice.unnamed_gain > unnamed_level)
+  if (choice.unnamed.gain > unnamed_level)
     return fmt::format(
         "and after the best set of named effects a function of the conditions that none of them makes explains what is "
-        "left {} better than noise",
-        times_likelier(choice.unnamed_gain));
+        "left {} better than noise: it looks most like {}",
+        times_likelier(choice.unnamed.gain), choice.unnamed.likest);
   if (choice.after.reruns.p_value < thresholds::rerun_level &&
       choice.after.reruns.excess > thresholds::rerun_share * before.reruns.excess)
     return fmt::format(
@@ -131,7 +136,7 @@ std::optional<std::string> too_small(const Campaign& campaign, const Observation
 }
 
 Judgement judge(Attribution found, const AttributionOptions& options) {
-  const ResidualTests before = test_residual(found.base);
+  const ResidualTests before = test_residual(found.base, options.seed);
   if (auto reason = not_judgeable(found))
     return {std::move(found), before, std::nullopt, Verdict::not_enough_data, std::move(*reason)};
   auto choice = settle(found, options);
@@ -140,7 +145,7 @@ Judgement judge(Attribution found, const AttributionOptions& options) {
 }
 
 Judgement judge_with_model_discrepancy(Attribution found, const AttributionOptions& options) {
-  const ResidualTests before = test_residual(found.base);
+  const ResidualTests before = test_residual(found.base, options.seed);
   auto choice = settle(found, options);
   std::string reason = fmt::format(
       "the base model is off by what a smooth function of load and slip makes good, and beside that {} stands out most "

@@ -105,7 +105,7 @@ TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
   const CandidateModel candidate{
       .ids = {"bulldozing", "slip_sinkage"},
       .model = FittedModel(data, predictor.with({term("slip_sinkage", "lyasko"), term("bulldozing", "")}), Fit())};
-  Attribution found{FittedModel(data, predictor, Fit()), {}, 0.0, {}};
+  Attribution found{FittedModel(data, predictor, Fit()), {}, {}, {}};
   found.candidates.models = {candidate};
   found.candidates.sets = {{.ids = candidate.ids, .weight = 1.0}};
   answer.judgement = Judgement{.found = found, .before = {}, .choice = {}, .reason = {}};
