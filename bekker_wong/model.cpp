@@ -1,13 +1,11 @@
 #include "bekker_wong/model.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "bekker_wong/standard_errors.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/estimate.hpp"
 #include "scenario/soil_parameters.hpp"
 #include "scenario/traction_channels.hpp"
 #include "scenario/tractive_efficiency.hpp"

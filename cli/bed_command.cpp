@@ -8,7 +8,6 @@
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "compare/recorded/run_list.hpp"
-#include "compare/report/number_text.hpp"
 #include "dem/bed/relative_density.hpp"
 #include "scenario/errors.hpp"
 

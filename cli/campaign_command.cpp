@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <set>
 
 #include "cli/commands.hpp"
 #include "cli/question.hpp"

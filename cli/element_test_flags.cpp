@@ -2,12 +2,10 @@
 
 #include <fmt/core.h>
 
-#include "cli/flag_values.hpp"
 #include "cli/soil_bin.hpp"
 #include "scenario/description.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
-#include "scenario/quantity.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::cli {

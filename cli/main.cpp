@@ -1,7 +1,6 @@
 // soilbin: what does this tire do on this soil?
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "cli/commands.hpp"
-#include "cli/versions.hpp"
 #include "compare/report/number_text.hpp"
 
 namespace soilbin::cli {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"

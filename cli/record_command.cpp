@@ -1,13 +1,11 @@
 // soilbin record: what records of runs hold, what they lack, and several made one.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <set>
 
 #include "cli/commands.hpp"
-#include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "compare/recorded/merge.hpp"

@@ -12,7 +12,7 @@
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
-#include "compare/sweep/result_json.hpp"
+#include "compare/report/json_fields.hpp"
 #include "dem/verification/fast_engine.hpp"
 #include "dem/verification/incline.hpp"
 #include "scenario/errors.hpp"

@@ -3,10 +3,8 @@
 #include <fmt/core.h>
 
 #include <cstdlib>
-#include <sstream>
 
 #include "scenario/errors.hpp"
-#include "scenario/nearest_word.hpp"
 
 namespace soilbin::cli {
 namespace fs = std::filesystem;

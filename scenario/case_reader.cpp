@@ -8,7 +8,6 @@
 #include "scenario/effect_choices.hpp"
 #include "scenario/mapping_reader.hpp"
 #include "scenario/named_parts.hpp"
-#include "scenario/nearest_word.hpp"
 
 namespace soilbin {
 namespace {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "bekker_wong/gsl.hpp"
 #include "bekker_wong/model.hpp"

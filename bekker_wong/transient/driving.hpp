@@ -4,7 +4,6 @@
 //   record.end == DriveEnd::stuck, record.samples.back().travelled, record.samples.back().energy.unaccounted()
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <vector>
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "bekker_wong/transient/driven_wheel.hpp"
 #include "scenario/soil_parameters.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 
 #include "cli/command_words.hpp"
 #include "cli/flag_values.hpp"

@@ -7,7 +7,6 @@
 
 #include "compare/calibrate/experiment_batch.hpp"
 #include "compare/calibrate/likely_points.hpp"
-#include "compare/design/space_filling.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

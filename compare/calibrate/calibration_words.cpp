@@ -62,6 +62,31 @@ std::vector<std::string> sentences_on_decision(const CalibrationOptions& options
                       percent(options.near))};
 }
 
+std::vector<std::string> columns_of(const VirtualTest& test) {
+  std::vector<std::string> header;
+  for (const Factor& factor : test.factors) header.push_back(heading(factor.name, factor.unit));
+  for (const Target& target : test.targets) header.push_back(heading(target.name, target.unit));
+  return header;
+}
+
+void add_cells(std::vector<std::string>& row, const VirtualTest& test, const Eigen::VectorXd& values,
+               const std::vector<Estimate>& results) {
+  for (std::size_t j = 0; j < test.factors.size(); ++j)
+    row.push_back(number(values[static_cast<Eigen::Index>(j)] * per_unit(test.factors[j].unit)));
+  for (std::size_t t = 0; t < test.targets.size(); ++t)
+    row.push_back(results.empty() ? "-" : number(results[t], per_unit(test.targets[t].unit)));
+}
+
+/// What of a value's source is the decision's.
+std::string decided_by(const Calibration& calibration) {
+  if (!calibration.decision || !calibration.decision->decided()) return "";
+  const Decision& decision = *calibration.decision;
+  if (const int tied = decision.tied(); tied > 1)
+    return fmt::format("; the likeliest of {} candidates that the soil bin doesn't tell apart on {}", tied,
+                       decision.campaign);
+  return fmt::format("; of {} candidates the nearest to {} in the soil bin", decision.trials.size(), decision.campaign);
+}
+
 }  // namespace
 
 std::vector<std::string> calibration_sentences(const VirtualTest& test, const CalibrationOptions& options,
@@ -122,25 +147,6 @@ HtmlTable level_table(const VirtualTest& test, const Calibration& calibration, s
   return table;
 }
 
-namespace {
-
-std::vector<std::string> columns_of(const VirtualTest& test) {
-  std::vector<std::string> header;
-  for (const Factor& factor : test.factors) header.push_back(heading(factor.name, factor.unit));
-  for (const Target& target : test.targets) header.push_back(heading(target.name, target.unit));
-  return header;
-}
-
-void add_cells(std::vector<std::string>& row, const VirtualTest& test, const Eigen::VectorXd& values,
-               const std::vector<Estimate>& results) {
-  for (std::size_t j = 0; j < test.factors.size(); ++j)
-    row.push_back(number(values[static_cast<Eigen::Index>(j)] * per_unit(test.factors[j].unit)));
-  for (std::size_t t = 0; t < test.targets.size(); ++t)
-    row.push_back(results.empty() ? "-" : number(results[t], per_unit(test.targets[t].unit)));
-}
-
-}  // namespace
-
 HtmlTable runs_table(const VirtualTest& test, const Calibration& calibration) {
   HtmlTable table{"Runs", {"stage"}, {}, {}};
   for (std::string& name : columns_of(test)) table.header.push_back(std::move(name));
@@ -173,20 +179,6 @@ HtmlTable candidates_table(const VirtualTest& test, const Calibration& calibrati
   }
   return table;
 }
-
-namespace {
-
-/// What of a value's source is the decision's.
-std::string decided_by(const Calibration& calibration) {
-  if (!calibration.decision || !calibration.decision->decided()) return "";
-  const Decision& decision = *calibration.decision;
-  if (const int tied = decision.tied(); tied > 1)
-    return fmt::format("; the likeliest of {} candidates that the soil bin doesn't tell apart on {}", tied,
-                       decision.campaign);
-  return fmt::format("; of {} candidates the nearest to {} in the soil bin", decision.trials.size(), decision.campaign);
-}
-
-}  // namespace
 
 std::string key_of(ContactKind kind) { return kind == ContactKind::grain_grain ? "grain_grain" : "grain_tire"; }
 

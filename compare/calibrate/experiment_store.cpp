@@ -5,19 +5,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "compare/report/json_fields.hpp"
 #include "compare/report/json_file.hpp"
-#include "compare/sweep/result_json.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* format = "soilbin-experiments/1";
 

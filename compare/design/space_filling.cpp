@@ -1,6 +1,5 @@
 #include "compare/design/space_filling.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>

@@ -57,6 +57,19 @@ std::vector<std::string> gaps_of(const Comparison& comparison) {
   return told;
 }
 
+/// The case as the loop's declared model, without a run.
+Campaign declared(const Side& side, const Case& question, const std::vector<EffectChoice>& effects) {
+  if (!question.scenario.soil.semi_empirical)
+    throw InputError("soil '" + question.scenario.soil.name + "' has no semi_empirical values, which the loop needs");
+  Campaign campaign;
+  campaign.name = question.study.name + "-" + side.label;
+  campaign.wheel = question.scenario.tire;
+  campaign.soil = *question.scenario.soil.semi_empirical;
+  campaign.bin = question.scenario.bin;
+  campaign.effects = effects;
+  return campaign;
+}
+
 }  // namespace
 
 std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<Side>& sides) {
@@ -102,23 +115,6 @@ Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& c
   comparison.not_compared.insert(comparison.not_compared.end(), gaps.begin(), gaps.end());
   return comparison;
 }
-
-namespace {
-
-/// The case as the loop's declared model, without a run.
-Campaign declared(const Side& side, const Case& question, const std::vector<EffectChoice>& effects) {
-  if (!question.scenario.soil.semi_empirical)
-    throw InputError("soil '" + question.scenario.soil.name + "' has no semi_empirical values, which the loop needs");
-  Campaign campaign;
-  campaign.name = question.study.name + "-" + side.label;
-  campaign.wheel = question.scenario.tire;
-  campaign.soil = *question.scenario.soil.semi_empirical;
-  campaign.bin = question.scenario.bin;
-  campaign.effects = effects;
-  return campaign;
-}
-
-}  // namespace
 
 Campaign means_of(const Side& side, const Case& question, const std::vector<EffectChoice>& effects) {
   Campaign campaign = declared(side, question, effects);

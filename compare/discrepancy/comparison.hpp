@@ -5,8 +5,6 @@
 //   for (const Clause& clause : summary(comparison)) fmt::print("{}\n", clause.text);
 #pragma once
 
-#include <optional>
-
 #include "compare/discrepancy/difference.hpp"
 #include "compare/discrepancy/joint_test.hpp"
 #include "compare/sweep/varying.hpp"

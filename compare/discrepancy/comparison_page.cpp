@@ -9,7 +9,6 @@
 #include "compare/discrepancy/comparison_tables.hpp"
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/sweep/varying.hpp"
 

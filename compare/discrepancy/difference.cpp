@@ -16,36 +16,6 @@ constexpr std::pair<std::string_view, std::string_view> finding_words[] = {{"dif
                                                                            {"within_errors", "within the errors"},
                                                                            {"not_judged", "not judged"}};
 
-}  // namespace
-
-std::string_view word(DifferenceFinding finding) { return finding_words[static_cast<std::size_t>(finding)].first; }
-
-std::string_view words(DifferenceFinding finding) { return finding_words[static_cast<std::size_t>(finding)].second; }
-
-double counting_errors(double freedom) {
-  constexpr double known = 2.0, most = 15.0;  // Student's t asks for 13.97 at one degree of freedom
-  constexpr double as_good_as_known = 1e6;
-  if (freedom > as_good_as_known) return known;
-  const double chance = 2 * gsl::normal_tail(known);
-  return gsl::bracketed_root([&](double k) { return gsl::f_tail(k * k, 1, freedom) - chance; }, known, most, 1e-9, 1e-9,
-                             "Student's t");
-}
-
-DifferenceFinding finding_of(double difference, double std_error, double scatter, double freedom) {
-  const double size = std::abs(difference);
-  if (std_error == 0.0 && scatter == 0.0) return DifferenceFinding::not_judged;
-  if (size <= scatter) return DifferenceFinding::within_scatter;
-  return size <= counting_errors(freedom) * std_error ? DifferenceFinding::within_errors
-                                                      : DifferenceFinding::difference;
-}
-
-double scale_of(std::size_t channel, double load, double radius) {
-  if (channel_views[channel].name == "torque") return load * radius;
-  return channel_views[channel].name == "sinkage" ? radius : load;
-}
-
-namespace {
-
 bool speaks(const SidePoint& point, std::size_t channel) {
   return point.result && point.has[channel] && std::isfinite(((*point.result).*channel_views[channel].predicted).value);
 }
@@ -94,6 +64,32 @@ void share_the_soil(Difference& d) {
 }
 
 }  // namespace
+
+std::string_view word(DifferenceFinding finding) { return finding_words[static_cast<std::size_t>(finding)].first; }
+
+std::string_view words(DifferenceFinding finding) { return finding_words[static_cast<std::size_t>(finding)].second; }
+
+double counting_errors(double freedom) {
+  constexpr double known = 2.0, most = 15.0;  // Student's t asks for 13.97 at one degree of freedom
+  constexpr double as_good_as_known = 1e6;
+  if (freedom > as_good_as_known) return known;
+  const double chance = 2 * gsl::normal_tail(known);
+  return gsl::bracketed_root([&](double k) { return gsl::f_tail(k * k, 1, freedom) - chance; }, known, most, 1e-9, 1e-9,
+                             "Student's t");
+}
+
+DifferenceFinding finding_of(double difference, double std_error, double scatter, double freedom) {
+  const double size = std::abs(difference);
+  if (std_error == 0.0 && scatter == 0.0) return DifferenceFinding::not_judged;
+  if (size <= scatter) return DifferenceFinding::within_scatter;
+  return size <= counting_errors(freedom) * std_error ? DifferenceFinding::within_errors
+                                                      : DifferenceFinding::difference;
+}
+
+double scale_of(std::size_t channel, double load, double radius) {
+  if (channel_views[channel].name == "torque") return load * radius;
+  return channel_views[channel].name == "sinkage" ? radius : load;
+}
 
 std::vector<Difference> differences(const std::vector<Side>& sides, std::size_t side, std::size_t reference,
                                     const std::vector<OperatingCondition>& conditions, const Tire& tire) {

@@ -42,15 +42,6 @@ std::string counts(const Tally& t) {
   return text;
 }
 
-}  // namespace
-
-std::string measure_of(const Tally& t) {
-  if (channel_views[t.channel].name == "torque") return "load x radius";
-  return channel_views[t.channel].name == "sinkage" ? "the radius" : "the load";
-}
-
-namespace {
-
 Clause tally_clause(const Comparison& comparison, const Tally& t) {
   const Difference& worst = comparison.differences[t.worst];
   const std::string side = comparison.sides[t.side].label, reference = comparison.sides[t.reference].label;
@@ -169,31 +160,6 @@ std::optional<Clause> grains_clause(const Comparison& comparison) {
                 {"what is doubtful"}};
 }
 
-}  // namespace
-
-/// Where the widest gap in pull comes from.
-std::vector<Clause> cause_clauses(const Comparison& comparison) {
-  std::vector<Clause> clauses;
-  for (const Tally& t : comparison.tallies) {
-    if (channel_views[t.channel].name != "drawbar_pull" || t.differ == 0) continue;
-    const Difference& worst = comparison.differences[t.worst];
-    const auto part = widest_part(comparison, t.side, t.reference, worst.condition);
-    if (!part) continue;
-    clauses.push_back(
-        {"Why",
-         fmt::format("At {} the pull of {} and {} is {} apart; the widest part of that is the {}: {} N "
-                     "against {} N.",
-                     in_words(comparison.question.study.conditions[worst.condition]), comparison.sides[t.side].label,
-                     comparison.sides[t.reference].label, in_unit(t.channel, std::abs(worst.difference)),
-                     part_in_words(part->name), number(part->side), number(part->reference)),
-         {t.worst},
-         {"budget"}});
-  }
-  return clauses;
-}
-
-namespace {
-
 /// The rule, and how many rows it would let pass by chance.
 Clause chance_clause(const Comparison& comparison) {
   std::size_t counted = 0;
@@ -238,6 +204,32 @@ std::vector<Clause> doubt_clauses(const Comparison& comparison) {
 }
 
 }  // namespace
+
+std::string measure_of(const Tally& t) {
+  if (channel_views[t.channel].name == "torque") return "load x radius";
+  return channel_views[t.channel].name == "sinkage" ? "the radius" : "the load";
+}
+
+/// Where the widest gap in pull comes from.
+std::vector<Clause> cause_clauses(const Comparison& comparison) {
+  std::vector<Clause> clauses;
+  for (const Tally& t : comparison.tallies) {
+    if (channel_views[t.channel].name != "drawbar_pull" || t.differ == 0) continue;
+    const Difference& worst = comparison.differences[t.worst];
+    const auto part = widest_part(comparison, t.side, t.reference, worst.condition);
+    if (!part) continue;
+    clauses.push_back(
+        {"Why",
+         fmt::format("At {} the pull of {} and {} is {} apart; the widest part of that is the {}: {} N "
+                     "against {} N.",
+                     in_words(comparison.question.study.conditions[worst.condition]), comparison.sides[t.side].label,
+                     comparison.sides[t.reference].label, in_unit(t.channel, std::abs(worst.difference)),
+                     part_in_words(part->name), number(part->side), number(part->reference)),
+         {t.worst},
+         {"budget"}});
+  }
+  return clauses;
+}
 
 std::string in_unit(std::size_t channel, double si) {
   return fmt::format("{} {}", number(si * channel_views[channel].per_si), channel_views[channel].unit);

@@ -110,71 +110,6 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings&
   }
 }
 
-}  // namespace
-
-/// The same kind of warning is one that differs in numbers alone, up to the condition or the line that it tells.
-Warnings once_each(const Warnings& warnings) {
-  Warnings shown;
-  std::vector<std::pair<std::string, std::size_t>> kinds;
-  for (const std::string& warning : warnings) {
-    std::string kind = warning.substr(0, warning.find(" at load"));
-    std::erase_if(kind, [](unsigned char c) { return std::isdigit(c) || c == '.' || c == '-'; });
-    const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.first == kind; });
-    if (known != kinds.end()) {
-      ++known->second;
-      continue;
-    }
-    kinds.emplace_back(kind, 0);
-    shown.push_back(warning);
-  }
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    const std::size_t others = kinds[i].second;
-    if (others == 0) continue;
-    const std::string what = shown[i].starts_with("line ") ? "line" : "condition";
-    shown[i] += fmt::format(" (and at {} other {}{})", others, what, others > 1 ? "s" : "");
-  }
-  return shown;
-}
-
-Warnings doubts(const SemiEmpiricalSoil& soil) {
-  Warnings warnings;
-  if (!(soil.k_c.value > 0.0) && !(soil.k_phi.value > 0.0))
-    warnings.emplace_back("neither k_c nor k_phi is positive: this soil carries nothing, at any width of wheel");
-  const double phi = soil.friction_angle.value / degree, c = soil.cohesion.value / 1000;
-  expect(warnings, "n", soil.exponent.value, {0.3, 1.8, "", "plate tests give 0.5 .. 1.6"});
-  expect(warnings, "c", c, {0, 100, "kPa", "soft soils have 0 .. 70 kPa"});
-  expect(warnings, "phi", phi, {0, 50, "deg", "the densest sand has some 45 deg"});
-  expect(warnings, "K", 1000 * soil.shear_modulus.value, {0.5, 120, "mm", "6 mm in firm clay, 25 mm in loose sand"});
-  expect(warnings, "density", bulk_density(soil), {200, 2400, "kg/m^3", "fresh snow has some 250, dense gravel 2200"});
-  for (const auto& [key, name, value] :
-       {std::tuple{"stress_angle_c1", "c1", soil.stress_angle_c1}, {"stress_angle_c2", "c2", soil.stress_angle_c2}})
-    if (const auto from = soil.sources.find(key);
-        from != soil.sources.end() && from->second == usual_stress_angle_source)
-      warnings.push_back(
-          fmt::format("the soil declares no {}: {:g} with a standard deviation of {:g} is taken, a usual "
-                      "value",
-                      name, value.value, value.std_error));
-  if (c == 0.0 && phi == 0.0)
-    warnings.push_back("c and phi are both 0: this soil has no strength and gives no traction");
-  const double most = soil.stress_angle_c1.value + std::max(0.0, soil.stress_angle_c2.value);
-  if (most > bekker_wong::max_stress_share)
-    warnings.push_back(fmt::format("c1 + c2 = {:.3g}: at full slip theta_m would pass {} theta_1 and is held there",
-                                   most, bekker_wong::max_stress_share));
-  if (soil.stress_angle_c1.value + std::min(0.0, soil.stress_angle_c2.value) < 0.0)
-    warnings.push_back("c1 + c2 is negative: at full slip the largest stress would lie behind the axle");
-  for (const auto& [name, value] :
-       {std::pair{"n", soil.exponent}, {"phi", soil.friction_angle}, {"K", soil.shear_modulus}})
-    if (value.std_error > 0.6 * value.value)
-      warnings.push_back((value.value > 0.0
-                              ? fmt::format("the standard deviation of {} is {:.0f} % of its value", name,
-                                            100 * value.std_error / value.value)
-                              : fmt::format("{} is 0 with a standard deviation, and can only be larger", name)) +
-                         ": errors propagated to first order are a rough guide");
-  return warnings;
-}
-
-namespace {
-
 /// Of each answer, those alike once.
 Warnings doubts_of_answers(const Scenario& scenario, const std::vector<ModelAnswers>& study, bool unsolved) {
   Warnings warnings;
@@ -283,23 +218,6 @@ Warnings doubts_but_unheard(const Case& question, const std::vector<ModelAnswers
   return warnings;
 }
 
-}  // namespace
-
-Warnings doubts(const Case& question, const std::vector<ModelAnswers>& study) {
-  Warnings warnings = doubts_but_unheard(question, study, Answered::yes);
-  append(warnings, doubts_of_declarations(question));
-  return warnings;
-}
-
-Warnings doubts(const Case& question) {
-  Warnings warnings = doubts_but_unheard(question, quick_answers(question), Answered::no);
-  append(warnings,
-         doubts_of_declarations(question.drive && question.study.conditions.empty() ? as_study(question) : question));
-  return warnings;
-}
-
-namespace {
-
 /// A campaign's runs as questions to a model.
 Case question_of(const Campaign& campaign, const Scenario& asked) {
   Case question;
@@ -331,6 +249,80 @@ Warnings doubts_as_declared(const Campaign& campaign, NextIs next) {
 }
 
 }  // namespace
+
+/// The same kind of warning is one that differs in numbers alone, up to the condition or the line that it tells.
+Warnings once_each(const Warnings& warnings) {
+  Warnings shown;
+  std::vector<std::pair<std::string, std::size_t>> kinds;
+  for (const std::string& warning : warnings) {
+    std::string kind = warning.substr(0, warning.find(" at load"));
+    std::erase_if(kind, [](unsigned char c) { return std::isdigit(c) || c == '.' || c == '-'; });
+    const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.first == kind; });
+    if (known != kinds.end()) {
+      ++known->second;
+      continue;
+    }
+    kinds.emplace_back(kind, 0);
+    shown.push_back(warning);
+  }
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const std::size_t others = kinds[i].second;
+    if (others == 0) continue;
+    const std::string what = shown[i].starts_with("line ") ? "line" : "condition";
+    shown[i] += fmt::format(" (and at {} other {}{})", others, what, others > 1 ? "s" : "");
+  }
+  return shown;
+}
+
+Warnings doubts(const SemiEmpiricalSoil& soil) {
+  Warnings warnings;
+  if (!(soil.k_c.value > 0.0) && !(soil.k_phi.value > 0.0))
+    warnings.emplace_back("neither k_c nor k_phi is positive: this soil carries nothing, at any width of wheel");
+  const double phi = soil.friction_angle.value / degree, c = soil.cohesion.value / 1000;
+  expect(warnings, "n", soil.exponent.value, {0.3, 1.8, "", "plate tests give 0.5 .. 1.6"});
+  expect(warnings, "c", c, {0, 100, "kPa", "soft soils have 0 .. 70 kPa"});
+  expect(warnings, "phi", phi, {0, 50, "deg", "the densest sand has some 45 deg"});
+  expect(warnings, "K", 1000 * soil.shear_modulus.value, {0.5, 120, "mm", "6 mm in firm clay, 25 mm in loose sand"});
+  expect(warnings, "density", bulk_density(soil), {200, 2400, "kg/m^3", "fresh snow has some 250, dense gravel 2200"});
+  for (const auto& [key, name, value] :
+       {std::tuple{"stress_angle_c1", "c1", soil.stress_angle_c1}, {"stress_angle_c2", "c2", soil.stress_angle_c2}})
+    if (const auto from = soil.sources.find(key);
+        from != soil.sources.end() && from->second == usual_stress_angle_source)
+      warnings.push_back(
+          fmt::format("the soil declares no {}: {:g} with a standard deviation of {:g} is taken, a usual "
+                      "value",
+                      name, value.value, value.std_error));
+  if (c == 0.0 && phi == 0.0)
+    warnings.push_back("c and phi are both 0: this soil has no strength and gives no traction");
+  const double most = soil.stress_angle_c1.value + std::max(0.0, soil.stress_angle_c2.value);
+  if (most > bekker_wong::max_stress_share)
+    warnings.push_back(fmt::format("c1 + c2 = {:.3g}: at full slip theta_m would pass {} theta_1 and is held there",
+                                   most, bekker_wong::max_stress_share));
+  if (soil.stress_angle_c1.value + std::min(0.0, soil.stress_angle_c2.value) < 0.0)
+    warnings.push_back("c1 + c2 is negative: at full slip the largest stress would lie behind the axle");
+  for (const auto& [name, value] :
+       {std::pair{"n", soil.exponent}, {"phi", soil.friction_angle}, {"K", soil.shear_modulus}})
+    if (value.std_error > 0.6 * value.value)
+      warnings.push_back((value.value > 0.0
+                              ? fmt::format("the standard deviation of {} is {:.0f} % of its value", name,
+                                            100 * value.std_error / value.value)
+                              : fmt::format("{} is 0 with a standard deviation, and can only be larger", name)) +
+                         ": errors propagated to first order are a rough guide");
+  return warnings;
+}
+
+Warnings doubts(const Case& question, const std::vector<ModelAnswers>& study) {
+  Warnings warnings = doubts_but_unheard(question, study, Answered::yes);
+  append(warnings, doubts_of_declarations(question));
+  return warnings;
+}
+
+Warnings doubts(const Case& question) {
+  Warnings warnings = doubts_but_unheard(question, quick_answers(question), Answered::no);
+  append(warnings,
+         doubts_of_declarations(question.drive && question.study.conditions.empty() ? as_study(question) : question));
+  return warnings;
+}
 
 Warnings doubts(const Campaign& campaign) { return doubts_as_declared(campaign, NextIs::nothing); }
 

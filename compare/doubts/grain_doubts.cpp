@@ -45,22 +45,6 @@ std::string by_how_much(const Scenario& scenario, const std::vector<ModelAnswers
   return beyond.empty() ? "" : fmt::format(": by how much that changes the answer is not known, since {}", beyond);
 }
 
-}  // namespace
-
-std::string coarse_grain_doubt(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
-  const GrainCounts counts = count_grains(scenario, study);
-  const bool few = counts.width < grains_wanted || counts.contact.value_or(grains_wanted) < grains_wanted;
-  const bool low_lugs = counts.lug.value_or(grains_wanted_in_a_lug) < grains_wanted_in_a_lug;
-  if (!few && !low_lugs) return "";
-  std::string lengths = fmt::format("{:.2g} lie across it ({} wanted)", counts.width, grains_wanted);
-  if (counts.contact) lengths += fmt::format(", {:.2g} along its contact ({})", *counts.contact, grains_wanted);
-  if (counts.lug) lengths += fmt::format(", {:.2g} in a lug's height ({})", *counts.lug, grains_wanted_in_a_lug);
-  return fmt::format("{} for this wheel{}. Of their mean diameter, {:.3g} mm, {}: see docs/lab/grain-size.md",
-                     coarse_grains, by_how_much(scenario, study), 1000 * counts.diameter, lengths);
-}
-
-namespace {
-
 /// The angular speed below which two mean grains that 100 N press together are damped by I*/dt instead of by mu_r.
 std::string depends_on_the_step(const GranularSoil& grains) {
   const bool resisted = grains.grain_grain.rolling_friction > 0.0 || grains.grain_tire.rolling_friction > 0.0;
@@ -80,6 +64,18 @@ std::string depends_on_the_step(const GranularSoil& grains) {
 }
 
 }  // namespace
+
+std::string coarse_grain_doubt(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
+  const GrainCounts counts = count_grains(scenario, study);
+  const bool few = counts.width < grains_wanted || counts.contact.value_or(grains_wanted) < grains_wanted;
+  const bool low_lugs = counts.lug.value_or(grains_wanted_in_a_lug) < grains_wanted_in_a_lug;
+  if (!few && !low_lugs) return "";
+  std::string lengths = fmt::format("{:.2g} lie across it ({} wanted)", counts.width, grains_wanted);
+  if (counts.contact) lengths += fmt::format(", {:.2g} along its contact ({})", *counts.contact, grains_wanted);
+  if (counts.lug) lengths += fmt::format(", {:.2g} in a lug's height ({})", *counts.lug, grains_wanted_in_a_lug);
+  return fmt::format("{} for this wheel{}. Of their mean diameter, {:.3g} mm, {}: see docs/lab/grain-size.md",
+                     coarse_grains, by_how_much(scenario, study), 1000 * counts.diameter, lengths);
+}
 
 GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
   const Tire& tire = scenario.tire;

@@ -1,7 +1,6 @@
 // The same drive by two models as a sheet, JSON, CSV and a page.
 #include <fmt/core.h>
 
-#include <cmath>
 #include <functional>
 
 #include "compare/drives/drive_columns.hpp"
@@ -9,7 +8,6 @@
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/estimate.hpp"
-#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
-
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -69,6 +67,16 @@ std::vector<Estimate> answered(const Run& run) {
   }
 }
 
+/// The directional rolling couple lets a grain creep down the board at a speed that goes with the step, since it stops
+/// its rotation a step late. With sliding and rolling friction of 0.75 (atan: 36.9 deg) the onset comes at 30.3 deg
+/// with a quarter of the longest step, 37.1 with an eighth and 37.4 with a sixteenth; elastic_plastic: 37.5 with a
+/// quarter (paper-sand).
+double board_step(const GranularSoil& soil) {
+  const bool directional = soil.rolling_resistance == RollingResistance::directional ||
+                           soil.rolling_resistance == RollingResistance::directional_with_twist;
+  return dem::longest_step(soil) / (directional ? 8 : 4);
+}
+
 }  // namespace
 
 VirtualTest shear_box_test(const ElementExperiment& experiment, const dem::DirectShearSettings& settings,
@@ -122,20 +130,6 @@ VirtualTest tilting_board_test(const ElementExperiment& experiment, const dem::T
   };
   return test;
 }
-
-namespace {
-
-/// The directional rolling couple lets a grain creep down the board at a speed that goes with the step, since it stops
-/// its rotation a step late. With sliding and rolling friction of 0.75 (atan: 36.9 deg) the onset comes at 30.3 deg
-/// with a quarter of the longest step, 37.1 with an eighth and 37.4 with a sixteenth; elastic_plastic: 37.5 with a
-/// quarter (paper-sand).
-double board_step(const GranularSoil& soil) {
-  const bool directional = soil.rolling_resistance == RollingResistance::directional ||
-                           soil.rolling_resistance == RollingResistance::directional_with_twist;
-  return dem::longest_step(soil) / (directional ? 8 : 4);
-}
-
-}  // namespace
 
 VirtualTest contact_test(const Soil& soil, const ContactQuestion& question) {
   if (!soil.granular)

@@ -1,7 +1,6 @@
 // Element tests of the grain engine as virtual tests of a calibration.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 

@@ -109,10 +109,6 @@ class WatchedRuns {
   SoilBinRuns runs_;
 };
 
-}  // namespace
-
-namespace {
-
 std::vector<Record> read_known(const RunKeeping& keeping, const Inputs& inputs) {
   std::vector<Record> records;
   for (const std::filesystem::path& file : keeping.known) {
@@ -120,6 +116,16 @@ std::vector<Record> read_known(const RunKeeping& keeping, const Inputs& inputs) 
     refuse_other_inputs(records.back(), inputs, file);
   }
   return records;
+}
+
+void refuse_a_differing_pair(const std::filesystem::path& file, double half_step) {
+  const Record record = read_record(file);
+  for (const StepPair& pair : step_pairs(record))
+    if (!agrees(pair))
+      throw TimeStepMatters(
+          fmt::format("answers depend on the time step of {:.3g} ms: {}\n  hint: --time-step {:.3g}ms, in another "
+                      "record; or --half-step no: then every page says that they do",
+                      2e3 * half_step, in_words(pair), 1e3 * half_step));
 }
 
 }  // namespace
@@ -159,20 +165,6 @@ std::vector<AskedRun> runs_of(const Case& question, const dem::DemSettings& sett
   for (const OperatingCondition& at : question.study.conditions) dem::wheel_motion(at, tire.radius);
   return run_list(question.study.conditions, packings_from(settings, packings), test);
 }
-
-namespace {
-
-void refuse_a_differing_pair(const std::filesystem::path& file, double half_step) {
-  const Record record = read_record(file);
-  for (const StepPair& pair : step_pairs(record))
-    if (!agrees(pair))
-      throw TimeStepMatters(
-          fmt::format("answers depend on the time step of {:.3g} ms: {}\n  hint: --time-step {:.3g}ms, in another "
-                      "record; or --half-step no: then every page says that they do",
-                      2e3 * half_step, in_words(pair), 1e3 * half_step));
-}
-
-}  // namespace
 
 void make_runs(const std::vector<AskedRun>& list, const dem::DemSettings& settings, const Case& question,
                const EffectVocabulary& effects, const RunKeeping& keeping, const BeforeRun& before) {

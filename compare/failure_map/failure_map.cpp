@@ -45,38 +45,6 @@ bool asked(const FailureQuestion& question, const FailureMap& map, const VectorX
   });
 }
 
-}  // namespace
-
-Samples answered_rows(const std::vector<FailureRow>& rows,
-                      const std::function<VectorXd(const VectorXd&)>& coordinates) {
-  std::vector<VectorXd> x;
-  std::vector<Estimate> y;
-  for (const FailureRow& row : rows)
-    if (row.difference) x.push_back(coordinates(row.values)), y.push_back(*row.difference);
-  const Index n = static_cast<Index>(x.size());
-  Samples samples{MatrixXd(n, n > 0 ? x.front().size() : 0), VectorXd(n), VectorXd(n)};
-  for (Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    samples.x.row(i) = x[k], samples.y[i] = y[k].value, samples.variance[i] = y[k].std_error * y[k].std_error;
-  }
-  return samples;
-}
-
-bool FailureRow::beyond(double tolerance) const {
-  return difference && std::abs(difference->value) > std::max(tolerance, 2 * difference->std_error);
-}
-
-Estimate FailureMap::at(const FailureQuestion& question, const VectorXd& values) const {
-  return surrogate.at(0).predict(to_unit(question.factors, values));
-}
-
-void add_row(const FailureQuestion& question, const VectorXd& values, FailureMap& map, std::uint64_t seed) {
-  map.rows.push_back({values, question.difference(values)});
-  learn(question, seed, map);
-}
-
-namespace {
-
 /// The cloud's points that were not asked yet.
 MatrixXd fresh_points(const FailureQuestion& question, const FailureMap& map, const MatrixXd& cloud) {
   MatrixXd fresh(0, cloud.cols());
@@ -118,6 +86,34 @@ std::vector<VectorXd> boundary_points(const FailureQuestion& question, const Fai
 }
 
 }  // namespace
+
+Samples answered_rows(const std::vector<FailureRow>& rows,
+                      const std::function<VectorXd(const VectorXd&)>& coordinates) {
+  std::vector<VectorXd> x;
+  std::vector<Estimate> y;
+  for (const FailureRow& row : rows)
+    if (row.difference) x.push_back(coordinates(row.values)), y.push_back(*row.difference);
+  const Index n = static_cast<Index>(x.size());
+  Samples samples{MatrixXd(n, n > 0 ? x.front().size() : 0), VectorXd(n), VectorXd(n)};
+  for (Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    samples.x.row(i) = x[k], samples.y[i] = y[k].value, samples.variance[i] = y[k].std_error * y[k].std_error;
+  }
+  return samples;
+}
+
+bool FailureRow::beyond(double tolerance) const {
+  return difference && std::abs(difference->value) > std::max(tolerance, 2 * difference->std_error);
+}
+
+Estimate FailureMap::at(const FailureQuestion& question, const VectorXd& values) const {
+  return surrogate.at(0).predict(to_unit(question.factors, values));
+}
+
+void add_row(const FailureQuestion& question, const VectorXd& values, FailureMap& map, std::uint64_t seed) {
+  map.rows.push_back({values, question.difference(values)});
+  learn(question, seed, map);
+}
 
 FailureMap map_failures(const FailureQuestion& question, const FailureMapOptions& options) {
   const int d = static_cast<int>(question.factors.size());

@@ -145,6 +145,29 @@ Json where_known(const std::optional<Estimate>& estimate) {
   return estimate ? estimate_json(*estimate) : Json(nullptr);
 }
 
+/// The map at every setting of lug height and slip; a factor that does not vary has no slider.
+SlidingMap sliding_map_of(const MapStory& story) {
+  constexpr int lugs = 5, slips = 10;
+  const std::vector<Factor>& factors = story.question.factors;
+  SlidingMap map;
+  const auto settings = [&](const Factor& factor, int count) {
+    const int places = factor.upper > factor.lower ? count : 1;
+    std::vector<double> values;
+    for (int i = 0; i < places; ++i) values.push_back(places == 1 ? factor.lower : level_value(factor, i, places));
+    if (places > 1) {
+      map.sliders.push_back({factor.name, {}});
+      for (const double value : values) map.sliders.back().settings.push_back(in_units(factor, value));
+      map.first.push_back(0);
+    }
+    return values;
+  };
+  const std::vector<double> heights = settings(factors[map_lug_height], lugs),
+                            at_slips = settings(factors[map_slip], slips);
+  for (const double height : heights)
+    for (const double slip : at_slips) map.maps.push_back(heat_map_of(story, height, slip));
+  return map;
+}
+
 }  // namespace
 
 double share_beyond(const MapStory& story) {
@@ -282,33 +305,6 @@ HeatMap heat_map_of(const MapStory& story, double lug_height, double slip) {
   }
   return map;
 }
-
-namespace {
-
-/// The map at every setting of lug height and slip; a factor that does not vary has no slider.
-SlidingMap sliding_map_of(const MapStory& story) {
-  constexpr int lugs = 5, slips = 10;
-  const std::vector<Factor>& factors = story.question.factors;
-  SlidingMap map;
-  const auto settings = [&](const Factor& factor, int count) {
-    const int places = factor.upper > factor.lower ? count : 1;
-    std::vector<double> values;
-    for (int i = 0; i < places; ++i) values.push_back(places == 1 ? factor.lower : level_value(factor, i, places));
-    if (places > 1) {
-      map.sliders.push_back({factor.name, {}});
-      for (const double value : values) map.sliders.back().settings.push_back(in_units(factor, value));
-      map.first.push_back(0);
-    }
-    return values;
-  };
-  const std::vector<double> heights = settings(factors[map_lug_height], lugs),
-                            at_slips = settings(factors[map_slip], slips);
-  for (const double height : heights)
-    for (const double slip : at_slips) map.maps.push_back(heat_map_of(story, height, slip));
-  return map;
-}
-
-}  // namespace
 
 std::string failure_map_page(const MapStory& story, const PageAbout& about, const std::string& resolved_case,
                              const Libraries& libraries) {

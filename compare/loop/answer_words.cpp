@@ -11,7 +11,6 @@
 
 #include "bekker_wong/effects/titles.hpp"
 #include "bekker_wong/learned.hpp"
-#include "compare/doubts/unheard.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"

@@ -1,7 +1,6 @@
 #include "compare/loop/candidate_fit.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace soilbin::compare {
 

@@ -5,7 +5,6 @@
 #include <Eigen/Dense>
 #include <limits>
 #include <optional>
-#include <vector>
 
 #include "compare/loop/noise_floor.hpp"
 #include "compare/loop/wheel_predictor.hpp"

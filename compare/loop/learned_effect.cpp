@@ -1,7 +1,6 @@
 #include "compare/loop/learned_effect.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "bekker_wong/effects/titles.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/loop/loop_figures.hpp"
 #include "compare/measured/condition_views.hpp"

@@ -1,14 +1,11 @@
 #include "compare/loop/observations.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <optional>
 #include <tuple>
 
 #include "compare/measured/condition_views.hpp"
 #include "compare/measured/within_run_scatter.hpp"
-#include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
 

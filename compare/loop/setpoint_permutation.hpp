@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <cstdint>
 #include <random>
 #include <vector>
 

@@ -1,11 +1,8 @@
 #include "compare/loop/validation.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <map>
-#include <numeric>
-#include <random>
 #include <tuple>
 
 #include "compare/loop/learned_effect.hpp"

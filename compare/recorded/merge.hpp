@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <utility>
 #include <vector>
 
 #include "compare/recorded/record.hpp"

@@ -137,16 +137,6 @@ std::string density_of_beds(const std::vector<RecordedRun>& runs) {
   return fmt::format("bed: void ratio {}\n", low == high ? low : low + " to " + high);
 }
 
-}  // namespace
-
-std::string inputs_key(const Inputs& inputs) {
-  std::string text;
-  for (const auto& [name, value] : inputs) text += name + ' ' + value + '\n';
-  return fnv1a_digits(text);
-}
-
-namespace {
-
 /// Older records hold the force in the wheel's plane times the speed of travel where forces are told in the wheel's
 /// axes.
 void mend_efficiencies(Record& record) {
@@ -158,7 +148,20 @@ void mend_efficiencies(Record& record) {
       result->tractive_efficiency = tractive_efficiency(*result, read_number(*radius).value_or(not_a_number));
 }
 
+std::size_t add_missing(std::vector<RecordedRun>& runs, const std::vector<RecordedRun>& others) {
+  const std::size_t before = runs.size();
+  for (const RecordedRun& run : others)
+    if (find_run(runs, run.answer.at, run.packing) == nullptr) runs.push_back(run);
+  return runs.size() - before;
+}
+
 }  // namespace
+
+std::string inputs_key(const Inputs& inputs) {
+  std::string text;
+  for (const auto& [name, value] : inputs) text += name + ' ' + value + '\n';
+  return fnv1a_digits(text);
+}
 
 Record parse_record(const SourceText& source) {
   const Json document = parse_json(source, "a record is made by 'soilbin run STUDY --model dem --record FILE'");
@@ -273,17 +276,6 @@ const RecordedRun* find_run(const std::vector<RecordedRun>& runs, const Operatin
       std::find_if(runs.begin(), runs.end(), [&](const RecordedRun& run) { return answers(run, at, packing); });
   return found == runs.end() ? nullptr : &*found;
 }
-
-namespace {
-
-std::size_t add_missing(std::vector<RecordedRun>& runs, const std::vector<RecordedRun>& others) {
-  const std::size_t before = runs.size();
-  for (const RecordedRun& run : others)
-    if (find_run(runs, run.answer.at, run.packing) == nullptr) runs.push_back(run);
-  return runs.size() - before;
-}
-
-}  // namespace
 
 std::size_t add_missing_runs(Record& record, const Record& other) {
   return add_missing(record.runs, other.runs) + add_missing(record.half_step, other.half_step);

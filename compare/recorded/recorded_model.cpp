@@ -88,6 +88,18 @@ std::vector<Runs> by_condition(const Record& record) {
 
 constexpr double least_freedom = 4;
 
+/// What a run answers, in a line: for a person who has nothing else of it.
+std::string in_a_line(const RecordedRun& run) {
+  std::string line = fmt::format("{}, packing {}:", in_words(run.answer.at), run.packing);
+  if (!run.answer.result) return line + " " + run.answer.error;
+  for (const TractionChannel& channel : traction_channels) {
+    const Estimate& value = (*run.answer.result).*channel.predicted;
+    line += fmt::format(" {} {:.6g} ± {:.2g} {};", channel.title, value.value * channel.per_si,
+                        value.std_error * channel.per_si, channel.unit);
+  }
+  return line.substr(0, line.size() - 1);
+}
+
 }  // namespace
 
 Estimate mean_over_packings(const std::vector<Estimate>& told) {
@@ -141,22 +153,6 @@ TractionResult mean_of_packings(const Runs& runs) {
   mean.budget_rest = mean_rest(runs);
   return mean;
 }
-
-namespace {
-
-/// What a run answers, in a line: for a person who has nothing else of it.
-std::string in_a_line(const RecordedRun& run) {
-  std::string line = fmt::format("{}, packing {}:", in_words(run.answer.at), run.packing);
-  if (!run.answer.result) return line + " " + run.answer.error;
-  for (const TractionChannel& channel : traction_channels) {
-    const Estimate& value = (*run.answer.result).*channel.predicted;
-    line += fmt::format(" {} {:.6g} ± {:.2g} {};", channel.title, value.value * channel.per_si,
-                        value.std_error * channel.per_si, channel.unit);
-  }
-  return line.substr(0, line.size() - 1);
-}
-
-}  // namespace
 
 RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run, RunList list, Writers writers) {
   const auto seen = std::make_shared<Record>(empty);  // the file as it was read last

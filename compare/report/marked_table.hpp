@@ -1,6 +1,6 @@
 // A table whose cells carry marks: what is good or bad news, an id in grey behind a name, a link into the page.
 //
-//   MarkedTable table{"Channels", {"channel", "after"}, {{{.text = "sinkage"}, {.text = "7.0 mm", .tone =
+//   MarkedTable table{"Channels", {"channel", "after"}, {}, {{{.text = "sinkage"}, {.text = "7.0 mm", .tone =
 //   Tone::good}}}}; page.raw(marked_html(table)); fmt::print("{}", as_text(without_marks(table)));
 #pragma once
 
@@ -23,8 +23,8 @@ struct MarkedCell {
 struct MarkedTable {
   std::string caption;
   std::vector<std::string> header;
-  std::vector<std::vector<MarkedCell>> rows;  ///< each as long as the header
-  std::vector<bool> text_columns{};           ///< columns set to the left; empty: the first alone
+  std::vector<bool> text_columns{};             ///< columns set to the left; empty: the first alone
+  std::vector<std::vector<MarkedCell>> rows{};  ///< each as long as the header
 };
 
 /// The table as an element of a page.

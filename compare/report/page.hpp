@@ -12,7 +12,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,8 +34,8 @@ struct PageAbout {
 struct HtmlTable {
   std::string caption;
   std::vector<std::string> header;
-  std::vector<std::vector<std::string>> rows;  ///< each as long as the header
-  std::vector<bool> text_columns{};            ///< columns set to the left; empty: the first alone
+  std::vector<bool> text_columns{};              ///< columns set to the left; empty: the first alone
+  std::vector<std::vector<std::string>> rows{};  ///< each as long as the header
 };
 
 /// A row of key figures.

@@ -21,9 +21,9 @@ enum class Palette {
 
 /// One curve. x and y have the same length; a y that is not finite breaks the line.
 struct Series {
-  std::string label;  ///< in the legend; empty: not there. Series with one label share an entry.
-  std::vector<double> x, y;
-  std::vector<double> error;   ///< one standard error of each y: a band along lines, bars at points; empty: none
+  std::string label{};  ///< in the legend; empty: not there. Series with one label share an entry.
+  std::vector<double> x{}, y{};
+  std::vector<double> error{};  ///< one standard error of each y: a band along lines, bars at points; empty: none
   std::vector<double> base{};  ///< as long as y: fills from there to y, with no line; for parts piled up. Empty: none
   Mark mark = Mark::line;
   int color = 0;  ///< from 0, of the sheet's palette
@@ -31,23 +31,23 @@ struct Series {
 };
 
 struct Axis {
-  std::string title;            ///< with its unit: "slip [%]"; of y also empty, the plot's title then says it
-  std::optional<double> lower;  ///< absent: what the series need
-  std::optional<double> upper;
+  std::string title{};            ///< with its unit: "slip [%]"; of y also empty, the plot's title then says it
+  std::optional<double> lower{};  ///< absent: what the series need
+  std::optional<double> upper{};
 };
 
 /// One panel.
 struct Plot {
   std::string title;  ///< what y is, with its unit: "Drawbar pull [N]"
-  Axis x, y;
-  std::vector<Series> series;
+  Axis x{}, y{};
+  std::vector<Series> series{};
   bool identity_line = false;  ///< y = x, for predicted against measured
 };
 
 /// Panels that share a legend and a palette.
 struct Sheet {
   std::string title;
-  std::vector<Plot> plots;
+  std::vector<Plot> plots{};
   Palette palette = Palette::named;
   std::string note{};  ///< a line under the title of a stand-alone file: of what it is, what bands are
 };

@@ -90,6 +90,8 @@ FindingVerdict verdict_on(const Interval& interval, const Finding& finding) {
   return FindingVerdict::not_shown;
 }
 
+using Runs = std::vector<const RecordedRun*>;
+
 }  // namespace
 
 Curve curve_of(const Finding& finding, const Where& where, const std::vector<Answer>& answers,
@@ -151,12 +153,6 @@ Reproduction reproduce(const Findings& findings, const std::vector<StudyAnswers>
   }
   return all;
 }
-
-namespace {
-
-using Runs = std::vector<const RecordedRun*>;
-
-}  // namespace
 
 std::vector<Answer> taken_as_exact(std::vector<Answer> answers) {
   for (Answer& answer : answers)

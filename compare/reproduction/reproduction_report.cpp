@@ -118,6 +118,19 @@ std::string cell(const Finding& finding, const Evidence& evidence) {
   return text;
 }
 
+/// A finding's words, figure and intervals.
+void add_finding(Page& page, const ReproducedFinding& row, const std::vector<std::string>& labels) {
+  const Finding& finding = row.finding;
+  page.paragraph("\u201c" + finding.quote + "\u201d");
+  if (const Sheet sheet = finding_sheet(row, labels); !sheet.plots.empty())
+    page.figure(sheet, claim_in_words(finding) + (finding.compares() ? ". Dashed: what it is held against." : "."));
+  HtmlTable table{claim_in_words(finding), {"answers of", "verdict", "conditions missing"}, {}, {true, true, true}};
+  for (std::size_t k = 0; k < row.evidence.size(); ++k)
+    table.rows.push_back({labels[k], cell(finding, row.evidence[k]), missing_in_words(row.evidence[k])});
+  page.table(table);
+  if (!finding.chosen.empty()) page.paragraph("Chosen here: " + finding.chosen);
+}
+
 }  // namespace
 
 std::string claim_in_words(const Finding& finding) {
@@ -272,23 +285,6 @@ Sheet finding_sheet(const ReproducedFinding& row, const std::vector<std::string>
   if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
   return sheet;
 }
-
-namespace {
-
-/// A finding's words, figure and intervals.
-void add_finding(Page& page, const ReproducedFinding& row, const std::vector<std::string>& labels) {
-  const Finding& finding = row.finding;
-  page.paragraph("\u201c" + finding.quote + "\u201d");
-  if (const Sheet sheet = finding_sheet(row, labels); !sheet.plots.empty())
-    page.figure(sheet, claim_in_words(finding) + (finding.compares() ? ". Dashed: what it is held against." : "."));
-  HtmlTable table{claim_in_words(finding), {"answers of", "verdict", "conditions missing"}, {}, {true, true, true}};
-  for (std::size_t k = 0; k < row.evidence.size(); ++k)
-    table.rows.push_back({labels[k], cell(finding, row.evidence[k]), missing_in_words(row.evidence[k])});
-  page.table(table);
-  if (!finding.chosen.empty()) page.paragraph("Chosen here: " + finding.chosen);
-}
-
-}  // namespace
 
 std::string reproduction_page(const Reproduction& reproduction, const PageAbout& about, const Libraries& libraries) {
   Page page(about.title, reproduction.findings.source);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"

@@ -1,7 +1,6 @@
 #include "compare/sweep/answers.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "bekker_wong/model.hpp"
 #include "scenario/errors.hpp"

@@ -10,7 +10,6 @@
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/soil_parameters.hpp"
-#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -230,6 +229,38 @@ void add_provenance(Page& page, const std::vector<StudyPart>& studies, const std
   }
 }
 
+/// The curve that a study's sentence and key figure are about: the middle one of the first model that has a result.
+std::optional<Peak> shown_peak(const StudyPart& part) {
+  if (part.study.empty()) return std::nullopt;
+  std::vector<Peak> solved = peaks(part.study.front());
+  std::erase_if(solved, [](const Peak& peak) { return peak.pull == nullptr; });
+  if (solved.empty()) return std::nullopt;
+  return solved[(solved.size() - 1) / 2];
+}
+
+/// What each number at the head of the page is of.
+std::vector<KeyFigure> key_figures(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns) {
+  std::vector<KeyFigure> figures;
+  for (const StudyPart& part : studies)
+    if (const std::optional<Peak> peak = shown_peak(part)) {
+      const TractionResult& r = *peak->pull;
+      figures.push_back(
+          {force(r.drawbar_pull),
+           fmt::format("largest drawbar pull of {} on {}{}: {:.0f} % of the load, at {:.3g} % slip ({})",
+                       part.question.scenario.tire.name, in_words(part.question.scenario.soil),
+                       peak->label.empty() ? "" : ", " + peak->label, 100 * r.drawbar_pull.value / r.at.load,
+                       100 * r.at.slip, part.question.study.name)});
+    }
+  for (const CampaignPart& part : campaigns)
+    for (const ChannelError& error : part.prediction.errors)
+      if (channel_views[error.channel].name == "drawbar_pull")
+        figures.push_back({fmt::format("{:.3g} N", error.rmse),
+                           fmt::format("error of the predicted drawbar pull, nothing fitted: root mean square over "
+                                       "{} runs, {:.0f} % of the measured range ({})",
+                                       error.runs, 100 * error.share_of_range, part.campaign.name)});
+  return figures;
+}
+
 }  // namespace
 
 std::string in_words(const StudyPart& part) {
@@ -269,42 +300,6 @@ std::string in_words(const CampaignPart& part) {
   }
   return text + ".";
 }
-
-namespace {
-
-/// The curve that a study's sentence and key figure are about: the middle one of the first model that has a result.
-std::optional<Peak> shown_peak(const StudyPart& part) {
-  if (part.study.empty()) return std::nullopt;
-  std::vector<Peak> solved = peaks(part.study.front());
-  std::erase_if(solved, [](const Peak& peak) { return peak.pull == nullptr; });
-  if (solved.empty()) return std::nullopt;
-  return solved[(solved.size() - 1) / 2];
-}
-
-/// What each number at the head of the page is of.
-std::vector<KeyFigure> key_figures(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns) {
-  std::vector<KeyFigure> figures;
-  for (const StudyPart& part : studies)
-    if (const std::optional<Peak> peak = shown_peak(part)) {
-      const TractionResult& r = *peak->pull;
-      figures.push_back(
-          {force(r.drawbar_pull),
-           fmt::format("largest drawbar pull of {} on {}{}: {:.0f} % of the load, at {:.3g} % slip ({})",
-                       part.question.scenario.tire.name, in_words(part.question.scenario.soil),
-                       peak->label.empty() ? "" : ", " + peak->label, 100 * r.drawbar_pull.value / r.at.load,
-                       100 * r.at.slip, part.question.study.name)});
-    }
-  for (const CampaignPart& part : campaigns)
-    for (const ChannelError& error : part.prediction.errors)
-      if (channel_views[error.channel].name == "drawbar_pull")
-        figures.push_back({fmt::format("{:.3g} N", error.rmse),
-                           fmt::format("error of the predicted drawbar pull, nothing fitted: root mean square over "
-                                       "{} runs, {:.0f} % of the measured range ({})",
-                                       error.runs, 100 * error.share_of_range, part.campaign.name)});
-  return figures;
-}
-
-}  // namespace
 
 std::string analysis_page(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns,
                           const PageAbout& about, const std::vector<PageCard>& links) {

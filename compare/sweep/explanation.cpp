@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/model.hpp"

@@ -1,8 +1,6 @@
 // A measured campaign as a model predicts it, row by row, without fitting anything.
 #pragma once
 
-#include <array>
-#include <string>
 #include <vector>
 
 #include "compare/measured/campaign.hpp"

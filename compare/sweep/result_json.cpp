@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "compare/measured/channels.hpp"
 #include "compare/measured/csv.hpp"
@@ -148,6 +147,15 @@ std::string csv_row(const std::string& model, const Answer& answer) {
   return row + fmt::format(",{},{},{},\n", r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree);
 }
 
+/// Files from before budget_rest hold the rest of a run of grains as a part.
+void take_rest_out(TractionResult& result) {
+  const auto row = std::find_if(result.budget.begin(), result.budget.end(),
+                                [](const Contribution& part) { return part.name == "between_samples"; });
+  if (row == result.budget.end()) return;
+  result.budget_rest.force = row->force;
+  result.budget.erase(row);
+}
+
 }  // namespace
 
 Json to_json(const OperatingCondition& at) {
@@ -168,19 +176,6 @@ Json to_json(const Answer& answer) {
   }
   return row;
 }
-
-namespace {
-
-/// Files from before budget_rest hold the rest of a run of grains as a part.
-void take_rest_out(TractionResult& result) {
-  const auto row = std::find_if(result.budget.begin(), result.budget.end(),
-                                [](const Contribution& part) { return part.name == "between_samples"; });
-  if (row == result.budget.end()) return;
-  result.budget_rest.force = row->force;
-  result.budget.erase(row);
-}
-
-}  // namespace
 
 OperatingCondition condition_from_json(const Json& row, const std::string& place) {
   const ReadJson reader(row, place);

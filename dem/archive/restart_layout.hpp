@@ -2,7 +2,6 @@
 // members, so one that gets another member doesn't compile until it is described here.
 #pragma once
 
-#include <algorithm>
 #include <span>
 #include <string>
 

@@ -1,7 +1,5 @@
 #include "dem/element_tests/direct_shear.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 

@@ -2,7 +2,6 @@
 // formulas and sources: docs/theory/dem-laws.md.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,5 @@
 #include "dem/engine/surface_contacts.hpp"
 
-#include <algorithm>
-
 #include "dem/surface/touching_points.hpp"
 
 namespace soilbin::dem {

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "dem/rig/drive_parts.hpp"
 #include "dem/rig/run_inputs.hpp"

@@ -1,8 +1,6 @@
 #include "dem/rig/wheel_result.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "dem/rig/mean_value.hpp"
 #include "scenario/estimate.hpp"

@@ -1,7 +1,5 @@
 #include "dem/verification/beds.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>

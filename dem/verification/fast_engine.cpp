@@ -1,7 +1,5 @@
 #include "dem/verification/fast_engine.hpp"
 
-#include <cstdint>
-
 #include "dem/engine/simulation.hpp"
 
 namespace soilbin::dem {

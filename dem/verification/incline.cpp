@@ -124,6 +124,9 @@ double mean_speed(const Simulation& simulation) {
   return sum / count;
 }
 
+const double tan_1 = std::tan(17.561 * degree), tan_2 = std::tan(32.257 * degree);
+constexpr double fitted_length = 3.836;
+
 }  // namespace
 
 InclineOutcome run_incline(const InclineLayer& layer) {
@@ -172,13 +175,6 @@ AngleOfRest angle_of_rest(InclineLayer layer, double rests, double flows, double
   }
   return out;
 }
-
-namespace {
-
-const double tan_1 = std::tan(17.561 * degree), tan_2 = std::tan(32.257 * degree);
-constexpr double fitted_length = 3.836;
-
-}  // namespace
 
 double stopping_thickness(double angle) {
   return fitted_length * (tan_2 - std::tan(angle)) / (std::tan(angle) - tan_1);

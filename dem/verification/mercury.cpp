@@ -1,6 +1,5 @@
 // End states that MercuryDPM keeps for its own tests: Drivers/Papers/OSBenchmark, OSHertzSelfTest and
 // OSMindlinSelfTest.
-#include <cmath>
 
 #include "dem/verification/cases.hpp"
 

@@ -4,7 +4,6 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
 #include <map>
 
 #include "notebooks/bindings/bindings.hpp"

@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 
 #include "dem/engine/simulation.hpp"
 #include "dem/engine/time_step.hpp"

@@ -7,7 +7,6 @@
 #include "compare/loop/answer_words.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "notebooks/bindings/bindings.hpp"
-#include "scenario/case.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::python {

@@ -2,7 +2,6 @@
 // list, too small an active box of grains, belongs to the discrete element model and is tested there.)
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "bekker_wong/bed_fixture.hpp"

@@ -2,7 +2,6 @@
 // (docs/lab/verification.md).
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 
 #include "bekker_wong/agreed_points.hpp"

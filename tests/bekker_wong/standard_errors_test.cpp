@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "bekker_wong/bed_fixture.hpp"
 #include "bekker_wong/effect.hpp"

@@ -1,8 +1,6 @@
 // soilbin design, run as a person runs it before any run is made.
 #include <gmock/gmock.h>
 
-#include <algorithm>
-
 #include "cli/command.hpp"
 
 namespace soilbin::cli::test {

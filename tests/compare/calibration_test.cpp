@@ -5,8 +5,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <numbers>
 #include <random>
 
 #include "scenario/errors.hpp"

@@ -7,7 +7,6 @@
 #include <random>
 #include <set>
 
-#include "bekker_wong/effect_vocabulary.hpp"
 #include "compare/comparison_fixture.hpp"
 #include "compare/loop/loop.hpp"
 #include "scenario/errors.hpp"

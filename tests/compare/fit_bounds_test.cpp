@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "bekker_wong/effect_vocabulary.hpp"
-#include "compare/loop/answer_words.hpp"
 #include "compare/loop/wheel_predictor.hpp"
 #include "compare/loop_fixture.hpp"
 #include "scenario/case.hpp"

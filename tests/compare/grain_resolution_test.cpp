@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <list>
 #include <map>
-#include <string>
 #include <vector>
 
 #include "compare/recorded/record.hpp"

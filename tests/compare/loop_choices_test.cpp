@@ -2,8 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "compare/loop/evidence.hpp"
 #include "compare/loop/loop.hpp"
 #include "compare/loop_fixture.hpp"

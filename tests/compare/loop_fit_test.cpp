@@ -10,7 +10,6 @@
 #include "bekker_wong/effect_vocabulary.hpp"
 #include "compare/loop/base_fit.hpp"
 #include "compare/loop/bounded_fit.hpp"
-#include "compare/loop/candidates.hpp"
 #include "compare/loop/descent.hpp"
 #include "compare/loop_fixture.hpp"
 

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "compare/loop/base_fit.hpp"
-#include "compare/loop/candidates.hpp"
 #include "compare/loop/detection.hpp"
 #include "compare/loop/setpoint_permutation.hpp"
 #include "compare/loop_fixture.hpp"

@@ -9,7 +9,6 @@
 #include <random>
 
 #include "compare/recorded/recorded_model.hpp"
-#include "compare/sweep/result_json.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 

@@ -1,8 +1,6 @@
 // The case that a loop saves: one condition for each that was run, however often.
 #include <gmock/gmock.h>
 
-#include "compare/loop/answer_words.hpp"
-
 namespace soilbin::compare {
 namespace {
 

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "dem/plates_of_triangles.hpp"
 #include "dem/surface/mass_properties.hpp"

@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <cmath>
-
 #include "scenario/case.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/yaml_node.hpp"

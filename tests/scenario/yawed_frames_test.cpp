@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 
