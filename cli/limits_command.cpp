@@ -162,22 +162,21 @@ std::string limits_csv(const std::vector<LimitsAnswer>& answers) {
 
 /// Largest pull against the slope, and the slips: a colour for each model and load.
 compare::Sheet limits_sheet(const Case& question, const std::vector<LimitsAnswer>& answers) {
-  const compare::Axis slope{"slope [deg]", {}, {}};
+  const compare::Axis slope{"slope [deg]"};
   const bool one_load = std::all_of(answers.begin(), answers.end(), [&](const LimitsAnswer& answer) {
     return answer.at.load == answers.front().at.load;
   });
   compare::Sheet sheet{
       fmt::format("{} on {}{}", question.scenario.tire.name, compare::in_words(question.scenario.soil),
                   one_load && !answers.empty() ? fmt::format(", load {:.6g} N", answers.front().at.load) : ""),
-      {{"Largest pull [N]", slope, {}, {}}, {"Slip [%]", slope, {}, {}}},
-      compare::Palette::named};
+      {{"Largest pull [N]", slope, {}, {}}, {"Slip [%]", slope, {}, {}}}};
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const LimitsAnswer& answer = answers[i];
     const std::string which = answers.size() < 2 ? ""
                               : one_load         ? answer.model.label
                                                  : fmt::format("{}, {:.6g} N", answer.model.label, answer.at.load);
     const auto add = [&](std::size_t plot, const std::string& label, int dash, const auto& value) {
-      compare::Series series{which.empty() ? label : which + (label.empty() ? "" : ": " + label), {}, {}, {}};
+      compare::Series series{which.empty() ? label : which + (label.empty() ? "" : ": " + label)};
       series.mark = compare::Mark::line_and_points, series.color = static_cast<int>(i), series.dash = dash;
       for (const SlopeRow& row : answer.slopes) series.x.push_back(row.slope / degree), series.y.push_back(value(row));
       sheet.plots[plot].series.push_back(std::move(series));

@@ -108,7 +108,7 @@ Setup::Setup(const Workplace& place, std::string case_name, std::vector<Flag> fl
     return std::abs(a.slip - usual_slip) < std::abs(b.slip - usual_slip);
   });
   const std::vector<std::optional<double>>& rotations = question.study.rotations;
-  const bool turns = !rotations.empty() && rotations[static_cast<std::size_t>(first - all.begin())].has_value();
+  const bool turns = !rotations.empty() && rotations[first - all.begin()].has_value();
   for (const Flag& flag : telling(*first, all))
     if (!holds(start_, flag.first) && !(turns && flag.first == "speed")) start_.push_back(flag);  // its speed follows
   const ModelChoice& model = question.study.models.front();

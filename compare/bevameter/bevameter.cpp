@@ -115,8 +115,7 @@ Sheet bevameter_sheet(const std::string& title, std::span<const PlateSet> plates
   constexpr double kilo = 1e-3, milli = 1e3;
   Sheet sheet{title,
               {{"Pressure under plates [kPa]", {"sinkage [mm]", 0.0, {}}, {{}, 0.0, {}}, {}},
-               {"Shear stress under rings [kPa]", {"displacement [mm]", 0.0, {}}, {{}, 0.0, {}}, {}}},
-              Palette::named};
+               {"Shear stress under rings [kPa]", {"displacement [mm]", 0.0, {}}, {{}, 0.0, {}}, {}}}};
   std::vector<double> seen;  // radii, then stresses: their place is the colour
   const auto color_of_value = [&seen](double value) {
     const auto alike = [&](double other) { return std::abs(value - other) < 0.1 * other; };
@@ -127,7 +126,7 @@ Sheet bevameter_sheet(const std::string& title, std::span<const PlateSet> plates
   };
   const auto add = [](Plot& plot, const std::string& label, int color, const std::vector<double>& x,
                       const std::vector<double>& y, const auto& fitted) {
-    Series points{label, {}, {}, {}}, line{label, {}, {}, {}};
+    Series points{label}, line{label, {}, {}, {}};
     points.mark = Mark::points, points.color = line.color = color;
     for (std::size_t k = 0; k < x.size(); ++k) {
       points.x.push_back(milli * x[k]), points.y.push_back(kilo * y[k]);

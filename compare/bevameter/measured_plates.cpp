@@ -360,13 +360,13 @@ std::vector<std::string> doubts(const MeasuredPlatesFit& fit) {
 }
 
 Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFit& fit, const std::string& title) {
-  Plot plot{"Pressure [kPa]", {"sinkage [mm]", 0.0, {}}, {"", 0.0, {}}, {}, false};
+  Plot plot{"Pressure [kPa]", {"sinkage [mm]", 0.0}, {"", 0.0}};
   for (std::size_t k = 0; k < fit.radii.size(); ++k) {
     const std::string plate = fmt::format("{:g} mm", 2000 * fit.radii[k]);
     double deepest = 0.0;
     for (const MeasuredPlate& measured : plates) {
       if (measured.curve.radius != fit.radii[k]) continue;
-      Series points{.label = plate + ", measured", .x = {}, .y = {}, .error = {}, .mark = Mark::points};
+      Series points{.label = plate + ", measured", .mark = Mark::points};
       points.color = static_cast<int>(k);
       const PlateCurve used = within(measured.curve, {fit.lowest, fit.highest});
       const std::size_t every = used.pressure.size() / 40 + 1;  // more points than these hide each other
@@ -375,7 +375,7 @@ Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFi
       deepest = std::max(deepest, *std::max_element(used.sinkage.begin(), used.sinkage.end()));
       plot.series.push_back(std::move(points));
     }
-    Series line{.label = plate + ", Bekker's form", .x = {}, .y = {}, .error = {}};
+    Series line{.label = plate + ", Bekker's form"};
     line.color = static_cast<int>(k);
     for (int i = 0; i <= 100; ++i) {
       const double z = deepest * i / 100;

@@ -8,8 +8,7 @@ namespace {
 
 Json values_json(const VirtualTest& test, const Eigen::VectorXd& values) {
   Json json = Json::object();
-  for (std::size_t j = 0; j < test.factors.size(); ++j)
-    json[test.factors[j].name] = values[static_cast<Eigen::Index>(j)];
+  for (std::size_t j = 0; j < test.factors.size(); ++j) json[test.factors[j].name] = values[j];
   return json;
 }
 
@@ -40,7 +39,7 @@ Json analysis_json(const VirtualTest& test, const TargetAnalysis& analysis) {
     ranges.push_back({{"factor", test.factors[j].name}, {"K", factor.sums}, {"k", factor.means}, {"R", factor.range}});
     rows.push_back(json_of(analysis.variance.factors[j]));
   }
-  for (const int j : analysis.ranges.order) order.push_back(test.factors[static_cast<std::size_t>(j)].name);
+  for (const int j : analysis.ranges.order) order.push_back(test.factors[j].name);
   if (analysis.variance.left.freedom > 0) rows.push_back(json_of(analysis.variance.left));
   return {{"ranges", ranges},
           {"order", order},

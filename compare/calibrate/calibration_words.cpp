@@ -35,7 +35,7 @@ std::string values_in_words(const VirtualTest& test, const Eigen::VectorXd& valu
   std::string text;
   for (std::size_t j = 0; j < test.factors.size(); ++j)
     text += fmt::format("{}{} {}", j == 0 ? "" : ", ", test.factors[j].name,
-                        value_with_unit({values[static_cast<Eigen::Index>(j)], 0}, test.factors[j].unit));
+                        value_with_unit({values[j], 0}, test.factors[j].unit));
   return text;
 }
 
@@ -49,9 +49,8 @@ std::string order_sentence(const VirtualTest& test, const Calibration& calibrati
   const TargetAnalysis& analysis = calibration.analyses[target];
   std::string order;
   for (const int j : analysis.ranges.order)
-    order += fmt::format(
-        "{}{} (R {})", order.empty() ? "" : " > ", test.factors[static_cast<std::size_t>(j)].name,
-        value_with_unit({analysis.ranges.factors[static_cast<std::size_t>(j)].range, 0}, test.targets[target].unit));
+    order += fmt::format("{}{} (R {})", order.empty() ? "" : " > ", test.factors[j].name,
+                         value_with_unit({analysis.ranges.factors[j].range, 0}, test.targets[target].unit));
   return fmt::format("On {}: {}.", test.targets[target].name, order);
 }
 
@@ -72,7 +71,7 @@ std::vector<std::string> columns_of(const VirtualTest& test) {
 void add_cells(std::vector<std::string>& row, const VirtualTest& test, const Eigen::VectorXd& values,
                const std::vector<Estimate>& results) {
   for (std::size_t j = 0; j < test.factors.size(); ++j)
-    row.push_back(number(values[static_cast<Eigen::Index>(j)] * per_unit(test.factors[j].unit)));
+    row.push_back(number(values[j] * per_unit(test.factors[j].unit)));
   for (std::size_t t = 0; t < test.targets.size(); ++t)
     row.push_back(results.empty() ? "-" : number(results[t], per_unit(test.targets[t].unit)));
 }
@@ -122,7 +121,7 @@ std::vector<std::string> calibration_sentences(const VirtualTest& test, const Ca
 HtmlTable level_table(const VirtualTest& test, const Calibration& calibration, std::size_t target) {
   const TargetAnalysis& analysis = calibration.analyses.at(target);
   const double factor = per_unit(test.targets[target].unit);
-  HtmlTable table{heading(test.targets[target].name, test.targets[target].unit), {"factor"}, {}, {}};
+  HtmlTable table{heading(test.targets[target].name, test.targets[target].unit), {"factor"}};
   for (std::size_t i = 0; i < analysis.ranges.factors[0].means.size(); ++i)
     table.header.push_back(fmt::format("k{}", i + 1));
   for (const char* name : {"R", "sum of squares", "F", "p"}) table.header.emplace_back(name);
@@ -148,7 +147,7 @@ HtmlTable level_table(const VirtualTest& test, const Calibration& calibration, s
 }
 
 HtmlTable runs_table(const VirtualTest& test, const Calibration& calibration) {
-  HtmlTable table{"Runs", {"stage"}, {}, {}};
+  HtmlTable table{"Runs", {"stage"}};
   for (std::string& name : columns_of(test)) table.header.push_back(std::move(name));
   table.header.emplace_back("failure");
   for (const CalibrationRun& run : calibration.runs) {
@@ -161,7 +160,7 @@ HtmlTable runs_table(const VirtualTest& test, const Calibration& calibration) {
 }
 
 HtmlTable candidates_table(const VirtualTest& test, const Calibration& calibration) {
-  HtmlTable table{"Candidates", {""}, {}, {}};
+  HtmlTable table{"Candidates", {""}};
   for (std::string& name : columns_of(test)) table.header.push_back(std::move(name));
   for (const char* name : {"runs", "chi square", "chance"}) table.header.emplace_back(name);
   if (calibration.decision)
@@ -196,8 +195,7 @@ double& value_of(ContactPair& pair, const std::string& name) {
 
 void put_values(GranularSoil& soil, ContactKind kind, const std::vector<Factor>& factors,
                 const Eigen::VectorXd& values) {
-  for (std::size_t j = 0; j < factors.size(); ++j)
-    value_of(pair_of(soil, kind), factors[j].name) = values[static_cast<Eigen::Index>(j)];
+  for (std::size_t j = 0; j < factors.size(); ++j) value_of(pair_of(soil, kind), factors[j].name) = values[j];
 }
 
 Soil calibrated_soil(Soil soil, ContactKind kind, const VirtualTest& test, const CalibrationOptions& options,

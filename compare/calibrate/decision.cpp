@@ -33,7 +33,7 @@ std::vector<Gathered> gather(const Campaign& campaign) {
   const Observations all = observe(campaign);
   std::vector<Gathered> gathered(static_cast<std::size_t>(all.conditions));
   for (std::size_t row = 0; row < all.rows.size(); ++row) {
-    Gathered& into = gathered[static_cast<std::size_t>(all.condition[row])];
+    Gathered& into = gathered[all.condition[row]];
     OperatingCondition at = all.rows[row];
     if (into.runs++ > 0) {
       at = into.sum;
@@ -43,10 +43,7 @@ std::vector<Gathered> gather(const Campaign& campaign) {
     }
     into.sum = at;
   }
-  for (const Cell& cell : all.cells)
-    gathered[static_cast<std::size_t>(all.condition[static_cast<std::size_t>(cell.row)])]
-        .cells[static_cast<std::size_t>(cell.channel)]
-        .add(cell.value);
+  for (const Cell& cell : all.cells) gathered[all.condition[cell.row]].cells[cell.channel].add(cell.value);
   return gathered;
 }
 

@@ -34,8 +34,7 @@ std::string batch_text(const VirtualTest& test, const std::vector<AskedExperimen
   Json experiments = Json::array();
   for (const AskedExperiment& one : batch) {
     Json values = Json::object();
-    for (std::size_t k = 0; k < test.factors.size(); ++k)
-      values[test.factors[k].name] = one.values[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < test.factors.size(); ++k) values[test.factors[k].name] = one.values[k];
     experiments.push_back({{"seed", one.seed}, {"values", values}});
   }
   return json_text({{"format", batch_format}, {"test", test_key(test)}, {"experiments", experiments}});
@@ -58,7 +57,7 @@ std::vector<AskedExperiment> parse_batch(const SourceText& source, const Virtual
       AskedExperiment asked{Eigen::VectorXd(static_cast<Eigen::Index>(test.factors.size())),
                             one.at("seed").get<std::uint64_t>()};
       for (std::size_t k = 0; k < test.factors.size(); ++k)
-        asked.values[static_cast<Eigen::Index>(k)] = one.at("values").at(test.factors[k].name).get<double>();
+        asked.values[k] = one.at("values").at(test.factors[k].name).get<double>();
       batch.push_back(std::move(asked));
     }
     return batch;

@@ -23,7 +23,7 @@ Samples samples_of(const VirtualTest& test, const std::vector<const Experiment*>
   const Index n = static_cast<Index>(experiments.size()), d = static_cast<Index>(test.factors.size());
   Samples samples{Eigen::MatrixXd(n, d), VectorXd(n), VectorXd(n)};
   for (Index i = 0; i < n; ++i) {
-    const Experiment& experiment = *experiments[static_cast<std::size_t>(i)];
+    const Experiment& experiment = *experiments[i];
     samples.x.row(i) = to_unit(test.factors, experiment.values);
     samples.y[i] = experiment.results[target].value;
     samples.variance[i] = std::pow(experiment.results[target].std_error, 2);
@@ -101,7 +101,7 @@ std::vector<Candidate> LikelyPoints::spread_out(double near, int count) const {
   std::vector<double> distance(left.size(), std::numeric_limits<double>::infinity());
   while (static_cast<int>(taken.size()) < count && taken.size() < left.size()) {
     const auto farthest = std::max_element(distance.begin(), distance.end());  // the first, and likeliest, of equals
-    taken.push_back(left[static_cast<std::size_t>(farthest - distance.begin())]);
+    taken.push_back(left[farthest - distance.begin()]);
     const VectorXd at = to_unit(test_.factors, taken.back().values);
     for (std::size_t i = 0; i < left.size(); ++i)
       distance[i] = std::min(distance[i], (to_unit(test_.factors, left[i].values) - at).norm());
@@ -142,7 +142,7 @@ void LikelyPoints::weigh(std::vector<Estimate>& parameters, std::vector<double>&
     double sum = 0.0, first = 0.0, second = 0.0;
     for (const Candidate& candidate : cloud_) {
       const double weight = std::exp(-0.5 * (candidate.chi_square - least));
-      const double value = candidate.values[static_cast<Index>(j)];
+      const double value = candidate.values[j];
       sum += weight, first += weight * value, second += weight * value * value;
     }
     const double mean = first / sum, sd = std::sqrt(std::max(0.0, second / sum - mean * mean));

@@ -36,7 +36,7 @@ std::vector<PublishedSet> parse_published_sets(const SourceText& source, const V
   for (const CsvRow& row : table.rows) {
     PublishedSet set{row.cells[name].text, Eigen::VectorXd(static_cast<Eigen::Index>(test.factors.size())), {}, {}};
     for (std::size_t j = 0; j < test.factors.size(); ++j)
-      set.values[static_cast<Eigen::Index>(j)] =
+      set.values[j] =
           number_in(row.cells[find_column(table, test.factors[j].name, source)], test.factors[j].unit, source);
     for (const Target& target : test.targets)
       set.published.push_back(number_in(row.cells[find_column(table, column_of(target), source)], target.unit, source));
@@ -54,7 +54,7 @@ void run_sets(std::vector<PublishedSet>& sets, const VirtualTest& test, std::uin
 }
 
 HtmlTable beside_table(const VirtualTest& test, const std::vector<PublishedSet>& sets) {
-  HtmlTable table{"Published beside ours", {"set"}, {}, {}};
+  HtmlTable table{"Published beside ours", {"set"}};
   for (const Factor& factor : test.factors) table.header.push_back(heading(factor.name, factor.unit));
   for (const Target& target : test.targets)
     for (const char* whose : {" published", " ours", " measured"})
@@ -62,7 +62,7 @@ HtmlTable beside_table(const VirtualTest& test, const std::vector<PublishedSet>&
   for (const PublishedSet& set : sets) {
     std::vector<std::string> row{set.name};
     for (std::size_t j = 0; j < test.factors.size(); ++j)
-      row.push_back(number(set.values[static_cast<Eigen::Index>(j)] * per_unit(test.factors[j].unit)));
+      row.push_back(number(set.values[j] * per_unit(test.factors[j].unit)));
     for (std::size_t t = 0; t < test.targets.size(); ++t) {
       const double per = per_unit(test.targets[t].unit);
       row.push_back(number(set.published[t] * per));

@@ -32,8 +32,7 @@ MatrixXd unit_points(const LevelTable& design) {
   MatrixXd points(design.runs(), design.columns());
   for (int i = 0; i < design.runs(); ++i)
     for (int j = 0; j < design.columns(); ++j)
-      points(i, j) = static_cast<double>(design.rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]) /
-                     (design.levels - 1);
+      points(i, j) = static_cast<double>(design.rows[i][j]) / (design.levels - 1);
   return points;
 }
 

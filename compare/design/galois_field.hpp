@@ -13,8 +13,8 @@ class GaloisField {
   explicit GaloisField(int q);
 
   int size() const { return size_; }
-  int sum(int a, int b) const { return sums_[static_cast<std::size_t>(a * size_ + b)]; }
-  int product(int a, int b) const { return products_[static_cast<std::size_t>(a * size_ + b)]; }
+  int sum(int a, int b) const { return sums_[a * size_ + b]; }
+  int product(int a, int b) const { return products_[a * size_ + b]; }
 
  private:
   int size_;

@@ -71,17 +71,15 @@ RangeAnalysis range_analysis(const LevelTable& design, const std::vector<double>
   RangeAnalysis analysis;
   for (int j = 0; j < design.columns(); ++j) {
     FactorRange factor{std::vector<double>(levels, 0.0), {}, 0.0};
-    for (std::size_t run = 0; run < responses.size(); ++run)
-      factor.sums[static_cast<std::size_t>(design.rows[run][static_cast<std::size_t>(j)])] += responses[run];
+    for (std::size_t run = 0; run < responses.size(); ++run) factor.sums[design.rows[run][j]] += responses[run];
     for (const double sum : factor.sums) factor.means.push_back(sum / at_a_level);
     const auto [least, most] = std::minmax_element(factor.means.begin(), factor.means.end());
     factor.range = *most - *least;
     analysis.factors.push_back(std::move(factor));
     analysis.order.push_back(j);
   }
-  std::stable_sort(analysis.order.begin(), analysis.order.end(), [&](int a, int b) {
-    return analysis.factors[static_cast<std::size_t>(a)].range > analysis.factors[static_cast<std::size_t>(b)].range;
-  });
+  std::stable_sort(analysis.order.begin(), analysis.order.end(),
+                   [&](int a, int b) { return analysis.factors[a].range > analysis.factors[b].range; });
   return analysis;
 }
 

@@ -29,9 +29,8 @@ MatrixXd hypercube(int points, int dimensions, Draw& random, const Place& place)
   std::vector<int> slice(static_cast<std::size_t>(points));
   for (int j = 0; j < dimensions; ++j) {
     std::iota(slice.begin(), slice.end(), 0);
-    for (Index i = points - 1; i > 0; --i)
-      std::swap(slice[static_cast<std::size_t>(i)], slice[static_cast<std::size_t>(random.below(i + 1))]);
-    for (int i = 0; i < points; ++i) cube(i, j) = (slice[static_cast<std::size_t>(i)] + place(random)) / points;
+    for (Index i = points - 1; i > 0; --i) std::swap(slice[i], slice[random.below(i + 1)]);
+    for (int i = 0; i < points; ++i) cube(i, j) = (slice[i] + place(random)) / points;
   }
   return cube;
 }

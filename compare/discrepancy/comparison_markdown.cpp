@@ -121,7 +121,7 @@ void write_markdown(const fs::path& folder, const Comparison& comparison, const 
   md.text("## How to repeat this");
   md.text("    " + about.page.command);
   md.text("The resolved case is [case.yaml](case.yaml).");
-  HtmlTable facts{"", {"part", "version or value"}, {}, {true, true}};
+  HtmlTable facts{"", {"part", "version or value"}, {true, true}};
   for (const auto* list : {&about.page.versions, &about.facts})
     for (const auto& [name, value] : *list) facts.rows.push_back({name, value});
   md.table(facts);

@@ -63,7 +63,7 @@ bool says_anything(const Series& series) {
 /// A panel with a series for each side that has a value.
 void add_plot(Sheet& sheet, const Comparison& comparison, const std::string& title,
               const std::vector<std::size_t>& members, const Reader& read, double per_unit) {
-  Plot plot{title, {"slip [%]", {}, {}}, {}, {}, false};
+  Plot plot{title, {"slip [%]"}};
   for (std::size_t s = 0; s < comparison.sides.size(); ++s) {
     Series series = series_of(comparison, s, members, read, per_unit);
     if (says_anything(series)) plot.series.push_back(std::move(series));
@@ -89,7 +89,7 @@ std::string label_with_limits(const Side& side, bool coarse_grains) {
 /// The points of a series at which `marked` holds of the side's point, as marks of their own; no points: none is.
 Series marks_on(const Series& series, const std::string& label, int color, const std::vector<std::size_t>& members,
                 const std::function<bool(std::size_t condition, double y)>& marked) {
-  Series marks{.label = label, .x = {}, .y = {}, .error = {}, .mark = Mark::points, .color = color};
+  Series marks{.label = label, .mark = Mark::points, .color = color};
   for (std::size_t k = 0; k < members.size(); ++k)
     if (std::isfinite(series.y[k]) && marked(members[k], series.y[k]))
       marks.x.push_back(series.x[k]), marks.y.push_back(series.y[k]);
@@ -135,7 +135,7 @@ Sheet overview_sheet(const Comparison& comparison) {
 }
 
 Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_grains) {
-  Sheet sheet{comparison.curves.labels[curve], {}, Palette::named};
+  Sheet sheet{comparison.curves.labels[curve]};
   const std::vector<std::size_t> members = members_of(comparison, curve);
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const ChannelView& channel = channel_views[c];
@@ -161,7 +161,7 @@ Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_g
 }
 
 Sheet contact_sheet(const Comparison& comparison, std::size_t curve) {
-  Sheet sheet{comparison.curves.labels[curve], {}, Palette::named};
+  Sheet sheet{comparison.curves.labels[curve]};
   const std::vector<std::size_t> members = members_of(comparison, curve);
   const std::pair<const char*, double TractionResult::*> angles[] = {
       {"Entry angle [deg]", &TractionResult::entry_angle},
@@ -176,7 +176,7 @@ Sheet contact_sheet(const Comparison& comparison, std::size_t curve) {
         1 / degree);
   std::map<std::pair<std::size_t, std::size_t>, double> by_slip;
   for (const SinkageSplit& split : sinkage_splits(comparison)) by_slip[{split.side, split.condition}] = split.by_slip;
-  Plot plot{"Sinkage that slip adds [mm]", {"slip [%]", {}, {}}, {}, {}, false};
+  Plot plot{"Sinkage that slip adds [mm]", {"slip [%]"}};
   for (std::size_t s = 0; s < comparison.sides.size(); ++s) {
     const Reader read = [&, s](const SidePoint&, std::size_t i) {
       const auto found = by_slip.find({s, i});
@@ -222,7 +222,7 @@ HeatMap heat_map_of(const Comparison& comparison, const Tally& tally) {
                                      [&](double s) { return std::abs(s - conditions[d.condition].slip) < 1e-9; }) -
                         slips.begin();
     const std::string sigma = std::isfinite(d.sigma) ? fmt::format(", {:.1f} standard errors", d.sigma) : "";
-    map.cells[curves.curve_of[d.condition]][static_cast<std::size_t>(column)] = {
+    map.cells[curves.curve_of[d.condition]][column] = {
         100 * d.share, fmt::format("{:+.{}f}", 100 * d.share, std::abs(d.share) < 1.0 ? 1 : 0),
         fmt::format("{}: {} ({:+.2f} %{}): {}", in_words(conditions[d.condition]), in_unit(d.channel, d.difference),
                     100 * d.share, sigma, words(d.finding)),

@@ -39,7 +39,6 @@ MarkedTable tally_table(const Comparison& comparison) {
   MarkedTable table{
       "Channel by channel, the widest apart first. Green: no more than the stated errors alone would give",
       {"channel", "root mean square", "errors alone", "mean", "differ", "widest at"},
-      {},
       {true, false, false, false, true, true}};
   for (const Tally* t : widest_first(comparison)) {
     const Difference& worst = comparison.differences[t->worst];
@@ -73,7 +72,6 @@ HtmlTable rows_table(const Comparison& comparison, const Tally& tally) {
                               comparison.sides[tally.side].label, comparison.sides[tally.reference].label),
                   {"condition", comparison.sides[tally.side].label, comparison.sides[tally.reference].label,
                    "difference", "scatter of a run", "share [%]", "in sigma", "finding"},
-                  {},
                   {true, false, false, false, false, false, false, true}};
   for (const Difference& d : comparison.differences) {
     if (d.side != tally.side || d.reference != tally.reference || d.channel != tally.channel) continue;
@@ -90,7 +88,6 @@ HtmlTable points_table(const Comparison& comparison, const Side& side) {
   HtmlTable table{side.label,
                   {"condition", "drawbar pull [N]", "torque [N m]", "sinkage [mm]", "lateral force [N]", "runs",
                    "scatter of the pull [N]", "doubts"},
-                  {},
                   {true, false, false, false, false, false, false, true}};
   for (std::size_t i = 0; i < side.points.size(); ++i) {
     const SidePoint& point = side.points[i];
@@ -109,7 +106,7 @@ HtmlTable points_table(const Comparison& comparison, const Side& side) {
 
 HtmlTable budget_table(const Comparison& comparison, std::size_t condition) {
   const BudgetTable budget = budget_at(comparison, condition);
-  HtmlTable table{"Parts of the drawbar pull [N]; '-': not a part of this side", {"part"}, {}, {true}};
+  HtmlTable table{"Parts of the drawbar pull [N]; '-': not a part of this side", {"part"}, {true}};
   for (const std::size_t s : budget.sides) table.header.push_back(comparison.sides[s].label);
   for (const BudgetRow& row : budget.rows) {
     std::vector<std::string> cells = {part_in_words(row.name)};
@@ -129,7 +126,6 @@ HtmlTable budget_table(const Comparison& comparison, std::size_t condition) {
 HtmlTable sinkage_table(const Comparison& comparison) {
   HtmlTable table{"Sinkage [mm]: what the load presses in at slip 0, and what slip adds at the largest slip",
                   {"curve", "side", "at slip 0", "slip [%]", "added by slip"},
-                  {},
                   {true, true}};
   const auto& conditions = comparison.question.study.conditions;
   const Curves& curves = comparison.curves;
@@ -148,7 +144,6 @@ HtmlTable sinkage_table(const Comparison& comparison) {
 HtmlTable joint_table(const Comparison& comparison) {
   HtmlTable table{"All values at once, with the soil's doubt that conditions share",
                   {"side", "against", "values", "chi2, soil exact", "chi2", "freedom of the noise", "p-value"},
-                  {},
                   {true, true}};
   for (const JointTest& test : comparison.joint)
     table.rows.push_back({comparison.sides[test.side].label, comparison.sides[test.reference].label,

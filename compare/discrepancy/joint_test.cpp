@@ -27,9 +27,9 @@ VectorXd errors_of(const Observations& observations, const Side& reference) {
     if (point.result) solved.push_back(&point);
   for (std::size_t k = 0; k < observations.cells.size(); ++k) {
     const Cell& cell = observations.cells[k];
-    const auto run = static_cast<std::size_t>(observations.source_row[static_cast<std::size_t>(cell.row)]);
+    const auto run = static_cast<std::size_t>(observations.source_row[cell.row]);
     const auto channel = static_cast<std::size_t>(cell.channel);
-    errors[static_cast<Index>(k)] = ((*solved[run]->result).*channel_views[channel].predicted).std_error;
+    errors[k] = ((*solved[run]->result).*channel_views[channel].predicted).std_error;
   }
   return errors;
 }
@@ -45,8 +45,7 @@ Estimated estimated_of(const Observations& observations, const Side& reference) 
     const bool asked = std::any_of(observations.cells.begin(), observations.cells.end(),
                                    [&](const Cell& cell) { return cell.channel == channel; });
     all.channels += asked;
-    if (asked && reference.noise)
-      all.freedom = std::min(all.freedom, reference.noise->channels[static_cast<std::size_t>(channel)].freedom);
+    if (asked && reference.noise) all.freedom = std::min(all.freedom, reference.noise->channels[channel].freedom);
   }
   return all;
 }
@@ -110,7 +109,7 @@ JointOutcome joint_test(const Side& reference, const Case& question, const std::
   JointTest test;
   VectorXd sd(predictor.soil_parameters());
   for (int i = 0; i < predictor.soil_parameters(); ++i) {
-    const FreeParameter& parameter = predictor.parameters()[static_cast<std::size_t>(i)];
+    const FreeParameter& parameter = predictor.parameters()[i];
     sd[i] = parameter.prior_sd;
     test.soil.push_back(parameter.name);
   }

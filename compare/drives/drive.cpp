@@ -50,7 +50,7 @@ struct Line {
 Plot plot_of(const DrivePart& part, const std::string& title, const std::vector<Line>& lines) {
   std::string panel = title.substr(0, title.find(" ["));
   panel.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(panel.front())));
-  Plot plot{title, {"time [s]", {}, {}}, {}, {}, false};
+  Plot plot{title, {"time [s]"}};
   int color = 0;
   for (const Line& line : lines) {
     Series series;
@@ -114,7 +114,7 @@ std::vector<std::pair<std::string, double>> energy_rows(const EnergyLedger& e) {
 }
 
 Sheet drive_sheet(const DrivePart& part) {
-  Sheet sheet{part.question.name, {}, Palette::named};
+  Sheet sheet{part.question.name};
   sheet.plots.push_back(plot_of(part, "Speed [cm/s]",
                                 {{"travel", [](const DriveSample& s) { return 100 * s.speed; }},
                                  {"rim", [](const DriveSample& s) { return 100 * s.rim_speed; }}}));
@@ -179,7 +179,7 @@ std::string drive_page(const DrivePart& part, const PageAbout& about) {
   page.figure(drive_sheet(part),
               "The soil in contact has seen the slip of the last quarter turn or so: it lags behind the speeds.");
   page.section("Where the motor's work went");
-  HtmlTable energy{"Of the motor's work in all", {"", "J", "%"}, {}, {true}};
+  HtmlTable energy{"Of the motor's work in all", {"", "J", "%"}, {true}};
   for (const auto& [name, joules] : energy_rows(end.energy))
     energy.rows.push_back(
         {name, number(joules), end.energy.motor != 0.0 ? number(100 * joules / end.energy.motor) : "-"});
@@ -187,7 +187,7 @@ std::string drive_page(const DrivePart& part, const PageAbout& about) {
   page.table(energy);
   if (!part.record.happenings.empty()) {
     page.section("On the way");
-    HtmlTable events{"", {"time [s]", "travelled [m]", "what happened"}, {}, {false, false, true}};
+    HtmlTable events{"", {"time [s]", "travelled [m]", "what happened"}, {false, false, true}};
     for (const DriveHappening& h : part.record.happenings)
       events.rows.push_back({number(h.time), number(h.travelled), std::string(word_of(h.what))});
     page.table(events);

@@ -240,7 +240,6 @@ HtmlTable packings_table(const DriveSides& drive) {
   HtmlTable table{
       "± is one standard error; of the mean from the scatter of packings or, where it is larger, from their own",
       {"on each packing"},
-      {},
       {true}};
   if (!drive.over_packings) return table;
   const DriveOverPackings& mean = *drive.over_packings;

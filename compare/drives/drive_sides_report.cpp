@@ -39,7 +39,7 @@ Series steady_line(const dem::SteadyDrive& steady, const Panel& panel, int color
 }
 
 Plot plot_of(const DriveSides& drive, const Panel& panel) {
-  Plot plot{panel.title, {"time [s]", {}, {}}, {}, {}, false};
+  Plot plot{panel.title, {"time [s]"}};
   for (std::size_t i = 0; i < drive.sides.size(); ++i) {
     const DriveSide& side = drive.sides[i];
     Series series;
@@ -104,7 +104,7 @@ Json over_packings_json(const DriveOverPackings& one) {
 }
 
 HtmlTable happenings_table(const DriveSides& drive) {
-  HtmlTable table{"", {"model", "time [s]", "travelled [m]", "what happened"}, {}, {true, false, false, true}};
+  HtmlTable table{"", {"model", "time [s]", "travelled [m]", "what happened"}, {true, false, false, true}};
   for (const DriveSide& side : drive.sides) {
     for (const DriveHappening& h : side.happenings)
       table.rows.push_back({side.label, number(h.time), number(h.travelled), std::string(word_of(h.what))});
@@ -120,7 +120,6 @@ HtmlTable differences_table(const DriveSides& drive) {
   HtmlTable table{fmt::format("± is one standard error: of the analytic wheel the soil's doubt, of grains {}",
                               drive.over_packings ? "the scatter of packings" : "block averages of one run"),
                   {"steadily", "bekker_wong", "dem", "difference", ""},
-                  {},
                   {true, false, false, false, true}};
   for (const DriveDifference& row : drive.differences)
     table.rows.push_back({fmt::format("{} [{}]", row.name, row.unit), number(row.analytic, row.per_si),
@@ -130,7 +129,7 @@ HtmlTable differences_table(const DriveSides& drive) {
 }
 
 HtmlTable work_table(const DriveSides& drive) {
-  HtmlTable table{"Of the motor's work in all", {"J"}, {}, {true}};
+  HtmlTable table{"Of the motor's work in all", {"J"}, {true}};
   for (const DriveSide& side : drive.sides) table.header.push_back(side.label), table.text_columns.push_back(false);
   for (const DriveWorkRow& work : work_rows(drive)) {
     std::vector<std::string> row{work.name};
@@ -146,7 +145,7 @@ HtmlTable work_table(const DriveSides& drive) {
 Sheet drive_sheet(const DriveSides& drive) {
   using S = DriveSideSample;
   using M = dem::SteadyDrive;
-  Sheet sheet{drive.question.name, {}, Palette::named};
+  Sheet sheet{drive.question.name};
   for (const Panel& panel : std::initializer_list<Panel>{
            {"Travelled [m]", 1, [](const S& s) { return s.travelled; }},
            {"Speed [cm/s]", 100, [](const S& s) { return s.speed; }, &M::speed},

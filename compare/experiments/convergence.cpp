@@ -89,7 +89,7 @@ std::vector<VariantRun> run_variants(const dem::DemSettings& settings, const Cas
 }
 
 HtmlTable convergence_table(const std::vector<VariantRun>& runs) {
-  HtmlTable table{"", {"choice"}, {}, {}};
+  HtmlTable table{"", {"choice"}};
   for (const std::size_t c : shown_channels)
     table.header.insert(table.header.end(),
                         {fmt::format("{} [{}]", channel_views[c].title, channel_views[c].unit), "differs [errors]"});

@@ -43,7 +43,7 @@ class FactorGrid {
   }
   VectorXd values(const std::vector<int>& node) const {
     VectorXd values(static_cast<Index>(node.size()));
-    for (std::size_t j = 0; j < node.size(); ++j) values[static_cast<Index>(j)] = value(j, node[j]);
+    for (std::size_t j = 0; j < node.size(); ++j) values[j] = value(j, node[j]);
     return values;
   }
 
@@ -161,7 +161,7 @@ void back_up(const FailureQuestion& question, const FailureMap& map, const std::
     for (std::size_t j = 0; j < roles.size(); ++j) {
       const Factor& factor = question.factors[j];
       const double slack = roles[j] == Role::held ? 0.1 * (factor.upper - factor.lower) : 0.0;
-      const double value = row.values[static_cast<Index>(j)];
+      const double value = row.values[j];
       in_box = in_box && value >= clause.lower[j] && value <= clause.upper[j] + slack;
     }
     if (!in_box) continue;

@@ -21,9 +21,8 @@ std::string factors_in_words(const std::vector<Factor>& factors, const VectorXd&
   std::string text;
   for (std::size_t j = 0; j < factors.size(); ++j) {
     const Factor& factor = factors[j];
-    text +=
-        fmt::format("{}{} {:.3g}{}", text.empty() ? "" : ", ", factor.name,
-                    values[static_cast<Index>(j)] * per_unit(factor.unit), factor.unit == "-" ? "" : " " + factor.unit);
+    text += fmt::format("{}{} {:.3g}{}", text.empty() ? "" : ", ", factor.name, values[j] * per_unit(factor.unit),
+                        factor.unit == "-" ? "" : " " + factor.unit);
   }
   return text;
 }
@@ -122,8 +121,7 @@ HeatCell cell_at(const MapStory& story, const VectorXd& values) {
   HeatCell cell{100 * there.value, percent == 0 ? "0" : fmt::format("{:+.0f}", percent), "", true};
   cell.counts = size - 1.645 * there.std_error > tolerance;
   for (std::size_t j = 0; j < factors.size(); ++j)
-    cell.meaning += fmt::format("{}{} {}", j == 0 ? "" : ", ", factors[j].name,
-                                in_units(factors[j], values[static_cast<Index>(j)]));
+    cell.meaning += fmt::format("{}{} {}", j == 0 ? "" : ", ", factors[j].name, in_units(factors[j], values[j]));
   cell.meaning += fmt::format(": {} % of the load, {}", number({100 * there.value, 100 * there.std_error}),
                               cell.counts                                  ? "the models part"
                               : size + 1.645 * there.std_error < tolerance ? "the models agree"
@@ -137,7 +135,7 @@ std::vector<double> two_levels(const Factor& factor) {
 
 Json values_json(const std::vector<Factor>& factors, const VectorXd& values) {
   Json json = Json::object();
-  for (std::size_t j = 0; j < factors.size(); ++j) json[factors[j].name] = values[static_cast<Index>(j)];
+  for (std::size_t j = 0; j < factors.size(); ++j) json[factors[j].name] = values[j];
   return json;
 }
 
@@ -179,7 +177,7 @@ double share_beyond(const MapStory& story) {
     VectorXd values(static_cast<Index>(factors.size()));
     std::size_t rest = i;
     for (std::size_t j = 0; j < factors.size(); ++j, rest /= nodes)
-      values[static_cast<Index>(j)] = level_value(factors[j], static_cast<int>(rest % nodes), nodes);
+      values[j] = level_value(factors[j], static_cast<int>(rest % nodes), nodes);
     beyond += std::abs(story.rows.at(story.question, values).value) > story.question.tolerance;
   }
   return static_cast<double>(beyond) / static_cast<double>(all);
@@ -237,14 +235,14 @@ std::vector<std::string> details(const MapStory& story) {
 }
 
 HtmlTable rows_table(const MapStory& story) {
-  HtmlTable table{"Every condition run, in order: analytic less grains, share of the load", {}, {}, {}};
+  HtmlTable table{"Every condition run, in order: analytic less grains, share of the load", {}};
   for (const Factor& factor : story.question.factors) table.header.push_back(heading(factor.name, factor.unit));
   table.header.insert(table.header.end(), {"difference [%]", "left out, predicted [%]", "beyond"});
   Index k = 0;
   for (const FailureRow& row : story.rows.rows) {
     std::vector<std::string> cells;
     for (std::size_t j = 0; j < story.question.factors.size(); ++j)
-      cells.push_back(number(row.values[static_cast<Index>(j)] * per_unit(story.question.factors[j].unit)));
+      cells.push_back(number(row.values[j] * per_unit(story.question.factors[j].unit)));
     if (row.difference) {
       const double predicted = row.difference->value - story.rows.held_out.residual[k];
       cells.insert(cells.end(), {in_percent(*row.difference), fmt::format("{:.1f}", 100 * predicted),
@@ -259,21 +257,21 @@ HtmlTable rows_table(const MapStory& story) {
 }
 
 HtmlTable coordinates_table(const MapStory& story) {
-  HtmlTable table{
-      "What the map may see, and its error with each row left out", {"coordinates", "error [% of the load]"}, {}, {}};
+  HtmlTable table{"What the map may see, and its error with each row left out",
+                  {"coordinates", "error [% of the load]"}};
   for (const Coordinates& c : story.coordinates)
     table.rows.push_back({c.name, fmt::format("{:.2f}", 100 * c.held_out)});
   return table;
 }
 
 HtmlTable checks_table(const MapStory& story) {
-  HtmlTable table{"Fresh conditions: predicted, then run", {}, {}, {}};
+  HtmlTable table{"Fresh conditions: predicted, then run", {}};
   for (const Factor& factor : story.question.factors) table.header.push_back(heading(factor.name, factor.unit));
   table.header.insert(table.header.end(), {"predicted [%]", "found [%]", "apart [standard errors]"});
   for (const FreshCheck& check : story.checks) {
     std::vector<std::string> cells;
     for (std::size_t j = 0; j < story.question.factors.size(); ++j)
-      cells.push_back(number(check.values[static_cast<Index>(j)] * per_unit(story.question.factors[j].unit)));
+      cells.push_back(number(check.values[j] * per_unit(story.question.factors[j].unit)));
     cells.push_back(in_percent(check.predicted));
     cells.push_back(check.found ? in_percent(*check.found) : "no answer");
     cells.push_back(check.found ? fmt::format("{:.1f}", check.sigma()) : "-");

@@ -47,7 +47,7 @@ std::string change_of(const ErrorPair& error) {
 MarkedTable next_run_table(const LoopAnswer& answer) {
   if (!answer.next) return {};
   const NextTest& next = *answer.next;
-  MarkedTable table{"The next run, as a row of the campaign", {}, {{}}, {}};
+  MarkedTable table{"The next run, as a row of the campaign", {}, {}, {{}}};
   for (const std::string& name : next.quantities) {
     const ConditionView& view = condition_view(name);
     const double value = view.get(next.at);
@@ -69,9 +69,7 @@ MarkedTable error_table(const LoopAnswer& answer) {
   MarkedTable table{
       "Root mean square error on conditions that neither choice nor fit has seen; before: soil refitted, "
       "no effect added",
-      {"channel", "values", "before", "after", "change", "noise alone"},
-      {},
-      {}};
+      {"channel", "values", "before", "after", "change", "noise alone"}};
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const ErrorPair& e = answer.validation.channels[c];
     if (e.cells == 0) continue;
@@ -103,7 +101,6 @@ MarkedTable candidates_table(const LoopAnswer& answer) {
   MarkedTable table{
       "Candidates, each fitted in full" + premise + "; shares are of those that these data do not rule out",
       {"effects", "form", "share", "odds to the first", "chi2", "values"},
-      {},
       {true, true}};
   const std::string values = std::to_string(answer.found().base.data().cells());
   const std::vector<const Weighted*> sets = sets_shown(answer);
@@ -131,7 +128,6 @@ MarkedTable parameters_table(const LoopAnswer& answer) {
   MarkedTable table{answer.effects.empty() ? "The stand-in of the saved model: its fitted parameters"
                                            : "The effects of the saved model: their fitted parameters",
                     {"effect", "parameter", "value", "95 %", "the form allows", "determined?"},
-                    {},
                     {true, true, false, false, false, true}};
   for (const std::vector<AcceptedEffect>* effects : {&answer.effects, &answer.stand_in})
     for (const AcceptedEffect& effect : *effects) {
@@ -168,7 +164,6 @@ MarkedTable parameters_table(const LoopAnswer& answer) {
 HtmlTable soil_table(const LoopAnswer& answer) {
   HtmlTable table{"The soil's values, and the bias that leaving the effects out puts into them",
                   {"value", "with", "without", "bias", "unit"},
-                  {},
                   {true, false, false, false, true}};
   for (const SoilShift& s : answer.soil_shifts) {
     const SoilParameter& p = soil_parameter(s.name);

@@ -59,7 +59,7 @@ Eigen::VectorXd change_by_effects(const LoopAnswer& answer) {
 /// Cells of a channel over a covariate, sorted by it.
 Series over(const Observations& observations, const Eigen::VectorXd& y, const Covariate& x, int channel,
             const std::string& label, int color) {
-  Series series{.label = label, .x = {}, .y = {}, .error = {}, .mark = Mark::points, .color = color};
+  Series series{.label = label, .mark = Mark::points, .color = color};
   const double per_si = condition_view(x.name).per_si;
   std::vector<std::pair<double, double>> points;
   for (std::size_t i = 0; i < observations.cells.size(); ++i)
@@ -84,17 +84,17 @@ std::vector<double> drawn_at(const Covariate& x) {
       const double off = levels.size() > few || rows.size() < 2
                              ? 0.0
                              : spread * (static_cast<double>(k) / static_cast<double>(rows.size() - 1) - 0.5);
-      at[static_cast<std::size_t>(rows[k])] = per_si * (x.values[rows[k]] + 1e3 * step * off);
+      at[rows[k]] = per_si * (x.values[rows[k]] + 1e3 * step * off);
     }
   return at;
 }
 
 /// The condition between a curve's runs: the mean of each number that they state.
 OperatingCondition middle_of(const Observations& observations, const std::vector<int>& rows) {
-  OperatingCondition middle = observations.rows[static_cast<std::size_t>(rows.front())];
+  OperatingCondition middle = observations.rows[rows.front()];
   for (const ConditionView& view : condition_views) {
     double sum = 0.0;
-    for (const int row : rows) sum += view.get(observations.rows[static_cast<std::size_t>(row)]);
+    for (const int row : rows) sum += view.get(observations.rows[row]);
     if (std::isfinite(sum)) view.set(middle, sum / static_cast<double>(rows.size()));
   }
   return middle;
@@ -111,9 +111,8 @@ std::vector<Series> along(const FittedModel& model, OperatingCondition at, doubl
       reading = model.predictor().reading(model.fit().theta, at);
     } catch (const NoSolution&) {}
     for (int c = 0; c < channel_count; ++c) {
-      series[static_cast<std::size_t>(c)].x.push_back(100 * at.slip);
-      series[static_cast<std::size_t>(c)].y.push_back(reading ? channel_views[c].per_si * channel_of(*reading, c)
-                                                              : not_a_number);
+      series[c].x.push_back(100 * at.slip);
+      series[c].y.push_back(reading ? channel_views[c].per_si * channel_of(*reading, c) : not_a_number);
     }
   }
   return series;
@@ -125,15 +124,14 @@ Series measured_on(const LoopAnswer& answer, const std::vector<int>& rows, int c
   const FittedModel* after = model_after(answer);
   const Eigen::VectorXd& prediction = after ? after->fit().prediction : answer.found().base.fit().prediction;
   const std::set<int> wanted(rows.begin(), rows.end());
-  Series series{.label = "measured", .x = {}, .y = {}, .error = {}, .mark = Mark::points, .color = measured_color};
+  Series series{.label = "measured", .mark = Mark::points, .color = measured_color};
   const double per_si = channel_views[channel].per_si;
   for (std::size_t i = 0; i < observations.cells.size(); ++i) {
     const Cell& cell = observations.cells[i];
     if (cell.channel != channel || !wanted.contains(cell.row)) continue;
-    series.x.push_back(100 * observations.rows[static_cast<std::size_t>(cell.row)].slip);
+    series.x.push_back(100 * observations.rows[cell.row].slip);
     series.y.push_back(per_si * cell.value);
-    series.error.push_back(per_si *
-                           answer.noise.channels[channel].sd(prediction[static_cast<Eigen::Index>(i)], cell.spread));
+    series.error.push_back(per_si * answer.noise.channels[channel].sd(prediction[i], cell.spread));
   }
   return series;
 }
@@ -141,11 +139,9 @@ Series measured_on(const LoopAnswer& answer, const std::vector<int>& rows, int c
 Sheet curve_sheet_of(const LoopAnswer& answer, const std::vector<int>& rows) {
   const Observations& observations = seen(answer);
   const OperatingCondition middle = middle_of(observations, rows);
-  const auto [low, high] = std::minmax_element(rows.begin(), rows.end(), [&](int a, int b) {
-    return observations.rows[static_cast<std::size_t>(a)].slip < observations.rows[static_cast<std::size_t>(b)].slip;
-  });
-  const double from = observations.rows[static_cast<std::size_t>(*low)].slip,
-               to = observations.rows[static_cast<std::size_t>(*high)].slip;
+  const auto [low, high] = std::minmax_element(
+      rows.begin(), rows.end(), [&](int a, int b) { return observations.rows[a].slip < observations.rows[b].slip; });
+  const double from = observations.rows[*low].slip, to = observations.rows[*high].slip;
   const FittedModel* after = model_after(answer);
   const auto before_curves = along(answer.found().base, middle, from, to,
                                    {.label = after ? "model before" : "model",
@@ -157,13 +153,13 @@ Sheet curve_sheet_of(const LoopAnswer& answer, const std::vector<int>& rows) {
   const auto after_curves = after ? along(*after, middle, from, to,
                                           {.label = "model after", .x = {}, .y = {}, .error = {}, .color = after_color})
                                   : std::vector<Series>();
-  Sheet sheet{"", {}, Palette::named};
+  Sheet sheet{""};
   for (int c = 0; c < channel_count; ++c) {
     Series measured = measured_on(answer, rows, c);
     if (measured.x.empty()) continue;
-    Plot plot{channel_title(c), {axis_title("slip"), {}, {}}, {}, {}};
-    plot.series = {std::move(measured), before_curves[static_cast<std::size_t>(c)]};
-    if (after) plot.series.push_back(after_curves[static_cast<std::size_t>(c)]);
+    Plot plot{channel_title(c), {axis_title("slip")}};
+    plot.series = {std::move(measured), before_curves[c]};
+    if (after) plot.series.push_back(after_curves[c]);
     sheet.plots.push_back(std::move(plot));
   }
   return sheet;
@@ -179,8 +175,7 @@ std::vector<std::pair<std::string, std::vector<int>>> curves_with_points(const O
     found[curves.curve_of[row]].second.push_back(static_cast<int>(row));
   std::erase_if(found, [&](const auto& curve) {
     std::set<long> slips;  // in per cent
-    for (const int row : curve.second)
-      slips.insert(std::lround(100 * observations.rows[static_cast<std::size_t>(row)].slip));
+    for (const int row : curve.second) slips.insert(std::lround(100 * observations.rows[row].slip));
     return slips.size() < least_slips;
   });
   return found;
@@ -201,8 +196,7 @@ std::vector<std::pair<std::string, Sheet>> curves_of_the_fit(const LoopAnswer& a
       const std::set<int> wanted(rows.begin(), rows.end());
       double sum = 0.0, cells = 0.0;
       for (std::size_t i = 0; i < observations.cells.size(); ++i)
-        if (wanted.contains(observations.cells[i].row))
-          sum += std::pow(change[static_cast<Eigen::Index>(i)], 2), ++cells;
+        if (wanted.contains(observations.cells[i].row)) sum += std::pow(change[i], 2), ++cells;
       return cells > 0 ? sum / cells : 0.0;
     };
     std::stable_sort(curves.begin(), curves.end(),
@@ -219,18 +213,18 @@ Sheet gap_sheet(const LoopAnswer& answer, const Covariate& x) {
   const Eigen::VectorXd& before = answer.found().base.fit().prediction;
   const FittedModel* after = model_after(answer);
   const std::vector<double> at = drawn_at(x);
-  Sheet sheet{"", {}, Palette::named};
+  Sheet sheet{""};
   for (int channel = 0; channel < channel_count; ++channel) {
     if (!has_cells(observations, channel)) continue;
     const double per_si = channel_views[channel].per_si;
-    Plot plot{channel_title(channel) + ", less model before", {axis_title(x.name), {}, {}}, {}, {}};
-    Series measured{.label = "measured", .x = {}, .y = {}, .error = {}, .mark = Mark::points, .color = measured_color},
+    Plot plot{channel_title(channel) + ", less model before", {axis_title(x.name)}};
+    Series measured{.label = "measured", .mark = Mark::points, .color = measured_color},
         modelled{.label = "model after", .x = {}, .y = {}, .error = {}, .mark = Mark::points, .color = after_color};
     for (std::size_t i = 0; i < observations.cells.size(); ++i) {
       const Cell& cell = observations.cells[i];
       const auto e = static_cast<Eigen::Index>(i);
       if (cell.channel != channel) continue;
-      measured.x.push_back(at[static_cast<std::size_t>(cell.row)]);
+      measured.x.push_back(at[cell.row]);
       measured.y.push_back(per_si * (cell.value - before[e]));
       measured.error.push_back(per_si * answer.noise.channels[channel].sd(before[e], cell.spread));
       if (after)
@@ -255,13 +249,10 @@ Sheet residual_sheet(const LoopAnswer& answer, const Covariate& x) {
   const Observations& observations = seen(answer);
   const Eigen::VectorXd values = observations.values(), &base = answer.found().base.fit().prediction;
   const FittedModel* model = model_after(answer);
-  Sheet sheet{fmt::format("Residuals against {}", condition_view(x.name).title), {}, Palette::named};
+  Sheet sheet{fmt::format("Residuals against {}", condition_view(x.name).title)};
   for (int channel = 0; channel < channel_count; ++channel) {
     if (!has_cells(observations, channel)) continue;
-    Plot plot{capital(std::string(channel_views[channel].title)) + " [sd of the noise]",
-              {axis_title(x.name), {}, {}},
-              {},
-              {}};
+    Plot plot{capital(std::string(channel_views[channel].title)) + " [sd of the noise]", {axis_title(x.name)}};
     plot.series.push_back(
         over(observations, standardised(answer, values - base, base), x, channel, "before", before_color));
     if (model)
@@ -278,13 +269,10 @@ Sheet signature_sheet(const LoopAnswer& answer, const Covariate& x) {
   const Eigen::VectorXd& base = answer.found().base.fit().prediction;
   const Eigen::VectorXd residual = standardised(answer, observations.values() - base, base),
                         change = change_by_effects(answer);
-  Sheet sheet{"The effect's signature over the residual", {}, Palette::named};
+  Sheet sheet{"The effect's signature over the residual"};
   for (int channel = 0; channel < channel_count; ++channel) {
     if (!has_cells(observations, channel)) continue;
-    Plot plot{capital(std::string(channel_views[channel].title)) + " [sd of the noise]",
-              {axis_title(x.name), {}, {}},
-              {},
-              {}};
+    Plot plot{capital(std::string(channel_views[channel].title)) + " [sd of the noise]", {axis_title(x.name)}};
     plot.series = {over(observations, residual, x, channel, "residual of the base model", before_color),
                    over(observations, change, x, channel, "with the effect less without", after_color)};
     sheet.plots.push_back(std::move(plot));
@@ -299,10 +287,10 @@ std::vector<Covariate> variables_by_weight(const LoopAnswer& answer) {
   const Eigen::VectorXd change = change_by_effects(answer);
   std::array<double, channel_count> size{};
   for (std::size_t i = 0; i < observations.cells.size(); ++i)
-    size[static_cast<std::size_t>(observations.cells[i].channel)] += std::pow(change[static_cast<Eigen::Index>(i)], 2);
+    size[observations.cells[i].channel] += std::pow(change[i], 2);
   std::map<std::string, double> explained;
   for (const Dependence& d : dependences(observations, change, 0, 1))
-    explained[d.variable] += d.share * size[static_cast<std::size_t>(d.channel)];
+    explained[d.variable] += d.share * size[d.channel];
   std::stable_sort(variables.begin(), variables.end(),
                    [&](const Covariate& a, const Covariate& b) { return explained[a.name] > explained[b.name]; });
   return variables;

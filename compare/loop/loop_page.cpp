@@ -16,7 +16,6 @@ namespace {
 HtmlTable dependence_table(const LoopAnswer& answer) {
   HtmlTable table{"Share of each channel's residual that a parabola in the variable explains, and its p by permutation",
                   {"channel", "variable", "before [%]", "p", "after [%]", "p"},
-                  {},
                   {true, true}};
   for (std::size_t i = 0; i < answer.dependences_before.size(); ++i) {
     const Dependence& b = answer.dependences_before[i];
@@ -41,9 +40,7 @@ HtmlTable noise_table(const LoopAnswer& answer) {
   HtmlTable table{unsteady ? "Noise of one run that scattered by s in time, at a predicted value f: "
                              "sqrt(a² + b² f² + q² s²)"
                            : "Noise of one run at a predicted value f: sqrt(a² + b² f²)",
-                  {"channel", "a", "b [%]", "degrees of freedom", "sd within re-runs"},
-                  {},
-                  {}};
+                  {"channel", "a", "b [%]", "degrees of freedom", "sd within re-runs"}};
   if (unsteady) table.header.insert(table.header.end(), {"q", "s (median)"});
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const ChannelNoise& n = answer.noise.channels[c];
@@ -76,7 +73,6 @@ HtmlTable signature_table(const std::vector<const Signature*>& signatures) {
   HtmlTable table{
       "The strongest signatures against the base model; kept: the share that the soil's values cannot absorb",
       {"effect", "form", "score [sd]", "amplitude [SI]", "kept [%]", "detectable from [SI]"},
-      {},
       {true, true}};
   for (const Signature* s : signatures)
     table.rows.push_back({s->term.form->id, s->term.form->form, number(s->score),
@@ -96,7 +92,6 @@ void add_presumptions(Page& page, const std::vector<const Signature*>& signature
 HtmlTable likeness_table(const LoopAnswer& answer) {
   HtmlTable table{"What looks most like the accepted effects: cosine of the traces off what the soil's values absorb",
                   {"effect", "p-value", "most alike", "cosine"},
-                  {},
                   {true, false, true, false}};
   constexpr std::size_t most = 3;
   for (const AcceptedEffect& effect : answer.effects) {
@@ -131,7 +126,7 @@ void add_main_figure(Page& page, const LoopAnswer& answer, const std::vector<Cov
     return;
   }
   std::vector<Choice> parts;
-  Sheet all{"", {}, Palette::named};
+  Sheet all{""};
   for (const auto& [label, sheet] : curves) {
     parts.push_back({label, [&page, &answer, &sheet = sheet] {
                        page.figure(sheet,

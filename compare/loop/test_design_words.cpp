@@ -75,7 +75,6 @@ std::vector<std::string> in_sentences(const TestDesign& design) {
 MarkedTable runs_table(const TestDesign& design) {
   MarkedTable table{"The runs, in the order in which to make them; runs of one setpoint are its re-runs",
                     {"run", "setpoint"},
-                    {},
                     {false, true}};
   for (const std::string& name : design.varied) {
     const ConditionView& view = condition_view(name);
@@ -96,7 +95,6 @@ MarkedTable runs_table(const TestDesign& design) {
 MarkedTable rivals_table(const TestDesign& design) {
   MarkedTable table{"What each effect is most easily taken for, and how many standard deviations the two are apart",
                     {"effect", "by these runs", "apart", "by a sweep", "apart"},
-                    {},
                     {true, true, false, true, false}};
   for (std::size_t e = 0; e < design.effects.size(); ++e) {
     const Rivalry &planned = hardest(design.planned, e), &swept = hardest(design.swept, e);

@@ -42,7 +42,7 @@ std::string marked_html(const MarkedTable& table) {
 }
 
 HtmlTable without_marks(const MarkedTable& table) {
-  HtmlTable text{table.caption, table.header, {}, table.text_columns};
+  HtmlTable text{table.caption, table.header, table.text_columns};
   for (const std::vector<MarkedCell>& row : table.rows) {
     std::vector<std::string>& cells = text.rows.emplace_back();
     for (const MarkedCell& cell : row)

@@ -143,7 +143,7 @@ void Page::table(const HtmlTable& table) {
 
 void Page::facts(const std::vector<std::string>& header,
                  const std::vector<const std::vector<std::pair<std::string, std::string>>*>& lists) {
-  HtmlTable all{"", header, {}, {true, true}};
+  HtmlTable all{"", header, {true, true}};
   for (const auto* list : lists)
     for (const auto& [name, value] : *list) all.rows.push_back({name, value});
   table(all);

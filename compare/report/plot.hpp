@@ -24,7 +24,7 @@ struct Series {
   std::string label{};  ///< in the legend; empty: not there. Series with one label share an entry.
   std::vector<double> x{}, y{};
   std::vector<double> error{};  ///< one standard error of each y: a band along lines, bars at points; empty: none
-  std::vector<double> base{};  ///< as long as y: fills from there to y, with no line; for parts piled up. Empty: none
+  std::vector<double> base{};   ///< as long as y: fills from there to y, with no line; for parts piled up. Empty: none
   Mark mark = Mark::line;
   int color = 0;  ///< from 0, of the sheet's palette
   int dash = 0;   ///< 0: solid, then dashed, dotted, dash-dotted

@@ -201,12 +201,12 @@ int color_of(const Sheet& sheet, const Series& series) {
 
 std::string stroke(Palette palette, int color) {
   return fmt::format(R"(class="s {}{}" stroke="{}")", palette == Palette::named ? 'c' : 'q', color,
-                     colors(palette)[static_cast<std::size_t>(color)].light);
+                     colors(palette)[color].light);
 }
 
 std::string fill(Palette palette, int color) {
   return fmt::format(R"(class="f {}{}" fill="{}")", palette == Palette::named ? 'c' : 'q', color,
-                     colors(palette)[static_cast<std::size_t>(color)].light);
+                     colors(palette)[color].light);
 }
 
 std::string dashes(int dash) {

@@ -82,8 +82,8 @@ double curvature_share(const Curve& curve) {
   Eigen::MatrixXd design(n, 3);
   Eigen::VectorXd values(n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const CurvePoint& point = curve[static_cast<std::size_t>(k)];
-    const double u = (point.x - middle) / range, root = std::sqrt(w[static_cast<std::size_t>(k)]);
+    const CurvePoint& point = curve[k];
+    const double u = (point.x - middle) / range, root = std::sqrt(w[k]);
     design.row(k) << root, root * u, root * u * u;
     values(k) = root * point.y;
   }

@@ -124,7 +124,7 @@ void add_finding(Page& page, const ReproducedFinding& row, const std::vector<std
   page.paragraph("\u201c" + finding.quote + "\u201d");
   if (const Sheet sheet = finding_sheet(row, labels); !sheet.plots.empty())
     page.figure(sheet, claim_in_words(finding) + (finding.compares() ? ". Dashed: what it is held against." : "."));
-  HtmlTable table{claim_in_words(finding), {"answers of", "verdict", "conditions missing"}, {}, {true, true, true}};
+  HtmlTable table{claim_in_words(finding), {"answers of", "verdict", "conditions missing"}, {true, true, true}};
   for (std::size_t k = 0; k < row.evidence.size(); ++k)
     table.rows.push_back({labels[k], cell(finding, row.evidence[k]), missing_in_words(row.evidence[k])});
   page.table(table);
@@ -243,7 +243,6 @@ MarkedTable findings_matrix(const Reproduction& reproduction) {
                   "between. A cell opens its figure. bekker_wong: the analytic wheel; dem: grains",
                   100 * reproduction.findings.level),
       {"section", "finding"},
-      {},
       {true, true}};
   table.header.insert(table.header.end(), reproduction.labels.begin(), reproduction.labels.end());
   table.text_columns.resize(table.header.size(), true);
@@ -260,15 +259,10 @@ Sheet finding_sheet(const ReproducedFinding& row, const std::vector<std::string>
   const AxisScale x = scale_of(finding.along);
   const QuantityScale y = scale_of(finding.quantity);
   Plot plot{fmt::format("{} [{}]", capital(plain(word_of(finding.quantity))), y.unit),
-            {fmt::format("{} [{}]", plain(word_of(finding.along)), x.unit), {}, {}},
-            {},
-            {}};
+            {fmt::format("{} [{}]", plain(word_of(finding.along)), x.unit)}};
   for (std::size_t k = 0; k < row.evidence.size(); ++k)
     for (std::size_t c = 0; c < row.evidence[k].curves.size(); ++c) {
       Series series{.label = labels[k] + (c == 0 ? "" : ", against"),
-                    .x = {},
-                    .y = {},
-                    .error = {},
                     .mark = Mark::line_and_points,
                     .color = static_cast<int>(k),
                     .dash = static_cast<int>(c)};
@@ -281,7 +275,7 @@ Sheet finding_sheet(const ReproducedFinding& row, const std::vector<std::string>
       if (exact) series.error.clear();
       if (!series.x.empty()) plot.series.push_back(std::move(series));
     }
-  Sheet sheet{"", {}, Palette::named};
+  Sheet sheet{""};
   if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
   return sheet;
 }

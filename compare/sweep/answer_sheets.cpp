@@ -37,7 +37,7 @@ std::vector<Shown> shown_of(const std::vector<ModelAnswers>& study, Panels panel
 }
 
 Plot empty_plot(const Shown& shown) {
-  Plot plot{capital(shown.title) + " [" + shown.unit + "]", {"slip [%]", {}, {}}, {}, {}, false};
+  Plot plot{capital(shown.title) + " [" + shown.unit + "]", {"slip [%]"}};
   if (shown.title == "sinkage" || shown.title == "tractive efficiency") plot.y.lower = 0.0;
   return plot;
 }
@@ -144,7 +144,7 @@ Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, 
 
 Sheet budget_sheet(const std::string& title, const std::vector<LabelledAnswers>& curves) {
   constexpr int sum_color = 5;  // of the named palette the grey one; the parts take the others in turn
-  Sheet sheet{title, {}, Palette::named};
+  Sheet sheet{title};
   std::vector<std::string> names;  // of parts, in the order of their colours
   for (const LabelledAnswers& curve : curves)
     for (const Answer& answer : curve.answers)
@@ -152,7 +152,7 @@ Sheet budget_sheet(const std::string& title, const std::vector<LabelledAnswers>&
         for (const Contribution& part : answer.result->budget)
           if (std::find(names.begin(), names.end(), part.name) == names.end()) names.push_back(part.name);
   for (const LabelledAnswers& curve : curves) {
-    Plot plot{join("Parts of the drawbar pull [N]", curve.label), {"slip [%]", {}, {}}, {}, {}, false};
+    Plot plot{join("Parts of the drawbar pull [N]", curve.label), {"slip [%]"}};
     std::vector<double> above(curve.answers.size(), 0.0), below = above;  // the piles so far
     for (std::size_t k = 0; k < names.size(); ++k) {
       std::string label = names[k];
@@ -188,11 +188,11 @@ Sheet budget_sheet(const std::string& title, const std::vector<LabelledAnswers>&
 }
 
 Sheet patch_sheet(const std::string& title, const std::vector<LabelledPatch>& patches) {
-  Sheet sheet{title, {}, Palette::named};
+  Sheet sheet{title};
   const std::pair<const char*, double StressSample::*> stresses[] = {{"Normal stress [kPa]", &StressSample::normal},
                                                                      {"Shear stress [kPa]", &StressSample::shear}};
   for (const auto& [name, stress] : stresses) {
-    Plot plot{name, {"angle before the axle [deg]", {}, {}}, {}, {}, false};
+    Plot plot{name, {"angle before the axle [deg]"}};
     for (const LabelledPatch& one : patches)
       if (!one.patch.empty()) plot.series.push_back(stress_series(one, stress));
     if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
@@ -236,7 +236,7 @@ Sheet scatter_sheet(const Campaign& campaign, const Prediction& prediction) {
   for (const ChannelError& error : prediction.errors) {
     const ChannelView& channel = channel_views[error.channel];
     const std::string unit = " [" + std::string(channel.unit) + "]";
-    Plot plot{capital(std::string(channel.title)) + unit, {"measured", {}, {}}, {"predicted", {}, {}}, {}, true};
+    Plot plot{capital(std::string(channel.title)) + unit, {"measured"}, {"predicted"}, {}, true};
     for (std::size_t curve = 0; curve < curves.labels.size(); ++curve) {
       Series points;
       points.mark = Mark::points;

@@ -104,7 +104,6 @@ HtmlTable peak_table(const StudyPart& part) {
   HtmlTable table{"Where each curve pulls most, and where it is most efficient",
                   {"curve", "largest pull [N]", "at slip [%]", "torque [N m]", "sinkage [mm]", "best efficiency [%]",
                    "at slip [%]"},
-                  {},
                   {true}};
   const bool several = part.study.size() > 1;
   if (several) {
@@ -123,7 +122,6 @@ HtmlTable answers_table(const StudyPart& part) {
   HtmlTable table{
       "",
       {"model", "condition", "drawbar pull [N]", "torque [N m]", "sinkage [mm]", "lateral force [N]", "efficiency [%]"},
-      {},
       {true, true}};
   for (const ModelAnswers& model : part.study)
     for (const Answer& answer : model.answers) {
@@ -143,9 +141,7 @@ HtmlTable answers_table(const StudyPart& part) {
 
 HtmlTable error_table(const Prediction& prediction) {
   HtmlTable table{"Predicted less measured, nothing fitted",
-                  {"channel", "runs", "root mean square", "bias", "range measured", "share of range [%]"},
-                  {},
-                  {}};
+                  {"channel", "runs", "root mean square", "bias", "range measured", "share of range [%]"}};
   for (const ChannelError& error : prediction.errors) {
     const ChannelView& channel = channel_views[error.channel];
     const auto in_unit = [&](double si) { return fmt::format("{} {}", number(si * channel.per_si), channel.unit); };
@@ -163,7 +159,6 @@ std::string source_of(const std::map<std::string, std::string>& sources, const s
 HtmlTable soil_table(const std::string& name, const SemiEmpiricalSoil& soil, const std::string& source) {
   HtmlTable table{"Soil " + name + (source.empty() ? "" : ": " + source),
                   {"value", "", "unit", "source"},
-                  {},
                   {true, false, true, true}};
   for (const SoilParameter& p : soil_parameters)
     table.rows.push_back({p.title, number(soil.*p.value, p.per_si), p.unit, source_of(soil.sources, p.name)});

@@ -55,10 +55,7 @@ TEST(Numbers, ValueStopsAtTheErrorsPlace) {
 }
 
 TEST(Svg, EscapesTextAndBreaksLinesAtGaps) {
-  const Sheet sheet{
-      "a < b & c",
-      {Plot{"pull [N]", {"slip [%]", {}, {}}, {}, {line("one & two", {1, 2, not_a_number, 4, 5})}, false}},
-      Palette::named};
+  const Sheet sheet{"a < b & c", {Plot{"pull [N]", {"slip [%]"}, {}, {line("one & two", {1, 2, not_a_number, 4, 5})}}}};
   const std::string text = svg(sheet);
   EXPECT_THAT(text, HasSubstr("a &lt; b &amp; c"));
   EXPECT_THAT(text, HasSubstr("one &amp; two"));
@@ -70,7 +67,7 @@ TEST(Svg, EscapesTextAndBreaksLinesAtGaps) {
 
 TEST(Svg, SurvivesEmptyAndConstantSeries) {
   const Sheet sheet{"",
-                    {Plot{}, Plot{"flat", {}, {}, {line("", {3, 3, 3})}, false},
+                    {Plot{}, Plot{"flat", {}, {}, {line("", {3, 3, 3})}},
                      Plot{"nothing", {}, {}, {line("x", {not_a_number, not_a_number})}, true}},
                     Palette::ordered};
   EXPECT_THAT(svg(sheet), Not(HasSubstr("nan")));
@@ -80,10 +77,8 @@ TEST(Svg, SurvivesEmptyAndConstantSeries) {
 TEST(Svg, ALegendEntryForALabel) {
   Series points = line("yaw 5", {1, 2});
   points.mark = Mark::points;
-  const Sheet sheet{
-      "",
-      {Plot{"a", {}, {}, {line("yaw 5", {1, 2}), points}, false}, Plot{"b", {}, {}, {line("yaw 5", {1, 2})}, false}},
-      Palette::named};
+  const Sheet sheet{"",
+                    {Plot{"a", {}, {}, {line("yaw 5", {1, 2}), points}}, Plot{"b", {}, {}, {line("yaw 5", {1, 2})}}}};
   const std::vector<LegendEntry> entries = legend(sheet);
   ASSERT_EQ(entries.size(), 1U);
   EXPECT_THAT(entries[0].swatch, HasSubstr("<circle"));
@@ -99,7 +94,7 @@ TEST(Page, EscapesAndClosesWhatItOpens) {
   page.list({"<b>"});
   page.table({"caption", {"a", "b"}, {{"x<y", "1"}}, {}});
   page.folded("more", [&] { page.code("soilbin run <study>"); });
-  page.figure(Sheet{"", {Plot{"a", {}, {}, {line("s", {1, 2})}, false}}, Palette::ordered}, "caption");
+  page.figure(Sheet{"", {Plot{"a", {}, {}, {line("s", {1, 2})}}}, Palette::ordered}, "caption");
   const std::string whole = page.html(), html = whole.substr(0, whole.find("<script"));
   for (const char* tag : {"div", "table", "details", "figure", "ul", "svg", "main", "p", "h2"})
     EXPECT_EQ(count(html, std::string("<") + tag + ">") + count(html, std::string("<") + tag + " "),
@@ -115,7 +110,7 @@ TEST(Page, ACardIsTakenFromThePageItself) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("soilbin-card-{}", ::getpid());
   Page page("A <page>", "below");
   page.summary({{"Name", "It pulls 4 N & more."}, {"", "Second."}});
-  page.figure(Sheet{"", {Plot{"first", {}, {}, {line("s", {1, 2})}, false}}, Palette::ordered}, "caption");
+  page.figure(Sheet{"", {Plot{"first", {}, {}, {line("s", {1, 2})}}}, Palette::ordered}, "caption");
   write_file_atomically(folder / "sub" / "page.html", page.html());
   const PageCard card = page_card(folder / "sub" / "page.html", folder / "index.html");
   EXPECT_EQ(card.href, "sub/page.html");
@@ -135,7 +130,7 @@ TEST(Page, ACardIsTakenFromThePageItself) {
 TEST(Svg, AnAreaIsFilledFromItsBase) {
   Series area = line("part", {3, 5});
   area.base = {1, 2};
-  const Sheet sheet{"", {Plot{"parts", {}, {}, {area}, false}}, Palette::named};
+  const Sheet sheet{"", {Plot{"parts", {}, {}, {area}}}};
   EXPECT_THAT(svg(sheet), AllOf(HasSubstr("<polygon"), Not(HasSubstr("stroke-linejoin"))));
   EXPECT_THAT(legend(sheet).at(0).swatch, HasSubstr("<rect"));
   EXPECT_EQ(to_json(sheet)["plots"][0]["series"][0]["base"], nlohmann::ordered_json({1.0, 2.0}));
