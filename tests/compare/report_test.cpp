@@ -92,7 +92,7 @@ TEST(Page, EscapesAndClosesWhatItOpens) {
   page.section("Second");
   page.figures_at_a_glance({{"4 N", "pull"}});
   page.list({"<b>"});
-  page.table({"caption", {"a", "b"}, {{"x<y", "1"}}, {}});
+  page.table({"caption", {"a", "b"}, {}, {{"x<y", "1"}}});
   page.folded("more", [&] { page.code("soilbin run <study>"); });
   page.figure(Sheet{"", {Plot{"a", {}, {}, {line("s", {1, 2})}}}, Palette::ordered}, "caption");
   const std::string whole = page.html(), html = whole.substr(0, whole.find("<script"));

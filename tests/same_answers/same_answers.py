@@ -153,6 +153,7 @@ def ask(binary, out, quick, campaigns, jobs):
 def blanked(text, folder):
     text = text.replace(str(folder), "FOLDER").replace(str(folder.resolve()), "FOLDER")
     text = re.sub(r'("(?:seconds|cpu_seconds|soilbin|commit|seal)": *)("[^"]*"|[-+.e0-9]+|\{[^}]*\})', r"\1#", text)
+    text = re.sub(r"^[ 0-9]+ %  \d+ of \d+, .*\n", "", text, flags=re.M)  # how far it is, where it took ten seconds
     text = re.sub(r"soilbin 0\.[0-9.]+[^\n\"<]*", "soilbin #", text)
     return re.sub(r"\b[0-9.]+ (?:min|s|seconds)\b(?= (?:of work|left|in all)|\)$)", "# s", text)
 
