@@ -112,7 +112,7 @@ int bevameter(const BevameterOptions& options, const Session& session) {
     document["cohesion_as_fitted"] = fit.cohesion_as_fitted;
     document["pressure_error"] = fit.pressure_error;
     document["density"] = measured.density;
-    fmt::print("{}", compare::json_text(document));
+    print_json(document);
   } else {
     fmt::print("bevameter: {}, {} packings\n{}", soil.name, options.packings, table_of(fit, soil));
     if (!options.output.empty() && outputs.complete()) fmt::print("wrote {}\n", options.output);
@@ -128,9 +128,7 @@ void add_bevameter(CLI::App& app, Session& session) {
   const auto options = std::make_shared<BevameterOptions>();
   command->add_option("soil", options->soil, "a soil of the library, or a YAML file")->type_name("SOIL")->required();
   add_file(*command, "--output", options->output, "FILE.yaml", "save the soil with these values");
-  command->add_option("--plot", options->plot, "draw the curves (points) and the fit (lines)")
-      ->type_name("FILE.svg|png|pdf")
-      ->check(drawing_file());
+  add_plot(*command, options->plot, "draw the curves (points) and the fit (lines)");
   command->add_option("--packings", options->packings, "number of beds, 2; their scatter is the error")->type_name("N");
   command->add_flag("--json", options->json, "soilbin-bevameter/1, in SI");
   options->flags.add_to(*command);

@@ -49,9 +49,7 @@ std::pair<std::string, std::string> named(const std::string& flag, const std::st
                                           const std::vector<std::string>& right) {
   const std::size_t equals = text.find('=');
   const std::string name = text.substr(0, equals);
-  if (std::find(right.begin(), right.end(), name) == right.end())
-    throw InputError(
-        fmt::format("{}: '{}' is none of {}{}", flag, clipped(name), listed(right), did_you_mean(name, right)));
+  if (std::find(right.begin(), right.end(), name) == right.end()) throw InputError(flag + ": " + none_of(name, right));
   return {name, equals == std::string::npos ? "" : text.substr(equals + 1)};
 }
 
@@ -227,7 +225,7 @@ int tell(const CalibrateOptions& asked, const Soil& soil, ContactKind kind, cons
   outputs.file(asked.output,
                [&] { return write_soil(compare::calibrated_soil(soil, kind, test, asked.options, calibration)); });
   if (asked.json)
-    fmt::print("{}", compare::json_text(compare::to_json(test, asked.options, calibration)));
+    print_json(compare::to_json(test, asked.options, calibration));
   else
     print(asked, test, calibration);
   return outputs.status(calibration.reached ? done : failed);

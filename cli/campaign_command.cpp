@@ -49,7 +49,7 @@ Runs read_runs(const CampaignOptions& asked, const Workplace& place) {
   return runs;
 }
 
-std::string told_words(const CampaignOptions& asked) {
+std::string hidden_in_words(const CampaignOptions& asked) {
   std::string text = asked.hide.empty() ? "Nothing of the runs' conditions, wheel or bin was left out."
                                         : "Left out, as if it weren't there: " + listed(asked.hide) + ".";
   if (!asked.effects.empty()) text += " The declared model has " + listed(asked.effects) + ".";
@@ -62,7 +62,7 @@ std::string provenance(const CampaignOptions& asked, const std::string& command,
   std::string text = fmt::format(
       "# {}\n\nRuns of soilbin's virtual soil bin, told as a campaign. {}\n\nMade by soilbin {} ({}) with\n\n    "
       "{}\n\n",
-      told.campaign.name, told_words(asked), SOILBIN_VERSION, source_state(), command);
+      told.campaign.name, hidden_in_words(asked), SOILBIN_VERSION, source_state(), command);
   text += "| record | hash of its inputs | begun by |\n|---|---|---|\n";
   for (std::size_t k = 0; k < runs.records.size(); ++k)
     text += fmt::format("| {} | {} | soilbin {} |\n", fs::path(asked.records[k]).filename().string(),
@@ -86,9 +86,8 @@ compare::Telling telling_of(const CampaignOptions& asked, const Runs& runs, cons
   if (telling.name.empty()) telling.name = fs::path(asked.output).parent_path().filename().string();
   telling.hide = {asked.hide.begin(), asked.hide.end()};
   telling.only_steady = asked.only_steady, telling.seed = asked.seed;
-  const auto& soil = runs.scenario.soil.semi_empirical;
   for (const std::string& text : asked.effects)
-    telling.effects.push_back(parse_effect(text, place.effects, soil ? soil->exponent.value : 1.0));
+    telling.effects.push_back(parse_effect(text, place.effects, runs.scenario.soil));
   return telling;
 }
 
@@ -104,7 +103,7 @@ int campaign(const CampaignOptions& asked, const Session& session) {
   fmt::print("wrote {}: {} runs, {} not steady", asked.output, told.runs.size(), drifting);
   if (told.without_result > 0) fmt::print("; left out {} without a result", told.without_result);
   if (told.not_steady > 0) fmt::print("; left out {} not steady", told.not_steady);
-  fmt::print("\n{}\n", told_words(asked));
+  fmt::print("\n{}\n", hidden_in_words(asked));
   return done;
 }
 
@@ -116,10 +115,7 @@ void add_campaign(CLI::App& app, Session& session) {
   command->add_option("records", asked->records, "made by soilbin run --model dem --record FILE")
       ->type_name("RECORD.json")
       ->required();
-  command->add_option("--output", asked->output, "folder of the campaign")
-      ->type_name("DIR")
-      ->check(writable_folder())
-      ->required();
+  add_folder(*command, "--output", asked->output, "folder of the campaign")->required();
   command->add_option("--hide", asked->hide, "what the analyst is not told: " + listed(compare::things_to_hide()))
       ->type_name("WHAT")
       ->delimiter(',')

@@ -83,10 +83,8 @@ Verdict judge(const fs::path& file, const Workplace& place) {
 int check(const std::string& name, bool json, const Session& session) {
   const Verdict verdict = judge(file_named(name, session.place), session.place);
   if (json) {
-    fmt::print(
-        "{}",
-        compare::json_text(
-            {{"format", "soilbin-check/1"}, {"valid", true}, {"what", verdict.what}, {"warnings", verdict.warnings}}));
+    print_json(
+        {{"format", "soilbin-check/1"}, {"valid", true}, {"what", verdict.what}, {"warnings", verdict.warnings}});
     return done;
   }
   fmt::print("valid: {}\n", verdict.what);

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <set>
-#include <thread>
 #include <tuple>
 
 #include "cli/commands.hpp"
@@ -42,9 +41,8 @@ std::vector<ModelChoice> analytic_choices(const Case& question, const CompareOpt
   std::vector<ModelChoice> choices = {{ModelKind::bekker_wong, {}, "bekker_wong"}};
   for (const ModelChoice& choice : question.study.models)
     if (choice.model == ModelKind::bekker_wong && !choice.effects.empty()) choices.push_back(choice);
-  const double n = question.scenario.soil.semi_empirical ? question.scenario.soil.semi_empirical->exponent.value : 1.0;
   for (const std::string& text : asked.effects) {
-    ModelChoice choice{ModelKind::bekker_wong, {parse_effect(text, session.place.effects, n)}, ""};
+    ModelChoice choice{ModelKind::bekker_wong, {parse_effect(text, session.place.effects, question.scenario.soil)}, ""};
     const auto same_effect = [](const EffectChoice& a, const EffectChoice& b) {
       return std::tie(a.id, a.form, a.parameters) == std::tie(b.id, b.form, b.parameters);
     };
@@ -58,14 +56,6 @@ std::vector<ModelChoice> analytic_choices(const Case& question, const CompareOpt
   }
   label_models(choices);
   return choices;
-}
-
-/// The grains where the study, --model or a record asks for them.
-bool asks_for_grains(const Case& question, const CompareOptions& asked) {
-  if (asked.model == "dem" || !asked.soil_bin.recorded.empty()) return true;
-  for (const ModelChoice& choice : question.study.models)
-    if (choice.model == ModelKind::dem) return true;
-  return false;
 }
 
 /// Runs the grains, or takes them from the record, and tells what they rest on.
@@ -96,12 +86,6 @@ compare::Side grain_side(const Case& question, const CompareOptions& asked, cons
   return side;
 }
 
-void check_model(const CompareOptions& asked) {
-  if (asked.model.empty() || asked.model == "dem" || asked.model == "bekker_wong") return;
-  throw InputError("--model: unknown model '" + clipped(asked.model) + "'" +
-                   did_you_mean(asked.model, {"bekker_wong", "dem"}));
-}
-
 /// What the loop makes of the best reference there is: measurements before grains.
 void run_loop_on(const compare::Comparison& comparison, const CompareOptions& asked, compare::ComparisonAbout& about) {
   const compare::Side& reference = comparison.sides.back();
@@ -109,7 +93,7 @@ void run_loop_on(const compare::Comparison& comparison, const CompareOptions& as
   about.looped = compare::as_campaign(reference, comparison.question);
   compare::LoopOptions options;
   options.attribution.seed = asked.seed;
-  options.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  options.threads = all_cores();
   options.progress = shown_progress();
   try {
     about.loop = compare::run_loop(*about.looped, options);
@@ -139,7 +123,7 @@ Outputs save(const compare::Comparison& comparison, const compare::ComparisonAbo
   outputs.write(asked.report, [&] {
     write_file_atomically(asked.report, compare::comparison_page(comparison, about));
     fmt::print(stderr, "wrote {}: open it in a browser\n", asked.report);
-    for (const std::string& package : about.libraries.missing)
+    for (const std::string& package : compare::find_libraries().missing)
       fmt::print(stderr, "soilbin: without {} some figures of the page are plain drawings\n", package);
   });
   outputs.file(asked.csv, [&] { return compare::differences_csv(comparison); });
@@ -151,7 +135,7 @@ Outputs save(const compare::Comparison& comparison, const compare::ComparisonAbo
 }
 
 int compare_models(CompareOptions asked, const Session& session) {
-  check_model(asked);
+  if (!asked.model.empty()) check_model(asked.model, all_words<ModelKind>());
   if (!asked.soil_bin.recorded.empty())
     asked.soil_bin.recorded = find_record(session.place, asked.study, asked.soil_bin.recorded);
   Case question = find_case(session.place, asked.study);
@@ -171,7 +155,8 @@ int compare_models(CompareOptions asked, const Session& session) {
     const std::vector<compare::ModelAnswers> study = compare::run_study(analytic, shown_progress());
     for (const compare::ModelAnswers& answers : study) sides.push_back(compare::side_of(answers));
   }
-  if (asks_for_grains(question, asked)) sides.push_back(grain_side(question, asked, session, log, about));
+  if (asked.model == "dem" || !asked.soil_bin.recorded.empty() || asks(question.study, ModelKind::dem))
+    sides.push_back(grain_side(question, asked, session, log, about));
   about.page.doubts = compare::doubts(question, choices, sides);
   print_warnings(about.page.doubts);
   if (!asked.measured.empty())
@@ -181,10 +166,9 @@ int compare_models(CompareOptions asked, const Session& session) {
   about.page.title = asked.title.empty() ? "Comparison: " + question.study.name : asked.title;
   about.page.command = session.command, about.page.versions = versions();
   about.resolved_case = write_case(question, session.place.effects);
-  about.libraries = compare::find_libraries();
   const Outputs outputs = save(comparison, about, asked);
   if (asked.json)
-    fmt::print("{}", compare::json_text(compare::comparison_json(comparison, about)));
+    print_json(compare::comparison_json(comparison, about));
   else
     print_text(comparison, about);
   forget_runs(*log, outputs);
@@ -205,9 +189,7 @@ void add_compare(CLI::App& app, Session& session) {
   command->add_option("--effect", asked->effects, "one more side: the analytic model with this effect; repeatable")
       ->type_name("ID[:FORM][,PARAMETER=VALUE]");
   add_file(*command, "--report", asked->report, "FILE.html", "write everything as one page");
-  command->add_option("--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data")
-      ->type_name("DIR")
-      ->check(writable_folder());
+  add_folder(*command, "--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data");
   add_file(*command, "--csv", asked->csv, "FILE.csv", "save every row");
   command->add_option("--replay", asked->replay, "a replay of grains to put into the page")->type_name("FILE");
   command->add_option("--title", asked->title, "title of the page")->type_name("TEXT");

@@ -44,8 +44,7 @@ Axis axis_called(const std::string& name) {
     if (axis.name == name) return axis;
     right.push_back(axis.name);
   }
-  throw InputError(
-      fmt::format("--decide-at: '{}' is none of {}{}", clipped(name), listed(right), did_you_mean(name, right)));
+  throw InputError("--decide-at: " + none_of(name, right));
 }
 
 std::string conditions_of(const std::vector<Setpoint>& setpoints) {

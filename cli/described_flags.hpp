@@ -2,6 +2,8 @@
 // a case file and a flag of the command have one name, one unit and one range.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
@@ -72,10 +74,7 @@ class DescribedFlags {
     }
     template <class E>
     void choice(const char* key, E T::*, Need, const char* meaning) {
-      std::string words;
-      for (const Word<E>& word : words_of(std::type_identity<E>{}))
-        words += (words.empty() ? "" : "|") + std::string(word.text);
-      add(key, words, meaning);
+      add(key, fmt::format("{}", fmt::join(all_words<E>(), "|")), meaning);
     }
     template <class U>
     void group(const char*, U, Need, const char*) {}
@@ -112,14 +111,11 @@ class DescribedFlags {
     void choice(const char* key, E T::*member, Need, const char*) {
       const std::string* given = text_of(key);
       if (given == nullptr) return;
-      std::vector<std::string> right;
-      for (const Word<E>& word : words_of(std::type_identity<E>{})) {
-        if (word.text == *given) into.*member = word.value;
-        right.emplace_back(word.text);
-      }
-      if (std::find(right.begin(), right.end(), *given) == right.end())
-        throw InputError(flag_of(flags.prefix_, key) + ": '" + *given + "' is none of " + listed(right) +
-                         did_you_mean(*given, right));
+      const std::optional<E> value = value_named<E>(*given);
+      if (!value)
+        throw InputError(flag_of(flags.prefix_, key) + ": '" + *given + "' is none of " + listed(all_words<E>()) +
+                         did_you_mean(*given, all_words<E>()));
+      into.*member = *value;
     }
     template <class U>
     void group(const char*, U, Need, const char*) {}

@@ -1,9 +1,7 @@
 // soilbin design: the runs that are expected to tell effects apart best, before any is made.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <memory>
-#include <thread>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
@@ -40,14 +38,14 @@ int design(const DesignFlags& asked, const Session& session) {
   options.effects = asked.effects;
   options.noise = read_noise(asked.noise);
   options.seed = asked.seed;
-  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  options.threads = all_cores();
   options.progress = shown_progress();
   const compare::TestDesign design = compare::design_test(campaign, options);
   clear_progress_line();
   Outputs outputs;
   outputs.file(asked.csv, [&] { return compare::rows_to_fill_in(design); });
   if (asked.json)
-    fmt::print("{}", compare::json_text(compare::to_json(design)));
+    print_json(compare::to_json(design));
   else
     print_design(design);
   return outputs.status(done);

@@ -5,8 +5,8 @@
 
 #include "bekker_wong/agreed_points.hpp"
 #include "cli/commands.hpp"
+#include "cli/text_output.hpp"
 #include "cli/versions.hpp"
-#include "compare/report/json_fields.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -37,7 +37,7 @@ int doctor(bool json, const Session& session) {
   }
   document["well"] = well;
   if (json)
-    fmt::print("{}", compare::json_text(document));
+    print_json(document);
   else
     fmt::print("{}\n{}\n", text, well ? "All is well." : "Something is wrong: see above.");
   return well ? done : failed;

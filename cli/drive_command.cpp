@@ -17,7 +17,6 @@
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/nearest_word.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::cli {
@@ -31,12 +30,6 @@ struct DriveOptions {
   bool json = false, ledger = false;
   SoilBinFlags soil_bin;
 };
-
-void check_model(const std::string& name) {
-  const std::vector<std::string> right = {"bekker_wong", "dem", "both"};
-  if (std::find(right.begin(), right.end(), name) == right.end())
-    throw InputError("--model: unknown model '" + clipped(name) + "'" + did_you_mean(name, right));
-}
 
 bekker_wong::DriveProgress progress_in_time() {
   constexpr double parts = 1000.0;
@@ -67,13 +60,6 @@ Outputs save(const DriveOptions& options, const Answer& answer, const std::strin
     return compare::drive_page(answer, {title, session.command, versions(), doubts});
   });
   return outputs;
-}
-
-template <class Answer>
-std::string json_of(const Answer& answer, const std::vector<std::string>& doubts) {
-  nlohmann::ordered_json document = compare::to_json(answer);
-  compare::tell_doubts(document, doubts);
-  return compare::json_text(document);
 }
 
 std::string slip_text(const DriveState& s) { return s.slip ? number(100 * *s.slip) : "-"; }
@@ -110,7 +96,10 @@ int drive_analytically(const DriveOptions& options, const Case& question, const 
   const std::vector<std::string> doubts = compare::doubts(part);
   print_warnings(doubts);
   const Outputs outputs = save(options, part, question.name, doubts, session);
-  fmt::print("{}", options.json ? json_of(part, doubts) : drive_text(part));
+  if (options.json)
+    print_json(compare::to_json(part), doubts);
+  else
+    fmt::print("{}", drive_text(part));
   return outputs.status(done);
 }
 
@@ -135,24 +124,8 @@ std::string sides_samples_text(const compare::DriveSides& drive) {
   return table.text();
 }
 
-std::string packings_text(const compare::DriveSides& drive) {
-  if (!drive.over_packings) return "";
-  compare::HtmlTable table = compare::packings_table(drive);
+std::string without_caption(compare::HtmlTable table) {
   table.caption.clear();
-  return "\n" + as_text(table);
-}
-
-std::string differences_text(const compare::DriveSides& drive) {
-  if (drive.differences.empty()) return "";
-  compare::HtmlTable table = compare::differences_table(drive);
-  table.caption.clear();
-  return "\n" + as_text(table);
-}
-
-std::string work_text(const compare::DriveSides& drive) {
-  compare::HtmlTable table = compare::work_table(drive);
-  table.caption.clear();
-  table.header.front() = "of the motor's work [J]", table.rows.back().front() = "in all";
   return "\n" + as_text(table);
 }
 
@@ -164,7 +137,11 @@ std::string sides_text(const compare::DriveSides& drive) {
       text +=
           fmt::format("{}: at {} s and {} m {}.\n", side.label, number(h.time), number(h.travelled), word_of(h.what));
   for (const std::string& sentence : compare::in_words(drive)) text += sentence + "\n";
-  text += packings_text(drive) + differences_text(drive) + work_text(drive) + "\n";
+  if (drive.over_packings) text += without_caption(compare::packings_table(drive));
+  if (!drive.differences.empty()) text += without_caption(compare::differences_table(drive));
+  compare::HtmlTable work = compare::work_table(drive);
+  work.header.front() = "of the motor's work [J]", work.rows.back().front() = "in all";
+  text += without_caption(std::move(work)) + "\n";
   for (const std::string& note : drive.notes) text += note + "\n";
   return text;
 }
@@ -181,7 +158,10 @@ int drive_with_grains(const DriveOptions& options, const Case& question, const S
   const std::vector<std::string> doubts = compare::doubts(drive);
   print_warnings(doubts);
   const Outputs outputs = save(options, drive, question.name, doubts, session);
-  fmt::print("{}", options.json ? json_of(drive, doubts) : sides_text(drive));
+  if (options.json)
+    print_json(compare::to_json(drive), doubts);
+  else
+    fmt::print("{}", sides_text(drive));
   if (std::fflush(stdout) == 0 && outputs.complete())
     grains.forget();
   else
@@ -190,7 +170,7 @@ int drive_with_grains(const DriveOptions& options, const Case& question, const S
 }
 
 int drive(const DriveOptions& options, const Session& session) {
-  check_model(options.model);
+  check_model(options.model, {"bekker_wong", "dem", "both"});
   const Case question = find_case(session.place, options.name);
   if (!question.drive)
     throw InputError(fmt::format("{}: the case has no section 'drive'\n  hint: soilbin run {} answers its study",
@@ -210,9 +190,7 @@ void add_drive(CLI::App& app, Session& session) {
   command->add_option("--model", options->model, "bekker_wong; dem: on grains, in the virtual soil bin; or both")
       ->type_name("NAME")
       ->capture_default_str();
-  command->add_option("--plot", options->plot, "draw speed, slip, sinkage, torque, forces and energy against time")
-      ->type_name("FILE.svg|png|pdf")
-      ->check(drawing_file());
+  add_plot(*command, options->plot, "draw speed, slip, sinkage, torque, forces and energy against time");
   add_file(*command, "--csv", options->csv, "FILE.csv", "save every sample");
   add_file(*command, "--report", options->report, "FILE.html", "save a page to open in a browser");
   command->add_option("--samples", options->samples, "intervals of time that are recorded; 400")

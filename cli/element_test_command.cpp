@@ -125,7 +125,7 @@ int element_test(const ElementTestOptions& options, const Session& session) {
   if (options.json) {
     nlohmann::ordered_json document{{"format", "soilbin-element-test/1"}, {"test", test.name}, {"soil", soil.name}};
     document.update(report.json);
-    fmt::print("{}", compare::json_text(document));
+    print_json(document);
   } else {
     fmt::print("{}: {}\n{}{}", test.name, soil.name, report.table.header.empty() ? "" : as_text(report.table),
                report.text);
@@ -151,7 +151,7 @@ void add_element_test(CLI::App& app, Session& session) {
   command->add_option("--inertial", options->inertial, "direct-shear, triaxial: inertial number of the rate, 0.001")
       ->type_name("I");
   command->add_flag("--ledger", options->ledger, "direct-shear, triaxial: check the balance of energy (in --json)");
-  command->add_option("--plot", options->plot, "draw the curves")->type_name("FILE.svg|png|pdf")->check(drawing_file());
+  add_plot(*command, options->plot, "draw the curves");
   command->add_flag("--json", options->json, "soilbin-element-test/1, in SI");
   options->flags.add_to(*command);
   command->footer("Example: soilbin element-test direct-shear paper-sand --stress 10kPa --stress 40kPa --plot box.svg");

@@ -6,7 +6,6 @@
 #include "scenario/description.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
-#include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
 
@@ -16,8 +15,7 @@ RollingResistance rolling_named(const std::string& text, std::vector<std::string
     if (word == text) return law;
     words.emplace_back(word);
   }
-  throw InputError(
-      fmt::format("--rolling: '{}' is none of {}{}", clipped(text), listed(words), did_you_mean(text, words)));
+  throw InputError("--rolling: " + none_of(text, words));
 }
 
 void ElementTestFlags::add_to(CLI::App& command) {

@@ -8,7 +8,7 @@
 #include "cli/question.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/report/json_fields.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 
 namespace soilbin::cli {
@@ -30,11 +30,10 @@ int estimate(const Question& inputs, bool json, const Session& session) {
   const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
   const std::vector<std::string> doubts = compare::doubts(question, study);
   print_warnings(doubts);
-  if (json) {
-    fmt::print("{}", compare::json_text(answers_json(question, study, doubts)));
-  } else if (compare::any_result(study)) {
+  if (json)
+    print_json(document_of("soilbin-estimate/1", question, compare::rows_json(study)), doubts);
+  else if (compare::any_result(study))
     print_text(question, study);
-  }
   if (compare::any_result(study)) return done;
   fmt::print(stderr, "soilbin: no solution: {}\n", study.front().answers.front().error);
   return failed;

@@ -110,8 +110,7 @@ int explain(const Question& inputs, bool json, const Session& session) {
   }
   const std::vector<std::string> doubts = compare::doubts(question, told);
   print_warnings(doubts);
-  if (!json) return done;
-  fmt::print("{}", compare::json_text(document_of("soilbin-explain/1", question, rows, doubts)));
+  if (json) print_json(document_of("soilbin-explain/1", question, rows), doubts);
   return done;
 }
 

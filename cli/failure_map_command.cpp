@@ -41,11 +41,8 @@ compare::Factor range_of(const std::string& flag, const std::string& text, const
 }
 
 compare::Incline incline_of(const std::string& text) {
-  std::vector<std::string> right;
-  for (const Word<compare::Incline>& word : words_of(std::type_identity<compare::Incline>{})) {
-    if (word.text == text) return word.value;
-    right.emplace_back(word.text);
-  }
+  if (const auto incline = value_named<compare::Incline>(text)) return *incline;
+  const std::vector<std::string> right = all_words<compare::Incline>();
   throw InputError("--incline: unknown kind '" + clipped(text) + "'" + did_you_mean(text, right) +
                    "\n  hint: there are " + listed(right));
 }
@@ -61,9 +58,8 @@ compare::InclineMap map_of(const FailureMapOptions& asked, const Case& question,
                  range_of("--angle", asked.angle, "angle", {"deg", inclines}),
                  range_of("--slip", asked.slip, "slip", {"%", {.lower = -1.0, .upper = 0.99}})};
   if (map.factors[compare::map_load].upper >= 1000) map.factors[compare::map_load].unit = "kN";
-  const auto& soil = question.scenario.soil.semi_empirical;
   for (const std::string& text : asked.effects)
-    map.scenario.effects.push_back(parse_effect(text, place.effects, soil ? soil->exponent.value : 1.0));
+    map.scenario.effects.push_back(parse_effect(text, place.effects, question.scenario.soil));
   return map;
 }
 
@@ -193,17 +189,12 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
                       "not turn with the spin of a pair: this one's answers differ",
                       older));
     print_warnings(about.doubts);
-    outputs.file(asked.report, [&] {
-      return compare::failure_map_page(story, about, write_case(question, session.place.effects),
-                                       compare::find_libraries());
-    });
-    if (asked.json) {
-      nlohmann::ordered_json document = compare::failure_map_json(story);
-      compare::tell_doubts(document, about.doubts);
-      fmt::print("{}", compare::json_text(document));
-    } else {
+    outputs.file(asked.report,
+                 [&] { return compare::failure_map_page(story, about, write_case(question, session.place.effects)); });
+    if (asked.json)
+      print_json(compare::failure_map_json(story), about.doubts);
+    else
       print_story(story, asked.rows);
-    }
   } catch (const compare::ExperimentsAsked& more) {
     return asked.batch.write(grains, more.experiments);
   } catch (const Interrupted&) {

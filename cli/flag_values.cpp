@@ -2,11 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <system_error>
+#include <thread>
 
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
@@ -32,6 +35,12 @@ void set_where_given(const std::string& flag, const std::string& text, const Mea
   if (!text.empty()) number = read_flag(flag, text, measure);
 }
 
+void check_model(const std::string& name, const std::vector<std::string>& right) {
+  if (std::find(right.begin(), right.end(), name) == right.end())
+    throw InputError("--model: unknown model '" + clipped(name) + "'" + did_you_mean(name, right) +
+                     "\n  hint: bekker_wong is the analytic wheel, dem the grains");
+}
+
 std::pair<double, double> read_range(const std::string& flag, const std::string& text, const Measure& measure) {
   const std::vector<std::string> ends = split(text, "..");
   if (ends.size() != 2)
@@ -41,6 +50,8 @@ std::pair<double, double> read_range(const std::string& flag, const std::string&
     throw InputError(fmt::format("{}: the lower end must be below the upper one, not '{}'", flag, clipped(text)));
   return range;
 }
+
+int all_cores() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
 
 CLI::Validator whole_number(long long lower, long long upper) {
   return {[=](std::string& text) -> std::string {
@@ -56,16 +67,14 @@ CLI::Validator whole_number(long long lower, long long upper) {
           ""};
 }
 
-CLI::Validator writable_file() {
-  return {[](std::string& name) { return why_not_writable(name); }, ""};
-}
-
 CLI::Option* add_file(CLI::App& command, const char* flag, std::string& name, const char* type, const char* meaning) {
-  return command.add_option(flag, name, meaning)->type_name(type)->check(writable_file());
+  const auto refused = [](const std::string& given) { return why_not_writable(given); };
+  return command.add_option(flag, name, meaning)->type_name(type)->check(refused);
 }
 
-CLI::Validator writable_folder() {
-  return {[](std::string& name) { return why_no_folder(name); }, ""};
+CLI::Option* add_folder(CLI::App& command, const char* flag, std::string& name, const char* meaning) {
+  const auto refused = [](const std::string& given) { return why_no_folder(given); };
+  return command.add_option(flag, name, meaning)->type_name("DIR")->check(refused);
 }
 
 }  // namespace soilbin::cli

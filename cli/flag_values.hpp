@@ -21,20 +21,23 @@ double read_flag(const std::string& flag, const std::string& text, const Measure
 /// Sets a number [SI] where the flag was given. Throws InputError that names the flag.
 void set_where_given(const std::string& flag, const std::string& text, const Measure& measure, double& number);
 
+/// Throws InputError for a --model that is none of these.
+void check_model(const std::string& name, const std::vector<std::string>& right);
+
 /// "LOW..HIGH" [SI], the lower end below the upper one. Throws InputError that names the flag.
 std::pair<double, double> read_range(const std::string& flag, const std::string& text, const Measure& measure);
+
+/// What --threads 0 means: the number of cores, at least 1.
+int all_cores();
 
 /// For flags that are whole numbers of at least `lower`, and at most `upper`.
 CLI::Validator whole_number(long long lower, long long upper = std::numeric_limits<long long>::max());
 
-/// For every flag that names a file to write: tries the place before any work is done, and refuses what can't become
-/// one. Folders that are missing are made when the file is written.
-CLI::Validator writable_file();
-
-/// A flag that names a file to write, with that check. `type`: as the help has it, "FILE.csv".
+/// A flag that names a file to write: tries the place before any work is done, and refuses what can't become one.
+/// Folders that are missing are made when the file is written. `type`: as the help has it, "FILE.csv".
 CLI::Option* add_file(CLI::App& command, const char* flag, std::string& name, const char* type, const char* meaning);
 
 /// The same for a folder that files are written into.
-CLI::Validator writable_folder();
+CLI::Option* add_folder(CLI::App& command, const char* flag, std::string& name, const char* meaning);
 
 }  // namespace soilbin::cli

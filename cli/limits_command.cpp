@@ -239,7 +239,7 @@ int limits(const Question& inputs, const LimitsOptions& options, const Session& 
   if (options.json) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const LimitsAnswer& answer : answers) rows.push_back(limits_json(answer));
-    fmt::print("{}", compare::json_text(document_of("soilbin-limits/1", question, rows, doubts)));
+    print_json(document_of("soilbin-limits/1", question, rows), doubts);
   } else {
     fmt::print("{} on {}\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil));
     for (const LimitsAnswer& answer : answers) fmt::print("\n{}", limits_text(answer));
@@ -256,9 +256,7 @@ void add_limits(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("limits", "the largest pull and the steepest slope, and the slip for each");
   const auto inputs = std::make_shared<Question>(*command, std::vector<std::string>{"load"});
   const auto options = std::make_shared<LimitsOptions>();
-  command->add_option("--plot", options->plot, "draw the largest pull and the slips against the slope")
-      ->type_name("FILE.svg|png|pdf")
-      ->check(drawing_file());
+  add_plot(*command, options->plot, "draw the largest pull and the slips against the slope");
   add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");
   command->add_flag("--json", options->json, "soilbin-limits/1, in SI");
   command->footer(

@@ -215,7 +215,7 @@ int print_effects(bool json) {
     for (const bekker_wong::Presumption& p : form.presumes)
       fmt::print("      presumes {} = {} where the tire declares none\n", p.key, p.rule);
   }
-  if (json) fmt::print("{}", compare::json_text({{"format", "soilbin-list/1"}, {"effects", all}}));
+  if (json) print_json({{"format", "soilbin-list/1"}, {"effects", all}});
   return done;
 }
 
@@ -229,7 +229,7 @@ int list(const std::string& what, bool json, const Session& session) {
     if (name != what) continue;
     const Listing listing = listing_of(view, session.place);
     if (json)
-      fmt::print("{}", compare::json_text({{"format", "soilbin-list/1"}, {name, listing.json}}));
+      print_json({{"format", "soilbin-list/1"}, {name, listing.json}});
     else
       fmt::print("{}", listing.table.text());
     return done;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <thread>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
@@ -62,14 +61,12 @@ int loop(const LoopOptions& asked, const Session& session) {
   compare::LoopOptions options;
   options.folds = asked.folds;
   options.attribution.seed = asked.seed;
-  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  options.threads = all_cores();
   options.limits = read_limits(asked.limits);
   options.progress = shown_progress();
   const compare::LoopAnswer answer = compare::run_loop(campaign, options);
   Outputs outputs;
-  outputs.file(asked.report, [&] {
-    return compare::loop_page(campaign, answer, doubts, session.command, compare::find_libraries());
-  });
+  outputs.file(asked.report, [&] { return compare::loop_page(campaign, answer, doubts, session.command); });
   outputs.file(asked.model,
                [&] { return write_case(compare::resolved_model(campaign, answer), session.place.effects); });
   if (!asked.proposal.empty() && !answer.formula)
@@ -80,8 +77,7 @@ int loop(const LoopOptions& asked, const Session& session) {
   if (asked.json) {
     nlohmann::ordered_json document = compare::to_json(answer);
     if (asked.details) document["details"] = compare::details_json(answer);
-    compare::tell_doubts(document, doubts);
-    fmt::print("{}", compare::json_text(document));
+    print_json(std::move(document), doubts);
   } else {
     print_answer(without_given_limits(answer, options.limits), asked.next);
   }
@@ -97,12 +93,9 @@ void add_loop(CLI::App& app, Session& session) {
   command->add_option("campaign", asked->campaign, "a campaign of the library, or its folder")
       ->type_name("CAMPAIGN")
       ->required();
-  command->add_option("--report", asked->report, "write the report as one page")
-      ->type_name("FILE.html")
-      ->check(writable_file());
-  command->add_option("--save-model", asked->model, "write soil and effects as a case that other commands take")
-      ->type_name("FILE.yaml")
-      ->check(writable_file());
+  add_file(*command, "--report", asked->report, "FILE.html", "write the report as one page");
+  add_file(*command, "--save-model", asked->model, "FILE.yaml",
+           "write soil and effects as a case that other commands take");
   add_file(*command, "--propose", asked->proposal, "FILE.cpp",
            "write a learned effect's formula, where there is one, as an entry of the catalogue of effects");
   command->add_flag("--next", asked->next, "say only what to measure next");

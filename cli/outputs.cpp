@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "cli/commands.hpp"
-#include "cli/flag_values.hpp"
 #include "cli/picture.hpp"
 #include "cli/progress.hpp"
 #include "scenario/atomic_file.hpp"
@@ -58,13 +57,13 @@ void Outputs::drawing(const std::string& name, const std::function<compare::Shee
 
 int Outputs::status(int so_far) const { return complete_ ? so_far : failed; }
 
-CLI::Validator drawing_file() {
-  const auto problem = [](std::string& name) -> std::string {
-    if (drawing_format_of(name) == nullptr)
-      return fmt::format("'{}' names no format by its ending\n  hint: .svg, .png or .pdf", clipped(name));
-    return writable_file()(name);
+void add_plot(CLI::App& command, std::string& name, const char* meaning) {
+  const auto refused = [](const std::string& given) {
+    return drawing_format_of(given) != nullptr
+               ? why_not_writable(given)
+               : fmt::format("'{}' names no format by its ending\n  hint: .svg, .png or .pdf", clipped(given));
   };
-  return {problem, ""};
+  command.add_option("--plot", name, meaning)->type_name("FILE.svg|png|pdf")->check(refused);
 }
 
 }  // namespace soilbin::cli

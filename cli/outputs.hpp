@@ -27,8 +27,8 @@ class Outputs {
   bool complete_ = true;
 };
 
-/// For flags that name a drawing: writable_file (flag_values.hpp), with an ending that tells a format, .svg, .png or
-/// .pdf.
-CLI::Validator drawing_file();
+/// Adds --plot, which names a drawing: tried as by add_file (flag_values.hpp), with an ending that tells a format,
+/// .svg, .png or .pdf.
+void add_plot(CLI::App& command, std::string& name, const char* meaning);
 
 }  // namespace soilbin::cli

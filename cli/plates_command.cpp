@@ -113,13 +113,10 @@ int plates(const PlatesOptions& options) {
   const std::string name = std::filesystem::path(options.file).filename().string();
   Outputs outputs;
   outputs.drawing(options.plot, [&] { return compare::plates_sheet(tests, fit, name); });
-  if (options.json) {
-    nlohmann::ordered_json document = plates_json(fit, tests.size());
-    compare::tell_doubts(document, doubts);
-    fmt::print("{}", compare::json_text(document));
-  } else {
+  if (options.json)
+    print_json(plates_json(fit, tests.size()), doubts);
+  else
     print_fit(fit, tests.size(), "soilbin plates " + name);
-  }
   return outputs.status(done);
 }
 
@@ -139,9 +136,7 @@ void add_plates(CLI::App& app, Session& session) {
       ->allow_extra_args(false);
   command->add_option("--pressure", options->pressure, "readings that are used; best those that your wheel makes")
       ->type_name("LOW..HIGH");
-  command->add_option("--plot", options->plot, "draw the readings and Bekker's form")
-      ->type_name("FILE.svg|png|pdf")
-      ->check(drawing_file());
+  add_plot(*command, options->plot, "draw the readings and Bekker's form");
   command->add_flag("--json", options->json, "soilbin-plates/1, in SI");
   command->footer("Example: soilbin plates plates.csv --only box=large-box --pressure 1kPa..30kPa --plot plates.svg");
   command->callback([=, &session] { session.action = [=] { return plates(*options); }; });

@@ -44,15 +44,12 @@ int predict(const PredictOptions& options, const Session& session) {
   Outputs outputs;
   outputs.file(options.csv, [&] { return compare::prediction_csv(prediction); });
   outputs.drawing(options.plot, [&] { return compare::campaign_sheet(campaign, prediction); });
-  if (options.json) {
-    nlohmann::ordered_json document = compare::to_json(prediction, campaign.name);
-    compare::tell_doubts(document, doubts);
-    fmt::print("{}", compare::json_text(document));
-  } else {
+  if (options.json)
+    print_json(compare::to_json(prediction, campaign.name), doubts);
+  else
     fmt::print("{}: {} runs of {}, predicted with {} and not fitted\n\n{}", campaign.name, prediction.runs.size(),
                in_words(campaign.wheel), options.model.empty() ? "the declared soil" : options.model,
                prediction_text(prediction));
-  }
   if (prediction.unsolved < prediction.runs.size()) return outputs.status(done);
   fmt::print(stderr, "soilbin: no run of the campaign has a solution\n");
   return failed;
@@ -71,9 +68,7 @@ void add_predict(CLI::App& app, Session& session) {
       ->add_option("--model", options->model,
                    "a resolved model (soilbin-case/1) in place of the declared soil and effects")
       ->type_name("FILE");
-  command->add_option("--plot", options->plot, "draw measured and predicted against slip")
-      ->type_name("FILE.svg|png|pdf")
-      ->check(drawing_file());
+  add_plot(*command, options->plot, "draw measured and predicted against slip");
   add_file(*command, "--csv", options->csv, "FILE.csv", "save each run as measured and as predicted");
   command->add_flag("--json", options->json, "soilbin-predict/1, in SI");
   command->footer("Example: soilbin predict cmu-smooth --plot predicted.svg");

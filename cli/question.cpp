@@ -3,12 +3,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/condition_axes.hpp"
 #include "scenario/mapping_writer.hpp"
+#include "scenario/soil_parameters.hpp"
+#include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -67,11 +70,39 @@ double implied_speed(const AskedCondition& one, const Tire& tire) {
   }
 }
 
-double exponent_of(const Soil& soil) { return soil.semi_empirical ? soil.semi_empirical->exponent.value : 1.0; }
+constexpr const char* density_key = "density";
+constexpr Measure density_measure{"kg/m^3", above_zero};
+
+/// "30+-2 deg" as {"30 deg", "2 deg"}; the second is empty where none is given.
+std::pair<std::string, std::string> value_and_deviation(std::string text) {
+  for (const char* sign : {"±", "+-"}) {
+    const std::vector<std::string> parts = split(text, sign);
+    if (parts.size() != 2) continue;
+    const std::size_t digits = parts[1].find_first_not_of("0123456789.eE+- ");
+    const std::string unit = digits == std::string::npos ? "" : parts[1].substr(digits);
+    return {read_number(parts[0]) ? parts[0] + " " + unit : parts[0], parts[1]};
+  }
+  return {std::move(text), ""};
+}
+
+/// A value without a deviation keeps the one that it had; an assumed share stays a share.
+void set_value(const SoilParameter& p, const std::string& text, SemiEmpiricalSoil& soil) {
+  const auto [value, deviation] = value_and_deviation(text);
+  const double n = soil.exponent.value;
+  Estimate& into = soil.*p.value;
+  const bool assumed = has_assumed_sd(soil, into);
+  try {
+    into.value = read_quantity(value, p.measure(), n);
+    if (assumed) into.std_error = *soil.assumed_sd * std::abs(into.value);
+    if (!deviation.empty()) into.std_error = read_quantity(deviation, {p.unit, zero_or_more}, n);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", flag_of("", p.name), error.what()));
+  }
+}
 
 }  // namespace
 
-EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocabulary, double n) {
+EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocabulary, const Soil& soil) {
   if (text.empty()) throw InputError("--effect: expected id[:form][,parameter=value...]");
   const std::vector<std::string> parts = split(text, ",");
   const std::size_t colon = parts.front().find(':');
@@ -85,7 +116,7 @@ EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocab
       pick_form(choice.id, colon == std::string::npos ? "" : parts.front().substr(colon + 1), forms);
   choice.form = form.form;
   for (const EffectParameterWords& parameter : form.parameters) choice.parameters[parameter.name] = parameter.fallback;
-  for (std::size_t i = 1; i < parts.size(); ++i) set_parameter(parts[i], form, n, choice);
+  for (std::size_t i = 1; i < parts.size(); ++i) set_parameter(parts[i], form, exponent_of(soil), choice);
   return choice;
 }
 
@@ -110,6 +141,41 @@ void ConditionFlags::pick(Study& study, const Tire& tire) const {
     study.conditions.push_back(one.at);
     study.rotations.push_back(one.rotation);
   }
+}
+
+void SoilFlags::add_to(CLI::App& app, const std::string& heading) {
+  const auto add = [&](const char* key, const std::string& unit, const char* meaning) {
+    app.add_option(flag_of("", key), texts_[key], meaning)->type_name(unit)->group(heading);
+  };
+  for (const SoilParameter& p : soil_parameters)
+    add(p.name, std::string(p.unit) == "-" ? "NUMBER[+-SD]" : std::string(p.unit) + "[+-SD]", p.meaning);
+  add(density_key, density_measure.unit, "bulk density");
+}
+
+bool SoilFlags::any_given() const {
+  return std::any_of(texts_.begin(), texts_.end(), [](const auto& entry) { return !entry.second.empty(); });
+}
+
+void SoilFlags::apply(Soil& soil) const {
+  if (!any_given()) return;
+  if (!soil.semi_empirical)
+    throw InputError(
+        fmt::format("soil '{}' has values for grains alone: a flag such as --friction-angle has nothing to change\n"
+                    "  hint: begin with another --soil",
+                    clipped(soil.name)));
+  SemiEmpiricalSoil& values = *soil.semi_empirical;
+  for (const SoilParameter& p : soil_parameters)  // n first: the units of k_c and k_phi depend on it
+    if (const std::string& text = texts_.at(p.name); !text.empty()) {
+      set_value(p, text, values);
+      values.sources[p.name] = "given on the command line";
+    }
+  if (const std::string& text = texts_.at(density_key); !text.empty()) {
+    if (!value_and_deviation(text).second.empty())
+      throw InputError("--density: a density has no standard deviation here\n  hint: such as --density 1600kg/m^3");
+    values.density = read_flag(flag_of("", density_key), text, density_measure);
+    values.sources[density_key] = "given on the command line";
+  }
+  soil.name += ", changed";
 }
 
 Question::Question(CLI::App& app, std::vector<std::string> needed) : needed_(std::move(needed)) {
@@ -181,7 +247,7 @@ Case Question::ask(const Workplace& place) const {
   const bool none = std::find(effects_.begin(), effects_.end(), "none") != effects_.end();
   if (none && effects_.size() > 1) throw InputError("--effect none stands alone: it switches every effect off");
   for (const std::string& text : none ? std::vector<std::string>{} : effects_) {
-    EffectChoice effect = parse_effect(text, place.effects, exponent_of(question.scenario.soil));
+    EffectChoice effect = parse_effect(text, place.effects, question.scenario.soil);
     for (const EffectChoice& known : choice.effects)
       if (known.id == effect.id)
         throw InputError(
@@ -196,27 +262,15 @@ Case Question::ask(const Workplace& place) const {
   return question;
 }
 
-nlohmann::ordered_json document_of(const char* format, const Case& question, nlohmann::ordered_json rows,
-                                   const std::vector<std::string>& doubts) {
-  nlohmann::ordered_json document = {{"format", format},
-                                     {"tire", question.scenario.tire.name},
-                                     {"soil", question.scenario.soil.name},
-                                     {"rows", std::move(rows)}};
-  compare::tell_doubts(document, doubts);
-  return document;
-}
-
-nlohmann::ordered_json answers_json(const Case& question, const std::vector<compare::ModelAnswers>& study,
-                                    const std::vector<std::string>& doubts) {
-  return document_of("soilbin-estimate/1", question, compare::rows_json(study), doubts);
+nlohmann::ordered_json document_of(const char* format, const Case& question, nlohmann::ordered_json rows) {
+  return {{"format", format},
+          {"tire", question.scenario.tire.name},
+          {"soil", question.scenario.soil.name},
+          {"rows", std::move(rows)}};
 }
 
 void require_semi_empirical(const Case& question, const Library& library) {
-  const std::vector<ModelChoice>& models = question.study.models;
-  if (question.scenario.soil.semi_empirical || std::none_of(models.begin(), models.end(), [](const ModelChoice& m) {
-        return m.model == ModelKind::bekker_wong;
-      }))
-    return;
+  if (question.scenario.soil.semi_empirical || !asks(question.study, ModelKind::bekker_wong)) return;
   std::vector<std::string> right;
   for (const std::string& name : library.names(Shelf::soils))
     if (find_soil(name, library).semi_empirical) right.push_back(name);

@@ -2,20 +2,20 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "cli/described_flags.hpp"
-#include "cli/soil_flags.hpp"
 #include "cli/workplace.hpp"
 #include "compare/sweep/answers.hpp"
 
 namespace soilbin::cli {
 
 /// An effect as a flag spells it: 'id[:form][,parameter=value...]', values with units. Form and parameters left out
-/// are filled in. Throws InputError with the nearest right word. `n` is the soil's exponent.
-EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocabulary, double n);
+/// are filled in. Throws InputError with the nearest right word. The soil's exponent is in some units.
+EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocabulary, const Soil& soil);
 
 /// Flags that pick or override a study's conditions.
 class ConditionFlags {
@@ -46,6 +46,23 @@ class ErrorFlag {
 
  private:
   bool exact_ = false;
+};
+
+/// Flags for a soil's own values: "--friction-angle 30deg", "--k-phi '1500+-200 kN/m^(n+2)'", named as in a soil file.
+class SoilFlags {
+ public:
+  /// Adds a flag for each of soil_parameters, and --density.
+  void add_to(CLI::App& app, const std::string& heading);
+
+  bool any_given() const;
+
+  /// Puts the values that were given in place of the soil's. A value without "+-" (or "±") keeps the soil's standard
+  /// deviation. The soil's name then ends in ", changed", and the values' source is the command line. Throws InputError
+  /// that names the flag, or says that the soil has values for grains alone.
+  void apply(Soil& soil) const;
+
+ private:
+  std::map<std::string, std::string> texts_;  ///< by the key of a soil file
 };
 
 /// The inputs of `estimate`, `explain` and `serve`: a case, or a tire, a soil and a condition given by flags; or both,
@@ -79,11 +96,7 @@ class Question {
 /// Throws InputError where the analytic model is asked on a soil that has values for grains alone.
 void require_semi_empirical(const Case& question, const Library& library);
 
-/// The rows of an answer under the names of its tire and soil, and the doubts.
-nlohmann::ordered_json document_of(const char* format, const Case& question, nlohmann::ordered_json rows,
-                                   const std::vector<std::string>& doubts);
-/// soilbin-estimate/1: what each model answers at each condition of the question, in SI, and the doubts.
-nlohmann::ordered_json answers_json(const Case& question, const std::vector<compare::ModelAnswers>& study,
-                                    const std::vector<std::string>& doubts);
+/// The rows of an answer under the names of its tire and soil.
+nlohmann::ordered_json document_of(const char* format, const Case& question, nlohmann::ordered_json rows);
 
 }  // namespace soilbin::cli

@@ -150,16 +150,12 @@ int reproduce(const ReproduceOptions& options, const Session& session) {
   Outputs outputs;
   outputs.file(options.report, [&] {
     return compare::reproduction_page(
-        reproduction, {"What of " + findings.name + " is reproduced", session.command, versions(), doubts},
-        compare::find_libraries());
+        reproduction, {"What of " + findings.name + " is reproduced", session.command, versions(), doubts});
   });
-  if (options.json) {
-    nlohmann::ordered_json document = compare::to_json(reproduction);
-    compare::tell_doubts(document, doubts);
-    fmt::print("{}", compare::json_text(document));
-  } else {
+  if (options.json)
+    print_json(compare::to_json(reproduction), doubts);
+  else
     print_text(reproduction);
-  }
   return outputs.status(done);
 }
 

@@ -35,20 +35,11 @@ struct RunOptions {
 
 void keep_model(Case& question, const std::string& name) {
   if (name.empty()) return;
-  std::vector<std::string> right;
-  std::optional<ModelKind> kind;
-  for (const Word<ModelKind>& word : words_of(std::type_identity<ModelKind>{})) {
-    if (word.text == name) kind = word.value;
-    right.emplace_back(word.text);
-  }
-  if (!kind)
-    throw InputError("--model: unknown model '" + clipped(name) + "'" + did_you_mean(name, right) +
-                     "\n  hint: bekker_wong is the analytic wheel, dem the grains");
-  std::vector<ModelChoice> kept;
-  for (const ModelChoice& choice : question.study.models)
-    if (choice.model == *kind) kept.push_back(choice);
-  if (kept.empty()) kept.push_back({*kind, {}, name});
-  question.study.models = std::move(kept);
+  check_model(name, all_words<ModelKind>());
+  const ModelKind kind = *value_named<ModelKind>(name);
+  std::vector<ModelChoice>& models = question.study.models;
+  std::erase_if(models, [&](const ModelChoice& choice) { return choice.model != kind; });
+  if (models.empty()) models.push_back({kind, {}, name});
 }
 
 /// Answers by LAMMPS carry its name.
@@ -56,13 +47,6 @@ void name_engine(Case& question, const std::string& engine) {
   if (engine != "lammps") return;
   for (ModelChoice& choice : question.study.models)
     if (choice.model == ModelKind::dem) choice.label = dem::lammps_model_name;
-}
-
-/// A record answers beside the study's own models.
-void add_dem(Case& question) {
-  for (const ModelChoice& choice : question.study.models)
-    if (choice.model == ModelKind::dem) return;
-  question.study.models.push_back({ModelKind::dem, {}, "dem"});
 }
 
 /// What the models answered, and what is doubtful in it.
@@ -86,7 +70,7 @@ nlohmann::ordered_json rows_of(const Case& question, const Answered& answered) {
   return rows;
 }
 
-nlohmann::ordered_json document_of(const Case& question, const Answered& answered) {
+nlohmann::ordered_json results_json(const Case& question, const Answered& answered) {
   nlohmann::ordered_json document = {{"format", "soilbin-run/1"},
                                      {"study", question.study.name},
                                      {"tire", question.scenario.tire.name},
@@ -106,20 +90,14 @@ void save(Outputs& outputs, const RunOptions& options, const Case& question, con
     const fs::path folder = options.output;
     write_file_atomically(folder / "case.yaml", write_case(question, place.effects));
     write_file_atomically(folder / "results.csv", compare::study_csv(study));
-    write_file_atomically(folder / "results.json", compare::json_text(document_of(question, answered)));
+    write_file_atomically(folder / "results.json", compare::json_text(results_json(question, answered)));
   });
-}
-
-bool asks_dem(const Case& question) {
-  const auto& models = question.study.models;
-  return std::any_of(models.begin(), models.end(),
-                     [](const ModelChoice& choice) { return choice.model == ModelKind::dem; });
 }
 
 /// Throws InputError for a flag that means nothing beside the others.
 void check_flags(const RunOptions& options, const Case& question) {
   const SoilBinFlags& bin = options.soil_bin;
-  if ((options.dry_run || !bin.shard.empty()) && !asks_dem(question))
+  if ((options.dry_run || !bin.shard.empty()) && !asks(question.study, ModelKind::dem))
     throw InputError("--shard and --dry-run are about runs of grains\n  hint: --model dem");
   if (!bin.shard.empty() && !options.dry_run && bin.record.empty())
     throw InputError("--shard needs a record of its own for what it makes\n  hint: --record FILE.json");
@@ -171,7 +149,7 @@ int converge(const RunOptions& options, const Case& question, const Session& ses
   const auto runs = compare::run_variants(settings_of(options.soil_bin), question, session.place.effects,
                                           keeping_of(options.soil_bin));
   if (options.json) {
-    fmt::print("{}", compare::json_text(compare::convergence_json(runs)));
+    print_json(compare::convergence_json(runs));
   } else {
     fmt::print("{}: {}\n\n{}", question.study.name, compare::in_words(question.study.conditions.front()),
                as_text(compare::convergence_table(runs)));
@@ -190,7 +168,8 @@ int run(RunOptions options, const Session& session) {
   Case question = find_study(session.place, options.study);
   options.errors.apply(question.scenario.soil);
   keep_model(question, options.model);
-  if (!options.soil_bin.recorded.empty() && options.model.empty()) add_dem(question);
+  if (!options.soil_bin.recorded.empty() && options.model.empty() && !asks(question.study, ModelKind::dem))
+    question.study.models.push_back({ModelKind::dem, {}, "dem"});  // a record answers beside the study's own models
   name_engine(question, options.soil_bin.engine);
   if (options.converge) {
     options.conditions.pick(question.study, question.scenario.tire);
@@ -203,14 +182,16 @@ int run(RunOptions options, const Session& session) {
     const RunPlan plan = plan_of(question, options.soil_bin, options.soil_bin.tests_step(question));
     const std::vector<std::string> doubts = compare::doubts(question);
     print_warnings(doubts);
-    nlohmann::ordered_json document = plan_json(plan);
-    compare::tell_doubts(document, doubts);
-    fmt::print("{}", options.json ? compare::json_text(document) : plan_text(plan));
+    if (options.json)
+      print_json(plan_json(plan), doubts);
+    else
+      fmt::print("{}", plan_text(plan));
     return done;
   }
   const std::optional<dem::StepCriteria> step =
       compare::step_of(settings_of(options.soil_bin), question, options.soil_bin.recorded);
-  if (asks_dem(question) && options.soil_bin.recorded.empty()) tell_coarse_grains(question.scenario);
+  const bool asks_grains = asks(question.study, ModelKind::dem);
+  if (asks_grains && options.soil_bin.recorded.empty()) tell_coarse_grains(question.scenario);
   if (!options.soil_bin.shard.empty()) try {
       recording(options, [&] { make_runs(question, whole, options, session); });
       return done;
@@ -219,7 +200,7 @@ int run(RunOptions options, const Session& session) {
     }
   const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
   const compare::MakeModel make = models_with(options.soil_bin, whole, session.place.effects, log);
-  if (asks_dem(question) && !options.soil_bin.record.empty())
+  if (asks_grains && !options.soil_bin.record.empty())
     recording(options, [&] { make_runs(question, whole, options, session); });
   Answered answered{.study = {}, .doubts = {}, .step = step};
   answered.study = recording(options, [&] { return compare::run_study(question, shown_progress(), make); });
@@ -231,7 +212,7 @@ int run(RunOptions options, const Session& session) {
   save(outputs, options, question, answered, session.place);
   print_warnings(answered.doubts);
   if (options.json) {
-    fmt::print("{}", compare::json_text(document_of(question, answered)));
+    print_json(results_json(question, answered));
   } else {
     fmt::print("{}: {} on {}\n{}\n{}\n{}", question.study.name, in_words(question.scenario.tire),
                compare::in_words(question.scenario.soil), compare::errors_in_words(question.scenario.soil),
@@ -254,13 +235,9 @@ void add_run(CLI::App& app, Session& session) {
       ->type_name("STUDY")
       ->required();
   command->add_option("--model", options->model, "only this model: bekker_wong or dem")->type_name("NAME");
-  command->add_option("--plot", options->plot, "draw the curves against slip")
-      ->type_name("FILE.svg|png|pdf")
-      ->check(drawing_file());
+  add_plot(*command, options->plot, "draw the curves against slip");
   add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");
-  command->add_option("--output", options->output, "save the resolved case and the results")
-      ->type_name("DIR")
-      ->check(writable_folder());
+  add_folder(*command, "--output", options->output, "save the resolved case and the results");
   command->add_flag("--json", options->json, "the results as JSON, in SI");
   command
       ->add_flag("--converge", options->converge,
@@ -280,11 +257,9 @@ void add_run(CLI::App& app, Session& session) {
   add_file(*command, "--replay", options->soil_bin.replay, "FILE",
            "keep the motion of the first run that is made, for the page of compare --replay")
       ->group(grains_heading);
-  command
-      ->add_option("--paraview", options->soil_bin.paraview, "keep the motion of each run that is made, for ParaView")
-      ->group(grains_heading)
-      ->type_name("DIR")
-      ->check(writable_folder());
+  add_folder(*command, "--paraview", options->soil_bin.paraview,
+             "keep the motion of each run that is made, for ParaView")
+      ->group(grains_heading);
   command->footer(
       "Each condition flag keeps the study's conditions that agree with it; where none does, it overrides them. Where\n"
       "the study gives 'rotation' it stays, and the speed follows.\n"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
-#include <thread>
 
+#include "cli/flag_values.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/result_json.hpp"
@@ -69,8 +69,7 @@ RunPlan plan_of(const Case& question, const SoilBinFlags& flags, compare::TestSt
     plan.runs.push_back({run, compare::missing_runs({run}, records).empty(), costs.seconds(run)});
   }
   plan.beds = packings.size(), plan.unsettled = without_file(packings, settings, question.scenario);
-  plan.threads = settings.how.threads > 0 ? settings.how.threads
-                                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  plan.threads = settings.how.threads > 0 ? settings.how.threads : all_cores();
   plan.from_runs = costs.from_runs(), plan.speed = costs.speed(), plan.grains = costs.grains();
   plan.bed_seconds = costs.bed_seconds(), plan.memory = costs.memory();
   plan.bed_bytes = costs.bed_bytes(), plan.record_bytes = costs.record_bytes();

@@ -1,12 +1,10 @@
 // soilbin schema: the file formats as JSON Schema, for editors.
-#include <fmt/core.h>
-
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/text_output.hpp"
 #include "compare/measured/campaign_schema.hpp"
 #include "compare/recorded/record.hpp"
-#include "compare/report/json_fields.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/schema.hpp"
@@ -16,15 +14,15 @@ namespace {
 
 int schema(const std::string& what, const Session& session) {
   if (what == "case")
-    fmt::print("{}", compare::json_text(case_schema(session.place.effects)));
+    print_json(case_schema(session.place.effects));
   else if (what == "tire")
-    fmt::print("{}", compare::json_text(tire_schema()));
+    print_json(tire_schema());
   else if (what == "soil")
-    fmt::print("{}", compare::json_text(soil_schema()));
+    print_json(soil_schema());
   else if (what == "campaign")
-    fmt::print("{}", compare::json_text(compare::campaign_schema(session.place.effects)));
+    print_json(compare::campaign_schema(session.place.effects));
   else if (what == "recorded")
-    fmt::print("{}", compare::json_text(compare::record_schema()));
+    print_json(compare::record_schema());
   else
     throw InputError("no schema '" + clipped(what) + "'" +
                      did_you_mean(what, {"case", "tire", "soil", "campaign", "recorded"}) +

@@ -11,7 +11,6 @@
 #include <memory>
 #include <set>
 #include <sstream>
-#include <thread>
 
 #include "cli/command_words.hpp"
 #include "cli/commands.hpp"
@@ -195,13 +194,13 @@ int show_status(const fs::path& folder, bool json) {
   if (planned > 0) left *= taken / planned;
   const double wall = left / std::max(1, states["running"]);
   if (json) {
-    fmt::print("{}", compare::json_text({{"format", "soilbin-sweep-status/1"},
-                                         {"study", sweep.plan.study},
-                                         {"runs", runs},
-                                         {"recorded", recorded},
-                                         {"without_result", without_result},
-                                         {"seconds_left", left},
-                                         {"shards", rows}}));
+    print_json({{"format", "soilbin-sweep-status/1"},
+                {"study", sweep.plan.study},
+                {"runs", runs},
+                {"recorded", recorded},
+                {"without_result", without_result},
+                {"seconds_left", left},
+                {"shards", rows}});
     return recorded == runs ? done : unfinished;
   }
   fmt::print("{}: {} of {} recorded{}; shards: {} done, {} running, {} waiting, {} failed, {} missing",
@@ -227,8 +226,7 @@ SweepJobs jobs_of(const SweepOptions& asked, const Case& question, const CLI::Ap
   const double at_least = asked.at_least.empty() ? (jobs.on == SweepOn::slurm ? 1800 : 60)
                                                  : read_flag("--at-least", asked.at_least, {"s", zero_or_more});
   jobs.shards = asked.shards > 0 ? asked.shards : shards_for(jobs.plan, at_least);
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  jobs.at_once = asked.at_once > 0 ? asked.at_once : std::max(1, cores / flags.threads);
+  jobs.at_once = asked.at_once > 0 ? asked.at_once : std::max(1, all_cores() / flags.threads);
   jobs.program = this_program(), jobs.here = fs::current_path();
   jobs.folder = fs::absolute(asked.output.empty() ? "sweep-" + question.study.name : asked.output).lexically_normal();
   jobs.beds = fs::absolute(folder_of_beds()).lexically_normal();
@@ -285,9 +283,7 @@ void add_sweep(CLI::App& app, Session& session) {
   command->add_option("--on", asked->on, "who runs the jobs")
       ->type_name("slurm|local")
       ->check(CLI::IsMember({"slurm", "local"}));
-  command->add_option("--output", asked->output, "folder for script, records and logs; sweep-NAME")
-      ->type_name("DIR")
-      ->check(writable_folder());
+  add_folder(*command, "--output", asked->output, "folder for script, records and logs; sweep-NAME");
   command->add_option("--at-least", asked->at_least, "time that a job should take; 30 min on Slurm, 1 min here")
       ->type_name("TIME");
   command->add_option("--shards", asked->shards, "number of jobs, in place of --at-least")

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "compare/measured/channels.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/unit.hpp"
@@ -157,6 +158,11 @@ void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
+void print_json(nlohmann::ordered_json document, const std::vector<std::string>& doubts) {
+  compare::tell_doubts(document, doubts);
+  fmt::print("{}", compare::json_text(document));
+}
+
 std::vector<Reading> readings(const TractionResult& r) {
   std::vector<Reading> all;
   for (const ChannelView& channel : channel_views)
@@ -231,10 +237,9 @@ std::string study_text(const std::vector<ModelAnswers>& study) {
 std::string errors_text(const Prediction& prediction) {
   TextTable table({"channel", "runs", "rms error", "bias (predicted - measured)", "measured range", "rms/range [%]"});
   for (const ChannelError& error : prediction.errors) {
-    const ChannelView& channel = channel_views[error.channel];
-    const auto in_unit = [&](double si) { return fmt::format("{} {}", number(si * channel.per_si), channel.unit); };
-    table.add({std::string(channel.title), std::to_string(error.runs), in_unit(error.rmse), in_unit(error.bias),
-               in_unit(error.range), number(100 * error.share_of_range)});
+    const auto in_unit = [&](double si) { return compare::in_unit(error.channel, si); };
+    table.add({std::string(channel_views[error.channel].title), std::to_string(error.runs), in_unit(error.rmse),
+               in_unit(error.bias), in_unit(error.range), number(100 * error.share_of_range)});
   }
   return table.text();
 }

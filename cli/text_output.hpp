@@ -1,6 +1,7 @@
 // Results as text on a terminal.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ std::string with_unit(const SoilParameter& parameter);
 
 /// Each on a line of its own to stderr, as `soilbin check` tells them: "warning: ...".
 void print_warnings(const std::vector<std::string>& warnings);
+
+/// A document on standard output, with what is doubtful in it.
+void print_json(nlohmann::ordered_json document, const std::vector<std::string>& doubts = {});
 
 /// A line of an answer: "Sinkage", "20.6 ± 1.0", "mm"; no unit where the value is a sentence.
 struct Reading {

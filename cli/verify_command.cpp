@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using dem::VerificationRow;
 
-void print_json(const std::vector<VerificationRow>& rows) {
+Json json_of(const std::vector<VerificationRow>& rows) {
   Json all = Json::array();
   for (const VerificationRow& row : rows)
     all.push_back({{"case", row.name},
@@ -36,7 +36,7 @@ void print_json(const std::vector<VerificationRow>& rows) {
                    {"unit", row.unit},
                    {"source", row.source},
                    {"pass", row.pass()}});
-  fmt::print("{}", compare::json_text({{"format", "soilbin-verify/1"}, {"rows", all}}));
+  return {{"format", "soilbin-verify/1"}, {"rows", std::move(all)}};
 }
 
 void print_table(const std::vector<VerificationRow>& rows) {
@@ -72,7 +72,7 @@ int verify(bool json, std::optional<std::uint64_t> incline, const std::string& c
     std::erase_if(rows, [&](const VerificationRow& row) { return row.name.find(containing) == std::string::npos; });
   const auto passed = std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.pass(); });
   if (json) {
-    print_json(rows);
+    print_json(json_of(rows));
   } else {
     print_table(rows);
     fmt::print("{} of {} cases within their tolerance\n", passed, rows.size());

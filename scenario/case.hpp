@@ -42,6 +42,9 @@ struct Study {
   std::vector<std::optional<double>> rotations = {};
 };
 
+/// Whether a study asks a model.
+bool asks(const Study& study, ModelKind kind);
+
 /// A whole question: a study, a drive or both. `scenario.effects` is empty: effects belong to the study's models and to
 /// the drive.
 struct Case {

@@ -105,6 +105,11 @@ Drive read_drive(const YamlNode& node, const Soil& soil, const Library& library,
 
 }  // namespace
 
+bool asks(const Study& study, ModelKind kind) {
+  return std::any_of(study.models.begin(), study.models.end(),
+                     [&](const ModelChoice& choice) { return choice.model == kind; });
+}
+
 void label_models(std::vector<ModelChoice>& models) {
   for (ModelChoice& choice : models) {
     if (!choice.label.empty()) continue;

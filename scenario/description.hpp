@@ -17,6 +17,7 @@
 #include <array>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -60,6 +61,22 @@ constexpr std::array<Word<RollingResistance>, 4> words_of(std::type_identity<Rol
 
 constexpr std::array<Word<TwistingResistance>, 2> words_of(std::type_identity<TwistingResistance>) {
   return {{{"none", TwistingResistance::none}, {"marshall", TwistingResistance::marshall}}};
+}
+
+/// All words of an enum, as files spell them.
+template <class E>
+std::vector<std::string> all_words() {
+  std::vector<std::string> all;
+  for (const Word<E>& word : words_of(std::type_identity<E>{})) all.emplace_back(word.text);
+  return all;
+}
+
+/// The value that a word names; nothing where the enum has no such word.
+template <class E>
+std::optional<E> value_named(std::string_view text) {
+  for (const Word<E>& word : words_of(std::type_identity<E>{}))
+    if (word.text == text) return word.value;
+  return std::nullopt;
 }
 
 /// Largest yaw and (open) largest incline [rad].

@@ -54,10 +54,7 @@ std::size_t read_word(const YamlNode& node, const std::vector<std::string>& righ
 /// Reads one word of an enum.
 template <class E>
 E read_choice(const YamlNode& node, const Reading& reading) {
-  const auto words = words_of(std::type_identity<E>{});
-  std::vector<std::string> right;
-  for (const Word<E>& word : words) right.emplace_back(word.text);
-  return words[read_word(node, right, reading)].value;
+  return words_of(std::type_identity<E>{})[read_word(node, all_words<E>(), reading)].value;
 }
 
 template <class T>

@@ -56,4 +56,8 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
+std::string none_of(const std::string& word, const std::vector<std::string>& right) {
+  return "'" + clipped(word) + "' is none of " + listed(right) + did_you_mean(word, right);
+}
+
 }  // namespace soilbin

@@ -16,4 +16,7 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 /// "radius, width, lugs"; a word that is longer than any of ours is clipped.
 std::string listed(const std::vector<std::string>& words);
 
+/// "'rdius' is none of radius, width, did you mean 'radius'?"
+std::string none_of(const std::string& word, const std::vector<std::string>& right);
+
 }  // namespace soilbin

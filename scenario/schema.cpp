@@ -68,9 +68,7 @@ class AxisSchema {
   }
   template <class E>
   void choice(const char* key, E OperatingCondition::*, Need need, const char* meaning) {
-    std::vector<std::string> words;
-    for (const Word<E>& word : words_of(std::type_identity<E>{})) words.emplace_back(word.text);
-    add(key, need, axis_schema(words_schema(words, meaning), false));
+    add(key, need, axis_schema(words_schema(all_words<E>(), meaning), false));
   }
 
  private:

@@ -60,9 +60,7 @@ class SchemaOf {
 
   template <class E>
   void choice(const char* key, E T::*, Need need, const char* meaning) {
-    std::vector<std::string> words;
-    for (const Word<E>& word : words_of(std::type_identity<E>{})) words.emplace_back(word.text);
-    add(key, need, words_schema(words, meaning));
+    add(key, need, words_schema(all_words<E>(), meaning));
   }
 
   template <class U>

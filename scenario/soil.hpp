@@ -83,4 +83,7 @@ struct Soil {
   std::map<std::string, std::string> sources{};  ///< where single numbers beside the two sections come from
 };
 
+/// n [-], which the units of some values hang on; 1 for a soil that has values for grains alone.
+inline double exponent_of(const Soil& soil) { return soil.semi_empirical ? soil.semi_empirical->exponent.value : 1.0; }
+
 }  // namespace soilbin

@@ -219,8 +219,8 @@ std::string effect_word(const EffectChoice& choice, const Soil& soil) {
   for (const bekker_wong::EffectParameter& parameter : form.parameters) {
     const auto given = choice.parameters.find(parameter.name);
     if (given == choice.parameters.end() || given->second == parameter.fallback) continue;
-    const double n = soil.semi_empirical ? soil.semi_empirical->exponent.value : 1.0;
-    word += "," + parameter.name + "=" + without_blanks(write_quantity(given->second, parameter.unit, n));
+    word +=
+        "," + parameter.name + "=" + without_blanks(write_quantity(given->second, parameter.unit, exponent_of(soil)));
   }
   return word;
 }

@@ -7,15 +7,13 @@ namespace soilbin::cli {
 std::string live_page(const Setup& setup) {
   compare::Page page(in_words(setup.ask({}).question.scenario.tire),
                      "By the analytic model of soilbin estimate: move a number, and everything follows.");
-  compare::Libraries libraries = compare::find_libraries();
   const std::vector<compare::EmbeddedFile> own = live_files();
   page.raw("<style>\n" + compare::embedded(own, "live.css") + "</style>\n");
-  if (!libraries.d3)
+  if (!page.libraries().d3)
     page.raw(
         "<p class=\"warning\" role=\"note\">d3 is not installed on this machine (package node-d3): numbers without "
         "curves.</p>\n");
   page.raw(compare::embedded(own, "live.html"));
-  page.enliven(std::move(libraries));
   page.script(compare::embedded(own, "wheel.js") + compare::embedded(own, "live.js"));
   return page.html();
 }

@@ -143,7 +143,7 @@ void tell_errors(const Misses& misses, Trial& trial) {
   }
 }
 
-bool told_apart(const Misses& farther, const Misses& nearest) {
+bool clearly_farther(const Misses& farther, const Misses& nearest) {
   const std::size_t n = farther.size();
   const double variance = variance_of(n,
                                       [&](std::size_t s, std::size_t c) {
@@ -220,7 +220,7 @@ Decision decide(std::string campaign, std::vector<Setpoint> setpoints, std::vect
     if (error(k) && (!error(decision.nearest) || error(k)->value < error(decision.nearest)->value))
       decision.nearest = k;
   for (std::size_t k = 0; k < misses.size(); ++k)
-    if (error(k)) decision.trials[k].apart = told_apart(misses[k], misses[decision.nearest]);
+    if (error(k)) decision.trials[k].apart = clearly_farther(misses[k], misses[decision.nearest]);
   decision.chosen = decision.nearest;
   for (std::size_t k = misses.size(); k-- > 0;)
     if (error(k) && !decision.trials[k].apart) decision.chosen = k;

@@ -138,9 +138,9 @@ Campaign means_of(const Side& side, const Case& question, const std::vector<Effe
   return campaign;
 }
 
-Campaign as_campaign(const Side& side, const Case& question, const std::vector<EffectChoice>& effects) {
-  if (side.runs.empty()) return means_of(side, question, effects);
-  Campaign campaign = declared(side, question, effects);
+Campaign as_campaign(const Side& side, const Case& question) {
+  if (side.runs.empty()) return means_of(side, question, {});
+  Campaign campaign = declared(side, question, {});
   campaign.runs = side.runs;
   campaign.force_frame = side.runs.front().at.force_frame;
   campaign.slip_by = side.runs.front().at.slip_by;

@@ -42,12 +42,12 @@ Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& c
 
 /// A side's results as a measured campaign: a run for each condition with a result, at its mean. The declared soil and
 /// wheel are the case's. Throws InputError where the case has no semi-empirical soil or the side no result.
-Campaign means_of(const Side& side, const Case& question, const std::vector<EffectChoice>& effects = {});
+Campaign means_of(const Side& side, const Case& question, const std::vector<EffectChoice>& effects);
 
 /// What the loop looks at for what the analytic model lacks, with the case's soil and wheel as declared: of a
 /// measurement the runs that count in the comparison, as they were measured (setpoints, order, position, frame, slip);
 /// of grains or a model means_of. Throws as that.
-Campaign as_campaign(const Side& side, const Case& question, const std::vector<EffectChoice>& effects = {});
+Campaign as_campaign(const Side& side, const Case& question);
 
 /// What is doubtful in models side by side (compare/doubts/doubts.hpp): the analytic ones by `choices`, then grains
 /// where there are any.

@@ -1,6 +1,6 @@
 #include "compare/discrepancy/comparison_page.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -209,15 +209,11 @@ std::string comparison_page(const Comparison& comparison, const ComparisonAbout&
   Page page(about.page.title, fmt::format("{} on {}: the analytic wheel (bekker_wong){} side by side",
                                           scenario.tire.name.empty() ? "A wheel" : scenario.tire.name,
                                           scenario.soil.name, other_sides(comparison)));
-  page.enliven(about.libraries);
-  if (!about.libraries.missing.empty()) {
-    std::string packages;
-    for (const std::string& package : about.libraries.missing) packages += (packages.empty() ? "" : ", ") + package;
+  if (!page.libraries().missing.empty())
     page.raw(
         fmt::format("<p class=\"warning\" role=\"note\">Made without {}: the figures that need it are plain "
                     "drawings. Install it and make the page again.</p>\n",
-                    escaped(packages)));
-  }
+                    escaped(fmt::format("{}", fmt::join(page.libraries().missing, ", ")))));
   add_opening(page, comparison);
   add_curves(page, comparison, speak_of_coarse_grains(about.page.doubts));
   add_channels(page, comparison);

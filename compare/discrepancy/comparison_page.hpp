@@ -6,7 +6,6 @@
 
 #include "compare/discrepancy/summary.hpp"
 #include "compare/replay/replay.hpp"
-#include "compare/report/javascript.hpp"
 #include "compare/report/page.hpp"
 
 namespace soilbin::compare {
@@ -19,7 +18,6 @@ struct ComparisonAbout {
   std::optional<Campaign> looped;                          ///< what the loop looked at
   std::optional<LoopAnswer> loop;
   std::optional<ReplayFile> replay;
-  Libraries libraries;
 };
 
 /// Summary first, each clause with its rows; curves, heat maps, causes, the loop, the replay, all rows, provenance.

@@ -145,8 +145,7 @@ Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_g
     const auto read = [&, c](const SidePoint& point, std::size_t) {
       return point.has[c] ? (*point.result).*channel_views[c].predicted : Estimate{not_a_number, 0.0};
     };
-    add_plot(sheet, comparison, fmt::format("{} [{}]", capital(std::string(channel.title)), channel.unit), members,
-             read, channel.per_si);
+    add_plot(sheet, comparison, heading(channel), members, read, channel.per_si);
     if (!sheet.plots.empty())
       mark_limits(sheet.plots.back(), comparison, members, channel.name == "sinkage", coarse_grains);
   }

@@ -1,6 +1,6 @@
 #include "compare/discrepancy/comparison_tables.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <map>
@@ -12,12 +12,6 @@
 
 namespace soilbin::compare {
 namespace {
-
-std::string listed_doubts(const SidePoint& point) {
-  std::string text;
-  for (const std::string& doubt : point.doubts) text += (text.empty() ? "" : "; ") + doubt;
-  return text;
-}
 
 std::string signed_number(double value, int places) {
   return std::isfinite(value) ? fmt::format("{:+.{}f}", value, places) : "-";
@@ -98,7 +92,7 @@ HtmlTable points_table(const Comparison& comparison, const Side& side) {
                         : "-");
     row.push_back(side.kind == SideKind::analytic ? "-" : std::to_string(point.runs));
     row.push_back(point.scatter[0] > 0.0 ? number(point.scatter[0]) : "-");
-    row.push_back(point.result ? listed_doubts(point) : point.error);
+    row.push_back(point.result ? fmt::format("{}", fmt::join(point.doubts, "; ")) : point.error);
     table.rows.push_back(std::move(row));
   }
   return table;

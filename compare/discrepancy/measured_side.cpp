@@ -30,32 +30,32 @@ void check_wheel(const Tire& measured, const Tire& asked, const std::string& cam
 }
 
 /// A run's condition with its slip as another condition tells it.
-OperatingCondition told_as(OperatingCondition run, const OperatingCondition& asked) {
+OperatingCondition as_defined_by(OperatingCondition run, const OperatingCondition& asked) {
   run.slip = slip_by(run.slip, run.yaw, run.slip_by, asked.slip_by);
   run.slip_by = asked.slip_by;
   return run;
 }
 
 /// How far a run is from a condition, in units of what counts as near; above 1: not near.
-double apart(const OperatingCondition& run, const OperatingCondition& b, const Nearness& near) {
+double apart(const OperatingCondition& run, const OperatingCondition& b) {
   if (run.pass != b.pass) return std::numeric_limits<double>::infinity();
-  const OperatingCondition a = told_as(run, b);
-  return std::max({std::abs(a.load - b.load) / (near.load * b.load), std::abs(a.slip - b.slip) / near.slip,
-                   std::abs(a.longitudinal_incline - b.longitudinal_incline) / near.angle,
-                   std::abs(a.transverse_incline - b.transverse_incline) / near.angle,
-                   std::abs(a.yaw - b.yaw) / near.angle});
+  const OperatingCondition a = as_defined_by(run, b);
+  return std::max({std::abs(a.load - b.load) / (near_load * b.load), std::abs(a.slip - b.slip) / near_slip,
+                   std::abs(a.longitudinal_incline - b.longitudinal_incline) / near_angle,
+                   std::abs(a.transverse_incline - b.transverse_incline) / near_angle,
+                   std::abs(a.yaw - b.yaw) / near_angle});
 }
 
 /// A run with its slip and forces as the condition tells them; without forces that can't be turned.
-Run as_asked(Run run, const OperatingCondition& asked, const Nearness& near) {
+Run as_asked(Run run, const OperatingCondition& asked) {
   const ForceFrame measured = run.at.force_frame;
-  run.at = told_as(run.at, asked);
+  run.at = as_defined_by(run.at, asked);
   run.at.force_frame = asked.force_frame;
   if (measured == asked.force_frame) return run;
   if (run.drawbar_pull && run.lateral_force) {
     const GroundForce force = turned({*run.drawbar_pull, *run.lateral_force}, run.at.yaw, measured, asked.force_frame);
     run.drawbar_pull = force.forward, run.lateral_force = force.left;
-  } else if (std::abs(run.at.yaw) > near.angle) {
+  } else if (std::abs(run.at.yaw) > near_angle) {
     run.drawbar_pull.reset(), run.lateral_force.reset();
   }
   return run;
@@ -68,14 +68,14 @@ struct SortedRuns {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 };
 
-SortedRuns sorted(const Campaign& campaign, const std::vector<OperatingCondition>& conditions, const Nearness& near) {
+SortedRuns sorted(const Campaign& campaign, const std::vector<OperatingCondition>& conditions) {
   SortedRuns sorted;
   for (const Run& run : campaign.runs) {
     const auto nearest = std::min_element(conditions.begin(), conditions.end(), [&](const auto& a, const auto& b) {
-      return apart(run.at, a, near) < apart(run.at, b, near);
+      return apart(run.at, a) < apart(run.at, b);
     });
-    const bool counts = nearest != conditions.end() && apart(run.at, *nearest, near) <= 1.0;
-    sorted.asked.push_back(nearest == conditions.end() ? run : as_asked(run, *nearest, near));
+    const bool counts = nearest != conditions.end() && apart(run.at, *nearest) <= 1.0;
+    sorted.asked.push_back(nearest == conditions.end() ? run : as_asked(run, *nearest));
     sorted.condition.push_back(counts ? static_cast<std::size_t>(nearest - conditions.begin()) : SortedRuns::none);
   }
   return sorted;
@@ -155,10 +155,10 @@ SidePoint measured_point(const std::vector<const Run*>& runs, const OperatingCon
 
 }  // namespace
 
-Side side_of(const Campaign& campaign, const Case& question, const Nearness& near) {
+Side side_of(const Campaign& campaign, const Case& question) {
   check_wheel(campaign.wheel, question.scenario.tire, campaign.name);
   const std::vector<OperatingCondition>& conditions = question.study.conditions;
-  const SortedRuns runs = sorted(campaign, conditions, near);
+  const SortedRuns runs = sorted(campaign, conditions);
   Side side{campaign.name + " (measured)", SideKind::measured, {}};
   side.noise = rerun_noise(setpoints_of(campaign, runs));
   for (std::size_t i = 0; i < conditions.size(); ++i) {
@@ -178,7 +178,7 @@ Side side_of(const Campaign& campaign, const Case& question, const Nearness& nea
     throw InputError(
         fmt::format("no run of campaign '{}' is near a condition of study '{}'\n  hint: within {:.0f} % of the load, "
                     "{:.3g} % slip and {:.2g} deg",
-                    campaign.name, question.study.name, 100 * near.load, 100 * near.slip, near.angle / degree));
+                    campaign.name, question.study.name, 100 * near_load, 100 * near_slip, near_angle / degree));
   return side;
 }
 

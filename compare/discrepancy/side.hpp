@@ -64,16 +64,13 @@ SidePoint combine(const std::vector<const RecordedRun*>& runs);
 Side side_of(const std::string& label, const std::vector<RecordedRun>& runs,
              const std::vector<OperatingCondition>& conditions);
 
-/// How far a measured run may be from a study's condition and still count as one of it.
-struct Nearness {
-  double load = 0.10;   ///< share of the load
-  double slip = 0.025;  ///< [-]
-  double angle = 0.02;  ///< [rad]
-};
+/// How far a measured run may be from a study's condition and still count as one of it: share of the load, slip [-],
+/// angles [rad].
+inline constexpr double near_load = 0.10, near_slip = 0.025, near_angle = 0.02;
 
 /// Measured runs near each condition, averaged. Each run counts at the nearest condition alone. Slips and forces are
 /// those of the study's definitions: slip by its speed, forces in its frame, each turned by the run's own yaw. At a yaw
-/// (beyond Nearness::angle) turning takes both drawbar pull and lateral force; where one wasn't measured the point
+/// (beyond near_angle) turning takes both drawbar pull and lateral force; where one wasn't measured the point
 /// speaks of neither, and a doubt tells so.
 ///
 /// The standard error of a mean of n runs is the noise of one run over sqrt(n); the noise is pooled over all setpoints
@@ -86,6 +83,6 @@ struct Nearness {
 ///
 /// Throws InputError where no run is near any condition, or where the wheels differ: radius, width, height of the lugs
 /// or inflation pressure by over 5 %, their number (where both know it) at all, lugs or air where the other has none.
-Side side_of(const Campaign& campaign, const Case& question, const Nearness& near = {});
+Side side_of(const Campaign& campaign, const Case& question);
 
 }  // namespace soilbin::compare

@@ -45,7 +45,7 @@ std::string counts(const Tally& t) {
 Clause tally_clause(const Comparison& comparison, const Tally& t) {
   const Difference& worst = comparison.differences[t.worst];
   const std::string side = comparison.sides[t.side].label, reference = comparison.sides[t.reference].label;
-  Clause clause{std::string(channel_views[t.channel].title), "", rows_of(comparison, t), {}};
+  Clause clause{std::string(channel_views[t.channel].title), "", {}, rows_of(comparison, t)};
   clause.text = fmt::format("{} against {}: {}. ", side, reference, counts(t));
   const std::string alone =
       t.expected_rms > 0.0 ? fmt::format("; the stated errors alone would give {}", in_unit(t.channel, t.expected_rms))
@@ -60,7 +60,7 @@ Clause tally_clause(const Comparison& comparison, const Tally& t) {
 
 /// How many rows differ at all, and where the sides are widest apart.
 Clause in_short(const Comparison& comparison, const Tally& widest) {
-  Clause clause{"In short", "", {}, {}};
+  Clause clause{"In short", ""};
   std::size_t judged = 0;
   for (std::size_t i = 0; i < comparison.differences.size(); ++i) {
     judged += comparison.differences[i].finding != DifferenceFinding::not_judged;
@@ -95,7 +95,7 @@ constexpr double joint_level = 0.01;  // p below which more is left than noise
 
 Clause joint_clause(const Comparison& comparison, const JointTest& test) {
   const std::string side = comparison.sides[test.side].label, reference = comparison.sides[test.reference].label;
-  Clause clause{"All together", "", {}, {"joint test"}};
+  Clause clause{"All together", "", {"joint test"}};
   const std::string p = test.p_value < 1e-300 ? "p < 1e-300" : fmt::format("p = {:.2g}", test.p_value);
   const std::string errors =
       std::isinf(test.freedom) ? "" : fmt::format("; the noise rests on {:.0f} degrees of freedom", test.freedom);
@@ -126,7 +126,6 @@ std::optional<Clause> soil_clause(const Comparison& comparison) {
                             none_left  ? "What is left is no more than noise"
                             : all_left ? "What is left is small beside it, and yet more than noise"
                                        : "What is left is noise for some sides and more for others"),
-                {},
                 {"joint test"}};
 }
 
@@ -156,7 +155,6 @@ std::optional<Clause> grains_clause(const Comparison& comparison) {
                             "points that the study of grain sizes reaches).",
                             1000 * mean_diameter(*scenario.soil.granular), sum > 0 ? "large" : "small", percent(rms),
                             told, with_result),
-                {},
                 {"what is doubtful"}};
 }
 
@@ -176,7 +174,6 @@ Clause chance_clause(const Comparison& comparison) {
           fmt::format("A row counts as a difference beyond two standard errors of both sides together and beyond the "
                       "scatter of one run.{} Of {} rows about {:.0f} would pass the errors by chance alone.",
                       student, counted, std::ceil(chance_level * static_cast<double>(counted))),
-          {},
           {"rule"}};
 }
 
@@ -197,7 +194,6 @@ std::vector<Clause> doubt_clauses(const Comparison& comparison) {
     clauses.push_back({"Limits",
                        fmt::format("{}: {} of {} points carry a doubt ({}{}).", side.label, doubted, with_result, first,
                                    told.size() > 1 ? fmt::format("; and {} more, in the table", told.size() - 1) : ""),
-                       {},
                        {"table of points"}});
   }
   return clauses;
@@ -225,14 +221,10 @@ std::vector<Clause> cause_clauses(const Comparison& comparison) {
                      in_words(comparison.question.study.conditions[worst.condition]), comparison.sides[t.side].label,
                      comparison.sides[t.reference].label, in_unit(t.channel, std::abs(worst.difference)),
                      part_in_words(part->name), number(part->side), number(part->reference)),
-         {t.worst},
-         {"budget"}});
+         {"budget"},
+         {t.worst}});
   }
   return clauses;
-}
-
-std::string in_unit(std::size_t channel, double si) {
-  return fmt::format("{} {}", number(si * channel_views[channel].per_si), channel_views[channel].unit);
 }
 
 std::vector<const Tally*> widest_first(const Comparison& comparison) {
@@ -253,7 +245,7 @@ std::vector<Clause> opening(const Comparison& comparison) {
 
 std::vector<Clause> missing_clauses(const LoopAnswer& loop) {
   std::vector<Clause> clauses;
-  for (const auto& [about, text] : headline(loop)) clauses.push_back({about, text, {}, {"the loop"}});
+  for (const auto& [about, text] : headline(loop)) clauses.push_back({about, text, {"the loop"}});
   return clauses;
 }
 
@@ -263,7 +255,7 @@ std::vector<Clause> limits_of_the_comparison(const Comparison& comparison) {
                                   [](const Difference& d) { return d.finding != DifferenceFinding::not_judged; });
   if (judged) clauses.push_back(chance_clause(comparison));
   for (Clause& clause : doubt_clauses(comparison)) clauses.push_back(std::move(clause));
-  for (const std::string& gap : comparison.not_compared) clauses.push_back({"not compared", gap + ".", {}, {}});
+  for (const std::string& gap : comparison.not_compared) clauses.push_back({"not compared", gap + "."});
   return clauses;
 }
 
@@ -275,7 +267,7 @@ std::vector<Clause> summary(const Comparison& comparison, const LoopAnswer* loop
   if (loop != nullptr) {
     std::string text = verdict_sentence(*loop);
     for (const std::string& sentence : explanation(*loop)) text += " " + sentence;
-    clauses.push_back({"what is missing", text, {}, {"the loop"}});
+    clauses.push_back({"what is missing", text, {"the loop"}});
   }
   for (Clause& clause : limits_of_the_comparison(comparison)) clauses.push_back(std::move(clause));
   return clauses;

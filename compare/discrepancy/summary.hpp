@@ -11,10 +11,10 @@ namespace soilbin::compare {
 
 /// A sentence and what stands behind it.
 struct Clause {
-  std::string about;                  ///< "drawbar pull"; "" for what concerns all
-  std::string text;                   ///< whole sentences
-  std::vector<std::size_t> rows;      ///< of Comparison::differences
-  std::vector<std::string> evidence;  ///< what is not a row: "joint test", "budget", "the loop"
+  std::string about;                    ///< "drawbar pull"; "" for what concerns all
+  std::string text;                     ///< whole sentences
+  std::vector<std::string> evidence{};  ///< what is not a row: "joint test", "budget", "the loop"
+  std::vector<std::size_t> rows{};      ///< of Comparison::differences
 };
 
 /// The lines that a page opens with: how many numbers differ and where the sides are widest apart; how much of that a
@@ -40,8 +40,5 @@ std::string measure_of(const Tally& tally);
 /// The opening; then how far each pair is apart, channel by channel, largest first; what of it counts; where it comes
 /// from; what the loop, where it was run, says is missing; and what the comparison cannot tell.
 std::vector<Clause> summary(const Comparison& comparison, const LoopAnswer* loop = nullptr);
-
-/// "12.3 N", "4.1 mm" of a channel's number in SI.
-std::string in_unit(std::size_t channel, double si);
 
 }  // namespace soilbin::compare

@@ -129,11 +129,6 @@ Warnings doubts_of_answers(const Scenario& scenario, const std::vector<ModelAnsw
   return once_each(warnings);
 }
 
-bool asks(const Case& question, ModelKind kind) {
-  const std::vector<ModelChoice>& models = question.study.models;
-  return std::any_of(models.begin(), models.end(), [&](const ModelChoice& choice) { return choice.model == kind; });
-}
-
 /// A drive asks the analytic wheel, with effects of its own.
 Case as_study(Case question) {
   question.study.models = {{ModelKind::bekker_wong, question.drive->effects, ""}};
@@ -209,11 +204,11 @@ Warnings doubts_but_unheard(const Case& question, const std::vector<ModelAnswers
   const Scenario& scenario = question.scenario;
   const bool open = answered == Answered::no;
   Warnings warnings;
-  if (scenario.soil.semi_empirical && (open || asks(question, ModelKind::bekker_wong)))
+  if (scenario.soil.semi_empirical && (open || asks(question.study, ModelKind::bekker_wong)))
     append(warnings, doubts(*scenario.soil.semi_empirical));
   add_wheel_doubts(scenario.tire, scenario.soil.semi_empirical, warnings);
   append(warnings, doubts_of_answers(scenario, study, open));
-  if (open || asks(question, ModelKind::dem)) append(warnings, grain_doubts(scenario, study));
+  if (open || asks(question.study, ModelKind::dem)) append(warnings, grain_doubts(scenario, study));
   for (const ModelAnswers& model : study) append(warnings, model.doubts);
   return warnings;
 }

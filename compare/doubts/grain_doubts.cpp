@@ -31,17 +31,17 @@ void each_answer_for_grains(const std::vector<ModelAnswers>& study, const Use& u
 /// By how much coarse grains change an answer: where the study of it tells, at the condition where that is most.
 std::string by_how_much(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
   std::optional<ResolutionError> told;
-  OperatingCondition told_at;
+  OperatingCondition where;
   std::string beyond;
   each_answer_for_grains(study, [&](const Answer& answer, SinkageOf whose) {
     ResolutionError error = resolution_error(scenario, answer.at, answer.result->sinkage.value, whose);
     if (!error.known() && beyond.empty()) beyond = error.beyond;
     if (!error.known() || (told && std::abs(error.drawbar_pull.value) <= std::abs(told->drawbar_pull.value))) return;
-    told = std::move(error), told_at = answer.at;
+    told = std::move(error), where = answer.at;
   });
   if (told)
     return fmt::format(": they are estimated to change {} against infinitely fine ones ({})", in_words(*told),
-                       in_words(told_at));
+                       in_words(where));
   return beyond.empty() ? "" : fmt::format(": by how much that changes the answer is not known, since {}", beyond);
 }
 

@@ -1,6 +1,6 @@
 #include "compare/doubts/unheard.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
@@ -53,9 +53,7 @@ std::string hearing_effects(const std::string& key) {
   std::vector<std::string> ids;
   for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue())
     if (hears_of(form, key) && (ids.empty() || ids.back() != form.id)) ids.push_back(form.id);
-  std::string words;
-  for (const std::string& id : ids) words += (words.empty() ? "effect " : " or ") + id;
-  return words;
+  return ids.empty() ? "" : fmt::format("effect {}", fmt::join(ids, " or "));
 }
 
 bool hears(const ModelChoice& choice, const Declared& declared) {

@@ -132,10 +132,7 @@ void refuse_a_differing_pair(const std::filesystem::path& file, double half_step
 
 RunOnce run_once(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
                  const RunKeeping& keeping) {
-  RunOnce run = [runs = std::make_shared<WatchedRuns>(settings, keeping)](
-                    const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
-    return (*runs)(scenario, at, packing);
-  };
+  RunOnce run = [runs = std::make_shared<WatchedRuns>(settings, keeping)](const auto&... of) { return (*runs)(of...); };
   if (keeping.record.empty()) return run;
   run = kept_runs(keeping, settings, question, effects, std::move(run));
   if (keeping.known.empty()) return run;
@@ -171,9 +168,8 @@ void make_runs(const std::vector<AskedRun>& list, const dem::DemSettings& settin
   const std::vector<Record> known = read_known(keeping, inputs_of(settings, question.scenario));
   const dem::DemSettings half = at_half_step(settings, question.scenario);
   const RunOnce whole_step = run_once(settings, question, effects, keeping);
-  RunOnce half_runs = [runs = std::make_shared<SoilBinRuns>(half, keeping.source)](
-                          const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
-    return (*runs)(scenario, at, packing);
+  RunOnce half_runs = [runs = std::make_shared<SoilBinRuns>(half, keeping.source)](const auto&... of) {
+    return (*runs)(of...);
   };
   const RunOnce half_step = kept_runs(keeping, settings, question, effects, std::move(half_runs), &Record::half_step);
   std::size_t place = 0;
@@ -204,9 +200,7 @@ std::unique_ptr<const Model> recorded_soil_bin(Record record, const Scenario& sc
 
 std::optional<dem::StepCriteria> step_of(dem::DemSettings settings, const Case& question,
                                          const std::filesystem::path& record) {
-  const auto& models = question.study.models;
-  if (std::none_of(models.begin(), models.end(), [](const ModelChoice& c) { return c.model == ModelKind::dem; }))
-    return std::nullopt;
+  if (!asks(question.study, ModelKind::dem)) return std::nullopt;
   if (!record.empty())
     for (const auto& [name, value] : read_record(record).inputs)
       if (name == "rig.time_step") settings.rig.dt = read_number(value).value_or(0.0);

@@ -304,12 +304,10 @@ HeatMap heat_map_of(const MapStory& story, double lug_height, double slip) {
   return map;
 }
 
-std::string failure_map_page(const MapStory& story, const PageAbout& about, const std::string& resolved_case,
-                             const Libraries& libraries) {
+std::string failure_map_page(const MapStory& story, const PageAbout& about, const std::string& resolved_case) {
   Page page("Where may I trust the quick estimate?",
             fmt::format("{}: the analytic wheel against grains, {} on {}", about.title, story.map.scenario.tire.name,
                         in_words(story.map.scenario.soil)));
-  page.enliven(libraries);
   page.summary(opening(story));
   page.raw("<span id=\"map\"></span>");
   page.raw(sliding_map_html(

@@ -43,8 +43,7 @@ HeatMap heat_map_of(const MapStory& story, double lug_height, double slip);
 
 /// One HTML page. resolved_case: of the study whose wheel, soil and bin these are.
 /// `about.title` stands in the page's subtitle: the title is the question that it answers.
-std::string failure_map_page(const MapStory& story, const PageAbout& about, const std::string& resolved_case,
-                             const Libraries& libraries = {});
+std::string failure_map_page(const MapStory& story, const PageAbout& about, const std::string& resolved_case);
 
 /// soilbin-failure-map/1, in SI.
 nlohmann::ordered_json failure_map_json(const MapStory& story);

@@ -1,4 +1,6 @@
 // LoopAnswer in the contract's form.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,23 +13,21 @@
 
 namespace soilbin::compare {
 
-using nlohmann::ordered_json;
-
 namespace {
 
 /// What these forms take for values that the wheel does not declare [SI].
-ordered_json presumes_json(const std::vector<const bekker_wong::EffectForm*>& forms, const Tire& wheel) {
-  ordered_json list = ordered_json::array();
+Json presumes_json(const std::vector<const bekker_wong::EffectForm*>& forms, const Tire& wheel) {
+  Json list = Json::array();
   for (const bekker_wong::EffectForm* form : forms)
     for (const bekker_wong::Presumed& p : bekker_wong::presumed(*form, wheel))
       list.push_back({{"effect", form->id}, {"key", p.key}, {"value", p.value}, {"words", p.words}});
   return list;
 }
 
-ordered_json effects_json(const std::vector<AcceptedEffect>& effects, const Tire& wheel) {
-  ordered_json list = ordered_json::array();
+Json effects_json(const std::vector<AcceptedEffect>& effects, const Tire& wheel) {
+  Json list = Json::array();
   for (const AcceptedEffect& effect : effects) {
-    ordered_json parameters = ordered_json::object(), ci = ordered_json::object(), bound = ordered_json::array();
+    Json parameters = Json::object(), ci = Json::object(), bound = Json::array();
     for (const auto& [name, value] : effect.choice.parameters) parameters[name] = finite(value);
     for (std::size_t i = 0; i < effect.fitted.size(); ++i) {
       ci[effect.fitted[i]] = {finite(effect.ci95[i].first), finite(effect.ci95[i].second)};
@@ -46,8 +46,8 @@ ordered_json effects_json(const std::vector<AcceptedEffect>& effects, const Tire
 }
 
 /// What leaving the accepted effects out does to the soil's values [SI].
-ordered_json soil_json(const LoopAnswer& answer) {
-  ordered_json soil = ordered_json::object();
+Json soil_json(const LoopAnswer& answer) {
+  Json soil = Json::object();
   for (const SoilShift& s : answer.soil_shifts)
     soil[s.name] = {{"value", finite(s.with.value)},
                     {"sd", finite(s.with.std_error)},
@@ -56,13 +56,13 @@ ordered_json soil_json(const LoopAnswer& answer) {
   return soil;
 }
 
-ordered_json error_json(const LoopAnswer& answer) {
-  ordered_json error = ordered_json::object();
+Json error_json(const LoopAnswer& answer) {
+  Json error = Json::object();
   for (int c = 0; c < channel_count; ++c) {
     const ChannelView& channel = channel_views[c];
     const std::string name(channel.name);
     const ErrorPair& e = answer.validation.channels[c];
-    error[name] = ordered_json::object();
+    error[name] = Json::object();
     if (e.cells == 0) continue;
     error[name] = {{"unit", channel.si_unit},
                    {"before", finite(e.before)},
@@ -72,7 +72,7 @@ ordered_json error_json(const LoopAnswer& answer) {
     if (answer.learned) error[name]["without_learned"] = finite(e.named);
   }
   const ErrorPair& all = answer.validation.overall;
-  error["overall"] = ordered_json::object();
+  error["overall"] = Json::object();
   if (all.cells > 0)
     error["overall"] = {{"unit", "sigma"},
                         {"before", finite(all.before)},
@@ -85,24 +85,21 @@ ordered_json error_json(const LoopAnswer& answer) {
 }
 
 /// A condition by the names and units of the campaign's columns.
-ordered_json condition_json(const NextTest& next) {
-  ordered_json at = ordered_json::object();
+Json condition_json(const NextTest& next) {
+  Json at = Json::object();
   for (const std::string& name : next.quantities) {
     const ConditionView& view = condition_view(name);
     const double value = view.get(next.at) * per_unit(std::string(view.column_unit));
-    if (std::isfinite(value)) at[view.column] = view.whole ? ordered_json(std::lround(value)) : ordered_json(value);
+    if (std::isfinite(value)) at[view.column] = view.whole ? Json(std::lround(value)) : Json(value);
   }
   return at;
 }
 
-ordered_json next_json(const LoopAnswer& answer) {
+Json next_json(const LoopAnswer& answer) {
   if (!answer.next) return nullptr;
-  ordered_json separates = ordered_json::array();
-  for (const auto& ids : answer.next->separates) {
-    std::string joined;
-    for (const std::string& id : ids) joined += (joined.empty() ? "" : "+") + id;
-    separates.push_back(joined.empty() ? "base" : joined);
-  }
+  Json separates = Json::array();
+  for (const auto& ids : answer.next->separates)
+    separates.push_back(ids.empty() ? "base" : fmt::format("{}", fmt::join(ids, "+")));
   return {{"condition", condition_json(*answer.next)},
           {"separates", separates},
           {"runs", answer.next->runs},
@@ -110,8 +107,8 @@ ordered_json next_json(const LoopAnswer& answer) {
 }
 
 /// Sets of effects with their shares, and what their best forms presume of the wheel.
-ordered_json sets_json(const Attribution& found, const std::vector<Weighted>& sets, const Tire& wheel) {
-  ordered_json list = ordered_json::array();
+Json sets_json(const Attribution& found, const std::vector<Weighted>& sets, const Tire& wheel) {
+  Json list = Json::array();
   for (const Weighted& w : sets) {
     std::vector<const bekker_wong::EffectForm*> forms;
     for (const Term& term : found.candidates.models[w.best_candidate].terms()) forms.push_back(term.form);
@@ -121,10 +118,10 @@ ordered_json sets_json(const Attribution& found, const std::vector<Weighted>& se
 }
 
 /// What stands out where the base model may be off by itself, and whether that decides what else is told.
-ordered_json model_discrepancy_json(const LoopAnswer& answer) {
+Json model_discrepancy_json(const LoopAnswer& answer) {
   const Attribution* found = answer.with_model_discrepancy();
   if (!found) return nullptr;
-  ordered_json effects = ordered_json::array();
+  Json effects = Json::array();
   if (found->candidates.best) effects = found->best().ids;
   return {{"effects", effects},
           {"p_value", finite(found->signatures.p_value)},
@@ -134,11 +131,11 @@ ordered_json model_discrepancy_json(const LoopAnswer& answer) {
 
 /// What the data can't tell apart: the sets of the reading that decides, with their shares, then those that only the
 /// other one leaves, without.
-ordered_json ambiguity_json(const LoopAnswer& answer) {
-  if (answer.ambiguity_set.empty()) return ordered_json::array();
-  ordered_json all = sets_json(answer.found(), answer.ambiguity_set, answer.wheel);
+Json ambiguity_json(const LoopAnswer& answer) {
+  if (answer.ambiguity_set.empty()) return Json::array();
+  Json all = sets_json(answer.found(), answer.ambiguity_set, answer.wheel);
   if (answer.noted_sets.empty()) return all;
-  for (ordered_json& set : sets_json(answer.second->note, answer.noted_sets, answer.wheel)) {
+  for (Json& set : sets_json(answer.second->note, answer.noted_sets, answer.wheel)) {
     set["of_other_reading"] = true;
     all.push_back(std::move(set));
   }
@@ -146,9 +143,9 @@ ordered_json ambiguity_json(const LoopAnswer& answer) {
 }
 
 /// A formula that does as well as the learned effect.
-ordered_json formula_json(const LoopAnswer& answer) {
+Json formula_json(const LoopAnswer& answer) {
   if (!answer.formula) return nullptr;
-  ordered_json terms = ordered_json::array();
+  Json terms = Json::array();
   for (std::size_t k = 0; k < answer.formula->terms.size(); ++k)
     terms.push_back({{"term", answer.formula->terms[k].text},
                      {"weight", finite(answer.formula->weights[k].value)},
@@ -161,11 +158,11 @@ ordered_json formula_json(const LoopAnswer& answer) {
 }
 
 /// The learned effect: where it joins the model, of which conditions, the ranges where it holds [SI].
-ordered_json learned_json(const LoopAnswer& answer) {
+Json learned_json(const LoopAnswer& answer) {
   if (!answer.learned) return nullptr;
   const EffectChoice& choice = answer.stand_in.back().choice;
   const bekker_wong::EffectForm& form = bekker_wong::find_form(choice);
-  ordered_json valid = ordered_json::object();
+  Json valid = Json::object();
   for (const bekker_wong::LearnedVariable& variable : bekker_wong::learned_function(form).variables) {
     const std::string name(variable.name);
     valid[name] = {finite(choice.parameters.at(name + "_from")), finite(choice.parameters.at(name + "_to"))};
@@ -180,8 +177,8 @@ ordered_json learned_json(const LoopAnswer& answer) {
 }
 
 /// What the residual depends on, and how many of these may be false.
-ordered_json depends_json(const LoopAnswer& answer) {
-  ordered_json list = ordered_json::array();
+Json depends_json(const LoopAnswer& answer) {
+  Json list = Json::array();
   for (const Dependence& d : sure_dependences(answer))
     list.push_back({{"channel", channel_views[d.channel].name},
                     {"variable", d.variable},
@@ -191,20 +188,20 @@ ordered_json depends_json(const LoopAnswer& answer) {
   return list;
 }
 
-ordered_json worse_json(const LoopAnswer& answer) {
-  ordered_json names = ordered_json::array();
+Json worse_json(const LoopAnswer& answer) {
+  Json names = Json::array();
   for (const int channel : worse_channels(answer)) names.push_back(channel_views[channel].name);
   return names;
 }
 
-ordered_json with_outliers_json(const LoopAnswer& answer) {
+Json with_outliers_json(const LoopAnswer& answer) {
   if (!answer.with_outliers) return nullptr;
   return {{"verdict", word(answer.with_outliers->verdict)}, {"effects", answer.with_outliers->effects}};
 }
 
 }  // namespace
 
-ordered_json to_json(const LoopAnswer& answer) {
+Json to_json(const LoopAnswer& answer) {
   return {{"format", "soilbin-loop/1"},
           {"campaign", answer.campaign},
           {"verdict", word(answer.verdict)},
@@ -224,18 +221,18 @@ ordered_json to_json(const LoopAnswer& answer) {
           {"beside_inadequacy", model_discrepancy_json(answer)}};
 }
 
-ordered_json details_json(const LoopAnswer& answer) {
+Json details_json(const LoopAnswer& answer) {
   if (!answer.judgement)
     return {{"p_value", 1.0}, {"values", 0},         {"chi2_base", 0.0},         {"parameters_base", 0},
             {"sets", {}},     {"unnamed_gain", 0.0}, {"error_smooth_term", 0.0}, {"folds", {}}};
   const Attribution& found = answer.found();
   const Candidates& all = found.candidates;
   const ResidualTests &before = answer.judgement->before, after = answer.choice().after;
-  ordered_json sets = ordered_json::array();
+  Json sets = Json::array();
   for (const Weighted& w : all.sets) {
     const CandidateModel& candidate = all.models[w.best_candidate];
     const std::vector<std::string> in_order = forms_in_order(candidate);
-    ordered_json forms = ordered_json::array();
+    Json forms = Json::array();
     auto form = in_order.begin();
     for (const std::string& effect : candidate.ids) forms.push_back(effect + "/" + *form++);
     const auto listed = std::find_if(answer.ambiguity_set.begin(), answer.ambiguity_set.end(),

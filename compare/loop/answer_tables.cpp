@@ -1,5 +1,5 @@
 // The tables of the loop's answer, for its page and for a terminal.
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +14,6 @@
 namespace soilbin::compare {
 namespace {
 
-std::string heading_of(const ConditionView& view) {
-  return view.unit.empty() ? std::string(view.title) : fmt::format("{} [{}]", view.title, view.unit);
-}
-
 /// "1 : 132"; what is beyond a million is only counted so, its number in grey.
 MarkedCell odds_to_the_first(double behind) {
   constexpr double million = 1e6;
@@ -25,12 +21,6 @@ MarkedCell odds_to_the_first(double behind) {
   if (behind <= 0) return {.text = number(odds) + " : 1"};
   if (odds > million) return {.text = "< 1 : 1,000,000", .note = fmt::format("1 : {:.2g}", odds)};
   return {.text = "1 : " + number(odds)};
-}
-
-std::string all_forms(const CandidateModel& candidate) {
-  std::string forms;
-  for (const std::string& form : forms_in_order(candidate)) forms += (forms.empty() ? "" : " + ") + form;
-  return forms;
 }
 
 Tone tone_of(const ErrorPair& error) {
@@ -52,7 +42,7 @@ MarkedTable next_run_table(const LoopAnswer& answer) {
     const ConditionView& view = condition_view(name);
     const double value = view.get(next.at);
     if (!std::isfinite(value)) continue;
-    table.header.push_back(heading_of(view));
+    table.header.push_back(heading(view));
     const bool beyond = std::find(next.beyond.begin(), next.beyond.end(), name) != next.beyond.end();
     table.rows[0].push_back({.text = setting(view.per_si * value), .note = beyond ? "beyond what was run" : ""});
   }
@@ -73,15 +63,12 @@ MarkedTable error_table(const LoopAnswer& answer) {
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const ErrorPair& e = answer.validation.channels[c];
     if (e.cells == 0) continue;
-    const auto in_unit = [&](double si) {
-      return fmt::format("{} {}", number(si * channel_views[c].per_si), channel_views[c].unit);
-    };
     table.rows.push_back({{.text = std::string(channel_views[c].title)},
                           {.text = std::to_string(e.cells)},
-                          {.text = in_unit(e.before)},
-                          {.text = in_unit(e.after), .tone = tone_of(e)},
+                          {.text = in_unit(c, e.before)},
+                          {.text = in_unit(c, e.after), .tone = tone_of(e)},
                           {.text = change_of(e)},
-                          {.text = in_unit(e.noise_floor)}});
+                          {.text = in_unit(c, e.noise_floor)}});
   }
   const ErrorPair& all = answer.validation.overall;
   if (all.cells > 0)
@@ -109,7 +96,7 @@ MarkedTable candidates_table(const LoopAnswer& answer) {
     const CandidateModel& candidate = answer.found().candidates.models[w.best_candidate];
     table.rows.push_back(
         {{.text = named_effects(w.ids), .note = joined(w.ids) == named_effects(w.ids) ? "" : joined(w.ids)},
-         {.text = all_forms(candidate)},
+         {.text = fmt::format("{}", fmt::join(forms_in_order(candidate), " + "))},
          {.text = i < answer.ambiguity_set.size() ? share_words(w.weight) : "-"},
          i == 0 ? MarkedCell{.text = "-"} : odds_to_the_first(sets.front()->log_evidence - w.log_evidence),
          {.text = number(candidate.fit().chi2)},

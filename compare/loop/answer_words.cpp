@@ -1,6 +1,6 @@
 #include "compare/loop/answer_words.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -98,9 +98,7 @@ std::string sets_with_shares(const std::vector<Weighted>& sets, std::size_t firs
     else
       said.push_back(fmt::format("{} ({})", named_effects(sets[i].ids), share_words(sets[i].weight)));
   if (unsaid > 0) said.push_back(fmt::format("{} more of less than {:.0f} % each", unsaid, std::ceil(100 * least)));
-  std::string text;
-  for (std::size_t i = 0; i < said.size(); ++i) text += (i == 0 ? "" : "; ") + said[i];
-  return text;
+  return fmt::format("{}", fmt::join(said, "; "));
 }
 
 /// Why the first set is taken where another one has the larger share; "" where none has.
@@ -288,10 +286,8 @@ std::string effect_sentence(const AcceptedEffect& effect) {
                                      number(scale * effect.ci95[i].second),
                                      effect.at_bound[i] ? "; at its bound: these data do not determine it" : ""));
   }
-  std::string text =
-      fmt::format("{} ({}): ", capital(std::string(effect_title(effect.choice.id).name)), spaced(effect.choice.form));
-  for (std::size_t i = 0; i < parameters.size(); ++i) text += (i == 0 ? "" : "; ") + parameters[i];
-  return text + ".";
+  return fmt::format("{} ({}): {}.", capital(std::string(effect_title(effect.choice.id).name)),
+                     spaced(effect.choice.form), fmt::join(parameters, "; "));
 }
 
 // Notes.
@@ -307,10 +303,7 @@ std::string note_on_the_other_attribution(const LoopAnswer& answer) {
     for (const Weighted& w : answer.noted_sets)
       if (w.ids != best) others.push_back(joined(w.ids));
   }
-  if (!others.empty()) {
-    names += "; these compete with it: ";
-    for (std::size_t i = 0; i < others.size(); ++i) names += (i == 0 ? "" : ", ") + others[i];
-  }
+  if (!others.empty()) names += fmt::format("; these compete with it: {}", fmt::join(others, ", "));
   const char* other = answer.second->decides
                           ? "a base model that is taken as exact"
                           : "a base model that may itself be off by any smooth function of load and slip";
@@ -351,9 +344,7 @@ std::string outlier_sentence(const LoopAnswer& answer) {
 bool takes_effects(const LoopAnswer& answer) { return !answer.effects.empty() || !answer.stand_in.empty(); }
 
 std::string joined(const std::set<std::string>& ids) {
-  std::string text;
-  for (const std::string& id : ids) text += (text.empty() ? "" : " + ") + id;
-  return text.empty() ? "no effect" : text;
+  return ids.empty() ? "no effect" : fmt::format("{}", fmt::join(ids, " + "));
 }
 
 std::string named_effects(const std::set<std::string>& ids) {
@@ -434,9 +425,8 @@ std::vector<std::pair<std::string, std::string>> headline(const LoopAnswer& answ
   if (answer.validation.overall.cells > 0)
     parts.emplace_back(takes_effects(answer) ? "What it does to the error" : "How large the error is",
                        error_sentence(answer));
-  std::string next;
-  for (const std::string& sentence : what_next(answer)) next += (next.empty() ? "" : " ") + sentence;
-  if (!next.empty()) parts.emplace_back("What to measure next", next);
+  if (const std::vector<std::string> next = what_next(answer); !next.empty())
+    parts.emplace_back("What to measure next", fmt::format("{}", fmt::join(next, " ")));
   return parts;
 }
 
@@ -532,17 +522,12 @@ std::vector<int> worse_channels(const LoopAnswer& answer) {
 }
 
 std::string held_out_words(const CrossValidation& validation) {
-  const auto listed = [&](bool (*moves)(const ErrorPair&)) {
-    std::string text;
-    for (const std::string& channel : channels_that(moves, validation)) text += (text.empty() ? "" : ", ") + channel;
-    return text;
-  };
-  const std::string better = listed(falls), worse = listed(rises);
+  const std::vector<std::string> better = channels_that(falls, validation), worse = channels_that(rises, validation);
   std::string text =
       fmt::format("held-out error {} by {:.2g} +- {:.2g} sigma^2 a value", validation.gain < 0 ? "rises" : "falls",
                   std::abs(validation.gain), validation.gain_error);
-  if (!better.empty()) text += "; predicted better: " + better;
-  if (!worse.empty()) text += "; predicted worse: " + worse;
+  if (!better.empty()) text += fmt::format("; predicted better: {}", fmt::join(better, ", "));
+  if (!worse.empty()) text += fmt::format("; predicted worse: {}", fmt::join(worse, ", "));
   return text;
 }
 

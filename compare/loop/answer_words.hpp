@@ -93,9 +93,8 @@ MarkedTable parameters_table(const LoopAnswer& answer);
 HtmlTable soil_table(const LoopAnswer& answer);
 
 /// The report: headline, the next run, measured points with the model before and after, tables, doubts, and folded what
-/// stands behind it. `doubts`: in the campaign (compare/doubts/doubts.hpp). `command`: how to repeat it. `libraries`:
-/// what makes figures interactive.
+/// stands behind it. `doubts`: in the campaign (compare/doubts/doubts.hpp). `command`: how to repeat it.
 std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const std::vector<std::string>& doubts,
-                      const std::string& command, const Libraries& libraries = {});
+                      const std::string& command);
 
 }  // namespace soilbin::compare

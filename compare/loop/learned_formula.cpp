@@ -106,7 +106,7 @@ std::vector<Places> wider(const std::vector<Places>& some, const Library& librar
 }
 
 /// Terms that are told in every run.
-std::vector<FormulaTerm> told_terms(const Term& learned, const Observations& observations) {
+std::vector<FormulaTerm> candidate_terms(const Term& learned, const Observations& observations) {
   std::vector<FormulaTerm> told =
       bekker_wong::formula_terms(bekker_wong::learned_function(*learned.form), learned.defaults);
   std::erase_if(told, [&](const FormulaTerm& term) { return !(usual_size(term, observations) > 0.0); });
@@ -135,7 +135,7 @@ std::optional<LearnedFormula> tried(const FittedModel& beside, const LearnedEffe
 std::optional<LearnedFormula> find_formula(const FittedModel& beside, const LearnedEffect& learned,
                                            const AttributionOptions& options) {
   const Observations& observations = beside.data().observations;
-  const std::vector<FormulaTerm> all = told_terms(learned.candidate.terms().back(), observations);
+  const std::vector<FormulaTerm> all = candidate_terms(learned.candidate.terms().back(), observations);
   const EffectForm whole = bekker_wong::formula_form(*learned.candidate.terms().back().form, all);
   const auto columns = columns_of_weights(beside, formula_term(whole, all, observations, 1.0));
   if (!columns) return std::nullopt;

@@ -31,15 +31,6 @@ bool has_cells(const Observations& observations, int channel) {
                      [&](const Cell& c) { return c.channel == channel; });
 }
 
-std::string axis_title(std::string_view variable) {
-  const ConditionView& view = condition_view(variable);
-  return view.unit.empty() ? std::string(view.title) : fmt::format("{} [{}]", view.title, view.unit);
-}
-
-std::string channel_title(int channel) {
-  return fmt::format("{} [{}]", capital(std::string(channel_views[channel].title)), channel_views[channel].unit);
-}
-
 /// (measured - predicted)/sd of each cell.
 Eigen::VectorXd standardised(const LoopAnswer& answer, const Eigen::VectorXd& difference, const Eigen::VectorXd& at) {
   Eigen::VectorXd r = difference;
@@ -56,18 +47,33 @@ Eigen::VectorXd change_by_effects(const LoopAnswer& answer) {
   return standardised(answer, answer.model().fit().prediction - base, base);
 }
 
-/// Cells of a channel over a covariate, sorted by it.
-Series over(const Observations& observations, const Eigen::VectorXd& y, const Covariate& x, int channel,
-            const std::string& label, int color) {
-  Series series{.label = label, .mark = Mark::points, .color = color};
-  const double per_si = condition_view(x.name).per_si;
-  std::vector<std::pair<double, double>> points;
-  for (std::size_t i = 0; i < observations.cells.size(); ++i)
-    if (observations.cells[i].channel == channel)
-      points.emplace_back(per_si * x.values[observations.cells[i].row], y[i]);
-  std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [at, value] : points) series.x.push_back(at), series.y.push_back(value);
-  return series;
+/// A number for each cell [sd of the noise], and how it is drawn.
+struct DrawnValues {
+  const char* label;
+  int color;
+  Eigen::VectorXd values;
+};
+
+/// Values over a covariate, sorted by it: a panel for each channel.
+Sheet over(const Observations& observations, const Covariate& x, std::string title,
+           const std::vector<DrawnValues>& drawn) {
+  const ConditionView& view = condition_view(x.name);
+  Sheet sheet{std::move(title)};
+  for (int channel = 0; channel < channel_count; ++channel) {
+    if (!has_cells(observations, channel)) continue;
+    Plot plot{capital(std::string(channel_views[channel].title)) + " [sd of the noise]", {heading(view)}};
+    for (const auto& [label, color, values] : drawn) {
+      std::vector<std::pair<double, double>> points;
+      for (std::size_t i = 0; i < observations.cells.size(); ++i)
+        if (observations.cells[i].channel == channel)
+          points.emplace_back(view.per_si * x.values[observations.cells[i].row], values[i]);
+      std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      Series& series = plot.series.emplace_back(Series{.label = label, .mark = Mark::points, .color = color});
+      for (const auto& [at, value] : points) series.x.push_back(at), series.y.push_back(value);
+    }
+    sheet.plots.push_back(std::move(plot));
+  }
+  return sheet;
 }
 
 /// Where each row is drawn along a variable. Rows of few levels are spread about theirs, so that they can be seen.
@@ -143,13 +149,9 @@ Sheet curve_sheet_of(const LoopAnswer& answer, const std::vector<int>& rows) {
       rows.begin(), rows.end(), [&](int a, int b) { return observations.rows[a].slip < observations.rows[b].slip; });
   const double from = observations.rows[*low].slip, to = observations.rows[*high].slip;
   const FittedModel* after = model_after(answer);
-  const auto before_curves = along(answer.found().base, middle, from, to,
-                                   {.label = after ? "model before" : "model",
-                                    .x = {},
-                                    .y = {},
-                                    .error = {},
-                                    .color = before_color,
-                                    .dash = after ? 1 : 0});
+  const auto before_curves =
+      along(answer.found().base, middle, from, to,
+            {.label = after ? "model before" : "model", .color = before_color, .dash = after ? 1 : 0});
   const auto after_curves = after ? along(*after, middle, from, to,
                                           {.label = "model after", .x = {}, .y = {}, .error = {}, .color = after_color})
                                   : std::vector<Series>();
@@ -157,7 +159,7 @@ Sheet curve_sheet_of(const LoopAnswer& answer, const std::vector<int>& rows) {
   for (int c = 0; c < channel_count; ++c) {
     Series measured = measured_on(answer, rows, c);
     if (measured.x.empty()) continue;
-    Plot plot{channel_title(c), {axis_title("slip")}};
+    Plot plot{heading(channel_views[c]), {heading(condition_view("slip"))}};
     plot.series = {std::move(measured), before_curves[c]};
     if (after) plot.series.push_back(after_curves[c]);
     sheet.plots.push_back(std::move(plot));
@@ -217,9 +219,9 @@ Sheet gap_sheet(const LoopAnswer& answer, const Covariate& x) {
   for (int channel = 0; channel < channel_count; ++channel) {
     if (!has_cells(observations, channel)) continue;
     const double per_si = channel_views[channel].per_si;
-    Plot plot{channel_title(channel) + ", less model before", {axis_title(x.name)}};
+    Plot plot{heading(channel_views[channel]) + ", less model before", {heading(condition_view(x.name))}};
     Series measured{.label = "measured", .mark = Mark::points, .color = measured_color},
-        modelled{.label = "model after", .x = {}, .y = {}, .error = {}, .mark = Mark::points, .color = after_color};
+        modelled{.label = "model after", .mark = Mark::points, .color = after_color};
     for (std::size_t i = 0; i < observations.cells.size(); ++i) {
       const Cell& cell = observations.cells[i];
       const auto e = static_cast<Eigen::Index>(i);
@@ -236,7 +238,6 @@ Sheet gap_sheet(const LoopAnswer& answer, const Covariate& x) {
                    {.label = after ? "model before" : "model",
                     .x = {*low, *high},
                     .y = {0, 0},
-                    .error = {},
                     .color = before_color,
                     .dash = after ? 1 : 0}};
     if (after) plot.series.push_back(std::move(modelled));
@@ -246,38 +247,21 @@ Sheet gap_sheet(const LoopAnswer& answer, const Covariate& x) {
 }
 
 Sheet residual_sheet(const LoopAnswer& answer, const Covariate& x) {
-  const Observations& observations = seen(answer);
-  const Eigen::VectorXd values = observations.values(), &base = answer.found().base.fit().prediction;
-  const FittedModel* model = model_after(answer);
-  Sheet sheet{fmt::format("Residuals against {}", condition_view(x.name).title)};
-  for (int channel = 0; channel < channel_count; ++channel) {
-    if (!has_cells(observations, channel)) continue;
-    Plot plot{capital(std::string(channel_views[channel].title)) + " [sd of the noise]", {axis_title(x.name)}};
-    plot.series.push_back(
-        over(observations, standardised(answer, values - base, base), x, channel, "before", before_color));
-    if (model)
-      plot.series.push_back(over(observations,
-                                 standardised(answer, values - model->fit().prediction, model->fit().prediction), x,
-                                 channel, "after", after_color));
-    sheet.plots.push_back(std::move(plot));
-  }
-  return sheet;
+  const Eigen::VectorXd values = seen(answer).values();
+  const auto residual = [&](const Eigen::VectorXd& prediction) {
+    return standardised(answer, values - prediction, prediction);
+  };
+  std::vector<DrawnValues> drawn = {{"before", before_color, residual(answer.found().base.fit().prediction)}};
+  if (const FittedModel* model = model_after(answer))
+    drawn.push_back({"after", after_color, residual(model->fit().prediction)});
+  return over(seen(answer), x, fmt::format("Residuals against {}", condition_view(x.name).title), drawn);
 }
 
 Sheet signature_sheet(const LoopAnswer& answer, const Covariate& x) {
-  const Observations& observations = seen(answer);
   const Eigen::VectorXd& base = answer.found().base.fit().prediction;
-  const Eigen::VectorXd residual = standardised(answer, observations.values() - base, base),
-                        change = change_by_effects(answer);
-  Sheet sheet{"The effect's signature over the residual"};
-  for (int channel = 0; channel < channel_count; ++channel) {
-    if (!has_cells(observations, channel)) continue;
-    Plot plot{capital(std::string(channel_views[channel].title)) + " [sd of the noise]", {axis_title(x.name)}};
-    plot.series = {over(observations, residual, x, channel, "residual of the base model", before_color),
-                   over(observations, change, x, channel, "with the effect less without", after_color)};
-    sheet.plots.push_back(std::move(plot));
-  }
-  return sheet;
+  return over(seen(answer), x, "The effect's signature over the residual",
+              {{"residual of the base model", before_color, standardised(answer, seen(answer).values() - base, base)},
+               {"with the effect less without", after_color, change_by_effects(answer)}});
 }
 
 std::vector<Covariate> variables_by_weight(const LoopAnswer& answer) {

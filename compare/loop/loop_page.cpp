@@ -198,12 +198,11 @@ void add_appendix(Page& page, const LoopAnswer& answer, const std::vector<Covari
 }  // namespace
 
 std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const std::vector<std::string>& doubts,
-                      const std::string& command, const Libraries& libraries) {
+                      const std::string& command) {
   Page page(campaign.name + ": what the model lacks",
             fmt::format("The analytic wheel against {} measured runs: what is missing, how sure that is, and what to "
                         "measure next",
                         campaign.runs.size()));
-  page.enliven(libraries);
   page.summary(headline(answer));
   if (const MarkedTable next = next_run_table(answer); !next.rows.empty()) page.raw(marked_html(next));
   const bool judged = answer.judgement && (answer.verdict != Verdict::not_enough_data || answer.has_candidates());

@@ -1,8 +1,8 @@
 // A test's design for people and for programs.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "bekker_wong/effects/titles.hpp"
 #include "compare/loop/test_design.hpp"
@@ -13,8 +13,6 @@
 #include "scenario/nearest_word.hpp"
 
 namespace soilbin::compare {
-
-using nlohmann::ordered_json;
 
 namespace {
 
@@ -35,12 +33,12 @@ const Rivalry& hardest(const PlannedTest& test, std::size_t effect) {
 
 std::string share(double value) { return fmt::format("{:.0f} %", 100 * value); }
 
-ordered_json row_json(const TestDesign& design, const Run& run) {
-  ordered_json row = {{"run", *run.at.run}, {"setpoint", *run.setpoint}};
+Json row_json(const TestDesign& design, const Run& run) {
+  Json row = {{"run", *run.at.run}, {"setpoint", *run.setpoint}};
   for (const std::string& name : design.varied) {
     const ConditionView& view = condition_view(name);
     const double value = view.get(run.at) * per_unit(std::string(view.column_unit));
-    row[view.column] = view.whole ? ordered_json(std::lround(value)) : ordered_json(value);
+    row[view.column] = view.whole ? Json(std::lround(value)) : Json(value);
   }
   return row;
 }
@@ -77,8 +75,7 @@ MarkedTable runs_table(const TestDesign& design) {
                     {"run", "setpoint"},
                     {false, true}};
   for (const std::string& name : design.varied) {
-    const ConditionView& view = condition_view(name);
-    table.header.push_back(heading(std::string(view.title), view.unit.empty() ? "-" : std::string(view.unit)));
+    table.header.push_back(heading(condition_view(name)));
     table.text_columns.push_back(false);
   }
   for (const Run& run : design.runs) {
@@ -108,22 +105,14 @@ MarkedTable rivals_table(const TestDesign& design) {
 }
 
 std::string rows_to_fill_in(const TestDesign& design) {
-  std::string text = write_runs(design.runs), channels;
+  std::set<std::string_view> measured;
   for (int c = 0; c < channel_count; ++c)
-    if (design.noise[c]) channels += "," + column_of(channel_views[c]);
-  const std::string empty(static_cast<std::size_t>(std::count(channels.begin(), channels.end(), ',')), ',');
-  std::string filled;
-  for (std::size_t at = 0, line = 0; at < text.size(); ++line) {
-    const std::size_t end = text.find('\n', at);
-    filled += text.substr(at, end - at) + (line == 0 ? channels : empty) + "\n";
-    at = end + 1;
-  }
-  return filled;
+    if (design.noise[c]) measured.insert(channel_views[c].name);
+  return write_runs(design.runs, measured);
 }
 
-ordered_json to_json(const TestDesign& design) {
-  ordered_json rows = ordered_json::array(), sweep = ordered_json::array(), pairs = ordered_json::array(),
-               noise = ordered_json::object();
+Json to_json(const TestDesign& design) {
+  Json rows = Json::array(), sweep = Json::array(), pairs = Json::array(), noise = Json::object();
   for (const Run& run : design.runs) rows.push_back(row_json(design, run));
   for (std::size_t i = 0; i < design.swept.runs.size(); ++i) {
     Run run;
@@ -134,7 +123,7 @@ ordered_json to_json(const TestDesign& design) {
   for (std::size_t i = 0; i < design.planned.rivalries.size(); ++i) {
     const Rivalry &r = design.planned.rivalries[i], &swept = design.swept.rivalries[i];
     pairs.push_back({{"effect", design.effects[r.truth]},
-                     {"taken_for", r.rival ? ordered_json(design.effects[*r.rival]) : ordered_json(nullptr)},
+                     {"taken_for", r.rival ? Json(design.effects[*r.rival]) : Json(nullptr)},
                      {"separation_sd", finite(r.separation)},
                      {"right", finite(r.right)},
                      {"sweep_separation_sd", finite(swept.separation)},

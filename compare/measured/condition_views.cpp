@@ -13,4 +13,8 @@ const ConditionView& condition_view(std::string_view name) {
   return *found;
 }
 
+std::string heading(const ConditionView& view) {
+  return std::string(view.title) + (view.unit.empty() ? "" : " [" + std::string(view.unit) + "]");
+}
+
 }  // namespace soilbin::compare

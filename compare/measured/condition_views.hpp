@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "scenario/description.hpp"
@@ -69,5 +70,8 @@ inline constexpr std::array<ConditionView, 10> condition_views = [] {
 
 /// Throws std::out_of_range for a name that is none of them.
 const ConditionView& condition_view(std::string_view name);
+
+/// "uphill [deg]"; the title alone of a plain number.
+std::string heading(const ConditionView& view);
 
 }  // namespace soilbin::compare

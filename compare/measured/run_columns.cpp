@@ -141,10 +141,10 @@ std::vector<Run> read_runs(const CsvTable& table, std::span<const ColumnChoice> 
   return runs;
 }
 
-std::string write_runs(const std::vector<Run>& runs) {
+std::string write_runs(const std::vector<Run>& runs, const std::set<std::string_view>& to_fill_in) {
   std::vector<const RunColumn*> columns;
   for (const RunColumn& column : run_columns())
-    if (worth_writing(column, runs)) columns.push_back(&column);
+    if (worth_writing(column, runs) || to_fill_in.contains(column.quantity)) columns.push_back(&column);
   std::string text;
   const auto line = [&](const auto& cell_of) {
     for (const RunColumn* column : columns) {

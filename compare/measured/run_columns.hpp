@@ -3,8 +3,10 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compare/measured/campaign.hpp"
@@ -39,7 +41,7 @@ struct ColumnChoice {
 /// Turns the table's rows into runs. Throws InputError at the cell for whatever can't be one.
 std::vector<Run> read_runs(const CsvTable& table, std::span<const ColumnChoice> columns, const SourceText& source);
 
-/// The CSV of a campaign, canonical columns, those that hold anything.
-std::string write_runs(const std::vector<Run>& runs);
+/// The CSV of a campaign, canonical columns, those that hold anything and those of the quantities `to_fill_in`.
+std::string write_runs(const std::vector<Run>& runs, const std::set<std::string_view>& to_fill_in = {});
 
 }  // namespace soilbin::compare

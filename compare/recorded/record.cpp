@@ -51,7 +51,7 @@ Json run_json(const RecordedRun& run) {
   if (run.answer.result) {
     // The bare ratio, also where it is no efficiency: the mean of several packings weights every run's.
     row["tractive_efficiency"] = finite(run.answer.result->tractive_efficiency);
-    told_fields(visitor, run);
+    outcome_fields(visitor, run);
   }
   if (run.sealed) put_seal(row);
   return row;
@@ -68,7 +68,7 @@ RecordedRun run_from_json(const Json& row, const std::string& place, bool seals_
     ReadJson visitor(row, place);
     run_fields(visitor, run);
     run.answer = answer_from_json(row, place);
-    if (run.answer.result) told_fields(visitor, run);
+    if (run.answer.result) outcome_fields(visitor, run);
     return run;
   });
 }
@@ -220,7 +220,7 @@ Json record_schema() {
   FieldsSchema always, solved;
   run_fields(always, run);
   result_fields(solved, *run.answer.result);
-  told_fields(solved, run);
+  outcome_fields(solved, run);
   Json row = always.schema;
   row["properties"]["seal"] = seal_schema("the run's other members");
   row["properties"].update(condition_schema());

@@ -94,8 +94,9 @@ std::size_t add_missing_runs(Record& record, const Record& other);
 using RunList = std::vector<RecordedRun> Record::*;
 
 /// Adds a run, and those of `begin` that it lacks, to the file, which is begun with `begin` where there is none: it is
-/// read again, put in order and replaced as a whole. A run that is there already stays. With the run in the file, it is
-/// safe (when_safe).
+/// read again, put in order and replaced as a whole: whoever is stopped meanwhile leaves the old file or the new one,
+/// and whoever reads it sees one of the two. A run takes minutes, the file a fraction of a second. A run that is there
+/// already stays. With the run in the file, it is safe (when_safe).
 void add_run(const std::filesystem::path& file, const Record& begin, RecordedRun run, RunList list = &Record::runs,
              Writers writers = Writers::several);
 

@@ -70,7 +70,7 @@ void run_fields(Visitor& v, Run& run) {
 
 /// What a run with a result has beside the result itself.
 template <class Visitor, class Run>
-void told_fields(Visitor& v, Run& run) {
+void outcome_fields(Visitor& v, Run& run) {
   stress_fields(v, *run.answer.result);
   v.flag("steady", run.steady, "whether the run became steady");
   v.number("drift", run.drift, "-",

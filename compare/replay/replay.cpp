@@ -8,10 +8,10 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <stdexcept>
 
+#include "compare/report/json_fields.hpp"
 #include "compare/report/json_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
@@ -19,8 +19,6 @@
 
 namespace soilbin::compare {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double most_steps = 65535;
 constexpr std::size_t largest_replay = 256U << 20U;  // [bytes]; a page with one is a third larger

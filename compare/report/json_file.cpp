@@ -4,13 +4,12 @@
 
 #include <algorithm>
 
+#include "compare/report/json_fields.hpp"
 #include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* seal_key = "seal";
 

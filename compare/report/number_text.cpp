@@ -46,4 +46,12 @@ std::string heading(const std::string& name, const std::string& unit) {
   return unit == "-" ? name : name + " [" + unit + "]";
 }
 
+std::string heading(const TractionChannel& channel) {
+  return fmt::format("{} [{}]", capital(std::string(channel.title)), channel.unit);
+}
+
+std::string in_unit(std::size_t channel, double si) {
+  return fmt::format("{} {}", number(si * traction_channels[channel].per_si), traction_channels[channel].unit);
+}
+
 }  // namespace soilbin::compare

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "scenario/estimate.hpp"
+#include "scenario/traction_channels.hpp"
 
 namespace soilbin::compare {
 
@@ -28,5 +29,10 @@ std::string capital(std::string text);
 
 /// "friction_angle [deg]"; the name alone for a plain number ("-").
 std::string heading(const std::string& name, const std::string& unit);
+/// "Drawbar pull [N]".
+std::string heading(const TractionChannel& channel);
+
+/// "12.3 N", "4.1 mm" of a number in SI of one of traction_channels.
+std::string in_unit(std::size_t channel, double si);
 
 }  // namespace soilbin::compare

@@ -3,9 +3,13 @@
 #include <fmt/core.h>
 
 #include "compare/report/sheet_json.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
 
 namespace soilbin::compare {
 namespace {
+
+namespace fs = std::filesystem;
 
 bool is_text(const HtmlTable& table, std::size_t column) {
   return table.text_columns.empty() ? column == 0 : column < table.text_columns.size() && table.text_columns[column];
@@ -65,7 +69,32 @@ std::string page_style() {
       light, dark, '\n' + embedded(own_files(), "page.css") + embedded(own_files(), "answers.css"), palette_rules());
 }
 
+constexpr std::size_t largest_page = 1U << 28U;  ///< [bytes]
+
+/// The text from `begin` to `end`, both left out, or with both; "" where it isn't there.
+std::string between(const std::string& text, const std::string& begin, const std::string& end, bool with_both = false) {
+  const std::size_t first = text.find(begin);
+  if (first == std::string::npos) return "";
+  const std::size_t last = text.find(end, first + begin.size());
+  if (last == std::string::npos) return "";
+  if (with_both) return text.substr(first, last + end.size() - first);
+  return text.substr(first + begin.size(), last - first - begin.size());
+}
+
 }  // namespace
+
+PageCard page_card(const fs::path& page, const fs::path& from) {
+  const std::string text = read_bytes(page, largest_page);
+  PageCard card{fs::relative(page, from.parent_path().empty() ? fs::path(".") : from.parent_path()).generic_string(),
+                between(text, "<title>", "</title>"), between(text, "<meta name=\"description\" content=\"", "\">"),
+                between(text, "<svg class=\"plot\"", "</svg>", true)};
+  if (card.title.empty())
+    throw InputError(
+        fmt::format("{}: no page of soilbin\n  hint: --report of compare, loop, reproduce and failure-map "
+                    "writes one",
+                    page.string()));
+  return card;
+}
 
 Page::Page(std::string title, std::string subtitle) : title_(std::move(title)), subtitle_(std::move(subtitle)) {}
 
@@ -74,17 +103,15 @@ void Page::describe(const std::string& text) {
 }
 
 void Page::summary(const std::vector<std::pair<std::string, std::string>>& sentences) {
-  if (!sentences.empty()) describe(sentences.front().second);
-  body_ += "<div class=\"summary\">";
-  for (const auto& [name, sentence] : sentences)
-    body_ += "<p>" + (name.empty() ? "" : "<b>" + escaped(name) + ".</b> ") + prose(sentence) + "</p>";
-  body_ += "</div>\n";
+  std::vector<BackedSentence> bare;
+  for (const auto& [about, text] : sentences) bare.push_back({about, text});
+  backed_summary(bare);
 }
 
 void Page::sentences(const std::vector<std::string>& sentences) {
-  std::vector<std::pair<std::string, std::string>> unnamed;
-  for (const std::string& sentence : sentences) unnamed.emplace_back("", sentence);
-  summary(unnamed);
+  std::vector<BackedSentence> unnamed;
+  for (const std::string& sentence : sentences) unnamed.push_back({"", sentence});
+  backed_summary(unnamed);
 }
 
 void Page::backed_summary(const std::vector<BackedSentence>& sentences) {

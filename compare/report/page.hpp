@@ -1,5 +1,5 @@
 // One self-contained HTML page: inline CSS and SVG, light and dark, from a phone to a wide screen,
-// nothing loaded. With `enliven` also inline scripts, without which everything but the replay is still there.
+// nothing loaded. Its scripts are inline too; without them everything but the replay is still there.
 //
 //   Page page("Title", "one line below it");
 //   page.summary({{"Straight driving", "Plain words first."}, {"", "A sentence without a name."}});
@@ -11,13 +11,13 @@
 //   write_file_atomically("report.html", page.html());
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "compare/report/javascript.hpp"
-#include "compare/report/page_card.hpp"
 #include "compare/report/plot.hpp"
 
 namespace soilbin::compare {
@@ -48,6 +48,19 @@ struct BackedSentence {
   std::string about, text;
   std::vector<std::pair<std::string, std::string>> evidence{};
 };
+
+/// A link to another of our pages as a person sees it: a small drawing, the title, a line on what it answers; all taken
+/// from the page itself.
+struct PageCard {
+  std::string href;     ///< from the page that links
+  std::string title;    ///< of the linked page
+  std::string line;     ///< its description: the first sentences that it says
+  std::string drawing;  ///< its first <svg class="plot">; "" where it has none
+};
+
+/// Reads a page that Page::html made. `from` is the file that links to it. Throws InputError where there is no such
+/// file or it is no such page.
+PageCard page_card(const std::filesystem::path& page, const std::filesystem::path& from);
 
 /// Parts of which a reader looks at one at a time.
 struct Choice {
@@ -91,8 +104,8 @@ class Page {
   /// One of the parts at a time, chosen from a list; all of them below each other where there are no scripts. `first`
   /// is shown at the start.
   void choices(const std::string& what, const std::vector<Choice>& parts, std::size_t first);
-  /// Other libraries than those that find_libraries() finds: figures are interactive where d3 is among them.
-  void enliven(Libraries libraries) { libraries_ = std::move(libraries); }
+  /// What makes its figures interactive, as find_libraries() found it.
+  const Libraries& libraries() const { return libraries_; }
   /// A script of the caller's, after the page's own.
   void script(const std::string& text) { extra_scripts_ += text; }
   /// A replay to look at in 3D, the bytes of its file; without scripts its title and caption alone.

@@ -123,18 +123,18 @@ std::vector<double> ticks(double lower, double upper, int count) {
   return found;
 }
 
-std::string svg(const Sheet& sheet, const PanelSize& size) {
+std::string svg(const Sheet& sheet) {
   const std::size_t columns = sheet.plots.size() > 1 ? 2 : 1;
   const std::size_t rows = (sheet.plots.size() + columns - 1) / columns;
-  const double width = size.width * static_cast<double>(columns);
+  const double width = panel_width * static_cast<double>(columns);
   double y = (sheet.title.empty() ? 8.0 : 40.0) + (sheet.note.empty() ? 0.0 : 18.0);
   std::string body;
   for (std::size_t i = 0; i < sheet.plots.size(); ++i)
     body += fmt::format(R"svg(<g transform="translate({:.0f} {:.0f})">{}</g>)svg",
-                        size.width * static_cast<double>(i % columns),
-                        y + size.height * static_cast<double>(i / columns), panel(sheet, sheet.plots[i], size)) +
+                        panel_width * static_cast<double>(i % columns),
+                        y + panel_height * static_cast<double>(i / columns), panel(sheet, sheet.plots[i])) +
             "\n";
-  y += size.height * static_cast<double>(rows);
+  y += panel_height * static_cast<double>(rows);
   body += legend_rows(sheet, width, y);
   std::string title;
   if (!sheet.title.empty())
@@ -150,11 +150,11 @@ std::string svg(const Sheet& sheet, const PanelSize& size) {
       width, y + 4, fonts, title, body);
 }
 
-std::string panel_svg(const Sheet& sheet, std::size_t plot, const PanelSize& size) {
+std::string panel_svg(const Sheet& sheet, std::size_t plot) {
   const Plot& one = sheet.plots.at(plot);
   return fmt::format(
       "<svg class=\"plot\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\" font-size=\"12\">{}</svg>",
-      size.width, size.height, escaped(one.title + " against " + one.x.title), panel(sheet, one, size));
+      panel_width, panel_height, escaped(one.title + " against " + one.x.title), panel(sheet, one));
 }
 
 std::vector<LegendEntry> legend(const Sheet& sheet) {

@@ -52,16 +52,11 @@ struct Sheet {
   std::string note{};  ///< a line under the title of a stand-alone file: of what it is, what bands are
 };
 
-/// Width and height of one panel [px].
-struct PanelSize {
-  double width = 420, height = 300;
-};
-
 /// A sheet as one stand-alone SVG file on white: panels in two columns (one where there is one), the legend below.
-std::string svg(const Sheet& sheet, const PanelSize& size = {});
+std::string svg(const Sheet& sheet);
 
 /// One panel as an <svg> element that scales with the page, without a legend.
-std::string panel_svg(const Sheet& sheet, std::size_t plot, const PanelSize& size = {});
+std::string panel_svg(const Sheet& sheet, std::size_t plot);
 
 /// One entry of the legend: a small <svg> drawn like the series.
 struct LegendEntry {

@@ -41,7 +41,7 @@ Span with_room(Span span, const Axis& axis, double room) {
 /// Where values lie in the panel.
 class Frame {
  public:
-  Frame(const Plot& plot, const PanelSize& size) : size_(size) {
+  explicit Frame(const Plot& plot) {
     Span x, y;
     for (const Series& series : plot.series)
       for (std::size_t i = 0; i < series.x.size(); ++i) {
@@ -62,8 +62,8 @@ class Frame {
   }
 
   double left, top = 30.0;
-  double right() const { return size_.width - 12.0; }
-  double bottom() const { return size_.height - 42.0; }
+  static double right() { return panel_width - 12.0; }
+  static double bottom() { return panel_height - 42.0; }
   double x(double value) const { return left + (value - x_.lower) / x_.length() * (right() - left); }
   double y(double value) const { return bottom() - (value - y_.lower) / y_.length() * (bottom() - top); }
   const Span& y_span() const { return y_; }
@@ -79,7 +79,6 @@ class Frame {
   }
 
  private:
-  PanelSize size_;
   Span x_, y_;
 };
 
@@ -110,12 +109,12 @@ std::string grid(const Frame& f) {
                      f.left, f.top, f.bottom(), f.right());
 }
 
-std::string words(const Plot& plot, const Frame& f, const PanelSize& size) {
+std::string words(const Plot& plot, const Frame& f) {
   std::string out =
       fmt::format(R"(<text class="ink" fill="#1a1d23" font-size="13" font-weight="600" x="{:.1f}" y="17">{}</text>)",
                   16.0, escaped(plot.title));
   out += fmt::format(R"(<text class="quiet" fill="#5a6270" x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)",
-                     0.5 * (f.left + f.right()), size.height - 8, escaped(plot.x.title));
+                     0.5 * (f.left + f.right()), panel_height - 8, escaped(plot.x.title));
   if (plot.y.title.empty()) return out;
   const double middle = 0.5 * (f.top + f.bottom());
   return out + fmt::format(R"svg(<text class="quiet" fill="#5a6270" text-anchor="middle" )svg"
@@ -222,9 +221,9 @@ std::string dashes(int dash) {
   }
 }
 
-std::string panel(const Sheet& sheet, const Plot& plot, const PanelSize& size) {
-  const Frame frame(plot, size);
-  std::string out = grid(frame) + words(plot, frame, size);
+std::string panel(const Sheet& sheet, const Plot& plot) {
+  const Frame frame(plot);
+  std::string out = grid(frame) + words(plot, frame);
   if (plot.identity_line) out += identity(frame);
   for (const Series& series : plot.series) out += band(sheet, series, frame);
   for (const Series& series : plot.series) out += line(sheet, series, frame);

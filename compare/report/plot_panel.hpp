@@ -1,4 +1,5 @@
-// One panel of a sheet, drawn. Used by plot.cpp alone.
+// One panel of a sheet, drawn, and how its colours are written in SVG: what plot.cpp, bars.cpp and sheet_json.cpp
+// share.
 #pragma once
 
 #include <string>
@@ -17,7 +18,10 @@ std::string dashes(int dash);
 /// The sheet's colour of a series: ordered palettes are spread over the colours that the sheet uses.
 int color_of(const Sheet& sheet, const Series& series);
 
+/// Width and height of one panel [px].
+inline constexpr double panel_width = 420, panel_height = 300;
+
 /// Everything inside a panel's <svg>, with its origin at the panel's upper left corner.
-std::string panel(const Sheet& sheet, const Plot& plot, const PanelSize& size);
+std::string panel(const Sheet& sheet, const Plot& plot);
 
 }  // namespace soilbin::compare

@@ -2,19 +2,17 @@
 
 #include <fmt/core.h>
 
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "compare/report/javascript.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/report/plot.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-using SlidingJson = nlohmann::ordered_json;
-
-SlidingJson one_map(const HeatMap& map) {
-  SlidingJson json = {{"title", map.title}, {"cells", SlidingJson::array()}};
+Json one_map(const HeatMap& map) {
+  Json json = {{"title", map.title}, {"cells", Json::array()}};
   for (const auto& row : map.cells)
     for (const HeatCell& cell : row)
       json["cells"].push_back({cell.text, cell.meaning, cell.value < 0.0 ? 0 : 1,
@@ -33,7 +31,7 @@ std::string sliding_map_html(const SlidingMap& map, const std::string& caption) 
     first = first * places + map.first.at(s);
   }
   if (settings != map.maps.size()) throw std::invalid_argument("sliding map: a map for each setting of the sliders");
-  SlidingJson data = {{"sliders", SlidingJson::array()}, {"maps", SlidingJson::array()}};
+  Json data = {{"sliders", Json::array()}, {"maps", Json::array()}};
   for (std::size_t s = 0; s < map.sliders.size(); ++s)
     data["sliders"].push_back(
         {{"name", map.sliders[s].name}, {"settings", map.sliders[s].settings}, {"first", map.first[s]}});

@@ -280,9 +280,8 @@ Sheet finding_sheet(const ReproducedFinding& row, const std::vector<std::string>
   return sheet;
 }
 
-std::string reproduction_page(const Reproduction& reproduction, const PageAbout& about, const Libraries& libraries) {
+std::string reproduction_page(const Reproduction& reproduction, const PageAbout& about) {
   Page page(about.title, reproduction.findings.source);
-  page.enliven(libraries);
   const auto sentences = opening(reproduction);
   if (!sentences.empty()) page.describe(sentences.front().first + ": " + sentences.front().second);
   page.summary(sentences);

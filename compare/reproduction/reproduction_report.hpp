@@ -35,7 +35,6 @@ MarkedTable findings_matrix(const Reproduction& reproduction);
 Sheet finding_sheet(const ReproducedFinding& row, const std::vector<std::string>& labels);
 
 /// Opening, matrix, doubts; folded each finding with its words, figure and intervals.
-std::string reproduction_page(const Reproduction& reproduction, const PageAbout& about,
-                              const Libraries& libraries = {});
+std::string reproduction_page(const Reproduction& reproduction, const PageAbout& about);
 
 }  // namespace soilbin::compare

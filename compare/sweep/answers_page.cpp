@@ -143,10 +143,9 @@ HtmlTable error_table(const Prediction& prediction) {
   HtmlTable table{"Predicted less measured, nothing fitted",
                   {"channel", "runs", "root mean square", "bias", "range measured", "share of range [%]"}};
   for (const ChannelError& error : prediction.errors) {
-    const ChannelView& channel = channel_views[error.channel];
-    const auto in_unit = [&](double si) { return fmt::format("{} {}", number(si * channel.per_si), channel.unit); };
-    table.rows.push_back({std::string(channel.title), std::to_string(error.runs), in_unit(error.rmse),
-                          in_unit(error.bias), in_unit(error.range), number(100 * error.share_of_range)});
+    table.rows.push_back({std::string(channel_views[error.channel].title), std::to_string(error.runs),
+                          in_unit(error.channel, error.rmse), in_unit(error.channel, error.bias),
+                          in_unit(error.channel, error.range), number(100 * error.share_of_range)});
   }
   return table;
 }

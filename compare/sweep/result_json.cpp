@@ -57,9 +57,9 @@ class ConditionFromJson {
   template <class E>
   void choice(const char* key, E C::*member, Need, const char*) {
     const Json& found = from_.at(key);
-    for (const Word<E>& word : words_of(std::type_identity<E>{}))
-      if (found == word.text) return void(at.*member = word.value);
-    ReadJson::refuse(from_.below(key), "one of the words of a case file");
+    const auto value = found.is_string() ? value_named<E>(found.get<std::string>()) : std::nullopt;
+    if (!value) ReadJson::refuse(from_.below(key), "one of the words of a case file");
+    at.*member = *value;
   }
 
  private:
@@ -92,9 +92,7 @@ class ConditionSchema {
   }
   template <class E>
   void choice(const char* key, E C::*, Need, const char* meaning) {
-    Json words = Json::array();
-    for (const Word<E>& word : words_of(std::type_identity<E>{})) words.push_back(std::string(word.text));
-    properties[key] = {{"enum", words}, {"description", meaning}};
+    properties[key] = {{"enum", all_words<E>()}, {"description", meaning}};
   }
 };
 

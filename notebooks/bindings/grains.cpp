@@ -125,6 +125,7 @@ py::array_t<double> each_grain(const Simulation& simulation, py::ssize_t width, 
 
 void put(const Vec3& v, double* to) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
 
+/// Eight parameters, since each is a keyword of Python's Simulation(...).
 std::unique_ptr<Simulation> make_simulation(const Material& material, const Interaction& interaction, double dt,
                                             const Triple& gravity, dem::NormalLaw normal, dem::RollingLaw rolling,
                                             dem::CohesionLaw cohesion, int threads) {
