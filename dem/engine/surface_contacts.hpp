@@ -87,7 +87,7 @@ int find_contacts(const GrainOnSurface& at, std::vector<SurfaceContact>& made, s
 Touch<double> touch_of(const Body& body, const SurfaceTouch& at, const Motion& grain, const Spin& spin);
 
 /// Adds what a contact does to the loads of its grain and of its body, which is at `centre`; force and couple on the
-/// grain.
+/// grain. Seven parameters: here and in LAMMPS they come from different structs, and no struct holds them together.
 inline void add_loads(const SurfaceTouch& at, double radius, const Vec3& force, const Vec3& couple, const Vec3& centre,
                       Load& on_grain, BodyLoad& on_body) {
   on_grain.force += force;

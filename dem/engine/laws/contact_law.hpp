@@ -201,7 +201,8 @@ template <class Real>
   return couple;
 }
 
-/// Tangential force by `slide`, limited by friction, and the couple of rolling resistance on i.
+/// Tangential force by `slide`, limited by friction, and the couple of rolling resistance on i. Eight parameters: it is
+/// the end of contact_response, in whose lines they are, cut out to be read; a struct would only list them once more.
 template <class Real>
 [[gnu::always_inline]] inline void resist(const LawFlags& laws, const LawConstants<Real>& c, const Touch<Real>& at,
                                           Real stiffness, const Slider<Real>& slide, Memory<Real>& memory, double dt,
