@@ -34,11 +34,11 @@ void settle(dem::DemSettings settings, const Scenario& scenario, std::uint64_t p
   settings.packing = packing;
   const std::string name = fmt::format("bed of packing {}", packing);
   settings.how.progress = [&](const dem::Progress& progress) { show_progress_of(name, progress); };
-  const dem::BedRecipe recipe = dem::DemModel(settings).recipe(scenario);
-  dem::BedStore store(settings.beds);
-  const fs::path file = store.file(recipe);
+  const dem::DemModel model(settings);
+  const dem::BedRecipe recipe = model.recipe(scenario);
+  const fs::path file = dem::BedStore(settings.beds).file(recipe);
   const bool was_there = fs::exists(file);
-  const auto bed = store.bed(recipe, settings.how);
+  const auto bed = model.bed(recipe);
   clear_progress_line();
   if (!fs::exists(file)) throw std::runtime_error(fmt::format("{}: {} can't be kept", file.string(), name));
   const std::string density =
@@ -77,6 +77,7 @@ void add_bed(CLI::App& app, Session& session) {
   command->add_option("study", *study, "a study of the library, or a case file")->type_name("STUDY")->required();
   flags->add_rig_to(*command);
   flags->add_packings_to(*command);
+  flags->add_engine_to(*command);
   flags->add_shard_to(*command);
   command->footer(
       "Beds are kept in $SOILBIN_BEDS, else in the user's cache; one that is there is not settled again. Any number "

@@ -126,6 +126,7 @@ void check_threads(int threads) {
 /// Of --engine and --ranks. The program lies beside this one; SOILBIN_MPIRUN says what starts it.
 std::optional<dem::LammpsWorker> lammps_of(const SoilBinFlags& flags) {
   if (flags.engine != "lammps") {
+    if (flags.settled_by == "lammps") throw InputError("--settled-by lammps also needs --engine lammps");
     if (flags.ranks != 1) throw InputError("--ranks is for grains in LAMMPS\n  hint: --engine lammps, or --threads");
     return std::nullopt;
   }
@@ -154,6 +155,7 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   settings.checkpoints.restart = settings.beds;
   settings.checkpoints.tell = tell_beside_progress;
   settings.lammps = lammps_of(flags);
+  settings.settled_by = flags.settled_by == "lammps" ? dem::SettledBy::lammps : dem::SettledBy::soilbin;
   return settings;
 }
 
@@ -217,6 +219,13 @@ void SoilBinFlags::add_engine_to(CLI::App& command) {
       ->group(grains_heading)
       ->check(CLI::IsMember({"soilbin", "lammps"}));
   command.add_option("--ranks", ranks, "number of processes of LAMMPS; 1")->type_name("N")->group(grains_heading);
+  command
+      .add_option("--settled-by", settled_by,
+                  "who settles the bed: soilbin, on this machine, up to 20 million grains; or LAMMPS, of any size; "
+                  "soilbin")
+      ->type_name("soilbin|lammps")
+      ->group(grains_heading)
+      ->check(CLI::IsMember({"soilbin", "lammps"}));
 }
 
 void SoilBinFlags::add_shard_to(CLI::App& command) {

@@ -44,7 +44,8 @@ struct SoilBinFlags {
   std::string replay;    ///< file for a replay of the first run that is made; flag of those who add it
   std::string paraview;  ///< folder for each run that is made, as ParaView opens it; flag of those who add it
   int packing = 1, packings = 1, threads = 0, ranks = 1;
-  std::string engine;  ///< who moves the grains: soilbin, without a word too, or lammps; flag of those who add it
+  std::string engine;      ///< who moves the grains: soilbin, without a word too, or lammps; flag of those who add it
+  std::string settled_by;  ///< who settles the beds: soilbin, without a word too, or lammps; likewise
   std::vector<std::string> known;  ///< records whose runs are not made again; flag of those who add it
   std::string shard;               ///< "K/N": the part to be made; flag of those who add it
   std::string half_step;           ///< yes, no or, without a word, by the number of runs; flag of those who add it
@@ -62,7 +63,7 @@ struct SoilBinFlags {
   /// Whether the runs of a question's conditions begin with a test of the time step.
   compare::TestStep tests_step(const Case& question) const;
   void add_half_step_to(CLI::App& command);
-  /// --engine, --ranks.
+  /// --engine, --ranks, --settled-by.
   void add_engine_to(CLI::App& command);
   /// --shard, --known.
   void add_shard_to(CLI::App& command);

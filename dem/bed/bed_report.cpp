@@ -29,13 +29,6 @@ std::vector<std::uint32_t> rows_of(const Simulation& simulation) {
   return row;
 }
 
-double void_ratio(double solid) { return solid > 0 ? 1 / solid - 1 : std::numeric_limits<double>::infinity(); }
-
-bool inside(const Region& region, const Vec3& at) {
-  return at.x >= region.lower.x && at.y >= region.lower.y && at.z >= region.lower.z && at.x < region.upper.x &&
-         at.y < region.upper.y && at.z < region.upper.z;
-}
-
 /// The force that goes up through the cut z, within the region's footprint, by
 /// way of one contact; 0 where it doesn't.
 double carried(const Contact& contact, const Vec3& first, const Vec3& second, double z, const Region& within) {
@@ -91,32 +84,49 @@ void report_contacts(const Simulation& simulation, const std::vector<Contact>& c
 
 }  // namespace
 
-double solid_fraction(const Grains& grains, const Region& region, double spacing) {
+bool inside(const Region& region, const Vec3& at) {
+  return at.x >= region.lower.x && at.y >= region.lower.y && at.z >= region.lower.z && at.x < region.upper.x &&
+         at.y < region.upper.y && at.z < region.upper.z;
+}
+
+SolidLattice::SolidLattice(const Region& region, double spacing) : region_(region) {
   const Vec3 side = region.upper - region.lower;
   const auto points = [&](double length) { return std::max(1, static_cast<int>(std::lround(length / spacing))); };
-  const int nx = points(side.x), ny = points(side.y), nz = points(side.z);
-  const Vec3 step{side.x / nx, side.y / ny, side.z / nz};
-  std::vector<bool> filled(static_cast<std::size_t>(nx) * ny * nz);
+  nx_ = points(side.x), ny_ = points(side.y), nz_ = points(side.z);
+  step_ = {side.x / nx_, side.y / ny_, side.z / nz_};
+  filled_.resize(static_cast<std::size_t>(nx_) * ny_ * nz_);
+}
+
+void SolidLattice::add(const Vec3& centre, double radius) {
   const auto first = [](double at, double lower, double cell) {
     return std::max(0, static_cast<int>(std::ceil((at - lower) / cell - 0.5)));
   };
-  for (std::size_t k = 0; k < grains.count(); ++k) {
-    const double r = grains.motion[k].radius;
-    const Vec3 at = grains.motion[k].position - region.lower;
-    if (at.x + r < 0 || at.y + r < 0 || at.z + r < 0 || at.x - r > side.x || at.y - r > side.y || at.z - r > side.z)
-      continue;
-    for (int iz = first(at.z - r, 0, step.z); iz < nz && (iz + 0.5) * step.z <= at.z + r; ++iz)
-      for (int iy = first(at.y - r, 0, step.y); iy < ny && (iy + 0.5) * step.y <= at.y + r; ++iy) {
-        const double dz = (iz + 0.5) * step.z - at.z, dy = (iy + 0.5) * step.y - at.y;
-        const double half2 = r * r - dz * dz - dy * dy;
-        if (half2 <= 0) continue;
-        const double half = std::sqrt(half2);
-        for (int ix = first(at.x - half, 0, step.x); ix < nx && (ix + 0.5) * step.x <= at.x + half; ++ix)
-          filled[(static_cast<std::size_t>(iz) * ny + iy) * nx + ix] = true;
-      }
-  }
-  return static_cast<double>(std::count(filled.begin(), filled.end(), true)) / static_cast<double>(filled.size());
+  const Vec3 side = region_.upper - region_.lower, at = centre - region_.lower;
+  const double r = radius;
+  if (at.x + r < 0 || at.y + r < 0 || at.z + r < 0 || at.x - r > side.x || at.y - r > side.y || at.z - r > side.z)
+    return;
+  for (int iz = first(at.z - r, 0, step_.z); iz < nz_ && (iz + 0.5) * step_.z <= at.z + r; ++iz)
+    for (int iy = first(at.y - r, 0, step_.y); iy < ny_ && (iy + 0.5) * step_.y <= at.y + r; ++iy) {
+      const double dz = (iz + 0.5) * step_.z - at.z, dy = (iy + 0.5) * step_.y - at.y;
+      const double half2 = r * r - dz * dz - dy * dy;
+      if (half2 <= 0) continue;
+      const double half = std::sqrt(half2);
+      for (int ix = first(at.x - half, 0, step_.x); ix < nx_ && (ix + 0.5) * step_.x <= at.x + half; ++ix)
+        filled_[(static_cast<std::size_t>(iz) * ny_ + iy) * nx_ + ix] = true;
+    }
 }
+
+double SolidLattice::share() const {
+  return static_cast<double>(std::count(filled_.begin(), filled_.end(), true)) / static_cast<double>(filled_.size());
+}
+
+double solid_fraction(const Grains& grains, const Region& region, double spacing) {
+  SolidLattice lattice(region, spacing);
+  for (std::size_t k = 0; k < grains.count(); ++k) lattice.add(grains.motion[k].position, grains.motion[k].radius);
+  return lattice.share();
+}
+
+double void_ratio_of(double solid) { return solid > 0 ? 1 / solid - 1 : std::numeric_limits<double>::infinity(); }
 
 Region core(const BedSize& size, double height, double mean_diameter) {
   const auto margin = [&](double side) { return std::min(2 * mean_diameter, side / 4); };
@@ -124,29 +134,46 @@ Region core(const BedSize& size, double height, double mean_diameter) {
   return {{x, y, z}, {size.length - x, size.width - y, height - z}};
 }
 
-Unrest unrest(Simulation& simulation, int steps) {
+void UnrestSums::add(double mass, double radius, const Vec3& displacement, const Vec3& change_of_velocity, double g,
+                     double time) {
+  kinetic += 0.5 * mass * squared(1 / time * displacement);
+  net += mass * (1 / time) * length(change_of_velocity);
+  weight += mass * g;
+  diameters += 2 * radius;
+  grains += 1;
+}
+
+Unrest UnrestSums::means() const {
+  if (grains == 0) return {};
+  return {.kinetic = kinetic / (weight * diameters / grains),
+          .unbalanced = forces > 0 ? net / grains / (forces / contacts) : std::numeric_limits<double>::infinity()};
+}
+
+std::vector<Motion> watched(const Simulation& simulation) {
   const Grains& grains = simulation.state().grains;
-  const std::size_t n = grains.count();
-  if (n == 0) return {};
   std::vector<Motion> before(simulation.state().next_id);
-  for (std::size_t k = 0; k < n; ++k) before[grains.id[k]] = grains.motion[k];
-  simulation.run(steps);
-  const double per_second = 1 / (steps * simulation.setup().numerics.dt), g = length(simulation.state().gravity);
-  double kinetic = 0, weight = 0, diameter = 0, net = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const Motion& grain = grains.motion[k];
-    const double mass = 1 / grain.inverse_mass;
-    const Motion& was = before[grains.id[k]];
-    kinetic += 0.5 * mass * squared(per_second * (grain.position - was.position));
-    net += mass * per_second * length(grain.velocity - was.velocity);
-    weight += mass * g;
-    diameter += 2 * grain.radius / static_cast<double>(n);
+  for (std::size_t k = 0; k < grains.count(); ++k) before[grains.id[k]] = grains.motion[k];
+  return before;
+}
+
+Unrest unrest_since(const Simulation& simulation, const std::vector<Motion>& before, int steps) {
+  const Grains& grains = simulation.state().grains;
+  const double time = steps * simulation.setup().numerics.dt, g = length(simulation.state().gravity);
+  UnrestSums sums;
+  for (std::size_t k = 0; k < grains.count(); ++k) {
+    const Motion &grain = grains.motion[k], &was = before[grains.id[k]];
+    sums.add(1 / grain.inverse_mass, grain.radius, grain.position - was.position, grain.velocity - was.velocity, g,
+             time);
   }
-  const std::vector<Contact> contacts = simulation.contacts();
-  double forces = 0;
-  for (const Contact& contact : contacts) forces += length(contact.force) / static_cast<double>(contacts.size());
-  return {.kinetic = kinetic / (weight * diameter),
-          .unbalanced = forces > 0 ? net / static_cast<double>(n) / forces : std::numeric_limits<double>::infinity()};
+  for (const Contact& contact : simulation.contacts()) sums.forces += length(contact.force), sums.contacts += 1;
+  return sums.means();
+}
+
+Unrest unrest(Simulation& simulation, int steps) {
+  if (simulation.state().grains.count() == 0) return {};
+  const std::vector<Motion> before = watched(simulation);
+  simulation.run(steps);
+  return unrest_since(simulation, before, steps);
 }
 
 BedReport report_on(Simulation simulation, const BedSize& size) {
@@ -159,13 +186,13 @@ BedReport report_on(Simulation simulation, const BedSize& size) {
   report.height = surface.mean(), report.roughness = surface.deviation();
   const Region middle = core(size, report.height, 2 * radius);
   const double solid = solid_fraction(grains, middle, spacing);
-  report.void_ratio = void_ratio(solid);
+  report.void_ratio = void_ratio_of(solid);
   report.bulk_density = solid * simulation.setup().materials.all[0].density;
   const double slice = (middle.upper.x - middle.lower.x) / slices;
   for (int k = 0; k < slices; ++k) {
     Region part = middle;
     part.lower.x = middle.lower.x + k * slice, part.upper.x = part.lower.x + slice;
-    report.void_ratio_along.push_back(void_ratio(solid_fraction(grains, part, spacing)));
+    report.void_ratio_along.push_back(void_ratio_of(solid_fraction(grains, part, spacing)));
   }
   const std::vector<Contact> contacts = simulation.contacts();
   report_contacts(simulation, contacts, middle, report);

@@ -46,6 +46,24 @@ struct BedReport {
   double settling_time = 0;  ///< simulated until it was at rest [s]
 };
 
+/// Lower bounds are in a region, upper ones are not.
+bool inside(const Region& region, const Vec3& at);
+
+/// Counts the points of a lattice in a region that lie inside of grains.
+class SolidLattice {
+ public:
+  SolidLattice(const Region& region, double spacing);
+  void add(const Vec3& centre, double radius);
+  /// Of its points [0 .. 1].
+  double share() const;
+
+ private:
+  Region region_;
+  int nx_, ny_, nz_;
+  Vec3 step_;
+  std::vector<bool> filled_;
+};
+
 /// Share of a region that is inside of grains, counted on a lattice of points.
 double solid_fraction(const Grains& grains, const Region& region, double spacing);
 
@@ -53,8 +71,24 @@ double solid_fraction(const Grains& grains, const Region& region, double spacing
 /// each side) from its bounds.
 Region core(const BedSize& size, double height, double mean_diameter);
 
-/// Runs the simulation, which has no periodic side, on by these steps. The net force is what changed the velocities.
+/// What adds up to the unrest of grains over a time [s].
+struct UnrestSums {
+  double kinetic = 0, net = 0, weight = 0, diameters = 0, grains = 0;
+  double forces = 0, contacts = 0;  ///< sizes of the contacts' forces at the end [N], and their number
+
+  void add(double mass, double radius, const Vec3& displacement, const Vec3& change_of_velocity, double g, double time);
+  /// Of many grains; rest where there are none.
+  Unrest means() const;
+};
+
+/// Where grains are and how they move, by id, before some steps; and their unrest over these. The net force is what
+/// changed the velocities. For a simulation without periodic sides.
+std::vector<Motion> watched(const Simulation& simulation);
+Unrest unrest_since(const Simulation& simulation, const std::vector<Motion>& before, int steps);
+/// Runs the simulation on by these steps.
 Unrest unrest(Simulation& simulation, int steps = 16);
+/// void ratio = 1/(share of grains) - 1; infinity without grains.
+double void_ratio_of(double solid);
 
 /// Takes a simulation to run on with. Gravity is taken along -z.
 BedReport report_on(Simulation simulation, const BedSize& size);

@@ -73,6 +73,7 @@ std::string recipe_text(const BedRecipe& recipe) {
     add("rolling_damping", soil.grain_grain.rolling_damping);  // keys of beds without it stay
   if (recipe.laws.twisting != TwistingLaw::none) add("twisting", static_cast<int>(recipe.laws.twisting));
   if (soil.grain_grain.rolling_stiffness > 0) add("rolling_stiffness", soil.grain_grain.rolling_stiffness);
+  if (recipe.settled_by == SettledBy::lammps) text += "settled_by lammps\n";
   add("kinetic", recipe.rest.kinetic), add("unbalanced", recipe.rest.unbalanced), add("every", recipe.rest.every);
   return text;
 }

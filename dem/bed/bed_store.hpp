@@ -28,7 +28,11 @@ class BedStore {
   /// be written is told by `how` and used all the same; so a folder that may only be read serves what is there.
   std::shared_ptr<const SettledBed> bed(const BedRecipe& recipe, const WorkOptions& how = {});
 
-  std::filesystem::path file(const BedRecipe& recipe) const { return folder_ / ("bed-" + content_key(recipe) + ".h5"); }
+  /// Which is there when the bed is. LAMMPS keeps grains in a folder of their own.
+  std::filesystem::path file(const BedRecipe& recipe) const {
+    const std::string name = "bed-" + content_key(recipe);
+    return recipe.settled_by == SettledBy::lammps ? folder_ / name / "report.txt" : folder_ / (name + ".h5");
+  }
 
  private:
   void keep(const SettledBed& bed, const std::string& text, const WorkOptions& how) const;

@@ -30,7 +30,7 @@ int room_for(const Region& region, const RadiusRange& radii) {
   return nx * ny * nz;
 }
 
-void insert_loosely(Simulation& simulation, const Region& region, const RadiusRange& radii, int material, int count,
+void insert_loosely(const GrainSink& put, const Region& region, const RadiusRange& radii, int count,
                     std::uint64_t seed) {
   if (!(radii.smallest > 0 && radii.largest >= radii.smallest))
     throw InputError("radii must be above 0, the largest not below the smallest");
@@ -49,12 +49,11 @@ void insert_loosely(Simulation& simulation, const Region& region, const RadiusRa
       return lower + (index + 0.5) * cell + random.uniform(-slack, slack);
     };
     const double x = at(region.lower.x, width.x, ix), y = at(region.lower.y, width.y, iy);
-    simulation.add_grain({x, y, at(region.lower.z, width.z, iz)}, radius, material);
+    put({x, y, at(region.lower.z, width.z, iz)}, radius);
   }
 }
 
-void insert_graded(Simulation& simulation, const Region& region, const GradedGrains& grains, int material,
-                   std::uint64_t seed) {
+void insert_graded(const GrainSink& put, const Region& region, const GradedGrains& grains, std::uint64_t seed) {
   const Vec3 side = region.upper - region.lower;
   const double cell =
       2 * grains.largest_scale * grains.radii.largest;  // two grains that overlap lie in neighbouring ones
@@ -95,7 +94,7 @@ void insert_graded(Simulation& simulation, const Region& region, const GradedGra
             free &= squared(other.at - at) >= (other.radius + radius) * (other.radius + radius);
     if (!free) continue;
     in_cell(cx, cy, cz).push_back({at, radius});
-    simulation.add_grain(region.lower + at, radius, material);
+    put(region.lower + at, radius);
     placed += 4.0 / 3 * std::numbers::pi * radius * radius * radius;
     refused = 0;
   }

@@ -18,11 +18,19 @@ struct Region {
   Vec3 lower, upper;  ///< [m]
 };
 
+/// Gets each grain that is put in: its centre and radius [m].
+using GrainSink = std::function<void(const Vec3& centre, double radius)>;
+
 /// Fills a region from below with `count` grains on a lattice a little wider than the largest grain, each pushed about
 /// at random within its place, in random order of radii. Clears no grains that are there already: choose a free region.
 /// Throws InputError where so many don't fit, with the number that does.
-void insert_loosely(Simulation& simulation, const Region& region, const RadiusRange& radii, int material, int count,
+void insert_loosely(const GrainSink& put, const Region& region, const RadiusRange& radii, int count,
                     std::uint64_t seed);
+inline void insert_loosely(Simulation& simulation, const Region& region, const RadiusRange& radii, int material,
+                           int count, std::uint64_t seed) {
+  insert_loosely([&](const Vec3& centre, double radius) { simulation.add_grain(centre, radius, material); }, region,
+                 radii, count, seed);
+}
 
 /// Grains whose size depends on their place.
 struct GradedGrains {
@@ -35,8 +43,7 @@ struct GradedGrains {
 /// Fills a region at random with graded grains, equally loose everywhere, whatever their sizes. For a share of a
 /// quarter of the region and less. Clears no grains that are there already. Throws InputError where they don't find
 /// room.
-void insert_graded(Simulation& simulation, const Region& region, const GradedGrains& grains, int material,
-                   std::uint64_t seed);
+void insert_graded(const GrainSink& put, const Region& region, const GradedGrains& grains, std::uint64_t seed);
 
 /// How many grains insert_loosely can put into a region.
 int room_for(const Region& region, const RadiusRange& radii);

@@ -6,20 +6,79 @@
 #include <cmath>
 #include <numbers>
 
-#include "dem/bed/insertion.hpp"
+#include "dem/bed/settling.hpp"
+#include "dem/engine/time_step.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::dem {
 namespace {
 
-constexpr double densest = 0.64;          // share of grains in random packing, without friction
-constexpr double spare = 1.03;            // of grains, so that levelling finds enough
-constexpr double before_levelling = 100;  // so much less rest is asked for, as levelling disturbs it anyway
-constexpr double loosely = 0.22;          // share of grains where they are put at random, without a lattice
-constexpr double most_grading = 4;        // beyond it fine grains begin to fall through coarse ones
-constexpr double most_grains = 2e7;       // 20 GB of memory
-constexpr double headroom = 20;           // of the domain, for grains that are thrown [m]
+constexpr double densest = 0.64;        // share of grains in random packing, without friction
+constexpr double spare = 1.03;          // of grains, so that levelling finds enough
+constexpr double loosely = 0.22;        // share of grains where they are put at random, without a lattice
+constexpr double most_grading = 4;      // beyond it fine grains begin to fall through coarse ones
+constexpr double most_grains = 2e7;     // of one process: 20 GB of memory
+constexpr double most_in_lammps = 1e9;  // its ids have 31 bits
+constexpr double headroom = 20;         // of the domain, for grains that are thrown [m]
+
+/// Of all grains that are put in [m^3].
+double volume_of_grains(const BedRecipe& recipe) {
+  const auto& [length, width, depth] = recipe.size;
+  return spare * densest * length * width * (depth + recipe.grading.factor * recipe.soil.radius_max);
+}
+
+/// The soil's grains everywhere, on a lattice.
+void pour_evenly(const BedRecipe& recipe, const GrainSink& put) {
+  const GranularSoil& soil = recipe.soil;
+  const int count = static_cast<int>(std::ceil(expected_grains(recipe)));
+  const RadiusRange radii{soil.radius_min, soil.radius_max};
+  Region region{{0, 0, 0}, {recipe.size.length, recipe.size.width, 0}};
+  while (room_for(region, radii) < count) region.upper.z += soil.radius_max;
+  if (region.upper.z > headroom) throw InputError("the bed is too high to be poured");
+  insert_loosely(put, region, radii, count, recipe.packing);
+}
+
+/// Grains of each place's own sizes, equally loose everywhere, so that all of the bed comes down by the same share and
+/// the zones come to lie where they belong.
+void pour_graded(const BedRecipe& recipe, const GrainSink& put) {
+  const GranularSoil& soil = recipe.soil;
+  const auto& [length, width, depth] = recipe.size;
+  const double volume = volume_of_grains(recipe), height = volume / (loosely * length * width);
+  if (height > headroom) throw InputError("the bed is too high to be poured");
+  const double settles = volume / (densest * length * width) / height;
+  const auto scale = [&](const Vec3& at) { return recipe.grading.scale(recipe.size, at.y, settles * at.z); };
+  insert_graded(put, {{0, 0, 0}, {length, width, height}},
+                {{soil.radius_min, soil.radius_max}, scale, recipe.grading.factor, volume}, recipe.packing);
+}
+
+/// The run of a bed that the engine settles: at once, and not kept.
+class BedRun {
+ public:
+  BedRun(Simulation& simulation, const WorkOptions& how) : simulation_(simulation), how_(how) {}
+  template <class Part>
+  void keep(const std::string&, Part&) {}
+  void once(const std::function<void()>& what) { what(); }
+  void loop(std::string_view stage, const std::function<bool()>& goes_on, const std::function<void()>& each,
+            const std::function<double()>& share) {
+    constexpr std::int64_t between_looks = 100;  // steps
+    for (std::int64_t taken = 0; goes_on(); ++taken) {
+      if (taken % between_looks == 0) {
+        if (how_.stop.stop_requested()) throw Stopped();
+        if (how_.progress) how_.progress({stage, share(), not_a_number});
+      }
+      each();
+    }
+  }
+  void step() { simulation_.run(1); }
+  Simulation& simulation() { return simulation_; }
+
+ private:
+  Simulation& simulation_;
+  const WorkOptions& how_;
+};
+
+}  // namespace
 
 void check(const BedRecipe& recipe) {
   const auto& [length, width, depth] = recipe.size;
@@ -46,15 +105,12 @@ void check(const BedRecipe& recipe) {
                     "  hint: {:.3g} s or more",
                     recipe.dt, usual, least_share * usual));
   if (!(recipe.gravity > 0)) throw InputError("a bed settles under gravity: it must be above 0");
-  if (const double count = expected_grains(recipe); count > most_grains)
-    throw InputError(
-        fmt::format("a bed of {:.3g} grains is beyond this program, which takes {:.0e} at most", count, most_grains));
-}
-
-/// Of all grains that are put in [m^3].
-double volume_of_grains(const BedRecipe& recipe) {
-  const auto& [length, width, depth] = recipe.size;
-  return spare * densest * length * width * (depth + recipe.grading.factor * recipe.soil.radius_max);
+  const bool in_lammps = recipe.settled_by == SettledBy::lammps;
+  const double count = expected_grains(recipe), most = in_lammps ? most_in_lammps : most_grains;
+  if (count > most)
+    throw InputError(fmt::format("a bed of {:.3g} grains is more than {} settles: {:.0e} at most{}", count,
+                                 in_lammps ? "LAMMPS" : "one process", most,
+                                 in_lammps ? "" : "\n  hint: many processes, --engine lammps --settled-by lammps"));
 }
 
 Setup setup_of(const BedRecipe& recipe, int threads) {
@@ -85,92 +141,9 @@ Body bin_of(const BedSize& size) {
   return bin;
 }
 
-std::string number_or_words(double value) {
-  return std::isfinite(value) ? fmt::format("{:.3g}", value) : "without bounds";
+void pour(const BedRecipe& recipe, const GrainSink& put) {
+  recipe.grading.factor > 1 ? pour_graded(recipe, put) : pour_evenly(recipe, put);
 }
-
-/// Runs until the rest test holds.
-void come_to_rest(Simulation& simulation, const RestTest& test, const WorkOptions& how, double done, double share) {
-  const double begin = simulation.time();
-  constexpr int looking = 16;  // steps that unrest() takes
-  const std::int64_t steps =
-      std::max<std::int64_t>(0, std::llround(test.every / simulation.setup().numerics.dt) - looking);
-  Unrest now;
-  while (simulation.time() - begin < test.at_most) {
-    if (how.stop.stop_requested()) throw Stopped();
-    simulation.run(steps);
-    now = unrest(simulation, looking);
-    if (now.kinetic < test.kinetic && now.unbalanced < test.unbalanced) return;
-    if (how.progress) {
-      // Kinetic energy falls by orders of magnitude; how many are left is the
-      // share left.
-      const double orders = std::clamp(std::log10(now.kinetic / test.kinetic) / 7, 0.0, 1.0);
-      how.progress({"settling", done + share * (1 - orders), not_a_number});
-    }
-  }
-  throw RunStopped(fmt::format(
-      "the bed did not come to rest in {:.3g} s: kinetic {} (asked "
-      "{:.3g}), unbalanced {} "
-      "(asked {:.3g})\n  hint: a shorter time step, or a looser test",
-      test.at_most, number_or_words(now.kinetic), test.kinetic, number_or_words(now.unbalanced), test.unbalanced));
-}
-
-/// Takes away grains above a height chosen such that the surface seen from
-/// above comes to `depth` on average.
-/// radius: mean, of fine grains; coarse: of coarse ones [m].
-void level(Simulation& simulation, const BedSize& size, double radius, double coarse) {
-  const Footprint over{radius, size.length - radius, radius, size.width - radius};
-  const Grains& grains = simulation.state().grains;
-  const auto mean_below = [&](double cut) {
-    Grains kept;
-    for (std::size_t k = 0; k < grains.count(); ++k) {
-      const Motion& grain = grains.motion[k];
-      if (grain.position.z + grain.radius <= cut) kept.add({.radius = grain.radius, .position = grain.position});
-    }
-    return surface_height(kept, over, radius / 4).mean();
-  };
-  double low = size.depth - 2 * coarse, high = size.depth + 4 * coarse;
-  if (mean_below(high) < size.depth)
-    throw RunStopped(fmt::format("the settled grains fill the bin only to {} m", number_or_words(mean_below(high))));
-  for (int turn = 0; turn < 12; ++turn) {
-    const double middle = (low + high) / 2;
-    (mean_below(middle) < size.depth ? low : high) = middle;
-  }
-  simulation.remove_grains([&](const GrainNow& grain) { return grain.position.z + grain.radius > high; });
-}
-
-/// The soil's grains everywhere, on a lattice.
-void pour(Simulation& simulation, const BedRecipe& recipe) {
-  const GranularSoil& soil = recipe.soil;
-  const int count = static_cast<int>(std::ceil(expected_grains(recipe)));
-  const RadiusRange radii{soil.radius_min, soil.radius_max};
-  Region region{{0, 0, 0}, {recipe.size.length, recipe.size.width, 0}};
-  while (room_for(region, radii) < count) region.upper.z += soil.radius_max;
-  if (region.upper.z > headroom) throw InputError("the bed is too high to be poured");
-  insert_loosely(simulation, region, radii, grain_material, count, recipe.packing);
-}
-
-/// Grains of each place's own sizes, equally loose everywhere, so that all of the bed comes down by the same share and
-/// the zones come to lie where they belong.
-void pour_graded(Simulation& simulation, const BedRecipe& recipe) {
-  const GranularSoil& soil = recipe.soil;
-  const auto& [length, width, depth] = recipe.size;
-  const double volume = volume_of_grains(recipe), height = volume / (loosely * length * width);
-  if (height > headroom) throw InputError("the bed is too high to be poured");
-  const double settles = volume / (densest * length * width) / height;
-  const auto scale = [&](const Vec3& at) { return recipe.grading.scale(recipe.size, at.y, settles * at.z); };
-  insert_graded(simulation, {{0, 0, 0}, {length, width, height}},
-                {{soil.radius_min, soil.radius_max}, scale, recipe.grading.factor, volume}, grain_material,
-                recipe.packing);
-}
-
-Interaction with_friction(Interaction interaction, double share) {
-  interaction.sliding_friction *= share;
-  interaction.rolling_friction *= share;
-  return interaction;
-}
-
-}  // namespace
 
 double Grading::scale(const BedSize& bed, double y, double z) const {
   if (factor == 1) return 1;
@@ -239,26 +212,27 @@ ContactLaws with_cohesion_of(const ContactPair& pair, ContactLaws laws) {
   return laws;
 }
 
+double mean_height(const Simulation& simulation, const Footprint& over, double spacing, double cut) {
+  SurfaceHeight surface = bare_floor(over, spacing);
+  for (std::size_t k = 0; k < simulation.state().grains.count(); ++k) {
+    const Motion& grain = simulation.state().grains.motion[k];
+    if (grain.position.z + grain.radius <= cut) raise(surface, grain.position, grain.radius);
+  }
+  return surface.mean();
+}
+
+void remove_above(Simulation& simulation, double cut) {
+  simulation.remove_grains([&](const GrainNow& grain) { return grain.position.z + grain.radius > cut; });
+}
+
 SettledBed settle_bed(const BedRecipe& recipe, const WorkOptions& how) {
   check(recipe);
-  const GranularSoil& soil = recipe.soil;
   Simulation simulation(setup_of(recipe, how.threads));
   simulation.set_gravity({0, 0, -recipe.gravity});
   simulation.add_body(bin_of(recipe.size));
-  if (recipe.grading.factor > 1)
-    pour_graded(simulation, recipe);
-  else
-    pour(simulation, recipe);
-
-  const Interaction full = interaction_of(soil.grain_grain);
-  simulation.set_interaction(grain_material, grain_material, with_friction(full, recipe.settling_friction));
-  RestTest poured = recipe.rest;
-  poured.kinetic *= before_levelling, poured.unbalanced *= before_levelling;
-  come_to_rest(simulation, poured, how, 0.0, 0.8);
-  simulation.set_interaction(grain_material, grain_material, full);
-  const double radius = mean_diameter(soil) / 2;
-  level(simulation, recipe.size, radius, recipe.grading.factor * radius);
-  come_to_rest(simulation, recipe.rest, how, 0.8, 0.2);
+  pour(recipe, [&](const Vec3& centre, double radius) { simulation.add_grain(centre, radius, grain_material); });
+  BedRun run(simulation, how);
+  Settling<BedRun>(recipe, run).settle();
 
   SettledBed bed{.recipe = recipe, .setup = simulation.setup(), .state = simulation.state(), .report = {}};
   bed.report = report_on(Simulation(bed.setup, bed.state), recipe.size);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 
 #include "dem/bed/bed_report.hpp"
 #include "dem/bed/work_options.hpp"
@@ -40,6 +41,10 @@ struct Grading {
 /// grains.
 Grading grading_for(const Tire& tire, const GranularSoil& soil, double factor);
 
+/// Whose processes settle a bed: this program's engine, or LAMMPS (dem/worker_lammps). Both take the same stages
+/// (settling.hpp) with the same grains; the bits differ.
+enum class SettledBy { soilbin, lammps };
+
 /// All that a bed follows from. The tire's contact with the soil is not read.
 struct BedRecipe {
   GranularSoil soil;
@@ -51,6 +56,7 @@ struct BedRecipe {
   double dt = 0;                 ///< [s]; 0: longest_step
   ContactLaws laws;
   RestTest rest;
+  SettledBy settled_by = SettledBy::soilbin;
 };
 
 /// Where the bed's body stands in State::bodies: floor and four walls, planes of the grains' own material.
@@ -63,6 +69,7 @@ struct SettledBed {
   Setup setup;  ///< of one material, the grains'
   State state;
   BedReport report;
+  std::filesystem::path grains_in{};  ///< folder of the grains that LAMMPS settled, of which `state` has none
 };
 
 /// The engine's law for a soil's rolling resistance.
@@ -83,6 +90,15 @@ inline double longest_step(const GranularSoil& soil) {
 
 /// How many grains are put into a bed, about.
 double expected_grains(const BedRecipe& recipe);
+
+/// Throws InputError for a recipe that makes no sense, or of more grains than who settles it takes.
+void check(const BedRecipe& recipe);
+/// Numerics and the grains' material, with the whole friction.
+Setup setup_of(const BedRecipe& recipe, int threads);
+/// Floor and walls.
+Body bin_of(const BedSize& size);
+/// Gives all grains of the recipe, where they begin to fall, to `put`. A graded bed takes 32 bytes a grain meanwhile.
+void pour(const BedRecipe& recipe, const GrainSink& put);
 
 /// Puts grains in loosely, lets them fall, takes away what stands above the depth so that the surface seen from above
 /// is on average there, and lets the rest settle again. The same recipe gives the same bed, for any number of threads.

@@ -40,29 +40,34 @@ std::vector<double> SurfaceHeight::along() const {
   return means;
 }
 
-SurfaceHeight surface_height(const Grains& grains, const Footprint& over, double spacing) {
+SurfaceHeight bare_floor(const Footprint& over, double spacing) {
   SurfaceHeight out;
   out.over = over;
-  const double length = over.x_upper - over.x_lower, width = over.y_upper - over.y_lower;
-  out.nx = std::max(1, static_cast<int>(std::lround(length / spacing)));
-  out.ny = std::max(1, static_cast<int>(std::lround(width / spacing)));
+  out.nx = std::max(1, static_cast<int>(std::lround((over.x_upper - over.x_lower) / spacing)));
+  out.ny = std::max(1, static_cast<int>(std::lround((over.y_upper - over.y_lower) / spacing)));
   out.height.assign(static_cast<std::size_t>(out.nx) * out.ny, 0.0);
-  const double dx = length / out.nx, dy = width / out.ny;
-  for (std::size_t k = 0; k < grains.count(); ++k) {
-    const Vec3& at = grains.motion[k].position;
-    const double radius = grains.motion[k].radius;
-    const Span xs = middles(at.x, radius, over.x_lower, dx, out.nx);
-    const Span ys = middles(at.y, radius, over.y_lower, dy, out.ny);
-    for (int iy = ys.first; iy <= ys.last; ++iy) {
-      for (int ix = xs.first; ix <= xs.last; ++ix) {
-        const double x = over.x_lower + (ix + 0.5) * dx - at.x, y = over.y_lower + (iy + 0.5) * dy - at.y;
-        const double above2 = radius * radius - x * x - y * y;
-        if (above2 <= 0) continue;
-        double& h = out.height[static_cast<std::size_t>(iy) * out.nx + ix];
-        h = std::max(h, at.z + std::sqrt(above2));
-      }
+  return out;
+}
+
+void raise(SurfaceHeight& surface, const Vec3& centre, double radius) {
+  const Footprint& over = surface.over;
+  const double dx = (over.x_upper - over.x_lower) / surface.nx, dy = (over.y_upper - over.y_lower) / surface.ny;
+  const Span xs = middles(centre.x, radius, over.x_lower, dx, surface.nx);
+  const Span ys = middles(centre.y, radius, over.y_lower, dy, surface.ny);
+  for (int iy = ys.first; iy <= ys.last; ++iy) {
+    for (int ix = xs.first; ix <= xs.last; ++ix) {
+      const double x = over.x_lower + (ix + 0.5) * dx - centre.x, y = over.y_lower + (iy + 0.5) * dy - centre.y;
+      const double above2 = radius * radius - x * x - y * y;
+      if (above2 <= 0) continue;
+      double& h = surface.height[static_cast<std::size_t>(iy) * surface.nx + ix];
+      h = std::max(h, centre.z + std::sqrt(above2));
     }
   }
+}
+
+SurfaceHeight surface_height(const Grains& grains, const Footprint& over, double spacing) {
+  SurfaceHeight out = bare_floor(over, spacing);
+  for (std::size_t k = 0; k < grains.count(); ++k) raise(out, grains.motion[k].position, grains.motion[k].radius);
   return out;
 }
 

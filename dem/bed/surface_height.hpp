@@ -27,6 +27,10 @@ struct SurfaceHeight {
   std::vector<double> along() const;
 };
 
+/// The floor over points in the middle of cells of about `spacing`; and one grain that lies on it.
+SurfaceHeight bare_floor(const Footprint& over, double spacing);
+void raise(SurfaceHeight& surface, const Vec3& centre, double radius);
+
 /// The surface of all grains, seen from above; the points lie in the middle of
 /// cells of about `spacing`.
 SurfaceHeight surface_height(const Grains& grains, const Footprint& over, double spacing);

@@ -23,8 +23,15 @@ BedRecipe DemModel::recipe(const Scenario& scenario) const {
   recipe.packing = settings_.packing;
   recipe.grading = grading_for(scenario.tire, recipe.soil, settings_.graded);
   recipe.settling_friction = settings_.settling_friction;
+  recipe.settled_by = settings_.settled_by;
   recipe.dt = settings_.bed_dt.value_or(settings_.rig.dt);
   return recipe;
+}
+
+std::shared_ptr<const SettledBed> DemModel::bed(const BedRecipe& recipe) const {
+  if (recipe.settled_by == SettledBy::soilbin) return beds_.bed(recipe, settings_.how);
+  return std::make_shared<const SettledBed>(
+      bed_in_lammps(settings_.lammps.value(), recipe, settings_.beds, settings_.how));
 }
 
 TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondition& at) const {
@@ -33,7 +40,7 @@ TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondi
   const BedRecipe asked = recipe(scenario);
   wheel_motion(at, scenario.tire.radius);  // these two refuse what can't be run before a bed is settled for it
   way_in_bin(asked.size, scenario.tire, settings_.rig);
-  const auto bed = beds_.bed(asked, settings_.how);
+  const auto bed = this->bed(asked);
   const ContactPair& contact = scenario.soil.granular->grain_tire;
   const Checkpoints kept = checkpoints_of(scenario, at);
   const auto finished = [&] {

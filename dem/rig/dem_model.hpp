@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "dem/bed/bed_store.hpp"
@@ -13,11 +14,12 @@
 namespace soilbin::dem {
 
 struct DemSettings {
-  BedSize size;                  ///< of the bed; a scenario's bin replaces depth and width
-  std::uint64_t packing = 1;     ///< seed of the bed
-  double settling_friction = 1;  ///< as in BedRecipe
-  double graded = 1;             ///< grains below and beside the track up to so many times coarser (Grading)
-  std::filesystem::path beds;    ///< folder that keeps beds; empty: none is kept on disk
+  BedSize size;                               ///< of the bed; a scenario's bin replaces depth and width
+  std::uint64_t packing = 1;                  ///< seed of the bed
+  double settling_friction = 1;               ///< as in BedRecipe
+  SettledBy settled_by = SettledBy::soilbin;  ///< lammps needs `lammps`
+  double graded = 1;           ///< grains below and beside the track up to so many times coarser (Grading)
+  std::filesystem::path beds;  ///< folder that keeps beds; empty: none is kept on disk
   Rig rig;
   std::optional<double> bed_dt;  ///< step with which beds settle [s], 0 as in BedRecipe; without one the rig's
   WorkOptions how;
@@ -27,8 +29,8 @@ struct DemSettings {
   /// A finished run's restart goes when evaluate returns; false: it stays until whoever has put the answer where it is
   /// safe calls forget.
   bool forget_finished = true;
-  /// Who moves the grains of wheel runs: this program's own engine, or LAMMPS in processes of its own (beds and drives
-  /// stay with the engine).
+  /// Who moves the grains of wheel runs: this program's own engine, or LAMMPS in processes of its own (drives stay
+  /// with the engine, and beds but for settled_by).
   std::optional<LammpsWorker> lammps;
   bool only_steady = false;                     ///< NoSolution where a run didn't become steady, instead of its means
   std::function<void(const WheelRun&)> on_run;  ///< gets everything a run told, before evaluate returns
@@ -60,6 +62,8 @@ class DemModel : public Model {
 
   /// The bed that a scenario's soil gets.
   BedRecipe recipe(const Scenario& scenario) const;
+  /// That bed, from where beds are kept or settled now.
+  std::shared_ptr<const SettledBed> bed(const BedRecipe& recipe) const;
 
  private:
   /// With the restart's file: `kind` and key.

@@ -11,10 +11,13 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <sstream>
 
+#include "dem/bed/bed_store.hpp"
+#include "dem/rig/bed_job.hpp"
 #include "dem/rig/run_inputs.hpp"
 #include "dem/rig/wheel_job.hpp"
 #include "scenario/atomic_file.hpp"
@@ -205,7 +208,7 @@ class JobFolder {
       path_ = name;
     }
     make_folder(path_);
-    lock_ = std::make_unique<const FileLock>(path_ / "lock", FileLock::Wait::no);
+    lock_ = std::make_unique<const FileLock>(lammps_lock(path_), FileLock::Wait::no);
     if (!lock_->is_held()) throw std::runtime_error(fmt::format("{}: another process is at this run", path_.string()));
   }
   JobFolder(const JobFolder&) = delete;
@@ -224,6 +227,8 @@ class JobFolder {
 
 }  // namespace
 
+fs::path lammps_lock(const fs::path& folder) { return folder / "lock"; }
+
 fs::path lammps_folder(const fs::path& restart) {
   if (restart.empty()) return {};
   const std::string stem = restart.stem().string();
@@ -231,29 +236,65 @@ fs::path lammps_folder(const fs::path& restart) {
   return restart.parent_path() / ("lammps-" + (dash == std::string::npos ? stem : stem.substr(dash + 1)));
 }
 
-WheelRun run_in_lammps(const LammpsWorker& worker, const WheelOnBed& on, const OperatingCondition& at,
-                       const WorkOptions& how, const Checkpoints& checkpoints) {
-  refuse_what_it_lacks(on.rig);
+namespace {
+
+void refuse_without_program(const LammpsWorker& worker) {
   if (!fs::exists(worker.program))
     throw InputError(
         fmt::format("{} is not there\n  hint: install liblammps-dev and mpi-default-dev, and build soilbin again",
                     worker.program.string()));
+}
+
+/// Has the job in this folder done, until the file `answer` is there.
+void work_in(const fs::path& folder, const fs::path& answer, const LammpsWorker& worker, const WorkOptions& how,
+             const std::function<void(const std::string&)>& tell) {
+  fs::remove(folder / "error.txt");
+  std::vector<std::string> words;
+  std::istringstream launcher(worker.launcher);
+  for (std::string word; launcher >> word;) words.push_back(word);
+  if (words.empty()) throw InputError("nothing is named that starts processes\n  hint: SOILBIN_MPIRUN=mpirun");
+  words.insert(words.end(), {"-n", std::to_string(worker.ranks), worker.program.string(), folder.string()});
+  Child child(words, folder / "stderr.txt");
+  const int status = follow(child, how, [&] {
+    if (tell && fs::exists(folder / "state")) tell("the work in LAMMPS is kept: the same command goes on from there");
+  });
+  if (status != answered || !fs::exists(answer)) throw_error_of(folder, status, worker.ranks);
+}
+
+}  // namespace
+
+SettledBed bed_in_lammps(const LammpsWorker& worker, const BedRecipe& recipe, const fs::path& beds,
+                         const WorkOptions& how) {
+  check(recipe);
+  if (beds.empty())
+    throw InputError("there is no folder for the bed that LAMMPS settles\n  hint: export SOILBIN_BEDS=FOLDER");
+  const fs::path report = fs::absolute(BedStore(beds).file(recipe)), folder = report.parent_path();
+  if (!fs::exists(report)) {
+    refuse_without_program(worker);
+    const JobFolder held(folder);
+    if (!fs::exists(report)) {
+      write_bed_job(folder, recipe);
+      work_in(folder, report, worker, how, how.tell);
+    }
+  }
+  SettledBed bed{.recipe = recipe,
+                 .setup = setup_of(recipe, how.threads),
+                 .state = {},
+                 .report = read_bed_report(folder),
+                 .grains_in = folder};
+  bed.state.gravity = {0, 0, -recipe.gravity}, bed.state.bodies = {bin_of(recipe.size)};
+  return bed;
+}
+
+WheelRun run_in_lammps(const LammpsWorker& worker, const WheelOnBed& on, const OperatingCondition& at,
+                       const WorkOptions& how, const Checkpoints& checkpoints) {
+  refuse_what_it_lacks(on.rig);
+  refuse_without_program(worker);
   const JobFolder folder(lammps_folder(checkpoints.restart));
   const fs::path answer = folder.path() / "answer.txt";
   if (!fs::exists(answer)) {
-    fs::remove(folder.path() / "error.txt");
     write_job(folder.path() / "job.h5", on, at, inputs_text(on.bed.recipe, on.tire, on.contact, on.rig, at));
-    std::vector<std::string> words;
-    std::istringstream launcher(worker.launcher);
-    for (std::string word; launcher >> word;) words.push_back(word);
-    if (words.empty()) throw InputError("nothing is named that starts processes\n  hint: SOILBIN_MPIRUN=mpirun");
-    words.insert(words.end(), {"-n", std::to_string(worker.ranks), worker.program.string(), folder.path().string()});
-    Child child(words, folder.path() / "stderr.txt");
-    const int status = follow(child, how, [&] {
-      if (checkpoints.tell && fs::exists(folder.path() / "state"))
-        checkpoints.tell("the run in LAMMPS is kept: the same command goes on from there");
-    });
-    if (status != answered || !fs::exists(answer)) throw_error_of(folder.path(), status, worker.ranks);
+    work_in(folder.path(), answer, worker, how, checkpoints.tell);
   }
   if (how.progress) how.progress({"done", 1, 0});
   return read_answer(answer, on.tire, at, on.rig);

@@ -20,6 +20,12 @@ struct LammpsWorker {
   std::string launcher = "mpirun";  ///< with its own flags, blanks between; gets -n RANKS PROGRAM FOLDER
 };
 
+/// The bed of a recipe that LAMMPS settles, in the folder bed-KEY of `beds`: found there, gone on with, or begun. Its
+/// grains stay in that folder (SettledBed::grains_in); the report is what LAMMPS measures (bed_job.hpp). Throws what
+/// settle_bed throws, and std::runtime_error as run_in_lammps.
+SettledBed bed_in_lammps(const LammpsWorker& worker, const BedRecipe& recipe, const std::filesystem::path& beds,
+                         const WorkOptions& how);
+
 /// As run_wheel, of the same arguments. The job lies in a folder lammps-KEY beside the file run-KEY.h5 that
 /// `checkpoints` names, and stays there until forget_run; a run that has its answer there is not made again. Throws
 /// what run_wheel throws; InputError also for an onlooker or a ledger, which this run has not, and for laws that LAMMPS
@@ -28,7 +34,8 @@ struct LammpsWorker {
 WheelRun run_in_lammps(const LammpsWorker& worker, const WheelOnBed& on, const OperatingCondition& at,
                        const WorkOptions& how, const Checkpoints& checkpoints);
 
-/// The folder of a run whose restart would be this file.
+/// The folder of a run whose restart would be this file, and the file that is locked while someone is at a folder.
 std::filesystem::path lammps_folder(const std::filesystem::path& restart);
+std::filesystem::path lammps_lock(const std::filesystem::path& folder);
 
 }  // namespace soilbin::dem

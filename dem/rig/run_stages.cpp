@@ -25,8 +25,8 @@ void RunStages::steps(std::string_view stage, std::int64_t steps, const std::fun
 
 void RunStages::loop(std::string_view stage, const std::function<bool()>& goes_on, const std::function<void()>& each,
                      const std::function<double()>& share) {
-  constexpr std::int64_t between_looks = 100;  // steps
   if (!enters()) return;
+  const std::int64_t between_looks = steps_between_looks();
   for (; goes_on(); ++taken_) {
     if (taken_ % between_looks == 0) look(stage, share ? share() : done());
     each();

@@ -57,6 +57,7 @@ class RunStages {
   RunStages() = default;
   ~RunStages() = default;
 
+  virtual std::int64_t steps_between_looks() const { return 100; }
   /// Now and then between steps: words, stops, restarts.
   virtual void look(std::string_view stage, double share) = 0;
   /// The run goes on from these notes; `where`: the file that an error names.

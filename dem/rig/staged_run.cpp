@@ -67,17 +67,19 @@ StagedRun::~StagedRun() {
 
 void forget_run(const fs::path& restart) {
   if (restart.empty()) return;
-  std::error_code never_mind;  // a folder that may only be read
-  fs::remove_all(lammps_folder(restart), never_mind);
-  if (!has_restart(restart)) return;
-  try {
-    const FileLock lock(lock_of(restart), FileLock::Wait::no);
-    if (!lock.is_held()) return;  // another process is at it
-    remove_restart(restart);
-    std::error_code gone_already;
-    fs::remove(lock_of(restart), gone_already);
-  } catch (const std::runtime_error&) {  // a folder that can't be written to any more: it stays
-  }
+  const auto unless_another_is_at_it = [](const fs::path& lock_file, const std::function<void()>& remove) {
+    try {
+      const FileLock lock(lock_file, FileLock::Wait::no);
+      if (!lock.is_held()) return;
+      remove();
+      std::error_code gone_already;
+      fs::remove(lock_file, gone_already);
+    } catch (const std::runtime_error&) {  // a folder that can't be written to any more: it stays
+    }
+  };
+  if (const fs::path folder = lammps_folder(restart); fs::exists(folder))
+    unless_another_is_at_it(lammps_lock(folder), [&] { fs::remove_all(folder); });
+  if (has_restart(restart)) unless_another_is_at_it(lock_of(restart), [&] { remove_restart(restart); });
 }
 
 void StagedRun::through(const std::function<void()>& stages) {

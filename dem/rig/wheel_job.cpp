@@ -1,6 +1,7 @@
 #include "dem/rig/wheel_job.hpp"
 
 #include "dem/archive/note_text.hpp"
+#include "dem/rig/bed_job.hpp"
 #include "dem/rig/wheel_in_bin.hpp"
 #include "dem/rig/wheel_result.hpp"
 #include "scenario/atomic_file.hpp"
@@ -30,12 +31,6 @@ void parts(Notes& notes, OperatingCondition& at) {
 }
 
 template <class Notes>
-void parts(Notes& notes, ContactPair& pair) {
-  auto& [restitution, sliding_friction, rolling_friction, rolling_damping, cohesion, rolling_stiffness] = pair;
-  notes(restitution, sliding_friction, rolling_friction, rolling_damping, cohesion, rolling_stiffness);
-}
-
-template <class Notes>
 void parts(Notes& notes, Rig& rig) {
   auto& [mass, tilting, lowering, resting, starting, behind, ahead, travel, sampling, sectors, inertia, meshing, young,
          poisson, dt, skin, deepest_overlap, sleep_speed, sleep_time, ledger, steady_drift, drive_torque, onlooker] =
@@ -53,7 +48,9 @@ void parts(Notes& notes, WheelJob& job) {
   notes(job.bed.report.void_ratio, job.bed.report.bulk_density, job.bed.report.coordination);
   Tire& tire = job.tire;
   notes(tire.radius, tire.width, tire.lugs.height, tire.lugs.count, tire.lugs.thickness, tire.lugs.pattern);
-  notes(job.contact, job.rig, job.at);
+  std::string folder = job.bed.grains_in.string();
+  notes(job.contact, job.rig, job.at, folder);
+  job.bed.grains_in = folder;
 }
 
 template <class Notes>
@@ -76,7 +73,7 @@ void parts(Notes& notes, WheelRun& run) {
 
 void write_job(const fs::path& file, const WheelOnBed& on, const OperatingCondition& at, const std::string& inputs) {
   WheelJob job{.setup = {},
-               .bed = {on.bed.recipe, {}, {}, on.bed.report},
+               .bed = {on.bed.recipe, {}, {}, on.bed.report, on.bed.grains_in},
                .tire = on.tire,
                .contact = on.contact,
                .rig = on.rig,
@@ -88,7 +85,7 @@ void write_job(const fs::path& file, const WheelOnBed& on, const OperatingCondit
   State without_grains;
   without_grains.step = on.bed.state.step, without_grains.time = on.bed.state.time;
   without_grains.gravity = on.bed.state.gravity, without_grains.bodies = on.bed.state.bodies;
-  write_restart(grains_of(file), setup, on.bed.state, {}, Keep::nothing);
+  if (on.bed.grains_in.empty()) write_restart(grains_of(file), setup, on.bed.state, {}, Keep::nothing);
   write_restart(file, setup, without_grains, {{job_wheel_note, writer.text()}, {job_inputs_note, inputs}},
                 Keep::nothing);
 }
@@ -102,7 +99,7 @@ WheelJob read_job(const fs::path& file, WithGrains grains) {
   job.inputs = restart.notes[job_inputs_note];
   job.setup = restart.setup;
   job.bed.setup = std::move(restart.setup), job.bed.state = std::move(restart.state);
-  if (grains == WithGrains::yes) job.bed.state = read_restart(grains_of(file)).state;
+  if (grains == WithGrains::yes && job.bed.grains_in.empty()) job.bed.state = read_restart(grains_of(file)).state;
   return job;
 }
 

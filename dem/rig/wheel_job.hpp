@@ -28,10 +28,11 @@ struct WheelJob {
   WheelOnBed wheel() const { return {bed, tire, contact, rig}; }
 };
 
-/// The bed's grains go to a file of their own, bed.h5 beside it. Throws std::runtime_error where the disk refuses.
+/// The bed's grains go to a file of their own, bed.h5 beside it, unless LAMMPS has them in a folder. Throws
+/// std::runtime_error where the disk refuses.
 void write_job(const std::filesystem::path& file, const WheelOnBed& on, const OperatingCondition& at,
                const std::string& inputs);
-/// Whether the bed's grains are read too, or the state holds all but them.
+/// Whether the bed's grains are read too, where they lie beside the job, or the state holds all but them.
 enum class WithGrains { yes, no };
 /// Throws InputError for a file that can't be read, is damaged or holds something else.
 WheelJob read_job(const std::filesystem::path& file, WithGrains grains = WithGrains::yes);

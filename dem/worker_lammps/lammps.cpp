@@ -2,6 +2,7 @@
 
 #define LAMMPS_LIB_MPI  // lammps_open with a communicator
 #define LMP_UTILS_H     // its templates want an older fmt than Debian has; nothing of it is called here
+#include <lammps/domain.h>
 #include <lammps/lammps.h>
 #include <lammps/library.h>
 #include <lammps/neighbor.h>
@@ -49,6 +50,25 @@ void Lammps::add_grains(std::span<const int> ids, std::span<const Vec3> position
 int Lammps::count() const { return lammps_extract_setting(handle_, "nlocal"); }
 int Lammps::with_ghosts() const { return lammps_extract_setting(handle_, "nall"); }
 double Lammps::total() const { return lammps_get_natoms(handle_); }
+
+Lammps::Part Lammps::part() const {
+  const LAMMPS_NS::Domain& domain = *static_cast<LAMMPS_NS::LAMMPS*>(handle_)->domain;
+  const double *low = domain.sublo, *high = domain.subhi;
+  return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+}
+
+void Lammps::remove_grains(std::span<const int> rows) const {
+  constexpr int bit = 2;  // of the first group behind `all`: there is no other
+  command("group gone empty");
+  int* groups = of_atoms<int*>(handle_, "mask");
+  for (const int row : rows) groups[row] |= bit;
+  command("delete_atoms group gone compress no");
+  command("group gone delete");
+}
+
+double** Lammps::kept_by(const std::string& fix) const {
+  return static_cast<double**>(lammps_extract_fix(handle_, fix.c_str(), LMP_STYLE_ATOM, LMP_TYPE_ARRAY, 0, 0));
+}
 
 Lammps::Rows Lammps::rows() const {
   return {.id = of_atoms<int*>(handle_, "id"),

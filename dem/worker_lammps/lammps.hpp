@@ -37,6 +37,16 @@ class Lammps {
   int with_ghosts() const;  ///< rows of its own and of copies of others' behind them
   double total() const;     ///< grains of all processes
 
+  /// This process's part of the box [m]: each place of the box is in one.
+  struct Part {
+    Vec3 lower, upper;
+  };
+  Part part() const;
+  /// Takes grains away, by rows of this process; LAMMPS must be set up anew before its next step.
+  void remove_grains(std::span<const int> rows) const;
+  /// What a fix keeps of each own grain, row by row.
+  double** kept_by(const std::string& fix) const;
+
   /// Rows of own grains and, behind them, of copies. Pointers hold until the next step.
   struct Rows {
     int* id;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <tuple>
 #include <type_traits>
 #include <unordered_map>
@@ -39,6 +40,11 @@ void parts(Notes& notes, Triple<double>& t) {
 }
 
 template <class Notes>
+void parts(Notes& notes, Region& region) {
+  notes(region.lower, region.upper);
+}
+
+template <class Notes>
 void parts(Notes& notes, LammpsTravelling& t) {
   SurfaceContact& c = t.contact;
   notes(t.id, c.who.body, c.who.surface, c.triangle, c.normal, c.memory.slide, c.memory.roll);
@@ -46,22 +52,28 @@ void parts(Notes& notes, LammpsTravelling& t) {
 
 namespace {
 
-constexpr std::int64_t between_logs = 1000;  // steps after which LAMMPS's log begins anew: it has some lines a step
+constexpr std::size_t grains_at_once = 100'000;  // on their way between processes
+constexpr std::int64_t between_logs = 1000;      // steps after which LAMMPS's log begins anew: it has some lines a step
 
-/// Why LAMMPS can't take this over; "" where it can.
-std::string fault_of(const Setup& setup, const State& begin) {
-  if (begin.grains.count() == 0) return "LAMMPS needs grains: there are none";
+/// Why LAMMPS can't run this; "" where it can.
+std::string fault_of(const Setup& setup) {
   const auto& periodic = setup.domain.periodic;
   if (periodic[0] || periodic[1] || periodic[2]) return "a bin in LAMMPS has no periodic sides";
+  if (setup.laws.cohesion == CohesionLaw::jkr)
+    return "LAMMPS lists no pairs of grains that adhere beyond their contact (jkr)\n  hint: linear cohesion, or "
+           "--engine "
+           "soilbin";
+  return "";
+}
+
+/// Why it can't go on with this.
+std::string fault_of(const State& begin) {
+  if (begin.grains.count() == 0) return "LAMMPS needs grains: there are none";
   for (std::size_t k = 0; k < begin.grains.count(); ++k)
     if (begin.grains.motion[k].held() || begin.grains.material[k] != grain_material)
       return "grains in LAMMPS are free and of one material";
   if (!begin.new_grains.empty() && begin.new_grains.size() != begin.grains.count())
     return "grains in LAMMPS all begin at a whole step, or at the half step before";
-  if (setup.laws.cohesion == CohesionLaw::jkr)
-    return "LAMMPS lists no pairs of grains that adhere beyond their contact (jkr)\n  hint: linear cohesion, or "
-           "--engine "
-           "soilbin";
   return "";
 }
 
@@ -100,13 +112,12 @@ std::vector<T> gathered(MPI_Comm world, const std::vector<T>& mine) {
 template <class T, class Visit>
 void in_parts(MPI_Comm world, const std::vector<T>& of_first, const Visit& visit) {
   static_assert(std::is_trivially_copyable_v<T>);
-  constexpr std::size_t most = 100'000;
   int rank = 0;
   MPI_Comm_rank(world, &rank);
   std::uint64_t total = of_first.size();
   MPI_Bcast(&total, 1, MPI_UINT64_T, 0, world);
-  for (std::size_t from = 0; from < total; from += most) {
-    std::vector<T> part(std::min<std::size_t>(most, total - from));
+  for (std::size_t from = 0; from < total; from += grains_at_once) {
+    std::vector<T> part(std::min<std::size_t>(grains_at_once, total - from));
     if (rank == 0) std::copy_n(of_first.begin() + static_cast<std::ptrdiff_t>(from), part.size(), part.begin());
     MPI_Bcast(part.data(), static_cast<int>(part.size() * sizeof(T)), MPI_BYTE, 0, world);
     visit(part);
@@ -130,11 +141,37 @@ std::filesystem::path contacts_file(const std::string& grains, int rank) {
 
 }  // namespace
 
-/// What both ways of beginning have in common, up to the box.
-LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, std::string log, const State& begin)
+/// What all ways of beginning have in common, up to the box.
+LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, std::string log)
     : world_(world), setup_(std::move(setup)), log_(std::move(log)), lammps_(world, log_) {
   MPI_Comm_rank(world_, &rank_);
-  if (const std::string fault = fault_of_any(world_, rank_ == 0 ? fault_of(setup_, begin) : ""); !fault.empty())
+  if (const std::string fault = fault_of(setup_); !fault.empty()) throw InputError(fault);
+  lammps_.command("units si");
+  lammps_.command("atom_style sphere");
+  lammps_.command("newton off");
+  lammps_.command("comm_modify vel yes");
+  lammps_.command("boundary f f fs");   // a grain that is thrown up raises the box, as no other leaves it
+  lammps_.command("processors * * 1");  // beds are flat
+}
+
+/// What follows from their largest radius and the range of their ids.
+void LammpsSimulation::know_grains() {
+  here_.resize(static_cast<std::size_t>(next_id_) + 1);
+  laws_.fill(setup_.materials, setup_.laws, largest_);
+  margin_ = setup_.numerics.skin > 0 ? setup_.numerics.skin : 0.2 * largest_;
+}
+
+/// Wider than the domain, so that the engine's own check comes before LAMMPS forgets a grain.
+void LammpsSimulation::make_box() const {
+  const Vec3 low = setup_.domain.lower - Vec3{largest_, largest_, largest_};
+  const Vec3 high = setup_.domain.upper + Vec3{largest_, largest_, largest_};
+  lammps_.command(fmt::format("region box block {} {} {} {} {} {}", low.x, high.x, low.y, high.y, low.z, high.z));
+  lammps_.command("create_box 1 box");
+}
+
+LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log)
+    : LammpsSimulation(world, std::move(setup), std::move(log)) {
+  if (const std::string fault = fault_of_any(world_, rank_ == 0 ? fault_of(begin) : ""); !fault.empty())
     throw InputError(fault);
   Beginning first{begin.grains.largest_radius(),
                   begin.time,
@@ -145,29 +182,46 @@ LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, std::string log,
                   begin.new_grains.empty()};
   MPI_Bcast(&first, sizeof(first), MPI_BYTE, 0, world_);
   state_.gravity = first.gravity, state_.time = first.time, state_.step = first.step;
-  largest_ = first.largest, all_grains_ = first.grains, at_half_steps_ = first.at_half_steps;
-  here_.resize(first.next_id + std::size_t{1});
-  laws_.fill(setup_.materials, setup_.laws, largest_);
-  margin_ = setup_.numerics.skin > 0 ? setup_.numerics.skin : 0.2 * largest_;
-  lammps_.command("units si");
-  lammps_.command("atom_style sphere");
-  lammps_.command("newton off");
-  lammps_.command("comm_modify vel yes");
-  lammps_.command("boundary f f fs");   // a grain that is thrown up raises the box, as no other leaves it
-  lammps_.command("processors * * 1");  // beds are flat
-}
-
-LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log)
-    : LammpsSimulation(world, std::move(setup), std::move(log), begin) {
-  // Wider than the domain, so that the engine's own check comes before LAMMPS forgets a grain.
-  const Vec3 low = setup_.domain.lower - Vec3{largest_, largest_, largest_};
-  const Vec3 high = setup_.domain.upper + Vec3{largest_, largest_, largest_};
-  lammps_.command(fmt::format("region box block {} {} {} {} {} {}", low.x, high.x, low.y, high.y, low.z, high.z));
-  lammps_.command("create_box 1 box");
-  put_in(begin.grains);
+  largest_ = first.largest, all_grains_ = first.grains, at_half_steps_ = first.at_half_steps, next_id_ = first.next_id;
+  know_grains();
+  make_box();
+  std::vector<NewGrain> all;
+  for (std::size_t k = 0; k < begin.grains.count(); ++k)
+    all.push_back({.id = begin.grains.id[k],
+                   .radius = begin.grains.motion[k].radius,
+                   .mass = 1 / begin.grains.motion[k].inverse_mass,
+                   .material = grain_material,
+                   .position = begin.grains.motion[k].position,
+                   .velocity = begin.grains.motion[k].velocity,
+                   .spin = begin.grains.spin[k].rate});
+  in_parts(world_, all, [&](const std::vector<NewGrain>& part) { put_in(part); });
   write_commands();
   for (const Body& body : begin.bodies) add_body(body);
   take_contacts(begin);
+}
+
+LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const Vec3& gravity, const std::vector<Body>& bodies,
+                                   double largest, const std::function<void(const GrainSink&)>& pour, std::string log)
+    : LammpsSimulation(world, std::move(setup), std::move(log)) {
+  largest_ = largest, state_.gravity = gravity;
+  make_box();
+  const double density = setup_.materials.all[grain_material].density;
+  std::vector<NewGrain> part;
+  pour([&](const Vec3& centre, double radius) {
+    part.push_back({.id = static_cast<GrainId>(next_id_++),
+                    .radius = radius,
+                    .mass = density * 4.0 / 3 * std::numbers::pi * radius * radius * radius,
+                    .material = grain_material,
+                    .position = centre});
+    if (part.size() < grains_at_once) return;
+    put_in(part);
+    part.clear();
+  });
+  if (!part.empty()) put_in(part);
+  all_grains_ = next_id_;
+  know_grains();
+  write_commands();
+  for (const Body& body : bodies) add_body(body);
 }
 
 /// What the first process's engine remembers of contacts goes to those that have the grains.
@@ -206,21 +260,20 @@ void LammpsSimulation::take_pairs(const std::vector<PairContact>& contacts) {
     if (is_here(contact.first) || is_here(contact.second)) pairs_.take(contact);
 }
 
-LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log,
-                                   const std::string& grains, const std::string& notes, std::vector<Body> added)
-    : LammpsSimulation(world, std::move(setup), std::move(log), begin) {
+LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, std::string log, const std::string& grains,
+                                   const std::string& notes, std::vector<Body> bodies)
+    : LammpsSimulation(world, std::move(setup), std::move(log)) {
   lammps_.command("read_restart " + grains);
-  write_commands();
-  state_.bodies = begin.bodies;
-  for (Body& body : added) state_.bodies.push_back(std::move(body));
+  state_.bodies = std::move(bodies);
   before_ = state_.bodies;
   NoteReader reader("LAMMPS's run", notes);
   keep_in(reader);
   reader.end();
+  know_grains();
+  write_commands();
   note_who_is_here();
-  for (int rank = 0; rank < ranks_that_wrote_; ++rank) read_pairs(contacts_file(grains, rank));
+  read_pairs(grains);
   std::erase_if(arriving_, [&](const LammpsTravelling& one) { return !is_here(one.id); });
-  at_half_steps_ = false;
   for (Body& body : state_.bodies) get_ready(body);
   for (Body& body : before_) get_ready(body);
 }
@@ -228,12 +281,13 @@ LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& beg
 /// All but what LAMMPS keeps itself.
 template <class Notes>
 void LammpsSimulation::keep_in(Notes& notes) {
-  notes(state_.step, state_.time, state_.gravity, done_, ranks_that_wrote_, arriving_, state_.bodies, before_);
+  notes(largest_, all_grains_, next_id_);
+  notes(state_.step, state_.time, state_.gravity, done_, writers_, arriving_, state_.bodies, before_);
 }
 
 std::string LammpsSimulation::notes() {
   arriving_ = all_contacts();
-  MPI_Comm_size(world_, &ranks_that_wrote_);
+  writers_ = gathered(world_, std::vector<Region>{part()});
   NoteWriter writer;
   keep_in(writer);
   arriving_.clear();
@@ -247,11 +301,20 @@ void LammpsSimulation::write_grains(const std::string& file) const {
                {reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(PairContact)}, Keep::nothing);
 }
 
-void LammpsSimulation::read_pairs(const std::filesystem::path& file) {
-  const SealedFile sealed(file, pairs_kind);
-  std::vector<PairContact> all(sealed.content().size() / sizeof(PairContact));
-  std::memcpy(all.data(), sealed.content().data(), all.size() * sizeof(PairContact));
-  take_pairs(all);
+/// Of those that had a grain next to or in this process's part.
+void LammpsSimulation::read_pairs(const std::string& grains) {
+  const double reach = 2 * largest_ + margin_;
+  const Region here = part();
+  const auto reaches = [&](double Vec3::*axis, const Region& there) {
+    return there.lower.*axis <= here.upper.*axis + reach && there.upper.*axis >= here.lower.*axis - reach;
+  };
+  for (std::size_t rank = 0; rank < writers_.size(); ++rank) {
+    if (!reaches(&Vec3::x, writers_[rank]) || !reaches(&Vec3::y, writers_[rank])) continue;
+    const SealedFile sealed(contacts_file(grains, static_cast<int>(rank)), pairs_kind);
+    std::vector<PairContact> all(sealed.content().size() / sizeof(PairContact));
+    std::memcpy(all.data(), sealed.content().data(), all.size() * sizeof(PairContact));
+    take_pairs(all);
+  }
 }
 
 /// Of all processes, by grain.
@@ -261,35 +324,23 @@ std::vector<LammpsTravelling> LammpsSimulation::all_contacts() const {
   return gathered(world_, mine);
 }
 
-/// The first process's, on those in whose part of the box they lie.
-void LammpsSimulation::put_in(const Grains& grains) const {
-  std::vector<NewGrain> all;
-  for (std::size_t k = 0; k < grains.count(); ++k)
-    all.push_back({.id = grains.id[k],
-                   .radius = grains.motion[k].radius,
-                   .mass = 1 / grains.motion[k].inverse_mass,
-                   .material = grain_material,
-                   .position = grains.motion[k].position,
-                   .velocity = grains.motion[k].velocity,
-                   .spin = grains.spin[k].rate});
-  in_parts(world_, all, [&](const std::vector<NewGrain>& part) {
-    std::vector<int> ids;
-    std::vector<Vec3> positions, velocities;
-    std::unordered_map<int, const NewGrain*> by_id;
-    for (const NewGrain& grain : part) {
-      ids.push_back(static_cast<int>(grain.id) + 1);
-      positions.push_back(grain.position), velocities.push_back(grain.velocity);
-      by_id[ids.back()] = &grain;
-    }
-    const int before = lammps_.count();
-    lammps_.add_grains(ids, positions, velocities);
-    const Lammps::Rows rows = lammps_.rows();
-    for (int row = before; row < lammps_.count(); ++row) {
-      const NewGrain& grain = *by_id.at(rows.id[row]);
-      rows.radius[row] = grain.radius, rows.mass[row] = grain.mass;
-      std::copy_n(&grain.spin.x, 3, rows.spin[row]);
-    }
-  });
+/// Each process takes those that lie in its part of the box, in their order.
+void LammpsSimulation::put_in(std::span<const NewGrain> part) const {
+  std::vector<int> ids;
+  std::vector<Vec3> positions, velocities;
+  for (const NewGrain& grain : part) {
+    ids.push_back(static_cast<int>(grain.id) + 1);
+    positions.push_back(grain.position), velocities.push_back(grain.velocity);
+  }
+  const int before = lammps_.count();
+  lammps_.add_grains(ids, positions, velocities);
+  const Lammps::Rows rows = lammps_.rows();
+  auto grain = part.begin();
+  for (int row = before; row < lammps_.count(); ++row, ++grain) {
+    while (static_cast<int>(grain->id) + 1 != rows.id[row]) ++grain;
+    rows.radius[row] = grain->radius, rows.mass[row] = grain->mass;
+    std::copy_n(&grain->spin.x, 3, rows.spin[row]);
+  }
 }
 
 void LammpsSimulation::write_commands() const {
@@ -303,6 +354,21 @@ void LammpsSimulation::write_commands() const {
   lammps_.command("fix soil all external pf/callback 1 1");
   lammps_.command("thermo_style custom step");
   lammps_.command("thermo_modify lost ignore");  // join_loads counts them, and says which
+}
+
+void LammpsSimulation::set_interaction(int a, int b, const Interaction& interaction) {
+  setup_.materials.set(a, b, interaction);
+  laws_.fill(setup_.materials, setup_.laws, largest_);
+}
+
+void LammpsSimulation::remove_grains(const std::function<bool(const Vec3& centre, double radius)>& gone) {
+  const Lammps::Rows rows = lammps_.rows();
+  std::vector<int> which;
+  for (int row = 0; row < lammps_.count(); ++row)
+    if (gone(vec(rows.position[row]), rows.radius[row])) which.push_back(row);
+  lammps_.remove_grains(which);
+  all_grains_ = std::llround(lammps_.total());
+  prepared_ = false;
 }
 
 int LammpsSimulation::add_body(Body body) {
@@ -345,6 +411,7 @@ void LammpsSimulation::add_forces(std::int64_t step, int rows, const int* ids, d
   now_ = lammps_.rows();
   if (again) state_.bodies.swap(before_);  // where they were at this step
   fault_.clear();
+  pressing_ = contacts_made_ = 0;
   follow_grains(rows, ids);
   travel_ += setup_.numerics.dt * (weigh(rows, x, force) + body_speed_);
   if (travel_ > margin_) find_near(rows);
@@ -466,6 +533,8 @@ void LammpsSimulation::add_pair_forces(int rows, double** force, bool keeps) {
         continue;
       }
       const Load on_other = press_pair(i, {motion, spin}, j, between, keeps, load);
+      const double share = j < rows ? 1 : 0.5;  // two processes have it
+      pressing_ += share * length(on_other.force), contacts_made_ += share;
       if (j < rows) add(force[j], on_other.force), add(now_.torque[j], on_other.torque);
     }
     add(force[i], load.force), add(now_.torque[i], load.torque);
@@ -532,6 +601,7 @@ void LammpsSimulation::press(const GrainOnSurface& on, std::size_t first, std::s
                        body.name, at.overlap / grain.radius, setup_.numerics.deepest_overlap));
     const Response<double> does = contact_response<double>(setup_.laws, on.constants, touch_of(body, at, grain, spin),
                                                            making_[first + k].memory, setup_.numerics.dt, nullptr);
+    pressing_ += length(vec3(does.force)), contacts_made_ += 1;
     add_loads(at, grain.radius, vec3(does.force), vec3(does.couple), body.position, load, loads_[near.body]);
     if (at.triangle >= 0)
       contacts_.push_back({.first = static_cast<GrainId>(ids_[near.grain] - 1),
@@ -606,18 +676,66 @@ void LammpsSimulation::fail(const std::string& what) {
   if (fault_.empty()) fault_ = what;
 }
 
-const Grains& LammpsSimulation::own_grains() const {
-  own_ = {};
+Grains LammpsSimulation::own_grains() const {
+  Grains own;
   const Lammps::Rows rows = lammps_.rows();
   for (int row = 0; row < lammps_.count(); ++row)
-    own_.add({.id = static_cast<GrainId>(rows.id[row] - 1),
-              .radius = rows.radius[row],
-              .mass = rows.mass[row],
-              .material = grain_material,
-              .position = vec(rows.position[row]),
-              .velocity = vec(rows.velocity[row]),
-              .spin = vec(rows.spin[row])});
-  return own_;
+    own.add({.id = static_cast<GrainId>(rows.id[row] - 1),
+             .radius = rows.radius[row],
+             .mass = rows.mass[row],
+             .material = grain_material,
+             .position = vec(rows.position[row]),
+             .velocity = vec(rows.velocity[row]),
+             .spin = vec(rows.spin[row])});
+  return own;
+}
+
+void LammpsSimulation::see_grains(const GrainSink& visit) const {
+  const Lammps::Rows rows = lammps_.rows();
+  for (int row = 0; row < lammps_.with_ghosts(); ++row) visit(vec(rows.position[row]), rows.radius[row]);
+}
+
+Region LammpsSimulation::part() const {
+  const Lammps::Part part = lammps_.part();
+  return {part.lower, part.upper};
+}
+
+void LammpsSimulation::see_contacts(const std::function<void(std::size_t row)>& visit) const {
+  const Lammps::Neighbours pairs = lammps_.neighbours();
+  const int rows = lammps_.count();
+  const Lammps::Rows now = lammps_.rows();
+  std::span<const int> others;
+  for (int k = 0; k < pairs.size(); ++k) {
+    const int i = pairs.of(k, others);
+    for (const int marked : others) {
+      const int j = marked & Lammps::Neighbours::mask;
+      const double sum = now.radius[i] + now.radius[j];
+      if (squared(vec(now.position[i]) - vec(now.position[j])) >= sum * sum) continue;
+      visit(static_cast<std::size_t>(i));
+      if (j < rows) visit(static_cast<std::size_t>(j));
+    }
+  }
+}
+
+void LammpsSimulation::watch() { lammps_.command("fix before all store/state 0 x y z vx vy vz"); }
+
+UnrestSums LammpsSimulation::end_watch(double time) {
+  UnrestSums sums;
+  const Lammps::Rows rows = lammps_.rows();
+  double** before = lammps_.kept_by("before");
+  const double g = length(state_.gravity);
+  for (int row = 0; row < lammps_.count(); ++row)
+    sums.add(rows.mass[row], rows.radius[row], vec(rows.position[row]) - vec(before[row]),
+             vec(rows.velocity[row]) - vec(before[row] + 3), g, time);
+  lammps_.command("unfix before");
+  sums.forces = pressing_, sums.contacts = contacts_made_;
+  std::array<double*, 7> all{&sums.kinetic, &sums.net,    &sums.weight,  &sums.diameters,
+                             &sums.grains,  &sums.forces, &sums.contacts};
+  std::array<double, 7> numbers{};
+  for (std::size_t k = 0; k < all.size(); ++k) numbers[k] = *all[k];
+  sum_up(world_, numbers);
+  for (std::size_t k = 0; k < all.size(); ++k) *all[k] = numbers[k];
+  return sums;
 }
 
 LammpsSimulation::PairMeans LammpsSimulation::pair_means() const {

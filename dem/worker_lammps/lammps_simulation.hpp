@@ -22,10 +22,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "dem/bed/bed_report.hpp"
 #include "dem/engine/pair_touch.hpp"
 #include "dem/engine/world.hpp"
 #include "dem/rig/soil_flow.hpp"
@@ -47,11 +49,15 @@ class LammpsSimulation {
   /// and where some grains alone were added since the last step. `log`: file that gets LAMMPS's own words of the last
   /// thousand steps, so that what ends the process is found there.
   LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log = "");
-  /// Goes on from what write_grains and notes() kept, on any number of processes. `begin`: what the run began with;
-  /// `added`: the bodies added since, whose surfaces are taken. Velocities go through the disk at whole steps and
-  /// LAMMPS computes the forces of the last step anew, so the bits are others than without the stop.
-  LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log, const std::string& grains,
-                   const std::string& notes, std::vector<Body> added);
+  /// Begins with new grains at rest, on bodies. `pour` gives them all to what it is called with, on each process the
+  /// same, and each keeps those in its part of the box: none ever holds them all. `largest`: of their radii [m].
+  LammpsSimulation(MPI_Comm world, Setup setup, const Vec3& gravity, const std::vector<Body>& bodies, double largest,
+                   const std::function<void(const GrainSink&)>& pour, std::string log = "");
+  /// Goes on from what write_grains and notes() kept, on any number of processes, with another setup too. `bodies`: all
+  /// there may have been, whose surfaces are taken. Velocities go through the disk at whole steps and LAMMPS computes
+  /// the forces of the last step anew, so the bits are others than without the stop.
+  LammpsSimulation(MPI_Comm world, Setup setup, std::string log, const std::string& grains, const std::string& notes,
+                   std::vector<Body> bodies);
   LammpsSimulation(const LammpsSimulation&) = delete;
   LammpsSimulation& operator=(const LammpsSimulation&) = delete;
 
@@ -62,6 +68,10 @@ class LammpsSimulation {
   MPI_Comm world() const { return world_; }
 
   void set_gravity(const Vec3& gravity) { state_.gravity = gravity; }
+  /// Of the grains' material with another, from the next step on.
+  void set_interaction(int a, int b, const Interaction& interaction);
+  /// Takes away the grains of this process that `gone` holds for. All processes call it.
+  void remove_grains(const std::function<bool(const Vec3& centre, double radius)>& gone);
   /// Throws InputError for a body that makes no sense. Bodies with planes must stay where they are.
   int add_body(Body body);
   Body& body(int index) { return state_.bodies.at(static_cast<std::size_t>(index)); }
@@ -78,7 +88,11 @@ class LammpsSimulation {
   /// Contacts of this process's grains with meshes, as of the last step.
   const std::vector<Contact>& contacts() const { return contacts_; }
   /// Those that this process holds, now.
-  const Grains& own_grains() const;
+  Grains own_grains() const;
+  /// Centre and radius of each, and of the copies of others' grains that lie next to them.
+  void see_grains(const GrainSink& visit) const;
+  /// This process's part of the bin: each place is in one.
+  Region part() const;
   double grain_count() const { return static_cast<double>(all_grains_); }
 
   /// Contacts of grains with each other, over all processes.
@@ -87,24 +101,32 @@ class LammpsSimulation {
     double overlap = 0;   ///< mean [m]
   };
   PairMeans pair_means() const;
+  /// Each contact of a grain of this process with another grain, for that grain: its row in own_grains().
+  void see_contacts(const std::function<void(std::size_t row)>& visit) const;
+  /// Where the grains are and how they move, kept in LAMMPS from now on; and what adds up to their unrest since, over
+  /// all processes.
+  void watch();
+  UnrestSums end_watch(double time);
   /// Memory of LAMMPS's arrays and of contacts of pairs, over all processes, a grain [byte].
   double memory_a_grain() const;
 
  private:
   template <class Notes>
   void keep_in(Notes& notes);
-  LammpsSimulation(MPI_Comm world, Setup setup, std::string log, const State& begin);
+  LammpsSimulation(MPI_Comm world, Setup setup, std::string log);
+  void know_grains();
   void get_ready(Body& body) const;
   std::vector<LammpsTravelling> all_contacts() const;
   static void on_forces(void* self, std::int64_t step, int rows, int* ids, double** x, double** force);
   void add_forces(std::int64_t step, int rows, const int* ids, double** x, double** force);
   void write_commands() const;
-  void put_in(const Grains& grains) const;
+  void make_box() const;
+  void put_in(std::span<const NewGrain> part) const;
   void take_contacts(const State& begin);
   void take_pairs(const std::vector<PairContact>& contacts);
   void note_who_is_here();
   bool is_here(int id) const { return here_[static_cast<std::size_t>(id)]; }
-  void read_pairs(const std::filesystem::path& file);
+  void read_pairs(const std::string& grains);
   double weigh(int rows, double** x, double** force);
   void follow_grains(int rows, const int* ids);
   void take_over(std::vector<LammpsTravelling>& mine, int rows, const int* ids);
@@ -139,26 +161,27 @@ class LammpsSimulation {
   PairMemory pairs_;
   std::vector<bool> here_;  ///< by LAMMPS's id: whether the grain is this process's, at the last listing
   std::vector<LammpsTravelling> arriving_;  ///< of what the run begins with or goes on from
-  int ranks_that_wrote_ = 0;
-  std::vector<Body> before_;     ///< bodies as the last forces saw them
-  std::vector<BodyLoad> loads_;  ///< of this process's grains on each body
+  std::vector<Region> writers_;             ///< parts of the processes that wrote the files that it goes on from
+  std::vector<Body> before_;                ///< bodies as the last forces saw them
+  std::vector<BodyLoad> loads_;             ///< of this process's grains on each body
   std::vector<Contact> contacts_;
   double travel_ = 0;       ///< bound on what a grain and a body came nearer since the last search [m]
   double body_speed_ = 0;   ///< of the fastest point of any body [m/s]
   std::int64_t done_ = -1;  ///< the last step whose forces were computed
   std::int64_t all_grains_ = 0;
+  std::int64_t next_id_ = 0;                 ///< all are less
+  double pressing_ = 0, contacts_made_ = 0;  ///< sizes of the forces of this process's contacts [N], and their number
   bool prepared_ = false;
   bool at_half_steps_ = false;  ///< velocities given to LAMMPS are those of the half step before
   std::string fault_;           ///< what this process found in this step
   std::string stopped_;         ///< why the run can't go on, the same on all
-  mutable Grains own_;
 };
 
 /// What the first of the processes that found a fault says of it; "" where none did. All call it.
 std::string fault_of_any(MPI_Comm world, const std::string& mine);
 
 // What dem/rig/shares.hpp asks for.
-inline const Grains& own_grains(const LammpsSimulation& simulation) { return simulation.own_grains(); }
+inline Grains own_grains(const LammpsSimulation& simulation) { return simulation.own_grains(); }
 void join_largest(const LammpsSimulation& simulation, std::span<double> numbers);
 void join_sums(const LammpsSimulation& simulation, std::span<double> numbers);
 void add_to_flow(const LammpsSimulation& simulation, const Vec3& axle, FlowMeter& flow);

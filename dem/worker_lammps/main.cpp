@@ -1,10 +1,12 @@
-// soilbin-lammps: makes one run of a wheel with its grains in LAMMPS, on as many processes as mpirun starts.
+// soilbin-lammps: settles a bed, or makes one run of a wheel, with the grains in LAMMPS, on as many processes as mpirun
+// starts.
 //
 //   mpirun -n 64 soilbin-lammps FOLDER
 //
-// FOLDER holds job.h5 (dem/rig/wheel_job.hpp), as `soilbin run --engine lammps` writes it. The answer goes to
-// answer.txt there; why there is none to error.txt, whose first line says of what kind the error is: input, stopped,
-// no_solution or other. Standard output gets 'progress STAGE SHARE SECONDS_LEFT' now and then, and at the end 'cost
+// FOLDER holds recipe.txt (dem/rig/bed_job.hpp) or job.h5 (dem/rig/wheel_job.hpp), as `soilbin run --engine lammps`
+// writes them. The answer goes to report.txt or answer.txt there, a bed's grains beside it; why there is none to
+// error.txt, whose first line says of what kind the error is: input, stopped, no_solution or other. Standard output
+// gets 'progress STAGE SHARE SECONDS_LEFT' now and then, and at the end 'cost
 // ...'. Exit status: 0 answered, 1 not, 3 stopped by SIGUSR1 (which mpirun hands on), SIGINT or SIGTERM.
 #include <fmt/core.h>
 #include <mpi.h>
@@ -16,8 +18,9 @@
 #include <string>
 #include <thread>
 
+#include "dem/rig/bed_job.hpp"
 #include "dem/rig/ride.hpp"
-#include "dem/worker_lammps/lammps_run.hpp"
+#include "dem/worker_lammps/lammps_bed.hpp"
 #include "scenario/atomic_file.hpp"
 
 namespace {
@@ -61,12 +64,13 @@ void print_line(const std::string& line) {
   std::fflush(stdout);
 }
 
-/// The first process alone takes the grains.
-dem::WheelJob read_job(const fs::path& folder, bool first) {
-  dem::WheelJob job;
+/// What `read` gives on each process; where it fails on one, all throw.
+template <class Read>
+auto read_by_all(const Read& read) {
+  decltype(read()) job;
   std::string fault;
   try {
-    job = dem::read_job(folder / "job.h5", first ? dem::WithGrains::yes : dem::WithGrains::no);
+    job = read();
   } catch (const InputError& error) {
     fault = error.what();
   }
@@ -75,19 +79,33 @@ dem::WheelJob read_job(const fs::path& folder, bool first) {
   return job;
 }
 
+void settle_bed(const fs::path& folder, bool writes, const dem::WorkOptions& how) {
+  const dem::BedRecipe recipe = read_by_all([&] { return dem::read_bed_job(folder); });
+  dem::LammpsRun run(MPI_COMM_WORLD, recipe, how, folder);
+  const dem::BedReport report = dem::settle_in_lammps(run, recipe);
+  if (writes) dem::write_bed_report(folder, report);
+}
+
+/// The first process alone takes the grains, where the run begins with them.
+void drive_wheel(const fs::path& folder, bool writes, const dem::WorkOptions& how) {
+  const bool takes = writes && !fs::exists(folder / "state");
+  const dem::WheelJob job =
+      read_by_all([&] { return dem::read_job(folder / "job.h5", takes ? dem::WithGrains::yes : dem::WithGrains::no); });
+  const dem::WheelOnBed wheel = job.wheel();
+  dem::Ride<dem::LammpsRun> ride(wheel, job.at, [&] { return dem::LammpsRun(MPI_COMM_WORLD, job, how, folder); });
+  const dem::WheelRun run = ride.run();
+  if (writes) dem::write_answer(folder / "answer.txt", run);
+}
+
 /// The same on all processes, but the first writes.
-int make_run(const fs::path& folder, bool writes, const std::stop_token& stop) {
+int do_job(const fs::path& folder, bool writes, const std::stop_token& stop) {
   const auto fail = [&](const char* kind, const std::exception& error) {
     if (writes) write_file_atomically(folder / "error.txt", fmt::format("{}\n{}\n", kind, error.what()));
     return failed;
   };
   try {
-    const dem::WheelJob job = read_job(folder, writes);
-    const dem::WheelOnBed wheel = job.wheel();
     const dem::WorkOptions how{.threads = 1, .progress = print_progress, .stop = stop, .tell = print_line};
-    dem::Ride<dem::LammpsRun> ride(wheel, job.at, [&] { return dem::LammpsRun(MPI_COMM_WORLD, job, how, folder); });
-    const dem::WheelRun run = ride.run();
-    if (writes) dem::write_answer(folder / "answer.txt", run);
+    dem::is_bed_job(folder) ? settle_bed(folder, writes, how) : drive_wheel(folder, writes, how);
     return answered;
   } catch (const dem::Stopped&) {
     return stopped;
@@ -112,7 +130,7 @@ int main(int argc, char** argv) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   try {
-    const int status = make_run(argv[1], rank == 0, stop.token());
+    const int status = do_job(argv[1], rank == 0, stop.token());
     MPI_Finalize();
     return status;
   } catch (const std::exception& error) {  // of this process alone, say without memory: the others would wait for it

@@ -9,15 +9,19 @@
 #include <memory>
 #include <stop_token>
 
+#include "dem/rig/lammps_worker.hpp"
 #include "dem/rig/ride.hpp"
 #include "dem/rig/wheel_job.hpp"
 #include "dem/worker_lammps/lammps_run.hpp"
+#include "scenario/file_lock.hpp"
+#include "tests/dem/lammps/shared.hpp"
 #include "tests/dem/small_bed.hpp"
 
 namespace soilbin::dem {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace test;
 
 class LammpsBed : public testing::Test {
  protected:
@@ -26,51 +30,6 @@ class LammpsBed : public testing::Test {
     return settled;
   }
 };
-
-Tire lugged() {
-  Tire tire = test::small_wheel();
-  tire.lugs = {.height = 0.008, .count = 12, .thickness = 0.01};
-  return tire;
-}
-
-Rig brief_rig() {
-  Rig rig;
-  rig.behind = 0.12, rig.ahead = 0.12, rig.travel = 0.25;
-  rig.lowering = 0.1, rig.resting = 0.02, rig.starting = 0.05;
-  return rig;
-}
-
-OperatingCondition driven() {
-  OperatingCondition at;
-  at.load = 20, at.slip = 0.3, at.speed = 0.3;
-  return at;
-}
-
-/// The wheel driven over a bed, as the command hands it to the worker.
-WheelJob job_on(const SettledBed& bed) {
-  WheelJob job{.setup = {},
-               .bed = bed,
-               .tire = lugged(),
-               .contact = bed.recipe.soil.grain_tire,
-               .rig = brief_rig(),
-               .at = driven(),
-               .inputs = "of this run\n"};
-  job.setup = run_setup(job.wheel(), 1);
-  return job;
-}
-
-constexpr std::size_t most_ids = 2000;  // of the small bed
-
-/// Positions of all grains, by id, on each process.
-std::vector<double> places(const LammpsSimulation& simulation) {
-  std::vector<double> numbers(3 * most_ids);
-  const Grains& own = own_grains(simulation);
-  for (std::size_t k = 0; k < own.count(); ++k) {
-    std::copy_n(&own.motion[k].position.x, 3, &numbers[3 * own.id[k]]);
-  }
-  join_sums(simulation, numbers);
-  return numbers;
-}
 
 /// A wheel driven down into the bed and along it.
 Body diving_wheel(const Tire& tire) {
@@ -81,29 +40,6 @@ Body diving_wheel(const Tire& tire) {
   wheel.applied_force = {0, 0, -20};
   return wheel;
 }
-
-/// A folder that goes with the test, the same on all processes.
-class SharedFolder {
- public:
-  SharedFolder() {
-    int id = ::getpid();
-    MPI_Bcast(&id, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    path_ = fs::path(testing::TempDir()) / fmt::format("soilbin-lammps-{}", id);
-    fs::create_directories(path_);
-    MPI_Barrier(MPI_COMM_WORLD);
-  }
-  SharedFolder(const SharedFolder&) = delete;
-  SharedFolder& operator=(const SharedFolder&) = delete;
-  ~SharedFolder() {
-    MPI_Barrier(MPI_COMM_WORLD);
-    std::error_code another_was_first;
-    fs::remove_all(path_, another_was_first);
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// The bed goes on with what its contacts remember: wheel and grains move as in the engine, step by step, until chaos
 /// has blown up the order of sums.
@@ -143,7 +79,7 @@ TEST_F(LammpsBed, MovesAlikeOnAnyNumberOfProcesses) {
   alone.add_body(wheel), together.add_body(wheel);
   constexpr int before_chaos = 150;
   alone.run(before_chaos), together.run(before_chaos);
-  const std::vector<double> here = places(alone), there = places(together);
+  const std::vector<double> here = places_of_all(alone), there = places_of_all(together);
   double farthest = 0;
   for (std::size_t n = 0; n < here.size(); ++n) farthest = std::max(farthest, std::abs(here[n] - there[n]));
   EXPECT_LT(farthest, 1e-10 * bed().recipe.soil.radius_min);
@@ -165,15 +101,15 @@ TEST_F(LammpsBed, GoesOnFromItsFiles) {
   whole.run(150);
   whole.write_grains((folder.path() / "grains").string());
   const std::string notes = whole.notes();
-  LammpsSimulation resumed(MPI_COMM_WORLD, setup, bed().state, "", (folder.path() / "grains").string(), notes,
-                           {diving_wheel(tire)});
+  LammpsSimulation resumed(MPI_COMM_WORLD, setup, "", (folder.path() / "grains").string(), notes,
+                           {bin_of(bed().recipe.size), diving_wheel(tire)});
   EXPECT_EQ(resumed.state().step, whole.state().step);
   whole.run(1), resumed.run(1);
   const double force = length(whole.body(1).force);
   EXPECT_GT(force, 5);
   EXPECT_LT(length(whole.body(1).force - resumed.body(1).force), 0.01 * force);
   EXPECT_LT(length(whole.body(1).position - resumed.body(1).position), 1e-9);
-  const std::vector<double> here = places(whole), there = places(resumed);
+  const std::vector<double> here = places_of_all(whole), there = places_of_all(resumed);
   double farthest = 0;
   for (std::size_t n = 0; n < here.size(); ++n) farthest = std::max(farthest, std::abs(here[n] - there[n]));
   EXPECT_LT(farthest, 1e-4 * bed().recipe.soil.radius_min);
@@ -181,7 +117,7 @@ TEST_F(LammpsBed, GoesOnFromItsFiles) {
 
 /// Stopped in the middle, the run keeps its state; the same call goes on from there and has all samples.
 TEST_F(LammpsBed, StopsAndGoesOnInTheMiddleOfARun) {
-  WheelJob job = job_on(bed());
+  WheelJob job = wheel_job_on(bed());
   job.rig.travel = 0.1;
   const WheelOnBed on = job.wheel();
   const SharedFolder folder;
@@ -224,8 +160,23 @@ TEST_F(LammpsBed, GoesThroughFilesWhole) {
   fs::remove_all(folder);
 }
 
+/// What is kept of a run goes when nobody is at it.
+TEST(LammpsFolder, IsForgottenUnlessAnotherIsAtIt) {
+  const fs::path folder = fs::path(testing::TempDir()) / fmt::format("soilbin-forget-{}", ::getpid());
+  const fs::path run = lammps_folder(folder / "run-0123.h5");
+  fs::create_directories(run);
+  {
+    const FileLock other(lammps_lock(run), FileLock::Wait::no);
+    forget_run(folder / "run-0123.h5");
+    EXPECT_TRUE(fs::exists(run));
+  }
+  forget_run(folder / "run-0123.h5");
+  EXPECT_FALSE(fs::exists(run));
+  fs::remove_all(folder);
+}
+
 TEST_F(LammpsBed, CarriesTheWheelAsTheEnginesBedDoes) {
-  const WheelJob job = job_on(bed());
+  const WheelJob job = wheel_job_on(bed());
   const WheelOnBed on = job.wheel();
   const WheelRun engine = run_wheel(on, job.at, test::with_threads(1));
   const WorkOptions how = test::with_threads(1);

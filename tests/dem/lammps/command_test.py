@@ -56,20 +56,20 @@ class Lammps(unittest.TestCase):
         return subprocess.run(self.words(*flags), cwd=self.folder, env=self.environment, text=True,
                               capture_output=True, timeout=PATIENCE, check=False)
 
-    def start(self, *flags):
-        """A run in LAMMPS that has begun to move grains."""
+    def start(self, *flags, logs="lammps-*/log.lammps"):
+        """A run in LAMMPS that has begun to move grains; `logs` of what moves."""
         child = subprocess.Popen(self.words("--engine", "lammps", *flags), cwd=self.folder, env=self.environment,
                                  text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
-            if any("run 1 pre no" in log.read_text(errors="replace") for log in self.logs()):
+            if any("run 1 pre no" in log.read_text(errors="replace") for log in self.logs(logs)):
                 return child
             self.assertIsNone(child.poll(), "it ended before it moved anything")
             time.sleep(0.05)
         self.fail("it moved nothing")
 
-    def logs(self):
-        return list((self.folder / "beds").glob("lammps-*/log.lammps"))
+    def logs(self, which="lammps-*/log.lammps"):
+        return list((self.folder / "beds").glob(which))
 
     def workers(self):
         """Processes of soilbin-lammps on a folder of this test."""
@@ -104,6 +104,27 @@ class Lammps(unittest.TestCase):
         replay = self.run_it("--engine", "lammps", "--record", "replay.json", "--replay", "motion.replay")
         self.assertEqual(replay.returncode, 2)
         self.assertIn("keep no motion", replay.stderr)
+
+    def test_a_bed_that_lammps_settles_is_kept_and_told_in_the_record(self):
+        alone = self.run_it("--settled-by", "lammps")
+        self.assertEqual(alone.returncode, 2)
+        self.assertIn("--engine lammps", alone.stderr)
+        child = self.start("--settled-by", "lammps", "--record", "own.json", logs="bed-*/log.lammps")
+        child.send_signal(signal.SIGINT)  # while it settles
+        child.communicate(timeout=PATIENCE)
+        self.assertNotEqual(child.returncode, 0)
+        self.assertEqual(list((self.folder / "beds").glob("bed-*/report.txt")), [])
+        own = self.run_it("--engine", "lammps", "--settled-by", "lammps", "--record", "own.json")
+        self.assertEqual(own.returncode, 0, own.stderr)
+        record = json.loads((self.folder / "own.json").read_text(encoding="utf-8"))
+        self.assertEqual(record["inputs"]["bed.settled_by"], "lammps")
+        self.assertAlmostEqual(record["runs"][0]["bed"]["void_ratio"], 0.75, delta=0.15)
+        [report] = (self.folder / "beds").glob("bed-*/report.txt")
+        self.assertEqual(list((self.folder / "beds").glob("lammps-*")), [], "what is kept of the run is gone")
+        before = report.stat().st_mtime_ns
+        again = self.run_it("--engine", "lammps", "--settled-by", "lammps", "--ranks", "2", "--travel", "0.03m")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(report.stat().st_mtime_ns, before, "one bed carries several runs, on any number of processes")
 
     def test_a_process_that_dies_is_told_and_the_record_stays_whole(self):
         child = self.start("--ranks", "2", *LONG, "--record", "dead.json")
