@@ -19,8 +19,8 @@ void write_bed_job(const std::filesystem::path& folder, const BedRecipe& recipe)
 /// Throws InputError for a file that can't be read or holds something else.
 BedRecipe read_bed_job(const std::filesystem::path& folder);
 
-/// What LAMMPS measures of a bed: grains, height, void ratio, bulk density, coordination, rattlers, overlap, unrest and
-/// settling time. To the file report.txt of the folder, which is there when the bed is.
+/// What LAMMPS measures of a bed: grains, height, void ratio, bulk density, coordination, rattlers, overlap (of grains
+/// with each other), unrest and settling time. To the file report.txt of the folder, which is there when the bed is.
 void write_bed_report(const std::filesystem::path& folder, const BedReport& report);
 BedReport read_bed_report(const std::filesystem::path& folder);
 

@@ -54,7 +54,8 @@ double RunStages::seconds() const {
 }
 
 Progress RunStages::progress(std::string_view stage, double share) const {
-  return {stage, share, share > 0 ? seconds() * (1 - share) / share : not_a_number};
+  const bool is_of_steps = all_steps_ > 1;  // without a plan it tells no time
+  return {stage, share, share > 0 && is_of_steps ? seconds() * (1 - share) / share : not_a_number};
 }
 
 }  // namespace soilbin::dem
