@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "dem/bed/settling.hpp"
-#include "dem/engine/time_step.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 
