@@ -1,6 +1,9 @@
 // The fast engine against the reference engine, which shares no code with it: random small systems, every law, walls,
 // periodic boxes, several materials, every instruction set of this machine.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "dem/bed/random.hpp"
 #include "dem/engine/simulation.hpp"

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 

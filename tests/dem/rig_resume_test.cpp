@@ -9,6 +9,7 @@
 #include "dem/archive/note_text.hpp"
 #include "dem/archive/sealed_file.hpp"
 #include "dem/rig/dem_model.hpp"
+#include "dem/rig/drive_parts.hpp"
 #include "dem/rig/staged_run.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"

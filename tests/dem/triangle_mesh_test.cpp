@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "dem/plates_of_triangles.hpp"
 #include "dem/surface/mass_properties.hpp"
