@@ -1,6 +1,7 @@
 // soilbin failure-map on the runs that come with the project, and soilbin campaign on what is no record.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/command.hpp"
@@ -100,21 +101,20 @@ TEST(CampaignCommand, RefusesWhatIsNoRecord) {
   EXPECT_THAT(soilbin("campaign --help").out, HasSubstr("longitudinal_incline"));
 }
 
-// The control that comes with the project: grains in which nothing was switched on. What the loop names is true of
+// The control that comes with the project: grains in which nothing was switched on. What the loop lists is true of
 // them.
-TEST(SlowCampaigns, TheLoopFindsHowSoftGrainsSpringBack) {
+TEST(SlowCampaigns, TheLoopListsThatSoftGrainsSpringBack) {
   const Outcome r = soilbin("loop '" SOILBIN_SOURCE_DIR "/bench/dem_nature/measured/dem-null' --json");
   ASSERT_EQ(r.status, 0) << r.err;
   const nlohmann::json found = r.json();
-  EXPECT_EQ(found["verdict"], "effect_found");
-  bool exit_angle = false;
-  for (const auto& effect : found["effects"])
-    if (effect["id"] == "exit_angle") {
-      exit_angle = true;
-      // 98 % of the normal stress under the wheel lies ahead of 11 to 13 deg behind the axle (0.19 to 0.23 rad).
-      EXPECT_NEAR(effect["parameters"]["theta_c"].get<double>(), 0.21, 0.04);
-    }
-  EXPECT_TRUE(exit_angle);
+  // No soil of the model follows grains to the noise, so a named effect must not pass for all that is missing; the exit
+  // angle is among the candidates.
+  EXPECT_EQ(found["verdict"], "unknown_effect");
+  const auto& sets = found["ambiguity_set"];
+  EXPECT_TRUE(std::any_of(sets.begin(), sets.end(), [](const nlohmann::json& set) {
+    const auto& ids = set["effects"];
+    return std::find(ids.begin(), ids.end(), "exit_angle") != ids.end();
+  }));
 }
 
 }  // namespace
