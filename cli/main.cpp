@@ -51,8 +51,8 @@ void add_commands(CLI::App& app, Session& session) {
 /// unless the environment says how to wait: before commands that may ask grains, for it takes 20 ms. Where that fails
 /// it goes on as it is.
 void start_with_short_waits(char** argv) {
-  constexpr std::array with_grains = {"run",          "drive",     "compare",   "report",      "reproduce", "bed",
-                                      "element-test", "bevameter", "calibrate", "failure-map", "campaign",  "verify"};
+  constexpr std::array with_grains = {"run",       "drive",     "compare",     "reproduce", "bed",   "element-test",
+                                      "bevameter", "calibrate", "failure-map", "campaign",  "verify"};
   if (argv[0] == nullptr || argv[1] == nullptr ||
       std::ranges::find(with_grains, std::string_view(argv[1])) == with_grains.end())
     return;

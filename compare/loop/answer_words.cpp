@@ -242,19 +242,22 @@ std::string condition_words(const NextTest& next) {
   return text;
 }
 
+/// What to do where no condition shows on which the rest depends.
+std::string without_a_condition(const LoopAnswer& answer) {
+  const UnnamedEvidence& unnamed = answer.found().unnamed;
+  if (unnamed.gain > thresholds::unnamed_instead && unnamed.likest == misread_kind)
+    return "The unexplained part looks like a slip or load that was misread: before more runs, check how both are "
+           "measured, and at which conditions.";
+  if (answer.judgement->before.serial.p_value <= thresholds::serial_level)
+    return "The unexplained part changes from run to run, not by chance. Measure next one setpoint, repeated through "
+           "the whole campaign.";
+  return "Where the unexplained part comes from does not show yet: vary one condition alone, each setting run twice.";
+}
+
 /// What has no name predicts nothing; but where it shows can be said.
 std::string to_show_its_shape(const LoopAnswer& answer) {
   const std::vector<Dependence> sure = sure_dependences(answer);
-  if (sure.empty() && answer.found().unnamed.gain > thresholds::unnamed_instead &&
-      answer.found().unnamed.likest == misread_kind)
-    return "The unexplained part looks like a slip or load that was misread: before more runs, check how both are "
-           "measured, and at which conditions.";
-  if (sure.empty() && answer.judgement->before.serial.p_value <= thresholds::serial_level)
-    return "The unexplained part changes from run to run, not by chance. Measure next one setpoint, repeated through "
-           "the "
-           "whole campaign.";
-  if (sure.empty())
-    return "Where the unexplained part comes from does not show yet: vary one condition alone, each setting run twice.";
+  if (sure.empty()) return without_a_condition(answer);
   const Dependence* on = &sure.front();
   const auto& looked_at = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
   const std::string how =

@@ -40,12 +40,12 @@ class BasisBuilder {
   std::vector<VectorXd> columns_, orthonormal_;
 };
 
+}  // namespace
+
 VectorXd to_unit_interval(const VectorXd& values) {
   const double low = values.minCoeff(), high = values.maxCoeff();
   return ((values.array() - low) * (2 / (high - low)) - 1).matrix();
 }
-
-}  // namespace
 
 MatrixXd with_constant(const MatrixXd& functions) {
   MatrixXd all(functions.rows(), functions.cols() + 1);

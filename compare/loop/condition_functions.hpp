@@ -11,6 +11,9 @@ namespace soilbin::compare {
 /// terms, powers of slip, products with slip and load, squares. At most max_columns.
 Eigen::MatrixXd smooth_basis(const Observations& observations, int max_columns);
 
+/// A covariate's values, which differ, taken to -1 .. 1.
+Eigen::VectorXd to_unit_interval(const Eigen::VectorXd& values);
+
 /// A column of ones, then the columns given.
 Eigen::MatrixXd with_constant(const Eigen::MatrixXd& functions);
 

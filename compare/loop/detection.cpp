@@ -88,13 +88,17 @@ std::vector<RunSeries> run_series(const FittedModel& model, const VectorXd& orde
   return all;
 }
 
-/// Sum of the correlations with the runs before, Bartlett's weights.
+/// Sum of the products with the 1, 2, .. lags values before, Bartlett's weights 1 - k/(lags + 1): half of the squared
+/// sums of lags + 1 neighbours (beyond the ends are zeros) over their number, less the squares that are in them.
 double serial_correlation(const VectorXd& r, Index lags) {
-  double sum = 0.0;
-  for (Index k = 1; k <= lags; ++k)
-    sum +=
-        (1 - static_cast<double>(k) / static_cast<double>(lags + 1)) * r.head(r.size() - k).dot(r.tail(r.size() - k));
-  return sum;
+  const Index n = r.size(), width = lags + 1;
+  double window = 0.0, squares = 0.0;
+  for (Index last = 0; last < n + lags; ++last) {
+    if (last < n) window += r[last];
+    if (last >= width) window -= r[last - width];
+    squares += window * window;
+  }
+  return 0.5 * (squares / static_cast<double>(width) - r.squaredNorm());
 }
 
 }  // namespace

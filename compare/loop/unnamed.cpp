@@ -94,23 +94,18 @@ MatrixXd bent(const Dataset& data, const VectorXd& prediction) {
   return data.whitening(columns);
 }
 
-/// Slopes of the predictions over one of the conditions.
+/// Slopes of the predictions over one of the conditions, by a step toward 0: a slip stays between -1 and 1.
 std::optional<VectorXd> slope_over(const FittedModel& base, double OperatingCondition::*condition, double step) {
-  Observations moved = base.data().observations;
-  std::array<VectorXd, 2> sides;
-  for (const int side : {0, 1}) {
-    for (std::size_t row = 0; row < moved.rows.size(); ++row) {
-      const double at = base.data().observations.rows[row].*condition;
-      // a slip stays between -1 and 1
-      moved.rows[row].*condition = side == 0 ? at : at + (at > 0.0 ? -step : step);
-    }
-    BalanceMemory memory = base.fit().balance;
-    if (!base.predictor().over(moved).predict(base.fit().theta, sides[side], memory)) return std::nullopt;
-  }
-  for (std::size_t i = 0; i < moved.cells.size(); ++i)
-    if (base.data().observations.rows[moved.cells[i].row].*condition > 0.0)
-      std::swap(sides[0][static_cast<Index>(i)], sides[1][static_cast<Index>(i)]);
-  return (sides[1] - sides[0]) / step;
+  const Observations& observations = base.data().observations;
+  const auto step_of = [&](const OperatingCondition& at) { return at.*condition > 0.0 ? -step : step; };
+  Observations moved = observations;
+  for (OperatingCondition& at : moved.rows) at.*condition += step_of(at);
+  BalanceMemory memory = base.fit().balance;
+  VectorXd slope;
+  if (!base.predictor().over(moved).predict(base.fit().theta, slope, memory)) return std::nullopt;
+  slope -= base.fit().prediction;
+  for (Index i = 0; i < slope.size(); ++i) slope[i] /= step_of(observations.rows[observations.cells[i].row]);
+  return slope;
 }
 
 /// Slopes times 1 and times each condition that varies, taken to -1 .. 1.
@@ -120,10 +115,9 @@ MatrixXd misread(const FittedModel& base, const VectorXd& slope) {
   MatrixXd columns(slope.size(), 1 + static_cast<Index>(variables.size()));
   columns.col(0) = slope;
   for (std::size_t v = 0; v < variables.size(); ++v) {
-    const VectorXd& u = variables[v].values;
-    const double low = u.minCoeff(), high = u.maxCoeff();
+    const VectorXd u = to_unit_interval(variables[v].values);
     for (Index i = 0; i < slope.size(); ++i)
-      columns(i, static_cast<Index>(v) + 1) = slope[i] * (2 * (u[observations.cells[i].row] - low) / (high - low) - 1);
+      columns(i, static_cast<Index>(v) + 1) = slope[i] * u[observations.cells[i].row];
   }
   return of_unit_size(base.data().whitening(columns));
 }

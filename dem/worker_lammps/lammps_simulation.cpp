@@ -60,9 +60,8 @@ std::string fault_of(const Setup& setup) {
   const auto& periodic = setup.domain.periodic;
   if (periodic[0] || periodic[1] || periodic[2]) return "a bin in LAMMPS has no periodic sides";
   if (setup.laws.cohesion == CohesionLaw::jkr)
-    return "LAMMPS lists no pairs of grains that adhere beyond their contact (jkr)\n  hint: linear cohesion, or "
-           "--engine "
-           "soilbin";
+    return "LAMMPS lists no pairs of grains that adhere beyond their contact (jkr)\n"
+           "  hint: linear cohesion, or --engine soilbin";
   return "";
 }
 
