@@ -39,12 +39,11 @@ MarkedTable next_run_table(const LoopAnswer& answer) {
   const NextTest& next = *answer.next;
   MarkedTable table{"The next run, as a row of the campaign", {}, {}, {{}}};
   for (const std::string& name : next.quantities) {
-    const ConditionView& view = condition_view(name);
-    const double value = view.get(next.at);
-    if (!std::isfinite(value)) continue;
-    table.header.push_back(heading(view));
+    const auto [value, unit] = next_setting(answer, name);
+    if (value.empty()) continue;
+    table.header.push_back(heading(std::string(condition_view(name).title), unit.empty() ? "-" : unit));
     const bool beyond = std::find(next.beyond.begin(), next.beyond.end(), name) != next.beyond.end();
-    table.rows[0].push_back({.text = setting(view.per_si * value), .note = beyond ? "beyond what was run" : ""});
+    table.rows[0].push_back({.text = value, .note = beyond ? "beyond what was run" : ""});
   }
   table.header.insert(table.header.end(), {"runs", "decides between"});
   table.rows[0].push_back({.text = std::to_string(next.runs)});

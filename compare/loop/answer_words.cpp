@@ -230,14 +230,13 @@ std::string error_sentence(const LoopAnswer& answer) {
 
 // What to measure next.
 
-std::string condition_words(const NextTest& next) {
+std::string condition_words(const LoopAnswer& answer) {
   std::string text;
-  for (const std::string& name : next.quantities) {
-    const ConditionView& view = condition_view(name);
-    const double value = view.get(next.at);
-    if (!std::isfinite(value)) continue;
-    text += fmt::format("{}{} {}{}{}", text.empty() ? "" : ", ", view.title, setting(view.per_si * value),
-                        view.unit.empty() ? "" : " ", view.unit);
+  for (const std::string& name : answer.next->quantities) {
+    const auto [value, unit] = next_setting(answer, name);
+    if (value.empty()) continue;
+    text += fmt::format("{}{} {}{}{}", text.empty() ? "" : ", ", condition_view(name).title, value,
+                        unit.empty() ? "" : " ", unit);
   }
   return text;
 }
@@ -397,6 +396,20 @@ std::string setting(double value) {
   return fmt::format("{:.10g}", std::round(value / step) * step);
 }
 
+std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const std::string& condition) {
+  const ConditionView& view = condition_view(condition);
+  const Campaign& campaign = *answer.found().base.data().campaign;
+  std::string unit(view.unit);
+  double per_si = view.per_si;
+  if (const auto own = campaign.columns.find(condition);
+      own != campaign.columns.end() && own->second.unit != view.column_unit)
+    unit = own->second.unit, per_si = per_unit(unit);
+  const double value = view.get(answer.next->at);
+  if (!std::isfinite(value)) return {"", unit};
+  const double set = rig_setting(view, value, observe(campaign), answer.next->limits.at(condition), per_si);
+  return {fmt::format("{:.6g}", per_si * set), unit};
+}
+
 std::string verdict_sentence(const LoopAnswer& answer) {
   switch (answer.verdict) {
     case Verdict::effect_found: {
@@ -463,12 +476,12 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
         fmt::format("One name is left. To be surer still, measure: {}. There it differs most from the next candidate, "
                     "{}: by {:.1f} "
                     "standard deviations of one run.",
-                    condition_words(next), behind, std::sqrt(next.distance)));
+                    condition_words(answer), behind, std::sqrt(next.distance)));
   else
     sentences.push_back(
         fmt::format("{}: {}. {} run{} there should decide between {} on the one hand and {} on the other.",
                     unknown ? "To choose between the named effects that come nearest, measure" : "Measure",
-                    condition_words(next), next.runs, next.runs == 1 ? "" : "s", ahead, behind));
+                    condition_words(answer), next.runs, next.runs == 1 ? "" : "s", ahead, behind));
   if (next.beyond.empty()) return sentences;
   std::vector<std::string> names = next.beyond;
   for (std::string& name : names) name = spaced(name);

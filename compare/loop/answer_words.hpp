@@ -76,8 +76,12 @@ std::vector<const Weighted*> sets_shown(const LoopAnswer& answer);
 /// A set's share of the evidence, the same in every place: "81 %".
 std::string share_words(double weight);
 
-/// A condition in numbers that a rig can be set to: three digits.
+/// A number in three digits.
 std::string setting(double value);
+
+/// A condition of the next run as the rig would be set to it (rig_setting), in the unit of the campaign's own column,
+/// and that unit: ("10", "mm/s"). An empty value where the condition is not told.
+std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const std::string& condition);
 
 // Tables (answer_tables.cpp).
 

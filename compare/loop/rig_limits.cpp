@@ -1,11 +1,50 @@
 #include "compare/loop/rig_limits.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <numeric>
 
 #include "compare/loop/thresholds.hpp"
 #include "compare/measured/condition_views.hpp"
 
 namespace soilbin::compare {
+namespace {
+
+/// Standard deviation of a condition among re-runs of one setpoint; 0 where there are none, or where it was set to the
+/// digit.
+double rerun_scatter(const ConditionView& view, const Observations& observations) {
+  std::map<int, std::vector<double>> by_setpoint;
+  for (std::size_t i = 0; i < observations.rows.size(); ++i)
+    by_setpoint[observations.condition[i]].push_back(view.get(observations.rows[i]));
+  double squares = 0.0;
+  std::size_t freedom = 0;
+  for (const auto& [setpoint, values] : by_setpoint) {
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    for (const double x : values) squares += (x - mean) * (x - mean);
+    freedom += values.size() - 1;
+  }
+  return freedom > 0 && std::isfinite(squares) ? std::sqrt(squares / static_cast<double>(freedom)) : 0.0;
+}
+
+/// The number from low to high with the fewest digits in a unit; the one nearest to the middle where there are more.
+double roundest(double low, double high, double per_si) {
+  const double middle = per_si * (low + high) / 2, room = per_si * (high - low) / 2;
+  const double slack = 1e-9 * std::max(std::abs(middle), room);
+  if (std::abs(middle) <= room + slack) return 0.0;
+  constexpr int digits = 4;  // of a number that was set exactly
+  const int power = static_cast<int>(std::floor(std::log10(std::abs(middle)))) + 1;
+  for (int p = power; p > power - digits; --p)
+    for (const double share : {1.0, 0.5, 0.2}) {
+      const double step = share * std::pow(10.0, p), number = step * std::round(middle / step);
+      if (number != 0.0 && std::abs(number - middle) <= room + slack) return number / per_si;
+    }
+  return middle / per_si;
+}
+
+}  // namespace
 
 Limits ranges_of(const Observations& observations) {
   Limits ranges;
@@ -23,6 +62,34 @@ Limits limits_of(const Observations& observations) {
   auto& loads = limits.try_emplace("load", load, load).first->second;
   loads = {thresholds::lowest_load_share * loads.first, thresholds::highest_load_share * loads.second};
   return limits;
+}
+
+double rig_setting(const ConditionView& view, double value, const Observations& observations,
+                   const std::pair<double, double>& within, double per_si) {
+  constexpr double run_share = 0.01, most_of_one_setting = 8;
+  std::vector<double> made;
+  for (const OperatingCondition& at : observations.rows)
+    if (const double x = view.get(at); std::isfinite(x)) made.push_back(x);
+  if (made.empty() || view.whole) return value;
+  std::sort(made.begin(), made.end());
+  const double scatter = rerun_scatter(view, observations);
+  std::pair<double, double> near = {value, value};
+  const auto nearest = std::min_element(made.begin(), made.end(),
+                                        [&](double a, double b) { return std::abs(a - value) < std::abs(b - value); });
+  if (std::abs(*nearest - value) <= 2 * scatter || *nearest == value) {
+    auto low = nearest, high = nearest;
+    while (low != made.begin() && *low - *std::prev(low) <= 2 * scatter) --low;
+    while (std::next(high) != made.end() && *std::next(high) - *high <= 2 * scatter) ++high;
+    near = *high - *low <= most_of_one_setting * scatter ? std::pair(*low, *high) : std::pair(*nearest, *nearest);
+  }
+  const bool alone = near.first == near.second, to_the_digit = near.first == *nearest && scatter == 0;
+  const double room = to_the_digit ? 0.0
+                      : alone      ? std::max(scatter, run_share * (made.back() - made.front()))
+                                   : scatter;
+  const double anywhere = std::numeric_limits<double>::infinity();  // what was measured bounds no rig
+  const double low = within.first == made.front() ? -anywhere : within.first;
+  const double high = within.second == made.back() ? anywhere : within.second;
+  return roundest(std::clamp(near.first - room, low, high), std::clamp(near.second + room, low, high), per_si);
 }
 
 std::vector<double> evenly(const std::pair<double, double>& range, int levels) {

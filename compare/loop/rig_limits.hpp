@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/loop/observations.hpp"
+#include "compare/measured/condition_views.hpp"
 
 namespace soilbin::compare {
 
@@ -19,6 +20,15 @@ Limits ranges_of(const Observations& observations);
 /// Where a campaign's rig can go as long as nobody says otherwise: the ranges that the campaign spans; loads from 0.7
 /// to 1.4 times them; slip at least -0.2 .. 0.8. Candidates that fit the same runs part best a little beyond them.
 Limits limits_of(const Observations& observations);
+
+/// What a rig would be set to for a condition's value [SI]: the roundest number in a unit (units per SI unit: per_si),
+/// 1, 2 or 5 with noughts, that differs from it by no more than re-runs of one setpoint scatter or 1 % of what was run.
+/// Where the value lies so near to a run that was made, from what that run and its like were set to. Never beyond
+/// `within`, but by so little where that is the largest or smallest value measured.
+///
+///     rig_setting(condition_view("speed"), 0.00998, observations, {0.00998, 0.01001}, 1000);   // 0.01: 10 mm/s
+double rig_setting(const ConditionView& view, double value, const Observations& observations,
+                   const std::pair<double, double>& within, double per_si);
 
 /// So many values from the lower to the upper end of a range, evenly; its middle where it is one.
 std::vector<double> evenly(const std::pair<double, double>& range, int levels);

@@ -201,6 +201,10 @@ Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(c
       reading.refuse(*renamed.node,
                      fmt::format("'{}' has no column '{}'{}", csv.file, clipped(name), did_you_mean(name, headers)),
                      "its columns: " + listed(headers));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const CsvCell& header = table.header.cells[i];
+    campaign.columns[columns[i].column->quantity] = {header.text, columns[i].unit, csv.position(header.offset)};
+  }
   campaign.runs = read_runs(table, columns, csv);
   for (Run& run : campaign.runs) {
     run.at.slip_by = campaign.slip_by;

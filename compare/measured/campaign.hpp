@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,13 @@ struct Run {
 
 inline bool has_channel(const Run& run) { return run.drawbar_pull || run.torque || run.sinkage || run.lateral_force; }
 
+/// A column as the data file has it.
+struct DataColumn {
+  std::string header;
+  std::string unit;   ///< of the numbers in it
+  SourcePosition at;  ///< of its header
+};
+
 /// What was measured, and what is known beforehand.
 struct Campaign {
   std::string name;
@@ -42,6 +50,7 @@ struct Campaign {
   std::string data = "runs.csv";
   ForceFrame force_frame = ForceFrame::travel;
   SlipBy slip_by = SlipBy::wheel_plane_speed;
+  std::map<std::string, DataColumn> columns;  ///< of the data file, by quantity; none where there is no file
   std::vector<Run> runs;
 };
 

@@ -112,6 +112,10 @@ TEST(Campaign, ColumnsMayHaveOtherNamesAndUnits) {
                            "load_N,i,Fx_kN,sinkage_m\n1000,10,0.12,0.01\n1000,20,0.2,0.01\n1000,30,0.3,0.02\n");
   EXPECT_EQ(c.runs[0].at.slip, 0.1);
   EXPECT_EQ(c.runs[0].drawbar_pull, 120.0);
+  EXPECT_EQ(c.columns.at("drawbar_pull").header, "Fx_kN");
+  EXPECT_EQ(c.columns.at("drawbar_pull").unit, "kN");
+  EXPECT_EQ(c.columns.at("drawbar_pull").at.column, 10);
+  EXPECT_EQ(c.columns.at("load").unit, "N");
 }
 
 TEST(Campaign, RealFilesHaveQuotesCarriageReturnsMarksAndBlankLines) {

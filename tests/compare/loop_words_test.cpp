@@ -24,6 +24,44 @@ TEST(HeldOutWords, TellGainAndLossInTheSameBreath) {
             "worse: drawbar pull (5.95 to 6.30 N)");
 }
 
+/// Runs that differ in one condition alone, two of each setpoint.
+Observations runs_at(const char* condition, const std::vector<std::pair<double, double>>& setpoints) {
+  Campaign campaign;
+  for (std::size_t s = 0; s < setpoints.size(); ++s)
+    for (const double value : {setpoints[s].first, setpoints[s].second}) {
+      Run run;
+      condition_view(condition).set(run.at, value);
+      run.setpoint = std::to_string(s);
+      campaign.runs.push_back(run);
+    }
+  return observe(campaign);
+}
+
+// Measured speeds scatter about 10 mm/s by some 0.01 mm/s: that is what the rig was set to, all over.
+TEST(RigSetting, IsWhatTheNearestRunsWereSetTo) {
+  const Observations runs = runs_at("speed", {{0.009985, 0.009995}, {0.010003, 0.009993}, {0.01001, 0.01}});
+  const ConditionView& speed = condition_view("speed");
+  EXPECT_DOUBLE_EQ(rig_setting(speed, 0.009985, runs, {0.009985, 0.01001}, 1000), 0.01);
+  EXPECT_DOUBLE_EQ(rig_setting(speed, 0.0100049, runs, {0.009985, 0.01001}, 1), 0.01);
+}
+
+// Re-runs scatter by 1 N (two of a setpoint differ by sqrt 2): 36.5 N is 36 N, but never more than the rig can.
+TEST(RigSetting, AwayFromRunsIsRoundWithinTheirScatterAndTheLimits) {
+  const Observations runs = runs_at("load", {{15.0, 16.414}, {20.0, 21.414}, {25.0, 26.414}});
+  const ConditionView& load = condition_view("load");
+  EXPECT_DOUBLE_EQ(rig_setting(load, 36.54, runs, {10, 36.54}, 1), 36);
+  EXPECT_DOUBLE_EQ(rig_setting(load, 33.3, runs, {10, 33.3}, 1), 33);
+  EXPECT_DOUBLE_EQ(rig_setting(load, 9.6, runs, {9.6, 40}, 1), 10);
+}
+
+TEST(RigSetting, OfWhatWasSetToTheDigitIsThatDigit) {
+  const Observations runs = runs_at("yaw", {{0, 0}, {7.35 * degree, 7.35 * degree}, {20 * degree, 20 * degree}});
+  const ConditionView& yaw = condition_view("yaw");
+  const std::pair<double, double> all = {0.0, 20 * degree};
+  EXPECT_NEAR(rig_setting(yaw, 7.35 * degree, runs, all, yaw.per_si) / degree, 7.35, 1e-9);
+  EXPECT_NEAR(rig_setting(yaw, 3.33 * degree, runs, all, yaw.per_si) / degree, 3.5, 1e-9);  // 1 % of what was run
+}
+
 TEST(HeldOutWords, SayThatAllInAllTheErrorRises) {
   CrossValidation validation = mixed();
   validation.gain = -0.2;
