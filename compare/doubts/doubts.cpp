@@ -234,7 +234,11 @@ Warnings doubts_of(const Campaign& campaign, const Case& question, const std::ve
   if (next == NextIs::nothing)
     for (Unheard& one : unheard(question))
       if (!only_tells_the_row(one)) warnings.push_back(std::move(one.words));
-  append(warnings, row_doubts(campaign, study.front().answers));
+  append(warnings, row_doubts(campaign, study.front().answers, [&](const std::vector<OperatingCondition>& conditions) {
+           Case again = question;
+           again.study.conditions = conditions;
+           return quick_answers(again).front().answers;
+         }));
   return warnings;
 }
 

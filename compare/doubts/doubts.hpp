@@ -11,7 +11,7 @@
 //   no influence         lugs, inflation, passes, ... that change no digit         unheard.cpp
 //   a presumption        what an effect takes the wheel to have, and nobody said   doubts.cpp
 //   grains               too coarse for the wheel, a law that hangs on the step    grain_doubts.cpp
-//   measured rows        repeated, flipped, impossible                             row_doubts.cpp
+//   measured rows        repeated, flipped, swapped, impossible                    row_doubts.cpp
 #pragma once
 
 #include <string>

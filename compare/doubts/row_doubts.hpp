@@ -1,6 +1,7 @@
 // Rows of a campaign that are hardly meant: a part of the list of doubts (doubts.hpp).
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,12 @@
 
 namespace soilbin::compare {
 
-/// Rows that no wheel makes, that were copied, that were unsteady, and channels whose sign seems flipped. `answers`: a
-/// model's, one a run, which tell a flipped pull from an odd one. Those alike once (once_each).
-std::vector<std::string> row_doubts(const Campaign& campaign, const std::vector<Answer>& answers);
+/// The model that gave the answers, asked at other conditions.
+using AskAgain = std::function<std::vector<Answer>(const std::vector<OperatingCondition>&)>;
+
+/// Rows that no wheel makes, that were copied, that were unsteady, channels whose sign seems flipped, and columns that
+/// seem swapped. `answers`: a model's, one a run, which tell a flipped pull from an odd one. Those alike once
+/// (once_each).
+std::vector<std::string> row_doubts(const Campaign& campaign, const std::vector<Answer>& answers, const AskAgain& ask);
 
 }  // namespace soilbin::compare

@@ -90,15 +90,15 @@ TEST(Doubts, WhatNoModelHearsOfIsTold) {
   EXPECT_THAT(keys_of_unheard(question), ElementsAre("moisture")) << "grains alone hear of lugs and passes";
 }
 
-/// Eight runs over slip at one load as the base model has them.
-Campaign modelled_campaign() {
+/// Eight runs over slip, so far apart, at one load as the base model has them.
+Campaign modelled_campaign(double step = 0.05) {
   Campaign campaign;
   const Scenario scenario = wheel_on_sand();
   campaign.wheel = scenario.tire;
   campaign.soil = *scenario.soil.semi_empirical;
   for (int i = 0; i < 8; ++i) {
     Run run;
-    run.at = condition(80, 0.05 * i);
+    run.at = condition(80, step * i);
     run.at.run = i + 1;
     run.csv_line = i + 2;
     const TractionResult told = *ask(*make_model(ModelKind::bekker_wong), scenario, run.at).result;
@@ -106,6 +106,27 @@ Campaign modelled_campaign() {
     campaign.runs.push_back(run);
   }
   return campaign;
+}
+
+// Pull and torque of a wheel of 110 mm differ by size, load and pull by both.
+TEST(Doubts, SwappedColumnsAreToldAtTheirHeader) {
+  const Campaign good = modelled_campaign();
+  Campaign swapped = good;
+  swapped.columns["drawbar_pull"] = {"Fx", "N", {"runs.csv", 1, 14}};
+  swapped.columns["torque"] = {"My", "N*m", {"runs.csv", 1, 11}};
+  for (compare::Run& run : swapped.runs) std::swap(run.drawbar_pull, run.torque);
+  EXPECT_THAT(doubts(swapped),
+              Contains(StartsWith("runs.csv:1:14: the columns 'My' and 'Fx' look swapped: each fits the prediction")));
+  Campaign loads = modelled_campaign(0.1);
+  std::erase_if(loads.runs, [](const compare::Run& run) { return !(*run.drawbar_pull > 0); });
+  ASSERT_GE(loads.runs.size(), 3U);
+  EXPECT_THAT(doubts(loads), Not(Contains(HasSubstr("look swapped"))));
+  for (compare::Run& run : loads.runs) {
+    const double load = run.at.load;
+    run.at.load = *run.drawbar_pull;
+    run.drawbar_pull = load;
+  }
+  EXPECT_THAT(doubts(loads), Contains(HasSubstr("the columns 'load' and 'drawbar_pull' look swapped")));
 }
 
 TEST(Doubts, ACampaignsRepeatedRowsAndFlippedPullAreTold) {
