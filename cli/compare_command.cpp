@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -36,13 +37,27 @@ struct CompareOptions {
   SoilBinFlags soil_bin;
 };
 
+/// "slip_sinkage+lug_thrust:janosi" as its effects. A plus within a number ("1e+3") parts nothing.
+std::vector<EffectChoice> effects_together(const std::string& text, const Session& session, const Soil& soil) {
+  std::vector<EffectChoice> effects;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    std::size_t end = text.find('+', begin);
+    while (end + 1 < text.size() && !std::isalpha(static_cast<unsigned char>(text[end + 1])))
+      end = text.find('+', end + 1);
+    effects.push_back(
+        parse_effect(text.substr(begin, std::min(end, text.size()) - begin), session.place.effects, soil));
+    begin = std::min(end, text.size()) + 1;
+  }
+  return effects;
+}
+
 /// The base model first; then the study's own analytic models, then those with the effects asked for.
 std::vector<ModelChoice> analytic_choices(const Case& question, const CompareOptions& asked, const Session& session) {
   std::vector<ModelChoice> choices = {{ModelKind::bekker_wong, {}, "bekker_wong"}};
   for (const ModelChoice& choice : question.study.models)
     if (choice.model == ModelKind::bekker_wong && !choice.effects.empty()) choices.push_back(choice);
   for (const std::string& text : asked.effects) {
-    ModelChoice choice{ModelKind::bekker_wong, {parse_effect(text, session.place.effects, question.scenario.soil)}, ""};
+    ModelChoice choice{ModelKind::bekker_wong, effects_together(text, session, question.scenario.soil), ""};
     const auto same_effect = [](const EffectChoice& a, const EffectChoice& b) {
       return std::tie(a.id, a.form, a.parameters) == std::tie(b.id, b.form, b.parameters);
     };
@@ -155,7 +170,8 @@ int compare_models(CompareOptions asked, const Session& session) {
     const std::vector<compare::ModelAnswers> study = compare::run_study(analytic, shown_progress());
     for (const compare::ModelAnswers& answers : study) sides.push_back(compare::side_of(answers));
   }
-  if (asked.model == "dem" || !asked.soil_bin.recorded.empty() || asks(question.study, ModelKind::dem))
+  if (asked.model == "dem" || !asked.soil_bin.recorded.empty() ||
+      (asked.model.empty() && asks(question.study, ModelKind::dem)))
     sides.push_back(grain_side(question, asked, session, log, about));
   about.page.doubts = compare::doubts(question, choices, sides);
   print_warnings(about.page.doubts);
@@ -182,12 +198,15 @@ void add_compare(CLI::App& app, Session& session) {
       app.add_subcommand("compare", "models, grains and measurements of a study side by side, and why they differ");
   const auto asked = std::make_shared<CompareOptions>();
   command->add_option("study", asked->study, "a study of the library, or a case file")->type_name("STUDY")->required();
-  command->add_option("--model", asked->model, "dem: run the grains now, without a record")->type_name("NAME");
+  command->add_option("--model", asked->model, "dem: run the grains now, without a record; bekker_wong: leave them out")
+      ->type_name("NAME");
   command->add_option("--measured", asked->measured, "a campaign of the same wheel")->type_name("CAMPAIGN");
   command->add_option("--soil", asked->soil, "the analytic model's values from this soil, as bevameter writes one")
       ->type_name("SOIL");
-  command->add_option("--effect", asked->effects, "one more side: the analytic model with this effect; repeatable")
-      ->type_name("ID[:FORM][,PARAMETER=VALUE]");
+  command
+      ->add_option("--effect", asked->effects,
+                   "one more side: the analytic model with this effect, or with several joined by '+'; repeatable")
+      ->type_name("ID[:FORM][,PARAMETER=VALUE][+ID...]");
   add_file(*command, "--report", asked->report, "FILE.html", "write everything as one page");
   add_folder(*command, "--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data");
   add_file(*command, "--csv", asked->csv, "FILE.csv", "save every row");
@@ -202,7 +221,9 @@ void add_compare(CLI::App& app, Session& session) {
       "A row counts as a difference beyond two standard errors of both sides (more where they rest on few re-runs) "
       "and\n"
       "beyond the scatter of one run.\n"
-      "Example: soilbin compare paper-straight --recorded --report compare.html");
+      "With neither grains nor measurements, the analytic models are set against each other.\n"
+      "Example: soilbin compare paper-straight --recorded --report compare.html\n"
+      "         soilbin compare paper-straight --effect slip_sinkage --effect slip_sinkage+lug_thrust");
   command->callback([=, &session] { session.action = [=, &session] { return compare_models(*asked, session); }; });
 }
 

@@ -80,14 +80,16 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<Side
       if (sides[side].kind < sides[reference].kind) pairs.emplace_back(side, reference);
   }
   if (pairs.empty())
-    for (std::size_t side = 1; side < sides.size(); ++side) pairs.emplace_back(side, 0);
+    for (std::size_t reference = 0; reference < sides.size(); ++reference)
+      for (std::size_t side = reference + 1; side < sides.size(); ++side) pairs.emplace_back(side, reference);
   return pairs;
 }
 
 Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& choices, std::vector<Side> sides) {
   std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.kind < b.kind; });
   Comparison comparison{
-      question, curves_against_slip(question.study.conditions, Spread::exact), std::move(sides), {}, {}, {}, {}};
+      question, curves_against_slip(question.study.conditions, Spread::exact), std::move(sides), {}, {}, {}, {},
+      choices};
   for (const auto& [side, reference] : pairs_of(comparison.sides)) {
     const std::vector<Difference> rows =
         differences(comparison.sides, side, reference, question.study.conditions, question.scenario.tire);

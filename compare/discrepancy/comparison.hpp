@@ -30,10 +30,11 @@ struct Comparison {
   std::vector<Tally> tallies;             ///< by pair, channel
   std::vector<JointTest> joint;           ///< an analytic side against a reference each, where it can be made
   std::vector<std::string> not_compared;  ///< why a side has no partner, or a condition no result
+  std::vector<ModelChoice> choices;       ///< of the analytic sides
 };
 
 /// Which sides are held against which: every analytic one against grains and measurements, grains against measurements,
-/// and, where there is neither, every analytic one against the first.
+/// and, where there is neither, the analytic ones against each other.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<Side>& sides);
 
 /// Sides have a point for each condition of the question. `choices`: of each analytic side, its model and effects, for

@@ -2,6 +2,7 @@
 
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include "cli/command.hpp"
@@ -47,6 +48,24 @@ TEST(Compare, HoldsModelsAgainstMeasurementsRowByRow) {
   }
   for (const auto& clause : document["summary"])
     EXPECT_TRUE(!clause["rows"].empty() || !clause["evidence"].empty() || clause["about"] == "not compared");
+}
+
+// Base, one effect, two together: three sides, each pair of them compared; grains of the study are left out on request.
+TEST(Compare, SetsAnalyticModelsAgainstEachOther) {
+  const Outcome r = soilbin(
+      "compare paper-straight --load 4kN --slip 20% --effect slip_sinkage --effect slip_sinkage+bulldozing "
+      "--model bekker_wong --json");
+  ASSERT_EQ(r.status, 0) << r.err;
+  const nlohmann::json document = r.json();
+  ASSERT_EQ(document["sides"].size(), 3U);
+  EXPECT_EQ(document["sides"][2]["label"], "bekker_wong + slip_sinkage + bulldozing");
+  std::set<std::pair<std::string, std::string>> pairs;
+  for (const auto& row : document["rows"]) pairs.emplace(row["side"], row["reference"]);
+  EXPECT_EQ(pairs, (std::set<std::pair<std::string, std::string>>{
+                       {"bekker_wong + slip_sinkage", "bekker_wong"},
+                       {"bekker_wong + slip_sinkage + bulldozing", "bekker_wong"},
+                       {"bekker_wong + slip_sinkage + bulldozing", "bekker_wong + slip_sinkage"}}));
+  EXPECT_THAT(soilbin("compare paper-straight --effect slip_sinkage+").err, HasSubstr("expected id"));
 }
 
 // The same numbers in the page, in Markdown and as CSV; the page loads nothing and tells how to make it again.
