@@ -17,19 +17,21 @@ namespace {
 
 std::string named(const std::string& curve) { return curve.empty() ? "all conditions" : curve; }
 
-/// ", its effects, grains (dem) and measurements": what stands beside the analytic wheel.
-std::string other_sides(const Comparison& comparison) {
+/// "the analytic wheel (bekker_wong), the same with effects, grains (dem) and measurements".
+std::string sides_in_words(const Comparison& comparison) {
   bool effects = false, grains = false, measured = false;
   for (const Side& side : comparison.sides) {
     effects = effects || (side.kind == SideKind::analytic && side.label != "bekker_wong");
     grains = grains || side.kind == SideKind::grains;
     measured = measured || side.kind == SideKind::measured;
   }
-  std::string text;
+  std::vector<std::string> others;
   for (const auto& [there, name] :
        {std::pair{effects, "the same with effects"}, {grains, "grains (dem)"}, {measured, "measurements"}})
-    if (there) text += std::string(", ") + name;
-  return text;
+    if (there) others.emplace_back(name);
+  std::string text = "the analytic wheel (bekker_wong)";
+  for (const std::string& other : others) text += (&other == &others.back() ? " and " : ", ") + other;
+  return others.empty() ? text : text + " side by side";
 }
 
 /// Links from a clause to the tables and sections that hold its rows.
@@ -206,9 +208,8 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
 
 std::string comparison_page(const Comparison& comparison, const ComparisonAbout& about) {
   const Scenario& scenario = comparison.question.scenario;
-  Page page(about.page.title, fmt::format("{} on {}: the analytic wheel (bekker_wong){} side by side",
-                                          scenario.tire.name.empty() ? "A wheel" : scenario.tire.name,
-                                          scenario.soil.name, other_sides(comparison)));
+  Page page(about.page.title, fmt::format("{} on {}: {}", scenario.tire.name.empty() ? "A wheel" : scenario.tire.name,
+                                          scenario.soil.name, sides_in_words(comparison)));
   if (!page.libraries().missing.empty())
     page.raw(
         fmt::format("<p class=\"warning\" role=\"note\">Made without {}: the figures that need it are plain "

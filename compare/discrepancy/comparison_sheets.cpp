@@ -221,8 +221,10 @@ HeatMap heat_map_of(const Comparison& comparison, const Tally& tally) {
                                      [&](double s) { return std::abs(s - conditions[d.condition].slip) < 1e-9; }) -
                         slips.begin();
     const std::string sigma = std::isfinite(d.sigma) ? fmt::format(", {:.1f} standard errors", d.sigma) : "";
+    const int places = std::abs(d.share) < 1.0 ? 1 : 0;
+    const bool none = std::abs(d.share) < 0.0005;  // is written as 0.0
     map.cells[curves.curve_of[d.condition]][column] = {
-        100 * d.share, fmt::format("{:+.{}f}", 100 * d.share, std::abs(d.share) < 1.0 ? 1 : 0),
+        none ? 0.0 : 100 * d.share, none ? "0.0" : fmt::format("{:+.{}f}", 100 * d.share, places),
         fmt::format("{}: {} ({:+.2f} %{}): {}", in_words(conditions[d.condition]), in_unit(d.channel, d.difference),
                     100 * d.share, sigma, words(d.finding)),
         d.finding == DifferenceFinding::difference};

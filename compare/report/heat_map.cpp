@@ -28,21 +28,22 @@ std::string cell_svg(const HeatMap& map, double x, double y, double limit, std::
                        R"(height="{:.0f}"/>)",
                        x + 1, y + 1, cell_width - 2, cell_height - 2);
   // Class f and c0 or c1 give the page's colours in the dark; opacity is the depth.
-  const auto palette = colors(Palette::named);
-  const int side = cell.value < 0.0 ? 0 : 1;
+  const std::string side = heat_class(cell);
+  const char* fill = side == "none" ? "#8a919c" : colors(Palette::named)[side == "c0" ? 0 : 1].light;
   return fmt::format(
       R"(<g class="cell" role="img" data-row="{}" data-column="{}" data-x="{}" data-y="{}" data-value="{:.6g}" )"
       R"(data-tip="{}" aria-label="{}"><title>{}</title>)"
-      R"(<rect class="f c{}" fill="{}" fill-opacity="{:.2f}" x="{:.0f}" y="{:.0f}" width="{:.0f}" height="{:.0f}"/>)"
+      R"(<rect class="f {}" fill="{}" fill-opacity="{:.2f}" x="{:.0f}" y="{:.0f}" width="{:.0f}" height="{:.0f}"/>)"
       R"(<text class="{}" fill="{}" x="{:.0f}" y="{:.0f}" text-anchor="middle"{}>{}</text></g>)",
       row, column, escaped(map.x[column]), escaped(map.y[row]), cell.value, escaped(cell.meaning),
-      escaped(cell.meaning), escaped(cell.meaning), side, palette[static_cast<std::size_t>(side)].light,
-      heat_opacity(cell, limit), x + 1, y + 1, cell_width - 2, cell_height - 2, cell.counts ? "ink" : "quiet",
-      cell.counts ? "#1a1d23" : "#5a6270", x + cell_width / 2, y + cell_height / 2 + 4,
-      cell.counts ? R"( font-weight="600")" : "", escaped(cell.text));
+      escaped(cell.meaning), escaped(cell.meaning), side, fill, heat_opacity(cell, limit), x + 1, y + 1, cell_width - 2,
+      cell_height - 2, cell.counts ? "ink" : "quiet", cell.counts ? "#1a1d23" : "#5a6270", x + cell_width / 2,
+      y + cell_height / 2 + 4, cell.counts ? R"( font-weight="600")" : "", escaped(cell.text));
 }
 
 }  // namespace
+
+std::string heat_class(const HeatCell& cell) { return cell.value == 0.0 ? "none" : cell.value < 0.0 ? "c0" : "c1"; }
 
 double heat_opacity(const HeatCell& cell, double limit) {
   const double depth = std::clamp(std::abs(cell.value) / limit, 0.0, 1.0) * (cell.counts ? 1.0 : 0.35);

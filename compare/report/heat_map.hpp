@@ -22,6 +22,9 @@ struct HeatMap {
   double limit = 0.0;                        ///< |value| of the deepest colour; 0: the largest there is
 };
 
+/// The class of a cell's colour: "c0" below zero, "c1" above, "none" at zero.
+std::string heat_class(const HeatCell& cell);
+
 /// How deep a cell's colour is; `limit` as in HeatMap, above 0.
 double heat_opacity(const HeatCell& cell, double limit);
 

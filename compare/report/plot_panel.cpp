@@ -25,6 +25,28 @@ double error_at(const Series& series, std::size_t i) {
   return std::isfinite(error) ? error : 0.0;
 }
 
+/// Whether its errors are bars at its points, which may hide those of another series.
+bool has_bars(const Series& series) {
+  return (series.mark == Mark::points || series.y.size() == 1) && !series.error.empty() && series.base.empty();
+}
+
+bool share_a_place(const Series& a, const Series& b) {
+  return std::any_of(a.x.begin(), a.x.end(),
+                     [&](double x) { return std::find(b.x.begin(), b.x.end(), x) != b.x.end(); });
+}
+
+/// Whether a series lies on points of another one, which it marks.
+bool marks_points_of(const Series& marks, const Series& series) {
+  if (marks.mark != Mark::points || marks.x.empty()) return false;
+  for (std::size_t i = 0; i < marks.x.size(); ++i) {
+    bool there = false;
+    for (std::size_t k = 0; k < series.x.size(); ++k)
+      there = there || (series.x[k] == marks.x[i] && series.y[k] == marks.y[i]);
+    if (!there) return false;
+  }
+  return true;
+}
+
 /// An axis's limits: those asked for, else the values' with a little room.
 Span with_room(Span span, const Axis& axis, double room) {
   if (!(span.upper >= span.lower)) span = {0.0, 1.0};
@@ -163,18 +185,18 @@ std::string line(const Sheet& sheet, const Series& series, const Frame& f) {
       stroke(sheet.palette, color_of(sheet, series)), dashes(series.dash), path);
 }
 
-std::string points(const Sheet& sheet, const Series& series, const Frame& f) {
+std::string points(const Sheet& sheet, const Series& series, const Frame& f, double shift) {
   if ((series.mark == Mark::line && series.y.size() > 1) || !series.base.empty()) return "";
   const int color = color_of(sheet, series);
   std::string out;
   for (std::size_t i = 0; i < series.y.size(); ++i) {
     if (!std::isfinite(series.y[i])) continue;
-    if ((series.mark == Mark::points || series.y.size() == 1) && error_at(series, i) > 0.0)
+    if (has_bars(series) && error_at(series, i) > 0.0)
       out += fmt::format(R"(<line {} x1="{:.1f}" x2="{:.1f}" y1="{:.1f}" y2="{:.1f}"/>)", stroke(sheet.palette, color),
-                         f.x(series.x[i]), f.x(series.x[i]), f.y(series.y[i] - error_at(series, i)),
+                         f.x(series.x[i]) + shift, f.x(series.x[i]) + shift, f.y(series.y[i] - error_at(series, i)),
                          f.y(series.y[i] + error_at(series, i)));
-    out += fmt::format(R"(<circle {} r="3.2" cx="{:.1f}" cy="{:.1f}"/>)", fill(sheet.palette, color), f.x(series.x[i]),
-                       f.y(series.y[i]));
+    out += fmt::format(R"(<circle {} r="3.2" cx="{:.1f}" cy="{:.1f}"/>)", fill(sheet.palette, color),
+                       f.x(series.x[i]) + shift, f.y(series.y[i]));
   }
   return out;
 }
@@ -221,13 +243,31 @@ std::string dashes(int dash) {
   }
 }
 
+std::vector<double> bar_shifts(const Plot& plot) {
+  constexpr double apart = 9.0;  // [px]
+  std::vector<double> shifts(plot.series.size(), 0.0);
+  std::vector<std::size_t> together;
+  for (std::size_t s = 0; s < shifts.size(); ++s)
+    if (has_bars(plot.series[s]) && std::any_of(plot.series.begin(), plot.series.end(), [&](const Series& other) {
+          return &other != &plot.series[s] && has_bars(other) && share_a_place(plot.series[s], other);
+        }))
+      together.push_back(s);
+  for (std::size_t k = 0; k < together.size(); ++k)
+    shifts[together[k]] = apart * (static_cast<double>(k) - 0.5 * static_cast<double>(together.size() - 1));
+  for (std::size_t s = 0; s < shifts.size(); ++s)
+    for (const std::size_t bars : together)
+      if (!has_bars(plot.series[s]) && marks_points_of(plot.series[s], plot.series[bars])) shifts[s] = shifts[bars];
+  return shifts;
+}
+
 std::string panel(const Sheet& sheet, const Plot& plot) {
   const Frame frame(plot);
   std::string out = grid(frame) + words(plot, frame);
   if (plot.identity_line) out += identity(frame);
   for (const Series& series : plot.series) out += band(sheet, series, frame);
   for (const Series& series : plot.series) out += line(sheet, series, frame);
-  for (const Series& series : plot.series) out += points(sheet, series, frame);
+  const std::vector<double> shifts = bar_shifts(plot);
+  for (std::size_t s = 0; s < shifts.size(); ++s) out += points(sheet, plot.series[s], frame, shifts[s]);
   return out;
 }
 

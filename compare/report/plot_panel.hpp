@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "compare/report/plot.hpp"
 
@@ -17,6 +18,10 @@ std::string dashes(int dash);
 
 /// The sheet's colour of a series: ordered palettes are spread over the colours that the sheet uses.
 int color_of(const Sheet& sheet, const Series& series);
+
+/// By how many pixels each series' points stand beside their place, so that error bars at one place do not hide each
+/// other. 0 where none would.
+std::vector<double> bar_shifts(const Plot& plot);
 
 /// Width and height of one panel [px].
 inline constexpr double panel_width = 420, panel_height = 300;

@@ -37,7 +37,9 @@ Json to_json(const Sheet& sheet) {
   for (const Plot& plot : sheet.plots) {
     Json one = {{"title", plot.title}, {"x", axis_json(plot.x)}, {"y", axis_json(plot.y)}, {"series", Json::array()}};
     one["identity_line"] = plot.identity_line;
-    for (const Series& series : plot.series)
+    const std::vector<double> shifts = bar_shifts(plot);
+    for (std::size_t s = 0; s < shifts.size(); ++s) {
+      const Series& series = plot.series[s];
       one["series"].push_back(
           {{"label", series.label},
            {"x", numbers(series.x)},
@@ -47,6 +49,8 @@ Json to_json(const Sheet& sheet) {
            {"mark", mark_words[static_cast<std::size_t>(series.mark)]},
            {"color", fmt::format("{}{}", sheet.palette == Palette::named ? 'c' : 'q', color_of(sheet, series))},
            {"dash", series.dash}});
+      if (shifts[s] != 0.0) one["series"].back()["shift"] = shifts[s];  // [px]
+    }
     json["plots"].push_back(std::move(one));
   }
   return json;

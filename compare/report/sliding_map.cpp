@@ -15,7 +15,7 @@ Json one_map(const HeatMap& map) {
   Json json = {{"title", map.title}, {"cells", Json::array()}};
   for (const auto& row : map.cells)
     for (const HeatCell& cell : row)
-      json["cells"].push_back({cell.text, cell.meaning, cell.value < 0.0 ? 0 : 1,
+      json["cells"].push_back({cell.text, cell.meaning, heat_class(cell),
                                std::stod(fmt::format("{:.2f}", heat_opacity(cell, map.limit))), cell.counts ? 1 : 0,
                                std::stod(fmt::format("{:.6g}", cell.value))});
   return json;

@@ -4,9 +4,11 @@
 
 #include <filesystem>
 
+#include "compare/report/heat_map.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/plot.hpp"
+#include "compare/report/plot_panel.hpp"
 #include "compare/report/sheet_json.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "scenario/atomic_file.hpp"
@@ -158,6 +160,23 @@ TEST(ResultJson, StandardErrorsSayWhatTheyLeaveOut) {
   EXPECT_FALSE(to_json(Answer{{}, result, ""}).contains("std_error_without"));
   result.without_error_of = {"k_c", "cohesion"};
   EXPECT_EQ(to_json(Answer{{}, result, ""})["std_error_without"].dump(), R"(["k_c","cohesion"])");
+}
+
+// Two bars at one slip stand 9 px apart, and a mark goes with the point that it marks; a line keeps its place.
+TEST(Plots, ErrorBarsAtOnePlaceStandBesideEachOther) {
+  const Series dem{.label = "dem", .x = {20}, .y = {5}, .error = {1}, .mark = Mark::points};
+  const Series measured{.label = "measured", .x = {10, 20}, .y = {3, 6}, .error = {1, 1}, .mark = Mark::points};
+  const Series mark{.label = "one packing", .x = {20}, .y = {5}, .mark = Mark::points};
+  const Series line{.label = "model", .x = {10, 20}, .y = {3, 6}, .error = {1, 1}};
+  EXPECT_THAT(bar_shifts(Plot{"pull", {}, {}, {dem, measured, mark, line}}), ElementsAre(-4.5, 4.5, -4.5, 0));
+  EXPECT_THAT(bar_shifts(Plot{"pull", {}, {}, {dem, line}}), ElementsAre(0, 0));
+}
+
+TEST(HeatMaps, ACellOfZeroHasNoSide) {
+  EXPECT_EQ(heat_class({0.0, "0.0", "", true}), "none");
+  EXPECT_EQ(heat_class({-0.0, "0.0", "", true}), "none");
+  EXPECT_EQ(heat_class({-0.2, "-0.2", "", true}), "c0");
+  EXPECT_EQ(heat_class({0.2, "+0.2", "", true}), "c1");
 }
 
 TEST(ResultJson, CsvRowsHaveAsManyCellsAsTheHeader) {

@@ -219,7 +219,7 @@ soilbin.valueAt = (series, i) => series.y[i] === null || !series.base.length ? s
 // Area, band, line, points and error bars of one series.
 soilbin.drawSeries = function (marks, series, frame) {
   const points = series.x.map((x, i) => ({x, y: series.y[i], error: series.error[i] || 0}));
-  const there = p => p.y !== null, px = p => frame.x(p.x), py = p => frame.y(p.y);
+  const there = p => p.y !== null, px = p => frame.x(p.x) + (series.shift || 0), py = p => frame.y(p.y);
   if (series.base.length) {
     marks.append('path').attr('class', `f ${series.color} area`)
       .attr('d', d3.area().defined(there).x(px).y0((p, i) => frame.y(series.base[i])).y1(py)(points));

@@ -15,7 +15,7 @@ soilbin.enlivenSlidingMap = function (figure) {
       cell.dataset.value = value;
       cell.setAttribute('aria-label', meaning);
       cell.querySelector('title').textContent = meaning;
-      box.setAttribute('class', `f c${side}`);
+      box.setAttribute('class', `f ${side}`);
       box.setAttribute('fill-opacity', opacity);
       label.textContent = text;
       label.setAttribute('class', counts ? 'ink' : 'quiet');
