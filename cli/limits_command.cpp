@@ -143,19 +143,26 @@ nlohmann::ordered_json limits_json(const LimitsAnswer& answer) {
   return row;
 }
 
-std::string limits_csv(const std::vector<LimitsAnswer>& answers) {
+/// `at_limits`: what the models answer there (answers_at_the_limits).
+std::string limits_csv(const Case& question, const std::vector<LimitsAnswer>& answers,
+                       const std::vector<compare::ModelAnswers>& at_limits) {
   std::string text =
       "model,load_N,speed_m_s,transverse_incline_deg,yaw_deg,pass,slope_deg,slip,largest_pull_N,slip_of_largest_pull,"
-      "error\n";
-  for (const LimitsAnswer& answer : answers) {
+      "error,remark\n";
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const LimitsAnswer& answer = answers[i];
     const OperatingCondition& at = answer.at;
     const std::string asked = fmt::format("{},{},{},{},{},{}", compare::csv_cell(answer.model.label), at.load,
                                           answer.at_every_speed ? "" : fmt::format("{}", at.speed),
                                           at.transverse_incline / degree, at.yaw / degree, at.pass);
-    if (!answer.error.empty()) text += asked + ",,,,," + compare::csv_cell(answer.error) + '\n';
-    for (const SlopeRow& row : answer.slopes)
-      text += fmt::format("{},{},{},{},{},\n", asked, row.slope / degree, row.slip ? fmt::format("{}", *row.slip) : "",
-                          row.best.drawbar_pull, row.best.slip);
+    if (!answer.error.empty()) text += asked + ",,,,," + compare::csv_cell(answer.error) + ",\n";
+    for (std::size_t k = 0; k < answer.slopes.size(); ++k) {
+      const SlopeRow& row = answer.slopes[k];
+      const std::string remark = compare::remark_on(question.scenario, answer.model, at_limits[i].answers[k]);
+      text +=
+          fmt::format("{},{},{},{},{},,{}\n", asked, row.slope / degree, row.slip ? fmt::format("{}", *row.slip) : "",
+                      row.best.drawbar_pull, row.best.slip, compare::csv_cell(remark));
+    }
   }
   return text;
 }
@@ -231,10 +238,11 @@ int limits(const Question& inputs, const LimitsOptions& options, const Session& 
       else
         known->at_every_speed = true;
     }
-  const std::vector<std::string> doubts = compare::doubts(question, answers_at_the_limits(question, answers));
+  const std::vector<compare::ModelAnswers> at_limits = answers_at_the_limits(question, answers);
+  const std::vector<std::string> doubts = compare::doubts(question, at_limits);
   print_warnings(doubts);
   Outputs outputs;
-  outputs.file(options.csv, [&] { return limits_csv(answers); });
+  outputs.file(options.csv, [&] { return limits_csv(question, answers, at_limits); });
   outputs.drawing(options.plot, [&] { return limits_sheet(question, answers); });
   if (options.json) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();

@@ -42,7 +42,9 @@ int predict(const PredictOptions& options, const Session& session) {
   const std::vector<std::string> doubts = compare::doubts(campaign, scenario, prediction);
   print_warnings(doubts);
   Outputs outputs;
-  outputs.file(options.csv, [&] { return compare::prediction_csv(prediction); });
+  outputs.file(options.csv, [&] {
+    return compare::prediction_csv(prediction, compare::remarks_on(campaign, scenario, prediction));
+  });
   outputs.drawing(options.plot, [&] { return compare::campaign_sheet(campaign, prediction); });
   if (options.json)
     print_json(compare::to_json(prediction, campaign.name), doubts);

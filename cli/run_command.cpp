@@ -84,12 +84,17 @@ nlohmann::ordered_json results_json(const Case& question, const Answered& answer
 void save(Outputs& outputs, const RunOptions& options, const Case& question, const Answered& answered,
           const Workplace& place) {
   const std::vector<compare::ModelAnswers>& study = answered.study;
-  outputs.file(options.csv, [&] { return compare::study_csv(study); });
+  const auto csv = [&] {
+    return compare::study_csv(study, [&](const ModelChoice& model, const compare::Answer& answer) {
+      return compare::remark_on(question.scenario, model, answer);
+    });
+  };
+  outputs.file(options.csv, csv);
   outputs.drawing(options.plot, [&] { return compare::study_sheet(question, study); });
   outputs.write(options.output, [&] {
     const fs::path folder = options.output;
     write_file_atomically(folder / "case.yaml", write_case(question, place.effects));
-    write_file_atomically(folder / "results.csv", compare::study_csv(study));
+    write_file_atomically(folder / "results.csv", csv());
     write_file_atomically(folder / "results.json", compare::json_text(results_json(question, answered)));
   });
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 
 #include "cli/command_words.hpp"
 #include "cli/flag_values.hpp"
@@ -166,12 +167,17 @@ Reply case_reply(const Setup& setup, const std::string& query) {
 
 Reply curves_reply(const Setup& setup, const std::string& query) {
   std::vector<compare::ModelAnswers> all;
+  std::map<std::string, Scenario> scenario_of;
   for (ServedAnswer& one : answers_to(setup, query))
     for (compare::ModelAnswers& model : one.curves) {
       if (!one.label.empty()) model.choice.label += ", " + one.label;
+      scenario_of[model.choice.label] = one.swept.scenario;
       all.push_back(std::move(model));
     }
-  return {200, "text/csv; charset=utf-8", compare::study_csv(all)};
+  const auto remark = [&](const ModelChoice& model, const compare::Answer& answer) {
+    return compare::remark_on(scenario_of.at(model.label), model, answer);
+  };
+  return {200, "text/csv; charset=utf-8", compare::study_csv(all, remark)};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include "compare/discrepancy/comparison_page.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/loop/loop.hpp"
 #include "compare/measured/csv.hpp"
@@ -62,6 +63,24 @@ Json tally_json(const Comparison& comparison, const Tally& t) {
           {"worst_row", t.worst}};
 }
 
+/// What is doubtful in the two points of a row.
+std::string remarks_of(const Comparison& comparison, const Difference& d) {
+  std::string text;
+  const OperatingCondition& at = comparison.question.study.conditions[d.condition];
+  for (const std::size_t s : {d.side, d.reference}) {
+    const Side& side = comparison.sides[s];
+    const SidePoint& point = side.points[d.condition];
+    std::vector<std::string> remarks = point.doubts;
+    if (side.kind == SideKind::analytic && s < comparison.choices.size())
+      if (std::string one = remark_on(comparison.question.scenario, comparison.choices[s], {at, point.result, ""});
+          !one.empty())
+        remarks.push_back(std::move(one));
+    for (const std::string& remark : remarks)
+      text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", side.label, remark);
+  }
+  return text;
+}
+
 }  // namespace
 
 Json comparison_json(const Comparison& comparison, const ComparisonAbout& about) {
@@ -94,15 +113,16 @@ Json comparison_json(const Comparison& comparison, const ComparisonAbout& about)
 std::string differences_csv(const Comparison& comparison) {
   std::string text =
       "side,reference,channel,unit,condition,value,value_se,reference_value,reference_se,scatter,difference,std_error,"
-      "freedom,share_of_load,sigma,finding\n";
+      "freedom,share_of_load,sigma,finding,remark\n";
   const auto cell = [](double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); };
   for (const Difference& d : comparison.differences)
-    text += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(comparison.sides[d.side].label),
-        csv_cell(comparison.sides[d.reference].label), channel_views[d.channel].name, channel_views[d.channel].si_unit,
-        csv_cell(in_words(comparison.question.study.conditions[d.condition])), cell(d.value.value),
-        cell(d.value.std_error), cell(d.reference_value.value), cell(d.reference_value.std_error), cell(d.scatter),
-        cell(d.difference), cell(d.std_error), cell(d.freedom), cell(d.share), cell(d.sigma), word(d.finding));
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                        csv_cell(comparison.sides[d.side].label), csv_cell(comparison.sides[d.reference].label),
+                        channel_views[d.channel].name, channel_views[d.channel].si_unit,
+                        csv_cell(in_words(comparison.question.study.conditions[d.condition])), cell(d.value.value),
+                        cell(d.value.std_error), cell(d.reference_value.value), cell(d.reference_value.std_error),
+                        cell(d.scatter), cell(d.difference), cell(d.std_error), cell(d.freedom), cell(d.share),
+                        cell(d.sigma), word(d.finding), csv_cell(remarks_of(comparison, d)));
   return text;
 }
 

@@ -17,6 +17,7 @@
 #include "compare/doubts/row_doubts.hpp"
 #include "compare/doubts/unheard.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/nearest_word.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
@@ -226,6 +227,15 @@ Case question_of(const Campaign& campaign, const Scenario& asked) {
 /// Each row has a run and a place: so a campaign is told, whether or not its model asks for them.
 bool only_tells_the_row(const Unheard& one) { return one.key == "run" || one.key == "position"; }
 
+/// The campaign's model at other conditions.
+AskAgain asked_again(const Case& question) {
+  return [question](const std::vector<OperatingCondition>& conditions) {
+    Case again = question;
+    again.study.conditions = conditions;
+    return quick_answers(again).front().answers;
+  };
+}
+
 enum class NextIs { nothing, a_fit_for_effects };
 
 Warnings doubts_of(const Campaign& campaign, const Case& question, const std::vector<ModelAnswers>& study,
@@ -234,11 +244,7 @@ Warnings doubts_of(const Campaign& campaign, const Case& question, const std::ve
   if (next == NextIs::nothing)
     for (Unheard& one : unheard(question))
       if (!only_tells_the_row(one)) warnings.push_back(std::move(one.words));
-  append(warnings, row_doubts(campaign, study.front().answers, [&](const std::vector<OperatingCondition>& conditions) {
-           Case again = question;
-           again.study.conditions = conditions;
-           return quick_answers(again).front().answers;
-         }));
+  append(warnings, once_each(row_doubts(campaign, study.front().answers, asked_again(question))));
   return warnings;
 }
 
@@ -271,6 +277,36 @@ Warnings once_each(const Warnings& warnings) {
     shown[i] += fmt::format(" (and at {} other {}{})", others, what, others > 1 ? "s" : "");
   }
   return shown;
+}
+
+std::string remark_on(const Scenario& scenario, const ModelChoice& model, const Answer& answer) {
+  std::string remark;
+  const auto add = [&](const std::string& text) { remark += (remark.empty() ? "" : "; ") + text; };
+  const std::string place = " at " + in_words(answer.at);
+  for (std::string doubt : doubts_of_answers(scenario, {{model, {answer}, {}}}, false)) {
+    if (const std::size_t at = doubt.find(place); at != std::string::npos) doubt.erase(at, place.size());
+    add(doubt);
+  }
+  if (answer.result && !answer.result->without_error_of.empty())
+    add("the standard errors leave out the soil's " + listed(answer.result->without_error_of));
+  return remark;
+}
+
+std::vector<std::string> remarks_on(const Campaign& campaign, const Scenario& asked, const Prediction& prediction) {
+  std::vector<std::string> remarks;
+  std::vector<Answer> answers;
+  const ModelChoice model{ModelKind::bekker_wong, asked.effects, ""};
+  for (const PredictedRun& run : prediction.runs) {
+    answers.push_back(run.predicted);
+    remarks.push_back(remark_on(asked, model, run.predicted));
+  }
+  const Warnings of_rows = row_doubts(campaign, answers, asked_again(question_of(campaign, asked)));
+  for (std::size_t i = 0; i < remarks.size(); ++i) {
+    const std::string line = fmt::format("line {}: ", campaign.runs[i].csv_line);
+    for (const std::string& doubt : of_rows)
+      if (doubt.starts_with(line)) remarks[i] += (remarks[i].empty() ? "" : "; ") + doubt.substr(line.size());
+  }
+  return remarks;
 }
 
 Warnings doubts(const SemiEmpiricalSoil& soil) {

@@ -44,6 +44,13 @@ std::vector<std::string> doubts(const Campaign& campaign);
 /// The same before a fit that looks for effects: without what the declared model alone doesn't hear of.
 std::vector<std::string> doubts_before_fit(const Campaign& campaign);
 
+/// What is doubtful in one answer, for its row of a table: without the condition, which stands there. "" where nothing
+/// is. An answer that is none says why by itself.
+std::string remark_on(const Scenario& scenario, const ModelChoice& model, const Answer& answer);
+
+/// A remark for each run of a prediction, on the answer and on the measured row.
+std::vector<std::string> remarks_on(const Campaign& campaign, const Scenario& asked, const Prediction& prediction);
+
 /// Doubts that differ in numbers alone as one, with the number of the others: "(and at 3 other conditions)".
 std::vector<std::string> once_each(const std::vector<std::string>& doubts);
 

@@ -22,11 +22,15 @@ using Warnings = std::vector<std::string>;
 void add_impossible_rows(const Campaign& campaign, Warnings& warnings) {
   for (const Run& run : campaign.runs) {
     if (run.sinkage && std::abs(*run.sinkage) > 2 * campaign.wheel.radius)
-      warnings.push_back(fmt::format("line {}: a measured sinkage of {:.4g} mm is more than the wheel's diameter",
-                                     run.csv_line, 1000 * *run.sinkage));
+      warnings.push_back(
+          fmt::format("line {}: a measured sinkage of {:.4g} mm is more than the wheel's diameter: is the "
+                      "column's unit right?",
+                      run.csv_line, 1000 * *run.sinkage));
     if (run.drawbar_pull && std::abs(*run.drawbar_pull) > 3 * run.at.load)
-      warnings.push_back(fmt::format("line {}: a drawbar pull of {:.4g} N is more than three times the load",
-                                     run.csv_line, *run.drawbar_pull));
+      warnings.push_back(
+          fmt::format("line {}: a drawbar pull of {:.4g} N is more than three times the load: are the units "
+                      "of both right?",
+                      run.csv_line, *run.drawbar_pull));
   }
 }
 
@@ -212,7 +216,7 @@ std::vector<std::string> row_doubts(const Campaign& campaign, const std::vector<
   add_flipped_pull(campaign, answers, warnings);
   add_swapped_channels(campaign, answers, warnings);
   add_swapped_load(campaign, answers, ask, warnings);
-  return once_each(warnings);
+  return warnings;
 }
 
 }  // namespace soilbin::compare

@@ -135,14 +135,15 @@ std::string condition_cells(const OperatingCondition& at) {
                      at.transverse_incline / degree, at.yaw / degree, at.pass);
 }
 
-std::string csv_row(const std::string& model, const Answer& answer) {
+std::string csv_row(const std::string& model, const Answer& answer, const std::string& remark) {
   std::string row = csv_cell(model) + ',' + condition_cells(answer.at);
-  if (!answer.result) return row + std::string(12, ',') + ',' + csv_cell(answer.error) + "\n";
+  if (!answer.result) return row + std::string(12, ',') + ',' + csv_cell(answer.error) + ',' + csv_cell(remark) + "\n";
   const TractionResult& r = *answer.result;
   for (const ChannelView& channel : channel_views)
     row += fmt::format(",{},{}", (r.*channel.predicted).value, (r.*channel.predicted).std_error);
   row += has_efficiency(r) ? fmt::format(",{}", told_efficiency(r)) : std::string(",");
-  return row + fmt::format(",{},{},{},\n", r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree);
+  return row + fmt::format(",{},{},{},,{}\n", r.entry_angle / degree, r.max_stress_angle / degree,
+                           r.exit_angle / degree, csv_cell(remark));
 }
 
 /// Files from before budget_rest hold the rest of a run of grains as a part.
@@ -219,23 +220,25 @@ Json to_json(const Prediction& prediction, const std::string& campaign) {
   return document;
 }
 
-std::string study_csv(const std::vector<ModelAnswers>& study) {
+std::string study_csv(const std::vector<ModelAnswers>& study, const Remark& remark) {
   std::string text = std::string("model,") + condition_columns;
   for (const TractionChannel& channel : traction_channels)
     text += column_of(channel) + "," + column_of(channel, "se") + ",";
-  text += "tractive_efficiency,theta_1_deg,theta_m_deg,theta_2_deg,error\n";
+  text += "tractive_efficiency,theta_1_deg,theta_m_deg,theta_2_deg,error,remark\n";
   for (const ModelAnswers& model : study)
-    for (const Answer& answer : model.answers) text += csv_row(model.choice.label, answer);
+    for (const Answer& answer : model.answers)
+      text += csv_row(model.choice.label, answer, remark(model.choice, answer));
   return text;
 }
 
-std::string prediction_csv(const Prediction& prediction) {
+std::string prediction_csv(const Prediction& prediction, const std::vector<std::string>& remarks) {
   std::string text = std::string("run,setpoint,") + condition_columns;
   for (const TractionChannel& channel : traction_channels)
     text += fmt::format("{},{},{},", column_of(channel, "measured"), column_of(channel, "predicted"),
                         column_of(channel, "se"));
-  text += "error\n";
-  for (const PredictedRun& run : prediction.runs) {
+  text += "error,remark\n";
+  for (std::size_t i = 0; i < prediction.runs.size(); ++i) {
+    const PredictedRun& run = prediction.runs[i];
     text += fmt::format("{},{},{},", run.run, csv_cell(run.measured.setpoint.value_or("")),
                         condition_cells(run.measured.at));
     for (const ChannelView& channel : channel_views) {
@@ -248,7 +251,7 @@ std::string prediction_csv(const Prediction& prediction) {
         text += ",,";
       }
     }
-    text += csv_cell(run.predicted.error) + '\n';
+    text += csv_cell(run.predicted.error) + ',' + csv_cell(remarks.at(i)) + '\n';
   }
   return text;
 }

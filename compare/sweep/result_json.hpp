@@ -1,6 +1,10 @@
 // Results as JSON, with the contract's names. A value that is not a number is written as null.
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "compare/report/json_fields.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/prediction.hpp"
@@ -27,11 +31,14 @@ Json rows_json(const std::vector<ModelAnswers>& study);
 /// soilbin-predict/1.
 Json to_json(const Prediction& prediction, const std::string& campaign);
 
-/// Answers as CSV: model, condition, four results with standard errors, angles, error; SI, angles in degrees.
-std::string study_csv(const std::vector<ModelAnswers>& study);
+/// What to remark on an answer of a model; "" nothing (compare/doubts/doubts.hpp: remark_on).
+using Remark = std::function<std::string(const ModelChoice&, const Answer&)>;
+
+/// Answers as CSV: model, condition, four results with standard errors, angles, error, remark; SI, angles in degrees.
+std::string study_csv(const std::vector<ModelAnswers>& study, const Remark& remark);
 
 /// Runs as CSV: run, setpoint, condition, each channel as measured (empty: it wasn't), as predicted, and the
-/// prediction's standard error; error. SI, angles in degrees.
-std::string prediction_csv(const Prediction& prediction);
+/// prediction's standard error; error, remark. SI, angles in degrees. `remarks`: one for each run.
+std::string prediction_csv(const Prediction& prediction, const std::vector<std::string>& remarks);
 
 }  // namespace soilbin::compare

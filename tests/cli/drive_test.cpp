@@ -256,7 +256,7 @@ TEST(LimitsCommand, TheSlipOnASlopeIsTheSlipOfNoPullThere) {
   EXPECT_NEAR(there.json()["rows"].at(0)["drawbar_pull"].get<double>(), 0.0, 1e-3);
   EXPECT_NEAR(row["slopes"].back()["largest_pull"].get<double>(), 0.0, 1e-5);
   EXPECT_THAT(text_of(csv),
-              HasSubstr(fmt::format(",{},{},{},\n", second["slip"].get<double>(), second["largest_pull"].get<double>(),
+              HasSubstr(fmt::format(",{},{},{},,\n", second["slip"].get<double>(), second["largest_pull"].get<double>(),
                                     second["slip_of_largest_pull"].get<double>())));
   const std::string table = text_of(csv);
   EXPECT_EQ(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')), 1 + row["slopes"].size());
