@@ -195,13 +195,22 @@ std::vector<Reading> readings(const TractionResult& r) {
   return all;
 }
 
+/// Why a pull at 0 % slip is not 0, which readers expect; "" where no answer is at that slip.
+std::string pull_without_slip(const std::vector<Answer>& answers) {
+  const bool there = std::any_of(answers.begin(), answers.end(),
+                                 [](const Answer& answer) { return answer.at.slip == 0.0 && answer.result; });
+  return there ? "At 0 % slip (v = r ω) the soil is still compacted and sheared along the contact, so the pull is not "
+                 "0.\n"
+               : "";
+}
+
 std::string answer_text(const ModelAnswers& model, const Answer& answer) {
   std::string text = fmt::format("{}: {}\n", model.choice.label, compare::in_words(answer.at));
   if (!answer.result) return text + "  no solution: " + answer.error + "\n";
   text += "\n";
   for (const Reading& reading : readings(*answer.result))
     text += fmt::format("  {:<21}{}{}{}\n", reading.name, reading.value, reading.unit.empty() ? "" : " ", reading.unit);
-  return text;
+  return text + pull_without_slip({answer});
 }
 
 std::string study_text(const std::vector<ModelAnswers>& study) {
@@ -231,7 +240,7 @@ std::string study_text(const std::vector<ModelAnswers>& study) {
     }
     text += (text.empty() ? "" : "\n") + model.choice.label + "\n" + table.text() + notes;
   }
-  return text;
+  return study.empty() ? text : text + pull_without_slip(study.front().answers);
 }
 
 std::string errors_text(const Prediction& prediction) {
