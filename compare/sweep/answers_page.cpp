@@ -173,9 +173,7 @@ std::string tire_words(const Tire& tire) {
   return text + (tire.source.empty() ? "." : ". Source: " + tire.source + ".");
 }
 
-void add_study(Page& page, const StudyPart& part) {
-  page.section(part.question.study.name);
-  if (!part.question.description.empty()) page.paragraph(part.question.description + ".");
+void add_curves(Page& page, const StudyPart& part) {
   const Sheet sheet = study_sheet(part.curves, part.along_curves);
   const auto has_band = [](const Series& series) {
     return std::any_of(series.error.begin(), series.error.end(), [](double error) { return error > 0.0; });
@@ -187,6 +185,16 @@ void add_study(Page& page, const StudyPart& part) {
                                  std::any_of(pulls.begin(), pulls.end(), has_band)
                                      ? " Bands: one standard error, from the standard deviations of the soil's values."
                                      : ""));
+}
+
+/// `opens`: its curves stand at the head of the page already.
+void add_study(Page& page, const StudyPart& part, bool opens) {
+  page.section(part.question.study.name);
+  if (!part.question.description.empty()) page.paragraph(part.question.description + ".");
+  if (opens)
+    page.paragraph("Its curves open this page.");
+  else
+    add_curves(page, part);
   page.table(peak_table(part));
   page.folded("All conditions as a table", [&] { page.table(answers_table(part)); });
 }
@@ -309,13 +317,14 @@ std::string analysis_page(const std::vector<StudyPart>& studies, const std::vect
       for (const Answer& answer : model.answers)
         doubt = doubt || (answer.result && answer.result->drawbar_pull.std_error > 0.0);
   if (doubt) summary.emplace_back("", "± is one standard error, from the standard deviations of the soil's values.");
+  if (!studies.empty()) add_curves(page, studies.front());
   page.figures_at_a_glance(key_figures(studies, campaigns));
   page.summary(summary);
   if (!links.empty()) {
     page.section("More pages");
     page.cards(links);
   }
-  for (const StudyPart& part : studies) add_study(page, part);
+  for (const StudyPart& part : studies) add_study(page, part, &part == &studies.front());
   for (const CampaignPart& part : campaigns) add_campaign(page, part);
   page.doubts(about.doubts);
   add_provenance(page, studies, campaigns);

@@ -62,7 +62,7 @@ soilbin.ReplayView = class {
     this.series = element('button', {type: 'button', textContent: 'Save as PNG series'});
     this.series.addEventListener('click', () => this.saveSeries());
     bar.append(follow, marks, this.series);
-    this.host.append(bar);
+    this.host.prepend(bar);  // above the drawing, so that a small screen shows it
   }
 
   // What the grains do to the wheel, and the torque that drives it against them (positive drives), frame by frame, with a cursor at the present time; a click goes there.
