@@ -437,7 +437,7 @@ std::vector<std::pair<std::string, std::string>> headline(const LoopAnswer& answ
   std::vector<std::pair<std::string, std::string>> parts = {
       {"What is missing", verdict_sentence(answer) + how_sure(answer)}};
   if (const std::string stand_in = stand_in_sentence(answer); !stand_in.empty())
-    parts.emplace_back("What stands in for it", stand_in);
+    parts.emplace_back(stands_in, stand_in);
   if (answer.validation.overall.cells > 0)
     parts.emplace_back(takes_effects(answer) ? "What it does to the error" : "How large the error is",
                        error_sentence(answer));

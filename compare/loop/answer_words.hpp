@@ -34,6 +34,9 @@ std::string times_likelier(double log_odds);
 /// The verdict as one sentence.
 std::string verdict_sentence(const LoopAnswer& answer);
 
+/// What headline's sentences about the stand-in are headed by.
+inline constexpr const char* stands_in = "What stands in for it";
+
 /// What a page opens with, (what it is about, sentences): what is missing and how sure that is; at an
 /// unknown effect what the saved model takes in its place; what that does to the error, gain and loss alike; what to
 /// measure next. The last is absent where no question is open.

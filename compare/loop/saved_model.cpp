@@ -46,6 +46,8 @@ Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
   for (const AcceptedEffect& effect : answer.effects) choice.effects.push_back(effect.choice);
   for (const AcceptedEffect& effect : answer.stand_in) choice.effects.push_back(effect.choice);
   model.description = "Made by soilbin loop: " + verdict_sentence(answer);
+  for (const auto& [about, text] : headline(answer))
+    if (about == stands_in) model.description += " " + text;
   for (const std::string& sentence : bekker_wong::presumptions(choice.effects, campaign.wheel))
     model.description += " " + sentence;
   choice.label = "fitted";
