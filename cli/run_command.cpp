@@ -219,8 +219,11 @@ int run(RunOptions options, const Session& session) {
   if (options.json) {
     print_json(results_json(question, answered));
   } else {
-    fmt::print("{}: {} on {}\n{}\n{}\n{}", question.study.name, in_words(question.scenario.tire),
-               compare::in_words(question.scenario.soil), compare::errors_in_words(question.scenario.soil),
+    fmt::print("{}: {} on {}\n{}{}\n{}", question.study.name, in_words(question.scenario.tire),
+               compare::in_words(question.scenario.soil),
+               asks(question.study, ModelKind::bekker_wong)
+                   ? compare::errors_in_words(question.scenario.soil) + "\n"
+                   : "",  // grains say beside their answer where their errors come from
                answered.step ? compare::in_words(*answered.step) : "", study_text(answered.study));
     if (const std::string notes = compare::notes_on(*log); !notes.empty())
       fmt::print("\n{}{}", notes, relative_density_of(*log, question.scenario.soil));

@@ -48,7 +48,10 @@ Renamed read_rename(const YamlNode& node, const Reading& reading) {
     if (!same_dimension(written.dimension, expected.dimension))
       reading.refuse(*unit,
                      fmt::format("the unit of '{}' must be that of {}, such as '{}'; '{}' is {}", column.quantity,
-                                 dimension_name(expected), expected.text, written.text, dimension_name(written)));
+                                 dimension_name(expected), expected.text, written.text, dimension_name(written)),
+                     expected.text == "N" && same_dimension(written.dimension, parse_unit("kg").dimension)
+                         ? "as a weight: kgf"
+                         : "");
   } catch (const InputError& error) {
     if (error.position().line > 0) throw;
     reading.refuse(*unit, error.what());
@@ -77,10 +80,12 @@ ColumnChoice choose_column(const CsvCell& header, Renames& renames, const Source
     right.push_back(column.canonical);
   }
   for (const auto& [name, renamed] : renames) right.push_back(name);
-  csv.refuse(header.offset,
-             fmt::format("unknown column '{}'{}", clipped(header.text), did_you_mean(header.text, right)),
-             "give it a quantity in campaign.yaml under 'columns', or take it out of the file; known without that: " +
-                 listed(right));
+  csv.refuse(
+      header.offset, fmt::format("unknown column '{}'{}", clipped(header.text), did_you_mean(header.text, right)),
+      fmt::format(
+          "say what it holds in campaign.yaml, such as columns: {{{}: {{quantity: sinkage, unit: mm}}}}, or take it "
+          "out of the file; known without that: {}",
+          clipped(header.text), listed(right)));
 }
 
 std::vector<ColumnChoice> choose_columns(const CsvTable& table, Renames& renames, const SourceText& csv) {

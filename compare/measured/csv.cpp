@@ -96,7 +96,9 @@ class CsvReader {
 void check_header(const CsvRow& header, const SourceText& source) {
   std::set<std::string_view> seen;
   for (const CsvCell& cell : header.cells) {
-    if (cell.text.empty()) source.refuse(cell.offset, "a column without a name");
+    if (cell.text.empty())
+      source.refuse(cell.offset, "a column without a name",
+                    "name it, or take it out of the file; a spreadsheet writes its empty columns too");
     for (const auto& [mark, name] : {std::pair{';', "semicolons"}, {'\t', "tabs"}})
       if (cell.text.find(mark) != std::string::npos)
         source.refuse(cell.offset, fmt::format("'{}' is no column's name", clipped(cell.text)),
@@ -121,7 +123,8 @@ CsvTable parse_csv(const SourceText& source) {
                     fmt::format("a row of {} cells under a header of {}", row.cells.size(), columns));
     if (table.rows.size() >= most_csv_rows)
       source.refuse(row.cells.front().offset, fmt::format("more than {} rows", most_csv_rows));
-    table.rows.push_back(std::move(row));
+    const bool blank = std::ranges::all_of(row.cells, [](const CsvCell& cell) { return cell.text.empty(); });
+    if (!blank) table.rows.push_back(std::move(row));
   }
   return table;
 }

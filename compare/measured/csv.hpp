@@ -1,4 +1,5 @@
-// Comma-separated text as a table whose cells know their places (RFC 4180: quotes, CRLF; blank lines are skipped).
+// Comma-separated text as a table whose cells know their places (RFC 4180: quotes, CRLF; blank lines and rows of
+// empty cells are skipped).
 #pragma once
 
 #include <cstddef>

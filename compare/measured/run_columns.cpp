@@ -78,14 +78,19 @@ double read_cell(const CsvCell& cell, const std::string& header, const ColumnCho
     refuse(fmt::format("expected a finite number, not '{}'", clipped(cell.text)),
            comma   ? "a decimal point is '.'"
            : digit ? "the unit stands in the column's name, not in the cell"
-                   : "where nothing was measured leave the cell empty");
+                   : "where nothing was measured leave the cell empty; a second line of headings is taken out");
   }
   double value = 0.0;
   try {
     const std::string text = choice.unit == "-" ? cell.text : cell.text + " " + choice.unit;
     value = read_quantity(text, choice.column->measure);
   } catch (const InputError& error) {
-    refuse(error.what());
+    const bool share = choice.unit == "-" && choice.column->content == Content::number;
+    refuse(error.what(),
+           share ? fmt::format(
+                       "a column in per cent is told in campaign.yaml, columns: {{{}: {{quantity: {}, unit: '%'}}}}",
+                       clipped(header), choice.column->quantity)
+                 : "");
   }
   constexpr double largest_whole = 1e9;
   if (choice.column->content == Content::whole_number && (std::floor(value) != value || value > largest_whole))

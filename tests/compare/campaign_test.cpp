@@ -123,13 +123,14 @@ TEST(Campaign, RealFilesHaveQuotesCarriageReturnsMarksAndBlankLines) {
                            "\xEF\xBB\xBF\"load_N\",slip, torque_Nm ,setpoint\r\n"
                            "1000,0.1,30,\"a, \"\"wet\"\"\nbed\"\r\n"
                            "\r\n"
+                           ",, ,\r\n"
                            " 1000 ,\"0.2\",3e1,\r\n"
                            "1000,0.3,30.5,x");
   ASSERT_EQ(c.runs.size(), 3u);
   EXPECT_EQ(c.runs[0].setpoint, "a, \"wet\"\nbed");
   EXPECT_EQ(c.runs[1].at.slip, 0.2);
   EXPECT_FALSE(c.runs[1].setpoint);
-  EXPECT_EQ(c.runs[1].csv_line, 5) << "a quoted line feed and a blank line count";
+  EXPECT_EQ(c.runs[1].csv_line, 6) << "a quoted line feed, a blank line and a row of empty cells count";
 }
 
 TEST(CampaignRefuses, MissingFiles) {
@@ -144,7 +145,8 @@ TEST(CampaignRefuses, UnknownColumns) {
               AllOf(StartsWith("runs.csv:1:71: unknown column 'torqe_Nm', did you mean 'torque_Nm'?"),
                     HasSubstr("known without that: run, setpoint, load_N")));
   EXPECT_THAT(refused_csv("torque_Nm", "drawbar_pull_N"), HasSubstr("column 'drawbar_pull_N' appears twice"));
-  EXPECT_THAT(refused_csv("torque_Nm", ""), HasSubstr("a column without a name"));
+  EXPECT_THAT(refused_csv("torque_Nm", "my Nm"), HasSubstr("columns: {my Nm: {quantity: sinkage, unit: mm}}"));
+  EXPECT_THAT(refused_csv("torque_Nm", ""), HasSubstr("a spreadsheet writes its empty columns too"));
   EXPECT_THAT(refused_csv("torque_Nm", "torque_Nm;x"), HasSubstr("parted by commas, not by semicolons"));
 }
 
