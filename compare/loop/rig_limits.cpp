@@ -85,7 +85,7 @@ double rig_setting(const ConditionView& view, double value, const Observations& 
   const bool alone = near.first == near.second, to_the_digit = near.first == *nearest && scatter == 0;
   const double room = to_the_digit ? 0.0
                       : alone      ? std::max(scatter, run_share * (made.back() - made.front()))
-                                   : scatter;
+                                   : std::min(scatter, (near.second - near.first) / 3);
   const double anywhere = std::numeric_limits<double>::infinity();  // what was measured bounds no rig
   const double low = within.first == made.front() ? -anywhere : within.first;
   const double high = within.second == made.back() ? anywhere : within.second;
