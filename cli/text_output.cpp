@@ -198,7 +198,7 @@ std::vector<Reading> readings(const TractionResult& r) {
 /// Why a pull at 0 % slip is not 0, which readers expect; "" where no answer is at that slip.
 std::string pull_without_slip(const std::vector<Answer>& answers) {
   const bool there = std::any_of(answers.begin(), answers.end(),
-                                 [](const Answer& answer) { return answer.at.slip == 0.0 && answer.result; });
+                                 [](const Answer& answer) { return std::abs(answer.at.slip) < 1e-9 && answer.result; });
   return there ? "At 0 % slip (v = r ω) the soil is still compacted and sheared along the contact, so the pull is not "
                  "0.\n"
                : "";

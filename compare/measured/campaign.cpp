@@ -69,6 +69,18 @@ Renames read_renames(const YamlNode* columns, const Reading& reading) {
   return renames;
 }
 
+/// "{quantity: load, unit: N}": what an unknown column most likely holds, in the form of `columns:`.
+std::string renaming_for(const std::string& header, const std::vector<std::string>& right) {
+  const std::string nearest = nearest_word(header, right);
+  for (const RunColumn& column : run_columns())
+    if (column.canonical == nearest)
+      return column.content != RunColumn::Content::number
+                 ? fmt::format("{{quantity: {}}}", column.quantity)
+                 : fmt::format("{{quantity: {}, unit: {}}}", column.quantity,
+                               column.measure.unit == "-" ? "'%'" : column.measure.unit);
+  return "{quantity: sinkage, unit: mm}";
+}
+
 ColumnChoice choose_column(const CsvCell& header, Renames& renames, const SourceText& csv) {
   if (const auto renamed = renames.find(header.text); renamed != renames.end()) {
     renamed->second.used = true;
@@ -80,12 +92,11 @@ ColumnChoice choose_column(const CsvCell& header, Renames& renames, const Source
     right.push_back(column.canonical);
   }
   for (const auto& [name, renamed] : renames) right.push_back(name);
-  csv.refuse(
-      header.offset, fmt::format("unknown column '{}'{}", clipped(header.text), did_you_mean(header.text, right)),
-      fmt::format(
-          "say what it holds in campaign.yaml, such as columns: {{{}: {{quantity: sinkage, unit: mm}}}}, or take it "
-          "out of the file; known without that: {}",
-          clipped(header.text), listed(right)));
+  csv.refuse(header.offset,
+             fmt::format("unknown column '{}'{}", clipped(header.text), did_you_mean(header.text, right)),
+             fmt::format("say what it holds in campaign.yaml, such as columns: {{{}: {}}}, or take it out of the file; "
+                         "known without that: {}",
+                         clipped(header.text), renaming_for(header.text, right), listed(right)));
 }
 
 std::vector<ColumnChoice> choose_columns(const CsvTable& table, Renames& renames, const SourceText& csv) {

@@ -102,7 +102,8 @@ void check_header(const CsvRow& header, const SourceText& source) {
     for (const auto& [mark, name] : {std::pair{';', "semicolons"}, {'\t', "tabs"}})
       if (cell.text.find(mark) != std::string::npos)
         source.refuse(cell.offset, fmt::format("'{}' is no column's name", clipped(cell.text)),
-                      fmt::format("columns are parted by commas, not by {}, and the decimal point is '.'", name));
+                      fmt::format("columns are parted by commas, not by {}, and the decimal point is '.'{}", name,
+                                  mark == ';' ? ": sed 's/,/./g; s/;/,/g' turns a spreadsheet's file" : ""));
     if (!seen.insert(cell.text).second)
       source.refuse(cell.offset, fmt::format("column '{}' appears twice", clipped(cell.text)));
   }

@@ -23,6 +23,14 @@ TEST(Estimate, FlagsAloneAnswerWithUnitsAndErrors) {
   EXPECT_EQ(r.err, "");
 }
 
+// Readers expect 0 there; a wheel at v = r w still makes a rut.
+TEST(Estimate, SaysWhyThePullWithoutSlipIsNotZero) {
+  constexpr const char* why = "At 0 % slip (v = r ω) the soil is still compacted";
+  EXPECT_THAT(soilbin("estimate " + wheel + "--slip 0%").out, HasSubstr(why));
+  EXPECT_THAT(soilbin("run rover-slip").out, HasSubstr(why));
+  EXPECT_THAT(soilbin("estimate " + wheel + "--slip 1%").out, testing::Not(HasSubstr(why)));
+}
+
 // Errors that hold a part of the doubt alone mislead: the second line of an answer says which part.
 TEST(Estimate, TheFirstLinesSayWhatTheErrorsHold) {
   const std::string table = soilbin("estimate " + wheel + "--slip 0.2").out;

@@ -145,7 +145,8 @@ TEST(CampaignRefuses, UnknownColumns) {
               AllOf(StartsWith("runs.csv:1:71: unknown column 'torqe_Nm', did you mean 'torque_Nm'?"),
                     HasSubstr("known without that: run, setpoint, load_N")));
   EXPECT_THAT(refused_csv("torque_Nm", "drawbar_pull_N"), HasSubstr("column 'drawbar_pull_N' appears twice"));
-  EXPECT_THAT(refused_csv("torque_Nm", "my Nm"), HasSubstr("columns: {my Nm: {quantity: sinkage, unit: mm}}"));
+  EXPECT_THAT(refused_csv("torque_Nm", "my own"), HasSubstr("columns: {my own: {quantity: sinkage, unit: mm}}"));
+  EXPECT_THAT(refused_csv("torque_Nm", "torque_kNm"), HasSubstr("{torque_kNm: {quantity: torque, unit: N m}}"));
   EXPECT_THAT(refused_csv("torque_Nm", ""), HasSubstr("a spreadsheet writes its empty columns too"));
   EXPECT_THAT(refused_csv("torque_Nm", "torque_Nm;x"), HasSubstr("parted by commas, not by semicolons"));
 }
