@@ -70,6 +70,15 @@ double implied_speed(const AskedCondition& one, const Tire& tire) {
   }
 }
 
+/// A soil that lacks what a model needs, beside those of the library that have it.
+[[noreturn]] void refuse_soil(const Soil& soil, const char* lacks, const Library& library, bool (*has)(const Soil&)) {
+  std::vector<std::string> right;
+  for (const std::string& name : library.names(Shelf::soils))
+    if (has(find_soil(name, library))) right.push_back(name);
+  throw InputError(
+      fmt::format("soil '{}' has no {}\n  hint: these have: {}", clipped(soil.name), lacks, listed(right)));
+}
+
 constexpr const char* density_key = "density";
 constexpr Measure density_measure{"kg/m^3", above_zero};
 
@@ -271,12 +280,14 @@ nlohmann::ordered_json document_of(const char* format, const Case& question, nlo
 
 void require_semi_empirical(const Case& question, const Library& library) {
   if (question.scenario.soil.semi_empirical || !asks(question.study, ModelKind::bekker_wong)) return;
-  std::vector<std::string> right;
-  for (const std::string& name : library.names(Shelf::soils))
-    if (find_soil(name, library).semi_empirical) right.push_back(name);
-  throw InputError(
-      fmt::format("soil '{}' has no semi_empirical values, which bekker_wong needs\n  hint: these have: {}",
-                  clipped(question.scenario.soil.name), listed(right)));
+  refuse_soil(question.scenario.soil, "semi_empirical values, which bekker_wong needs", library,
+              [](const Soil& soil) { return soil.semi_empirical.has_value(); });
+}
+
+void require_grains(const Case& question, const Library& library) {
+  if (question.scenario.soil.granular || !asks(question.study, ModelKind::dem)) return;
+  refuse_soil(question.scenario.soil, "granular values, which dem needs", library,
+              [](const Soil& soil) { return soil.granular.has_value(); });
 }
 
 }  // namespace soilbin::cli

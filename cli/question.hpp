@@ -96,6 +96,9 @@ class Question {
 /// Throws InputError where the analytic model is asked on a soil that has values for grains alone.
 void require_semi_empirical(const Case& question, const Library& library);
 
+/// The same where grains are to be run on a soil without them.
+void require_grains(const Case& question, const Library& library);
+
 /// The rows of an answer under the names of its tire and soil.
 nlohmann::ordered_json document_of(const char* format, const Case& question, nlohmann::ordered_json rows);
 

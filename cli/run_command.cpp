@@ -175,6 +175,7 @@ int run(RunOptions options, const Session& session) {
   keep_model(question, options.model);
   if (!options.soil_bin.recorded.empty() && options.model.empty() && !asks(question.study, ModelKind::dem))
     question.study.models.push_back({ModelKind::dem, {}, "dem"});  // a record answers beside the study's own models
+  if (options.soil_bin.recorded.empty()) require_grains(question, session.place.library);
   name_engine(question, options.soil_bin.engine);
   if (options.converge) {
     options.conditions.pick(question.study, question.scenario.tire);

@@ -247,5 +247,12 @@ TEST(Report, IsOnePageThatLoadsNothing) {
   EXPECT_EQ(soilbin("report").status, 2);
 }
 
+TEST(RunCommand, NamesTheSoilsThatHaveGrains) {
+  const Outcome r = soilbin("run rover-slip --model dem --slip 20%");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, AllOf(HasSubstr("soil 'dry-sand' has no granular values"), HasSubstr("these have: "),
+                           HasSubstr("paper-sand-fine")));
+}
+
 }  // namespace
 }  // namespace soilbin::cli::test
