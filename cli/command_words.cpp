@@ -4,23 +4,14 @@
 
 #include <algorithm>
 
+#include "compare/report/shell_words.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
 
 std::string command_line(const std::vector<std::string>& words) {
-  std::string line = "soilbin";
-  for (const std::string& word : words) {
-    const bool bare = !word.empty() && word.find_first_not_of(
-                                           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                           "0123456789-_=+.,:/%@") == std::string::npos;
-    std::string quoted = word;
-    for (std::size_t at = quoted.find('\''); at != std::string::npos; at = quoted.find('\'', at + 4))
-      quoted.replace(at, 1, "'\\''");
-    line += bare ? " " + word : " '" + quoted + "'";
-  }
-  return line;
+  return words.empty() ? "soilbin" : "soilbin " + compare::shell_words(words);
 }
 
 namespace {

@@ -12,9 +12,8 @@
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
-#include "compare/doubts/doubts.hpp"
+#include "compare/experiments/map_grains.hpp"
 #include "compare/failure_map/map_report.hpp"
-#include "compare/report/json_fields.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -63,77 +62,9 @@ compare::InclineMap map_of(const FailureMapOptions& asked, const Case& question,
   return map;
 }
 
-/// Runs of grains as experiments: everything that they follow from beside factors and packing is their identity.
-compare::VirtualTest grains_test(const FailureMapOptions& asked, const compare::InclineMap& map, const Case& question,
-                                 const Workplace& place) {
-  const dem::DemSettings settings = settings_of(asked.soil_bin);
-  compare::VirtualTest test;
-  test.identity = fmt::format("soil bin, {}, speed {}", name_of(map.incline), map.base.speed);
-  for (const auto& [name, value] : compare::inputs_of(settings, map.scenario))
-    if (name != "tire.lug_height") test.identity += fmt::format("\n{} {}", name, value);
-  test.factors = map.factors;
-  test.targets = compare::grain_channels();
-  if (asked.stored) return test;
-  const auto last = std::make_shared<compare::RecordedRun>();
-  test.when_safe = [last] {
-    if (last->when_safe) last->when_safe();
-  };
-  test.run = [map, last,
-              run =
-                  compare::run_once(settings, question, place.effects, {{}, {}, {}, SOILBIN_VERSION, source_state()})](
-                 const Eigen::VectorXd& values, std::uint64_t seed) {
-    Scenario grains = scenario_at(map, values);
-    grains.effects.clear();
-    *last = run(grains, condition_at(map, values), seed);
-    if (!last->answer.result) throw NoSolution(last->answer.error);
-    std::vector<Estimate> measured;
-    for (const TractionChannel& channel : traction_channels)
-      measured.push_back((*last->answer.result).*channel.predicted);
-    return measured;
-  };
-  return test;
-}
-
 void show_run(int done, int total) {
   if (interrupt_asked()) throw Interrupted();
   show_progress_line(fmt::format("condition {} of {}", done + 1, total));
-}
-
-/// Where the models agree: without lugs at any slip, else also up to a slip; with any lugs; and the largest box of all.
-std::vector<compare::AgreementClause> clauses_of(const compare::FailureQuestion& question, compare::FailureMap& rows,
-                                                 int rounds) {
-  using compare::Role;
-  std::vector<compare::AgreementClause> clauses;
-  const auto tell = [&](const std::vector<Role>& roles) {
-    if (const auto clause = compare::agreement(question, rows, roles, 9, rounds)) clauses.push_back(*clause);
-    return !clauses.empty();
-  };
-  if (!tell({Role::limited, Role::held, Role::limited, Role::whole}))
-    tell({Role::limited, Role::held, Role::limited, Role::limited});
-  tell({Role::limited, Role::limited, Role::limited, Role::whole});
-  tell({Role::bounded, Role::bounded, Role::bounded, Role::bounded});
-  return clauses;
-}
-
-compare::MapStory learn(const FailureMapOptions& asked, const Case& question, const Workplace& place,
-                        compare::ExperimentStore& store, compare::VirtualTest& grains) {
-  compare::MapStory story;
-  story.map = map_of(asked, question, place);
-  grains = grains_test(asked, story.map, question, place);
-  if (asked.batch.asks()) grains = compare::only_asking(std::move(grains));
-  story.question =
-      compare::failure_question(story.map, grains, store, static_cast<std::uint64_t>(asked.soil_bin.packing),
-                                read_flag("--tolerance", asked.tolerance, {"%", above_zero}));
-  story.rows = compare::map_failures(story.question, {.first = asked.first,
-                                                      .at_boundary = asked.at_boundary,
-                                                      .at_once = std::max(1, asked.batch.ask),
-                                                      .seed = asked.seed,
-                                                      .progress = show_run});
-  story.clauses = clauses_of(story.question, story.rows, asked.rounds);
-  story.coordinates = compare::compare_coordinates(story.map, story.rows);
-  story.checks = compare::check_fresh(story.question, story.rows, asked.fresh, asked.seed);
-  clear_progress_line();
-  return story;
 }
 
 void print_story(const compare::MapStory& story, bool rows) {
@@ -142,24 +73,6 @@ void print_story(const compare::MapStory& story, bool rows) {
   if (rows) fmt::print("\n{}", as_text(compare::rows_table(story)));
   fmt::print("\n{}", as_text(compare::coordinates_table(story)));
   if (!story.checks.empty()) fmt::print("\n{}", as_text(compare::checks_table(story)));
-}
-
-/// Of the analytic model and the grains at the conditions that were run, with the highest lugs.
-std::vector<std::string> doubts_of(const compare::MapStory& story) {
-  Case question;
-  std::vector<Eigen::VectorXd> rows;
-  for (const compare::FailureRow& row : story.rows.rows) {
-    rows.push_back(row.values);
-    question.study.conditions.push_back(compare::condition_at(story.map, row.values));
-  }
-  if (rows.empty()) return {};
-  const auto height = [](const Eigen::VectorXd& values) { return values[compare::map_lug_height]; };
-  question.scenario = compare::scenario_at(story.map, *std::ranges::max_element(rows, {}, height));
-  question.study.models = {{ModelKind::bekker_wong, question.scenario.effects, ""}};
-  question.scenario.effects.clear();
-  const std::vector<compare::ModelAnswers> study = compare::run_study(question);
-  question.study.models.push_back({ModelKind::dem, {}, ""});
-  return compare::doubts(question, study);
 }
 
 int failure_map(const FailureMapOptions& asked, const Session& session) {
@@ -174,20 +87,27 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
   compare::ExperimentStore store(asked.store, asked.batch.writers());
   tell_unsealed(store, asked.store);
   asked.batch.learn(store);
-  if (asked.batch.answers())
-    return asked.batch.answer(grains_test(asked, map_of(asked, question, session.place), question, session.place),
-                              store);
+  const compare::InclineMap map = map_of(asked, question, session.place);
+  compare::VirtualTest grains = compare::map_grains(map, question, settings_of(asked.soil_bin), session.place.effects,
+                                                    {{}, {}, {}, SOILBIN_VERSION, source_state()});
+  if (asked.stored) grains.run = {};
+  if (asked.batch.answers()) return asked.batch.answer(grains, store);
+  if (asked.batch.asks()) grains = compare::only_asking(std::move(grains));
+  const compare::MapLearning how{.runs = {.first = asked.first,
+                                          .at_boundary = asked.at_boundary,
+                                          .at_once = std::max(1, asked.batch.ask),
+                                          .seed = asked.seed,
+                                          .progress = show_run},
+                                 .rounds = asked.rounds,
+                                 .fresh = asked.fresh,
+                                 .tolerance = read_flag("--tolerance", asked.tolerance, {"%", above_zero}),
+                                 .packing = static_cast<std::uint64_t>(asked.soil_bin.packing)};
   Outputs outputs;
-  compare::VirtualTest grains;
   try {
-    const compare::MapStory story = learn(asked, question, session.place, store, grains);
-    compare::PageAbout about{"Failure map: " + name_of(story.map.incline), session.command, versions(),
-                             doubts_of(story)};
-    if (const std::size_t older = store.of_other_engines(grains); older > 0)
-      about.doubts.push_back(
-          fmt::format("{} of the experiments were made by an earlier engine, whose shear springs did "
-                      "not turn with the spin of a pair: this one's answers differ",
-                      older));
+    const compare::MapStory story = compare::learn_map(map, grains, store, how);
+    clear_progress_line();
+    const compare::PageAbout about{"Failure map: " + name_of(story.map.incline), session.command, versions(),
+                                   doubts_of(story, grains, store)};
     print_warnings(about.doubts);
     outputs.file(asked.report,
                  [&] { return compare::failure_map_page(story, about, write_case(question, session.place.effects)); });

@@ -97,7 +97,7 @@ ShelfRow campaign_row(const std::string& name, const Workplace& place) {
 const std::vector<ShelfView>& shelf_views() {
   static const std::vector<ShelfView> views = [] {
     std::vector<std::string> soil_columns;
-    for (const SoilParameter& p : bevameter_parameters) soil_columns.push_back(with_unit(p));
+    for (const SoilParameter& p : bevameter_parameters) soil_columns.push_back(compare::heading(p.symbol, p.unit));
     soil_columns.emplace_back("grains");
     return std::vector<ShelfView>{
         {Shelf::soils, "Soils", soil_columns, soil_row},

@@ -69,8 +69,8 @@ void print_fit(const MeasuredPlatesFit& fit, std::size_t tests, const std::strin
              fit.lowest / 1e3, fit.highest / 1e3);
   TextTable values({"value", "fit", "between tests", "between low and high pressures"});
   for (const auto& [p, value] : values_of(fit))
-    values.add({with_unit(p), number(value.estimate, p.per_si), number(value.between_tests * p.per_si),
-                number(value.between_pressures * p.per_si)});
+    values.add({compare::heading(p.symbol, p.unit), number(value.estimate, p.per_si),
+                number(value.between_tests * p.per_si), number(value.between_pressures * p.per_si)});
   TextTable plates({"plate [mm]", "tests", "n of its own", "k at the common n [kN/m^(n+2)]"});
   for (std::size_t k = 0; k < fit.radii.size(); ++k)
     plates.add({fmt::format("{:g}", 2000 * fit.radii[k]), std::to_string(fit.tests[k]), number(fit.plate_exponents[k]),

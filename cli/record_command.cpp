@@ -88,9 +88,9 @@ int missing(const RecordOptions& asked, const Session& session) {
     compare::recorded_soil_bin(record, question.scenario, file, {});  // refuses another tire or other grains
     records.push_back(record);
   }
-  const auto list = compare::run_list(question.study.conditions,
-                                      compare::packings_from(settings_of(asked.expected), asked.expected.packings),
-                                      asked.expected.tests_step(question));
+  const auto list = compare::run_list(
+      question.study.conditions, compare::packings_from(settings_of(asked.expected), asked.expected.packings),
+      compare::test_of_step(question, asked.expected.packings, asked.expected.tests_step()));
   const auto left = compare::missing_runs(list, records);
   for (const compare::AskedRun& run : left) fmt::print("{}\n", compare::in_words(run));
   fmt::print("{} of {} missing\n", left.size(), compare::counted(list.size(), "run"));

@@ -7,14 +7,14 @@
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
-#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
-#include "cli/run_plan.hpp"
+#include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/experiments/convergence.hpp"
+#include "compare/experiments/run_plan.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
@@ -112,8 +112,7 @@ void check_flags(const RunOptions& options, const Case& question) {
 void make_runs(const Case& question, const Case& whole, const RunOptions& options, const Session& session) {
   const SoilBinFlags& bin = options.soil_bin;
   dem::DemSettings settings = settings_of(bin);
-  std::vector<compare::AskedRun> list = compare::runs_of(question, settings, bin.packings, bin.tests_step(question));
-  if (!bin.shard.empty()) list = compare::shard_of(list, compare::parse_shard(bin.shard));
+  const std::vector<compare::AskedRun> list = bin.runs(question);
   const auto at = std::make_shared<std::string>();
   settings.how.progress = [at](const dem::Progress& progress) { show_progress_of(*at, progress); };
   compare::make_runs(list, settings, whole, session.place.effects, keeping_of(bin),
@@ -185,13 +184,14 @@ int run(RunOptions options, const Session& session) {
   options.conditions.pick(question.study, question.scenario.tire);
   check_flags(options, question);
   if (options.dry_run) {
-    const RunPlan plan = plan_of(question, options.soil_bin, options.soil_bin.tests_step(question));
+    const SoilBinFlags& bin = options.soil_bin;
+    const compare::RunPlan plan = compare::plan_of(question, settings_of(bin), bin.runs(question), keeping_of(bin));
     const std::vector<std::string> doubts = compare::doubts(question);
     print_warnings(doubts);
     if (options.json)
-      print_json(plan_json(plan), doubts);
+      print_json(compare::plan_json(plan), doubts);
     else
-      fmt::print("{}", plan_text(plan));
+      fmt::print("{}", compare::plan_text(plan));
     return done;
   }
   const std::optional<dem::StepCriteria> step =
@@ -227,7 +227,7 @@ int run(RunOptions options, const Session& session) {
                    : "",  // grains say beside their answer where their errors come from
                answered.step ? compare::in_words(*answered.step) : "", study_text(answered.study));
     if (const std::string notes = compare::notes_on(*log); !notes.empty())
-      fmt::print("\n{}{}", notes, relative_density_of(*log, question.scenario.soil));
+      fmt::print("\n{}{}", notes, compare::relative_density_of(*log, question.scenario.soil, folder_of_beds()));
   }
   forget_runs(*log, outputs);
   if (compare::any_result(answered.study)) return outputs.status(done);

@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 
 #include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
@@ -193,10 +192,13 @@ void SoilBinFlags::add_packings_to(CLI::App& command) {
       ->group(grains_heading);
 }
 
-compare::TestStep SoilBinFlags::tests_step(const Case& question) const {
-  const std::size_t runs = question.study.conditions.size() * static_cast<std::size_t>(std::max(packings, 1));
-  const bool tests = half_step.empty() ? runs >= compare::runs_that_pay_a_test : half_step == "yes";
-  return tests ? compare::TestStep::yes : compare::TestStep::no;
+std::optional<bool> SoilBinFlags::tests_step() const {
+  return half_step.empty() ? std::nullopt : std::optional(half_step == "yes");
+}
+
+std::vector<compare::AskedRun> SoilBinFlags::runs(const Case& question) const {
+  std::vector<compare::AskedRun> list = compare::runs_of(question, settings_of(*this), packings, tests_step());
+  return shard.empty() ? list : compare::shard_of(list, compare::parse_shard(shard));
 }
 
 void SoilBinFlags::add_half_step_to(CLI::App& command) {
@@ -300,22 +302,6 @@ void tell_coarse_grains(const Scenario& scenario) {
   if (!scenario.soil.granular) return;
   if (const std::string doubt = compare::coarse_grain_doubt(scenario, {}); !doubt.empty())
     fmt::print(stderr, "note: {}\n", doubt);
-}
-
-std::string relative_density_of(const std::vector<compare::RecordedRun>& runs, const Soil& soil) {
-  dem::BedStore store(folder_of_beds());
-  if (!soil.granular) return "";
-  const auto limits = dem::known_density_limits(*soil.granular, store);
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (const compare::RecordedRun& run : runs)
-    if (limits && std::isfinite(run.bed.void_ratio)) {
-      const double density = dem::relative_density(run.bed.void_ratio, *limits);
-      least = std::min(least, density), most = std::max(most, density);
-    }
-  if (!(least <= most)) return "";
-  const std::string low = fmt::format("{:.0f}", 100 * least), high = fmt::format("{:.0f}", 100 * most);
-  return fmt::format("relative density {} % (void ratios {:.3f} loosest, {:.3f} densest)\n",
-                     low == high ? low : low + " to " + high, limits->loosest, limits->densest);
 }
 
 void forget_runs(const std::vector<compare::RecordedRun>& runs, const Outputs& outputs) {

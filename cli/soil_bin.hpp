@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,8 +61,10 @@ struct SoilBinFlags {
   void add_rig_to(CLI::App& command);
   /// --packings alone.
   void add_packings_to(CLI::App& command);
-  /// Whether the runs of a question's conditions begin with a test of the time step.
-  compare::TestStep tests_step(const Case& question) const;
+  /// What --half-step says; nothing where it was not given.
+  std::optional<bool> tests_step() const;
+  /// The runs that a question is answered by, or those of the shard alone. Throws what compare::runs_of throws.
+  std::vector<compare::AskedRun> runs(const Case& question) const;
   void add_half_step_to(CLI::App& command);
   /// --engine, --ranks, --settled-by.
   void add_engine_to(CLI::App& command);
@@ -79,10 +82,6 @@ compare::RunKeeping keeping_of(const SoilBinFlags& flags);
 /// On standard error, before minutes of grains: that they are coarse for the wheel. Beside the answer stands what that
 /// does to it.
 void tell_coarse_grains(const Scenario& scenario);
-
-/// How dense the runs' beds are between the loosest and the densest of these grains, where `soilbin bed` has made those
-/// two; "" elsewhere.
-std::string relative_density_of(const std::vector<compare::RecordedRun>& runs, const Soil& soil);
 
 /// The runs behind a model's answers, in the order in which they came.
 using RunLog = std::shared_ptr<std::vector<compare::RecordedRun>>;

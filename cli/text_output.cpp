@@ -3,9 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <numeric>
 
 #include "compare/measured/channels.hpp"
 #include "compare/report/json_fields.hpp"
@@ -23,23 +21,11 @@ using compare::ChannelError;
 using compare::ChannelView;
 using compare::Curves;
 using compare::curves_against_slip;
-using compare::HtmlTable;
+using compare::heading;
 using compare::ModelAnswers;
 using compare::PredictedRun;
 using compare::Prediction;
 using compare::Spread;
-
-/// Characters of a UTF-8 text.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
-bool is_number(const std::string& text) {
-  if (text.empty() || text == "-") return true;
-  const std::size_t first = text.front() == '-' || text.front() == '+' ? 1 : 0;
-  return first < text.size() && std::isdigit(static_cast<unsigned char>(text[first])) != 0;
-}
 
 std::vector<OperatingCondition> conditions_of(const std::vector<Answer>& answers) {
   std::vector<OperatingCondition> all;
@@ -59,100 +45,7 @@ std::string efficiency(const TractionResult& result) {
   return has_efficiency(result) ? number(100 * result.tractive_efficiency) : "-";
 }
 
-std::string heading(const ChannelView& channel) { return fmt::format("{} [{}]", channel.title, channel.unit); }
-
-constexpr std::size_t widest_line = 120;
-constexpr std::size_t between_columns = 2;
-
-/// The words of a cell, in lines of at most `wide` characters where no word is longer.
-std::vector<std::string> folded(const std::string& cell, std::size_t wide) {
-  std::vector<std::string> lines{""};
-  for (std::size_t at = 0; at <= cell.size();) {
-    const std::size_t end = std::min(cell.find(' ', at), cell.size());
-    const std::string word = cell.substr(at, end - at);
-    if (at > 0 && width(lines.back()) + 1 + width(word) > wide)
-      lines.push_back(word);
-    else
-      lines.back() += (at > 0 ? " " : "") + word;
-    at = end + 1;
-  }
-  return lines;
-}
-
-std::size_t longest_word(const std::string& cell) {
-  std::size_t longest = 0;
-  for (const std::string& word : folded(cell, 0)) longest = std::max(longest, width(word));
-  return longest;
-}
-
-/// Narrows the widest columns, a character at a time, until a line fits. Where it cannot fit all stays as it is.
-void narrow(std::vector<std::size_t>& widths, const std::vector<std::size_t>& least) {
-  const std::size_t gaps = between_columns * (widths.size() - 1);
-  const auto line_of = [&](const std::vector<std::size_t>& all) {
-    return std::accumulate(all.begin(), all.end(), gaps);
-  };
-  if (line_of(least) > widest_line) return;
-  for (std::size_t line = line_of(widths); line > widest_line; --line) {
-    std::size_t widest = widths.size();
-    for (std::size_t c = 0; c < widths.size(); ++c)
-      if (widths[c] > least[c] && (widest == widths.size() || widths[c] > widths[widest])) widest = c;
-    if (widest == widths.size()) return;
-    --widths[widest];
-  }
-}
-
 }  // namespace
-
-std::string with_unit(const SoilParameter& parameter) {
-  const bool plain = std::string_view(parameter.unit) == "-";
-  return plain ? parameter.symbol : fmt::format("{} [{}]", parameter.symbol, parameter.unit);
-}
-
-std::string TextTable::text() const {
-  std::vector<std::size_t> widths(rows_.front().size(), 0);
-  std::vector<bool> right(widths.size(), true);
-  const auto is_title = [&](const std::vector<std::string>& row) { return row.size() < rows_.front().size(); };
-  for (std::size_t r = 0; r < rows_.size(); ++r)
-    for (std::size_t c = 0; c < rows_[r].size() && !is_title(rows_[r]); ++c) {
-      widths[c] = std::max(widths[c], width(rows_[r][c]));
-      if (r > 0 && !is_number(rows_[r][c])) right[c] = false;
-    }
-  const auto has_note = [](const std::string& cell) { return cell.find(" (") != std::string::npos; };
-  std::vector<std::size_t> least(widths.size(), 0);  // figures stay in one line, words may be folded
-  for (std::size_t r = 0; r < rows_.size(); ++r)
-    for (std::size_t c = 0; c < rows_[r].size() && !is_title(rows_[r]); ++c)
-      least[c] = std::max(least[c],
-                          r > 0 && right[c] && !has_note(rows_[r][c]) ? width(rows_[r][c]) : longest_word(rows_[r][c]));
-  narrow(widths, least);
-  std::string text;
-  for (const std::vector<std::string>& row : rows_) {
-    if (is_title(row)) {
-      text += "\n" + row.front() + "\n";
-      continue;
-    }
-    std::vector<std::vector<std::string>> cells;
-    std::size_t lines = 1;
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      cells.push_back(width(row[c]) > widths[c] ? folded(row[c], widths[c]) : std::vector{row[c]});
-      lines = std::max(lines, cells.back().size());
-    }
-    for (std::size_t l = 0; l < lines; ++l) {
-      std::string line;
-      for (std::size_t c = 0; c < row.size(); ++c) {
-        const std::string part = l < cells[c].size() ? cells[c][l] : "", blanks(widths[c] - width(part), ' ');
-        line += (c == 0 ? "" : std::string(between_columns, ' ')) + (right[c] ? blanks + part : part + blanks);
-      }
-      text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-    }
-  }
-  return text;
-}
-
-std::string as_text(const HtmlTable& table) {
-  TextTable text(table.header);
-  for (const auto& row : table.rows) text.add(row);
-  return table.caption.empty() ? text.text() : fmt::format("{}\n{}", table.caption, text.text());
-}
 
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
@@ -222,7 +115,8 @@ std::string study_text(const std::vector<ModelAnswers>& study) {
     if (!curves.varying.empty()) header.push_back(curves.varying);
     header.push_back("slip [%]");
     for (std::size_t c = 0; c < channel_views.size(); ++c)
-      if (side || channel_views[c].name != "lateral_force") header.push_back(heading(channel_views[c]));
+      if (side || channel_views[c].name != "lateral_force")
+        header.push_back(heading(std::string(channel_views[c].title), std::string(channel_views[c].unit)));
     header.push_back("efficiency [%]");
     TextTable table(header);
     std::string notes;
@@ -262,7 +156,7 @@ std::string prediction_text(const Prediction& prediction) {
   header.insert(header.end(), {"load [N]", "slip [%]"});
   for (const ChannelError& error : prediction.errors) {
     const ChannelView& channel = channel_views[error.channel];
-    header.push_back(heading(channel));
+    header.push_back(heading(std::string(channel.title), std::string(channel.unit)));
     header.insert(header.end(), {"predicted", "residual"});
   }
   TextTable table(header);

@@ -6,34 +6,16 @@
 #include <vector>
 
 #include "compare/report/number_text.hpp"
-#include "compare/report/page.hpp"
+#include "compare/report/text_table.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/prediction.hpp"
-#include "scenario/soil_parameters.hpp"
 #include "scenario/tire.hpp"
 
 namespace soilbin::cli {
 
-/// A table with aligned columns: text to the left, numbers (by their first character) to the right.
-class TextTable {
- public:
-  explicit TextTable(std::vector<std::string> header) : rows_{std::move(header)} {}
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-  /// A line across the columns over the rows that follow.
-  void add_title(std::string title) { rows_.push_back({std::move(title)}); }
-  std::string text() const;
-
- private:
-  std::vector<std::vector<std::string>> rows_;
-};
-
-/// Its caption, where it has one, over its aligned columns.
-std::string as_text(const compare::HtmlTable& table);
-
+using compare::as_text;
 using compare::number;
-
-/// "phi [deg]"; "n" of a plain number
-std::string with_unit(const SoilParameter& parameter);
+using compare::TextTable;
 
 /// Each on a line of its own to stderr, as `soilbin check` tells them: "warning: ...".
 void print_warnings(const std::vector<std::string>& warnings);

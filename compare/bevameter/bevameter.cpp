@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compare/report/number_text.hpp"
+#include "compare/report/text_table.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -148,6 +149,27 @@ Sheet bevameter_sheet(const std::string& title, std::span<const PlateSet> plates
         3 + color_of_value(shear[k].normal_stress), shear[k].displacement, shear[k].shear_stress,
         [&, &janosi = fit.shear[k]](double j) { return -janosi.shear_max * std::expm1(-j / janosi.modulus); });
   return sheet;
+}
+
+std::string in_words(const BevameterFit& fit, const Soil& soil) {
+  TextTable table({"value", "bevameter", "soil file"});
+  for (const SoilParameter& p : bevameter_parameters)
+    table.add({heading(p.symbol, p.unit), number(fit.soil.*p.value, p.per_si),
+               soil.semi_empirical ? number((*soil.semi_empirical).*p.value, p.per_si) : "-"});
+  std::string text = table.text();
+  if (fit.cohesion_as_fitted < 0)
+    text += fmt::format("cohesion came out at {} kPa and is given as 0\n", number(fit.cohesion_as_fitted / 1e3));
+  return text + fmt::format("Bekker's form misses the pressures by {} % (root mean square over mean)\n",
+                            number(fit.pressure_error * 100));
+}
+
+Json bevameter_json(const Soil& soil, const BevameterFit& fit, double density) {
+  Json document = {{"format", "soilbin-bevameter/1"}, {"soil", soil.name}};
+  for (const SoilParameter& p : bevameter_parameters) document[p.name] = estimate_json(fit.soil.*p.value);
+  document["cohesion_as_fitted"] = fit.cohesion_as_fitted;
+  document["pressure_error"] = fit.pressure_error;
+  document["density"] = density;
+  return document;
 }
 
 Soil with_bevameter(Soil soil, const BevameterFit& fit, double density, const std::string& source) {

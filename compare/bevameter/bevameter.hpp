@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bekker_wong/plate_fit.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/report/plot.hpp"
 #include "scenario/soil_parameters.hpp"
 
@@ -48,6 +49,11 @@ BevameterFit fit_bevameter(std::span<const PlateSet> plates, std::span<const She
 /// points, the fit as lines. Plates of one radius, and rings under nearly one stress, share a colour.
 Sheet bevameter_sheet(const std::string& title, std::span<const PlateSet> plates, std::span<const ShearCurve> shear,
                       const BevameterFit& fit);
+
+/// The values of the fit beside those of the soil's file, and what the fit leaves.
+std::string in_words(const BevameterFit& fit, const Soil& soil);
+/// soilbin-bevameter/1.
+Json bevameter_json(const Soil& soil, const BevameterFit& fit, double density);
 
 /// The soil with these values as its semi-empirical part. What a bevameter does not tell (c1, c2) stays as it was, or
 /// is Azimi's choice for sand where there was nothing; `source` is noted at each number that comes from the fit.

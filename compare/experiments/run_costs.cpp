@@ -42,6 +42,11 @@ double RunCosts::bed_seconds() const {
   return grains_ * 30 * std::sqrt(2 * recipe_.size.depth / recipe_.gravity) / step / speed_;
 }
 
+int RunCosts::threads() const {
+  return settings_.how.threads > 0 ? settings_.how.threads
+                                   : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
 double RunCosts::memory() const { return 60e6 + 900 * grains_; }
 
 double RunCosts::bed_bytes() const { return 250 * grains_; }
@@ -51,13 +56,11 @@ double RunCosts::trial(dem::DemSettings settings) const {
   dem::BedRecipe recipe = recipe_;
   recipe.size = {12 * grain, 12 * grain, 8 * grain};
   recipe.grading = {};  // there is no room for coarser ones
-  const int threads =
-      settings.how.threads > 0 ? settings.how.threads : static_cast<int>(std::thread::hardware_concurrency());
   settings.how.progress = {};
   settings.how.threads = 1;                 // so small a bed keeps more than one waiting, which a run's does not
   const std::clock_t began = std::clock();  // of the processor: what runs beside it now will not run beside the jobs
   const dem::SettledBed bed = dem::settle_bed(recipe, settings.how);
-  const double seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC / std::max(1, threads);
+  const double seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC / threads();
   const double step = recipe.dt > 0 ? recipe.dt : dem::longest_step(recipe.soil);
   return static_cast<double>(bed.report.grains) * bed.report.settling_time / step / seconds;
 }

@@ -34,6 +34,8 @@ class RunCosts {
   /// Recorded runs behind the speed; 0: it was tried.
   std::size_t from_runs() const { return from_runs_; }
 
+  /// Of a process: those of the settings, else one a core.
+  int threads() const;
   /// Of a process, while pairs are searched, which needs the most [bytes].
   double memory() const;
   /// Of a bed's file [bytes].

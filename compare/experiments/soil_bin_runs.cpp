@@ -6,10 +6,12 @@
 #include <cctype>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "compare/recorded/step_pair.hpp"
 #include "compare/sweep/varying.hpp"
 #include "dem/archive/paraview.hpp"
+#include "dem/bed/relative_density.hpp"
 #include "dem/rig/run_inputs.hpp"
 #include "dem/rig/staged_run.hpp"
 #include "dem/rig/wheel_in_bin.hpp"
@@ -109,15 +111,6 @@ class WatchedRuns {
   SoilBinRuns runs_;
 };
 
-std::vector<Record> read_known(const RunKeeping& keeping, const Inputs& inputs) {
-  std::vector<Record> records;
-  for (const std::filesystem::path& file : keeping.known) {
-    records.push_back(read_record(file));
-    refuse_other_inputs(records.back(), inputs, file);
-  }
-  return records;
-}
-
 void refuse_a_differing_pair(const std::filesystem::path& file, double half_step) {
   const Record record = read_record(file);
   for (const StepPair& pair : step_pairs(record))
@@ -130,13 +123,22 @@ void refuse_a_differing_pair(const std::filesystem::path& file, double half_step
 
 }  // namespace
 
+std::vector<Record> read_records(const std::vector<std::filesystem::path>& files, const Inputs& inputs) {
+  std::vector<Record> records;
+  for (const std::filesystem::path& file : files) {
+    records.push_back(read_record(file));
+    refuse_other_inputs(records.back(), inputs, file);
+  }
+  return records;
+}
+
 RunOnce run_once(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
                  const RunKeeping& keeping) {
   RunOnce run = [runs = std::make_shared<WatchedRuns>(settings, keeping)](const auto&... of) { return (*runs)(of...); };
   if (keeping.record.empty()) return run;
   run = kept_runs(keeping, settings, question, effects, std::move(run));
   if (keeping.known.empty()) return run;
-  return [known = read_known(keeping, inputs_of(settings, question.scenario)), run = std::move(run)](
+  return [known = read_records(keeping.known, inputs_of(settings, question.scenario)), run = std::move(run)](
              const Scenario& scenario, const OperatingCondition& at, std::uint64_t packing) {
     for (const Record& record : known)
       if (const RecordedRun* there = find_run(record.runs, at, packing)) return *there;
@@ -156,16 +158,22 @@ std::vector<std::uint64_t> packings_from(const dem::DemSettings& settings, int p
   return seeds;
 }
 
-std::vector<AskedRun> runs_of(const Case& question, const dem::DemSettings& settings, int packings, TestStep test) {
+TestStep test_of_step(const Case& question, int packings, std::optional<bool> asked) {
+  const std::size_t runs = question.study.conditions.size() * static_cast<std::size_t>(std::max(packings, 1));
+  return asked.value_or(runs >= runs_that_pay_a_test) ? TestStep::yes : TestStep::no;
+}
+
+std::vector<AskedRun> runs_of(const Case& question, const dem::DemSettings& settings, int packings,
+                              std::optional<bool> test) {
   const Tire& tire = question.scenario.tire;
   dem::way_in_bin(dem::DemModel(settings).recipe(question.scenario).size, tire, settings.rig);
   for (const OperatingCondition& at : question.study.conditions) dem::wheel_motion(at, tire.radius);
-  return run_list(question.study.conditions, packings_from(settings, packings), test);
+  return run_list(question.study.conditions, packings_from(settings, packings), test_of_step(question, packings, test));
 }
 
 void make_runs(const std::vector<AskedRun>& list, const dem::DemSettings& settings, const Case& question,
                const EffectVocabulary& effects, const RunKeeping& keeping, const BeforeRun& before) {
-  const std::vector<Record> known = read_known(keeping, inputs_of(settings, question.scenario));
+  const std::vector<Record> known = read_records(keeping.known, inputs_of(settings, question.scenario));
   const dem::DemSettings half = at_half_step(settings, question.scenario);
   const RunOnce whole_step = run_once(settings, question, effects, keeping);
   RunOnce half_runs = [runs = std::make_shared<SoilBinRuns>(half, keeping.source)](const auto&... of) {
@@ -196,6 +204,23 @@ std::unique_ptr<const Model> recorded_soil_bin(Record record, const Scenario& sc
                       {"tire.", "soil.", "bed.radius", "bed.density", "bed.young", "bed.poisson", "bed.restitution",
                        "bed.sliding", "bed.rolling", "bed.laws", "bed.twisting"});
   return std::make_unique<const RecordedModel>(std::move(record), std::move(on_run));
+}
+
+std::string relative_density_of(const std::vector<RecordedRun>& runs, const Soil& soil,
+                                const std::filesystem::path& beds) {
+  dem::BedStore store(beds);
+  if (!soil.granular) return "";
+  const auto limits = dem::known_density_limits(*soil.granular, store);
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const RecordedRun& run : runs)
+    if (limits && std::isfinite(run.bed.void_ratio)) {
+      const double density = dem::relative_density(run.bed.void_ratio, *limits);
+      least = std::min(least, density), most = std::max(most, density);
+    }
+  if (!(least <= most)) return "";
+  const std::string low = fmt::format("{:.0f}", 100 * least), high = fmt::format("{:.0f}", 100 * most);
+  return fmt::format("relative density {} % (void ratios {:.3f} loosest, {:.3f} densest)\n",
+                     low == high ? low : low + " to " + high, limits->loosest, limits->densest);
 }
 
 std::optional<dem::StepCriteria> step_of(dem::DemSettings settings, const Case& question,

@@ -46,6 +46,9 @@ struct RunKeeping {
   Writers writers = Writers::several;          ///< of the record
 };
 
+/// Reads records of runs with these inputs. Throws InputError that names the file for one with others.
+std::vector<Record> read_records(const std::vector<std::filesystem::path>& files, const Inputs& inputs);
+
 /// Runs conditions of a question with these settings, and keeps them. A record that is begun holds `question` whole.
 RunOnce run_once(const dem::DemSettings& settings, const Case& question, const EffectVocabulary& effects,
                  const RunKeeping& keeping);
@@ -56,9 +59,16 @@ dem::DemSettings at_half_step(dem::DemSettings settings, const Scenario& scenari
 /// Seeds of so many packings, from that of the settings on.
 std::vector<std::uint64_t> packings_from(const dem::DemSettings& settings, int packings);
 
-/// The runs of a question's conditions on so many packings (run_list). Throws InputError for a condition that no wheel
-/// in the bin can be run at, and for a bin that leaves it no way.
-std::vector<AskedRun> runs_of(const Case& question, const dem::DemSettings& settings, int packings, TestStep test);
+/// A study with so many runs is recorded only after a test of its time step, which costs three of them.
+inline constexpr std::size_t runs_that_pay_a_test = 12;
+/// Whether the runs of a question's conditions begin with a test of the time step: as it is asked, else by their
+/// number.
+TestStep test_of_step(const Case& question, int packings, std::optional<bool> asked);
+
+/// The runs of a question's conditions on so many packings (run_list), with a test of the step as test_of_step says.
+/// Throws InputError for a condition that no wheel in the bin can be run at, and for a bin that leaves it no way.
+std::vector<AskedRun> runs_of(const Case& question, const dem::DemSettings& settings, int packings,
+                              std::optional<bool> test = {});
 
 /// Called before a run of a list is made: its place in the list, from 0, and what it is.
 using BeforeRun = std::function<void(std::size_t place, const AskedRun& run)>;
@@ -68,8 +78,6 @@ using BeforeRun = std::function<void(std::size_t place, const AskedRun& run)>;
 /// both runs of a pair of the time step are there, throws TimeStepMatters where they are not alike (step_pair.hpp).
 void make_runs(const std::vector<AskedRun>& list, const dem::DemSettings& settings, const Case& question,
                const EffectVocabulary& effects, const RunKeeping& keeping, const BeforeRun& before = {});
-/// A study with so many runs is recorded only after a test of its time step, which costs three of them.
-inline constexpr std::size_t runs_that_pay_a_test = 12;
 
 /// The model dem on `packings` beds of the seeds from settings.packing on.
 std::unique_ptr<const Model> soil_bin_model(const dem::DemSettings& settings, int packings, RunOnce run,
@@ -79,6 +87,11 @@ std::unique_ptr<const Model> soil_bin_model(const dem::DemSettings& settings, in
 /// the scenario's; bed and rig are the record's.
 std::unique_ptr<const Model> recorded_soil_bin(Record record, const Scenario& scenario,
                                                const std::filesystem::path& file, RunListener on_run);
+
+/// How dense the runs' beds are between the loosest and the densest of these grains, where the folder of beds holds
+/// those two (`soilbin bed` makes them); "" elsewhere.
+std::string relative_density_of(const std::vector<RecordedRun>& runs, const Soil& soil,
+                                const std::filesystem::path& beds);
 
 /// The time step that runs of a question take (that of the record, where it is given) beside the Rayleigh time and how
 /// long an impact lasts at the fastest rim; no value where none of the question's models is dem.

@@ -3,21 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "compare/failure_map/incline_map.hpp"
+#include "compare/failure_map/map_story.hpp"
 #include "compare/report/heat_map.hpp"
 #include "compare/report/page.hpp"
 
 namespace soilbin::compare {
-
-/// All that is told of a map.
-struct MapStory {
-  InclineMap map;
-  FailureQuestion question;
-  FailureMap rows;
-  std::vector<AgreementClause> clauses;  ///< where the models agree
-  std::vector<Coordinates> coordinates;
-  std::vector<FreshCheck> checks;
-};
 
 /// Share of the box, by the map, in which |difference| is above the tolerance: over a grid of 9 nodes a factor.
 double share_beyond(const MapStory& story);

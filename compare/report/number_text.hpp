@@ -24,6 +24,11 @@ std::string percent(double share);
 /// "1 model", "2 models".
 std::string counted(std::size_t count, const std::string& noun);
 
+/// A time [s] as "40 s", "12 min", "3.5 h".
+std::string duration_text(double seconds);
+/// Bytes as "600 kB", "72 MB", "1.2 GB".
+std::string size_text(double bytes);
+
 /// "drawbar pull" as "Drawbar pull".
 std::string capital(std::string text);
 

@@ -45,8 +45,7 @@ class SoilBin {
     if (packings < 1) throw InputError("packings: 1 or more");
     if (question.study.conditions.empty()) throw InputError("the case has no condition to run");
     using compare::TestStep;
-    const std::vector<compare::AskedRun> runs =
-        compare::runs_of(question, settings_, packings, half_step ? TestStep::yes : TestStep::no);
+    const std::vector<compare::AskedRun> runs = compare::runs_of(question, settings_, packings, half_step);
     Watch watch(progress);
     std::size_t at_run = 0;
     DemSettings settings = settings_;

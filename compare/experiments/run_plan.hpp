@@ -1,25 +1,27 @@
 // What a study asks of grains before any run is made: the list of runs, which are recorded, what the rest will cost.
 // `soilbin run --dry-run` shows it, `soilbin sweep` divides it among jobs.
+//
+//   const RunPlan plan = plan_of(question, settings, runs_of(question, settings, 3), {});
+//   fmt::print("{} of {} are recorded\n", plan.recorded(), plan.runs.size());
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "cli/soil_bin.hpp"
-#include "compare/experiments/run_costs.hpp"
+#include "compare/experiments/soil_bin_runs.hpp"
+#include "compare/report/json_fields.hpp"
 
-namespace soilbin::cli {
+namespace soilbin::compare {
 
 struct PlannedRun {
-  compare::AskedRun run;
+  AskedRun run;
   bool recorded = false;
   double seconds = 0;  ///< that it will take, as far as one can say
 };
 
 struct RunPlan {
   std::string study;
-  std::vector<PlannedRun> runs;            ///< the whole list, or that of the shard that the flags name
+  std::vector<PlannedRun> runs;            ///< the whole list, or that of a shard
   std::vector<std::uint64_t> unsettled{};  ///< packings whose beds are not in the folder of beds yet
   std::size_t beds = 0;                    ///< packings of the list
   int threads = 1;                         ///< of a process
@@ -32,17 +34,13 @@ struct RunPlan {
   double core_hours_left() const;
 };
 
-/// `question`: its conditions are those that are asked. Reads flags.record and flags.known where they are there. Throws
-/// what runs_of and RunCosts throw, and InputError for a record of other inputs.
-RunPlan plan_of(const Case& question, const SoilBinFlags& flags, compare::TestStep test);
+/// The plan of a list of runs (runs_of, shard_of). Reads keeping.known, and keeping.record where it is there. Throws
+/// what RunCosts throws, and InputError for a record of other inputs.
+RunPlan plan_of(const Case& question, const dem::DemSettings& settings, const std::vector<AskedRun>& list,
+                const RunKeeping& keeping);
 
 std::string plan_text(const RunPlan& plan);
 /// soilbin-plan/1, in SI.
-nlohmann::ordered_json plan_json(const RunPlan& plan);
+Json plan_json(const RunPlan& plan);
 
-/// "40 s", "12 min", "3.5 h".
-std::string duration_text(double seconds);
-/// "600 kB", "72 MB", "1.2 GB".
-std::string size_text(double bytes);
-
-}  // namespace soilbin::cli
+}  // namespace soilbin::compare

@@ -1,4 +1,4 @@
-#include "cli/sweep_script.hpp"
+#include "compare/experiments/job_script.hpp"
 
 #include <fmt/core.h>
 
@@ -6,19 +6,17 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "cli/command_words.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/report/shell_words.hpp"
+#include "scenario/atomic_file.hpp"
 
-namespace soilbin::cli {
+namespace soilbin::compare {
 namespace {
 
-/// Words as bash reads them back.
-std::string quoted(const std::vector<std::string>& words) {
-  return command_line(words).substr(std::string("soilbin ").size());
-}
-std::string quoted(const std::filesystem::path& path) { return quoted(std::vector{path.string()}); }
+std::string quoted(const std::vector<std::string>& words) { return shell_words(words); }
+std::string quoted(const std::filesystem::path& path) { return shell_words({path.string()}); }
 
-double longest_shard(const SweepJobs& jobs) {
+double longest_shard(const Jobs& jobs) {
   double longest = 0;
   for (int k = 1; k <= jobs.shards; ++k) {
     double seconds = 0;
@@ -31,7 +29,7 @@ double longest_shard(const SweepJobs& jobs) {
 /// Twice what it should take and ten minutes: estimates are rough, and a job that needs more goes to the queue again.
 int minutes_for(double seconds) { return static_cast<int>(std::ceil(2 * seconds / 60)) + 10; }
 
-std::string head(const SweepJobs& jobs) {
+std::string script_head(const Jobs& jobs) {
   const RunPlan& plan = jobs.plan;
   std::string text = fmt::format(
       "#!/bin/bash\n"
@@ -42,9 +40,9 @@ std::string head(const SweepJobs& jobs) {
       "set -u\n"
       "cd {here}\n"
       "export SOILBIN_BEDS={bed_folder}\n",
-      fmt::arg("study", plan.study), fmt::arg("runs", compare::counted(plan.runs.size(), "run")),
-      fmt::arg("beds", compare::counted(plan.beds, "bed")),
-      fmt::arg("shards", compare::counted(static_cast<std::size_t>(jobs.shards), "shard")),
+      fmt::arg("study", plan.study), fmt::arg("runs", counted(plan.runs.size(), "run")),
+      fmt::arg("beds", counted(plan.beds, "bed")),
+      fmt::arg("shards", counted(static_cast<std::size_t>(jobs.shards), "shard")),
       fmt::arg("hours", plan.core_hours_left()), fmt::arg("script", quoted(jobs.folder / "sweep.sh")),
       fmt::arg("folder", quoted(jobs.folder)), fmt::arg("here", quoted(jobs.here)),
       fmt::arg("bed_folder", quoted(jobs.beds)));
@@ -54,7 +52,7 @@ std::string head(const SweepJobs& jobs) {
                             quoted(jobs.bed_words), quoted(jobs.run_words));
 }
 
-std::string merge_job(const SweepJobs& jobs) {
+std::string merge_job(const Jobs& jobs) {
   return fmt::format(
       "  merge)\n"
       "    \"$soilbin\" record merge \"$folder/record.json\" \"$folder\"/shards/*.json{}\n"
@@ -63,9 +61,10 @@ std::string merge_job(const SweepJobs& jobs) {
       jobs.known.empty() ? "" : " " + quoted(jobs.known));
 }
 
-std::string slurm_script(const SweepJobs& jobs) {
-  return head(jobs) + fmt::format(
-                          R"(# A job that is stopped before its time limit ends with 3 and goes to the queue again.
+std::string slurm_script(const Jobs& jobs) {
+  return script_head(jobs) +
+         fmt::format(
+             R"(# A job that is stopped before its time limit ends with 3 and goes to the queue again.
 again() {{
   srun --cpus-per-task={threads} "$@"
   status=$?
@@ -94,17 +93,16 @@ case "${{1-submit}}" in
     ;;
 esac
 )",
-                          fmt::arg("beds", jobs.plan.beds), fmt::arg("shards", jobs.shards),
-                          fmt::arg("merge", merge_job(jobs)), fmt::arg("threads", jobs.plan.threads),
-                          fmt::arg("memory", std::ceil(1.5 * jobs.plan.memory / 1e6) + 100),
-                          fmt::arg("name", quoted(std::vector{jobs.plan.study})),
-                          fmt::arg("bed_minutes", minutes_for(jobs.plan.bed_seconds)),
-                          fmt::arg("run_minutes", minutes_for(longest_shard(jobs))));
+             fmt::arg("beds", jobs.plan.beds), fmt::arg("shards", jobs.shards), fmt::arg("merge", merge_job(jobs)),
+             fmt::arg("threads", jobs.plan.threads), fmt::arg("memory", std::ceil(1.5 * jobs.plan.memory / 1e6) + 100),
+             fmt::arg("name", quoted(std::vector{jobs.plan.study})),
+             fmt::arg("bed_minutes", minutes_for(jobs.plan.bed_seconds)),
+             fmt::arg("run_minutes", minutes_for(longest_shard(jobs))));
 }
 
-std::string local_script(const SweepJobs& jobs) {
-  return head(jobs) + fmt::format(
-                          R"(# The job KIND for each of 1 .. COUNT, {at_once} at once.
+std::string local_script(const Jobs& jobs) {
+  return script_head(jobs) + fmt::format(
+                                 R"(# The job KIND for each of 1 .. COUNT, {at_once} at once.
 each() {{ seq "$2" | xargs -P {at_once} -I NUMBER bash "$folder/sweep.sh" "$1" NUMBER; }}
 
 case "${{1-all}}" in
@@ -121,8 +119,8 @@ case "${{1-all}}" in
     ;;
 esac
 )",
-                          fmt::arg("at_once", jobs.at_once), fmt::arg("beds", jobs.plan.beds),
-                          fmt::arg("shards", jobs.shards), fmt::arg("merge", merge_job(jobs)));
+                                 fmt::arg("at_once", jobs.at_once), fmt::arg("beds", jobs.plan.beds),
+                                 fmt::arg("shards", jobs.shards), fmt::arg("merge", merge_job(jobs)));
 }
 
 }  // namespace
@@ -134,13 +132,13 @@ int shards_for(const RunPlan& plan, double at_least) {
   return std::clamp(static_cast<int>(std::min<double>(most, seconds / std::max(at_least, 1e-3))), 1, most);
 }
 
-std::vector<std::size_t> runs_of_shard(const RunPlan& plan, const compare::Shard& shard) {
-  std::vector<compare::AskedRun> list;
+std::vector<std::size_t> runs_of_shard(const RunPlan& plan, const Shard& shard) {
+  std::vector<AskedRun> list;
   for (const PlannedRun& run : plan.runs) list.push_back(run.run);
   std::vector<std::size_t> places;
   std::size_t from = 0;
   for (int k = 1; k <= shard.number; ++k) {  // shards are stretches of the list, one behind the other
-    const std::size_t size = compare::shard_of(list, {k, shard.of}).size();
+    const std::size_t size = shard_of(list, {k, shard.of}).size();
     if (k == shard.number)
       for (std::size_t i = from; i < from + size; ++i) places.push_back(i);
     from += size;
@@ -148,12 +146,20 @@ std::vector<std::size_t> runs_of_shard(const RunPlan& plan, const compare::Shard
   return places;
 }
 
-std::filesystem::path shard_record(const std::filesystem::path& folder, const compare::Shard& shard) {
+std::filesystem::path shard_record(const std::filesystem::path& folder, const Shard& shard) {
   return folder / "shards" / fmt::format("{}-of-{}.json", shard.number, shard.of);
 }
 
-std::string sweep_script(const SweepJobs& jobs) {
-  return jobs.on == SweepOn::slurm ? slurm_script(jobs) : local_script(jobs);
+std::string job_script(const Jobs& jobs) { return jobs.on == JobsOn::slurm ? slurm_script(jobs) : local_script(jobs); }
+
+void write_jobs(const Jobs& jobs) {
+  for (const char* part : {"shards", "logs", "running"}) make_folder(jobs.folder / part);
+  Json document = plan_json(jobs.plan);
+  document["format"] = jobs_format;
+  document["on"] = jobs.on == JobsOn::slurm ? "slurm" : "local";
+  document["shards"] = jobs.shards;
+  write_file_atomically(jobs.folder / "sweep.json", json_text(document));
+  write_file_atomically(jobs.folder / "sweep.sh", job_script(jobs));
 }
 
-}  // namespace soilbin::cli
+}  // namespace soilbin::compare

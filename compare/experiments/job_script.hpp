@@ -1,0 +1,50 @@
+// A study's runs of grains divided among jobs, as a script that a person can read: beds first, then the runs in shards,
+// then their records made one. The jobs are Slurm's, or processes of this machine; the work is done by `soilbin bed`,
+// `run --shard` and `record merge`. `soilbin sweep` writes them; how far they are says job_status.hpp.
+//
+//   Jobs jobs{.on = JobsOn::slurm, .plan = plan};
+//   jobs.shards = shards_for(plan, 1800);   // half an hour each
+//   write_jobs(jobs);                       // then: bash FOLDER/sweep.sh
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "compare/experiments/run_plan.hpp"
+
+namespace soilbin::compare {
+
+enum class JobsOn { slurm, local };
+
+/// A plan divided among jobs, and where they lie.
+struct Jobs {
+  JobsOn on = JobsOn::local;
+  RunPlan plan;                                   ///< of the whole study
+  std::vector<std::string> run_words, bed_words;  ///< study and flags of `soilbin run` and `soilbin bed`
+  std::vector<std::string> known;                 ///< records whose runs are not made again
+  std::filesystem::path program, folder, here;    ///< soilbin; the jobs' folder; where it was called; absolute
+  std::filesystem::path beds;                     ///< folder of beds, absolute
+  int shards = 1, at_once = 1;                    ///< at_once: processes of this machine side by side
+};
+
+/// Of sweep.json.
+inline constexpr const char* jobs_format = "soilbin-sweep/1";
+
+/// So many shards that each makes runs for at least `at_least` seconds, as far as one can say; 1 at least, and no more
+/// than there are runs.
+int shards_for(const RunPlan& plan, double at_least);
+
+/// Indices into plan.runs of a shard's runs.
+std::vector<std::size_t> runs_of_shard(const RunPlan& plan, const Shard& shard);
+
+/// The record of a shard, below the jobs' folder.
+std::filesystem::path shard_record(const std::filesystem::path& folder, const Shard& shard);
+
+/// The script, for bash. Without arguments it submits or runs all; with 'bed', 'run' or 'merge' it is a job.
+std::string job_script(const Jobs& jobs);
+
+/// Makes the folder, with the script (sweep.sh) and what it does for job_status to read (sweep.json).
+void write_jobs(const Jobs& jobs);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,199 @@
+#include "compare/sweep/wheel_limits.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "bekker_wong/model.hpp"
+#include "compare/measured/csv.hpp"
+#include "compare/report/number_text.hpp"
+#include "compare/report/text_table.hpp"
+#include "compare/sweep/result_json.hpp"
+#include "compare/sweep/varying.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/unit.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// Slopes from level ground to the steepest one, at whole degrees that make about ten rows.
+std::vector<double> slopes_up_to(double steepest) {
+  double step = 1.0;
+  for (const double wider : {2.0, 5.0, 10.0})
+    if (steepest / degree / step > 10.0) step = wider;
+  std::vector<double> slopes = {0.0};
+  while ((static_cast<double>(slopes.size()) * step) * degree < steepest)
+    slopes.push_back(static_cast<double>(slopes.size()) * step * degree);
+  if (steepest > 0.0) slopes.push_back(steepest);
+  return slopes;
+}
+
+WheelLimits limits_at(const Scenario& scenario, const ModelChoice& model, const OperatingCondition& at) {
+  WheelLimits answer{model, at, {}, {}, "", false};
+  if (model.model != ModelKind::bekker_wong) throw InputError("limits asks the model bekker_wong alone");
+  const bekker_wong::RollingWheel wheel(scenario.tire, bekker_wong::values_of(*scenario.soil.semi_empirical),
+                                        bekker_wong::make_effects(model.effects), scenario.bin);
+  try {
+    OperatingCondition there = at;
+    there.longitudinal_incline = 0.0;
+    answer.steepest = bekker_wong::steepest_slope(wheel, there);
+    for (const double slope : slopes_up_to(answer.steepest.value_or(0.0))) {
+      there.longitudinal_incline = slope;
+      SlopeRow row{slope, bekker_wong::slip_for_pull(wheel, there), bekker_wong::largest_pull(wheel, there)};
+      if (row.slip && std::abs(*row.slip) < 1e-9) row.slip = 0.0;  // closer than the root is found
+      if (slope == answer.steepest)
+        row.slip = row.best.slip, row.best.drawbar_pull = 0.0;  // that is what steepest means
+      answer.slopes.push_back(row);
+    }
+  } catch (const NoSolution& error) {
+    answer.error = error.what();
+  }
+  return answer;
+}
+
+/// Whether two answers differ in nothing but the speed at which they were asked: most models hear nothing of it.
+bool same_but_speed(const WheelLimits& a, const WheelLimits& b) {
+  OperatingCondition at = b.at;
+  at.speed = a.at.speed;
+  return a.model.label == b.model.label && alike(a.at, at) && a.error == b.error && a.steepest == b.steepest &&
+         a.slopes == b.slopes;
+}
+
+/// The conditions of a question, slip left aside, each once.
+std::vector<OperatingCondition> without_slip(const std::vector<OperatingCondition>& conditions) {
+  std::vector<OperatingCondition> kept;
+  std::set<std::string> seen;
+  for (OperatingCondition at : conditions) {
+    at.slip = 0.0;
+    at.longitudinal_incline = 0.0;
+    if (seen.insert(to_json(at).dump()).second) kept.push_back(at);
+  }
+  return kept;
+}
+
+std::string steepest_in_words(double steepest) {
+  if (steepest >= 0.0) return fmt::format("The steepest slope that it climbs is {} deg.", number(steepest / degree));
+  return fmt::format(
+      "It climbs no slope and doesn't move on level ground: it needs a downhill slope of {} deg or more.",
+      number(-steepest / degree));
+}
+
+}  // namespace
+
+std::vector<WheelLimits> limits_of(const Case& question) {
+  std::vector<WheelLimits> answers;
+  for (const ModelChoice& model : question.study.models)
+    for (const OperatingCondition& at : without_slip(question.study.conditions)) {
+      WheelLimits answer = limits_at(question.scenario, model, at);
+      const auto known = std::find_if(answers.begin(), answers.end(),
+                                      [&](const WheelLimits& other) { return same_but_speed(other, answer); });
+      if (known == answers.end())
+        answers.push_back(std::move(answer));
+      else
+        known->at_every_speed = true;
+    }
+  return answers;
+}
+
+/// The wheel where it pulls most on each slope: what there is to doubt in the answer.
+std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vector<WheelLimits>& answers) {
+  const bekker_wong::BekkerWong model({.errors = false, .patch = false});
+  std::vector<ModelAnswers> study;
+  for (const WheelLimits& answer : answers) {
+    Scenario scenario = question.scenario;
+    scenario.effects = answer.model.effects;
+    study.push_back({answer.model, {}});
+    for (const SlopeRow& row : answer.slopes) {
+      OperatingCondition at = answer.at;
+      at.longitudinal_incline = row.slope, at.slip = row.best.slip;
+      study.back().answers.push_back(ask(model, scenario, at));
+    }
+  }
+  return study;
+}
+
+std::string in_words(const WheelLimits& answer) {
+  std::string text = fmt::format("{}, load {:.6g} N\n", answer.model.label, answer.at.load);
+  if (!answer.error.empty()) return text + "no solution: " + answer.error + "\n";
+  TextTable table({"slope [deg]", "slip [%]", "largest pull [N]", "at slip [%]"});
+  for (const SlopeRow& row : answer.slopes)
+    table.add({number(row.slope / degree), row.slip ? number(100 * *row.slip) : "-", number(row.best.drawbar_pull),
+               number(100 * row.best.slip)});
+  text += table.text();
+  if (!answer.steepest) return text + "The steepest slope lies beyond -60 .. 80 deg.\n";
+  return text + steepest_in_words(*answer.steepest) + "\n";
+}
+
+Json to_json(const WheelLimits& answer) {
+  Json row = {{"label", answer.model.label}};
+  row.update(to_json(answer.at));
+  row.erase("slip");
+  row.erase("longitudinal_incline");
+  if (answer.at_every_speed) row.erase("speed");
+  if (!answer.error.empty()) {
+    row["error"] = answer.error;
+    return row;
+  }
+  const auto value = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
+  row["steepest_slope"] = value(answer.steepest);
+  row["slopes"] = Json::array();
+  for (const SlopeRow& slope : answer.slopes)
+    row["slopes"].push_back({{"longitudinal_incline", slope.slope},
+                             {"slip", value(slope.slip)},
+                             {"largest_pull", slope.best.drawbar_pull},
+                             {"slip_of_largest_pull", slope.best.slip}});
+  return row;
+}
+
+std::string limits_csv(const std::vector<WheelLimits>& answers, const std::vector<ModelAnswers>& at_limits,
+                       const Remark& remark) {
+  std::string text =
+      "model,load_N,speed_m_s,transverse_incline_deg,yaw_deg,pass,slope_deg,slip,largest_pull_N,slip_of_largest_pull,"
+      "error,remark\n";
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const WheelLimits& answer = answers[i];
+    const OperatingCondition& at = answer.at;
+    const std::string asked = fmt::format("{},{},{},{},{},{}", csv_cell(answer.model.label), at.load,
+                                          answer.at_every_speed ? "" : fmt::format("{}", at.speed),
+                                          at.transverse_incline / degree, at.yaw / degree, at.pass);
+    if (!answer.error.empty()) text += asked + ",,,,," + csv_cell(answer.error) + ",\n";
+    for (std::size_t k = 0; k < answer.slopes.size(); ++k) {
+      const SlopeRow& row = answer.slopes[k];
+      text +=
+          fmt::format("{},{},{},{},{},,{}\n", asked, row.slope / degree, row.slip ? fmt::format("{}", *row.slip) : "",
+                      row.best.drawbar_pull, row.best.slip, csv_cell(remark(answer.model, at_limits[i].answers[k])));
+    }
+  }
+  return text;
+}
+
+/// Largest pull against the slope, and the slips: a colour for each model and load.
+Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& answers) {
+  const Axis slope{"slope [deg]"};
+  const bool one_load = std::all_of(answers.begin(), answers.end(), [&](const WheelLimits& answer) {
+    return answer.at.load == answers.front().at.load;
+  });
+  Sheet sheet{fmt::format("{} on {}{}", question.scenario.tire.name, in_words(question.scenario.soil),
+                          one_load && !answers.empty() ? fmt::format(", load {:.6g} N", answers.front().at.load) : ""),
+              {{"Largest pull [N]", slope, {}, {}}, {"Slip [%]", slope, {}, {}}}};
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const WheelLimits& answer = answers[i];
+    const std::string which = answers.size() < 2 ? ""
+                              : one_load         ? answer.model.label
+                                                 : fmt::format("{}, {:.6g} N", answer.model.label, answer.at.load);
+    const auto add = [&](std::size_t plot, const std::string& label, int dash, const auto& value) {
+      Series series{which.empty() ? label : which + (label.empty() ? "" : ": " + label)};
+      series.mark = Mark::line_and_points, series.color = static_cast<int>(i), series.dash = dash;
+      for (const SlopeRow& row : answer.slopes) series.x.push_back(row.slope / degree), series.y.push_back(value(row));
+      sheet.plots[plot].series.push_back(std::move(series));
+    };
+    add(0, "", 0, [](const SlopeRow& row) { return row.best.drawbar_pull; });
+    add(1, "to climb this slope", 0, [](const SlopeRow& row) { return row.slip ? 100 * *row.slip : not_a_number; });
+    add(1, "of the largest pull", 1, [](const SlopeRow& row) { return 100 * row.best.slip; });
+  }
+  return sheet;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,59 @@
+// What a wheel can do at best in a steady state, slope by slope: the largest pull, the slip that climbs, the steepest
+// slope; as text, JSON, CSV and a sheet.
+//
+//   for (const WheelLimits& limits : limits_of(question)) fmt::print("{}", in_words(limits));
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bekker_wong/limits.hpp"
+#include "compare/report/json_fields.hpp"
+#include "compare/report/plot.hpp"
+#include "compare/sweep/answers.hpp"
+#include "compare/sweep/result_json.hpp"
+
+namespace soilbin::compare {
+
+/// What a wheel can do on one slope.
+struct SlopeRow {
+  double slope = 0.0;          ///< [rad]
+  std::optional<double> slip;  ///< at which it travels without a load behind it
+  bekker_wong::PullPeak best;
+
+  bool operator==(const SlopeRow& other) const {
+    return slope == other.slope && slip == other.slip && best.slip == other.best.slip &&
+           best.drawbar_pull == other.best.drawbar_pull;
+  }
+};
+
+/// One model at one load.
+struct WheelLimits {
+  ModelChoice model;
+  OperatingCondition at;
+  std::optional<double> steepest;  ///< [rad]
+  std::vector<SlopeRow> slopes;
+  std::string error;            ///< why there is no answer; empty where there is one
+  bool at_every_speed = false;  ///< of the question's: the same answer
+};
+
+/// Of each analytic model at each condition of the question, slip and longitudinal incline left aside; conditions that
+/// differ in nothing else count once, and those that differ in a speed that changes nothing too. Throws InputError for
+/// another model.
+std::vector<WheelLimits> limits_of(const Case& question);
+
+/// The wheel where it pulls most on each slope: what there may be doubts about.
+std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vector<WheelLimits>& answers);
+
+/// A table over the slopes and what the steepest one is.
+std::string in_words(const WheelLimits& answer);
+/// A row of soilbin-limits/1.
+Json to_json(const WheelLimits& answer);
+/// A row a slope; `at_limits`: answers_at_limits of the same answers, to which each row's remark belongs.
+std::string limits_csv(const std::vector<WheelLimits>& answers, const std::vector<ModelAnswers>& at_limits,
+                       const Remark& remark);
+/// Largest pull against the slope, and the slips: a colour for each model and load.
+Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& answers);
+
+}  // namespace soilbin::compare
