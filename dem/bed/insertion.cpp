@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <vector>
 
 #include "dem/bed/random.hpp"
+#include "dem/surface/mass_properties.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
@@ -95,7 +95,7 @@ void insert_graded(const GrainSink& put, const Region& region, const GradedGrain
     if (!free) continue;
     in_cell(cx, cy, cz).push_back({at, radius});
     put(region.lower + at, radius);
-    placed += 4.0 / 3 * std::numbers::pi * radius * radius * radius;
+    placed += sphere_volume(radius);
     refused = 0;
   }
 }

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
 #include "dem/engine/step.hpp"
 #include "dem/engine/time_step.hpp"
+#include "dem/surface/mass_properties.hpp"
 #include "dem/surface/positive.hpp"
 #include "dem/surface/seams.hpp"
 #include "scenario/errors.hpp"
@@ -170,7 +170,7 @@ GrainId Simulation::add_grain(const Vec3& position, double radius, int material,
   if (!world_.setup.domain.contains(position))
     throw InputError(
         fmt::format("a grain at ({:.4g}, {:.4g}, {:.4g}) m is outside the domain", position.x, position.y, position.z));
-  const double mass = materials.all[material].density * 4 / 3 * std::numbers::pi * radius * radius * radius;
+  const double mass = sphere_mass(materials.all[material].density, radius);
   const GrainId id = state.next_id++;
   state.grains.add({id, radius, mass, static_cast<std::uint8_t>(material), position, velocity, spin});
   state.new_grains.push_back(id);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "dem/surface/mass_properties.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::dem {
@@ -27,7 +27,7 @@ void FlowMeter::add(const Grains& grains, const Vec3& axle) {
     const double iz = std::floor((from.z - layout_.z) / layout_.cell);
     if (!(ix >= 0 && ix < layout_.nx && iz >= 0 && iz < layout_.nz)) continue;
     const std::size_t at = static_cast<std::size_t>(iz) * layout_.nx + static_cast<std::size_t>(ix);
-    const double volume = 4.0 / 3 * std::numbers::pi * grain.radius * grain.radius * grain.radius;
+    const double volume = sphere_volume(grain.radius);
     volume_[at] += volume;
     vx_[at] += volume * grain.velocity.x, vz_[at] += volume * grain.velocity.z;
   }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "dem/engine/time_step.hpp"
+#include "dem/surface/mass_properties.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -35,9 +35,7 @@ StepCriteria step_criteria(const BedRecipe& recipe, const Rig& rig, double rim_s
   Materials materials;
   materials.add({"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio});
   Grains grains;
-  const double radius = soil.radius_min,
-               mass = 4.0 / 3 * std::numbers::pi * radius * radius * radius * soil.grain_density;
-  grains.add({.radius = radius, .mass = mass});
+  grains.add({.radius = soil.radius_min, .mass = sphere_volume(soil.radius_min) * soil.grain_density});
   return {.step = step_of(recipe, rig),
           .rayleigh = rayleigh_time(materials, grains),
           .speed = rim_speed,

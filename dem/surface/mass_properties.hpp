@@ -1,5 +1,7 @@
-// Volume, centroid and moments of inertia of the body that a closed mesh bounds.
+// Volume, centroid and moments of inertia of the body that a closed mesh bounds; volume and mass of a sphere.
 #pragma once
+
+#include <numbers>
 
 #include "dem/surface/triangle_mesh.hpp"
 
@@ -17,5 +19,11 @@ struct MassProperties {
 ///   Int dV = D/6,  Int x dV = D s/24,  Int x_i x_j dV = D (s_i s_j + a_i a_j + b_i b_j + c_i c_j)/120.
 /// Throws std::logic_error where the mesh is not closed.
 MassProperties mass_properties(const TriangleMesh& mesh);
+
+/// Of a sphere of this radius [m], in [m^3] and, with a density [kg/m^3], in [kg].
+constexpr double sphere_volume(double radius) { return 4.0 / 3 * std::numbers::pi * radius * radius * radius; }
+constexpr double sphere_mass(double density, double radius) {
+  return density * 4 / 3 * std::numbers::pi * radius * radius * radius;
+}
 
 }  // namespace soilbin::dem

@@ -36,12 +36,11 @@ VerificationSetup at_wall(CohesionLaw law, double cohesion, double restitution, 
 /// Overlap at which adhesion and elasticity balance, and the time of swings about it.
 double rest() { return std::pow(4.5 * pi * work * radius * radius / reduced_modulus, 2.0 / 3) / (3 * radius); }
 double swing() {
-  return 2 * pi *
-         std::sqrt(verification::sphere_mass(density, radius) / (2 * reduced_modulus * std::sqrt(radius * rest())));
+  return 2 * pi * std::sqrt(sphere_mass(density, radius) / (2 * reduced_modulus * std::sqrt(radius * rest())));
 }
 
 void jkr_rows(std::vector<VerificationRow>& rows, const StartEngine& start) {
-  const double pull_off = 1.5 * pi * work * radius, mass = verification::sphere_mass(density, radius);
+  const double pull_off = 1.5 * pi * work * radius, mass = sphere_mass(density, radius);
   const double made = start(at_wall(CohesionLaw::jkr, work, 1, 1e-9 * radius, 0, 1e-9))->normal_force(0, first_plane);
   rows.push_back({"jkr: force where the contact is made", -8.0 / 9 * pull_off * 1e6, made * 1e6, 1e-4 * pull_off * 1e6,
                   "uN", jkr});

@@ -19,7 +19,6 @@ using verification::hertz_time;
 using verification::impact;
 using verification::Impact;
 using verification::rigid;
-using verification::sphere_mass;
 
 constexpr double steps_an_impact = 2000;
 constexpr const char* paper = "Chung and Ooi 2011";

@@ -50,8 +50,4 @@ double hertz_time(double mass, double radius, double young, double speed) {
   return 2 * hertz_overlap(mass, radius, young, speed) / speed * integral;
 }
 
-double sphere_mass(double density, double radius) {
-  return density * 4 / 3 * std::numbers::pi * radius * radius * radius;
-}
-
 }  // namespace soilbin::dem::verification

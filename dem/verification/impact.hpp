@@ -1,6 +1,7 @@
 // One impact, from the first touch to the parting, and the Hertz theory that it is set up by.
 #pragma once
 
+#include "dem/surface/mass_properties.hpp"
 #include "dem/verification/cases.hpp"
 
 namespace soilbin::dem::verification {
@@ -22,6 +23,5 @@ Impact impact(const StartEngine& start, const VerificationSetup& setup, int othe
 double hertz_time(double mass, double radius, double young, double speed);
 /// Hertz: greatest overlap [m].
 double hertz_overlap(double mass, double radius, double young, double speed);
-double sphere_mass(double density, double radius);
 
 }  // namespace soilbin::dem::verification

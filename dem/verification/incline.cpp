@@ -182,8 +182,6 @@ double stopping_thickness(double angle) {
 
 double stopping_angle(double thickness) { return std::atan(tan_1 + (tan_2 - tan_1) / (thickness / fitted_length + 1)); }
 
-double flow_rule(double angle, double thickness) { return 0.191 * thickness / stopping_thickness(angle) - 0.045; }
-
 std::vector<VerificationRow> incline_rows(std::uint64_t seed, const std::function<void(const Progress&)>& progress) {
   struct Bracket {
     double layers, rests, flows;  // [deg]

@@ -64,8 +64,6 @@ AngleOfRest angle_of_rest(InclineLayer layer, double rests, double flows, double
 double stopping_thickness(double angle);
 /// The angle [rad] at which a layer of this thickness [d] comes to rest, by the same fit.
 double stopping_angle(double thickness);
-/// Froude number u/sqrt(g h cos angle) of steady flow, 0.191 h/h_stop - 0.045 (Weinhart et al. 2012).
-double flow_rule(double angle, double thickness);
 
 /// Thin layers against the fit of h_stop, to the step of half a degree in which the publication's driver looked and
 /// half of ours, half a degree too. A quarter of an hour on one core; `progress` may throw to stop.

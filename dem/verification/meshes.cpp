@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "dem/engine/simulation.hpp"
+#include "dem/surface/mass_properties.hpp"
 #include "dem/surface/shapes.hpp"
 #include "dem/verification/cases.hpp"
 
@@ -66,7 +67,7 @@ Simulation start(const Body& floor, const ContactLaws& laws = {}, double frictio
   return simulation;
 }
 
-double weight() { return 2500 * 4.0 / 3 * pi * grain_radius * grain_radius * grain_radius * g; }
+double weight() { return sphere_mass(2500, grain_radius) * g; }
 
 /// Overlap that carries `force` between a grain and a surface of stone.
 double overlap_under(double force) {

@@ -20,7 +20,6 @@ using verification::g;
 using verification::hertz_time;
 using verification::impact;
 using verification::rigid;
-using verification::sphere_mass;
 
 constexpr const char* lammps = "closed form, as in LAMMPS' unit tests of granular models";
 

@@ -16,7 +16,6 @@ namespace {
 using std::numbers::pi;
 using verification::closed_form;
 using verification::g;
-using verification::sphere_mass;
 
 using StepRows = std::vector<VerificationRow>;
 

@@ -93,9 +93,10 @@ LammpsRun::Beginning LammpsRun::beginning_of(MPI_Comm world, const BedRecipe& re
   const Setup setup = setup_of(recipe, 1);
   const std::vector<Body> bodies{bin_of(recipe.size)};
   const auto fresh = [&recipe, world, setup, bodies](const std::string& log) {
-    return std::make_unique<LammpsSimulation>(
-        world, setup, Vec3{0, 0, -recipe.gravity}, bodies, recipe.grading.factor * recipe.soil.radius_max,
-        [&](const GrainSink& put) { pour(recipe, put); }, log);
+    return std::make_unique<LammpsSimulation>(world, setup, Vec3{0, 0, -recipe.gravity}, bodies,
+                                              PouredGrains{.largest = recipe.grading.factor * recipe.soil.radius_max,
+                                                           .pour = [&](const GrainSink& put) { pour(recipe, put); }},
+                                              log);
   };
   return {recipe_text(recipe), setup, bodies, fresh};
 }

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 #include <tuple>
 #include <type_traits>
 #include <unordered_map>
@@ -17,6 +16,7 @@
 #include "dem/bed/settled_bed.hpp"
 #include "dem/engine/laws/contact_law.hpp"
 #include "dem/engine/pair_touch.hpp"
+#include "dem/surface/mass_properties.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
@@ -200,16 +200,16 @@ LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const State& beg
 }
 
 LammpsSimulation::LammpsSimulation(MPI_Comm world, Setup setup, const Vec3& gravity, const std::vector<Body>& bodies,
-                                   double largest, const std::function<void(const GrainSink&)>& pour, std::string log)
+                                   const PouredGrains& grains, std::string log)
     : LammpsSimulation(world, std::move(setup), std::move(log)) {
-  largest_ = largest, state_.gravity = gravity;
+  largest_ = grains.largest, state_.gravity = gravity;
   make_box();
   const double density = setup_.materials.all[grain_material].density;
   std::vector<NewGrain> part;
-  pour([&](const Vec3& centre, double radius) {
+  grains.pour([&](const Vec3& centre, double radius) {
     part.push_back({.id = static_cast<GrainId>(next_id_++),
                     .radius = radius,
-                    .mass = density * 4.0 / 3 * std::numbers::pi * radius * radius * radius,
+                    .mass = sphere_mass(density, radius),
                     .material = grain_material,
                     .position = centre});
     if (part.size() < grains_at_once) return;

@@ -42,6 +42,12 @@ struct LammpsTravelling {
   SurfaceContact contact{};
 };
 
+/// Grains that a simulation begins with. Each process keeps those in its part of the box: none ever holds them all.
+struct PouredGrains {
+  double largest = 0;                          ///< of their radii [m]
+  std::function<void(const GrainSink&)> pour;  ///< gives them all to what it is called with, on each process the same
+};
+
 class LammpsSimulation {
  public:
   /// Goes on with the engine's state: grains and what contacts remember are those that the first process of `world`
@@ -49,10 +55,9 @@ class LammpsSimulation {
   /// and where some grains alone were added since the last step. `log`: file that gets LAMMPS's own words of the last
   /// thousand steps, so that what ends the process is found there.
   LammpsSimulation(MPI_Comm world, Setup setup, const State& begin, std::string log = "");
-  /// Begins with new grains at rest, on bodies. `pour` gives them all to what it is called with, on each process the
-  /// same, and each keeps those in its part of the box: none ever holds them all. `largest`: of their radii [m].
-  LammpsSimulation(MPI_Comm world, Setup setup, const Vec3& gravity, const std::vector<Body>& bodies, double largest,
-                   const std::function<void(const GrainSink&)>& pour, std::string log = "");
+  /// Begins with new grains at rest, on bodies.
+  LammpsSimulation(MPI_Comm world, Setup setup, const Vec3& gravity, const std::vector<Body>& bodies,
+                   const PouredGrains& grains, std::string log = "");
   /// Goes on from what write_grains and notes() kept, on any number of processes, with another setup too. `bodies`: all
   /// there may have been, whose surfaces are taken. Velocities go through the disk at whole steps and LAMMPS computes
   /// the forces of the last step anew, so the bits are others than without the stop.

@@ -1,11 +1,10 @@
 // Beds of a few thousand grains against what is published of slopes and craters.
-#include "dem/verification/beds.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "scenario/unit.hpp"
+#include "tests/dem/heaps_and_craters.hpp"
 
 namespace soilbin::dem {
 namespace {

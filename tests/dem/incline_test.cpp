@@ -29,7 +29,6 @@ TEST(Incline, FitOfTheStoppingThicknessIsInvertedAndDivergesAtItsEnds) {
   EXPECT_NEAR(stopping_thickness(32.257 * degree), 0, 1e-9);
   // 3.836 (tan 32.257 deg - tan 24 deg)/(tan 24 deg - tan 17.561 deg).
   EXPECT_NEAR(stopping_thickness(24 * degree), 3.836 * (0.631124 - 0.445229) / (0.445229 - 0.316470), 1e-3);
-  EXPECT_NEAR(flow_rule(24 * degree, 2 * stopping_thickness(24 * degree)), 0.191 * 2 - 0.045, 1e-12);
 }
 
 TEST(Incline, RefusesWhatIsNoLayer) {

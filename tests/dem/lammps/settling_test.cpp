@@ -24,8 +24,9 @@ BedRecipe settled_recipe(std::uint64_t packing = 1) {
 }
 
 LammpsSimulation poured_in_lammps(const BedRecipe& recipe) {
-  return LammpsSimulation(MPI_COMM_WORLD, setup_of(recipe, 1), {0, 0, -recipe.gravity}, {bin_of(recipe.size)},
-                          recipe.soil.radius_max, [&](const GrainSink& put) { pour(recipe, put); });
+  return LammpsSimulation(
+      MPI_COMM_WORLD, setup_of(recipe, 1), {0, 0, -recipe.gravity}, {bin_of(recipe.size)},
+      {.largest = recipe.soil.radius_max, .pour = [&](const GrainSink& put) { pour(recipe, put); }});
 }
 
 Simulation poured_in_the_engine(const BedRecipe& recipe) {

@@ -1,5 +1,5 @@
 // Beds of a few thousand grains: the slope that sand comes to rest at, and how deep a ball falls into it. Tens of
-// seconds each, so these are no part of verification_rows().
+// seconds each, so these are no part of `soilbin verify`.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "dem/verification/beds.hpp"
+#include "tests/dem/heaps_and_craters.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "dem/bed/insertion.hpp"
+#include "dem/surface/mass_properties.hpp"
 #include "dem/surface/shapes.hpp"
 #include "dem/verification/cases.hpp"
 
@@ -13,9 +14,8 @@ namespace soilbin::dem {
 namespace {
 
 using std::numbers::pi;
-using verification::g;
 
-Simulation empty(const BedMaterial& of, const Domain& domain, int threads) {
+Simulation empty_bed(const BedMaterial& of, const Domain& domain, int threads) {
   Setup setup;
   setup.materials.add(of.material, of.contact);
   setup.laws.rolling = of.rolling;
@@ -26,7 +26,7 @@ Simulation empty(const BedMaterial& of, const Domain& domain, int threads) {
       pi * 0.9 * of.radius * std::sqrt(of.material.density / shear) / (0.1631 * of.material.poisson + 0.8766);
   setup.numerics.dt = 0.15 * rayleigh;
   Simulation simulation(std::move(setup));
-  simulation.set_gravity({0, 0, -g});
+  simulation.set_gravity({0, 0, -verification::g});
   return simulation;
 }
 
@@ -52,7 +52,7 @@ void settle(Simulation& simulation, double radius, double longest, const Each& e
   for (double t = 0; t < longest; t += part) {
     simulation.run(static_cast<std::int64_t>(part / simulation.setup().numerics.dt));
     each();
-    if (t > 0.2 && kinetic_energy(simulation) < mass(simulation) * g * radius * 1e-3) break;
+    if (t > 0.2 && kinetic_energy(simulation) < mass(simulation) * verification::g * radius * 1e-3) break;
   }
 }
 
@@ -126,7 +126,7 @@ double depth_of_fall(Simulation bed, double level, const Vec3& middle, double di
   sphere.weighs = true;
   sphere.position = {middle.x, middle.y, touching_height(bed, middle, diameter / 2)};
   const double fallen = height - (sphere.position.z - diameter / 2 - level);
-  sphere.velocity = {0, 0, -std::sqrt(2 * g * std::max(fallen, 0.0))};
+  sphere.velocity = {0, 0, -std::sqrt(2 * verification::g * std::max(fallen, 0.0))};
   const int index = bed.add_body(sphere);
   const auto part = static_cast<std::int64_t>(2e-3 / bed.setup().numerics.dt);
   double lowest = level;
@@ -144,7 +144,7 @@ double depth_of_fall(Simulation bed, double level, const Vec3& middle, double di
 double drained_angle(const BedMaterial& of, std::uint64_t seed, int threads) {
   const double r = of.radius, length = 40 * r, width = 10 * r, height = 24 * r;
   Domain domain{{-r, 0, -1}, {length + 40 * r, width, 3 * height}, {false, true, false}};
-  Simulation simulation = empty(of, domain, threads);
+  Simulation simulation = empty_bed(of, domain, threads);
   Body back, gate;
   back.surfaces.push_back({Plane{{0, 0, 0}, {1, 0, 0}}, 0});
   const TriangleMesh plate_of_floor = plate(length + 4 * r, 4 * width, 4, 4);
@@ -155,7 +155,7 @@ double drained_angle(const BedMaterial& of, std::uint64_t seed, int threads) {
   gate.surfaces.push_back({Plane{{length, 0, 0}, {-1, 0, 0}}, 0});
   const int gate_index = simulation.add_body(gate);
   insert_loosely(simulation, {{0, 0, 0}, {length, width, 2.9 * height}}, {0.9 * r, 1.1 * r}, 0,
-                 static_cast<int>(0.55 * length * width * height / (4.0 / 3 * pi * r * r * r)), seed);
+                 static_cast<int>(0.55 * length * width * height / sphere_volume(r)), seed);
   settle(simulation, r, 1, [] {});
   simulation.body(gate_index).velocity = {0.5, 0, 0};  // faster than grains follow
   settle(simulation, r, 4,
@@ -170,12 +170,12 @@ double drained_angle(const BedMaterial& of, std::uint64_t seed, int threads) {
 Craters craters(const BedMaterial& of, double mu, const BallDrops& drops, std::uint64_t seed, int threads) {
   const auto& [diameter, density, heights] = drops;
   const double r = of.radius, side = 5 * diameter, deep = 2.5 * diameter;
-  Simulation bed = empty(of, {{0, 0, -r}, {side, side, 1}, {true, true, false}}, threads);
+  Simulation bed = empty_bed(of, {{0, 0, -r}, {side, side, 1}, {true, true, false}}, threads);
   Body floor;
   floor.surfaces.push_back({Plane{}, 0});
   bed.add_body(floor);
   insert_loosely(bed, {{0, 0, 0}, {side, side, 3 * deep}}, {0.9 * r, 1.1 * r}, 0,
-                 static_cast<int>(0.57 * side * side * deep / (4.0 / 3 * pi * r * r * r)), seed);
+                 static_cast<int>(0.57 * side * side * deep / sphere_volume(r)), seed);
   settle(bed, r, 1, [] {});
 
   Craters out;
