@@ -3,14 +3,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <new>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "cli/command_words.hpp"
@@ -23,39 +21,54 @@
 namespace soilbin::cli {
 namespace {
 
+/// What adds a command, and whether it may run grains.
+struct Registration {
+  void (*add)(CLI::App&, Session&);
+  bool grains = false;
+};
+Registration with_grains(void (*add)(CLI::App&, Session&)) { return {add, true}; }
+
 /// Commands under one heading of the help.
 struct CommandGroup {
   const char* heading;
-  std::vector<void (*)(CLI::App&, Session&)> adds;
+  std::vector<Registration> commands;
 };
 
-/// Every command, in the order of the help.
-void add_commands(CLI::App& app, Session& session) {
+/// Every command, in the order of the help. Gives the names of those that may run grains.
+std::vector<std::string> add_commands(CLI::App& app, Session& session) {
   const CommandGroup groups[] = {
-      {"Ask about a wheel", {add_estimate, add_explain, add_limits, add_run, add_drive, add_serve}},
-      {"Use measured data", {add_design, add_predict, add_loop, add_plates}},
-      {"Set answers side by side", {add_compare, add_report, add_reproduce, add_failure_map}},
+      {"Ask about a wheel",
+       {{add_estimate}, {add_explain}, {add_limits}, with_grains(add_run), with_grains(add_drive), {add_serve}}},
+      {"Use measured data", {{add_design}, {add_predict}, {add_loop}, {add_plates}}},
+      {"Set answers side by side",
+       {with_grains(add_compare), {add_report}, with_grains(add_reproduce), with_grains(add_failure_map)}},
       {"Work with grains",
-       {add_bed, add_sweep, add_record, add_campaign, add_element_test, add_bevameter, add_calibrate, add_verify}},
-      {"Files and this installation", {add_init, add_check, add_list, add_schema, add_doctor, add_manual}}};
+       {with_grains(add_bed),
+        {add_sweep},
+        {add_record},
+        with_grains(add_campaign),
+        with_grains(add_element_test),
+        with_grains(add_bevameter),
+        with_grains(add_calibrate),
+        with_grains(add_verify)}},
+      {"Files and this installation", {{add_init}, {add_check}, {add_list}, {add_schema}, {add_doctor}, {add_manual}}}};
+  std::vector<std::string> grains;
   for (const CommandGroup& group : groups)
-    for (const auto add : group.adds) {
-      add(app, session);
-      app.get_subcommands({}).back()->group(group.heading);
+    for (const Registration& command : group.commands) {
+      command.add(app, session);
+      CLI::App* const added = app.get_subcommands({}).back();
+      added->group(group.heading);
+      if (command.grains) grains.push_back(added->get_name());
     }
+  return grains;
 }
 
 /// The engine's threads wait for each other at every step. How long a thread that waits keeps its core is read by
 /// libgomp before main() begins; by default so long that on busy cores it holds up those that it waits for (2.3 times
 /// the clock beside two other programs, more beside more). So the program starts itself once more, with a short wait,
-/// unless the environment says how to wait: before commands that may ask grains, for it takes 20 ms. Where that fails
+/// unless the environment says how to wait: before commands that may run grains, for it takes 20 ms. Where that fails
 /// it goes on as it is.
 void start_with_short_waits(char** argv) {
-  constexpr std::array with_grains = {"run",       "drive",     "compare",     "reproduce", "bed",   "element-test",
-                                      "bevameter", "calibrate", "failure-map", "campaign",  "verify"};
-  if (argv[0] == nullptr || argv[1] == nullptr ||
-      std::ranges::find(with_grains, std::string_view(argv[1])) == with_grains.end())
-    return;
   if (std::getenv("GOMP_SPINCOUNT") != nullptr || std::getenv("OMP_WAIT_POLICY") != nullptr) return;
   ::setenv("GOMP_SPINCOUNT", "10000", 0);
   ::execv("/proc/self/exe", argv);
@@ -92,7 +105,8 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.get_formatter()->column_width(36);
   Session session{find_workplace(), command_line({argv + 1, argv + argc}), {}};
-  add_commands(app, session);
+  if (const auto grains = add_commands(app, session); argc > 1 && std::ranges::find(grains, argv[1]) != grains.end())
+    start_with_short_waits(argv);
   app.footer(
       "Begin with: soilbin estimate --soil dry-sand --radius 110mm --width 100mm --load 80N --slip 20%\n"
       "            soilbin init mine, then soilbin run mine/case.yaml --plot curves.svg\n"
@@ -115,7 +129,6 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace soilbin;
-  cli::start_with_short_waits(argv);
   try {
     cli::catch_interrupts();
     const int status = cli::run(argc, argv);

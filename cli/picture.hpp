@@ -1,4 +1,4 @@
-// Drawings in other formats than the one that they are made in. The only file that knows librsvg is picture.cpp.
+// A drawing, which is made as SVG, in other formats: PNG and PDF. The only file that knows librsvg is picture.cpp.
 #pragma once
 
 #include <string>

@@ -12,9 +12,9 @@
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/doubts/grain_resolution.hpp"
 #include "compare/experiments/convergence.hpp"
 #include "compare/experiments/run_plan.hpp"
+#include "compare/experiments/study_results.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
@@ -49,39 +49,7 @@ void name_engine(Case& question, const std::string& engine) {
     if (choice.model == ModelKind::dem) choice.label = dem::lammps_model_name;
 }
 
-/// What the models answered, and what is doubtful in it.
-struct Answered {
-  std::vector<compare::ModelAnswers> study;
-  std::vector<std::string> doubts;
-  std::optional<dem::StepCriteria> step;  ///< of grains
-};
-
-/// rows_json, with what the size of the grains does to their answers.
-nlohmann::ordered_json rows_of(const Case& question, const Answered& answered) {
-  nlohmann::ordered_json rows = compare::rows_json(answered.study);
-  auto row = rows.begin();
-  for (const compare::ModelAnswers& model : answered.study)
-    for (const compare::Answer& answer : model.answers) {
-      if (model.choice.model == ModelKind::dem && answer.result)
-        (*row)["resolution_error"] =
-            compare::to_json(compare::resolution_error(question.scenario, answer.at, answer.result->sinkage.value));
-      ++row;
-    }
-  return rows;
-}
-
-nlohmann::ordered_json results_json(const Case& question, const Answered& answered) {
-  nlohmann::ordered_json document = {{"format", "soilbin-run/1"},
-                                     {"study", question.study.name},
-                                     {"tire", question.scenario.tire.name},
-                                     {"soil", question.scenario.soil.name},
-                                     {"rows", rows_of(question, answered)}};
-  compare::tell_doubts(document, answered.doubts);
-  if (answered.step) document["dem"] = compare::to_json(*answered.step);
-  return document;
-}
-
-void save(Outputs& outputs, const RunOptions& options, const Case& question, const Answered& answered,
+void save(Outputs& outputs, const RunOptions& options, const Case& question, const compare::StudyResults& answered,
           const Workplace& place) {
   const std::vector<compare::ModelAnswers>& study = answered.study;
   const auto csv = [&] {
@@ -95,7 +63,7 @@ void save(Outputs& outputs, const RunOptions& options, const Case& question, con
     const fs::path folder = options.output;
     write_file_atomically(folder / "case.yaml", write_case(question, place.effects));
     write_file_atomically(folder / "results.csv", csv());
-    write_file_atomically(folder / "results.json", compare::json_text(results_json(question, answered)));
+    write_file_atomically(folder / "results.json", compare::json_text(to_json(question, answered)));
   });
 }
 
@@ -208,17 +176,14 @@ int run(RunOptions options, const Session& session) {
   const compare::MakeModel make = models_with(options.soil_bin, whole, session.place.effects, log);
   if (asks_grains && !options.soil_bin.record.empty())
     recording(options, [&] { make_runs(question, whole, options, session); });
-  Answered answered{.study = {}, .doubts = {}, .step = step};
+  compare::StudyResults answered{.study = {}, .doubts = {}, .step = step};
   answered.study = recording(options, [&] { return compare::run_study(question, shown_progress(), make); });
-  answered.doubts = compare::doubts(question, answered.study);
-  if (!options.soil_bin.record.empty() && fs::exists(options.soil_bin.record))
-    for (std::string& doubt : compare::step_doubts(compare::read_record(options.soil_bin.record)))
-      answered.doubts.push_back(std::move(doubt));
+  answered.doubts = compare::doubts_of(question, answered, options.soil_bin.record);
   Outputs outputs;
   save(outputs, options, question, answered, session.place);
   print_warnings(answered.doubts);
   if (options.json) {
-    print_json(results_json(question, answered));
+    print_json(to_json(question, answered));
   } else {
     fmt::print("{}: {} on {}\n{}{}\n{}", question.study.name, in_words(question.scenario.tire),
                compare::in_words(question.scenario.soil),

@@ -15,8 +15,7 @@
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
-#include "compare/experiments/job_script.hpp"
-#include "compare/experiments/job_status.hpp"
+#include "compare/experiments/jobs.hpp"
 #include "compare/report/shell_words.hpp"
 #include "scenario/errors.hpp"
 

@@ -11,9 +11,11 @@
 
 #include "compare/measured/csv.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/report/text_table.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/quantity.hpp"
+#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -384,6 +386,72 @@ Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFi
     plot.series.push_back(std::move(line));
   }
   return {title, {plot}, Palette::named};
+}
+
+namespace {
+
+/// A value of the fit, as soils name it.
+struct NamedValue {
+  const SoilParameter& parameter;
+  const PlateValue& value;
+};
+
+std::vector<NamedValue> plate_values(const MeasuredPlatesFit& fit) {
+  return {{soil_parameter("exponent"), fit.exponent},
+          {soil_parameter("k_c"), fit.k_c},
+          {soil_parameter("k_phi"), fit.k_phi}};
+}
+
+/// The lines that a campaign or a soil file takes: the sd to two digits, the value to the sd's place.
+std::string yaml_lines(const MeasuredPlatesFit& fit, const std::string& source) {
+  std::string text;
+  for (const auto& [p, value] : plate_values(fit)) {
+    const std::string unit = std::string_view(p.unit) == "-" ? "" : std::string(" ") + p.unit;
+    const double sd = value.estimate.std_error * p.per_si;
+    const int places = sd > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(sd))), 0, 9) : 4;
+    text += fmt::format("  {}: {{value: {:.{}f}{}, sd: {:.{}f}{}, source: \"{}\"}}\n", p.name,
+                        value.estimate.value * p.per_si, places, unit, sd, places, unit, source);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string in_words(const MeasuredPlatesFit& fit, std::size_t tests, const std::string& source) {
+  TextTable values({"value", "fit", "between tests", "between low and high pressures"});
+  for (const auto& [p, value] : plate_values(fit))
+    values.add({heading(p.symbol, p.unit), number(value.estimate, p.per_si), number(value.between_tests * p.per_si),
+                number(value.between_pressures * p.per_si)});
+  TextTable plates({"plate [mm]", "tests", "n of its own", "k at the common n [kN/m^(n+2)]"});
+  for (std::size_t k = 0; k < fit.radii.size(); ++k)
+    plates.add({fmt::format("{:g}", 2000 * fit.radii[k]), std::to_string(fit.tests[k]), number(fit.plate_exponents[k]),
+                number(fit.plate_moduli[k] / 1e3)});
+  return fmt::format(
+      "{} with plates of {} sizes, {:.2g} to {:.3g} kPa\n\n{}\n± is one standard error: the two columns beside it, "
+      "squared and added. Those of k_c and k_phi hold at this "
+      "n.\nA file takes the three as independent, which makes pressures less sure than these tests "
+      "are.\n\n{}\nBekker's form misses the pressures by {} (root mean square, of the mean pressure).\n\nFor "
+      "campaign.yaml or a soil file:\n\n{}",
+      counted(tests, "test"), fit.radii.size(), fit.lowest / 1e3, fit.highest / 1e3, values.text(), plates.text(),
+      percent(fit.pressure_error), yaml_lines(fit, source));
+}
+
+Json to_json(const MeasuredPlatesFit& fit, std::size_t tests) {
+  Json document = {{"format", "soilbin-plates/1"}, {"tests", tests}};
+  for (const auto& [p, value] : plate_values(fit)) {
+    document[p.name] = estimate_json(value.estimate);
+    document[p.name]["between_tests"] = value.between_tests;
+    document[p.name]["between_pressures"] = value.between_pressures;
+  }
+  document["pressure_error"] = fit.pressure_error;
+  document["lowest_pressure"] = fit.lowest, document["highest_pressure"] = fit.highest;
+  document["plates"] = Json::array();
+  for (std::size_t k = 0; k < fit.radii.size(); ++k)
+    document["plates"].push_back({{"radius", fit.radii[k]},
+                                  {"tests", fit.tests[k]},
+                                  {"exponent", fit.plate_exponents[k]},
+                                  {"modulus", fit.plate_moduli[k]}});
+  return document;
 }
 
 }  // namespace soilbin::compare

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bekker_wong/plate_fit.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/report/plot.hpp"
 #include "scenario/estimate.hpp"
 #include "scenario/source_text.hpp"
@@ -62,5 +63,11 @@ std::vector<std::string> doubts(const MeasuredPlatesFit& fit);
 
 /// Pressure over sinkage: every reading in the window, and Bekker's form for each plate.
 Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFit& fit, const std::string& title);
+
+/// The values with the parts of their errors, each plate by itself, and the lines that a campaign or a soil file takes,
+/// with `source` beside each number. tests: how many the fit is of.
+std::string in_words(const MeasuredPlatesFit& fit, std::size_t tests, const std::string& source);
+/// soilbin-plates/1.
+Json to_json(const MeasuredPlatesFit& fit, std::size_t tests);
 
 }  // namespace soilbin::compare

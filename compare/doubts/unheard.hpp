@@ -1,4 +1,4 @@
-// What a question declares and no model of it hears of: a part of the list of doubts (doubts.hpp).
+// Inputs of a question that change no digit of any of its models' answers: a part of the list of doubts (doubts.hpp).
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// A drive as text, JSON, CSV, plots against time and an HTML page.
+// A case's wheel driven in time by the analytic model: run, then as sentences, JSON, CSV, plots and an HTML page.
 #pragma once
 
 #include <nlohmann/json.hpp>

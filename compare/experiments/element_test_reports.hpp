@@ -1,4 +1,4 @@
-// Element tests as a person and a program see them.
+// Outcomes of the element tests as tables, sentences, JSON and curves.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,11 +1,11 @@
-#include "compare/experiments/job_script.hpp"
-
+// The script that makes the jobs of a sweep (jobs.hpp).
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
+#include "compare/experiments/jobs.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/shell_words.hpp"
 #include "scenario/atomic_file.hpp"

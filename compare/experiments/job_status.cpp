@@ -1,15 +1,13 @@
-#include "compare/experiments/job_status.hpp"
-
+// How far the jobs of a sweep are (jobs.hpp).
 #include <fmt/core.h>
 #include <signal.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <map>
 #include <sstream>
 
-#include "compare/experiments/job_script.hpp"
+#include "compare/experiments/jobs.hpp"
 #include "compare/report/json_file.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/shell_words.hpp"

@@ -3,14 +3,18 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <set>
+#include <thread>
 
-#include "compare/experiments/run_costs.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/text_table.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "dem/rig/wheel_in_bin.hpp"
+#include "dem/rig/wheel_motion.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -27,6 +31,90 @@ std::vector<std::uint64_t> without_file(const std::set<std::uint64_t>& packings,
     if (settings.beds.empty() || !fs::exists(file)) missing.push_back(packing);
   }
   return missing;
+}
+
+/// Estimates for the runs of one scenario in one bin. Work counts in grain-steps: one step of the motion of one grain.
+class RunCosts {
+ public:
+  /// The speed comes from the runs of `records` where they tell one: their seconds, as they were measured then, with
+  /// however many threads and whatever ran beside them; else from a trial: a small bed of the same grains is settled
+  /// for about a second of processor time on one thread, and more are taken to share the work evenly.
+  RunCosts(const Scenario& scenario, const dem::DemSettings& settings, const std::vector<Record>& records);
+
+  double steps(const AskedRun& run) const;
+  /// On the clock on the wall, the bed already settled [s].
+  double seconds(const AskedRun& run) const { return grains_ * steps(run) / speed_; }
+  /// To settle a bed, about: as long as grains take to fall by its depth, thirty times [s].
+  double bed_seconds() const;
+  int threads() const;
+  void tell(RunPlan& plan) const;
+
+ private:
+  double trial(dem::DemSettings settings) const;
+
+  const Scenario& scenario_;
+  const dem::DemSettings& settings_;
+  dem::BedRecipe recipe_;
+  double grains_ = 0, speed_ = 0;  ///< grains that the bed will hold, about; grain-steps a second
+  std::size_t from_runs_ = 0;
+};
+
+RunCosts::RunCosts(const Scenario& scenario, const dem::DemSettings& settings, const std::vector<Record>& records)
+    : scenario_(scenario),
+      settings_(settings),
+      recipe_(dem::DemModel(settings).recipe(scenario)),
+      grains_(dem::expected_grains(recipe_)) {
+  double work = 0, seconds = 0;
+  for (const Record& record : records)
+    for (RunList list : {&Record::runs, &Record::half_step})
+      for (const RecordedRun& run : record.*list) {
+        if (!run.answer.result) continue;  // it may have ended early
+        work += grains_ * steps({run.answer.at, run.packing, list == &Record::half_step}), seconds += run.seconds;
+        ++from_runs_;
+      }
+  speed_ = seconds > 0 ? work / seconds : trial(settings);
+}
+
+double RunCosts::steps(const AskedRun& run) const {
+  const dem::Rig& rig = settings_.rig;
+  const OperatingCondition& at = run.at;
+  const double way = dem::way_in_bin(recipe_.size, scenario_.tire, rig);
+  const bool inclined = at.longitudinal_incline != 0 || at.transverse_incline != 0;
+  const double driven = (way - at.speed * rig.starting / 2) / at.speed;
+  const double time =
+      (inclined ? rig.tilting : 0.0) + at.pass * (rig.lowering + rig.resting + rig.starting + std::max(0.0, driven));
+  return time / dem::step_of(recipe_, rig) * (run.half_step ? 2 : 1);
+}
+
+double RunCosts::bed_seconds() const {
+  const double step = recipe_.dt > 0 ? recipe_.dt : dem::longest_step(recipe_.soil);
+  return grains_ * 30 * std::sqrt(2 * recipe_.size.depth / recipe_.gravity) / step / speed_;
+}
+
+int RunCosts::threads() const {
+  return settings_.how.threads > 0 ? settings_.how.threads
+                                   : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+/// Memory is that of a process while pairs are searched, which needs the most.
+void RunCosts::tell(RunPlan& plan) const {
+  plan.threads = threads(), plan.from_runs = from_runs_, plan.speed = speed_, plan.grains = grains_;
+  plan.bed_seconds = bed_seconds(), plan.memory = 60e6 + 900 * grains_;
+  plan.bed_bytes = 250 * grains_, plan.record_bytes = 40e3;
+}
+
+double RunCosts::trial(dem::DemSettings settings) const {
+  const double grain = mean_diameter(recipe_.soil);
+  dem::BedRecipe recipe = recipe_;
+  recipe.size = {12 * grain, 12 * grain, 8 * grain};
+  recipe.grading = {};  // there is no room for coarser ones
+  settings.how.progress = {};
+  settings.how.threads = 1;                 // so small a bed keeps more than one waiting, which a run's does not
+  const std::clock_t began = std::clock();  // of the processor: what runs beside it now will not run beside the jobs
+  const dem::SettledBed bed = dem::settle_bed(recipe, settings.how);
+  const double seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC / threads();
+  const double step = recipe.dt > 0 ? recipe.dt : dem::longest_step(recipe.soil);
+  return static_cast<double>(bed.report.grains) * bed.report.settling_time / step / seconds;
 }
 
 }  // namespace
@@ -59,10 +147,7 @@ RunPlan plan_of(const Case& question, const dem::DemSettings& settings, const st
     plan.runs.push_back({run, missing_runs({run}, records).empty(), costs.seconds(run)});
   }
   plan.beds = packings.size(), plan.unsettled = without_file(packings, settings, question.scenario);
-  plan.threads = costs.threads();
-  plan.from_runs = costs.from_runs(), plan.speed = costs.speed(), plan.grains = costs.grains();
-  plan.bed_seconds = costs.bed_seconds(), plan.memory = costs.memory();
-  plan.bed_bytes = costs.bed_bytes(), plan.record_bytes = costs.record_bytes();
+  costs.tell(plan);
   return plan;
 }
 

@@ -1,6 +1,5 @@
 #include "compare/loop/observations.hpp"
 
-#include <algorithm>
 #include <map>
 #include <tuple>
 

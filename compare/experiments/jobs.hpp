@@ -1,10 +1,12 @@
 // A study's runs of grains divided among jobs, as a script that a person can read: beds first, then the runs in shards,
 // then their records made one. The jobs are Slurm's, or processes of this machine; the work is done by `soilbin bed`,
-// `run --shard` and `record merge`. `soilbin sweep` writes them; how far they are says job_status.hpp.
+// `run --shard` and `record merge`. `soilbin sweep` writes them, and tells how far they are
+// from their records, their logs and what Slurm says.
 //
 //   Jobs jobs{.on = JobsOn::slurm, .plan = plan};
 //   jobs.shards = shards_for(plan, 1800);   // half an hour each
 //   write_jobs(jobs);                       // then: bash FOLDER/sweep.sh
+//   fmt::print("{}", in_words(job_status(jobs.folder)));
 #pragma once
 
 #include <filesystem>
@@ -46,5 +48,29 @@ std::string job_script(const Jobs& jobs);
 
 /// Makes the folder, with the script (sweep.sh) and what it does for job_status to read (sweep.json).
 void write_jobs(const Jobs& jobs);
+
+/// How far a shard is.
+struct ShardStatus {
+  std::size_t runs = 0, recorded = 0, without_result = 0;
+  double seconds_left = 0, seconds_planned = 0, seconds_taken = 0;  ///< planned and taken: of what is recorded
+  std::string state;  ///< "done", "running", "waiting", "failed", or "missing": it was never begun
+  std::string words;  ///< the last that it said
+};
+
+struct JobStatus {
+  std::filesystem::path folder;
+  std::string study;
+  std::vector<ShardStatus> shards{};
+  std::size_t runs = 0, recorded = 0, without_result = 0;
+  double seconds_left = 0;  ///< of all runs that are missing, one after the other, by what the recorded ones took
+  bool complete() const { return recorded == runs; }
+};
+
+/// Throws InputError for a folder that holds no jobs.
+JobStatus job_status(const std::filesystem::path& folder);
+
+std::string in_words(const JobStatus& status);
+/// soilbin-sweep-status/1.
+Json to_json(const JobStatus& status);
 
 }  // namespace soilbin::compare
