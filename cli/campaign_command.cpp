@@ -58,11 +58,11 @@ std::string hidden_in_words(const CampaignOptions& asked) {
 
 /// README.md of the campaign: how it was made, and the run behind each row.
 std::string provenance(const CampaignOptions& asked, const std::string& command, const Runs& runs,
-                       const compare::CampaignOfRecords& told) {
+                       const compare::CampaignOfRecords& made) {
   std::string text = fmt::format(
       "# {}\n\nRuns of soilbin's virtual soil bin, told as a campaign. {}\n\nMade by soilbin {} ({}) with\n\n    "
       "{}\n\n",
-      told.campaign.name, hidden_in_words(asked), SOILBIN_VERSION, source_state(), command);
+      made.campaign.name, hidden_in_words(asked), SOILBIN_VERSION, source_state(), command);
   text += "| record | hash of its inputs | begun by |\n|---|---|---|\n";
   for (std::size_t k = 0; k < runs.records.size(); ++k)
     text += fmt::format("| {} | {} | soilbin {} |\n", fs::path(asked.records[k]).filename().string(),
@@ -72,37 +72,37 @@ std::string provenance(const CampaignOptions& asked, const std::string& command,
   text +=
       "```\n\n| run | condition in the grains | packing (seed of the bed) | steady | drift | sources |\n"
       "|---|---|---|---|---|---|\n";
-  for (std::size_t k = 0; k < told.runs.size(); ++k) {
-    const compare::RecordedRun& run = told.runs[k];
+  for (std::size_t k = 0; k < made.runs.size(); ++k) {
+    const compare::RecordedRun& run = made.runs[k];
     text += fmt::format("| {} | {} | {} | {} | {:.3g} | {} |\n", k + 1, compare::in_words(run.answer.at), run.packing,
                         run.steady ? "yes" : "no", run.drift, run.source);
   }
   return text;
 }
 
-compare::Telling telling_of(const CampaignOptions& asked, const Runs& runs, const Workplace& place) {
-  compare::Telling telling;
-  telling.name = asked.name.empty() ? fs::path(asked.output).filename().string() : asked.name;
-  if (telling.name.empty()) telling.name = fs::path(asked.output).parent_path().filename().string();
-  telling.hide = {asked.hide.begin(), asked.hide.end()};
-  telling.only_steady = asked.only_steady, telling.seed = asked.seed;
+compare::Disclosure disclosure_of(const CampaignOptions& asked, const Runs& runs, const Workplace& place) {
+  compare::Disclosure disclosed;
+  disclosed.name = asked.name.empty() ? fs::path(asked.output).filename().string() : asked.name;
+  if (disclosed.name.empty()) disclosed.name = fs::path(asked.output).parent_path().filename().string();
+  disclosed.hide = {asked.hide.begin(), asked.hide.end()};
+  disclosed.only_steady = asked.only_steady, disclosed.seed = asked.seed;
   for (const std::string& text : asked.effects)
-    telling.effects.push_back(parse_effect(text, place.effects, runs.scenario.soil));
-  return telling;
+    disclosed.effects.push_back(parse_effect(text, place.effects, runs.scenario.soil));
+  return disclosed;
 }
 
 int campaign(const CampaignOptions& asked, const Session& session) {
   const Runs runs = read_runs(asked, session.place);
-  const compare::CampaignOfRecords told =
-      compare::tell_campaign(runs.scenario, runs.all, telling_of(asked, runs, session.place));
-  compare::write_campaign(asked.output, told.campaign, session.place.effects);
-  write_file_atomically(fs::path(asked.output) / "README.md", provenance(asked, session.command, runs, told));
+  const compare::CampaignOfRecords made =
+      compare::tell_campaign(runs.scenario, runs.all, disclosure_of(asked, runs, session.place));
+  compare::write_campaign(asked.output, made.campaign, session.place.effects);
+  write_file_atomically(fs::path(asked.output) / "README.md", provenance(asked, session.command, runs, made));
   compare::read_campaign(asked.output, session.place.library, session.place.effects,
                          compare::CampaignUse::fit);  // refuses what a loop would refuse, now
-  const auto drifting = std::count_if(told.runs.begin(), told.runs.end(), [](const auto& run) { return !run.steady; });
-  fmt::print("wrote {}: {} runs, {} not steady", asked.output, told.runs.size(), drifting);
-  if (told.without_result > 0) fmt::print("; left out {} without a result", told.without_result);
-  if (told.not_steady > 0) fmt::print("; left out {} not steady", told.not_steady);
+  const auto drifting = std::count_if(made.runs.begin(), made.runs.end(), [](const auto& run) { return !run.steady; });
+  fmt::print("wrote {}: {} runs, {} not steady", asked.output, made.runs.size(), drifting);
+  if (made.without_result > 0) fmt::print("; left out {} without a result", made.without_result);
+  if (made.not_steady > 0) fmt::print("; left out {} not steady", made.not_steady);
   fmt::print("\n{}\n", hidden_in_words(asked));
   return done;
 }

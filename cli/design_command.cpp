@@ -26,7 +26,7 @@ struct DesignFlags {
 void print_design(const compare::TestDesign& design) {
   fmt::print("{}\n", design.campaign);
   for (const std::string& sentence : compare::in_sentences(design)) fmt::print("\n{}\n", sentence);
-  for (const compare::MarkedTable& table : {compare::runs_table(design), compare::rivals_table(design)})
+  for (const compare::MarkedTable& table : {compare::runs_table(design), compare::pairs_table(design)})
     fmt::print("\n{}", as_text(compare::without_marks(table)));
 }
 

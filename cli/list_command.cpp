@@ -69,10 +69,10 @@ ShelfRow tire_row(const std::string& name, const Workplace& place) {
 
 ShelfRow study_row(const std::string& name, const Workplace& place) {
   const Case question = find_case(place, name);
-  const bool drive_alone = question.study.conditions.empty();
+  const bool drive_only = question.study.conditions.empty();
   return {{question.scenario.tire.name, question.scenario.soil.name,
-           drive_alone ? "drive" : std::to_string(question.study.models.size()),
-           drive_alone ? "-" : std::to_string(question.study.conditions.size())},
+           drive_only ? "drive" : std::to_string(question.study.models.size()),
+           drive_only ? "-" : std::to_string(question.study.conditions.size())},
           {{"tire", question.scenario.tire.name},
            {"soil", question.scenario.soil.name},
            {"models", question.study.models.size()},

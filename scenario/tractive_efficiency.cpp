@@ -43,7 +43,7 @@ bool has_efficiency(const TractionResult& result) {
   return result.torque.value > 0.0 && result.tractive_efficiency >= 0.0 && result.tractive_efficiency <= 1.0;
 }
 
-double told_efficiency(const TractionResult& result) {
+double reported_efficiency(const TractionResult& result) {
   return has_efficiency(result) ? result.tractive_efficiency : not_a_number;
 }
 

@@ -30,8 +30,8 @@ double tractive_efficiency(const TractionResult& result, double radius);
 /// and gives out no more than is put in.
 bool has_efficiency(const TractionResult& result);
 
-/// The tractive efficiency [-] as every table, file and binding tells it: NaN unless has_efficiency.
-double told_efficiency(const TractionResult& result);
+/// The tractive efficiency [-] as every table, file and binding reports it: NaN unless has_efficiency.
+double reported_efficiency(const TractionResult& result);
 
 /// Why a result has no efficiency, for people: "the wheel has to be pushed or braked"; "" where it has one.
 std::string why_no_efficiency(const TractionResult& result);

@@ -79,16 +79,16 @@ class Work {
     for (std::size_t t = 0; t < test_.targets.size(); ++t) {
       std::vector<double> responses;
       double variance = 0.0;
-      bool told = design.columns() > design.levels;
+      bool have_errors = design.columns() > design.levels;
       for (const CalibrationRun& made : answer_.runs) {
         const Estimate& result = made.experiment.results[t];
         responses.push_back(result.value);
         variance += result.std_error * result.std_error / design.runs();
-        told = told && result.std_error > 0;
+        have_errors = have_errors && result.std_error > 0;
       }
       answer_.analyses.push_back(
           {range_analysis(design, responses),
-           analysis_of_variance(design, names, responses, told ? std::optional(variance) : std::nullopt)});
+           analysis_of_variance(design, names, responses, have_errors ? std::optional(variance) : std::nullopt)});
     }
   }
 
@@ -123,7 +123,7 @@ class Work {
     answer_.held_out = points.held_out();
     answer_.extra_sd = points.extra_sd();
     answer_.smallest_chi_square = points.smallest_chi_square();
-    points.weigh(answer_.parameters, answer_.told);
+    points.weigh(answer_.parameters, answer_.learned);
     return std::move(answer_);
   }
 

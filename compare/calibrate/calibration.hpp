@@ -78,7 +78,7 @@ struct Calibration {
   Candidate best;                        ///< chosen: by the decision, else the likeliest point that was run
   bool reached = false;                  ///< whether best.chance is at least the probability asked for
   std::vector<Estimate> parameters;      ///< of the factors, given the targets and a flat prior in the box [SI]
-  std::vector<double> told;          ///< 1 - sd of `parameters` over that of the flat prior: 0, the test says nothing
+  std::vector<double> learned;       ///< 1 - sd of `parameters` over that of the flat prior: 0, the test says nothing
   double smallest_chi_square = 0.0;  ///< over the cloud; large where no point of the box meets the targets
 };
 

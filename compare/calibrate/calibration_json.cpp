@@ -69,7 +69,7 @@ Json to_json(const VirtualTest& test, const CalibrationOptions& options, const C
                        {"lower", test.factors[j].lower},
                        {"upper", test.factors[j].upper},
                        {"given_targets", estimate_json(calibration.parameters[j])},
-                       {"told", calibration.told[j]}});
+                       {"told", calibration.learned[j]}});
   for (std::size_t t = 0; t < test.targets.size(); ++t) {
     Json target{{"name", test.targets[t].name},
                 {"measured", estimate_json(test.targets[t].measured)},

@@ -110,7 +110,7 @@ std::vector<std::string> calibration_sentences(const VirtualTest& test, const Ca
   else
     said.push_back(sentence(calibration.analyses[0].variance));
   for (std::size_t j = 0; j < test.factors.size(); ++j)
-    if (calibration.told[j] < 0.2)
+    if (calibration.learned[j] < 0.2)
       said.push_back(fmt::format("These targets hardly determine {}: {} is as good as the bounds.",
                                  test.factors[j].name,
                                  value_with_unit(calibration.parameters[j], test.factors[j].unit)));

@@ -136,7 +136,7 @@ double LikelyPoints::smallest_chi_square() const {
   return least;
 }
 
-void LikelyPoints::weigh(std::vector<Estimate>& parameters, std::vector<double>& told) const {
+void LikelyPoints::weigh(std::vector<Estimate>& parameters, std::vector<double>& learned) const {
   const double least = smallest_chi_square();
   for (std::size_t j = 0; j < test_.factors.size(); ++j) {
     double sum = 0.0, first = 0.0, second = 0.0;
@@ -148,7 +148,7 @@ void LikelyPoints::weigh(std::vector<Estimate>& parameters, std::vector<double>&
     const double mean = first / sum, sd = std::sqrt(std::max(0.0, second / sum - mean * mean));
     const double flat = (test_.factors[j].upper - test_.factors[j].lower) / std::sqrt(12.0);
     parameters.push_back({mean, sd});
-    told.push_back(std::max(0.0, 1 - sd / flat));
+    learned.push_back(std::max(0.0, 1 - sd / flat));
   }
 }
 

@@ -34,7 +34,7 @@ class LikelyPoints {
   double smallest_chi_square() const;
   /// Mean and sd of the factors under weights exp(-chi^2/2) over the cloud, and what that tells beyond the flat prior:
   /// 1 - sd/(width/sqrt 12), at least 0.
-  void weigh(std::vector<Estimate>& parameters, std::vector<double>& told) const;
+  void weigh(std::vector<Estimate>& parameters, std::vector<double>& learned) const;
 
  private:
   Candidate look_at(const Eigen::VectorXd& values) const;

@@ -41,7 +41,7 @@ std::vector<Tally> tallies_of(const std::vector<Difference>& rows) {
 }
 
 std::vector<std::string> gaps_of(const Comparison& comparison) {
-  std::vector<std::string> told;
+  std::vector<std::string> gaps;
   for (const Side& side : comparison.sides) {
     std::size_t missing = 0;
     std::string first;
@@ -51,10 +51,10 @@ std::vector<std::string> gaps_of(const Comparison& comparison) {
           first = fmt::format("{}: {}", in_words(comparison.question.study.conditions[i]), side.points[i].error);
       }
     if (missing > 0)
-      told.push_back(
+      gaps.push_back(
           fmt::format("{} has no result at {} of {} conditions ({})", side.label, missing, side.points.size(), first));
   }
-  return told;
+  return gaps;
 }
 
 /// The case as the loop's declared model, without a run.

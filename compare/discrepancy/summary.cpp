@@ -135,7 +135,7 @@ std::optional<Clause> grains_clause(const Comparison& comparison) {
   const Scenario& scenario = comparison.question.scenario;
   if (!scenario.soil.granular) return std::nullopt;
   double sum = 0.0, squares = 0.0;
-  std::size_t told = 0, with_result = 0;
+  std::size_t known = 0, with_result = 0;
   for (const Side& side : comparison.sides)
     for (std::size_t i = 0; i < side.points.size(); ++i) {
       if (side.kind != SideKind::grains || !side.points[i].result) continue;
@@ -144,17 +144,17 @@ std::optional<Clause> grains_clause(const Comparison& comparison) {
       const ResolutionError error = resolution_error(scenario, at, side.points[i].result->sinkage.value);
       if (!error.known()) continue;
       const double share = error.drawbar_pull.value / at.load;
-      ++told, sum += share, squares += share * share;
+      ++known, sum += share, squares += share * share;
     }
-  if (told == 0) return std::nullopt;
-  const double rms = std::sqrt(squares / static_cast<double>(told));
+  if (known == 0) return std::nullopt;
+  const double rms = std::sqrt(squares / static_cast<double>(known));
   if (rms < worth_a_line) return std::nullopt;
   return Clause{"The grains",
                 fmt::format("Grains of {:.3g} mm are coarse for this wheel: their own drawbar pull is estimated to be "
                             "too {} by {} of the load against infinitely fine ones (root mean square of the {} of {} "
                             "points that the study of grain sizes reaches).",
                             1000 * mean_diameter(*scenario.soil.granular), sum > 0 ? "large" : "small", percent(rms),
-                            told, with_result),
+                            known, with_result),
                 {"what is doubtful"}};
 }
 
@@ -182,19 +182,20 @@ std::vector<Clause> doubt_clauses(const Comparison& comparison) {
   std::vector<Clause> clauses;
   for (const Side& side : comparison.sides) {
     std::size_t doubted = 0, with_result = 0;
-    std::set<std::string> told;
+    std::set<std::string> doubts;
     std::string first;
     for (const SidePoint& point : side.points) {
       with_result += point.result.has_value();
       doubted += point.result && !point.doubts.empty();
       for (const std::string& doubt : point.doubts)
-        if (told.insert(doubt).second && first.empty()) first = doubt;
+        if (doubts.insert(doubt).second && first.empty()) first = doubt;
     }
     if (doubted == 0) continue;
-    clauses.push_back({"Limits",
-                       fmt::format("{}: {} of {} points carry a doubt ({}{}).", side.label, doubted, with_result, first,
-                                   told.size() > 1 ? fmt::format("; and {} more, in the table", told.size() - 1) : ""),
-                       {"table of points"}});
+    clauses.push_back(
+        {"Limits",
+         fmt::format("{}: {} of {} points carry a doubt ({}{}).", side.label, doubted, with_result, first,
+                     doubts.size() > 1 ? fmt::format("; and {} more, in the table", doubts.size() - 1) : ""),
+         {"table of points"}});
   }
   return clauses;
 }

@@ -30,17 +30,18 @@ void each_answer_for_grains(const std::vector<ModelAnswers>& study, const Use& u
 
 /// By how much coarse grains change an answer: where the study of it tells, at the condition where that is most.
 std::string by_how_much(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
-  std::optional<ResolutionError> told;
+  std::optional<ResolutionError> largest;
   OperatingCondition where;
   std::string beyond;
   each_answer_for_grains(study, [&](const Answer& answer, SinkageOf whose) {
     ResolutionError error = resolution_error(scenario, answer.at, answer.result->sinkage.value, whose);
     if (!error.known() && beyond.empty()) beyond = error.beyond;
-    if (!error.known() || (told && std::abs(error.drawbar_pull.value) <= std::abs(told->drawbar_pull.value))) return;
-    told = std::move(error), where = answer.at;
+    if (!error.known() || (largest && std::abs(error.drawbar_pull.value) <= std::abs(largest->drawbar_pull.value)))
+      return;
+    largest = std::move(error), where = answer.at;
   });
-  if (told)
-    return fmt::format(": they are estimated to change {} against infinitely fine ones ({})", in_words(*told),
+  if (largest)
+    return fmt::format(": they are estimated to change {} against infinitely fine ones ({})", in_words(*largest),
                        in_words(where));
   return beyond.empty() ? "" : fmt::format(": by how much that changes the answer is not known, since {}", beyond);
 }

@@ -22,7 +22,7 @@ namespace soilbin::compare {
 
 SoilBinRuns::SoilBinRuns(dem::DemSettings settings, std::string source)
     : settings_(std::move(settings)), source_(std::move(source)) {
-  settings_.on_run = [told = told_](const dem::WheelRun& run) { *told = run; };
+  settings_.on_run = [last = last_](const dem::WheelRun& run) { *last = run; };
   settings_.forget_finished = false;
 }
 
@@ -31,17 +31,17 @@ RecordedRun SoilBinRuns::operator()(const Scenario& scenario, const OperatingCon
   RecordedRun run;
   run.answer.at = at, run.packing = packing, run.source = source_;
   run.when_safe = [restart = model(packing).restart_of(scenario, at)] { dem::forget_run(restart); };
-  *told_ = {};
+  *last_ = {};
   try {
     run.answer.result = model(packing).evaluate(scenario, at);
-    run.steady = told_->steady, run.drift = told_->drift, run.power = told_->power;
-    run.bed = told_->bed, run.rut = told_->rut, run.flow = told_->flow;
+    run.steady = last_->steady, run.drift = last_->drift, run.power = last_->power;
+    run.bed = last_->bed, run.rut = last_->rut, run.flow = last_->flow;
   } catch (const dem::RunStopped& stopped) {
     run.answer.error = stopped.what();
   } catch (const NoSolution& error) {
     run.answer.error = error.what();
   }
-  run.seconds = told_->earlier + std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  run.seconds = last_->earlier + std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return run;
 }
 

@@ -31,7 +31,7 @@ class SoilBinRuns {
 
   dem::DemSettings settings_;
   std::string source_;
-  std::shared_ptr<dem::WheelRun> told_ = std::make_shared<dem::WheelRun>();
+  std::shared_ptr<dem::WheelRun> last_ = std::make_shared<dem::WheelRun>();
   std::map<std::uint64_t, std::unique_ptr<dem::DemModel>> models_;
 };
 

@@ -93,16 +93,16 @@ std::vector<MatrixXd> by_condition(const Observations& runs, const MatrixXd& col
 std::vector<double> distances(const EffectShapes& shapes, const MatrixXd& s, Index truth) {
   std::vector<double> least(shapes.ids.size() + 1, std::max(0.0, s(truth, truth)));
   for (Index g = 0; g < s.cols(); ++g) {
-    const EffectShape& rival = shapes.shapes[g];
+    const EffectShape& other = shapes.shapes[g];
     const double along = s(truth, g);
-    if (!(s(g, g) > 0.0) || (along < 0.0 && rival.one_sided && shapes.shapes[truth].one_sided)) continue;
-    double& d = least[rival.effect];
+    if (!(s(g, g) > 0.0) || (along < 0.0 && other.one_sided && shapes.shapes[truth].one_sided)) continue;
+    double& d = least[other.effect];
     d = std::min(d, std::max(0.0, s(truth, truth) - along * along / s(g, g)));
   }
   return least;
 }
 
-double told_right(double distance) { return 0.5 * std::erfc(-std::sqrt(distance) / (2 * std::sqrt(2.0))); }
+double chance_named_right(double distance) { return 0.5 * std::erfc(-std::sqrt(distance) / (2 * std::sqrt(2.0))); }
 
 }  // namespace
 
@@ -183,25 +183,25 @@ EffectShapes effect_shapes(const Campaign& campaign, const std::vector<Operating
   return found;
 }
 
-std::vector<Rivalry> rivalries(const EffectShapes& shapes, const MatrixXd& information) {
+std::vector<CandidatePair> candidate_pairs(const EffectShapes& shapes, const MatrixXd& information) {
   const MatrixXd s = shapes.off_soil(information);
   const std::size_t effects = shapes.ids.size();
-  std::vector<Rivalry> all;
+  std::vector<CandidatePair> all;
   std::vector<double> forms(effects, 0.0);
   for (std::size_t truth = 0; truth < effects; ++truth)
-    for (std::size_t rival = 0; rival <= effects; ++rival)
-      all.push_back({truth, rival < effects ? std::optional(rival) : std::nullopt, 0.0, 0.0});
+    for (std::size_t other = 0; other <= effects; ++other)
+      all.push_back({truth, other < effects ? std::optional(other) : std::nullopt, 0.0, 0.0});
   for (std::size_t f = 0; f < shapes.shapes.size(); ++f) {
     const std::size_t truth = shapes.shapes[f].effect;
     const std::vector<double> d = distances(shapes, s, static_cast<Index>(f));
     forms[truth] += 1.0;
-    for (std::size_t rival = 0; rival <= effects; ++rival) {
-      Rivalry& r = all[truth * (effects + 1) + rival];
-      r.separation += std::sqrt(d[rival]), r.right += told_right(d[rival]);
+    for (std::size_t other = 0; other <= effects; ++other) {
+      CandidatePair& r = all[truth * (effects + 1) + other];
+      r.separation += std::sqrt(d[other]), r.right += chance_named_right(d[other]);
     }
   }
-  for (Rivalry& r : all) r.separation /= forms[r.truth], r.right /= forms[r.truth];
-  std::erase_if(all, [](const Rivalry& r) { return r.rival == r.truth; });
+  for (CandidatePair& r : all) r.separation /= forms[r.truth], r.right /= forms[r.truth];
+  std::erase_if(all, [](const CandidatePair& r) { return r.other == r.truth; });
   return all;
 }
 
@@ -212,8 +212,8 @@ double share_named_right(const EffectShapes& shapes, const MatrixXd& information
     const std::size_t truth = shapes.shapes[f].effect;
     const std::vector<double> d = distances(shapes, s, static_cast<Index>(f));
     double all = 1.0;
-    for (std::size_t rival = 0; rival < d.size(); ++rival)
-      if (rival != truth) all *= told_right(d[rival]);
+    for (std::size_t other = 0; other < d.size(); ++other)
+      if (other != truth) all *= chance_named_right(d[other]);
     right[truth] += all, forms[truth] += 1.0;
   }
   double sum = 0.0;

@@ -62,17 +62,17 @@ EffectShapes effect_shapes(const Campaign& campaign, const std::vector<Operating
 ExpectedNoise usual_noise(const Campaign& campaign, const std::vector<OperatingCondition>& conditions);
 
 /// An effect that is there, and what may be taken for it.
-struct Rivalry {
+struct CandidatePair {
   std::size_t truth = 0;
-  std::optional<std::size_t> rival;  ///< nothing: the soil alone, no effect
-  double separation = 0.0;           ///< sqrt(D), mean over the truth's forms, each against the rival's nearest [sd]
+  std::optional<std::size_t> other;  ///< nothing: the soil alone, no effect
+  double separation = 0.0;           ///< sqrt(D), mean over the truth's forms, each against the other's nearest [sd]
   double right = 0.5;                ///< Phi(sqrt(D)/2), the mean over the same
 };
 
 /// Every effect against every other one and against none. information: the sum over the runs of tells' tells.
-std::vector<Rivalry> rivalries(const EffectShapes& shapes, const Eigen::MatrixXd& information);
+std::vector<CandidatePair> candidate_pairs(const EffectShapes& shapes, const Eigen::MatrixXd& information);
 
-/// Share of the effects that are expected to be named right: of each form the product of Phi(sqrt(D)/2) over its rivals
+/// Share of the effects that are expected to be named right: of each form the product of Phi(sqrt(D)/2) over the others
 /// (as if these erred each by itself), the mean over an effect's forms, the mean over the effects.
 double share_named_right(const EffectShapes& shapes, const Eigen::MatrixXd& information);
 

@@ -126,7 +126,7 @@ bool predicts_better(const CrossValidation& with_learned) {
 void take_learned(std::optional<LearnedEffect> learned, const FittedModel& base, LoopAnswer& answer) {
   if (!learned) return;
   if (!predicts_better(answer.validation)) {
-    answer.validation = with_named_alone(std::move(answer.validation), base.data().observations);
+    answer.validation = without_learned_effects(std::move(answer.validation), base.data().observations);
     return;
   }
   answer.stand_in = effects_of(learned->candidate);

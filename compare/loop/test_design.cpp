@@ -162,7 +162,7 @@ class Exchange {
     Places plan;
     while (std::ssize(plan) < options_.runs) {
       report();
-      plan.push_back(best_beside(plan).first);
+      plan.push_back(best_addition(plan).first);
     }
     return plan;
   }
@@ -176,7 +176,7 @@ class Exchange {
         report();
         Places others = plan;
         others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-        const auto [place, better] = best_beside(others);
+        const auto [place, better] = best_addition(others);
         if (!(better > now + 1e-9)) continue;
         plan[i] = place, now = better, moved = true;
       }
@@ -187,7 +187,7 @@ class Exchange {
 
  private:
   /// The choice that tells most beside these runs, and what all then tell.
-  std::pair<std::size_t, double> best_beside(const Places& others) const {
+  std::pair<std::size_t, double> best_addition(const Places& others) const {
     const MatrixXd known = information(others);
     std::vector<double> worths(choices_, -1.0);
     const int parts = std::max(1, options_.threads);
@@ -311,7 +311,7 @@ TestDesign design_test(const Campaign& campaign, const DesignOptions& options) {
   const Places from_sweep = exchange.improved(sweep), from_greedy = exchange.improved(exchange.greedy());
   const Places& best = exchange.worth(from_greedy) >= exchange.worth(from_sweep) ? from_greedy : from_sweep;
   const auto planned = [&](const Places& places) {
-    PlannedTest test{{}, rivalries(shapes, exchange.information(places)), exchange.worth(places)};
+    PlannedTest test{{}, candidate_pairs(shapes, exchange.information(places)), exchange.worth(places)};
     for (const std::size_t place : places) test.runs.push_back(conditions[place]);
     return test;
   };

@@ -26,7 +26,7 @@ struct DesignOptions {
 /// Runs and what they are expected to tell.
 struct PlannedTest {
   std::vector<OperatingCondition> runs;
-  std::vector<Rivalry> rivalries;
+  std::vector<CandidatePair> candidate_pairs;
   double named_right = 0.5;  ///< share_named_right
 };
 
@@ -34,7 +34,7 @@ struct TestDesign {
   std::string campaign;
   std::vector<Run> runs;             ///< to make, in a drawn order; no channel is measured yet
   std::vector<std::string> varied;   ///< names of the conditions that the rig can vary
-  std::vector<std::string> effects;  ///< Rivalry's places
+  std::vector<std::string> effects;  ///< CandidatePair's places
   std::vector<std::string> not_shown;
   ExpectedNoise noise;
   std::size_t made = 0;  ///< runs that the campaign holds; both plans count on them
@@ -56,7 +56,7 @@ TestDesign design_test(const Campaign& campaign, const DesignOptions& options);
 std::vector<std::string> in_sentences(const TestDesign& design);
 /// The runs; each effect with what it is most easily taken for, by the plan and by the sweep.
 MarkedTable runs_table(const TestDesign& design);
-MarkedTable rivals_table(const TestDesign& design);
+MarkedTable pairs_table(const TestDesign& design);
 
 /// The rows as a campaign's CSV, the channels to measure empty.
 std::string rows_to_fill_in(const TestDesign& design);

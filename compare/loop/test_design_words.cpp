@@ -19,14 +19,14 @@ namespace {
 std::string effect_name(const std::string& id) { return std::string(bekker_wong::effect_title(id).name); }
 
 /// "slip sinkage", or what stays where nothing is taken for the effect.
-std::string rival_name(const TestDesign& design, const Rivalry& r) {
-  return r.rival ? effect_name(design.effects[*r.rival]) : "nothing: overlooked";
+std::string name_of_other(const TestDesign& design, const CandidatePair& r) {
+  return r.other ? effect_name(design.effects[*r.other]) : "nothing: overlooked";
 }
 
 /// What an effect is most easily taken for.
-const Rivalry& hardest(const PlannedTest& test, std::size_t effect) {
-  const Rivalry* worst = nullptr;
-  for (const Rivalry& r : test.rivalries)
+const CandidatePair& hardest(const PlannedTest& test, std::size_t effect) {
+  const CandidatePair* worst = nullptr;
+  for (const CandidatePair& r : test.candidate_pairs)
     if (r.truth == effect && (!worst || r.right < worst->right)) worst = &r;
   return *worst;
 }
@@ -89,16 +89,16 @@ MarkedTable runs_table(const TestDesign& design) {
   return table;
 }
 
-MarkedTable rivals_table(const TestDesign& design) {
+MarkedTable pairs_table(const TestDesign& design) {
   MarkedTable table{"What each effect is most easily taken for, and how many standard deviations the two are apart",
                     {"effect", "by these runs", "apart", "by a sweep", "apart"},
                     {true, true, false, true, false}};
   for (std::size_t e = 0; e < design.effects.size(); ++e) {
-    const Rivalry &planned = hardest(design.planned, e), &swept = hardest(design.swept, e);
+    const CandidatePair &planned = hardest(design.planned, e), &swept = hardest(design.swept, e);
     table.rows.push_back({{.text = effect_name(design.effects[e])},
-                          {.text = rival_name(design, planned)},
+                          {.text = name_of_other(design, planned)},
                           {.text = fmt::format("{:.1f}", planned.separation)},
-                          {.text = rival_name(design, swept)},
+                          {.text = name_of_other(design, swept)},
                           {.text = fmt::format("{:.1f}", swept.separation)}});
   }
   return table;
@@ -120,10 +120,10 @@ Json to_json(const TestDesign& design) {
     run.at.run = static_cast<int>(i + 1), run.setpoint = fmt::format("W{:02d}", i + 1);
     sweep.push_back(row_json(design, run));
   }
-  for (std::size_t i = 0; i < design.planned.rivalries.size(); ++i) {
-    const Rivalry &r = design.planned.rivalries[i], &swept = design.swept.rivalries[i];
+  for (std::size_t i = 0; i < design.planned.candidate_pairs.size(); ++i) {
+    const CandidatePair &r = design.planned.candidate_pairs[i], &swept = design.swept.candidate_pairs[i];
     pairs.push_back({{"effect", design.effects[r.truth]},
-                     {"taken_for", r.rival ? Json(design.effects[*r.rival]) : Json(nullptr)},
+                     {"taken_for", r.other ? Json(design.effects[*r.other]) : Json(nullptr)},
                      {"separation_sd", finite(r.separation)},
                      {"right", finite(r.right)},
                      {"sweep_separation_sd", finite(swept.separation)},

@@ -152,7 +152,7 @@ CrossValidation cross_validate(const Dataset& whole, const NoiseFloor& noise, co
   return cv;
 }
 
-CrossValidation with_named_alone(CrossValidation validation, const Observations& whole) {
+CrossValidation without_learned_effects(CrossValidation validation, const Observations& whole) {
   for (HeldOut& held : validation.cells) held.after = held.named;
   sum_up(whole, validation);
   return validation;

@@ -53,6 +53,6 @@ struct ValidationOptions {
 CrossValidation cross_validate(const Dataset& whole, const NoiseFloor& noise, const ValidationOptions& options);
 
 /// What it would be without learned effects. whole: the observations that it is of.
-CrossValidation with_named_alone(CrossValidation validation, const Observations& whole);
+CrossValidation without_learned_effects(CrossValidation validation, const Observations& whole);
 
 }  // namespace soilbin::compare

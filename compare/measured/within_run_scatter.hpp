@@ -22,10 +22,10 @@ inline double upper_median(std::vector<double> values) {
 
 /// Median of what the runs tell of a channel's standard deviation in time [SI]; nothing where none does.
 inline std::optional<double> usual_scatter(const std::vector<Run>& runs, std::size_t channel) {
-  std::vector<double> told;
+  std::vector<double> scatters;
   for (const Run& run : runs)
-    if (run.within_run_sd[channel]) told.push_back(*run.within_run_sd[channel]);
-  return told.empty() ? std::nullopt : std::optional(upper_median(std::move(told)));
+    if (run.within_run_sd[channel]) scatters.push_back(*run.within_run_sd[channel]);
+  return scatters.empty() ? std::nullopt : std::optional(upper_median(std::move(scatters)));
 }
 
 }  // namespace soilbin::compare

@@ -44,15 +44,15 @@ void check_words(const std::set<std::string>& hide) {
                                    did_you_mean(word, right), listed(right)));
 }
 
-Campaign empty_campaign(const Scenario& scenario, const Telling& telling, const OperatingCondition& first) {
+Campaign empty_campaign(const Scenario& scenario, const Disclosure& disclosed, const OperatingCondition& first) {
   Campaign campaign;
-  campaign.name = telling.name;
+  campaign.name = disclosed.name;
   campaign.wheel = scenario.tire;
   campaign.wheel.name.clear();
-  if (telling.hide.contains("lugs")) campaign.wheel.lugs = {};
+  if (disclosed.hide.contains("lugs")) campaign.wheel.lugs = {};
   campaign.soil = *scenario.soil.semi_empirical;
-  if (!telling.hide.contains("bin")) campaign.bin = scenario.bin;
-  campaign.effects = telling.effects;
+  if (!disclosed.hide.contains("bin")) campaign.bin = scenario.bin;
+  campaign.effects = disclosed.effects;
   campaign.force_frame = first.force_frame;
   campaign.slip_by = first.slip_by;
   return campaign;
@@ -69,40 +69,40 @@ std::vector<std::string> things_to_hide() {
 }
 
 CampaignOfRecords tell_campaign(const Scenario& scenario, const std::vector<RecordedRun>& runs,
-                                const Telling& telling) {
-  check_words(telling.hide);
+                                const Disclosure& disclosed) {
+  check_words(disclosed.hide);
   if (!scenario.soil.semi_empirical)
     throw InputError(
         fmt::format("soil '{}' has no semi-empirical values, which a campaign declares\n  hint: soilbin "
                     "bevameter gives them from the grains; --soil takes the file",
                     scenario.soil.name));
-  CampaignOfRecords told;
-  if (!runs.empty()) told.campaign = empty_campaign(scenario, telling, runs.front().answer.at);
+  CampaignOfRecords made;
+  if (!runs.empty()) made.campaign = empty_campaign(scenario, disclosed, runs.front().answer.at);
   const bool sideways = std::any_of(runs.begin(), runs.end(), has_side);
   std::vector<OperatingCondition> setpoints;
-  for (const std::size_t index : drawn_order(runs.size(), telling.seed)) {
+  for (const std::size_t index : drawn_order(runs.size(), disclosed.seed)) {
     const RecordedRun& run = runs[index];
     if (!run.answer.result) {
-      ++told.without_result;
+      ++made.without_result;
       continue;
     }
-    if (telling.only_steady && !run.steady) {
-      ++told.not_steady;
+    if (disclosed.only_steady && !run.steady) {
+      ++made.not_steady;
       continue;
     }
     Run row;
     row.at = run.answer.at;
-    hide_conditions(telling.hide, row);
+    hide_conditions(disclosed.hide, row);
     row.setpoint = fmt::format("S{:02}", setpoint_of(row.at, setpoints));
-    row.at.run = static_cast<int>(told.runs.size()) + 1;
+    row.at.run = static_cast<int>(made.runs.size()) + 1;
     for (const ChannelView& channel : channel_views)
       if (sideways || channel.name != "lateral_force")
         row.*channel.measured = ((*run.answer.result).*channel.predicted).value;
-    told.campaign.runs.push_back(row);
-    told.runs.push_back(run);
+    made.campaign.runs.push_back(row);
+    made.runs.push_back(run);
   }
-  if (told.runs.empty()) throw InputError("no run is left to tell of");
-  return told;
+  if (made.runs.empty()) throw InputError("no run is left to tell of");
+  return made;
 }
 
 }  // namespace soilbin::compare

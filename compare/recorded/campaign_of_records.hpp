@@ -12,7 +12,7 @@
 namespace soilbin::compare {
 
 /// What the analyst is told.
-struct Telling {
+struct Disclosure {
   std::string name{};                   ///< of the campaign
   std::set<std::string> hide{};         ///< of things_to_hide(): left out of the campaign, as if it weren't there
   std::vector<EffectChoice> effects{};  ///< that his model already has
@@ -35,6 +35,7 @@ struct CampaignOfRecords {
 /// lateral force is told where any run was asked for at yaw or on a cross slope: elsewhere it is zero by symmetry. The
 /// soil is the scenario's, which needs semi-empirical values. Throws InputError without them, for a word in `hide` that
 /// isn't one of things_to_hide(), and where no run is left.
-CampaignOfRecords tell_campaign(const Scenario& scenario, const std::vector<RecordedRun>& runs, const Telling& telling);
+CampaignOfRecords tell_campaign(const Scenario& scenario, const std::vector<RecordedRun>& runs,
+                                const Disclosure& disclosed);
 
 }  // namespace soilbin::compare

@@ -18,9 +18,9 @@ namespace {
 using Runs = std::vector<const RecordedRun*>;
 
 Estimate mean_channel(const Runs& runs, Estimate TractionResult::*channel) {
-  std::vector<Estimate> told;
-  for (const RecordedRun* run : runs) told.push_back((*run->answer.result).*channel);
-  return mean_over_packings(told);
+  std::vector<Estimate> values;
+  for (const RecordedRun* run : runs) values.push_back((*run->answer.result).*channel);
+  return mean_over_packings(values);
 }
 
 double mean_angle(const Runs& runs, double TractionResult::*angle) {
@@ -102,11 +102,11 @@ std::string in_a_line(const RecordedRun& run) {
 
 }  // namespace
 
-Estimate mean_over_packings(const std::vector<Estimate>& told) {
-  const double n = static_cast<double>(told.size());
+Estimate mean_over_packings(const std::vector<Estimate>& packings) {
+  const double n = static_cast<double>(packings.size());
   double sum = 0, own = 0;
   std::vector<double> values;
-  for (const Estimate& one : told) {
+  for (const Estimate& one : packings) {
     sum += one.value, own += one.std_error * one.std_error;
     values.push_back(one.value);
   }

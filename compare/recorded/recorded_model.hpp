@@ -21,9 +21,10 @@ using RunListener = std::function<void(const RecordedRun&)>;
 RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run, RunList list = &Record::runs,
                 Writers writers = Writers::several);
 
-/// Mean of what packings told, at least one. The standard error is the scatter between packings over the root of their
-/// number or, where that is larger, what their own errors give: with two or three packings the scatter is poorly known.
-Estimate mean_over_packings(const std::vector<Estimate>& told);
+/// Mean of the estimates of packings, at least one. The standard error is the scatter between packings over the root of
+/// their number or, where that is larger, what their own errors give: with two or three packings the scatter is poorly
+/// known.
+Estimate mean_over_packings(const std::vector<Estimate>& packings);
 
 /// Several packings' answers to one condition as one: mean_over_packings of the four results; mean_efficiency; means
 /// of stresses and budget.

@@ -46,8 +46,8 @@ Libraries find_libraries() {
   const char* own_folder = std::getenv("SOILBIN_JAVASCRIPT");
   for (const Place& place : places) {
     libraries.*place.text = text_of(fs::path(own_folder != nullptr ? own_folder : place.folder) / place.file);
-    const bool told = !libraries.missing.empty() && libraries.missing.back() == place.package;
-    if (!(libraries.*place.text) && !told) libraries.missing.emplace_back(place.package);
+    const bool listed = !libraries.missing.empty() && libraries.missing.back() == place.package;
+    if (!(libraries.*place.text) && !listed) libraries.missing.emplace_back(place.package);
   }
   return libraries;
 }

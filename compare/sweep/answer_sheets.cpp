@@ -31,7 +31,7 @@ std::vector<Shown> shown_of(const std::vector<ModelAnswers>& study, Panels panel
       all.push_back({std::string(channel.title), std::string(channel.unit), channel.per_si,
                      [member = channel.predicted](const TractionResult& r) { return r.*member; }});
   all.push_back({"tractive efficiency", "%", 100.0, [](const TractionResult& r) {
-                   return Estimate{told_efficiency(r), 0.0};
+                   return Estimate{reported_efficiency(r), 0.0};
                  }});
   return all;
 }

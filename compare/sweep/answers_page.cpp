@@ -211,10 +211,10 @@ void add_campaign(Page& page, const CampaignPart& part) {
 
 void add_provenance(Page& page, const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns) {
   page.section("Where the numbers come from");
-  std::vector<std::string> told;
+  std::vector<std::string> written;
   const auto once = [&](const std::string& what) {
-    const bool fresh = std::find(told.begin(), told.end(), what) == told.end();
-    if (fresh) told.push_back(what);
+    const bool fresh = std::find(written.begin(), written.end(), what) == written.end();
+    if (fresh) written.push_back(what);
     return fresh;
   };
   for (const StudyPart& part : studies) {

@@ -141,7 +141,7 @@ std::string csv_row(const std::string& model, const Answer& answer, const std::s
   const TractionResult& r = *answer.result;
   for (const ChannelView& channel : channel_views)
     row += fmt::format(",{},{}", (r.*channel.predicted).value, (r.*channel.predicted).std_error);
-  row += has_efficiency(r) ? fmt::format(",{}", told_efficiency(r)) : std::string(",");
+  row += has_efficiency(r) ? fmt::format(",{}", reported_efficiency(r)) : std::string(",");
   return row + fmt::format(",{},{},{},,{}\n", r.entry_angle / degree, r.max_stress_angle / degree,
                            r.exit_angle / degree, csv_cell(remark));
 }
@@ -168,7 +168,7 @@ Json to_json(const Answer& answer) {
   if (answer.result) {
     WriteJson visitor(row);
     result_fields(visitor, *answer.result);
-    row["tractive_efficiency"] = finite(told_efficiency(*answer.result));
+    row["tractive_efficiency"] = finite(reported_efficiency(*answer.result));
     if (!answer.result->without_error_of.empty()) row["std_error_without"] = answer.result->without_error_of;
   } else {
     row["error"] = answer.error;

@@ -239,7 +239,7 @@ void bind_calibration_answer(py::module_& module) {
           "parameters", [](const C& c) { return by_name(c.test.factors, c.found.parameters); },
           "of the factors, given the targets and a flat prior between the bounds")
       .def_property_readonly(
-          "told", [](const C& c) { return by_name(c.test.factors, c.found.told); },
+          "told", [](const C& c) { return by_name(c.test.factors, c.found.learned); },
           "1 - sd of parameters over that of the flat prior; 0: the test says nothing of it [-]")
       .def_property_readonly(
           "sentences", [](const C& c) { return compare::calibration_sentences(c.test, c.options, c.found); },

@@ -44,6 +44,7 @@ void bind_recorded(py::module_& module) {
                                    "Answers from a record alone: means over packings. The scenario isn't looked at.")
       .def(py::init<Record>(), py::arg("record"))
       .def_property_readonly("record", &RecordedModel::record);
+  // Seven parameters, since each is a keyword of Python's tell_campaign(...).
   module.def(
       "tell_campaign",
       [](const std::vector<Record>& records, const std::vector<std::string>& hide,
@@ -57,8 +58,8 @@ void bind_recorded(py::module_& module) {
         }
         Scenario scenario = case_of(records.front()).scenario;
         if (soil) scenario.soil = *soil;
-        compare::Telling telling{name, {hide.begin(), hide.end()}, effects_of(effects), only_steady, seed};
-        return compare::tell_campaign(scenario, runs, telling).campaign;
+        compare::Disclosure disclosed{name, {hide.begin(), hide.end()}, effects_of(effects), only_steady, seed};
+        return compare::tell_campaign(scenario, runs, disclosed).campaign;
       },
       py::arg("records"), py::arg("hide") = std::vector<std::string>{}, py::arg("effects") = std::vector<EffectName>{},
       py::arg("soil") = py::none(), py::arg("name") = "told", py::arg("only_steady") = false, py::arg("seed") = 1,

@@ -38,7 +38,7 @@ void bind_result(py::module_& module) {
     result.def_readonly(channel.name.data(), channel.predicted, channel.meaning);
   result
       .def_property_readonly(
-          "tractive_efficiency", &told_efficiency,
+          "tractive_efficiency", &reported_efficiency,
           "power at the drawbar over power put in [-]; NaN unless the wheel is driven and pulls along its travel")
       .def_readonly("entry_angle", &R::entry_angle, "theta_1 [rad]")
       .def_readonly("max_stress_angle", &R::max_stress_angle, "theta_m [rad]")

@@ -71,8 +71,8 @@ TEST(Calibration, RangeAnalysisSeesWhichFactorDoesNothing) {
   EXPECT_EQ(variance.error_from, ErrorFrom::free_columns);
   EXPECT_GT(variance.factors[0].p_value, 0.05);
   EXPECT_GT(variance.factors[1].f, 5 * variance.factors[0].f);
-  EXPECT_LT(found.told[0], 0.15);  // one angle can't tell three numbers
-  EXPECT_GT(found.told[1], found.told[0]);
+  EXPECT_LT(found.learned[0], 0.15);  // one angle can't tell three numbers
+  EXPECT_GT(found.learned[1], found.learned[0]);
 }
 
 TEST(Calibration, CandidatesAreRunNearAndDifferent) {
@@ -95,7 +95,7 @@ TEST(SlowCalibration, MeetsTwoTargetsAtOnce) {
   EXPECT_NEAR(truth[1].value, 3630, 0.03 * 3630);
   // Cohesion is what 3.63 kPa need at tan phi = 0.594: 3630/(0.02 * 0.594) = 305 kJ/m^3.
   EXPECT_NEAR(found.parameters[2].value, 3630 / (0.02 * std::tan(30.72 * degree)), 3 * found.parameters[2].std_error);
-  EXPECT_GT(found.told[2], 0.7);
+  EXPECT_GT(found.learned[2], 0.7);
 }
 
 TEST(SlowCalibration, ChancesAreWhatTheySay) {

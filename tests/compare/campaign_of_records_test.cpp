@@ -108,9 +108,9 @@ TEST(CampaignOfRecords, CountsWhatItLeavesOut) {
 }
 
 TEST(CampaignOfRecords, RefusesWhatItCannotTell) {
-  const auto refusal = [](const Scenario& scenario, const Telling& telling) -> std::string {
+  const auto refusal = [](const Scenario& scenario, const Disclosure& disclosed) -> std::string {
     try {
-      tell_campaign(scenario, on_a_slope(), telling);
+      tell_campaign(scenario, on_a_slope(), disclosed);
     } catch (const InputError& error) {
       return error.what();
     }

@@ -39,14 +39,16 @@ MatrixXd information(const EffectShapes& shapes) {
   return sum;
 }
 
-const Rivalry& between(const std::vector<Rivalry>& all, std::size_t truth, std::optional<std::size_t> rival) {
-  return *std::find_if(all.begin(), all.end(), [&](const Rivalry& r) { return r.truth == truth && r.rival == rival; });
+const CandidatePair& between(const std::vector<CandidatePair>& all, std::size_t truth,
+                             std::optional<std::size_t> other) {
+  return *std::find_if(all.begin(), all.end(),
+                       [&](const CandidatePair& r) { return r.truth == truth && r.other == other; });
 }
 
 // d_1 = (3, 0), d_2 = (4, 4): S_11 = 9, S_12 = 12, S_22 = 32, so D = 9 - 144/32 = 4.5 and 32 - 144/9 = 16.
-TEST(EffectShapes, DistanceIsWhatTheNearestRivalLeaves) {
+TEST(EffectShapes, DistanceIsWhatTheNearestCandidateLeaves) {
   const EffectShapes shapes = by_hand({{3, 4, 0}, {0, 4, 0}});
-  const auto all = rivalries(shapes, information(shapes));
+  const auto all = candidate_pairs(shapes, information(shapes));
   ASSERT_THAT(all, SizeIs(4));
   EXPECT_NEAR(between(all, 0, 1).separation, std::sqrt(4.5), 1e-12);
   EXPECT_NEAR(between(all, 1, 0).separation, 4.0, 1e-12);
@@ -56,12 +58,12 @@ TEST(EffectShapes, DistanceIsWhatTheNearestRivalLeaves) {
               0.5 * (phi(std::sqrt(4.5) / 2) * phi(1.5) + phi(2.0) * phi(std::sqrt(32.0) / 2)), 1e-12);
 }
 
-// A shape against its own sign is no rival where physics fixes both signs: d_2 = -d_1 leaves all of it.
+// A shape against its own sign is not taken for it where physics fixes both signs: d_2 = -d_1 leaves all of it.
 TEST(EffectShapes, AnOppositeShapeOfFixedSignExplainsNothing) {
   EffectShapes shapes = by_hand({{2, -2, 0}});
-  EXPECT_NEAR(between(rivalries(shapes, information(shapes)), 0, 1).separation, 2.0, 1e-12);
+  EXPECT_NEAR(between(candidate_pairs(shapes, information(shapes)), 0, 1).separation, 2.0, 1e-12);
   shapes.shapes[1].one_sided = false;
-  EXPECT_NEAR(between(rivalries(shapes, information(shapes)), 0, 1).separation, 0.0, 1e-12);
+  EXPECT_NEAR(between(candidate_pairs(shapes, information(shapes)), 0, 1).separation, 0.0, 1e-12);
 }
 
 // A soil value whose column is j times the shape's, prior sd 1: S = d^2 (1 - j^2/(1 + j^2)).
@@ -129,7 +131,7 @@ TEST(TestDesign, VariesWhatAloneSetsAnEffectOffFromTheSoil) {
     std::set<double> places;
     for (const compare::Run& run : design.runs) places.insert(*run.at.position);
     EXPECT_GE(places.size(), 2U);
-    EXPECT_GT(design.planned.rivalries.front().separation, 2.0);
+    EXPECT_GT(design.planned.candidate_pairs.front().separation, 2.0);
     asked.limits["position"] = {0.5, 0.5};
     EXPECT_THROW(design_test(campaign, asked), InputError);
   }

@@ -71,11 +71,11 @@ TEST(TractiveEfficiency, IsToldOnlyWhereItIsAShareOfThePowerPutIn) {
   r.drawbar_pull.value = -300;
   r.tractive_efficiency = tractive_efficiency(r, 0.625);
   EXPECT_NEAR(r.tractive_efficiency, -0.25, 1e-15) << "the bare ratio of a wheel that is pushed";
-  EXPECT_TRUE(std::isnan(told_efficiency(r)));
+  EXPECT_TRUE(std::isnan(reported_efficiency(r)));
   r = pulling_wheel();
   r.drawbar_pull.value = 1500;
   r.tractive_efficiency = tractive_efficiency(r, 0.625);
-  EXPECT_TRUE(std::isnan(told_efficiency(r))) << "1.25 of what is put in";
+  EXPECT_TRUE(std::isnan(reported_efficiency(r))) << "1.25 of what is put in";
   EXPECT_EQ(why_no_efficiency(r), "more power would come out than is put in");
   r.torque.value = -600;
   EXPECT_TRUE(std::isnan(tractive_efficiency(r, 0.625))) << "braked: nothing is put in";
