@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "scenario/errors.hpp"
+#include "scenario/traction_channels.hpp"
 
 namespace soilbin::compare {
 
