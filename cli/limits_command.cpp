@@ -36,11 +36,8 @@ int limits(const Question& inputs, const LimitsOptions& options, const Session& 
   const std::vector<std::string> doubts = compare::doubts(question, at_limits);
   print_warnings(doubts);
   Outputs outputs;
-  outputs.file(options.csv, [&] {
-    return compare::limits_csv(answers, at_limits, [&](const ModelChoice& model, const compare::Answer& answer) {
-      return compare::remark_on(question.scenario, model, answer);
-    });
-  });
+  outputs.file(options.csv,
+               [&] { return compare::limits_csv(answers, at_limits, compare::remarks_about(question.scenario)); });
   outputs.drawing(options.plot, [&] { return compare::limits_sheet(question, answers); });
   if (options.json) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();

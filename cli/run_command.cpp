@@ -52,11 +52,7 @@ void name_engine(Case& question, const std::string& engine) {
 void save(Outputs& outputs, const RunOptions& options, const Case& question, const compare::StudyResults& answered,
           const Workplace& place) {
   const std::vector<compare::ModelAnswers>& study = answered.study;
-  const auto csv = [&] {
-    return compare::study_csv(study, [&](const ModelChoice& model, const compare::Answer& answer) {
-      return compare::remark_on(question.scenario, model, answer);
-    });
-  };
+  const auto csv = [&] { return compare::study_csv(study, compare::remarks_about(question.scenario)); };
   outputs.file(options.csv, csv);
   outputs.drawing(options.plot, [&] { return compare::study_sheet(question, study); });
   outputs.write(options.output, [&] {

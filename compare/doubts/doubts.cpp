@@ -292,6 +292,10 @@ std::string remark_on(const Scenario& scenario, const ModelChoice& model, const 
   return remark;
 }
 
+Remark remarks_about(const Scenario& scenario) {
+  return [&scenario](const ModelChoice& model, const Answer& answer) { return remark_on(scenario, model, answer); };
+}
+
 std::vector<std::string> remarks_on(const Campaign& campaign, const Scenario& asked, const Prediction& prediction) {
   std::vector<std::string> remarks;
   std::vector<Answer> answers;

@@ -20,6 +20,7 @@
 #include "compare/measured/campaign.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/prediction.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "scenario/case.hpp"
 
 namespace soilbin::compare {
@@ -47,6 +48,9 @@ std::vector<std::string> doubts_before_fit(const Campaign& campaign);
 /// What is doubtful in one answer, for its row of a table: without the condition, which stands there. "" where nothing
 /// is. An answer that is none says why by itself.
 std::string remark_on(const Scenario& scenario, const ModelChoice& model, const Answer& answer);
+
+/// The same for a table of answers about one scenario, which must outlive it.
+Remark remarks_about(const Scenario& scenario);
 
 /// A remark for each run of a prediction, on the answer and on the measured row.
 std::vector<std::string> remarks_on(const Campaign& campaign, const Scenario& asked, const Prediction& prediction);
