@@ -42,7 +42,8 @@ std::vector<EffectChoice> effects_together(const std::string& text, const Sessio
   std::vector<EffectChoice> effects;
   for (std::size_t begin = 0; begin <= text.size();) {
     std::size_t end = text.find('+', begin);
-    while (end + 1 < text.size() && !std::isalpha(static_cast<unsigned char>(text[end + 1])))
+    while (end != std::string::npos && end + 1 < text.size() &&
+           !std::isalpha(static_cast<unsigned char>(text[end + 1])))
       end = text.find('+', end + 1);
     effects.push_back(
         parse_effect(text.substr(begin, std::min(end, text.size()) - begin), session.place.effects, soil));
