@@ -86,8 +86,7 @@ compare::Disclosure disclosure_of(const CampaignOptions& asked, const Runs& runs
   if (disclosed.name.empty()) disclosed.name = fs::path(asked.output).parent_path().filename().string();
   disclosed.hide = {asked.hide.begin(), asked.hide.end()};
   disclosed.only_steady = asked.only_steady, disclosed.seed = asked.seed;
-  for (const std::string& text : asked.effects)
-    disclosed.effects.push_back(parse_effect(text, place.effects, runs.scenario.soil));
+  for (const std::string& text : asked.effects) add_effect(disclosed.effects, text, place.effects, runs.scenario.soil);
   return disclosed;
 }
 

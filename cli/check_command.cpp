@@ -55,7 +55,7 @@ Verdict judge(const fs::path& file, const Workplace& place) {
     return {"record: " + compare::counted(record.runs.size(), "run") + " of the model " + record.model,
             compare::step_doubts(record)};
   }
-  const bool rows = file.extension() == ".csv";  // refused with a hint at the campaign
+  const bool rows = (file.extension() == ".csv" || file.extension() == ".CSV");  // refused with a hint at the campaign
   const std::string format = rows ? compare::campaign_format : format_of(file);
   if (format == compare::campaign_format) {
     const compare::Campaign campaign = compare::read_campaign(file, place.library, place.effects);

@@ -45,8 +45,7 @@ std::vector<EffectChoice> effects_together(const std::string& text, const Sessio
     while (end != std::string::npos && end + 1 < text.size() &&
            !std::isalpha(static_cast<unsigned char>(text[end + 1])))
       end = text.find('+', end + 1);
-    effects.push_back(
-        parse_effect(text.substr(begin, std::min(end, text.size()) - begin), session.place.effects, soil));
+    add_effect(effects, text.substr(begin, std::min(end, text.size()) - begin), session.place.effects, soil);
     begin = std::min(end, text.size()) + 1;
   }
   return effects;
@@ -63,10 +62,10 @@ std::vector<ModelChoice> analytic_choices(const Case& question, const CompareOpt
       return std::tie(a.id, a.form, a.parameters) == std::tie(b.id, b.form, b.parameters);
     };
     const auto same = [&](const ModelChoice& other) {
-      return std::ranges::equal(other.effects, choice.effects, same_effect);
+      return std::ranges::is_permutation(other.effects, choice.effects, same_effect);
     };
     if (std::any_of(choices.begin(), choices.end(), same))
-      fmt::print(stderr, "soilbin: --effect {}: a side already\n", clipped(text));
+      fmt::print(stderr, "soilbin: --effect {}: is compared already\n", clipped(text));
     else
       choices.push_back(std::move(choice));
   }
@@ -152,6 +151,9 @@ Outputs save(const compare::Comparison& comparison, const compare::ComparisonAbo
 
 int compare_models(CompareOptions asked, const Session& session) {
   if (!asked.model.empty()) check_model(asked.model, all_words<ModelKind>());
+  if (asked.model == "bekker_wong" && !asked.soil_bin.recorded.empty())
+    throw InputError(
+        "--model bekker_wong leaves the grains out, and --recorded asks for them\n  hint: give one of the two");
   if (!asked.soil_bin.recorded.empty())
     asked.soil_bin.recorded = find_record(session.place, asked.study, asked.soil_bin.recorded);
   Case question = find_case(session.place, asked.study);

@@ -58,7 +58,7 @@ compare::InclineMap map_of(const FailureMapOptions& asked, const Case& question,
                  range_of("--slip", asked.slip, "slip", {"%", {.lower = -1.0, .upper = 0.99}})};
   if (map.factors[compare::map_load].upper >= 1000) map.factors[compare::map_load].unit = "kN";
   for (const std::string& text : asked.effects)
-    map.scenario.effects.push_back(parse_effect(text, place.effects, question.scenario.soil));
+    add_effect(map.scenario.effects, text, place.effects, question.scenario.soil);
   return map;
 }
 

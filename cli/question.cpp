@@ -109,8 +109,6 @@ void set_value(const SoilParameter& p, const std::string& text, SemiEmpiricalSoi
   }
 }
 
-}  // namespace
-
 EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocabulary, const Soil& soil) {
   if (text.empty()) throw InputError("--effect: expected id[:form][,parameter=value...]");
   const std::vector<std::string> parts = split(text, ",");
@@ -127,6 +125,21 @@ EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocab
   for (const EffectParameterWords& parameter : form.parameters) choice.parameters[parameter.name] = parameter.fallback;
   for (std::size_t i = 1; i < parts.size(); ++i) set_parameter(parts[i], form, exponent_of(soil), choice);
   return choice;
+}
+
+}  // namespace
+
+void add_effect(std::vector<EffectChoice>& effects, const std::string& text, const EffectVocabulary& vocabulary,
+                const Soil& soil) {
+  EffectChoice effect = parse_effect(text, vocabulary, soil);
+  for (const EffectChoice& known : effects)
+    if (known.id == effect.id)
+      throw InputError(
+          fmt::format("--effect: '{}' is given twice ({} and {}): its forms tell the same physics\n"
+                      "  hint: give one form; a case file can set models with different forms side by "
+                      "side",
+                      effect.id, known.form, effect.form));
+  effects.push_back(std::move(effect));
 }
 
 void ConditionFlags::pick(Study& study, const Tire& tire) const {
@@ -255,17 +268,8 @@ Case Question::ask(const Workplace& place) const {
   ModelChoice choice;
   const bool none = std::find(effects_.begin(), effects_.end(), "none") != effects_.end();
   if (none && effects_.size() > 1) throw InputError("--effect none stands alone: it switches every effect off");
-  for (const std::string& text : none ? std::vector<std::string>{} : effects_) {
-    EffectChoice effect = parse_effect(text, place.effects, question.scenario.soil);
-    for (const EffectChoice& known : choice.effects)
-      if (known.id == effect.id)
-        throw InputError(
-            fmt::format("--effect: '{}' is given twice ({} and {}): its forms tell the same physics\n"
-                        "  hint: give one form; a case file can set models with different forms side by "
-                        "side",
-                        effect.id, known.form, effect.form));
-    choice.effects.push_back(std::move(effect));
-  }
+  for (const std::string& text : none ? std::vector<std::string>{} : effects_)
+    add_effect(choice.effects, text, place.effects, question.scenario.soil);
   question.study.models = {choice};
   label_models(question.study.models);
   return question;
@@ -286,7 +290,7 @@ void require_semi_empirical(const Case& question, const Library& library) {
 
 void require_grains(const Case& question, const Library& library) {
   if (question.scenario.soil.granular || !asks(question.study, ModelKind::dem)) return;
-  refuse_soil(question.scenario.soil, "granular values, which dem needs", library,
+  refuse_soil(question.scenario.soil, "values of grains (granular:), which the model dem needs", library,
               [](const Soil& soil) { return soil.granular.has_value(); });
 }
 

@@ -13,9 +13,11 @@
 
 namespace soilbin::cli {
 
-/// An effect as a flag spells it: 'id[:form][,parameter=value...]', values with units. Form and parameters left out
-/// are filled in. Throws InputError with the nearest right word. The soil's exponent is in some units.
-EffectChoice parse_effect(const std::string& text, const EffectVocabulary& vocabulary, const Soil& soil);
+/// Adds an effect as a flag spells it: 'id[:form][,parameter=value...]', values with units. Form and parameters left
+/// out are filled in. Throws InputError with the nearest right word, and for an effect that is among them already. The
+/// soil's exponent is in some units.
+void add_effect(std::vector<EffectChoice>& effects, const std::string& text, const EffectVocabulary& vocabulary,
+                const Soil& soil);
 
 /// Flags that pick or override a study's conditions.
 class ConditionFlags {

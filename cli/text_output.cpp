@@ -88,10 +88,12 @@ std::vector<Reading> readings(const TractionResult& r) {
   return all;
 }
 
-/// Why a pull at 0 % slip is not 0, which readers expect; "" where no answer is at that slip.
-std::string pull_without_slip(const std::vector<Answer>& answers) {
-  const bool there = std::any_of(answers.begin(), answers.end(),
-                                 [](const Answer& answer) { return std::abs(answer.at.slip) < 1e-9 && answer.result; });
+/// Why a pull of the analytic model at 0 % slip on the level is not 0, which readers expect; "" where there is none.
+std::string pull_without_slip(const ModelAnswers& model) {
+  const bool there = model.choice.model == ModelKind::bekker_wong &&
+                     std::ranges::any_of(model.answers, [](const Answer& answer) {
+                       return answer.result && std::abs(answer.at.slip) < 1e-9 && answer.at.longitudinal_incline == 0.0;
+                     });
   return there ? "At 0 % slip (v = r ω) the soil is still compacted and sheared along the contact, so the pull is not "
                  "0.\n"
                : "";
@@ -103,7 +105,7 @@ std::string answer_text(const ModelAnswers& model, const Answer& answer) {
   text += "\n";
   for (const Reading& reading : readings(*answer.result))
     text += fmt::format("  {:<21}{}{}{}\n", reading.name, reading.value, reading.unit.empty() ? "" : " ", reading.unit);
-  return text + pull_without_slip({answer});
+  return text + pull_without_slip({model.choice, {answer}, {}});
 }
 
 std::string study_text(const std::vector<ModelAnswers>& study) {
@@ -134,7 +136,7 @@ std::string study_text(const std::vector<ModelAnswers>& study) {
     }
     text += (text.empty() ? "" : "\n") + model.choice.label + "\n" + table.text() + notes;
   }
-  return study.empty() ? text : text + pull_without_slip(study.front().answers);
+  return study.empty() ? text : text + pull_without_slip(study.front());
 }
 
 std::string errors_text(const Prediction& prediction) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <regex>
 #include <set>
@@ -406,7 +407,11 @@ std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const
     unit = own->second.unit, per_si = per_unit(unit);
   const double value = view.get(answer.next->at);
   if (!std::isfinite(value)) return {"", unit};
-  const double set = rig_setting(view, value, observe(campaign), answer.next->limits.at(condition), per_si);
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  const auto given = answer.next->given.find(condition);
+  const std::pair<double, double> within =
+      given != answer.next->given.end() ? given->second : std::pair(-anywhere, anywhere);
+  const double set = rig_setting(view, value, observe(campaign), within, per_si);
   return {fmt::format("{:.6g}", per_si * set), unit};
 }
 

@@ -214,7 +214,7 @@ std::optional<NextTest> next_test(const Attribution& found, const Limits& given)
   const auto& [at, prospect] = *search.best();
   NextTest next{.at = at,
                 .quantities = {},
-                .limits = limits,
+                .given = given,
                 .beyond = beyond(data.observations, at),
                 .separates = {contest.ids(0), contest.ids(prospect.against)},
                 .runs = static_cast<int>(prospect.runs),

@@ -14,7 +14,7 @@ namespace soilbin::compare {
 struct NextTest {
   OperatingCondition at;
   std::vector<std::string> quantities;  ///< names (ConditionView) of the conditions that matter: those that limits hold
-  Limits limits;                        ///< within which it was sought
+  Limits given;                         ///< what the rig was said to reach; elsewhere the campaign bounds it
   std::vector<std::string> beyond;      ///< those of them that lie outside what the campaign has run
   std::vector<std::set<std::string>> separates;  ///< the best candidate, and the one that these runs bear most upon
   int runs = 0;           ///< until that one is expected to be out of the set, if the best is true

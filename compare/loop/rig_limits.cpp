@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "compare/loop/thresholds.hpp"
 #include "compare/measured/condition_views.hpp"
@@ -29,8 +29,16 @@ double rerun_scatter(const ConditionView& view, const Observations& observations
   return freedom > 0 && std::isfinite(squares) ? std::sqrt(squares / static_cast<double>(freedom)) : 0.0;
 }
 
-/// The number from low to high with the fewest digits in a unit; the one nearest to the middle where there are more.
-double roundest(double low, double high, double per_si) {
+/// To three significant digits.
+double three_digits(double value) {
+  if (value == 0.0) return 0.0;
+  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
+  return step * std::round(value / step);
+}
+
+/// The number from low to high with the fewest digits in a unit; the one nearest to the middle where there are more;
+/// nothing where they are so near that none of a few digits lies between.
+std::optional<double> roundest(double low, double high, double per_si) {
   const double middle = per_si * (low + high) / 2, room = per_si * (high - low) / 2;
   const double slack = 1e-9 * std::max(std::abs(middle), room);
   if (std::abs(middle) <= room + slack) return 0.0;
@@ -41,7 +49,7 @@ double roundest(double low, double high, double per_si) {
       const double step = share * std::pow(10.0, p), number = step * std::round(middle / step);
       if (number != 0.0 && std::abs(number - middle) <= room + slack) return number / per_si;
     }
-  return middle / per_si;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -66,30 +74,36 @@ Limits limits_of(const Observations& observations) {
 
 double rig_setting(const ConditionView& view, double value, const Observations& observations,
                    const std::pair<double, double>& within, double per_si) {
-  constexpr double run_share = 0.01, most_of_one_setting = 8;
+  constexpr double run_share = 0.01, most_of_one_setting = 8, set_exactly = 1e-9;
+  constexpr double value_share = 0.02, most_scatter_share = 0.1;  // of a quantity that is positive in every run
   std::vector<double> made;
   for (const OperatingCondition& at : observations.rows)
     if (const double x = view.get(at); std::isfinite(x)) made.push_back(x);
   if (made.empty() || view.whole) return value;
   std::sort(made.begin(), made.end());
-  const double scatter = rerun_scatter(view, observations);
+  double scatter = rerun_scatter(view, observations), spread = run_share * (made.back() - made.front());
+  if (scatter <= set_exactly * std::max(std::abs(made.front()), std::abs(made.back()))) scatter = 0.0;
+  if (made.front() > 0.0) {
+    scatter = std::min(scatter, most_scatter_share * std::abs(value));
+    spread = std::min(spread, value_share * std::abs(value));
+  }
   std::pair<double, double> near = {value, value};
   const auto nearest = std::min_element(made.begin(), made.end(),
                                         [&](double a, double b) { return std::abs(a - value) < std::abs(b - value); });
-  if (std::abs(*nearest - value) <= 2 * scatter || *nearest == value) {
+  const bool as_made = std::abs(*nearest - value) <= std::max(2 * scatter, set_exactly * std::abs(value));
+  if (as_made) {
     auto low = nearest, high = nearest;
     while (low != made.begin() && *low - *std::prev(low) <= 2 * scatter) --low;
     while (std::next(high) != made.end() && *std::next(high) - *high <= 2 * scatter) ++high;
     near = *high - *low <= most_of_one_setting * scatter ? std::pair(*low, *high) : std::pair(*nearest, *nearest);
   }
-  const bool alone = near.first == near.second, to_the_digit = near.first == *nearest && scatter == 0;
-  const double room = to_the_digit ? 0.0
-                      : alone      ? std::max(scatter, run_share * (made.back() - made.front()))
-                                   : std::min(scatter, (near.second - near.first) / 3);
-  const double anywhere = std::numeric_limits<double>::infinity();  // what was measured bounds no rig
-  const double low = within.first == made.front() ? -anywhere : within.first;
-  const double high = within.second == made.back() ? anywhere : within.second;
-  return roundest(std::clamp(near.first - room, low, high), std::clamp(near.second + room, low, high), per_si);
+  const bool alone = near.first == near.second;
+  const double room = as_made && scatter == 0.0 ? 0.0
+                      : alone                   ? std::max(scatter, spread)
+                                                : std::min(scatter, (near.second - near.first) / 3);
+  const auto reachable = [&](double x) { return std::clamp(x, within.first, within.second); };
+  const auto round = roundest(reachable(near.first - room), reachable(near.second + room), per_si);
+  return round ? *round : reachable(three_digits(per_si * (near.first + near.second) / 2) / per_si);
 }
 
 std::vector<double> evenly(const std::pair<double, double>& range, int levels) {

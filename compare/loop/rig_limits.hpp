@@ -22,11 +22,11 @@ Limits ranges_of(const Observations& observations);
 Limits limits_of(const Observations& observations);
 
 /// What a rig would be set to for a condition's value [SI]: the roundest number in a unit (units per SI unit: per_si),
-/// 1, 2 or 5 with noughts, that differs from it by no more than re-runs of one setpoint scatter or 1 % of what was run.
-/// Where the value lies so near to a run that was made, from what that run and its like were set to. Never beyond
-/// `within`, but by so little where that is the largest or smallest value measured.
+/// 1, 2 or 5 with noughts, that differs from it by no more than re-runs of one setpoint scatter or 1 % of what was run,
+/// and by a tenth and a fiftieth of itself where every run's value is positive. Where the value lies so near to a run
+/// that was made, from what that run and its like were set to. Never beyond `within`, where the rig can go.
 ///
-///     rig_setting(condition_view("speed"), 0.00998, observations, {0.00998, 0.01001}, 1000);   // 0.01: 10 mm/s
+///     rig_setting(condition_view("speed"), 0.00998, observations, {0.001, 0.1}, 1000);   // 0.01: 10 mm/s
 double rig_setting(const ConditionView& view, double value, const Observations& observations,
                    const std::pair<double, double>& within, double per_si);
 

@@ -50,7 +50,7 @@ Renamed read_rename(const YamlNode& node, const Reading& reading) {
                      fmt::format("the unit of '{}' must be that of {}, such as '{}'; '{}' is {}", column.quantity,
                                  dimension_name(expected), expected.text, written.text, dimension_name(written)),
                      expected.text == "N" && same_dimension(written.dimension, parse_unit("kg").dimension)
-                         ? "as a weight: kgf"
+                         ? "if the column holds a weight in kilograms, write unit: kgf"
                          : "");
   } catch (const InputError& error) {
     if (error.position().line > 0) throw;
@@ -69,16 +69,52 @@ Renames read_renames(const YamlNode* columns, const Reading& reading) {
   return renames;
 }
 
-/// "{quantity: load, unit: N}": what an unknown column most likely holds, in the form of `columns:`.
-std::string renaming_for(const std::string& header, const std::vector<std::string>& right) {
+/// The column that a header most likely names: by the quantity that it begins with, else the nearest word.
+const RunColumn* likely_column(const std::string& header, const std::vector<std::string>& right) {
   const std::string nearest = nearest_word(header, right);
+  const RunColumn* likely = nullptr;
   for (const RunColumn& column : run_columns())
-    if (column.canonical == nearest)
-      return column.content != RunColumn::Content::number
-                 ? fmt::format("{{quantity: {}}}", column.quantity)
-                 : fmt::format("{{quantity: {}, unit: {}}}", column.quantity,
-                               column.measure.unit == "-" ? "'%'" : column.measure.unit);
-  return "{quantity: sinkage, unit: mm}";
+    if (header.starts_with(column.quantity) && (!likely || column.quantity.size() > likely->quantity.size()))
+      likely = &column;
+  if (likely) return likely;
+  for (const RunColumn& column : run_columns())
+    if (column.canonical == nearest) return &column;
+  return nullptr;
+}
+
+/// The unit that a header ends in, such as 'km/h' in 'speed_km_h'; "" where it ends in none of the right dimension.
+std::string unit_at_the_end(const std::string& header, const RunColumn& column) {
+  const Unit expected = parse_unit(column.measure.unit);
+  std::string tail = header;
+  std::erase_if(tail, [](char c) { return c == ']' || c == ')'; });
+  for (std::size_t cut = tail.find_first_of("_ [("); cut != std::string::npos; cut = tail.find_first_of("_ [(")) {
+    tail.erase(0, cut + 1);
+    if (column.measure.unit == "-") {
+      if (tail == "%" || tail == "pct" || tail == "percent") return "%";
+      continue;
+    }
+    std::string divided = tail, product = tail;
+    std::replace(divided.begin(), divided.end(), '_', '/');
+    if (product.ends_with("Nm")) product.insert(product.size() - 1, " ");
+    for (const std::string& unit : {tail, divided, product}) try {
+        if (same_dimension(parse_unit(unit).dimension, expected.dimension)) return unit;
+      } catch (const InputError&) {  // the next spelling
+      }
+  }
+  return "";
+}
+
+/// "{quantity: load, unit: kN}": what an unknown column most likely holds, in the form of `columns:`; in capitals what
+/// only its author knows.
+std::string renaming_for(const std::string& header, const std::vector<std::string>& right) {
+  const RunColumn* column = likely_column(header, right);
+  if (!column) return "{quantity: QUANTITY, unit: UNIT}";
+  if (column->content != RunColumn::Content::number) return fmt::format("{{quantity: {}}}", column->quantity);
+  const std::string unit = unit_at_the_end(header, *column);
+  return fmt::format("{{quantity: {}, unit: {}}}", column->quantity,
+                     unit.empty()  ? "UNIT"
+                     : unit == "%" ? "'%'"
+                                   : unit);
 }
 
 ColumnChoice choose_column(const CsvCell& header, Renames& renames, const SourceText& csv) {
@@ -96,7 +132,7 @@ ColumnChoice choose_column(const CsvCell& header, Renames& renames, const Source
              fmt::format("unknown column '{}'{}", clipped(header.text), did_you_mean(header.text, right)),
              fmt::format("say what it holds in campaign.yaml, such as columns: {{{}: {}}}, or take it out of the file; "
                          "known without that: {}",
-                         clipped(header.text), renaming_for(header.text, right), listed(right)));
+                         yaml_scalar(clipped(header.text)), renaming_for(header.text, right), listed(right)));
 }
 
 std::vector<ColumnChoice> choose_columns(const CsvTable& table, Renames& renames, const SourceText& csv) {

@@ -7,6 +7,7 @@
 
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
+#include "scenario/mapping_writer.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -78,7 +79,7 @@ double read_cell(const CsvCell& cell, const std::string& header, const ColumnCho
     refuse(fmt::format("expected a finite number, not '{}'", clipped(cell.text)),
            comma   ? "a decimal point is '.'"
            : digit ? "the unit stands in the column's name, not in the cell"
-                   : "where nothing was measured leave the cell empty; a second line of headings is taken out");
+                   : "where nothing was measured leave the cell empty; take out a second line of headings");
   }
   double value = 0.0;
   try {
@@ -87,10 +88,12 @@ double read_cell(const CsvCell& cell, const std::string& header, const ColumnCho
   } catch (const InputError& error) {
     const bool share = choice.unit == "-" && choice.column->content == Content::number;
     refuse(error.what(),
-           share ? fmt::format(
-                       "a column in per cent is told in campaign.yaml, columns: {{{}: {{quantity: {}, unit: '%'}}}}",
-                       clipped(header), choice.column->quantity)
-                 : "");
+           share ? fmt::format("if the column is in per cent, write in campaign.yaml: columns: {{{}: {{quantity: {}, "
+                               "unit: '%'}}}}",
+                               yaml_scalar(clipped(header)), choice.column->quantity)
+           : read_number(cell.text).value_or(0.0) < 0.0 && choice.column->quantity == "load"
+               ? "a load is never negative: is this the column of the drawbar pull?"
+               : "");
   }
   constexpr double largest_whole = 1e9;
   if (choice.column->content == Content::whole_number && (std::floor(value) != value || value > largest_whole))

@@ -70,6 +70,7 @@ TEST(Predict, SavesEachRunAsATableAndDrawsIt) {
     EXPECT_EQ(std::stod(cells[13]), row["torque"].get<double>());
   }
   EXPECT_FALSE(std::getline(table, line));
+  EXPECT_THAT(text_of(csv), HasSubstr(",,the wheel sinks 68 % of its radius")) << "a remark of its row";
 }
 
 TEST(Predict, TheErrorTableIsThatOfTheRows) {

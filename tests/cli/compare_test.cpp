@@ -65,7 +65,24 @@ TEST(Compare, SetsAnalyticModelsAgainstEachOther) {
                        {"bekker_wong + slip_sinkage", "bekker_wong"},
                        {"bekker_wong + slip_sinkage + bulldozing", "bekker_wong"},
                        {"bekker_wong + slip_sinkage + bulldozing", "bekker_wong + slip_sinkage"}}));
-  EXPECT_THAT(soilbin("compare paper-straight --effect slip_sinkage+").err, HasSubstr("expected id"));
+}
+
+// The same two in the other order are no other side; each of these ends, with a message.
+TEST(Compare, RefusesWhatIsNoEffectAndWhatIsThereAlready) {
+  const std::string ask = "compare paper-straight --load 4kN --slip 20% --model bekker_wong ";
+  const Outcome twice = soilbin(ask + "--effect slip_sinkage+bulldozing --effect bulldozing+slip_sinkage --json");
+  EXPECT_EQ(twice.json()["sides"].size(), 3U) << "base, slip sinkage of the study, both";
+  EXPECT_THAT(twice.err, HasSubstr("--effect bulldozing+slip_sinkage: is compared already"));
+  for (const auto& [effect, why] : {std::pair{"slip_sinkage+", "expected id"},
+                                    {"slip_sinkage+slip_sinkage:linear", "is given twice"},
+                                    {"1", "unknown effect '1'"},
+                                    {"' slip_sinkage'", "unknown effect ' slip_sinkage'"},
+                                    {"2+bulldozing", "unknown effect '2'"}}) {
+    const Outcome r = soilbin(ask + "--effect " + effect);
+    EXPECT_EQ(r.status, 2) << effect;
+    EXPECT_THAT(r.err, HasSubstr(why)) << effect;
+  }
+  EXPECT_THAT(soilbin(ask + "--recorded").err, HasSubstr("--recorded asks for them"));
 }
 
 // The same numbers in the page, in Markdown and as CSV; the page loads nothing and tells how to make it again.
@@ -111,7 +128,7 @@ TEST(Compare, TakesEverySideOnce) {
   const Outcome r = soilbin(command);
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_EQ(r.json()["sides"].size(), 3U);
-  EXPECT_THAT(r.err, HasSubstr("--effect slip_sinkage: a side already"));
+  EXPECT_THAT(r.err, HasSubstr("--effect slip_sinkage: is compared already"));
   EXPECT_THAT(r.err, HasSubstr("the wheel settles to")) << "deeper than the stresses are meant for";
 }
 

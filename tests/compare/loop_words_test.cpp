@@ -52,6 +52,7 @@ TEST(RigSetting, AwayFromRunsIsRoundWithinTheirScatterAndTheLimits) {
   EXPECT_DOUBLE_EQ(rig_setting(load, 36.54, runs, {10, 36.54}, 1), 36);
   EXPECT_DOUBLE_EQ(rig_setting(load, 33.3, runs, {10, 33.3}, 1), 33);
   EXPECT_DOUBLE_EQ(rig_setting(load, 9.6, runs, {9.6, 40}, 1), 10);
+  EXPECT_DOUBLE_EQ(rig_setting(load, 26.414, runs, {25.6, 26.414}, 1), 26);  // a limit that is the largest value measured
 }
 
 TEST(RigSetting, OfWhatWasSetToTheDigitIsThatDigit) {
@@ -60,6 +61,30 @@ TEST(RigSetting, OfWhatWasSetToTheDigitIsThatDigit) {
   const std::pair<double, double> all = {0.0, 20 * degree};
   EXPECT_NEAR(rig_setting(yaw, 7.35 * degree, runs, all, yaw.per_si) / degree, 7.35, 1e-9);
   EXPECT_NEAR(rig_setting(yaw, 3.33 * degree, runs, all, yaw.per_si) / degree, 3.5, 1e-9);  // 1 % of what was run
+}
+
+// Where a quantity spans decades, 1 % of what was run is more than its small values: they stay what they are.
+TEST(RigSetting, OfASmallValueAmongLargeOnesIsNotZero) {
+  const Observations runs = runs_at("speed", {{0.02, 0.02}, {0.2, 0.2}, {3.0, 3.0}});
+  const ConditionView& speed = condition_view("speed");
+  const std::pair<double, double> anywhere = {-1e9, 1e9};
+  EXPECT_DOUBLE_EQ(rig_setting(speed, 0.02, runs, anywhere, 1), 0.02);
+  EXPECT_DOUBLE_EQ(rig_setting(speed, 0.0215, runs, {0.0213, 0.1}, 1), 0.0215);
+  EXPECT_DOUBLE_EQ(rig_setting(speed, 0.207764, runs, anywhere, 1), 0.21);
+}
+
+// The mean of three equal numbers may differ from them in the last digit: they were set exactly all the same.
+TEST(RigSetting, TakesRoundingForNoScatter) {
+  Campaign campaign;
+  for (const double value : {0.02, 0.2, 3.0})
+    for (int again = 0; again < 3; ++again) {
+      compare::Run run;
+      run.at.speed = value;
+      run.setpoint = std::to_string(value);
+      campaign.runs.push_back(run);
+    }
+  const std::pair<double, double> anywhere = {-1e9, 1e9};
+  EXPECT_DOUBLE_EQ(rig_setting(condition_view("speed"), 0.2, observe(campaign), anywhere, 1), 0.2);
 }
 
 TEST(HeldOutWords, SayThatAllInAllTheErrorRises) {
