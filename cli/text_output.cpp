@@ -90,10 +90,10 @@ std::vector<Reading> readings(const TractionResult& r) {
 
 /// Why a pull of the analytic model at 0 % slip on the level is not 0, which readers expect; "" where there is none.
 std::string pull_without_slip(const ModelAnswers& model) {
-  const bool there = model.choice.model == ModelKind::bekker_wong &&
-                     std::ranges::any_of(model.answers, [](const Answer& answer) {
-                       return answer.result && std::abs(answer.at.slip) < 1e-9 && answer.at.longitudinal_incline == 0.0;
-                     });
+  const bool there =
+      model.choice.model == ModelKind::bekker_wong && std::ranges::any_of(model.answers, [](const Answer& answer) {
+        return answer.result && std::abs(answer.at.slip) < 1e-9 && answer.at.longitudinal_incline == 0.0;
+      });
   return there ? "At 0 % slip (v = r ω) the soil is still compacted and sheared along the contact, so the pull is not "
                  "0.\n"
                : "";

@@ -35,7 +35,7 @@ struct RunPlan {
 };
 
 /// The plan of a list of runs (runs_of, shard_of). Reads keeping.known, and keeping.record where it is there. Throws
-/// InputError for a soil without granular values and for a record of other inputs.
+/// InputError for a soil without values of grains and for a record of other inputs.
 RunPlan plan_of(const Case& question, const dem::DemSettings& settings, const std::vector<AskedRun>& list,
                 const RunKeeping& keeping);
 

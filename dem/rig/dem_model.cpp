@@ -14,7 +14,8 @@ namespace fs = std::filesystem;
 BedRecipe DemModel::recipe(const Scenario& scenario) const {
   if (!scenario.soil.granular)
     throw InputError("soil '" + scenario.soil.name +
-                     "' has no granular values, which dem needs\n  hint: soilbin list soils says which have grains");
+                     "' has no values of grains (granular:), which the model dem needs\n  hint: soilbin list soils "
+                     "says which have grains");
   BedRecipe recipe;
   recipe.soil = *scenario.soil.granular;
   static_cast<LawFlags&>(recipe.laws) = laws_of(recipe.soil);

@@ -250,7 +250,7 @@ TEST(Report, IsOnePageThatLoadsNothing) {
 TEST(RunCommand, NamesTheSoilsThatHaveGrains) {
   const Outcome r = soilbin("run rover-slip --model dem --slip 20%");
   EXPECT_EQ(r.status, 2);
-  EXPECT_THAT(r.err, AllOf(HasSubstr("soil 'dry-sand' has no granular values"), HasSubstr("these have: "),
+  EXPECT_THAT(r.err, AllOf(HasSubstr("soil 'dry-sand' has no values of grains"), HasSubstr("these have: "),
                            HasSubstr("paper-sand-fine")));
 }
 
