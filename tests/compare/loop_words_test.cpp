@@ -52,7 +52,7 @@ TEST(RigSetting, AwayFromRunsIsRoundWithinTheirScatterAndTheLimits) {
   EXPECT_DOUBLE_EQ(rig_setting(load, 36.54, runs, {10, 36.54}, 1), 36);
   EXPECT_DOUBLE_EQ(rig_setting(load, 33.3, runs, {10, 33.3}, 1), 33);
   EXPECT_DOUBLE_EQ(rig_setting(load, 9.6, runs, {9.6, 40}, 1), 10);
-  EXPECT_DOUBLE_EQ(rig_setting(load, 26.414, runs, {25.6, 26.414}, 1), 26);  // a limit that is the largest value measured
+  EXPECT_DOUBLE_EQ(rig_setting(load, 26.414, runs, {25.6, 26.414}, 1), 26);  // a limit that is the largest value run
 }
 
 TEST(RigSetting, OfWhatWasSetToTheDigitIsThatDigit) {
