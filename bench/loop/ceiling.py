@@ -62,32 +62,32 @@ class Oracle:
         world.guess = truth["entry"]
         u = np.zeros(8)
         for _ in range(4):
-            predicted, columns = self.linear(u, None)
+            predicted, columns = self.linear(u)
             if columns is None:
                 break
             u = self.step(u, self.read - predicted, columns)[0]
         self.points = []  # the declared soil and the base fit: where first looks start
         for start in (np.zeros(8), u):
-            predicted, columns = self.linear(start, None)
+            predicted, columns = self.linear(start)
             if columns is not None:
                 self.points.append((start, columns))
                 if len(self.points) == 1:
                     self.start, self.predicted = start, predicted
                     self.basis = np.linalg.qr(np.vstack([columns, np.eye(8)]))[0]
 
-    def predict(self, u, form):
-        """Whitened channels at the soil u (sd from the declared one), or None where some run has no balance."""
+    def predict(self, u, *forms):
+        """Whitened channels at the soil u (sd from the declared one) with these forms, or None where some run has no balance."""
         u = np.maximum(u, self.least)
         soil = {**self.world.soil, **{k: self.declared[k] + u[i] * self.sd[k] for i, k in enumerate(base.SOIL_KEYS)}}
-        out = self.world.truth([form] if form else (), soil)
+        out = self.world.truth(forms, soil)
         return sensitivity.whiten(self.world, out) if out["ok"].all() else None
 
-    def linear(self, u, form):
+    def linear(self, u, *forms):
         """Prediction at u and its derivatives by u; (None, None) where some run has no balance."""
-        middle, step = self.predict(u, form), 0.05
+        middle, step = self.predict(u, *forms), 0.05
         if middle is None:
             return None, None
-        ends = [self.predict(u + step * e, form) for e in np.eye(8)]
+        ends = [self.predict(u + step * e, *forms) for e in np.eye(8)]
         if any(end is None for end in ends):
             return None, None
         return middle, np.stack([(end - middle) / step for end in ends], axis=1)
@@ -219,6 +219,20 @@ class Oracle:
         return float(top + np.log(np.mean(w))), float(w.sum() ** 2 / np.sum(w ** 2))
 
 
+def variants(world, rng, shapes):
+    """(id, form's class, its other constants, sign, ln prior) of what these data could show: `shapes` draws of the constants."""
+    for name, kinds in catalogue().items():
+        for kind in kinds:
+            if not campaign.usable(world, kind):
+                continue
+            drawn = shapes if kind.draw.__func__ is not Form.draw.__func__ else 1
+            signs = (1.0, -1.0) if kind.SIGNED else (1.0,)
+            for _ in range(drawn):
+                shape = kind.draw(rng, world.scale)
+                for sign in signs:
+                    yield name, kind, shape, sign, -np.log(len(kinds) * drawn * len(signs))
+
+
 def hint(plan, kind):
     """ln of how much likelier this plan is where it was made for a form of this class: factors, side force, loads."""
     odds = 0.5 if plan["runs"] >= 40 else 0.22
@@ -229,18 +243,10 @@ def posterior(record, sizes=SIZES, seed=1):
     """{id: probability} of one campaign without and with the plan's hint, and the least effective number of samples."""
     oracle, rng = Oracle(record, sizes), np.random.default_rng([seed, len(record["rows"]["load"])])
     looks = []  # (id, ln prior, look)
-    for name, kinds in catalogue().items():
-        for kind in kinds:
-            if not campaign.usable(oracle.world, kind):
-                continue
-            drawn = SHAPES if kind.draw.__func__ is not Form.draw.__func__ else 1
-            signs = (1.0, -1.0) if kind.SIGNED else (1.0,)
-            for _ in range(drawn):
-                shape = kind.draw(rng, oracle.world.scale)
-                for sign in signs:
-                    look = oracle.first_look(kind, shape, sign)
-                    if look:
-                        looks.append((name, -np.log(len(kinds) * drawn * len(signs)), look))
+    for name, kind, shape, sign, prior in variants(oracle.world, rng, SHAPES):
+        look = oracle.first_look(kind, shape, sign)
+        if look:
+            looks.append((name, prior, look))
     if not looks:
         return None
     best = max(prior + look["log"] for _, prior, look in looks)

@@ -22,9 +22,7 @@ from pathlib import Path
 import numpy as np
 
 import ceiling
-from nature import campaign, sensitivity, sets
-from nature import wheel as base
-from nature.families import Form, build, catalogue
+from nature import campaign, sets
 from nature.selftest import Checks
 
 SHAPES = 8  # draws of a form's other constants
@@ -50,20 +48,12 @@ class Variant:
 
 
 def variants_of(oracle, rng):
-    """Every form that these data could show, several draws of its constants each."""
+    """Every form that these data could show, several draws of its constants each, with the scales that nature gives it."""
     found = []
-    for name, kinds in catalogue().items():
-        for kind in kinds:
-            if not campaign.usable(oracle.world, kind):
-                continue
-            drawn = SHAPES if kind.draw.__func__ is not Form.draw.__func__ else 1
-            signs = (1.0, -1.0) if kind.SIGNED else (1.0,)
-            for _ in range(drawn):
-                shape = kind.draw(rng, oracle.world.scale)
-                for sign in signs:
-                    sized = oracle.scales(kind, shape, sign)
-                    if sized is not None:
-                        found.append(Variant(name, kind, shape, sign, -np.log(len(kinds) * drawn * len(signs)), sized[0][0], sized[0][-1]))
+    for name, kind, shape, sign, log_prior in ceiling.variants(oracle.world, rng, SHAPES):
+        sized = oracle.scales(kind, shape, sign)
+        if sized is not None:
+            found.append(Variant(name, kind, shape, sign, log_prior, sized[0][0], sized[0][-1]))
     return found
 
 
@@ -85,11 +75,7 @@ class Pairs:
 
     def predict(self, variants, x):
         """Whitened channels at the soil x[:8] and the ln scales x[8:]; None where some run has no balance."""
-        o = self.oracle
-        u = np.maximum(x[:8], o.least)
-        soil = {**o.world.soil, **{k: o.declared[k] + u[i] * o.sd[k] for i, k in enumerate(base.SOIL_KEYS)}}
-        out = o.world.truth([v.at(s) for v, s in zip(variants, x[8:])], soil)
-        return sensitivity.whiten(o.world, out) if out["ok"].all() else None
+        return self.oracle.predict(x[:8], *(v.at(s) for v, s in zip(variants, x[8:])))
 
     def jacobian(self, variants, x, middle):
         """Forward differences of the prediction; None where some run has no balance."""

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 #include "bekker_wong/closed_forms.hpp"
@@ -244,7 +245,11 @@ Warnings doubts_of(const Campaign& campaign, const Case& question, const std::ve
   if (next == NextIs::nothing)
     for (Unheard& one : unheard(question))
       if (!only_tells_the_row(one)) warnings.push_back(std::move(one.words));
-  append(warnings, once_each(row_doubts(campaign, study.front().answers, asked_again(question))));
+  Warnings of_data;
+  for (const RowDoubt& one : row_doubts(campaign))
+    of_data.push_back(one.line ? fmt::format("line {}: {}", *one.line, one.words) : one.words);
+  append(of_data, column_doubts(campaign, study.front().answers, asked_again(question)));
+  append(warnings, once_each(of_data));
   return warnings;
 }
 
@@ -298,18 +303,17 @@ Remark remarks_about(const Scenario& scenario) {
 
 std::vector<std::string> remarks_on(const Campaign& campaign, const Scenario& asked, const Prediction& prediction) {
   std::vector<std::string> remarks;
-  std::vector<Answer> answers;
+  std::map<int, std::size_t> of_line;
   const ModelChoice model{ModelKind::bekker_wong, asked.effects, ""};
   for (const PredictedRun& run : prediction.runs) {
-    answers.push_back(run.predicted);
+    of_line[campaign.runs[remarks.size()].csv_line] = remarks.size();
     remarks.push_back(remark_on(asked, model, run.predicted));
   }
-  const Warnings of_rows = row_doubts(campaign, answers, asked_again(question_of(campaign, asked)));
-  for (std::size_t i = 0; i < remarks.size(); ++i) {
-    const std::string line = fmt::format("line {}: ", campaign.runs[i].csv_line);
-    for (const std::string& doubt : of_rows)
-      if (doubt.starts_with(line)) remarks[i] += (remarks[i].empty() ? "" : "; ") + doubt.substr(line.size());
-  }
+  for (const RowDoubt& one : row_doubts(campaign))
+    if (one.line) {
+      std::string& remark = remarks[of_line.at(*one.line)];
+      remark += (remark.empty() ? "" : "; ") + one.words;
+    }
   return remarks;
 }
 

@@ -17,48 +17,50 @@ namespace soilbin::compare {
 namespace {
 
 using Warnings = std::vector<std::string>;
+using RowDoubts = std::vector<RowDoubt>;
 
 /// What no wheel does.
-void add_impossible_rows(const Campaign& campaign, Warnings& warnings) {
+void add_impossible_rows(const Campaign& campaign, RowDoubts& found) {
   for (const Run& run : campaign.runs) {
     if (run.sinkage && std::abs(*run.sinkage) > 2 * campaign.wheel.radius)
-      warnings.push_back(
-          fmt::format("line {}: a measured sinkage of {:.4g} mm is more than the wheel's diameter: is the "
-                      "column's unit right?",
-                      run.csv_line, 1000 * *run.sinkage));
+      found.push_back(
+          {run.csv_line, fmt::format("a measured sinkage of {:.4g} mm is more than the wheel's diameter: is "
+                                     "the column's unit right?",
+                                     1000 * *run.sinkage)});
     if (run.drawbar_pull && std::abs(*run.drawbar_pull) > 3 * run.at.load)
-      warnings.push_back(
-          fmt::format("line {}: a drawbar pull of {:.4g} N is more than three times the load: are the units "
-                      "of both right?",
-                      run.csv_line, *run.drawbar_pull));
+      found.push_back(
+          {run.csv_line, fmt::format("a drawbar pull of {:.4g} N is more than three times the load: are the "
+                                     "units of both right?",
+                                     *run.drawbar_pull)});
   }
 }
 
 /// Runs that scattered in time far more than the campaign's usual run: their means may be of no steady state.
-void add_unsteady_runs(const std::vector<Run>& runs, Warnings& warnings) {
+void add_unsteady_runs(const std::vector<Run>& runs, RowDoubts& found) {
   constexpr double usual = 5.0;  // times the median
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const double median = usual_scatter(runs, c).value_or(0.0);
     const ChannelView& view = channel_views[c];
     for (const Run& run : runs)
       if (run.within_run_sd[c] && median > 0.0 && *run.within_run_sd[c] > usual * median)
-        warnings.push_back(fmt::format(
-            "line {}: an unsteady run: the {} scattered by {:.3g} {} in time, the median run "
-            "by {:.3g} {}",
-            run.csv_line, view.title, *run.within_run_sd[c] * view.per_si, view.unit, median * view.per_si, view.unit));
+        found.push_back({run.csv_line, fmt::format("an unsteady run: the {} scattered by {:.3g} {} in time, the median "
+                                                   "run by {:.3g} {}",
+                                                   view.title, *run.within_run_sd[c] * view.per_si, view.unit,
+                                                   median * view.per_si, view.unit)});
   }
 }
 
 /// Wheels stand above the undisturbed surface here and there; not in most runs.
-void add_flipped_sinkage(const std::vector<Run>& runs, Warnings& warnings) {
+void add_flipped_sinkage(const std::vector<Run>& runs, RowDoubts& found) {
   const auto measured = std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.sinkage.has_value(); });
   const auto above =
       std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.sinkage.value_or(0.0) < 0.0; });
   if (2 * above > measured)
-    warnings.push_back(
-        fmt::format("{} of {} measured sinkages are negative: is their sign flipped? Below the undisturbed surface is "
-                    "positive",
-                    above, measured));
+    found.push_back(
+        {std::nullopt,
+         fmt::format("{} of {} measured sinkages are negative: is their sign flipped? Below the undisturbed surface is "
+                     "positive",
+                     above, measured)});
 }
 
 /// All that was set and measured in a run, but for the line it stands in.
@@ -67,7 +69,7 @@ auto values_of(const Run& run) {
 }
 
 /// Rows that were copied: a run's number that was there before, or every value equal to that of an earlier row.
-void add_repeated_rows(const std::vector<Run>& runs, Warnings& warnings) {
+void add_repeated_rows(const std::vector<Run>& runs, RowDoubts& found) {
   std::map<decltype(values_of(runs.front())), int> line_of_values;
   std::map<int, int> line_of_number;
   for (const Run& run : runs) {
@@ -75,10 +77,9 @@ void add_repeated_rows(const std::vector<Run>& runs, Warnings& warnings) {
     const int numbered = run.at.run ? line_of_number.try_emplace(*run.at.run, run.csv_line).first->second : same;
     const int earlier = std::min(same, numbered);
     if (earlier == run.csv_line) continue;
-    warnings.push_back(
-        earlier == same
-            ? fmt::format("line {}: all its values are those of line {}: counted twice", run.csv_line, earlier)
-            : fmt::format("line {}: run {} stands in line {} already", run.csv_line, *run.at.run, earlier));
+    found.push_back({run.csv_line, earlier == same
+                                       ? fmt::format("all its values are those of line {}: counted twice", earlier)
+                                       : fmt::format("run {} stands in line {} already", *run.at.run, earlier)});
   }
 }
 
@@ -218,12 +219,18 @@ void add_swapped_load(const Campaign& campaign, const std::vector<Answer>& answe
 
 }  // namespace
 
-std::vector<std::string> row_doubts(const Campaign& campaign, const std::vector<Answer>& answers, const AskAgain& ask) {
+std::vector<RowDoubt> row_doubts(const Campaign& campaign) {
+  RowDoubts found;
+  add_impossible_rows(campaign, found);
+  add_flipped_sinkage(campaign.runs, found);
+  add_repeated_rows(campaign.runs, found);
+  add_unsteady_runs(campaign.runs, found);
+  return found;
+}
+
+std::vector<std::string> column_doubts(const Campaign& campaign, const std::vector<Answer>& answers,
+                                       const AskAgain& ask) {
   Warnings warnings;
-  add_impossible_rows(campaign, warnings);
-  add_flipped_sinkage(campaign.runs, warnings);
-  add_repeated_rows(campaign.runs, warnings);
-  add_unsteady_runs(campaign.runs, warnings);
   add_flipped_pull(campaign, answers, warnings);
   add_swapped_channels(campaign, answers, warnings);
   add_swapped_load(campaign, answers, ask, warnings);

@@ -393,17 +393,16 @@ std::string share_words(double weight) { return weight < little ? "< 1 %" : fmt:
 
 std::string setting(double value) {
   if (std::abs(value) < 1e-9) return "0";
-  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
-  return fmt::format("{:.10g}", std::round(value / step) * step);
+  return fmt::format("{:.10g}", three_digits(value));
 }
 
 std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const std::string& condition) {
   const ConditionView& view = condition_view(condition);
-  const Campaign& campaign = *answer.found().base.data().campaign;
+  const Dataset& data = answer.found().base.data();
   std::string unit(view.unit);
   double per_si = view.per_si;
-  if (const auto own = campaign.columns.find(condition);
-      own != campaign.columns.end() && own->second.unit != view.column_unit)
+  if (const auto own = data.campaign->columns.find(condition);
+      own != data.campaign->columns.end() && own->second.unit != view.column_unit)
     unit = own->second.unit, per_si = per_unit(unit);
   const double value = view.get(answer.next->at);
   if (!std::isfinite(value)) return {"", unit};
@@ -411,7 +410,7 @@ std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const
   const auto given = answer.next->given.find(condition);
   const std::pair<double, double> within =
       given != answer.next->given.end() ? given->second : std::pair(-anywhere, anywhere);
-  const double set = rig_setting(view, value, observe(campaign), within, per_si);
+  const double set = rig_setting(view, value, data.observations, within, per_si);
   return {fmt::format("{:.6g}", per_si * set), unit};
 }
 

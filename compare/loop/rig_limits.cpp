@@ -29,13 +29,6 @@ double rerun_scatter(const ConditionView& view, const Observations& observations
   return freedom > 0 && std::isfinite(squares) ? std::sqrt(squares / static_cast<double>(freedom)) : 0.0;
 }
 
-/// To three significant digits.
-double three_digits(double value) {
-  if (value == 0.0) return 0.0;
-  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
-  return step * std::round(value / step);
-}
-
 /// The number from low to high with the fewest digits in a unit; the one nearest to the middle where there are more;
 /// nothing where they are so near that none of a few digits lies between.
 std::optional<double> roundest(double low, double high, double per_si) {
@@ -70,6 +63,12 @@ Limits limits_of(const Observations& observations) {
   auto& loads = limits.try_emplace("load", load, load).first->second;
   loads = {thresholds::lowest_load_share * loads.first, thresholds::highest_load_share * loads.second};
   return limits;
+}
+
+double three_digits(double value) {
+  if (value == 0.0) return 0.0;
+  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
+  return step * std::round(value / step);
 }
 
 double rig_setting(const ConditionView& view, double value, const Observations& observations,

@@ -30,6 +30,9 @@ Limits limits_of(const Observations& observations);
 double rig_setting(const ConditionView& view, double value, const Observations& observations,
                    const std::pair<double, double>& within, double per_si);
 
+/// A number to three significant digits.
+double three_digits(double value);
+
 /// So many values from the lower to the upper end of a range, evenly; its middle where it is one.
 std::vector<double> evenly(const std::pair<double, double>& range, int levels);
 
