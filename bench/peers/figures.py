@@ -1,13 +1,17 @@
 """What the benches against other engines print of their runs, from standard input.
 
 figures.py lammps CORES STEPS           a LAMMPS log -> one line: engine threads=.. particle_steps_per_second=.. FIELD=..
-figures.py liggghts CORES STEPS FORCES  a LIGGGHTS log and its file of forces -> such a line
+figures.py liggghts CORES STEPS FORCES  a LIGGGHTS log and its file of forces -> such a line; an error is the standard error
+                                        of the mean over ten blocks of time
+figures.py soilbin CORES STEPS          what peer_wheel prints -> such a line
 figures.py ratios PEER FIELD... [SHARE] such lines of soilbin and a peer -> medians, how far the fields are apart (more
                                         than SHARE: exit status 1), and the ratios
 """
 import re
 import statistics
 import sys
+
+grains_of_bed = 57000  # as in shared_bed.hpp
 
 
 def rate_of(log, steps):
@@ -27,11 +31,25 @@ def lammps(cores, steps, log):
     line("lammps", cores, rate_of(log, steps), mean_force=float(force), coordination=float(coordination))
 
 
+def of_wheel(engine, cores, rate, rows):
+    """The line of a run with the wheel, from rows of step, push, lift and torque."""
+    samples = [[float(word) for word in row.split()] for row in rows if not row.startswith("#")]
+    fields = {}
+    for name, sign, column in zip(("push", "lift", "torque"), (1, 1, -1), list(zip(*samples))[1:]):
+        blocks = [statistics.mean(column[len(column) * k // 10:len(column) * (k + 1) // 10]) for k in range(10)]
+        fields |= {name: sign * statistics.mean(column), name + "_error": statistics.stdev(blocks) / 10**0.5}
+    line(engine, cores, rate, **fields)
+
+
 def liggghts(cores, steps, forces, log):
     with open(forces, encoding="utf-8") as file:
-        rows = [[float(word) for word in row.split()] for row in file if not row.startswith("#")]
-    push, lift, torque = (statistics.mean(column) for column in list(zip(*rows[1:]))[1:])
-    line("liggghts", cores, rate_of(log, steps), lift=lift, push=push, torque=-torque)
+        rows = [row for row in file if not row.startswith("#")]
+    of_wheel("liggghts", cores, rate_of(log, steps), rows[1:])  # the first is of the step before
+
+
+def soilbin(cores, steps, text):
+    seconds = float(re.search(r"^# seconds (\S+)$", text, re.M)[1])
+    of_wheel("soilbin", cores, grains_of_bed * steps / seconds, text.splitlines())
 
 
 def ratios(peer, fields, allowed, text):
@@ -66,6 +84,8 @@ def main(words):
         return lammps(int(words[1]), int(words[2]), sys.stdin.read())
     if words[:1] == ["liggghts"] and len(words) == 4:
         return liggghts(int(words[1]), int(words[2]), words[3], sys.stdin.read())
+    if words[:1] == ["soilbin"] and len(words) == 3:
+        return soilbin(int(words[1]), int(words[2]), sys.stdin.read())
     if words[:1] == ["ratios"] and len(words) > 2:
         allowed = float(words[-1]) if words[-1][0].isdigit() else None
         fields = words[2:] if allowed is None else words[2:-1]

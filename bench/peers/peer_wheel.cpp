@@ -1,7 +1,8 @@
 // The paper's tire moved in a prescribed way over the bed of peer_bed, as other engines move it too.
 //   peer_wheel make BED WHEEL.stl                      writes the tire where it starts, and prints its centre
-//   peer_wheel time BED THREADS LOWER STEPS            lowers it in so many steps, times the next ones, and prints what
-//                                                      bench/peers/wheel compares
+//   peer_wheel time BED THREADS LOWER STEPS ROLLING    lowers it in so many steps, times the next ones, and prints
+//                                                      push, lift and torque every ten steps and then the seconds;
+//                                                      ROLLING: off, cdt or epsd, as LIGGGHTS calls the laws
 #include <fmt/core.h>
 
 #include <cmath>
@@ -27,14 +28,17 @@ Tire tire() {
   return tire;
 }
 
-Setup setup_with_wheel(int threads) {
-  Setup setup = setup_of(threads);
-  setup.laws.rolling = RollingLaw::directional;
-  return setup;
+RollingLaw rolling_law(const std::string& of_liggghts) {
+  if (of_liggghts == "off") return RollingLaw::none;
+  if (of_liggghts == "cdt") return RollingLaw::directional;
+  if (of_liggghts == "epsd") return RollingLaw::elastic_plastic;
+  throw std::invalid_argument("rolling is off, cdt or epsd, not " + of_liggghts);
 }
 
-Simulation bed(const std::string& file, int threads) {
-  Simulation simulation = empty_bin(setup_with_wheel(threads));
+Simulation bed(const std::string& file, int threads, RollingLaw rolling = RollingLaw::none) {
+  Setup setup = setup_of(threads);
+  setup.laws.rolling = rolling;
+  Simulation simulation = empty_bin(setup);
   for (const Place& place : read_places(file)) simulation.add_grain(place.position, place.radius, 0);
   return simulation;
 }
@@ -71,8 +75,8 @@ void make(const std::string& file, const std::string& stl) {
              start.down, (1 - slip) * radius * rotation, rotation);
 }
 
-void time(const std::string& file, int threads, long lower, long steps) {
-  Simulation simulation = bed(file, threads);
+void time(const std::string& file, int threads, long lower, long steps, RollingLaw rolling) {
+  Simulation simulation = bed(file, threads, rolling);
   const Start start = start_on(simulation);
   Body body;
   body.name = "wheel";
@@ -85,23 +89,23 @@ void time(const std::string& file, int threads, long lower, long steps) {
   simulation.run(lower);
   simulation.body(wheel).velocity = {forward, 0, 0};
   double seconds = 0;
-  Vec3 force, torque;
-  constexpr long every = 10;  // samples of the force, as the others take them
-  for (long k = 0; k < steps / every; ++k) {
+  constexpr long every = 10;  // as LIGGGHTS writes them
+  for (long k = 1; k <= steps / every; ++k) {
     seconds += seconds_of(simulation, every);
-    force = force + simulation.body(wheel).force, torque = torque + simulation.body(wheel).torque;
+    const Body& moved = simulation.body(wheel);
+    fmt::print("{} {:.6g} {:.6g} {:.6g}\n", lower + k * every, moved.force.x, moved.force.z, moved.torque.y);
   }
-  const double samples = static_cast<double>(steps / every);
-  fmt::print("soilbin threads={} particle_steps_per_second={:.5g} lift={:.6g} push={:.6g} torque={:.6g}\n", threads,
-             grain_count * static_cast<double>(steps) / seconds, force.z / samples, force.x / samples,
-             -torque.y / samples);
+  fmt::print("# seconds {:.6g}\n", seconds);
 }
 
 int run(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   if (what == "make" && argc == 4) return make(argv[2], argv[3]), 0;
-  if (what == "time" && argc == 6) return time(argv[2], std::atoi(argv[3]), std::atol(argv[4]), std::atol(argv[5])), 0;
-  fmt::print(stderr, "usage: peer_wheel make BED WHEEL.stl | time BED THREADS LOWER STEPS\n");
+  if (what == "time" && argc == 7) {
+    time(argv[2], std::atoi(argv[3]), std::atol(argv[4]), std::atol(argv[5]), rolling_law(argv[6]));
+    return 0;
+  }
+  fmt::print(stderr, "usage: peer_wheel make BED WHEEL.stl | time BED THREADS LOWER STEPS off|cdt|epsd\n");
   return 2;
 }
 

@@ -22,6 +22,7 @@ inline Setup setup_of(int threads) {
   setup.materials.add({"sand", density, 31.75e6, 0.18}, {.restitution = 0.56,
                                                          .sliding_friction = 0.5,
                                                          .rolling_friction = 0.1,
+                                                         .rolling_damping = 0.3,
                                                          .rolling_stiffness = 5000,
                                                          .rolling_viscosity = 1});
   setup.laws.rolling = RollingLaw::spring_slider;

@@ -14,6 +14,7 @@
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/presumption.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
+#include "compare/doubts/column_doubts.hpp"
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/doubts/row_doubts.hpp"
 #include "compare/doubts/unheard.hpp"

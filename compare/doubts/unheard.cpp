@@ -101,8 +101,9 @@ void add_depths_of_the_bin(const Case& question, std::vector<Unheard>& all) {
 }  // namespace
 
 bool hears_of(const bekker_wong::EffectForm& form, const std::string& key) {
-  // A parameter about which a form is centred tells; passes, lugs and inflation have none.
+  // A parameter about which a form is centred tells; passes, speed, lugs and inflation have none.
   if (key == "pass" && form.id == "multipass") return true;
+  if (key == "speed" && (form.id == "rate_dependence" || form.form == "viscous")) return true;
   if (key == "lugs") return form.id == "lug_thrust";
   if (key == "inflation") return form.id == "tire_flexibility";
   for (const bekker_wong::LearnedVariable& variable : bekker_wong::learned_function(form).variables)

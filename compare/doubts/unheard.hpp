@@ -19,8 +19,8 @@ struct Unheard {
 /// whose condition it gives nowhere.
 std::vector<Unheard> unheard(const Case& question);
 
-/// Whether a form's answer hangs on this key of Unheard. Where it is not given the form changes nothing (of lugs it
-/// assumes some).
+/// Whether a form's answer hangs on this key of Unheard, or on the "speed". Where it is not given the form changes
+/// nothing (of lugs it assumes some).
 bool hears_of(const bekker_wong::EffectForm& form, const std::string& key);
 
 }  // namespace soilbin::compare

@@ -12,18 +12,23 @@ namespace soilbin::compare {
 
 namespace {
 
-/// The conditions of a campaign's runs, each once. When and where a run was made counts where an effect hears of it.
+/// The conditions of a campaign's runs, each once. When and where a run was made, and how fast, counts where an effect
+/// hears of it; else all have the median speed.
 std::vector<OperatingCondition> asked_of(const Campaign& campaign, const std::vector<EffectChoice>& effects) {
   const auto heard = [&](const char* key) {
     return std::any_of(effects.begin(), effects.end(),
                        [&](const EffectChoice& effect) { return hears_of(bekker_wong::find_form(effect), key); });
   };
+  std::vector<double> speeds;
+  for (const Run& run : campaign.runs) speeds.push_back(run.at.speed);
+  std::sort(speeds.begin(), speeds.end());
   std::vector<OperatingCondition> conditions;
   std::set<OperatingCondition> seen;
   for (const Run& run : campaign.runs) {
     OperatingCondition at = run.at;
     if (!heard("run")) at.run.reset();
     if (!heard("position")) at.position.reset();
+    if (!heard("speed")) at.speed = speeds[speeds.size() / 2];
     if (seen.insert(at).second) conditions.push_back(at);
   }
   return conditions;

@@ -81,17 +81,22 @@ double read_cell(const CsvCell& cell, const std::string& header, const ColumnCho
            : digit ? "the unit stands in the column's name, not in the cell"
                    : "where nothing was measured leave the cell empty; take out a second line of headings");
   }
+  const Measure& measure = choice.column->measure;
+  const std::string text = choice.unit == "-" ? cell.text : cell.text + " " + choice.unit;
   double value = 0.0;
   try {
-    const std::string text = choice.unit == "-" ? cell.text : cell.text + " " + choice.unit;
-    value = read_quantity(text, choice.column->measure);
+    value = read_quantity(text, {measure.unit, any_value});
   } catch (const InputError& error) {
-    const bool share = choice.unit == "-" && choice.column->content == Content::number;
-    refuse(error.what(),
-           share ? fmt::format("if the column is in per cent, write in campaign.yaml: columns: {{{}: {{quantity: {}, "
-                               "unit: '%'}}}}",
-                               yaml_scalar(clipped(header)), choice.column->quantity)
-           : read_number(cell.text).value_or(0.0) < 0.0 && choice.column->quantity == "load"
+    refuse(error.what());
+  }
+  if (!measure.range.holds(value)) {
+    const bool in_per_cent =
+        choice.unit == "-" && choice.column->content == Content::number && measure.range.holds(value / 100);
+    refuse(fmt::format("'{}' is out of range: must be {}", clipped(text), describe_range(measure)),
+           in_per_cent ? fmt::format("if the column is in per cent, write in campaign.yaml: columns: {{{}: {{quantity: "
+                                     "{}, unit: '%'}}}}",
+                                     yaml_scalar(clipped(header)), choice.column->quantity)
+           : value < 0.0 && choice.column->quantity == "load"
                ? "a load is never negative: is this the column of the drawbar pull?"
                : "");
   }

@@ -1,6 +1,7 @@
 // The one list of doubts: what is told, in which words, and that ordinary questions raise none.
 #include "compare/doubts/doubts.hpp"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -127,6 +128,20 @@ TEST(Doubts, SwappedColumnsAreToldAtTheirHeader) {
     run.drawbar_pull = load;
   }
   EXPECT_THAT(doubts(loads), Contains(HasSubstr("the columns 'load' and 'drawbar_pull' look swapped")));
+}
+
+TEST(Doubts, LoadsInAnotherUnitAreToldAtTheirHeader) {
+  for (const auto& [unit, newtons] : {std::pair{"kg", 9.80665}, {"lbf", 4.4482216}, {"kN", 1000.0}}) {
+    Campaign campaign = modelled_campaign();
+    campaign.columns["load"] = {"load_N", "N", {"runs.csv", 1, 5}};
+    for (compare::Run& run : campaign.runs) run.at.load /= newtons;
+    EXPECT_THAT(
+        doubts(campaign),
+        Contains(StartsWith(fmt::format("runs.csv:1:5: column 'load_N' looks as if it were in {}: with loads", unit))));
+  }
+  Campaign halved = modelled_campaign();  // no unit
+  for (compare::Run& run : halved.runs) run.at.load /= 2;
+  EXPECT_THAT(doubts(halved), Not(Contains(HasSubstr("looks as if"))));
 }
 
 TEST(Doubts, ACampaignsRepeatedRowsAndFlippedPullAreTold) {
