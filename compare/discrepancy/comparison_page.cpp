@@ -61,12 +61,6 @@ std::vector<BackedSentence> backed(const Comparison& comparison, const std::vect
   return sentences;
 }
 
-void add_opening(Page& page, const Comparison& comparison) {
-  std::vector<BackedSentence> sentences = backed(comparison, opening(comparison));
-  if (sentences.empty()) sentences.push_back({"", "There is nothing to compare: a single side.", {}});
-  page.backed_summary(sentences);
-}
-
 void add_curves(Page& page, const Comparison& comparison, bool coarse_grains) {
   page.section("Curves", "curves");
   const std::vector<std::string>& names = comparison.curves.labels;
@@ -83,6 +77,15 @@ void add_curves(Page& page, const Comparison& comparison, bool coarse_grains) {
                        page.figure(overview_sheet(comparison), "A colour for each curve, a dash for each side.");
                      }});
   page.choices("Curve", parts, (names.size() - 1) / 2);
+}
+
+/// The answer in a sentence or two, the curves, and what to bear in mind of both: so the curves are in sight at once.
+void add_opening(Page& page, const Comparison& comparison, bool coarse_grains) {
+  std::vector<BackedSentence> sentences = backed(comparison, opening(comparison));
+  if (sentences.empty()) sentences.push_back({"", "There is nothing to compare: a single side.", {}});
+  page.backed_summary({sentences.front()});
+  add_curves(page, comparison, coarse_grains);
+  if (sentences.size() > 1) page.backed_summary({sentences.begin() + 1, sentences.end()});
 }
 
 void add_channels(Page& page, const Comparison& comparison) {
@@ -215,8 +218,7 @@ std::string comparison_page(const Comparison& comparison, const ComparisonAbout&
         fmt::format("<p class=\"warning\" role=\"note\">Made without {}: the figures that need it are plain "
                     "drawings. Install it and make the page again.</p>\n",
                     escaped(fmt::format("{}", fmt::join(page.libraries().missing, ", ")))));
-  add_opening(page, comparison);
-  add_curves(page, comparison, speak_of_coarse_grains(about.page.doubts));
+  add_opening(page, comparison, speak_of_coarse_grains(about.page.doubts));
   add_channels(page, comparison);
   add_causes(page, comparison);
   add_loop(page, about);

@@ -112,14 +112,20 @@ std::string why_taken(const std::vector<Weighted>& sets) {
       named_effects(taken.ids), named_effects(heaviest.ids));
 }
 
-/// How far behind the best set the next one stands, where the best stands alone.
+/// How far behind the best set the next one stands, where the best stands alone. The odds are those of the catalogue's
+/// own equations; how often such a lead is right where nature has others was counted: 88 of 97 synthetic campaigns
+/// (docs/lab/loop-ceiling.md, "Accuracy against the share answered").
 std::string next_candidate(const LoopAnswer& answer) {
   const std::vector<const Weighted*> sets = sets_shown(answer);
   if (answer.ambiguity_set.size() != 1 || sets.size() < 2) return "";
   const double behind = sets[0]->log_evidence - sets[1]->log_evidence;
   if (!(behind > 0)) return "";
-  return fmt::format(" The next candidate, {}, is {} less likely.", named_effects(sets[1]->ids),
-                     times_likelier(behind));
+  constexpr double clear_share = 0.9;
+  return fmt::format(" The next candidate, {}, is {} less likely{}.", named_effects(sets[1]->ids),
+                     times_likelier(behind),
+                     sets[0]->weight < clear_share
+                         ? ""
+                         : " by the catalogue's equations; where nature had others, 9 in 10 such names were right");
 }
 
 /// What an accepted effect takes the wheel to have and the campaign does not declare: without it the verdict misleads.
