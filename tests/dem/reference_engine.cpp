@@ -260,7 +260,7 @@ Vec3 ReferenceEngine::rolling(const Pair& p, const Vec3& n, double pressing, dou
   const Vec3 w_t = p.rotation - dot(p.rotation, n) * n;
   if (laws_.rolling == RollingLaw::directional || laws_.rolling == RollingLaw::directional_with_twist) {
     const Vec3 w = laws_.rolling == RollingLaw::directional ? w_t : p.rotation;
-    const double rate = length(w);
+    const double rate = length(p.rotation);
     if (rate == 0) return {};
     return -std::min(limit, p.inertia * rate / dt_) / rate * w;
   }

@@ -211,7 +211,7 @@ template <class Real>
   const Triple<Real> rate = at.rotation - dot(at.rotation, at.normal) * at.normal;
   if (is_directional(laws.rolling)) {
     const Triple<Real>& turning = laws.rolling == RollingLaw::directional ? rate : at.rotation;
-    const Real speed = sqrt(size2(turning));
+    const Real speed = sqrt(size2(at.rotation));
     const Inverses<Real> inverse = inverses(slide.divisor(), speed);
     out.tangential = slide.limited(friction, inverse.first, memory.slide);
     out.couple = turning * (-min(limit * inverse.second, at.inertia * Real(1 / dt)));
