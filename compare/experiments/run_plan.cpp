@@ -33,12 +33,17 @@ std::vector<std::uint64_t> without_file(const std::set<std::uint64_t>& packings,
   return missing;
 }
 
+/// What a thread of the engine does in the time of a process of LAMMPS, on settled beds of 11,333 to 400,000 grains
+/// (docs/guide/past-one-machine.md, "When does it pay?").
+constexpr double engine_over_lammps = 5;
+
 /// Estimates for the runs of one scenario in one bin. Work counts in grain-steps: one step of the motion of one grain.
 class RunCosts {
  public:
   /// The speed comes from the runs of `records` where they tell one: their seconds, as they were measured then, with
   /// however many threads and whatever ran beside them; else from a trial: a small bed of the same grains is settled
-  /// for about a second of processor time on one thread, and more are taken to share the work evenly.
+  /// for about a second of processor time on one thread, and more are taken to share the work evenly. LAMMPS is taken
+  /// to be engine_over_lammps times slower than that, a process.
   RunCosts(const Scenario& scenario, const dem::DemSettings& settings, const std::vector<Record>& records);
 
   double steps(const AskedRun& run) const;
@@ -46,11 +51,11 @@ class RunCosts {
   double seconds(const AskedRun& run) const { return grains_ * steps(run) / speed_; }
   /// To settle a bed, about: as long as grains take to fall by its depth, thirty times [s].
   double bed_seconds() const;
-  int threads() const;
+  int threads() const;  ///< of LAMMPS: processes
   void tell(RunPlan& plan) const;
 
  private:
-  double trial(dem::DemSettings settings) const;
+  double trial(dem::DemSettings settings) const;  ///< grain-steps a second of one thread
 
   const Scenario& scenario_;
   const dem::DemSettings& settings_;
@@ -72,7 +77,7 @@ RunCosts::RunCosts(const Scenario& scenario, const dem::DemSettings& settings, c
         work += grains_ * steps({run.answer.at, run.packing, list == &Record::half_step}), seconds += run.seconds;
         ++from_runs_;
       }
-  speed_ = seconds > 0 ? work / seconds : trial(settings);
+  speed_ = seconds > 0 ? work / seconds : trial(settings) * threads() / (settings.lammps ? engine_over_lammps : 1);
 }
 
 double RunCosts::steps(const AskedRun& run) const {
@@ -88,18 +93,22 @@ double RunCosts::steps(const AskedRun& run) const {
 
 double RunCosts::bed_seconds() const {
   const double step = recipe_.dt > 0 ? recipe_.dt : dem::longest_step(recipe_.soil);
-  return grains_ * 30 * std::sqrt(2 * recipe_.size.depth / recipe_.gravity) / step / speed_;
+  const bool of_the_engine = settings_.lammps && settings_.settled_by == dem::SettledBy::soilbin;
+  return grains_ * 30 * std::sqrt(2 * recipe_.size.depth / recipe_.gravity) / step /
+         (speed_ * (of_the_engine ? engine_over_lammps : 1));
 }
 
 int RunCosts::threads() const {
+  if (settings_.lammps) return settings_.lammps->ranks;
   return settings_.how.threads > 0 ? settings_.how.threads
                                    : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
 /// Memory is that of a process while pairs are searched, which needs the most.
 void RunCosts::tell(RunPlan& plan) const {
-  plan.threads = threads(), plan.from_runs = from_runs_, plan.speed = speed_, plan.grains = grains_;
-  plan.bed_seconds = bed_seconds(), plan.memory = 60e6 + 900 * grains_;
+  plan.threads = threads(), plan.in_lammps = settings_.lammps.has_value(), plan.from_runs = from_runs_,
+  plan.speed = speed_, plan.grains = grains_;
+  plan.bed_seconds = bed_seconds(), plan.memory = 60e6 + 900 * grains_ / (plan.in_lammps ? threads() : 1);
   plan.bed_bytes = 250 * grains_, plan.record_bytes = 40e3;
 }
 
@@ -108,11 +117,12 @@ double RunCosts::trial(dem::DemSettings settings) const {
   dem::BedRecipe recipe = recipe_;
   recipe.size = {12 * grain, 12 * grain, 8 * grain};
   recipe.grading = {};  // there is no room for coarser ones
+  recipe.settled_by = dem::SettledBy::soilbin;
   settings.how.progress = {};
   settings.how.threads = 1;                 // so small a bed keeps more than one waiting, which a run's does not
   const std::clock_t began = std::clock();  // of the processor: what runs beside it now will not run beside the jobs
   const dem::SettledBed bed = dem::settle_bed(recipe, settings.how);
-  const double seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC / threads();
+  const double seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
   const double step = recipe.dt > 0 ? recipe.dt : dem::longest_step(recipe.soil);
   return static_cast<double>(bed.report.grains) * bed.report.settling_time / step / seconds;
 }
@@ -165,9 +175,10 @@ std::string plan_text(const RunPlan& plan) {
   text += fmt::format("recorded  {}\nto make   {}\n", recorded, left);
   text += fmt::format("beds      {} to settle, {} each\n", plan.unsettled.size(), duration_text(plan.bed_seconds));
   text += fmt::format(
-      "time      about {:.2g} core-hours, {} a process ({}: {:.2g} million grain-steps a second, "
-      "{:.0f} grains)\n",
-      plan.core_hours_left(), counted(static_cast<std::size_t>(plan.threads), "thread"),
+      "time      about {:.2g} core-hours, {} ({}: {:.2g} million grain-steps a second, {:.0f} grains)\n",
+      plan.core_hours_left(),
+      plan.in_lammps ? fmt::format("{} process{} of LAMMPS a run", plan.threads, plan.threads == 1 ? "" : "es")
+                     : counted(static_cast<std::size_t>(plan.threads), "thread") + " a process",
       plan.from_runs > 0 ? "from " + counted(plan.from_runs, "recorded run") : "from a trial on this machine",
       plan.speed / 1e6, plan.grains);
   text +=

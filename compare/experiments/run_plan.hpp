@@ -24,7 +24,8 @@ struct RunPlan {
   std::vector<PlannedRun> runs;            ///< the whole list, or that of a shard
   std::vector<std::uint64_t> unsettled{};  ///< packings whose beds are not in the folder of beds yet
   std::size_t beds = 0;                    ///< packings of the list
-  int threads = 1;                         ///< of a process
+  int threads = 1;                         ///< of a process; in LAMMPS, of one thread each, processes of a run
+  bool in_lammps = false;                  ///< grains are moved by LAMMPS
   std::size_t from_runs = 0;               ///< recorded runs that the seconds were taken from; 0: from a trial
   double speed = 0, grains = 0;            ///< grain-steps a second; grains of a bed
   double bed_seconds = 0, memory = 0, bed_bytes = 0, record_bytes = 0;  ///< of one bed, one process, one bed, one run

@@ -97,6 +97,20 @@ class Lammps(unittest.TestCase):
         self.assertEqual(engine.returncode, 2)  # one record, one engine
         self.assertIn("engine", engine.stderr)
 
+    def test_a_dry_run_counts_processes(self):
+        def seconds(*flags):
+            plan = self.run_it(*flags, "--dry-run", "--json")
+            self.assertEqual(plan.returncode, 0, plan.stderr)
+            answer = json.loads(plan.stdout)
+            return answer["runs"][0]["seconds"], answer["seconds_a_bed"], answer["threads"]
+        engine, bed, _ = seconds("--threads", "1")
+        one, engines_bed, _ = seconds("--engine", "lammps")
+        two, own_bed, ranks = seconds("--engine", "lammps", "--settled-by", "lammps", "--ranks", "2")
+        self.assertEqual(ranks, 2)
+        scatter = 2  # of a trial of a second, which is made anew each time
+        for value, expected in ((one, 5 * engine), (two, 2.5 * engine), (engines_bed, bed), (own_bed, 2.5 * bed)):
+            self.assertTrue(expected / scatter < value < expected * scatter, f"{value} s, not about {expected} s")
+
     def test_flags_that_lammps_has_not_are_refused(self):
         ranks = self.run_it("--ranks", "2")
         self.assertEqual(ranks.returncode, 2)
