@@ -1,5 +1,7 @@
 #include "dem/engine/surface_contacts.hpp"
 
+#include <array>
+
 #include "dem/surface/touching_points.hpp"
 
 namespace soilbin::dem {
@@ -31,8 +33,9 @@ int touches_of_mesh(const Body& body, const MeshSurface& surface, const Motion& 
   return count;
 }
 
-/// The contact whose normal is nearest to this one, within 45 degrees; -1 for none.
-int nearest(std::span<const SurfaceContact> among, const Vec3& normal) {
+/// The one whose normal is nearest to this one, within 45 degrees; -1 for none.
+template <class Contact>
+int nearest(std::span<const Contact> among, const Vec3& normal) {
   double best = cos_45;
   int which = -1;
   for (std::size_t k = 0; k < among.size(); ++k)
@@ -50,10 +53,10 @@ int find_touches(const PlacedSurface& surface, const Motion& grain, double reach
   return 1;
 }
 
-/// The contact of before that made[k] goes on with; nullptr for none.
-const SurfaceContact* remembered(std::span<const SurfaceContact> before, std::span<const SurfaceContact> made, int k) {
-  const int old = nearest(before, made[k].normal);
-  return old >= 0 && nearest(made, before[old].normal) == k ? &before[old] : nullptr;
+/// The contact of before that touches[k] goes on with; nullptr for none.
+const SurfaceContact* remembered(std::span<const SurfaceContact> before, std::span<const SurfaceTouch> touches, int k) {
+  const int old = nearest(before, touches[k].normal);
+  return old >= 0 && nearest(touches, before[old].normal) == k ? &before[old] : nullptr;
 }
 
 PlacedSurface place(const Body& body, const Surface& surface) {
@@ -83,20 +86,18 @@ std::vector<NearSurface> find_near(std::span<const Body> bodies, const Grains& g
 
 int find_contacts(const GrainOnSurface& at, std::vector<SurfaceContact>& made, std::span<SurfaceTouch, 8> touches) {
   const int found = find_touches(at.surface, at.grain, at.adhesion_reach, touches);
-  const std::size_t begin = made.size();
-  for (int k = 0; k < found; ++k) made.push_back({at.who, touches[k].triangle, touches[k].normal, {}});
+  if (found == 0) return 0;
+  std::array<const SurfaceContact*, 8> old;
+  for (int k = 0; k < found; ++k) old[k] = remembered(at.before, touches.first(found), k);
   int kept = 0;
   for (int k = 0; k < found; ++k) {
-    SurfaceContact contact = made[begin + k];
-    const SurfaceContact* old = remembered(at.before, {made.data() + begin, static_cast<std::size_t>(found)}, k);
-    if (old) contact.memory = old->memory;
     const double overlap = touches[k].overlap;
-    if (overlap <= 0 && !(old && still_adheres(at.constants, overlap, at.grain.radius))) continue;
+    if (overlap <= 0 && !(old[k] && still_adheres(at.constants, overlap, at.grain.radius))) continue;
     touches[kept] = touches[k];
-    if (old) touches[kept].before = old->normal;
-    made[begin + kept++] = contact;
+    if (old[k]) touches[kept].before = old[k]->normal;
+    made.push_back({at.who, touches[k].triangle, touches[k].normal, old[k] ? old[k]->memory : Memory<double>{}});
+    ++kept;
   }
-  made.resize(begin + kept);
   return kept;
 }
 

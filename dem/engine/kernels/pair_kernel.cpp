@@ -175,8 +175,9 @@ HWY_INLINE void work_on(const PairSweep& sweep, const Asked& asked, const LawCon
   respond(sweep, asked, constants, m, found);
 }
 
-/// So many contacts ahead the rows of second grains that touch are called for: those of big beds lie in memory, and no
-/// hardware foresees them. Rows of first grains follow each other.
+/// So many contacts ahead what contacts remember and the rows of second grains that touch are called for: those of big
+/// beds lie in memory, and the hardware foresees the rows not at all and memories too late. Rows of first grains follow
+/// each other.
 constexpr std::size_t rows_ahead = 32;
 
 HWY_INLINE void fetch_rows(const PairSweep& sweep, std::uint32_t grain) {
@@ -188,13 +189,21 @@ HWY_INLINE void fetch_rows(const PairSweep& sweep, std::uint32_t grain) {
   __builtin_prefetch(&sweep.taking[grain].couple, 1);
 }
 
-HWY_INLINE void run_asked(const PairSweep& sweep, const Asked& asked, std::size_t begin, std::size_t end,
+/// All of a batch, whichever of its packs comes.
+HWY_INLINE void fetch_memory(const double* of_batch) {
+  for (int column = 0; column < 6; ++column) __builtin_prefetch(of_batch + 8 * column, 1);
+}
+
+HWY_INLINE void run_asked(const PairSweep& given, const Asked& asked, std::size_t begin, std::size_t end,
                           PairFindings& found) {
+  const PairSweep sweep = given;  // a copy: no store can change it, so nothing of it is read anew after each
   const LawConstants<Pack> one = broadcast(sweep.constants);
   const std::size_t last = 8 * end;
   for (std::size_t pair = 8 * begin; pair < last; pair += lanes) {
-    if (const std::size_t soon = pair + rows_ahead; soon + lanes <= last && sweep.touching[soon / 8])
+    if (const std::size_t soon = pair + rows_ahead; soon + lanes <= last && sweep.touching[soon / 8]) {
       for (int k = 0; k < lanes; ++k) fetch_rows(sweep, sweep.second[soon + k]);
+      if (soon % 8 == 0) fetch_memory(sweep.memory + 6 * soon);
+    }
     work_on(sweep, asked, sweep.kinds == 1 ? &one : nullptr, Place(pair), found);
   }
 }
