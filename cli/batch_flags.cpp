@@ -7,25 +7,21 @@
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "compare/recorded/run_list.hpp"
-#include "compare/report/json_file.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/atomic_file.hpp"
 
 namespace soilbin::cli {
 
 void BatchFlags::add_to(CLI::App& command) {
-  command
-      .add_option(
-          "--ask", ask,
-          "make nothing: write the next experiments, N chosen at once, to --batch and end with status 3; 0 when "
-          "none is left")
-      ->type_name("N")
+  add_value(command, "--ask", ask, "N",
+            "make nothing: write the next experiments, N chosen at once, to --batch and end with status 3; 0 when none "
+            "is left")
       ->check(whole_number(1));
-  command.add_option("--batch", batch, "with --ask: the file to write; without: make its experiments, into --store")
-      ->type_name("FILE.json");
-  command.add_option("--shard", shard, "with --batch: only the K-th of N parts of it")->type_name("K/N");
-  command.add_option("--tell", tell, "first take the experiments of these stores into --store")
-      ->type_name("STORE.json")
+  add_value(command, "--batch", batch, "FILE.json",
+            "with --ask: the file to write; without: make its experiments, into --store");
+  add_value(command, "--shard", shard, "K/N", "with --batch: only the K-th of N parts of it");
+  add_value(command, "--tell", tell, "STORE.json", "first take the experiments of these stores into --store")
       ->allow_extra_args(true);
 }
 

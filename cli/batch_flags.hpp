@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/calibrate/experiment_batch.hpp"
+#include "compare/calibrate/experiment_store.hpp"
 
 namespace soilbin::cli {
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "compare/recorded/run_list.hpp"
@@ -74,7 +75,7 @@ void add_bed(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("bed", "settle the beds of grains that a study's runs begin on");
   const auto study = std::make_shared<std::string>();
   const auto flags = std::make_shared<SoilBinFlags>();
-  command->add_option("study", *study, "a study of the library, or a case file")->type_name("STUDY")->required();
+  add_value(*command, "study", *study, "STUDY", "a study of the library, or a case file")->required();
   flags->add_rig_to(*command);
   flags->add_packings_to(*command);
   flags->add_engine_to(*command);

@@ -10,7 +10,7 @@
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
-#include "compare/experiments/virtual_bevameter.hpp"
+#include "compare/experiments/element_experiments.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {
@@ -57,10 +57,10 @@ void add_bevameter(CLI::App& app, Session& session) {
   CLI::App* command =
       app.add_subcommand("bevameter", "n, k_c, k_phi, c, phi and K of a soil's grains, by simulated plates and a ring");
   const auto options = std::make_shared<BevameterOptions>();
-  command->add_option("soil", options->soil, "a soil of the library, or a YAML file")->type_name("SOIL")->required();
+  add_value(*command, "soil", options->soil, "SOIL", "a soil of the library, or a YAML file")->required();
   add_file(*command, "--output", options->output, "FILE.yaml", "save the soil with these values");
   add_plot(*command, options->plot, "draw the curves (points) and the fit (lines)");
-  command->add_option("--packings", options->packings, "number of beds, 2; their scatter is the error")->type_name("N");
+  add_value(*command, "--packings", options->packings, "N", "number of beds, 2; their scatter is the error");
   command->add_flag("--json", options->json, "soilbin-bevameter/1, in SI");
   options->flags.add_to(*command);
   command->footer("Example: soilbin bevameter paper-sand --settling-friction 0 --output paper-sand-dense.yaml");

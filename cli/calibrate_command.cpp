@@ -15,7 +15,7 @@
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
-#include "compare/calibrate/decision_words.hpp"
+#include "compare/calibrate/calibration_words.hpp"
 #include "compare/calibrate/published_sets.hpp"
 #include "compare/experiments/element_experiments.hpp"
 #include "compare/measured/csv.hpp"
@@ -49,7 +49,7 @@ std::pair<std::string, std::string> named(const std::string& flag, const std::st
                                           const std::vector<std::string>& right) {
   const std::size_t equals = text.find('=');
   const std::string name = text.substr(0, equals);
-  if (std::find(right.begin(), right.end(), name) == right.end()) throw InputError(flag + ": " + none_of(name, right));
+  if (std::ranges::find(right, name) == right.end()) throw InputError(flag + ": " + none_of(name, right));
   return {name, equals == std::string::npos ? "" : text.substr(equals + 1)};
 }
 
@@ -264,49 +264,33 @@ int calibrate(CalibrateOptions asked, const Session& session) {
 }
 
 void add_options(CLI::App& command, CalibrateOptions& asked) {
-  command.add_option("soil", asked.soil, "a soil of the library, or a file; with grains")
-      ->type_name("SOIL")
-      ->required();
-  command
-      .add_option("--contact", asked.contact, "sand on sand, by direct shear; or tire on sand, by the tilting board")
-      ->type_name("sand|tire");
-  command.add_option("--target", asked.targets, "what was measured; repeatable; for sand, by default, the soil's own")
-      ->type_name("NAME=VALUE[,SD]");
-  command
-      .add_option("--vary", asked.bounds, "bounds of a number of the contact, in place of the usual ones; repeatable")
-      ->type_name("NAME=LOW..HIGH");
-  command.add_option("--keep", asked.kept, "keep this number as the soil has it; repeatable")->type_name("NAME");
-  command.add_option("--design", asked.options.design, "orthogonal array to begin with, L9")->type_name("L9|L16|L25");
-  command.add_option("--runs", asked.options.most_runs, "experiments at most, 30")->type_name("N");
-  command.add_option("--near", asked.near, "candidates lie within this share of every target; 5 %")->type_name("SHARE");
-  command.add_option("--within", asked.within, "the search ends within this share of every target; 3 %")
-      ->type_name("SHARE");
-  command.add_option("--probability", asked.probability, "probability with which --within must hold; 90 %")
-      ->type_name("SHARE");
-  command.add_option("--strength", asked.strength, "strength that the shear box is read by")
-      ->type_name("peak|residual");
-  command.add_option("--stresses", asked.stresses, "normal stresses of the shear box; 10kPa,20kPa,40kPa")
-      ->type_name("P,P,...");
-  command
-      .add_option(
-          "--settling-friction", asked.settling_friction,
-          "how the sheared sample, or the soil bin's bed, settles: loose, medium, dense, or a share of friction; 1")
-      ->type_name(settling_type);
-  command
-      .add_option("--rolling", asked.rolling,
-                  "law of rolling resistance: elastic_plastic, directional, directional_with_twist; the soil's own")
-      ->type_name("LAW");
-  command.add_option("--across", asked.across, "grains along a side of the board, 16")->type_name("N");
-  command.add_option("--packings", asked.packings, "number of samples of each experiment; shear box 1, board 4")
-      ->type_name("N");
-  command.add_option("--seed", asked.options.seed, "seed of packings and search; 1")
-      ->type_name("N")
-      ->check(whole_number(1));
-  command.add_option("--threads", asked.threads, "0, one a core")->type_name("N");
+  add_value(command, "soil", asked.soil, "SOIL", "a soil of the library, or a file; with grains")->required();
+  add_value(command, "--contact", asked.contact, "sand|tire",
+            "sand on sand, by direct shear; or tire on sand, by the tilting board");
+  add_value(command, "--target", asked.targets, "NAME=VALUE[,SD]",
+            "what was measured; repeatable; for sand, by default, the soil's own");
+  add_value(command, "--vary", asked.bounds, "NAME=LOW..HIGH",
+            "bounds of a number of the contact, in place of the usual ones; repeatable");
+  add_value(command, "--keep", asked.kept, "NAME", "keep this number as the soil has it; repeatable");
+  add_value(command, "--design", asked.options.design, "L9|L16|L25", "orthogonal array to begin with, L9");
+  add_value(command, "--runs", asked.options.most_runs, "N", "experiments at most, 30");
+  add_value(command, "--near", asked.near, "SHARE", "candidates lie within this share of every target; 5 %");
+  add_value(command, "--within", asked.within, "SHARE", "the search ends within this share of every target; 3 %");
+  add_value(command, "--probability", asked.probability, "SHARE", "probability with which --within must hold; 90 %");
+  add_value(command, "--strength", asked.strength, "peak|residual", "strength that the shear box is read by");
+  add_value(command, "--stresses", asked.stresses, "P,P,...", "normal stresses of the shear box; 10kPa,20kPa,40kPa");
+  add_value(command, "--settling-friction", asked.settling_friction, settling_type,
+            "how the sheared sample, or the soil bin's bed, settles: loose, medium, dense, or a share of friction; 1");
+  add_value(command, "--rolling", asked.rolling, "LAW",
+            "law of rolling resistance: elastic_plastic, directional, directional_with_twist; the soil's own");
+  add_value(command, "--across", asked.across, "N", "grains along a side of the board, 16");
+  add_value(command, "--packings", asked.packings, "N", "number of samples of each experiment; shear box 1, board 4");
+  add_value(command, "--seed", asked.options.seed, "N", "seed of packings and search; 1")->check(whole_number(1));
+  add_value(command, "--threads", asked.threads, "N", "0, one a core");
   add_file(command, "--store", asked.store, "FILE.json", "where finished experiments are kept; the user's cache");
   add_file(command, "--output", asked.output, "FILE.yaml", "write the soil with the calibrated contact");
-  command.add_option("--beside", asked.beside, "only run the sets of this table and show them beside its results")
-      ->type_name("FILE.csv");
+  add_value(command, "--beside", asked.beside, "FILE.csv",
+            "only run the sets of this table and show them beside its results");
   asked.decision.add_to(command);
   asked.batch.add_to(command);
   command.get_option("--beside")->excludes("--decide");

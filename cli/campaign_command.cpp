@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/question.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
@@ -98,7 +99,7 @@ int campaign(const CampaignOptions& asked, const Session& session) {
   write_file_atomically(fs::path(asked.output) / "README.md", provenance(asked, session.command, runs, made));
   compare::read_campaign(asked.output, session.place.library, session.place.effects,
                          compare::CampaignUse::fit);  // refuses what a loop would refuse, now
-  const auto drifting = std::count_if(made.runs.begin(), made.runs.end(), [](const auto& run) { return !run.steady; });
+  const auto drifting = std::ranges::count_if(made.runs, [](const auto& run) { return !run.steady; });
   fmt::print("wrote {}: {} runs, {} not steady", asked.output, made.runs.size(), drifting);
   if (made.without_result > 0) fmt::print("; left out {} without a result", made.without_result);
   if (made.not_steady > 0) fmt::print("; left out {} not steady", made.not_steady);
@@ -111,24 +112,21 @@ int campaign(const CampaignOptions& asked, const Session& session) {
 void add_campaign(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("campaign", "make a measured campaign of recorded runs of grains");
   const auto asked = std::make_shared<CampaignOptions>();
-  command->add_option("records", asked->records, "made by soilbin run --model dem --record FILE")
-      ->type_name("RECORD.json")
+  add_value(*command, "records", asked->records, "RECORD.json", "made by soilbin run --model dem --record FILE")
       ->required();
   add_folder(*command, "--output", asked->output, "folder of the campaign")->required();
-  command->add_option("--hide", asked->hide, "what the analyst is not told: " + listed(compare::things_to_hide()))
-      ->type_name("WHAT")
+  add_value(*command, "--hide", asked->hide, "WHAT",
+            "what the analyst is not told: " + listed(compare::things_to_hide()))
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--effect", asked->effects, "effect that the analyst's model already has; repeatable")
-      ->type_name("ID[:FORM][,PARAMETER=VALUE...]")
+  add_value(*command, "--effect", asked->effects, "ID[:FORM][,PARAMETER=VALUE...]",
+            "effect that the analyst's model already has; repeatable")
       ->allow_extra_args(false);
-  command
-      ->add_option("--soil", asked->soil,
-                   "soil whose analytic values the analyst is told; by default those of the record's case")
-      ->type_name("NAME|FILE");
-  command->add_option("--name", asked->name, "name of the campaign; by default the folder's")->type_name("NAME");
+  add_value(*command, "--soil", asked->soil, "NAME|FILE",
+            "soil whose analytic values the analyst is told; by default those of the record's case");
+  add_value(*command, "--name", asked->name, "NAME", "name of the campaign; by default the folder's");
   command->add_flag("--only-steady", asked->only_steady, "leave out runs that did not become steady");
-  command->add_option("--seed", asked->seed, "seed of the order of the rows; 1")->type_name("N");
+  add_value(*command, "--seed", asked->seed, "N", "seed of the order of the rows; 1");
   command->footer("Example: soilbin campaign level.json tilted.json --hide longitudinal_incline --output told");
   command->callback([=, &session] { session.action = [=, &session] { return campaign(*asked, session); }; });
 }

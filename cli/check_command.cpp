@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/recorded/step_pair.hpp"
@@ -100,8 +101,7 @@ void add_check(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("check", "is a case, campaign, tire or soil valid, and does it make sense?");
   const auto name = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
-  command->add_option("file", *name, "a file, a campaign's folder, or a name of the library")
-      ->type_name("CASE|CAMPAIGN")
+  add_value(*command, "file", *name, "CASE|CAMPAIGN", "a file, a campaign's folder, or a name of the library")
       ->required();
   command->add_flag("--json", *json, "as JSON");
   command->callback([=, &session] { session.action = [=, &session] { return check(*name, *json, session); }; });

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "compare/report/shell_words.hpp"
+#include "compare/report/number_text.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/source_text.hpp"
 
@@ -49,7 +49,7 @@ const Elsewhere elsewhere[] = {
 
 std::string sent_elsewhere(const std::string& command, const std::string& flag) {
   const auto holds = [](const auto& words, const std::string& word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
+    return std::ranges::find(words, word) != words.end();
   };
   for (const Elsewhere& one : elsewhere)
     if (holds(one.commands, command) && holds(one.flags, flag)) return one.hint;
@@ -59,7 +59,7 @@ std::string sent_elsewhere(const std::string& command, const std::string& flag) 
 /// What a command has for a flag that it doesn't know, or "".
 std::string suggestion(const std::string& flag, const std::vector<std::string>& flags) {
   for (const auto& [word, meant] : everyday_words)
-    if (flag == word && std::find(flags.begin(), flags.end(), meant) != flags.end())
+    if (flag == word && std::ranges::find(flags, meant) != flags.end())
       return fmt::format(", did you mean '{}'?", meant);
   return did_you_mean(flag, flags);
 }
@@ -109,7 +109,7 @@ std::string unknown_flag(const CLI::App& command, const std::vector<std::string>
   for (const std::string& word : words) {
     if (word == "--") break;
     const std::string flag = word.substr(0, word.find('='));
-    if (!flag.starts_with("--") || std::find(flags.begin(), flags.end(), flag) != flags.end()) continue;
+    if (!flag.starts_with("--") || std::ranges::find(flags, flag) != flags.end()) continue;
     if (const std::string hint = sent_elsewhere(command.get_name(), flag); !hint.empty())
       return fmt::format("'{}' has no option '{}'\n  hint: {}", command.get_name(), clipped(flag), hint);
     return fmt::format("'{}' has no option '{}'{}\n  hint: see soilbin {} --help", command.get_name(), clipped(flag),

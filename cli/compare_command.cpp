@@ -16,7 +16,7 @@
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
 #include "compare/discrepancy/comparison_page.hpp"
-#include "compare/discrepancy/comparison_tables.hpp"
+#include "compare/discrepancy/comparison_sheets.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
@@ -64,7 +64,7 @@ std::vector<ModelChoice> analytic_choices(const Case& question, const CompareOpt
     const auto same = [&](const ModelChoice& other) {
       return std::ranges::is_permutation(other.effects, choice.effects, same_effect);
     };
-    if (std::any_of(choices.begin(), choices.end(), same))
+    if (std::ranges::any_of(choices, same))
       fmt::print(stderr, "soilbin: --effect {}: is compared already\n", clipped(text));
     else
       choices.push_back(std::move(choice));
@@ -125,7 +125,7 @@ void print_text(const compare::Comparison& comparison, const compare::Comparison
       fmt::print("{}{}\n", clause.about.empty() ? "" : clause.about + ": ", clause.text);
   };
   print(compare::opening(comparison));
-  const compare::HtmlTable table = compare::without_marks(compare::tally_table(comparison));
+  const compare::Table table = compare::tally_table(comparison);
   if (!table.rows.empty()) fmt::print("\n{}\n", as_text(table));
   print(compare::cause_clauses(comparison));
   if (about.loop) print(compare::missing_clauses(*about.loop));
@@ -200,23 +200,21 @@ void add_compare(CLI::App& app, Session& session) {
   CLI::App* command =
       app.add_subcommand("compare", "models, grains and measurements of a study side by side, and why they differ");
   const auto asked = std::make_shared<CompareOptions>();
-  command->add_option("study", asked->study, "a study of the library, or a case file")->type_name("STUDY")->required();
-  command->add_option("--model", asked->model, "dem: run the grains now, without a record; bekker_wong: leave them out")
-      ->type_name("NAME");
-  command->add_option("--measured", asked->measured, "a campaign of the same wheel")->type_name("CAMPAIGN");
-  command->add_option("--soil", asked->soil, "the analytic model's values from this soil, as bevameter writes one")
-      ->type_name("SOIL");
-  command
-      ->add_option("--effect", asked->effects,
-                   "one more side: the analytic model with this effect, or with several joined by '+'; repeatable")
-      ->type_name("ID[:FORM][,PARAMETER=VALUE][+ID...]");
+  add_value(*command, "study", asked->study, "STUDY", "a study of the library, or a case file")->required();
+  add_value(*command, "--model", asked->model, "NAME",
+            "dem: run the grains now, without a record; bekker_wong: leave them out");
+  add_value(*command, "--measured", asked->measured, "CAMPAIGN", "a campaign of the same wheel");
+  add_value(*command, "--soil", asked->soil, "SOIL",
+            "the analytic model's values from this soil, as bevameter writes one");
+  add_value(*command, "--effect", asked->effects, "ID[:FORM][,PARAMETER=VALUE][+ID...]",
+            "one more side: the analytic model with this effect, or with several joined by '+'; repeatable");
   add_file(*command, "--report", asked->report, "FILE.html", "write everything as one page");
   add_folder(*command, "--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data");
   add_file(*command, "--csv", asked->csv, "FILE.csv", "save every row");
-  command->add_option("--replay", asked->replay, "a replay of grains to put into the page")->type_name("FILE");
-  command->add_option("--title", asked->title, "title of the page")->type_name("TEXT");
+  add_value(*command, "--replay", asked->replay, "FILE", "a replay of grains to put into the page");
+  add_value(*command, "--title", asked->title, "TEXT", "title of the page");
   command->add_flag("--no-loop", asked->no_loop, "do not look for what the analytic model lacks");
-  command->add_option("--seed", asked->seed, "seed of the loop's simulations and folds")->type_name("N");
+  add_value(*command, "--seed", asked->seed, "N", "seed of the loop's simulations and folds");
   command->add_flag("--json", asked->json, "soilbin-compare/1, in SI");
   asked->conditions.add_to(*command);
   asked->soil_bin.add_to(*command);

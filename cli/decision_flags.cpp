@@ -22,25 +22,14 @@ struct Axis {
   Measure measure;
 };
 
-/// The visitor of OperatingCondition's description that gathers its numbers.
-struct Axes {
-  std::vector<Axis> all;
-
-  void number(const char* key, double OperatingCondition::*member, const Measure& measure, Need, const char*) {
-    all.push_back({key, member, measure});
-  }
-  void number(const char*, std::optional<double> OperatingCondition::*, const Measure&, Need, const char*) {}
-  template <class N>
-  void integer(const char*, N OperatingCondition::*, int, Need, const char*) {}
-  template <class E>
-  void choice(const char*, E OperatingCondition::*, Need, const char*) {}
-};
-
 Axis axis_called(const std::string& name) {
-  Axes axes;
-  describe(axes, std::type_identity<OperatingCondition>{});
+  std::vector<Axis> axes;
+  each_member<OperatingCondition>([&](const char* key, auto member, const auto& measure, const char*) {
+    if constexpr (std::is_same_v<decltype(member), double OperatingCondition::*>)
+      axes.push_back({key, member, measure});
+  });
   std::vector<std::string> right;
-  for (const Axis& axis : axes.all) {
+  for (const Axis& axis : axes) {
     if (axis.name == name) return axis;
     right.push_back(axis.name);
   }
@@ -75,16 +64,13 @@ std::vector<Setpoint> picked(const std::vector<std::string>& texts, const compar
 
 void DecisionFlags::add_to(CLI::App& command) {
   const char* group = "Decided by the soil bin";
-  CLI::Option* decide =
-      command.add_option("--decide", campaign, "let the soil bin choose the candidate nearest to this campaign")
-          ->type_name("CAMPAIGN")
-          ->group(group);
-  command.add_option("--decide-at", at, "only at its setpoints between these; repeatable")
-      ->type_name("NAME=LOW..HIGH")
+  CLI::Option* decide = add_value(command, "--decide", campaign, "CAMPAIGN",
+                                  "let the soil bin choose the candidate nearest to this campaign")
+                            ->group(group);
+  add_value(command, "--decide-at", at, "NAME=LOW..HIGH", "only at its setpoints between these; repeatable")
       ->needs(decide)
       ->group(group);
-  command.add_option("--bed-packings", packings, "beds on which each candidate runs, from --seed on; 1")
-      ->type_name("N")
+  add_value(command, "--bed-packings", packings, "N", "beds on which each candidate runs, from --seed on; 1")
       ->check(whole_number(1))
       ->needs(decide)
       ->group(group);
@@ -92,7 +78,7 @@ void DecisionFlags::add_to(CLI::App& command) {
   bin.add_measures_to(command);
   bin.add_starting_to(command);
   for (CLI::Option* option : command.get_options())
-    if (std::find(before.begin(), before.end(), option) == before.end()) option->needs(decide)->group(group);
+    if (std::ranges::find(before, option) == before.end()) option->needs(decide)->group(group);
 }
 
 compare::TrialQuestion DecisionFlags::question(const Workplace& place) const {

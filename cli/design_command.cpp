@@ -26,8 +26,8 @@ struct DesignFlags {
 void print_design(const compare::TestDesign& design) {
   fmt::print("{}\n", design.campaign);
   for (const std::string& sentence : compare::in_sentences(design)) fmt::print("\n{}\n", sentence);
-  for (const compare::MarkedTable& table : {compare::runs_table(design), compare::pairs_table(design)})
-    fmt::print("\n{}", as_text(compare::without_marks(table)));
+  for (const compare::Table& table : {compare::runs_table(design), compare::pairs_table(design)})
+    fmt::print("\n{}", as_text(table));
 }
 
 int design(const DesignFlags& asked, const Session& session) {
@@ -56,22 +56,20 @@ int design(const DesignFlags& asked, const Session& session) {
 void add_design(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("design", "the runs that tell effects apart best, before any is made");
   const auto asked = std::make_shared<DesignFlags>();
-  command->add_option("campaign", asked->campaign, "a campaign of the library, or its folder; it needs no runs yet")
-      ->type_name("CAMPAIGN")
+  add_value(*command, "campaign", asked->campaign, "CAMPAIGN",
+            "a campaign of the library, or its folder; it needs no runs yet")
       ->required();
-  command->add_option("--runs", asked->runs, "number of runs to make; 24")->type_name("N")->check(whole_number(4, 400));
+  add_value(*command, "--runs", asked->runs, "N", "number of runs to make; 24")->check(whole_number(4, 400));
   add_limits_of_the_rig(*command, asked->limits,
                         "range that the rig can reach, where it is not that of the runs made; repeatable");
-  command->add_option("--effect", asked->effects, "effect to tell apart; repeatable; all that these ranges can show")
-      ->type_name("ID")
+  add_value(*command, "--effect", asked->effects, "ID",
+            "effect to tell apart; repeatable; all that these ranges can show")
       ->allow_extra_args(false);
-  command
-      ->add_option("--noise", asked->noise,
-                   "standard deviation of one run, for each channel that is measured; repeatable; 2 % of its range")
-      ->type_name("CHANNEL=SD")
+  add_value(*command, "--noise", asked->noise, "CHANNEL=SD",
+            "standard deviation of one run, for each channel that is measured; repeatable; 2 % of its range")
       ->allow_extra_args(false);
   add_file(*command, "--csv", asked->csv, "FILE.csv", "save the rows, to fill in as the campaign's runs");
-  command->add_option("--seed", asked->seed, "seed of the order of the runs; 1")->type_name("N");
+  add_value(*command, "--seed", asked->seed, "N", "seed of the order of the runs; 1");
   command->add_flag("--json", asked->json, "the answer as JSON, soilbin-design/1");
   command->footer(
       "Example: soilbin design FOLDER --runs 24 --limit load=60N..140N --limit slip=-20%..60% --csv runs.csv");

@@ -66,20 +66,21 @@ std::string slip_text(const DriveState& s) { return s.slip ? number(100 * *s.sli
 
 /// A dozen of the samples, the last among them.
 std::string samples_text(const bekker_wong::DriveRecord& record) {
-  TextTable table({"time [s]", "travelled [m]", "slope [deg]", "speed [cm/s]", "rim [cm/s]", "slip [%]", "sinkage [mm]",
-                   "torque [N m]", "soil force [N]"});
+  Table table{"",
+              {"time [s]", "travelled [m]", "slope [deg]", "speed [cm/s]", "rim [cm/s]", "slip [%]", "sinkage [mm]",
+               "torque [N m]", "soil force [N]"}};
   for (const bekker_wong::DriveSample& s : picked(record.samples, shown_rows))
     table.add({number(s.time), number(s.travelled), number(s.longitudinal_incline / degree), number(100 * s.speed),
                number(100 * s.rim_speed), slip_text(s), number(1000 * s.sinkage), number(s.torque), number(s.forward)});
-  return table.text();
+  return as_text(table);
 }
 
 std::string energy_text(const bekker_wong::EnergyLedger& energy) {
-  TextTable table({"of the motor's work", "J", "%"});
+  Table table{"", {"of the motor's work", "J", "%"}};
   for (const auto& [name, joules] : compare::energy_rows(energy))
     table.add({name, number(joules), energy.motor != 0.0 ? number(100 * joules / energy.motor) : "-"});
   table.add({"in all", number(energy.motor), "100"});
-  return table.text();
+  return as_text(table);
 }
 
 std::string drive_text(const compare::DrivePart& part) {
@@ -115,16 +116,17 @@ dem::DemSettings settings_for(const DriveOptions& options, const Drive& drive) {
 
 std::string sides_samples_text(const compare::DriveSides& drive) {
   const std::size_t rows_of_each = std::max<std::size_t>(3, shown_rows / std::max<std::size_t>(2, drive.sides.size()));
-  TextTable table({"model", "time [s]", "travelled [m]", "slope [deg]", "speed [cm/s]", "slip [%]", "sinkage [mm]",
-                   "torque [N m]", "soil force [N]"});
+  Table table{"",
+              {"model", "time [s]", "travelled [m]", "slope [deg]", "speed [cm/s]", "slip [%]", "sinkage [mm]",
+               "torque [N m]", "soil force [N]"}};
   for (const compare::DriveSide& side : drive.sides)
     for (const compare::DriveSideSample& s : picked(side.samples, rows_of_each))
       table.add({side.label, number(s.time), number(s.travelled), number(s.longitudinal_incline / degree),
                  number(100 * s.speed), slip_text(s), number(1000 * s.sinkage), number(s.torque), number(s.forward)});
-  return table.text();
+  return as_text(table);
 }
 
-std::string without_caption(compare::HtmlTable table) {
+std::string without_caption(compare::Table table) {
   table.caption.clear();
   return "\n" + as_text(table);
 }
@@ -139,7 +141,7 @@ std::string sides_text(const compare::DriveSides& drive) {
   for (const std::string& sentence : compare::in_words(drive)) text += sentence + "\n";
   if (drive.over_packings) text += without_caption(compare::packings_table(drive));
   if (!drive.differences.empty()) text += without_caption(compare::differences_table(drive));
-  compare::HtmlTable work = compare::work_table(drive);
+  compare::Table work = compare::work_table(drive);
   work.header.front() = "of the motor's work [J]", work.rows.back().front() = "in all";
   text += without_caption(std::move(work)) + "\n";
   for (const std::string& note : drive.notes) text += note + "\n";
@@ -184,25 +186,21 @@ int drive(const DriveOptions& options, const Session& session) {
 void add_drive(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("drive", "a wheel driven in time: from rest, along a way, by a motor");
   const auto options = std::make_shared<DriveOptions>();
-  command->add_option("case", options->name, "a case with a section 'drive', of the library or a file")
-      ->type_name("CASE")
+  add_value(*command, "case", options->name, "CASE", "a case with a section 'drive', of the library or a file")
       ->required();
-  command->add_option("--model", options->model, "bekker_wong; dem: on grains, in the virtual soil bin; or both")
-      ->type_name("NAME")
+  add_value(*command, "--model", options->model, "NAME",
+            "bekker_wong; dem: on grains, in the virtual soil bin; or both")
       ->capture_default_str();
   add_plot(*command, options->plot, "draw speed, slip, sinkage, torque, forces and energy against time");
   add_file(*command, "--csv", options->csv, "FILE.csv", "save every sample");
   add_file(*command, "--report", options->report, "FILE.html", "save a page to open in a browser");
-  command->add_option("--samples", options->samples, "intervals of time that are recorded; 400")
-      ->type_name("WHOLE")
+  add_value(*command, "--samples", options->samples, "WHOLE", "intervals of time that are recorded; 400")
       ->check(whole_number(1, 1000000));
   command->add_flag("--json", options->json, "soilbin-drive/1, with grains soilbin-drive-sides/1; in SI");
   options->soil_bin.add_rig_to(*command);
-  command
-      ->add_option("--packings", options->soil_bin.packings,
-                   "number of beds, from --packing on; answers are means over them; 1")
-      ->group(grains_heading)
-      ->type_name("N");
+  add_value(*command, "--packings", options->soil_bin.packings, "N",
+            "number of beds, from --packing on; answers are means over them; 1")
+      ->group(grains_heading);
   command
       ->add_flag("--ledger", options->ledger,
                  "report what became of the energy that the grains got; takes up to twice as long")

@@ -43,22 +43,27 @@ std::vector<double> stresses_of(const ElementTestOptions& options, std::vector<d
   return out;
 }
 
-compare::TestReport direct_shear(const AskedTest& asked) {
-  dem::DirectShearSettings s;
+/// Of a test of strength on specimens with these sides.
+template <class Settings>
+Settings strength_settings(const AskedTest& asked, std::initializer_list<double Settings::*> sides) {
+  Settings s;
   s.specimen = asked.specimen, s.packings = asked.options.packings, s.ledger = asked.options.ledger;
   s.stresses = stresses_of(asked.options, s.stresses);
-  for (double* side : {&s.length, &s.width, &s.height}) *side *= asked.options.flags.size;
+  for (double Settings::*side : sides) s.*side *= asked.options.flags.size;
   if (asked.options.inertial > 0) s.inertial = asked.options.inertial;
-  return compare::report_on(dem::direct_shear(asked.grains, s, asked.how, &asked.beds));
+  return s;
+}
+
+compare::TestReport direct_shear(const AskedTest& asked) {
+  using S = dem::DirectShearSettings;
+  const S settings = strength_settings<S>(asked, {&S::length, &S::width, &S::height});
+  return compare::report_on(dem::direct_shear(asked.grains, settings, asked.how, &asked.beds));
 }
 
 compare::TestReport triaxial(const AskedTest& asked) {
-  dem::TriaxialSettings s;
-  s.specimen = asked.specimen, s.packings = asked.options.packings, s.ledger = asked.options.ledger;
-  s.stresses = stresses_of(asked.options, s.stresses);
-  for (double* side : {&s.side, &s.height}) *side *= asked.options.flags.size;
-  if (asked.options.inertial > 0) s.inertial = asked.options.inertial;
-  return compare::report_on(dem::triaxial(asked.grains, s, asked.how, &asked.beds));
+  using S = dem::TriaxialSettings;
+  const S settings = strength_settings<S>(asked, {&S::side, &S::height});
+  return compare::report_on(dem::triaxial(asked.grains, settings, asked.how, &asked.beds));
 }
 
 compare::TestReport tilting_board(const AskedTest& asked) {
@@ -139,17 +144,14 @@ void add_element_test(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand(
       "element-test", "test a soil's grains as a laboratory does: shear box, triaxial cell, plates ...");
   const auto options = std::make_shared<ElementTestOptions>();
-  command->add_option("test", options->test, "direct-shear, tilting-board, repose, triaxial, plate or shear")
-      ->type_name("TEST")
+  add_value(*command, "test", options->test, "TEST", "direct-shear, tilting-board, repose, triaxial, plate or shear")
       ->required();
-  command->add_option("soil", options->soil, "a soil of the library, or a YAML file")->type_name("SOIL")->required();
-  command->add_option("--stress", options->stresses, "normal or confining stress; may be given again")
-      ->type_name("STRESS")
+  add_value(*command, "soil", options->soil, "SOIL", "a soil of the library, or a YAML file")->required();
+  add_value(*command, "--stress", options->stresses, "STRESS", "normal or confining stress; may be given again")
       ->allow_extra_args(false);
-  command->add_option("--packings", options->packings, "direct-shear, triaxial: number of specimens, 1")
-      ->type_name("N");
-  command->add_option("--inertial", options->inertial, "direct-shear, triaxial: inertial number of the rate, 0.001")
-      ->type_name("I");
+  add_value(*command, "--packings", options->packings, "N", "direct-shear, triaxial: number of specimens, 1");
+  add_value(*command, "--inertial", options->inertial, "I",
+            "direct-shear, triaxial: inertial number of the rate, 0.001");
   command->add_flag("--ledger", options->ledger, "direct-shear, triaxial: check the balance of energy (in --json)");
   add_plot(*command, options->plot, "draw the curves");
   command->add_flag("--json", options->json, "soilbin-element-test/1, in SI");

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "cli/flag_values.hpp"
 #include "cli/soil_bin.hpp"
 #include "scenario/description.hpp"
 #include "scenario/errors.hpp"
@@ -19,20 +20,15 @@ RollingResistance rolling_named(const std::string& text, std::vector<std::string
 }
 
 void ElementTestFlags::add_to(CLI::App& command) {
-  command.add_option("--packing", packing, "seed of the first specimen; 1")->type_name("SEED");
-  command
-      .add_option("--settling-friction", settling_friction,
-                  "how dense the specimen settles: loose (the default), medium, dense, or the share of the friction "
-                  "that acts meanwhile: 1 loose .. 0 densest")
-      ->type_name(settling_type);
-  command
-      .add_option(
-          "--rolling", rolling,
-          "law of rolling resistance: elastic_plastic, directional, directional_with_twist, none; the soil's own")
-      ->type_name("LAW");
-  command.add_option("--size", size, "size of specimens and beds, as a multiple of the default; tools keep theirs")
-      ->type_name("FACTOR");
-  command.add_option("--threads", threads, "number of threads; 0: one for each core")->type_name("N");
+  add_value(command, "--packing", packing, "SEED", "seed of the first specimen; 1");
+  add_value(command, "--settling-friction", settling_friction, settling_type,
+            "how dense the specimen settles: loose (the default), medium, dense, or the share of the friction that "
+            "acts meanwhile: 1 loose .. 0 densest");
+  add_value(command, "--rolling", rolling, "LAW",
+            "law of rolling resistance: elastic_plastic, directional, directional_with_twist, none; the soil's own");
+  add_value(command, "--size", size, "FACTOR",
+            "size of specimens and beds, as a multiple of the default; tools keep theirs");
+  add_value(command, "--threads", threads, "N", "number of threads; 0: one for each core");
 }
 
 dem::SpecimenSettings ElementTestFlags::specimen(const GranularSoil& soil) const {
@@ -61,8 +57,7 @@ dem::WorkOptions ElementTestFlags::work() const {
 const GranularSoil& grains_of(const Soil& soil) {
   if (!soil.granular)
     throw InputError(
-        fmt::format("soil '{}' has no grains: an element test needs its section 'granular'"
-                    "\n  hint: paper-sand has one",
+        fmt::format("soil '{}' has no grains: an element test needs its section 'granular'\n  hint: paper-sand has one",
                     soil.name));
   return *soil.granular;
 }

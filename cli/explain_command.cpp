@@ -19,11 +19,6 @@ namespace {
 using compare::Explanation;
 using compare::Step;
 
-std::string spaced(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 void print_steps(const char* heading, const std::vector<Step>& steps) {
   if (steps.empty()) return;
   fmt::print("\n{}\n", heading);
@@ -39,15 +34,15 @@ void print_steps(const char* heading, const std::vector<Step>& steps) {
 
 void print_budget(const TractionResult& result) {
   fmt::print("\nBudget of forces along the drawbar pull\n");
-  TextTable table({"part", "force [N]"});
+  Table table{"", {"part", "force [N]"}};
   double sum = 0.0;
   for (const Contribution& part : result.budget) {
-    table.add({"  " + spaced(part.name), fmt::format("{:.4f}", part.force)});
+    table.add({"  " + compare::spaced(part.name), fmt::format("{:.4f}", part.force)});
     sum += part.force;
   }
   table.add({"  sum", fmt::format("{:.4f}", sum)});
   table.add({"  drawbar pull", fmt::format("{:.4f}", result.drawbar_pull.value)});
-  fmt::print("{}", table.text());
+  fmt::print("{}", as_text(table));
 }
 
 nlohmann::ordered_json steps_json(const std::vector<Step>& steps) {

@@ -12,7 +12,7 @@
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
-#include "compare/experiments/map_grains.hpp"
+#include "compare/experiments/soil_bin_trials.hpp"
 #include "compare/failure_map/map_report.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
@@ -131,39 +131,31 @@ void add_failure_map(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand(
       "failure-map", "where the analytic model and grains disagree, over load, lugs, slip and slope");
   const auto asked = std::make_shared<FailureMapOptions>();
-  command->add_option("study", asked->study, "the study whose wheel, soil, bin and speed are taken")
-      ->type_name("STUDY")
+  add_value(*command, "study", asked->study, "STUDY", "the study whose wheel, soil, bin and speed are taken")
       ->required();
-  command->add_option("--soil", asked->soil, "the analytic model's values from this soil, as bevameter writes one")
-      ->type_name("SOIL");
-  command->add_option("--incline", asked->incline, "longitudinal (default), transverse or yaw")->type_name("KIND");
-  command->add_option("--load", asked->load, "range of loads")->type_name("LOW..HIGH")->required();
-  command->add_option("--lug-height", asked->lug_height, "range of lug heights")->type_name("LOW..HIGH")->required();
-  command->add_option("--angle", asked->angle, "range of the incline or the yaw")->type_name("LOW..HIGH")->required();
-  command->add_option("--slip", asked->slip, "range of slips")->type_name("LOW..HIGH")->required();
-  command->add_option("--first", asked->first, "conditions that fill the ranges evenly; 24")->type_name("N");
-  command
-      ->add_option("--boundary", asked->at_boundary,
-                   "further ones, each where the difference may cross the tolerance; 12")
-      ->type_name("N");
-  command
-      ->add_option("--rounds", asked->rounds, "further ones for each statement, each where it is most likely wrong; 4")
-      ->type_name("N");
-  command->add_option("--check", asked->fresh, "predict, then run so many conditions that the map has not seen")
-      ->type_name("N");
-  command
-      ->add_option("--tolerance", asked->tolerance,
-                   "share of the load beyond which the models count as different; 10 %")
-      ->type_name("SHARE");
-  command->add_option("--effect", asked->effects, "effect of the analytic model; repeatable")
-      ->type_name("ID[:FORM][,PARAMETER=VALUE...]")
+  add_value(*command, "--soil", asked->soil, "SOIL",
+            "the analytic model's values from this soil, as bevameter writes one");
+  add_value(*command, "--incline", asked->incline, "KIND", "longitudinal (default), transverse or yaw");
+  add_value(*command, "--load", asked->load, "LOW..HIGH", "range of loads")->required();
+  add_value(*command, "--lug-height", asked->lug_height, "LOW..HIGH", "range of lug heights")->required();
+  add_value(*command, "--angle", asked->angle, "LOW..HIGH", "range of the incline or the yaw")->required();
+  add_value(*command, "--slip", asked->slip, "LOW..HIGH", "range of slips")->required();
+  add_value(*command, "--first", asked->first, "N", "conditions that fill the ranges evenly; 24");
+  add_value(*command, "--boundary", asked->at_boundary, "N",
+            "further ones, each where the difference may cross the tolerance; 12");
+  add_value(*command, "--rounds", asked->rounds, "N",
+            "further ones for each statement, each where it is most likely wrong; 4");
+  add_value(*command, "--check", asked->fresh, "N", "predict, then run so many conditions that the map has not seen");
+  add_value(*command, "--tolerance", asked->tolerance, "SHARE",
+            "share of the load beyond which the models count as different; 10 %");
+  add_value(*command, "--effect", asked->effects, "ID[:FORM][,PARAMETER=VALUE...]",
+            "effect of the analytic model; repeatable")
       ->allow_extra_args(false);
-  command->add_option("--store", asked->store, "keep each run in this file, and go on with what is there")
-      ->type_name("FILE.json");
+  add_value(*command, "--store", asked->store, "FILE.json", "keep each run in this file, and go on with what is there");
   command->add_flag("--stored", asked->stored, "answer from the store alone, without running");
   asked->batch.add_to(*command);
   add_file(*command, "--report", asked->report, "FILE.html", "write the report as one page");
-  command->add_option("--seed", asked->seed, "seed of the design; 1")->type_name("N");
+  add_value(*command, "--seed", asked->seed, "N", "seed of the design; 1");
   command->add_flag("--show-rows", asked->rows, "print every condition run");
   command->add_flag("--json", asked->json, "soilbin-failure-map/1, in SI");
   asked->soil_bin.add_to(*command);

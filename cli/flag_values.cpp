@@ -36,7 +36,7 @@ void set_where_given(const std::string& flag, const std::string& text, const Mea
 }
 
 void check_model(const std::string& name, const std::vector<std::string>& right) {
-  if (std::find(right.begin(), right.end(), name) == right.end())
+  if (std::ranges::find(right, name) == right.end())
     throw InputError("--model: unknown model '" + clipped(name) + "'" + did_you_mean(name, right) +
                      "\n  hint: bekker_wong is the analytic wheel, dem the grains");
 }
@@ -69,12 +69,12 @@ CLI::Validator whole_number(long long lower, long long upper) {
 
 CLI::Option* add_file(CLI::App& command, const char* flag, std::string& name, const char* type, const char* meaning) {
   const auto refused = [](const std::string& given) { return why_not_writable(given); };
-  return command.add_option(flag, name, meaning)->type_name(type)->check(refused);
+  return add_value(command, flag, name, type, meaning)->check(refused);
 }
 
 CLI::Option* add_folder(CLI::App& command, const char* flag, std::string& name, const char* meaning) {
   const auto refused = [](const std::string& given) { return why_no_folder(given); };
-  return command.add_option(flag, name, meaning)->type_name("DIR")->check(refused);
+  return add_value(command, flag, name, "DIR", meaning)->check(refused);
 }
 
 }  // namespace soilbin::cli

@@ -33,6 +33,13 @@ int all_cores();
 /// For flags that are whole numbers of at least `lower`, and at most `upper`.
 CLI::Validator whole_number(long long lower, long long upper = std::numeric_limits<long long>::max());
 
+/// A flag that takes a value, or an argument without a name; `type` and `meaning` as the help has them.
+template <class T>
+CLI::Option* add_value(CLI::App& command, const std::string& flag, T& value, const std::string& type,
+                       const std::string& meaning) {
+  return command.add_option(flag, value, meaning)->type_name(type);
+}
+
 /// A flag that names a file to write: tries the place before any work is done, and refuses what can't become one.
 /// Folders that are missing are made when the file is written. `type`: as the help has it, "FILE.csv".
 CLI::Option* add_file(CLI::App& command, const char* flag, std::string& name, const char* type, const char* meaning);

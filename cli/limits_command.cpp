@@ -26,8 +26,8 @@ int limits(const Question& inputs, const LimitsOptions& options, const Session& 
   for (const char* key : {"slip", "longitudinal_incline"})
     if (inputs.given(key))
       throw InputError(
-          fmt::format("{} is what limits looks for: leave it out\n  hint: soilbin estimate answers at a slip "
-                      "and on a slope that are given",
+          fmt::format("{} is what limits looks for: leave it out\n  hint: soilbin estimate answers at a slip and on a "
+                      "slope that are given",
                       flag_of("", key)));
   const Case question = inputs.ask(session.place);
   require_semi_empirical(question, session.place.library);

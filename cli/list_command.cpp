@@ -7,6 +7,7 @@
 #include "bekker_wong/effect.hpp"
 #include "bekker_wong/effects/provenance.hpp"
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/json_fields.hpp"
 #include "scenario/contents.hpp"
@@ -21,13 +22,13 @@ using Json = nlohmann::ordered_json;
 
 /// Rows of a listing: the table for people, the array for programs.
 struct Listing {
-  TextTable table;
+  Table table;
   Json json = Json::array();
 };
 
 /// What a shelf tells of a name: cells of the table between the name and what it is, keys beside "name".
 struct ShelfRow {
-  std::vector<std::string> cells;
+  std::vector<TableCell> cells;
   Json json;
   std::string question = {};  ///< what it is, in its own file's words
 };
@@ -123,7 +124,7 @@ void add_row(Listing& listing, const ShelfView& view, const std::string& section
     listing.json.push_back(std::move(entry));
   } catch (const InputError& error) {
     const std::string what = error.what();
-    std::vector<std::string> cells = {line.name, "unreadable: " + what.substr(0, what.find('\n'))};
+    std::vector<TableCell> cells = {line.name, "unreadable: " + what.substr(0, what.find('\n'))};
     cells.resize(view.columns.size() + 2);
     listing.table.add(std::move(cells));
     listing.json.push_back({{"name", line.name}, {"error", what}});
@@ -134,9 +135,9 @@ Listing listing_of(const ShelfView& view, const Workplace& place) {
   std::vector<std::string> header = view.columns;
   header.insert(header.begin(), "name");
   header.emplace_back("what it is");
-  Listing listing{TextTable(header)};
+  Listing listing{Table{"", header}};
   for (const ContentsSection& section : contents_of(place.folders, view.shelf)) {
-    listing.table.add_title(section.title);
+    listing.table.add({section.title});
     for (const ContentsLine& line : section.lines) add_row(listing, view, section.title, line, place);
   }
   return listing;
@@ -147,10 +148,10 @@ int print_shelves(bool json, const Workplace& place) {
   Json document = {{"format", "soilbin-list/1"}};
   std::string text;
   for (const ShelfView& view : shelf_views()) {
-    TextTable table({"", "", ""});
+    Table table{"", {"", "", ""}};
     Json names = Json::array();
     for (const ContentsSection& section : contents_of(place.folders, view.shelf)) {
-      table.add_title("  " + section.title);
+      table.add({"  " + section.title});
       for (const ContentsLine& line : section.lines) {
         const std::string meaning = line.meaning.empty() ? view.row(line.name, place).question : line.meaning;
         table.add({"  ", line.name, meaning});
@@ -158,7 +159,7 @@ int print_shelves(bool json, const Workplace& place) {
       }
     }
     const std::string folder(folder_of(view.shelf));
-    text += fmt::format("{}{} (soilbin list {}){}", text.empty() ? "" : "\n", view.title, folder, table.text());
+    text += fmt::format("{}{} (soilbin list {}){}", text.empty() ? "" : "\n", view.title, folder, as_text(table));
     document[folder] = std::move(names);
   }
   text += fmt::format("\nEffects: {} forms (soilbin list effects)\n", bekker_wong::effect_catalogue().size());
@@ -231,7 +232,7 @@ int list(const std::string& what, bool json, const Session& session) {
     if (json)
       print_json({{"format", "soilbin-list/1"}, {name, listing.json}});
     else
-      fmt::print("{}", listing.table.text());
+      fmt::print("{}", as_text(listing.table));
     return done;
   }
   throw InputError("can't list '" + clipped(what) + "'" + did_you_mean(what, right) + "\n  hint: one of " +
@@ -244,10 +245,8 @@ void add_list(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("list", "what there is: soils, tires, effects, studies, measured");
   const auto what = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
-  command
-      ->add_option("what", *what,
-                   "soils, tires, effects, studies or measured; without it: every name, with a line on what it is")
-      ->type_name("WHAT");
+  add_value(*command, "what", *what, "WHAT",
+            "soils, tires, effects, studies or measured; without it: every name, with a line on what it is");
   command->add_flag("--json", *json, "as JSON, in SI");
   command->callback([=, &session] { session.action = [=, &session] { return list(*what, *json, session); }; });
 }

@@ -1,7 +1,6 @@
 // soilbin loop: residual, cause, effect added, error before and after, on a measured campaign.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -31,8 +30,8 @@ compare::LoopAnswer without_given_limits(compare::LoopAnswer answer, const compa
   return answer;
 }
 
-void print_table(const compare::MarkedTable& table) {
-  if (!table.rows.empty()) fmt::print("\n{}", as_text(compare::without_marks(table)));
+void print_table(const compare::Table& table) {
+  if (!table.rows.empty()) fmt::print("\n{}", as_text(table));
 }
 
 /// The page's sentences and tables, in its order.
@@ -90,24 +89,20 @@ void add_loop(CLI::App& app, Session& session) {
   CLI::App* command =
       app.add_subcommand("loop", "find what the model lacks beside measured runs, and what to measure next");
   const auto asked = std::make_shared<LoopOptions>();
-  command->add_option("campaign", asked->campaign, "a campaign of the library, or its folder")
-      ->type_name("CAMPAIGN")
-      ->required();
+  add_value(*command, "campaign", asked->campaign, "CAMPAIGN", "a campaign of the library, or its folder")->required();
   add_file(*command, "--report", asked->report, "FILE.html", "write the report as one page");
   add_file(*command, "--save-model", asked->model, "FILE.yaml",
            "write soil and effects as a case that other commands take");
   add_file(*command, "--propose", asked->proposal, "FILE.cpp",
            "write a learned effect's formula, where there is one, as an entry of the catalogue of effects");
   command->add_flag("--next", asked->next, "say only what to measure next");
-  add_limits_of_the_rig(*command, asked->limits,
-                        "for what to measure next: range that the rig can reach, where it is not the campaign's own; "
-                        "repeatable");
-  command
-      ->add_option("--folds", asked->folds,
-                   "parts into which the conditions are divided; each is predicted from the others; 5")
-      ->type_name("N")
+  add_limits_of_the_rig(
+      *command, asked->limits,
+      "for what to measure next: range that the rig can reach, where it is not the campaign's own; repeatable");
+  add_value(*command, "--folds", asked->folds, "N",
+            "parts into which the conditions are divided; each is predicted from the others; 5")
       ->check(whole_number(2, 50));
-  command->add_option("--seed", asked->seed, "seed of the simulations and the folds")->type_name("N");
+  add_value(*command, "--seed", asked->seed, "N", "seed of the simulations and the folds");
   command->add_flag("--json", asked->json, "the answer as JSON, soilbin-loop/1");
   command->add_flag("--details", asked->details, "with --json: what stands behind the answer");
   command->footer("Example: soilbin loop cmu-smooth --report loop.html --save-model fitted.yaml");

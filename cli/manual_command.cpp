@@ -8,9 +8,14 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "compare/report/javascript.hpp"
 #include "compare/report/number_text.hpp"
 
 namespace soilbin::cli {
+
+/// The files of cli/written; made by the build.
+std::vector<compare::EmbeddedFile> written_files();
+
 namespace {
 
 /// Text as troff takes it: backslashes and hyphens kept, no line that begins like a request.
@@ -51,17 +56,15 @@ std::string manual_page(const CLI::App& app) {
       "soil?\n"
       ".SH SYNOPSIS\n.B soilbin\n\\fICOMMAND\\fR [\\fIOPTION\\fR]...\n.SH DESCRIPTION\n"
       "Drawbar pull, torque, sinkage and side force of a wheel on soil: by the semi\\-empirical model of Wong and "
-      "Reece, by "
-      "discrete elements in a virtual soil bin, and beside measurements. Values carry their unit: 80N, 110mm, 20%, "
-      "5deg.\n"
+      "Reece, by discrete elements in a virtual soil bin, and beside measurements. Values carry their unit: 80N, "
+      "110mm, 20%, 5deg.\n"
       ".SH COMMANDS\n",
       SOILBIN_VERSION);
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     page += command_page(*command);
   return page +
          ".SH EXIT STATUS\n0: done; 1: failed, or no answer; 2: bad input; 3: part of the work is done and kept, the "
-         "same "
-         "command goes on; 130: stopped by Ctrl\\-C.\n"
+         "same command goes on; 130: stopped by Ctrl\\-C.\n"
          ".SH ENVIRONMENT\n.TP\nSOILBIN_CASES\nfolders of tires, soils, studies and campaigns, before the installed "
          "ones\n"
          ".TP\nSOILBIN_BEDS\nfolder in which settled beds of grains are kept\n"
@@ -79,8 +82,7 @@ std::string cell(const std::string& text) {
 std::string option_tables(const CLI::App& command) {
   std::vector<std::string> groups;
   for (const CLI::Option* option : command.get_options())
-    if (std::find(groups.begin(), groups.end(), option->get_group()) == groups.end())
-      groups.push_back(option->get_group());
+    if (std::ranges::find(groups, option->get_group()) == groups.end()) groups.push_back(option->get_group());
   std::string text;
   for (const std::string& group : groups) {
     std::string rows;
@@ -118,8 +120,7 @@ std::string markdown_page(const CLI::App& app) {
       "# The commands\n\n"
       "Every command with its options, as `soilbin COMMAND --help` shows them. This page is written by `soilbin manual "
       "--markdown`,\nand a test holds it to that. Numbers carry their unit: `80N`, `110mm`, `20%`, `5deg`. Errors and "
-      "exit "
-      "statuses:\n[errors.md](errors.md).\n\n| command | what it does |\n|---|---|\n";
+      "exit statuses:\n[errors.md](errors.md).\n\n| command | what it does |\n|---|---|\n";
   const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
   std::string heading;
   for (const CLI::App* command : commands) {
@@ -144,29 +145,9 @@ std::string bash_completion(const CLI::App& app) {
     commands += (commands.empty() ? "" : " ") + command->get_name();
     cases += fmt::format("    {}) flags=\"{}\" ;;\n", command->get_name(), joined_names(*command));
   }
-  return "# bash completion for soilbin; made by: soilbin manual --bash-completion\n"
-         "_soilbin() {\n"
-         "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} flags=\"\"\n"
-         "  COMPREPLY=()\n"
-         "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
-         "    COMPREPLY=($(compgen -W \"" +
-         commands +
-         "\" -- \"$word\"))\n"
-         "    return\n"
-         "  fi\n"
-         "  case \"$before\" in\n"
-         "    --tire | --soil)\n"
-         "      COMPREPLY=($(compgen -W \"$(soilbin list \"${before#--}s\" 2>/dev/null | awk 'NR > 1 {print $1}')\" -- "
-         "\"$word\"))\n"
-         "      return\n"
-         "      ;;\n"
-         "  esac\n"
-         "  case \"${COMP_WORDS[1]}\" in\n" +
-         cases +
-         "  esac\n"
-         "  [[ \"$word\" == -* ]] && COMPREPLY=($(compgen -W \"$flags\" -- \"$word\"))\n"
-         "}\n"
-         "complete -o default -F _soilbin soilbin\n";
+  std::string script = compare::embedded(written_files(), "completion.bash");
+  script.replace(script.find("@commands@"), 10, commands);
+  return script.replace(script.find("@cases@"), 7, cases);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/picture.hpp"
 #include "cli/progress.hpp"
 #include "scenario/atomic_file.hpp"
@@ -28,9 +29,9 @@ constexpr std::array<DrawingFormat, 3> drawing_formats = {
 /// nullptr where the ending tells none.
 const DrawingFormat* drawing_format_of(const std::string& name) {
   std::string ending = std::filesystem::path(name).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  const auto found = std::find_if(drawing_formats.begin(), drawing_formats.end(),
-                                  [&](const DrawingFormat& format) { return format.ending == ending; });
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto found =
+      std::ranges::find_if(drawing_formats, [&](const DrawingFormat& format) { return format.ending == ending; });
   return found == drawing_formats.end() ? nullptr : &*found;
 }
 
@@ -63,7 +64,7 @@ void add_plot(CLI::App& command, std::string& name, const char* meaning) {
                ? why_not_writable(given)
                : fmt::format("'{}' names no format by its ending\n  hint: .svg, .png or .pdf", clipped(given));
   };
-  command.add_option("--plot", name, meaning)->type_name("FILE.svg|png|pdf")->check(refused);
+  add_value(command, "--plot", name, "FILE.svg|png|pdf", meaning)->check(refused);
 }
 
 }  // namespace soilbin::cli

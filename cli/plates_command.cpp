@@ -56,17 +56,14 @@ int plates(const PlatesOptions& options) {
 void add_plates(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("plates", "n, k_c and k_phi of measured plate tests, with errors and a plot");
   const auto options = std::make_shared<PlatesOptions>();
-  command
-      ->add_option("file", options->file,
-                   "one row a reading: sinkage_m, pressure_kPa or force_N, plate_diameter_m (any units), and what "
-                   "tells one test from another")
-      ->type_name("FILE.csv")
+  add_value(*command, "file", options->file, "FILE.csv",
+            "one row a reading: sinkage_m, pressure_kPa or force_N, plate_diameter_m (any units), and what tells one "
+            "test from another")
       ->required();
-  command->add_option("--only", options->only, "rows that have this value alone; may be given again")
-      ->type_name("COLUMN=VALUE")
+  add_value(*command, "--only", options->only, "COLUMN=VALUE", "rows that have this value alone; may be given again")
       ->allow_extra_args(false);
-  command->add_option("--pressure", options->pressure, "readings that are used; best those that your wheel makes")
-      ->type_name("LOW..HIGH");
+  add_value(*command, "--pressure", options->pressure, "LOW..HIGH",
+            "readings that are used; best those that your wheel makes");
   add_plot(*command, options->plot, "draw the readings and Bekker's form");
   command->add_flag("--json", options->json, "soilbin-plates/1, in SI");
   command->footer("Example: soilbin plates plates.csv --only box=large-box --pressure 1kPa..30kPa --plot plates.svg");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "cli/flag_values.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/condition_axes.hpp"
@@ -136,8 +137,7 @@ void add_effect(std::vector<EffectChoice>& effects, const std::string& text, con
     if (known.id == effect.id)
       throw InputError(
           fmt::format("--effect: '{}' is given twice ({} and {}): its forms tell the same physics\n"
-                      "  hint: give one form; a case file can set models with different forms side by "
-                      "side",
+                      "  hint: give one form; a case file can set models with different forms side by side",
                       effect.id, known.form, effect.form));
   effects.push_back(std::move(effect));
 }
@@ -167,7 +167,7 @@ void ConditionFlags::pick(Study& study, const Tire& tire) const {
 
 void SoilFlags::add_to(CLI::App& app, const std::string& heading) {
   const auto add = [&](const char* key, const std::string& unit, const char* meaning) {
-    app.add_option(flag_of("", key), texts_[key], meaning)->type_name(unit)->group(heading);
+    add_value(app, flag_of("", key), texts_[key], unit, meaning)->group(heading);
   };
   for (const SoilParameter& p : soil_parameters)
     add(p.name, std::string(p.unit) == "-" ? "NUMBER[+-SD]" : std::string(p.unit) + "[+-SD]", p.meaning);
@@ -175,7 +175,7 @@ void SoilFlags::add_to(CLI::App& app, const std::string& heading) {
 }
 
 bool SoilFlags::any_given() const {
-  return std::any_of(texts_.begin(), texts_.end(), [](const auto& entry) { return !entry.second.empty(); });
+  return std::ranges::any_of(texts_, [](const auto& entry) { return !entry.second.empty(); });
 }
 
 void SoilFlags::apply(Soil& soil) const {
@@ -201,21 +201,17 @@ void SoilFlags::apply(Soil& soil) const {
 }
 
 Question::Question(CLI::App& app, std::vector<std::string> needed) : needed_(std::move(needed)) {
-  app.add_option("case", case_name_, "a case file, or a study of the library")->type_name("CASE");
-  app.add_option("--soil", soil_, "a soil of the library, or a YAML file")
-      ->type_name("NAME|FILE")
-      ->group("Tire and soil");
-  app.add_option("--tire", tire_, "a tire of the library, or a YAML file")
-      ->type_name("NAME|FILE")
-      ->group("Tire and soil");
+  add_value(app, "case", case_name_, "CASE", "a case file, or a study of the library");
+  add_value(app, "--soil", soil_, "NAME|FILE", "a soil of the library, or a YAML file")->group("Tire and soil");
+  add_value(app, "--tire", tire_, "NAME|FILE", "a tire of the library, or a YAML file")->group("Tire and soil");
   wheel_.add_to(app, "Tire and soil");
   lugs_.add_to(app, "Tire and soil", "lug-");
   bin_.add_to(app, "Tire and soil", "bin-");
   soil_values_.add_to(app, "Values of the soil, in place of its own");
   condition_.add_to(app);
   errors_.add_to(app);
-  app.add_option("--effect", effects_, "switch an effect on; may be given again; none: the case's off")
-      ->type_name("ID[:FORM][,PARAMETER=VALUE...]")
+  add_value(app, "--effect", effects_, "ID[:FORM][,PARAMETER=VALUE...]",
+            "switch an effect on; may be given again; none: the case's off")
       ->allow_extra_args(false)
       ->group("Model");
 }
@@ -266,7 +262,7 @@ Case Question::ask(const Workplace& place) const {
   }
   if (effects_.empty()) return question;
   ModelChoice choice;
-  const bool none = std::find(effects_.begin(), effects_.end(), "none") != effects_.end();
+  const bool none = std::ranges::find(effects_, "none") != effects_.end();
   if (none && effects_.size() > 1) throw InputError("--effect none stands alone: it switches every effect off");
   for (const std::string& text : none ? std::vector<std::string>{} : effects_)
     add_effect(choice.effects, text, place.effects, question.scenario.soil);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "compare/recorded/merge.hpp"
@@ -66,14 +67,14 @@ int show(const RecordOptions& asked) {
       line.answers += run.answer.result.has_value(), line.steady += run.answer.result && run.steady;
       sources.insert(run.source);
     }
-    TextTable table({"packing", "runs", "with a result", "steady", "seconds"});
+    Table table{"", {"packing", "runs", "with a result", "steady", "seconds"}};
     for (const auto& [packing, line] : packings)
       table.add({std::to_string(packing), std::to_string(line.runs), std::to_string(line.answers),
                  std::to_string(line.steady), fmt::format("{:.0f}", line.seconds)});
     fmt::print("{}: {} by {}, {} at half the time step\nmade by   {} of soilbin {}\ninputs    {}\n{}", file.string(),
                compare::counted(record.runs.size(), "run"), record.model, record.half_step.size(),
                listed({sources.begin(), sources.end()}), record.soilbin, compare::inputs_key(record.inputs),
-               table.text());
+               as_text(table));
     for (const compare::StepPair& pair : compare::step_pairs(record)) fmt::print("{}\n", compare::in_words(pair));
     print_warnings(compare::step_doubts(record));
   }
@@ -111,12 +112,10 @@ int record(const RecordOptions& asked, const Session& session) {
 void add_record(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("record", "records of runs: merge several, show one, list what is missing");
   const auto asked = std::make_shared<RecordOptions>();
-  command->add_option("what", asked->what, "merge, show or missing")->type_name("WHAT")->required();
-  command
-      ->add_option("names", asked->names,
-                   "merge: OUT.json SHARD.json...; show: RECORD.json...; missing: STUDY RECORD.json...")
-      ->type_name("NAME");
-  command->add_option("--packing", asked->expected.packing, "missing: the first packing, 1")->type_name("SEED");
+  add_value(*command, "what", asked->what, "WHAT", "merge, show or missing")->required();
+  add_value(*command, "names", asked->names, "NAME",
+            "merge: OUT.json SHARD.json...; show: RECORD.json...; missing: STUDY RECORD.json...");
+  add_value(*command, "--packing", asked->expected.packing, "SEED", "missing: the first packing, 1");
   asked->expected.add_packings_to(*command);
   asked->expected.add_half_step_to(*command);
   command->footer(

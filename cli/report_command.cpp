@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
@@ -74,12 +75,12 @@ int report(const ReportOptions& options, const Session& session) {
 void add_report(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("report", "studies and campaigns as one HTML page to open");
   const auto options = std::make_shared<ReportOptions>();
-  command->add_option("studies", options->studies, "studies of the library, or case files")->type_name("STUDY...");
-  command->add_option("--measured", options->campaigns, "campaigns to predict and compare")->type_name("CAMPAIGN...");
-  command->add_option("--link", options->links, "other pages of soilbin, shown with their first drawing and sentence")
-      ->type_name("FILE.html...");
-  command->add_option("--output", options->output, "the page; by default report.html")->type_name("FILE.html");
-  command->add_option("--title", options->title, "title of the page")->type_name("TEXT");
+  add_value(*command, "studies", options->studies, "STUDY...", "studies of the library, or case files");
+  add_value(*command, "--measured", options->campaigns, "CAMPAIGN...", "campaigns to predict and compare");
+  add_value(*command, "--link", options->links, "FILE.html...",
+            "other pages of soilbin, shown with their first drawing and sentence");
+  add_value(*command, "--output", options->output, "FILE.html", "the page; by default report.html");
+  add_value(*command, "--title", options->title, "TEXT", "title of the page");
   command->footer("Example: soilbin report paper-straight --measured cmu-smooth --output report.html");
   command->callback([=, &session] { session.action = [=, &session] { return report(*options, session); }; });
 }

@@ -119,8 +119,8 @@ std::vector<Recorded> records_of(std::vector<std::string> files, const compare::
   for (const std::string& file : files) {
     compare::Record record = read_record_aloud(file);
     const std::string study = study_of(record, file, place);
-    const bool asked = std::any_of(findings.all.begin(), findings.all.end(),
-                                   [&](const compare::Finding& finding) { return finding.study == study; });
+    const bool asked =
+        std::ranges::any_of(findings.all, [&](const compare::Finding& finding) { return finding.study == study; });
     if (!asked) throw InputError(fmt::format("{}: no finding speaks of its study '{}'", file, study));
     for (const Recorded& other : records)
       if (other.study == study)
@@ -134,7 +134,7 @@ std::vector<Recorded> records_of(std::vector<std::string> files, const compare::
 void print_text(const compare::Reproduction& reproduction) {
   fmt::print("{}\n\n", reproduction.findings.source);
   for (const auto& [about, text] : compare::opening(reproduction)) fmt::print("{}: {}\n", about, text);
-  fmt::print("\n{}\n", as_text(compare::without_marks(compare::findings_matrix(reproduction))));
+  fmt::print("\n{}\n", as_text(compare::findings_matrix(reproduction)));
   for (const std::string& remark : reproduction.remarks) fmt::print("{}\n", remark);
 }
 
@@ -164,12 +164,10 @@ int reproduce(const ReproduceOptions& options, const Session& session) {
 void add_reproduce(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("reproduce", "whether the models show what a publication found");
   const auto options = std::make_shared<ReproduceOptions>();
-  command
-      ->add_option("findings", options->findings,
-                   "findings of the library, or a YAML file; by default those of the paper")
-      ->type_name("FINDINGS");
-  command->add_option("--recorded", options->recorded, "records of dem, one a study; by default the library's")
-      ->type_name("FILE.json...");
+  add_value(*command, "findings", options->findings, "FINDINGS",
+            "findings of the library, or a YAML file; by default those of the paper");
+  add_value(*command, "--recorded", options->recorded, "FILE.json...",
+            "records of dem, one a study; by default the library's");
   add_file(*command, "--report", options->report, "FILE.html", "save a page to open");
   command->add_flag("--json", options->json, "the verdicts as JSON, in SI");
   command->footer("Example: soilbin reproduce --report reproduction.html");

@@ -14,7 +14,7 @@
 namespace soilbin::cli {
 
 void add_limits_of_the_rig(CLI::App& app, std::vector<std::string>& texts, const std::string& meaning) {
-  app.add_option("--limit", texts, meaning)->type_name("NAME=LOW..HIGH");
+  add_value(app, "--limit", texts, "NAME=LOW..HIGH", meaning);
 }
 
 compare::Limits read_limits(const std::vector<std::string>& texts) {
@@ -27,7 +27,7 @@ compare::Limits read_limits(const std::vector<std::string>& texts) {
     const std::vector<std::string> texts_of_ends = split(parts.back(), "..");
     if (parts.size() != 2 || texts_of_ends.size() != 2)
       throw InputError(fmt::format("--limit '{}': expected NAME=LOW..HIGH, such as load=50N..200N", clipped(text)));
-    if (std::find(names.begin(), names.end(), parts[0]) == names.end())
+    if (std::ranges::find(names, parts[0]) == names.end())
       throw InputError(
           fmt::format("--limit: unknown condition '{}'{}", clipped(parts[0]), did_you_mean(parts[0], names)));
     const compare::ConditionView& view = compare::condition_view(parts[0]);
@@ -50,7 +50,7 @@ compare::ExpectedNoise read_noise(const std::vector<std::string>& texts) {
     const std::vector<std::string> parts = split(text, "=");
     if (parts.size() != 2)
       throw InputError(fmt::format("--noise '{}': expected CHANNEL=SD, such as drawbar_pull=1N", clipped(text)));
-    const auto place = std::find(names.begin(), names.end(), parts[0]);
+    const auto place = std::ranges::find(names, parts[0]);
     if (place == names.end())
       throw InputError(fmt::format("--noise: unknown channel '{}'{}\n  hint: channels are {}", clipped(parts[0]),
                                    did_you_mean(parts[0], names), listed(names)));

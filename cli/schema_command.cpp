@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/text_output.hpp"
 #include "compare/measured/campaign_schema.hpp"
 #include "compare/recorded/record.hpp"
@@ -36,7 +37,7 @@ void add_schema(CLI::App& app, Session& session) {
   CLI::App* command =
       app.add_subcommand("schema", "a file format as JSON Schema: case, tire, soil, campaign, recorded");
   const auto what = std::make_shared<std::string>("case");
-  command->add_option("format", *what, "case (the default), tire, soil, campaign or recorded")->type_name("FORMAT");
+  add_value(*command, "format", *what, "FORMAT", "case (the default), tire, soil, campaign or recorded");
   command->callback([=, &session] { session.action = [=, &session] { return schema(*what, session); }; });
 }
 

@@ -72,8 +72,8 @@ constexpr SettingFlag measure_flags[] = {
     {"--bed-depth", "LENGTH", "depth of the bed; 0.3 m", bed<&dem::BedSize::depth>},
     {"--graded",
      "FACTOR",
-     "grains below and beside the track up to so many times larger than the soil's, which stay under the wheel; "
-     "1 .. 4; 1: the soil's grains everywhere",
+     "grains below and beside the track up to so many times larger than the soil's, which stay under the wheel; 1 .. "
+     "4; 1: the soil's grains everywhere",
      setting<&dem::DemSettings::graded>,
      {.lower = 1, .upper = 4}},
     {"--behind", "LENGTH", "distance from the axle to the bin's rear end at the start; 0.35 m", rig<&R::behind>},
@@ -97,7 +97,7 @@ constexpr SettingFlag starting_flag{"--starting", "TIME", "time in which speed a
                                     rig<&R::starting>};
 
 void add(CLI::App& command, const SettingFlag& one, std::map<std::string, std::string>& texts) {
-  command.add_option(one.flag, texts[one.flag], one.meaning)->type_name(one.type)->group(grains_heading);
+  add_value(command, one.flag, texts[one.flag], one.type, one.meaning)->group(grains_heading);
 }
 
 }  // namespace
@@ -168,26 +168,21 @@ void SoilBinFlags::add_measures_to(CLI::App& command) {
 
 void SoilBinFlags::add_rig_to(CLI::App& command) {
   add_measures_to(command);
-  command.add_option("--packing", packing, "seed of the bed; 1")->type_name("SEED")->group(grains_heading);
-  command
-      .add_option("--settling-friction", texts["--settling-friction"],
-                  "how dense the bed settles: loose (the default), medium, dense, or the share of the friction that "
-                  "acts meanwhile: 1 loose .. 0 densest")
-      ->type_name(settling_type)
+  add_value(command, "--packing", packing, "SEED", "seed of the bed; 1")->group(grains_heading);
+  add_value(command, "--settling-friction", texts["--settling-friction"], settling_type,
+            "how dense the bed settles: loose (the default), medium, dense, or the share of the friction that acts "
+            "meanwhile: 1 loose .. 0 densest")
       ->group(grains_heading);
-  command
-      .add_option("--threads", threads,
-                  "number of threads, which changes no bit of the answer; 0: one for each core; give 1 where other "
-                  "programs use them")
-      ->type_name("N")
+  add_value(command, "--threads", threads, "N",
+            "number of threads, which changes no bit of the answer; 0: one for each core; give 1 where other programs "
+            "use them")
       ->group(grains_heading);
 }
 
 void SoilBinFlags::add_starting_to(CLI::App& command) { add(command, starting_flag, texts); }
 
 void SoilBinFlags::add_packings_to(CLI::App& command) {
-  command.add_option("--packings", packings, "number of beds, from --packing on; answers are means over them; 1")
-      ->type_name("N")
+  add_value(command, "--packings", packings, "N", "number of beds, from --packing on; answers are means over them; 1")
       ->group(grains_heading);
 }
 
@@ -201,44 +196,35 @@ std::vector<compare::AskedRun> SoilBinFlags::runs(const Case& question) const {
 }
 
 void SoilBinFlags::add_half_step_to(CLI::App& command) {
-  command
-      .add_option("--half-step", half_step,
-                  "run the hardest condition first, also at half the time step, and stop where its answer differs; yes "
-                  "for a dozen runs or more")
+  add_value(command, "--half-step", half_step, "yes|no",
+            "run the hardest condition first, also at half the time step, and stop where its answer differs; yes for a "
+            "dozen runs or more")
       ->group(grains_heading)
-      ->type_name("yes|no")
       ->check(CLI::IsMember({"yes", "no"}));
 }
 
 void SoilBinFlags::add_engine_to(CLI::App& command) {
-  command
-      .add_option(
-          "--engine", engine,
-          "who moves the grains under the wheel: soilbin, or LAMMPS over MPI, for beds that fit no workstation; "
-          "soilbin")
-      ->type_name("soilbin|lammps")
+  add_value(
+      command, "--engine", engine, "soilbin|lammps",
+      "who moves the grains under the wheel: soilbin, or LAMMPS over MPI, for beds that fit no workstation; soilbin")
       ->group(grains_heading)
       ->check(CLI::IsMember({"soilbin", "lammps"}));
-  command.add_option("--ranks", ranks, "number of processes of LAMMPS; 1")->type_name("N")->group(grains_heading);
-  command
-      .add_option("--settled-by", settled_by,
-                  "who settles the bed: soilbin, on this machine, up to 20 million grains; or LAMMPS, of any size; "
-                  "soilbin")
-      ->type_name("soilbin|lammps")
+  add_value(command, "--ranks", ranks, "N", "number of processes of LAMMPS; 1")->group(grains_heading);
+  add_value(command, "--settled-by", settled_by, "soilbin|lammps",
+            "who settles the bed: soilbin, on this machine, up to 20 million grains; or LAMMPS, of any size; soilbin")
       ->group(grains_heading)
       ->check(CLI::IsMember({"soilbin", "lammps"}));
 }
 
 void SoilBinFlags::add_shard_to(CLI::App& command) {
-  command.add_option("--shard", shard, "only the K-th of N parts of the work; parts may be made at once, anywhere")
-      ->group(grains_heading)
-      ->type_name("K/N");
+  add_value(command, "--shard", shard, "K/N",
+            "only the K-th of N parts of the work; parts may be made at once, anywhere")
+      ->group(grains_heading);
 }
 
 void SoilBinFlags::add_known_to(CLI::App& command) {
-  command.add_option("--known", known, "records whose runs are not made again")
+  add_value(command, "--known", known, "RECORD.json", "records whose runs are not made again")
       ->group(grains_heading)
-      ->type_name("RECORD.json")
       ->allow_extra_args(true);
 }
 
@@ -249,11 +235,9 @@ void SoilBinFlags::add_to(CLI::App& command) {
   add_file(command, "--record", record, "FILE.json",
            "keep each run in this file as it is finished, and go on with what is there")
       ->group(grains_heading);
-  command
-      .add_option("--recorded", recorded,
-                  "answer from this record, without running; without a file from the one in the library")
+  add_value(command, "--recorded", recorded, "[FILE.json]",
+            "answer from this record, without running; without a file from the one in the library")
       ->group(grains_heading)
-      ->type_name("[FILE.json]")
       ->expected(0, 1)
       ->default_str(library_record)
       ->excludes("--record");

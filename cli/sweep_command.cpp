@@ -16,7 +16,7 @@
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/experiments/jobs.hpp"
-#include "compare/report/shell_words.hpp"
+#include "compare/report/number_text.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {
@@ -104,21 +104,16 @@ int sweep(const SweepOptions& asked, const CLI::App& command, const Session& ses
 void add_sweep(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("sweep", "make a study's runs of grains as jobs, of Slurm or on this machine");
   const auto asked = std::make_shared<SweepOptions>();
-  command->add_option("study", asked->study, "a study of the library, or a case file; or the word status")
-      ->type_name("STUDY|status")
+  add_value(*command, "study", asked->study, "STUDY|status",
+            "a study of the library, or a case file; or the word status")
       ->required();
-  command->add_option("folder", asked->folder, "with status: folder of the sweep")->type_name("DIR");
-  command->add_option("--on", asked->on, "who runs the jobs")
-      ->type_name("slurm|local")
-      ->check(CLI::IsMember({"slurm", "local"}));
+  add_value(*command, "folder", asked->folder, "DIR", "with status: folder of the sweep");
+  add_value(*command, "--on", asked->on, "slurm|local", "who runs the jobs")->check(CLI::IsMember({"slurm", "local"}));
   add_folder(*command, "--output", asked->output, "folder for script, records and logs; sweep-NAME");
-  command->add_option("--at-least", asked->at_least, "time that a job should take; 30 min on Slurm, 1 min here")
-      ->type_name("TIME");
-  command->add_option("--shards", asked->shards, "number of jobs, in place of --at-least")
-      ->type_name("N")
-      ->check(whole_number(1));
-  command->add_option("--at-once", asked->at_once, "local: processes side by side; as many as cores")
-      ->type_name("N")
+  add_value(*command, "--at-least", asked->at_least, "TIME",
+            "time that a job should take; 30 min on Slurm, 1 min here");
+  add_value(*command, "--shards", asked->shards, "N", "number of jobs, in place of --at-least")->check(whole_number(1));
+  add_value(*command, "--at-once", asked->at_once, "N", "local: processes side by side; as many as cores")
       ->check(whole_number(1));
   command->add_flag("--submit", asked->submit, "start it now");
   command->add_flag("--json", asked->json, "status: as JSON, in SI");

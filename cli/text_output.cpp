@@ -45,6 +45,16 @@ std::string efficiency(const TractionResult& result) {
   return has_efficiency(result) ? number(100 * result.tractive_efficiency) : "-";
 }
 
+std::string errors_text(const Prediction& prediction) {
+  Table table{"", {"channel", "runs", "rms error", "bias (predicted - measured)", "measured range", "rms/range [%]"}};
+  for (const ChannelError& error : prediction.errors) {
+    const auto in_unit = [&](double si) { return compare::in_unit(error.channel, si); };
+    table.add({std::string(channel_views[error.channel].title), std::to_string(error.runs), in_unit(error.rmse),
+               in_unit(error.bias), in_unit(error.range), number(100 * error.share_of_range)});
+  }
+  return as_text(table);
+}
+
 }  // namespace
 
 void print_warnings(const std::vector<std::string>& warnings) {
@@ -70,10 +80,8 @@ std::vector<Reading> readings(const TractionResult& r) {
        ""});
   std::string sum;
   for (const Contribution& part : r.budget) {
-    std::string name = part.name;
-    std::replace(name.begin(), name.end(), '_', ' ');
     const std::string sign = sum.empty() ? (part.force < 0 ? "-" : "") : (part.force < 0 ? " - " : " + ");
-    sum += fmt::format("{}{} N ({})", sign, number(std::abs(part.force)), name);
+    sum += fmt::format("{}{} N ({})", sign, number(std::abs(part.force)), compare::spaced(part.name));
   }
   if (const BudgetRest& rest = r.budget_rest; std::abs(rest.force) > 1e-9 * r.at.load)
     sum +=
@@ -120,11 +128,11 @@ std::string study_text(const std::vector<ModelAnswers>& study) {
       if (side || channel_views[c].name != "lateral_force")
         header.push_back(heading(std::string(channel_views[c].title), std::string(channel_views[c].unit)));
     header.push_back("efficiency [%]");
-    TextTable table(header);
+    Table table{"", header};
     std::string notes;
     for (std::size_t i = 0; i < model.answers.size(); ++i) {
       const Answer& answer = model.answers[i];
-      std::vector<std::string> row;
+      std::vector<TableCell> row;
       if (!curves.varying.empty()) row.push_back(curves.labels[curves.curve_of[i]]);
       row.push_back(fmt::format("{:.4g}", 100 * answer.at.slip));
       for (const ChannelView& channel : channel_views)
@@ -134,19 +142,9 @@ std::string study_text(const std::vector<ModelAnswers>& study) {
       table.add(std::move(row));
       if (!answer.result) notes += fmt::format("no solution at {}: {}\n", compare::in_words(answer.at), answer.error);
     }
-    text += (text.empty() ? "" : "\n") + model.choice.label + "\n" + table.text() + notes;
+    text += (text.empty() ? "" : "\n") + model.choice.label + "\n" + as_text(table) + notes;
   }
   return study.empty() ? text : text + pull_without_slip(study.front());
-}
-
-std::string errors_text(const Prediction& prediction) {
-  TextTable table({"channel", "runs", "rms error", "bias (predicted - measured)", "measured range", "rms/range [%]"});
-  for (const ChannelError& error : prediction.errors) {
-    const auto in_unit = [&](double si) { return compare::in_unit(error.channel, si); };
-    table.add({std::string(channel_views[error.channel].title), std::to_string(error.runs), in_unit(error.rmse),
-               in_unit(error.bias), in_unit(error.range), number(100 * error.share_of_range)});
-  }
-  return table.text();
 }
 
 std::string prediction_text(const Prediction& prediction) {
@@ -161,11 +159,11 @@ std::string prediction_text(const Prediction& prediction) {
     header.push_back(heading(std::string(channel.title), std::string(channel.unit)));
     header.insert(header.end(), {"predicted", "residual"});
   }
-  TextTable table(header);
+  Table table{"", header};
   std::string notes;
   for (std::size_t i = 0; i < prediction.runs.size(); ++i) {
     const PredictedRun& run = prediction.runs[i];
-    std::vector<std::string> row = {std::to_string(run.run)};
+    std::vector<TableCell> row = {std::to_string(run.run)};
     if (!curves.varying.empty()) row.push_back(curves.labels[curves.curve_of[i]]);
     row.push_back(number(run.measured.at.load));
     row.push_back(fmt::format("{:.4g}", 100 * run.measured.at.slip));
@@ -181,7 +179,7 @@ std::string prediction_text(const Prediction& prediction) {
     if (!run.predicted.result) notes += fmt::format("run {}: no solution: {}\n", run.run, run.predicted.error);
     table.add(std::move(row));
   }
-  return table.text() + notes + "\n" + errors_text(prediction);
+  return as_text(table) + notes + "\n" + errors_text(prediction);
 }
 
 }  // namespace soilbin::cli

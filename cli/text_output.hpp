@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compare/report/number_text.hpp"
-#include "compare/report/text_table.hpp"
+#include "compare/report/table.hpp"
 #include "compare/sweep/answers.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "scenario/tire.hpp"
@@ -15,7 +15,8 @@ namespace soilbin::cli {
 
 using compare::as_text;
 using compare::number;
-using compare::TextTable;
+using compare::Table;
+using compare::TableCell;
 
 /// Each on a line of its own to stderr, as `soilbin check` tells them: "warning: ...".
 void print_warnings(const std::vector<std::string>& warnings);
@@ -36,6 +37,5 @@ std::string answer_text(const compare::ModelAnswers& model, const compare::Answe
 std::string study_text(const std::vector<compare::ModelAnswers>& study);
 /// The runs of a campaign, measured and predicted, then the error table.
 std::string prediction_text(const compare::Prediction& prediction);
-std::string errors_text(const compare::Prediction& prediction);
 
 }  // namespace soilbin::cli

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
@@ -40,12 +41,12 @@ Json json_of(const std::vector<VerificationRow>& rows) {
 }
 
 void print_table(const std::vector<VerificationRow>& rows) {
-  TextTable table({"case", "published", "ours", "error", "tolerance", "unit", ""});
+  Table table{"", {"case", "published", "ours", "error", "tolerance", "unit", ""}};
   for (const VerificationRow& row : rows)
     table.add({row.name, fmt::format("{:.6g}", row.published), fmt::format("{:.6g}", row.ours),
                fmt::format("{:.2g}", row.error()), fmt::format("{:.2g}", row.tolerance), row.unit,
                row.pass() ? "ok" : "FAILED"});
-  fmt::print("{}", table.text());
+  fmt::print("{}", as_text(table));
 }
 
 /// The cases of which a name contains the text. Throws InputError with the nearest name where there is none.
@@ -54,8 +55,8 @@ std::vector<dem::VerificationCase> cases_named(const std::string& containing) {
   std::vector<std::string> names;
   for (const dem::VerificationCase& one : dem::verification_cases()) {
     names.insert(names.end(), one.names.begin(), one.names.end());
-    if (std::any_of(one.names.begin(), one.names.end(),
-                    [&](const std::string& name) { return name.find(containing) != std::string::npos; }))
+    if (std::ranges::any_of(one.names,
+                            [&](const std::string& name) { return name.find(containing) != std::string::npos; }))
       chosen.push_back(one);
   }
   if (!chosen.empty()) return chosen;
@@ -70,7 +71,7 @@ int verify(bool json, std::optional<std::uint64_t> incline, const std::string& c
   clear_progress_line();
   if (!incline)
     std::erase_if(rows, [&](const VerificationRow& row) { return row.name.find(containing) == std::string::npos; });
-  const auto passed = std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.pass(); });
+  const auto passed = std::ranges::count_if(rows, [](const auto& row) { return row.pass(); });
   if (json) {
     print_json(json_of(rows));
   } else {
@@ -87,13 +88,9 @@ void add_verify(CLI::App& app, Session& session) {
   const auto containing = std::make_shared<std::string>();
   const auto json = std::make_shared<bool>(false);
   const auto incline = std::make_shared<std::optional<std::uint64_t>>();
-  CLI::Option* const layers =
-      command
-          ->add_option("--incline", *incline, "instead: layers on a rough incline, of this seed (a quarter of an hour)")
-          ->type_name("SEED");
-  command->add_option("--case", *containing, "only cases whose name contains this")
-      ->type_name("TEXT")
-      ->excludes(layers);
+  CLI::Option* const layers = add_value(*command, "--incline", *incline, "SEED",
+                                        "instead: layers on a rough incline, of this seed (a quarter of an hour)");
+  add_value(*command, "--case", *containing, "TEXT", "only cases whose name contains this")->excludes(layers);
   command->add_flag("--json", *json, "soilbin-verify/1, for programs");
   command->callback([=, &session] { session.action = [=] { return verify(*json, *incline, *containing); }; });
 }

@@ -57,8 +57,8 @@ fs::path find_record(const Workplace& place, const std::string& study) {
   const fs::path file = place_of_record(place, study);
   if (fs::exists(file)) return file;
   throw InputError(
-      fmt::format("there are no recorded runs of '{}': no file {}\n  hint: soilbin run {} --model dem "
-                  "--record FILE.json makes them",
+      fmt::format("there are no recorded runs of '{}': no file {}\n  hint: soilbin run {} --model dem --record "
+                  "FILE.json makes them",
                   clipped(study), file.string(), clipped(study)));
 }
 

@@ -1,4 +1,4 @@
-# Writes a C++ file with a function that holds the texts of files of a folder browser/ (compare/report/javascript.hpp).
+# Writes a C++ file with a function that holds the texts of files of a folder, such as browser/ (compare/report/javascript.hpp).
 # cmake -D FILES=a.js;b.css -D NAMESPACE=soilbin::compare -D FUNCTION=own_files -D OUTPUT=file.cpp -P embed_files.cmake
 set(text "#include \"compare/report/javascript.hpp\"\n\nnamespace ${NAMESPACE} {\n\n")
 string(APPEND text "std::vector<soilbin::compare::EmbeddedFile> ${FUNCTION}() {\n  return {\n")

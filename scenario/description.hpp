@@ -21,6 +21,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "scenario/quantity.hpp"
@@ -271,7 +272,37 @@ struct KeyList {
   }
 };
 
+template <class On>
+struct EachNumberOrChoice {
+  const On& on;
+  template <class M>
+  void number(const char* key, M member, const Measure& measure, Need, const char* meaning) const {
+    on(key, member, measure, meaning);
+  }
+  template <class M>
+  void integer(const char* key, M member, int lowest, Need, const char* meaning) const {
+    on(key, member, lowest, meaning);
+  }
+  template <class M>
+  void choice(const char* key, M member, Need, const char* meaning) const {
+    on(key, member, std::monostate(), meaning);
+  }
+  template <class... Rest>
+  void text(const Rest&...) const {}
+  template <class... Rest>
+  void group(const Rest&...) const {}
+};
+
 }  // namespace description_detail
+
+/// For who treats members of T alike: calls on(key, member, limits, meaning) for each number, whole number and choice,
+/// in order; texts and groups are left out. `limits` is the measure of a number, the least of a whole one, a
+/// std::monostate of a choice. T's description has nothing else.
+template <class T, class On>
+void each_member(const On& on) {
+  const description_detail::EachNumberOrChoice<On> visitor{on};
+  describe(visitor, std::type_identity<T>{});
+}
 
 template <class T>
 std::vector<std::string> keys_of() {

@@ -7,7 +7,7 @@
 #include "bekker_wong/model.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/json_fields.hpp"
-#include "compare/report/sheet_json.hpp"
+#include "compare/report/plot.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 
 namespace soilbin::cli {
@@ -128,7 +128,7 @@ Json carried_load(const ServedAnswer& one) {
         bekker_wong::make_effects(question.study.models.front().effects), question.scenario.bin);
     const OperatingCondition& at = question.study.conditions.front();
     const std::optional<double> load = bekker_wong::largest_load(wheel, at, at.load);
-    return load ? Json(*load) : Json(nullptr);
+    return compare::or_null(load);
   } catch (const std::exception&) {  // the point's own error says why
     return nullptr;
   }

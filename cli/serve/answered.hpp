@@ -25,7 +25,7 @@ Case swept_over(Case question, const std::pair<double, double>& slips);
 
 ServedAnswer answer_to(Asked asked, const std::pair<double, double>& slips);
 
-/// Sheets (compare/report/sheet_json.hpp): the curves, the point marked on each; the parts of the drawbar pull piled
+/// Sheets (compare/report/plot.hpp): the curves, the point marked on each; the parts of the drawbar pull piled
 /// up; the stresses along the contact at the point.
 nlohmann::ordered_json curves_json(const std::vector<ServedAnswer>& sides);
 nlohmann::ordered_json budget_json(const std::vector<ServedAnswer>& sides);

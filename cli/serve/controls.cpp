@@ -50,7 +50,7 @@ Slider slider_over(const Range& range, double per_si, double value, double usual
 }
 
 std::string title_of(std::string flag) {
-  std::replace(flag.begin(), flag.end(), '-', ' ');
+  std::ranges::replace(flag, '-', ' ');
   return compare::capital(flag);
 }
 
@@ -68,48 +68,31 @@ std::optional<double> usual_value(const std::string& key, double radius) {
   return std::nullopt;
 }
 
-/// The visitor that makes a control of each number.
+/// Adds a control for each number of `from`; `usual` [SI] as of slider_over.
 template <class T>
-class NumbersOf {
- public:
-  NumbersOf(Json& to, const T& from, const char* group, std::string prefix, double usual, double radius)
-      : to_(to), from_(from), group_(group), prefix_(std::move(prefix)), usual_(usual), radius_(radius) {}
-
-  void text(const char*, std::string T::*, Need, const char*) {}
-  void number(const char* key, double T::*member, const Measure& measure, Need, const char* meaning) {
-    const std::string unit = shown_unit(measure.unit);
-    const double per_si = compare::per_unit(unit), value = from_.*member * per_si;
-    to_.push_back(control_json(group_, key_of(prefix_, key), meaning, unit, read_in(from_.*member, unit),
-                               slider_over(measure.range, per_si, value, usual_ * per_si)));
-  }
-  void number(const char* key, std::optional<double> T::*member, const Measure& measure, Need, const char* meaning) {
-    const std::optional<double> usual = usual_value(key, radius_), &given = from_.*member;
-    if (!usual) return;
-    const std::string unit = shown_unit(measure.unit);
-    const double per_si = compare::per_unit(unit);
-    to_.push_back(control_json(group_, key_of(prefix_, key), meaning, unit,
-                               given ? Json(read_in(*given, unit)) : Json(nullptr),
-                               slider_over(measure.range, per_si, given.value_or(0.0) * per_si, *usual * per_si)));
-  }
-  void integer(const char* key, std::optional<int> T::*member, int lowest, Need, const char* meaning) {
-    if constexpr (std::is_same_v<T, Lugs>)
-      to_.push_back(control_json(group_, key_of(prefix_, key), meaning, "",
-                                 from_.*member ? Json(*(from_.*member)) : Json(nullptr),
-                                 {static_cast<double>(lowest), 60.0, 1.0}));
-  }
-  void integer(const char*, int T::*, int, Need, const char*) {}
-  template <class... Rest>
-  void choice(const Rest&...) {}
-  template <class... Rest>
-  void group(const Rest&...) {}
-
- private:
-  Json& to_;
-  const T& from_;
-  const char* group_;
-  std::string prefix_;
-  double usual_, radius_;  ///< [SI]
-};
+void add_numbers(Json& to, const T& from, const char* group, const std::string& prefix, double usual, double radius) {
+  each_member<T>([&](const char* key, auto member, const auto& limits, const char* meaning) {
+    using Value = std::decay_t<decltype(from.*member)>;
+    const Value& value = from.*member;
+    const std::string flag = key_of(prefix, key);
+    if constexpr (std::is_same_v<Value, double>) {
+      const std::string unit = shown_unit(limits.unit);
+      const double per_si = compare::per_unit(unit);
+      to.push_back(control_json(group, flag, meaning, unit, read_in(value, unit),
+                                slider_over(limits.range, per_si, value * per_si, usual * per_si)));
+    } else if constexpr (std::is_same_v<Value, std::optional<double>>) {
+      const std::optional<double> start = usual_value(key, radius);
+      if (!start) return;
+      const std::string unit = shown_unit(limits.unit);
+      const double per_si = compare::per_unit(unit);
+      to.push_back(control_json(group, flag, meaning, unit, value ? Json(read_in(*value, unit)) : Json(nullptr),
+                                slider_over(limits.range, per_si, value.value_or(0.0) * per_si, *start * per_si)));
+    } else if constexpr (std::is_same_v<Value, std::optional<int>> && std::is_same_v<T, Lugs>) {
+      to.push_back(control_json(group, flag, meaning, "", value ? Json(*value) : Json(nullptr),
+                                {static_cast<double>(limits), 60.0, 1.0}));
+    }
+  });
+}
 
 /// Of a soil without a value a slider reaches three times this [SI], and of one whose value is small.
 double usual_soil_value(const SoilParameter& p) {
@@ -246,12 +229,12 @@ Json effects_json(const Case& question) {
 bool is_tire_flag(const std::string& key) {
   const std::vector<std::string> keys = keys_of<Tire>();
   return key.starts_with("lug-") ||
-         std::any_of(keys.begin(), keys.end(), [&](const std::string& k) { return key_of("", k.c_str()) == key; });
+         std::ranges::any_of(keys, [&](const std::string& k) { return key_of("", k.c_str()) == key; });
 }
 
 bool is_soil_flag(const std::string& key) {
   const std::vector<std::string> keys = keys_of<SemiEmpiricalSoil>();
-  return std::any_of(keys.begin(), keys.end(), [&](const std::string& k) { return key_of("", k.c_str()) == key; });
+  return std::ranges::any_of(keys, [&](const std::string& k) { return key_of("", k.c_str()) == key; });
 }
 
 Json numbers_json(const Case& question) {
@@ -259,12 +242,9 @@ Json numbers_json(const Case& question) {
   Json numbers = Json::array();
   const OperatingCondition& at = question.study.conditions.front();
   const Tire& tire = question.scenario.tire;
-  NumbersOf<OperatingCondition> of_condition(numbers, at, "condition", "", usual_of_condition, tire.radius);
-  describe(of_condition, std::type_identity<OperatingCondition>{});
-  NumbersOf<Tire> of_tire(numbers, tire, "tire", "", usual_of_tire, tire.radius);
-  describe(of_tire, std::type_identity<Tire>{});
-  NumbersOf<Lugs> of_lugs(numbers, tire.lugs, "tire", "lug-", usual_lug * tire.radius, tire.radius);
-  describe(of_lugs, std::type_identity<Lugs>{});
+  add_numbers(numbers, at, "condition", "", usual_of_condition, tire.radius);
+  add_numbers(numbers, tire, "tire", "", usual_of_tire, tire.radius);
+  add_numbers(numbers, tire.lugs, "tire", "lug-", usual_lug * tire.radius, tire.radius);
   if (question.scenario.soil.semi_empirical) add_soil_values(numbers, *question.scenario.soil.semi_empirical);
   add_heard_values(numbers, at);
   return numbers;

@@ -11,15 +11,19 @@
 #include "cli/question.hpp"
 #include "cli/serve/answered.hpp"
 #include "cli/serve/controls.hpp"
-#include "cli/serve/live_page.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "compare/report/page.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
 
 namespace soilbin::cli {
+
+/// The script, style and body of the page, from cli/serve/browser; made by the build.
+std::vector<compare::EmbeddedFile> live_files();
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -113,20 +117,33 @@ std::string question_in_words(const Case& question) {
          compare::in_words(question.study.conditions.front());
 }
 
-std::string newtons(double force) {
-  return force >= 1000.0 ? fmt::format("{:.4g} kN", force / 1000) : fmt::format("{:.4g} N", force);
-}
-
 /// What is said of a point without solution.
 void add_refusal(Json& document, const ServedAnswer& one) {
   const Json carried = carried_load(one);
   document["error"] = "no solution: " + error_and_hint(one.point.front().answers.front().error).first;
   document["carried_load"] = carried;
   if (!carried.is_null())
-    document["hint"] = "at this slip the soil carries up to " + newtons(carried.get<double>()) + " under this wheel";
+    document["hint"] =
+        "at this slip the soil carries up to " + compare::newtons(carried.get<double>()) + " under this wheel";
   else
     document["hint"] = compare::any_result(one.curves) ? "the curves show the slips that have one"
                                                        : "less load, another soil or other effects may have one";
+}
+
+/// Self-contained HTML with the reports' style, charts and d3; where d3 isn't installed the page says so, and shows
+/// numbers without curves.
+std::string live_page(const Setup& setup) {
+  compare::Page page(in_words(setup.ask({}).question.scenario.tire),
+                     "By the analytic model of soilbin estimate: move a number, and everything follows.");
+  const std::vector<compare::EmbeddedFile> own = live_files();
+  page.raw("<style>\n" + compare::embedded(own, "live.css") + "</style>\n");
+  if (!page.libraries().d3)
+    page.raw(
+        "<p class=\"warning\" role=\"note\">d3 is not installed on this machine (package node-d3): numbers without "
+        "curves.</p>\n");
+  page.raw(compare::embedded(own, "live.html"));
+  page.script(compare::embedded(own, "wheel.js") + compare::embedded(own, "live.js"));
+  return page.html();
 }
 
 Reply estimate_reply(const Setup& setup, const std::string& query) {

@@ -45,8 +45,7 @@ void add_serve(CLI::App& app, Session& session) {
       app.add_subcommand("serve", "a live page on this machine: move load, slip and soil, and the curves follow");
   const auto inputs = std::make_shared<Question>(*command);
   const auto port = std::make_shared<int>(8080);
-  command->add_option(port_flag, *port, "port of 127.0.0.1; 8080; 0: any free one")
-      ->type_name("WHOLE")
+  add_value(*command, port_flag, *port, "WHOLE", "port of 127.0.0.1; 8080; 0: any free one")
       ->check(whole_number(0, 65535));
   command->footer(
       "Examples: soilbin serve\n"

@@ -49,7 +49,7 @@ std::size_t most_connections() {
 bool names_this_machine(beast::string_view host) {
   const std::size_t colon = std::min(host.find(':'), host.size());
   const beast::string_view name = host.substr(0, colon), port = host.substr(std::min(colon + 1, host.size()));
-  const bool digits = std::all_of(port.begin(), port.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const bool digits = std::ranges::all_of(port, [](char c) { return c >= '0' && c <= '9'; });
   return digits && port.size() <= 5 && (name == "127.0.0.1" || name == "localhost");
 }
 
@@ -188,10 +188,9 @@ tcp::acceptor listen(asio::io_context& context, unsigned short port) {
   try {
     return {context, {asio::ip::address_v4::loopback(), port}};
   } catch (const boost::system::system_error& error) {
-    throw InputError(
-        fmt::format("port {} can't be had: {}\n  hint: --port 0 takes any free one; is another soilbin serve "
-                    "still running?",
-                    port, error.code().message()));
+    throw InputError(fmt::format(
+        "port {} can't be had: {}\n  hint: --port 0 takes any free one; is another soilbin serve still running?", port,
+        error.code().message()));
   }
 }
 

@@ -23,39 +23,25 @@ using Json = nlohmann::ordered_json;
 
 constexpr double usual_slip = 0.2;  ///< where a page starts, as near as the case allows
 
-/// The visitor of a condition's description that spells each member that has a value as a flag.
-class ConditionAsFlags {
- public:
-  using C = OperatingCondition;
-
-  explicit ConditionAsFlags(const C& at) : at_(at) {}
-  std::vector<Flag> flags;
-
-  void number(const char* key, double C::*member, const Measure& measure, Need, const char*) {
-    add(key, without_blanks(write_quantity(at_.*member, shown_unit(measure.unit))));
-  }
-  void number(const char* key, std::optional<double> C::*member, const Measure& measure, Need, const char*) {
-    if (at_.*member) add(key, without_blanks(write_quantity(*(at_.*member), measure.unit)));
-  }
-  void integer(const char* key, int C::*member, int, Need, const char*) { add(key, std::to_string(at_.*member)); }
-  void integer(const char* key, std::optional<int> C::*member, int, Need, const char*) {
-    if (at_.*member) add(key, std::to_string(*(at_.*member)));
-  }
-  template <class E>
-  void choice(const char* key, E C::*member, Need, const char*) {
-    add(key, std::string(word_of(at_.*member)));
-  }
-
- private:
-  void add(const char* key, std::string text) { flags.emplace_back(key_of("", key), std::move(text)); }
-
-  const C& at_;
-};
-
+/// Each member that has a value as a flag.
 std::vector<Flag> as_flags(const OperatingCondition& at) {
-  ConditionAsFlags visitor(at);
-  describe(visitor, std::type_identity<OperatingCondition>{});
-  return visitor.flags;
+  std::vector<Flag> flags;
+  each_member<OperatingCondition>([&](const char* key, auto member, const auto& limits, const char*) {
+    const auto& value = at.*member;
+    using Value = std::decay_t<decltype(value)>;
+    const std::string flag = key_of("", key);
+    if constexpr (std::is_same_v<Value, double>)
+      flags.emplace_back(flag, without_blanks(write_quantity(value, shown_unit(limits.unit))));
+    else if constexpr (std::is_same_v<Value, std::optional<double>>) {
+      if (value) flags.emplace_back(flag, without_blanks(write_quantity(*value, limits.unit)));
+    } else if constexpr (std::is_same_v<Value, std::optional<int>>) {
+      if (value) flags.emplace_back(flag, std::to_string(*value));
+    } else if constexpr (std::is_same_v<Value, int>)
+      flags.emplace_back(flag, std::to_string(value));
+    else
+      flags.emplace_back(flag, word_of(value));
+  });
+  return flags;
 }
 
 /// Soils of the library that the analytic model can take.
@@ -85,9 +71,8 @@ std::vector<Flag> telling(const OperatingCondition& one, const std::vector<Opera
   std::vector<Flag> same = as_flags(one), flags;
   for (const OperatingCondition& at : all) {
     const std::vector<Flag> other = as_flags(at);
-    const auto differs = std::stable_partition(same.begin(), same.end(), [&](const Flag& flag) {
-      return std::find(other.begin(), other.end(), flag) != other.end();
-    });
+    const auto differs = std::stable_partition(
+        same.begin(), same.end(), [&](const Flag& flag) { return std::ranges::find(other, flag) != other.end(); });
     flags.insert(flags.end(), differs, same.end());
     same.erase(differs, same.end());
   }
@@ -95,7 +80,7 @@ std::vector<Flag> telling(const OperatingCondition& one, const std::vector<Opera
 }
 
 bool holds(const std::vector<Flag>& flags, const std::string& key) {
-  return std::any_of(flags.begin(), flags.end(), [&](const Flag& flag) { return flag.first == key; });
+  return std::ranges::any_of(flags, [&](const Flag& flag) { return flag.first == key; });
 }
 
 }  // namespace
@@ -104,9 +89,8 @@ Setup::Setup(const Workplace& place, std::string case_name, std::vector<Flag> fl
     : place_(place), case_name_(std::move(case_name)), start_(std::move(flags)) {
   const Case question = put_together({}).question;
   const std::vector<OperatingCondition>& all = question.study.conditions;
-  const auto first = std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
-    return std::abs(a.slip - usual_slip) < std::abs(b.slip - usual_slip);
-  });
+  const auto first = std::ranges::min_element(
+      all, [](const auto& a, const auto& b) { return std::abs(a.slip - usual_slip) < std::abs(b.slip - usual_slip); });
   const std::vector<std::optional<double>>& rotations = question.study.rotations;
   const bool turns = !rotations.empty() && rotations[first - all.begin()].has_value();
   for (const Flag& flag : telling(*first, all))
@@ -148,8 +132,8 @@ Asked Setup::ask(const std::vector<Flag>& query) const {
   Asked asked = put_together(query);
   if (const std::size_t conditions = asked.question.study.conditions.size(); conditions != 1)
     throw InputError(
-        fmt::format("{} conditions are left, where one is asked for\n  hint: give those that the case "
-                    "varies: load, slip, pass, moisture, ...",
+        fmt::format("{} conditions are left, where one is asked for\n  hint: give those that the case varies: load, "
+                    "slip, pass, moisture, ...",
                     conditions));
   return asked;
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "compare/report/number_text.hpp"
-#include "compare/report/text_table.hpp"
+#include "compare/report/table.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -66,9 +66,9 @@ JanosiFit fit_janosi(const ShearCurve& curve) {
   const std::vector<double>& j = curve.displacement;
   if (j.size() < 4 || curve.shear_stress.size() != j.size())
     throw InputError("a shear test needs four points or more, displacement and stress each");
-  if (*std::min_element(j.begin(), j.end()) <= 0) throw InputError("displacements of a shear test must be above 0");
+  if (*std::ranges::min_element(j) <= 0) throw InputError("displacements of a shear test must be above 0");
   // A coarse search over the logarithm of K, then golden section.
-  double low = std::log(0.01 * j.front()), high = std::log(10 * *std::max_element(j.begin(), j.end()));
+  double low = std::log(0.01 * j.front()), high = std::log(10 * *std::ranges::max_element(j));
   constexpr int coarse = 200;
   const double width = (high - low) / coarse;
   double best = low;
@@ -120,7 +120,7 @@ Sheet bevameter_sheet(const std::string& title, std::span<const PlateSet> plates
   std::vector<double> seen;  // radii, then stresses: their place is the colour
   const auto color_of_value = [&seen](double value) {
     const auto alike = [&](double other) { return std::abs(value - other) < 0.1 * other; };
-    const auto place = std::find_if(seen.begin(), seen.end(), alike);
+    const auto place = std::ranges::find_if(seen, alike);
     const auto color = static_cast<int>(place - seen.begin());
     if (place == seen.end()) seen.push_back(value);
     return color;
@@ -152,11 +152,11 @@ Sheet bevameter_sheet(const std::string& title, std::span<const PlateSet> plates
 }
 
 std::string in_words(const BevameterFit& fit, const Soil& soil) {
-  TextTable table({"value", "bevameter", "soil file"});
+  Table table{"", {"value", "bevameter", "soil file"}};
   for (const SoilParameter& p : bevameter_parameters)
     table.add({heading(p.symbol, p.unit), number(fit.soil.*p.value, p.per_si),
                soil.semi_empirical ? number((*soil.semi_empirical).*p.value, p.per_si) : "-"});
-  std::string text = table.text();
+  std::string text = as_text(table);
   if (fit.cohesion_as_fitted < 0)
     text += fmt::format("cohesion came out at {} kPa and is given as 0\n", number(fit.cohesion_as_fitted / 1e3));
   return text + fmt::format("Bekker's form misses the pressures by {} % (root mean square over mean)\n",

@@ -11,7 +11,7 @@
 
 #include "compare/measured/csv.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/report/text_table.hpp"
+#include "compare/report/table.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/quantity.hpp"
@@ -47,7 +47,7 @@ std::optional<PlateColumn> measured_column(const std::string& name) {
   }
   const std::string what = name.substr(0, bar);
   const auto is = [&](std::initializer_list<const char*> words, const char* dimension) {
-    return std::find(words.begin(), words.end(), what) != words.end() &&
+    return std::ranges::find(words, what) != words.end() &&
            same_dimension(parsed.dimension, parse_unit(dimension).dimension);
   };
   if (is({"plate_diameter", "diameter"}, "m")) return PlateColumn{Holds::diameter, unit};
@@ -68,7 +68,7 @@ std::vector<PlateColumn> columns_of(const CsvTable& table) {
       columns.push_back({header.text == "plate" || header.text == "tool" ? Holds::plate_label : Holds::label, ""});
   }
   const auto has = [&](Holds what) {
-    return std::any_of(columns.begin(), columns.end(), [&](const PlateColumn& c) { return c.holds == what; });
+    return std::ranges::any_of(columns, [&](const PlateColumn& c) { return c.holds == what; });
   };
   for (PlateColumn& column : columns) {
     if (column.holds == Holds::force && has(Holds::pressure)) column.holds = Holds::nothing;
@@ -80,9 +80,8 @@ std::vector<PlateColumn> columns_of(const CsvTable& table) {
 
 void need_columns(const std::vector<PlateColumn>& columns, const CsvTable& table, const SourceText& csv) {
   const auto count = [&](std::initializer_list<Holds> kinds) {
-    return std::count_if(columns.begin(), columns.end(), [&](const PlateColumn& c) {
-      return std::find(kinds.begin(), kinds.end(), c.holds) != kinds.end();
-    });
+    return std::ranges::count_if(
+        columns, [&](const PlateColumn& c) { return std::ranges::find(kinds, c.holds) != kinds.end(); });
   };
   const std::size_t at = table.header.cells.front().offset;
   const auto one = [&](std::initializer_list<Holds> kinds, const char* what) {
@@ -168,16 +167,15 @@ std::vector<std::pair<std::size_t, std::string>> wanted(const CsvTable& table, c
   for (const CsvCell& cell : table.header.cells) names.push_back(cell.text);
   std::vector<std::pair<std::size_t, std::string>> all;
   for (const auto& [name, value] : only) {
-    const auto found = std::find(names.begin(), names.end(), name);
+    const auto found = std::ranges::find(names, name);
     if (found == names.end())
       throw InputError(fmt::format("--only: {} has no column '{}'{}\n  hint: its columns are {}", csv.file,
                                    clipped(name), did_you_mean(name, names), listed(names)));
     const auto column = static_cast<std::size_t>(found - names.begin());
     std::vector<std::string> values;
     for (const CsvRow& row : table.rows)
-      if (std::find(values.begin(), values.end(), row.cells[column].text) == values.end())
-        values.push_back(row.cells[column].text);
-    if (std::find(values.begin(), values.end(), value) == values.end())
+      if (std::ranges::find(values, row.cells[column].text) == values.end()) values.push_back(row.cells[column].text);
+    if (std::ranges::find(values, value) == values.end())
       throw InputError(fmt::format("--only: no row of {} has {} '{}'{}", csv.file, name, clipped(value),
                                    did_you_mean(value, values)));
     all.emplace_back(column, value);
@@ -197,7 +195,7 @@ PlateCurve within(const PlateCurve& curve, const PressureWindow& window) {
 std::vector<PlateCurve> half_of(const std::vector<PlateCurve>& curves, bool lower) {
   std::vector<PlateCurve> halves;
   for (const PlateCurve& curve : curves) {
-    const double middle = 0.5 * *std::max_element(curve.pressure.begin(), curve.pressure.end());
+    const double middle = 0.5 * *std::ranges::max_element(curve.pressure);
     PlateCurve half = within(
         curve, lower ? PressureWindow{0.0, middle} : PressureWindow{middle, std::numeric_limits<double>::infinity()});
     if (half.pressure.size() >= 2) halves.push_back(std::move(half));
@@ -268,7 +266,7 @@ void add_misfit(const std::vector<PlateCurve>& curves, MeasuredPlatesFit& fit) {
 std::vector<double> radii_of(const std::vector<PlateCurve>& curves) {
   std::vector<double> radii;
   for (const PlateCurve& curve : curves) radii.push_back(curve.radius);
-  std::sort(radii.begin(), radii.end());
+  std::ranges::sort(radii);
   radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
   if (radii.size() < 2)
     throw InputError(
@@ -300,11 +298,10 @@ std::vector<MeasuredPlate> read_plates(const SourceText& csv,
   const auto kept = wanted(table, csv, only);
   std::vector<MeasuredPlate> plates;
   for (const CsvRow& row : table.rows) {
-    if (std::any_of(kept.begin(), kept.end(),
-                    [&](const auto& want) { return row.cells[want.first].text != want.second; }))
+    if (std::ranges::any_of(kept, [&](const auto& want) { return row.cells[want.first].text != want.second; }))
       continue;
     const PlateReading reading = reading_of(row, columns, csv);
-    auto plate = std::find_if(plates.begin(), plates.end(), [&](const MeasuredPlate& known) {
+    auto plate = std::ranges::find_if(plates, [&](const MeasuredPlate& known) {
       return known.test == reading.test && known.curve.radius == reading.radius;
     });
     if (plate == plates.end())
@@ -323,9 +320,8 @@ MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, con
     curves.push_back(within(plate.curve, window));
     if (curves.back().pressure.size() < fewest)
       throw InputError(fmt::format(
-          "test '{}' of the plate of {:g} mm has {} with a pressure and a sinkage above 0; {} "
-          "are needed\n  hint: widen --pressure; a column without a unit in its name tells "
-          "tests apart: call a time time_s",
+          "test '{}' of the plate of {:g} mm has {} with a pressure and a sinkage above 0; {} are needed\n  hint: "
+          "widen --pressure; a column without a unit in its name tells tests apart: call a time time_s",
           plate.test, 2000 * plate.curve.radius, counted(curves.back().pressure.size(), "reading"), fewest));
   }
   if (curves.empty()) throw InputError("no plate tests to fit");
@@ -348,16 +344,15 @@ std::vector<std::string> doubts(const MeasuredPlatesFit& fit) {
   for (const auto& [name, value] : {std::pair{"k_phi", &fit.k_phi}, {"k_c", &fit.k_c}})
     if (value->estimate.value < 0.0 && -value->estimate.value > value->estimate.std_error)
       words.push_back(
-          fmt::format("{} is negative: Bekker's form doesn't hold over these plates; the values are good "
-                      "for widths of {}, and for no other",
+          fmt::format("{} is negative: Bekker's form doesn't hold over these plates; the values are good for widths of "
+                      "{}, and for no other",
                       name, widths));
-  if (std::all_of(fit.tests.begin(), fit.tests.end(), [](int count) { return count < 2; }))
+  if (std::ranges::all_of(fit.tests, [](int count) { return count < 2; }))
     words.emplace_back("no plate was pressed in twice: the errors hold no scatter between tests");
   if (fit.pressure_error > 0.25)
-    words.push_back(
-        fmt::format("Bekker's form misses the pressures by {}: fit over the pressures that your wheel "
-                    "makes (--pressure)",
-                    percent(fit.pressure_error)));
+    words.push_back(fmt::format(
+        "Bekker's form misses the pressures by {}: fit over the pressures that your wheel makes (--pressure)",
+        percent(fit.pressure_error)));
   return words;
 }
 
@@ -374,7 +369,7 @@ Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFi
       const std::size_t every = used.pressure.size() / 40 + 1;  // more points than these hide each other
       for (std::size_t i = 0; i < used.pressure.size(); i += every)
         points.x.push_back(1e3 * used.sinkage[i]), points.y.push_back(1e-3 * used.pressure[i]);
-      deepest = std::max(deepest, *std::max_element(used.sinkage.begin(), used.sinkage.end()));
+      deepest = std::max(deepest, *std::ranges::max_element(used.sinkage));
       plot.series.push_back(std::move(points));
     }
     Series line{.label = plate + ", Bekker's form"};
@@ -418,21 +413,20 @@ std::string yaml_lines(const MeasuredPlatesFit& fit, const std::string& source) 
 }  // namespace
 
 std::string in_words(const MeasuredPlatesFit& fit, std::size_t tests, const std::string& source) {
-  TextTable values({"value", "fit", "between tests", "between low and high pressures"});
+  Table values{"", {"value", "fit", "between tests", "between low and high pressures"}};
   for (const auto& [p, value] : plate_values(fit))
     values.add({heading(p.symbol, p.unit), number(value.estimate, p.per_si), number(value.between_tests * p.per_si),
                 number(value.between_pressures * p.per_si)});
-  TextTable plates({"plate [mm]", "tests", "n of its own", "k at the common n [kN/m^(n+2)]"});
+  Table plates{"", {"plate [mm]", "tests", "n of its own", "k at the common n [kN/m^(n+2)]"}};
   for (std::size_t k = 0; k < fit.radii.size(); ++k)
     plates.add({fmt::format("{:g}", 2000 * fit.radii[k]), std::to_string(fit.tests[k]), number(fit.plate_exponents[k]),
                 number(fit.plate_moduli[k] / 1e3)});
   return fmt::format(
       "{} with plates of {} sizes, {:.2g} to {:.3g} kPa\n\n{}\n± is one standard error: the two columns beside it, "
-      "squared and added. Those of k_c and k_phi hold at this "
-      "n.\nA file takes the three as independent, which makes pressures less sure than these tests "
-      "are.\n\n{}\nBekker's form misses the pressures by {} (root mean square, of the mean pressure).\n\nFor "
-      "campaign.yaml or a soil file:\n\n{}",
-      counted(tests, "test"), fit.radii.size(), fit.lowest / 1e3, fit.highest / 1e3, values.text(), plates.text(),
+      "squared and added. Those of k_c and k_phi hold at this n.\nA file takes the three as independent, which makes "
+      "pressures less sure than these tests are.\n\n{}\nBekker's form misses the pressures by {} (root mean square, of "
+      "the mean pressure).\n\nFor campaign.yaml or a soil file:\n\n{}",
+      counted(tests, "test"), fit.radii.size(), fit.lowest / 1e3, fit.highest / 1e3, as_text(values), as_text(plates),
       percent(fit.pressure_error), yaml_lines(fit, source));
 }
 

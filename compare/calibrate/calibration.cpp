@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
-#include "compare/calibrate/experiment_batch.hpp"
+#include "compare/calibrate/experiment_store.hpp"
 #include "compare/calibrate/likely_points.hpp"
 #include "scenario/errors.hpp"
 

@@ -5,10 +5,126 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "compare/calibrate/decision_words.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/sweep/result_json.hpp"
+#include "compare/sweep/varying.hpp"
+#include "scenario/nearest_word.hpp"
 
 namespace soilbin::compare {
+namespace {
+
+constexpr OfChannels<const char*> wholes = {"W", "W r", "r", "W"};
+
+bool is_measured(const Decision& decision, std::size_t channel) {
+  for (const Setpoint& setpoint : decision.setpoints)
+    if (setpoint.measured[channel]) return true;
+  return false;
+}
+
+bool has_reruns(const Decision& decision) {
+  for (const Setpoint& setpoint : decision.setpoints)
+    for (const std::optional<Estimate>& measured : setpoint.measured)
+      if (measured && measured->std_error > 0) return true;
+  return false;
+}
+
+std::vector<std::string> tied_names(const Decision& decision, std::size_t but) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < decision.trials.size(); ++k)
+    if (k != but && decision.trials[k].error && !decision.trials[k].apart) names.push_back(candidate_name(k));
+  return names;
+}
+
+std::string error_text(const Estimate& error) { return number(error, 100) + " %"; }
+
+std::string failure_of(const Trial& trial) {
+  for (const Answer& answer : trial.answers)
+    if (!answer.result) return fmt::format("at {}: {}", in_words(answer.at), answer.error);
+  return "";
+}
+
+std::string verdict(const Decision& decision, std::size_t candidate) {
+  const Trial& trial = decision.trials[candidate];
+  if (!trial.error) return failure_of(trial);
+  if (candidate == decision.chosen) return "chosen";
+  if (trial.apart) return "farther off";
+  return candidate == decision.nearest ? "nearest, not told apart" : "not told apart";
+}
+
+Json by_channel(const OfChannels<std::optional<Estimate>>& values) {
+  Json json = Json::object();
+  for (std::size_t c = 0; c < values.size(); ++c)
+    if (values[c]) json[std::string(channel_views[c].name)] = estimate_json(*values[c]);
+  return json;
+}
+
+Json json_of(const Trial& trial) {
+  Json answers = Json::array();
+  for (const Answer& answer : trial.answers) answers.push_back(to_json(answer));
+  return {{"error", trial.error ? estimate_json(*trial.error) : Json(nullptr)},
+          {"errors", by_channel(trial.errors)},
+          {"apart", trial.apart},
+          {"answers", answers}};
+}
+
+}  // namespace
+
+std::string candidate_name(std::size_t candidate) {
+  return fmt::format("({})", static_cast<char>('a' + static_cast<char>(candidate)));
+}
+
+std::vector<std::string> decision_sentences(const Decision& decision) {
+  if (!decision.decided())
+    return {
+        fmt::format("In the soil bin no candidate had a result at all {} setpoints of {}: the likeliest is kept. {}.",
+                    decision.setpoints.size(), decision.campaign, failure_of(decision.trials.front()))};
+  std::vector<std::string> said;
+  said.push_back(fmt::format("In the soil bin {} is nearest to {}: {} of the load off, over {} setpoint{}.",
+                             candidate_name(decision.nearest), decision.campaign,
+                             error_text(*decision.trials[decision.nearest].error), decision.setpoints.size(),
+                             decision.setpoints.size() == 1 ? "" : "s"));
+  if (decision.tied() > 1)
+    said.push_back(fmt::format(
+        "It is not told apart from {} by two standard errors: {}, the likeliest of these on the targets, is chosen.",
+        listed(tied_names(decision, decision.nearest)), candidate_name(decision.chosen)));
+  if (!has_reruns(decision))
+    said.push_back(
+        fmt::format("{} repeats no setpoint: its own scatter is not known and counts as none.", decision.campaign));
+  if (decision.not_steady > 0)
+    said.push_back(fmt::format("{} of the {} runs did not become steady.", decision.not_steady, decision.runs));
+  return said;
+}
+
+std::vector<std::string> decision_columns(const Decision& decision) {
+  std::vector<std::string> header;
+  for (std::size_t c = 0; c < channel_views.size(); ++c)
+    if (is_measured(decision, c)) header.push_back(fmt::format("{} off [% {}]", channel_views[c].title, wholes[c]));
+  header.insert(header.end(), {"off [%]", "soil bin"});
+  return header;
+}
+
+std::vector<std::string> decision_cells(const Decision& decision, std::size_t candidate) {
+  const Trial& trial = decision.trials[candidate];
+  std::vector<std::string> row;
+  for (std::size_t c = 0; c < channel_views.size(); ++c)
+    if (is_measured(decision, c)) row.push_back(trial.errors[c] ? number(*trial.errors[c], 100) : "-");
+  row.push_back(trial.error ? number(*trial.error, 100) : "-");
+  row.push_back(verdict(decision, candidate));
+  return row;
+}
+
+nlohmann::ordered_json to_json(const Decision& decision) {
+  Json setpoints = Json::array(), trials = Json::array();
+  for (const Setpoint& setpoint : decision.setpoints)
+    setpoints.push_back(
+        {{"at", to_json(setpoint.at)}, {"runs", setpoint.runs}, {"measured", by_channel(setpoint.measured)}});
+  for (const Trial& trial : decision.trials) trials.push_back(json_of(trial));
+  return {{"campaign", decision.campaign},     {"decided", decision.decided()}, {"nearest", decision.nearest},
+          {"chosen", decision.chosen},         {"tied", decision.tied()},       {"runs", decision.runs},
+          {"not_steady", decision.not_steady}, {"setpoints", setpoints},        {"trials", trials}};
+}
+
 namespace {
 
 std::string with_unit(const std::string& text, const std::string& unit) {
@@ -68,7 +184,7 @@ std::vector<std::string> columns_of(const VirtualTest& test) {
   return header;
 }
 
-void add_cells(std::vector<std::string>& row, const VirtualTest& test, const Eigen::VectorXd& values,
+void add_cells(std::vector<TableCell>& row, const VirtualTest& test, const Eigen::VectorXd& values,
                const std::vector<Estimate>& results) {
   for (std::size_t j = 0; j < test.factors.size(); ++j)
     row.push_back(number(values[j] * per_unit(test.factors[j].unit)));
@@ -84,6 +200,10 @@ std::string decided_by(const Calibration& calibration) {
     return fmt::format("; the likeliest of {} candidates that the soil bin doesn't tell apart on {}", tied,
                        decision.campaign);
   return fmt::format("; of {} candidates the nearest to {} in the soil bin", decision.trials.size(), decision.campaign);
+}
+
+ContactPair& pair_of(GranularSoil& soil, ContactKind kind) {
+  return kind == ContactKind::grain_grain ? soil.grain_grain : soil.grain_tire;
 }
 
 }  // namespace
@@ -118,72 +238,68 @@ std::vector<std::string> calibration_sentences(const VirtualTest& test, const Ca
   return said;
 }
 
-HtmlTable level_table(const VirtualTest& test, const Calibration& calibration, std::size_t target) {
+Table level_table(const VirtualTest& test, const Calibration& calibration, std::size_t target) {
   const TargetAnalysis& analysis = calibration.analyses.at(target);
   const double factor = per_unit(test.targets[target].unit);
-  HtmlTable table{heading(test.targets[target].name, test.targets[target].unit), {"factor"}};
+  Table table{heading(test.targets[target].name, test.targets[target].unit), {"factor"}};
   for (std::size_t i = 0; i < analysis.ranges.factors[0].means.size(); ++i)
     table.header.push_back(fmt::format("k{}", i + 1));
   for (const char* name : {"R", "sum of squares", "F", "p"}) table.header.emplace_back(name);
-  const auto variance_cells = [&](std::vector<std::string>& row, const VarianceRow& from) {
+  const auto variance_cells = [&](std::vector<TableCell>& row, const VarianceRow& from) {
     row.push_back(number(from.sum_of_squares * factor * factor));
     row.push_back(from.pooled ? "pooled" : number(from.f));
     row.push_back(from.pooled || !std::isfinite(from.p_value) ? "-" : fmt::format("{:.2g}", from.p_value));
   };
   for (std::size_t j = 0; j < test.factors.size(); ++j) {
-    std::vector<std::string> row{test.factors[j].name};
+    std::vector<TableCell> row{test.factors[j].name};
     for (const double k : analysis.ranges.factors[j].means) row.push_back(number(k * factor));
     row.push_back(number(analysis.ranges.factors[j].range * factor));
     variance_cells(row, analysis.variance.factors[j]);
-    table.rows.push_back(std::move(row));
+    table.add(std::move(row));
   }
   if (analysis.variance.left.freedom > 0) {
-    std::vector<std::string> row{analysis.variance.left.source};
+    std::vector<TableCell> row{analysis.variance.left.source};
     row.resize(table.header.size() - 3);
     variance_cells(row, analysis.variance.left);
-    table.rows.push_back(std::move(row));
+    table.add(std::move(row));
   }
   return table;
 }
 
-HtmlTable runs_table(const VirtualTest& test, const Calibration& calibration) {
-  HtmlTable table{"Runs", {"stage"}};
+Table runs_table(const VirtualTest& test, const Calibration& calibration) {
+  Table table{"Runs", {"stage"}};
   for (std::string& name : columns_of(test)) table.header.push_back(std::move(name));
   table.header.emplace_back("failure");
   for (const CalibrationRun& run : calibration.runs) {
-    std::vector<std::string> row{stage_name(run.stage)};
+    std::vector<TableCell> row{stage_name(run.stage)};
     add_cells(row, test, run.experiment.values, run.experiment.results);
     row.push_back(run.experiment.error);
-    table.rows.push_back(std::move(row));
+    table.add(std::move(row));
   }
   return table;
 }
 
-HtmlTable candidates_table(const VirtualTest& test, const Calibration& calibration) {
-  HtmlTable table{"Candidates", {""}};
+Table candidates_table(const VirtualTest& test, const Calibration& calibration) {
+  Table table{"Candidates", {""}};
   for (std::string& name : columns_of(test)) table.header.push_back(std::move(name));
   for (const char* name : {"runs", "chi square", "chance"}) table.header.emplace_back(name);
   if (calibration.decision)
     for (std::string& name : decision_columns(*calibration.decision)) table.header.push_back(std::move(name));
   for (std::size_t k = 0; k < calibration.candidates.size(); ++k) {
     const Candidate& candidate = calibration.candidates[k];
-    std::vector<std::string> row{candidate_name(k)};
+    std::vector<TableCell> row{candidate_name(k)};
     add_cells(row, test, candidate.values, candidate.predicted);
     row.push_back(std::to_string(candidate.runs));
     row.push_back(number(candidate.chi_square));
     row.push_back(percent(candidate.chance));
     if (calibration.decision)
       for (std::string& cell : decision_cells(*calibration.decision, k)) row.push_back(std::move(cell));
-    table.rows.push_back(std::move(row));
+    table.add(std::move(row));
   }
   return table;
 }
 
 std::string key_of(ContactKind kind) { return kind == ContactKind::grain_grain ? "grain_grain" : "grain_tire"; }
-
-ContactPair& pair_of(GranularSoil& soil, ContactKind kind) {
-  return kind == ContactKind::grain_grain ? soil.grain_grain : soil.grain_tire;
-}
 
 double& value_of(ContactPair& pair, const std::string& name) {
   if (name == "restitution") return pair.restitution;
@@ -210,6 +326,101 @@ Soil calibrated_soil(Soil soil, ContactKind kind, const VirtualTest& test, const
                     value_with_unit(calibration.parameters[j], factor.unit), decided_by(calibration));
   }
   return soil;
+}
+
+// A calibration as JSON.
+
+namespace {
+
+Json values_json(const VirtualTest& test, const Eigen::VectorXd& values) {
+  Json json = Json::object();
+  for (std::size_t j = 0; j < test.factors.size(); ++j) json[test.factors[j].name] = values[j];
+  return json;
+}
+
+Json results_json(const VirtualTest& test, const std::vector<Estimate>& results) {
+  Json json = Json::object();
+  for (std::size_t t = 0; t < results.size(); ++t) json[test.targets[t].name] = estimate_json(results[t]);
+  return json;
+}
+
+Json json_of(const VirtualTest& test, const Candidate& candidate) {
+  return {{"values", values_json(test, candidate.values)},
+          {"predicted", results_json(test, candidate.predicted)},
+          {"chi_square", finite(candidate.chi_square)},
+          {"chance", candidate.chance},
+          {"runs", candidate.runs}};
+}
+
+Json json_of(const VarianceRow& row) {
+  return {{"source", row.source},   {"sum_of_squares", row.sum_of_squares},
+          {"freedom", row.freedom}, {"pooled", row.pooled},
+          {"f", finite(row.f)},     {"p_value", finite(row.p_value)}};
+}
+
+Json analysis_json(const VirtualTest& test, const TargetAnalysis& analysis) {
+  Json ranges = Json::array(), rows = Json::array(), order = Json::array();
+  for (std::size_t j = 0; j < test.factors.size(); ++j) {
+    const FactorRange& factor = analysis.ranges.factors[j];
+    ranges.push_back({{"factor", test.factors[j].name}, {"K", factor.sums}, {"k", factor.means}, {"R", factor.range}});
+    rows.push_back(json_of(analysis.variance.factors[j]));
+  }
+  for (const int j : analysis.ranges.order) order.push_back(test.factors[j].name);
+  if (analysis.variance.left.freedom > 0) rows.push_back(json_of(analysis.variance.left));
+  return {{"ranges", ranges},
+          {"order", order},
+          {"variance", rows},
+          {"total", analysis.variance.total},
+          {"error", sentence(analysis.variance)}};
+}
+
+Json runs_json(const VirtualTest& test, const Calibration& calibration) {
+  Json runs = Json::array();
+  for (const CalibrationRun& run : calibration.runs) {
+    Json json{{"stage", stage_name(run.stage)},    {"values", values_json(test, run.experiment.values)},
+              {"seed", run.experiment.seed},       {"results", results_json(test, run.experiment.results)},
+              {"seconds", run.experiment.seconds}, {"from_store", run.from_store}};
+    if (!run.experiment.error.empty()) json["error"] = run.experiment.error;
+    runs.push_back(std::move(json));
+  }
+  return runs;
+}
+
+}  // namespace
+
+Json to_json(const VirtualTest& test, const CalibrationOptions& options, const Calibration& calibration) {
+  Json factors = Json::array(), targets = Json::array(), candidates = Json::array();
+  for (std::size_t j = 0; j < test.factors.size(); ++j)
+    factors.push_back({{"name", test.factors[j].name},
+                       {"lower", test.factors[j].lower},
+                       {"upper", test.factors[j].upper},
+                       {"given_targets", estimate_json(calibration.parameters[j])},
+                       {"told", calibration.learned[j]}});
+  for (std::size_t t = 0; t < test.targets.size(); ++t) {
+    Json target{{"name", test.targets[t].name},
+                {"measured", estimate_json(test.targets[t].measured)},
+                {"held_out_rms", calibration.held_out[t].rms()},
+                {"extra_sd", calibration.extra_sd[t]}};
+    if (!calibration.analyses.empty()) target["design"] = analysis_json(test, calibration.analyses[t]);
+    targets.push_back(std::move(target));
+  }
+  for (const Candidate& candidate : calibration.candidates) candidates.push_back(json_of(test, candidate));
+  Json json{{"format", "soilbin-calibration/1"},
+            {"test", test.identity},
+            {"design", options.design},
+            {"near", options.near},
+            {"within", options.within},
+            {"probability", options.probability},
+            {"seed", options.seed},
+            {"reached", calibration.reached},
+            {"best", json_of(test, calibration.best)},
+            {"factors", factors},
+            {"targets", targets},
+            {"candidates", candidates},
+            {"runs", runs_json(test, calibration)},
+            {"sentences", calibration_sentences(test, options, calibration)}};
+  if (calibration.decision) json["decision"] = to_json(*calibration.decision);
+  return json;
 }
 
 }  // namespace soilbin::compare

@@ -80,7 +80,7 @@ Misses misses_of(const std::vector<Setpoint>& setpoints, const std::vector<Answe
   OfChannels<int> count{};
   for (const Setpoint& setpoint : setpoints)
     for (std::size_t c = 0; c < count.size(); ++c) count[c] += setpoint.measured[c].has_value();
-  const auto channels = std::count_if(count.begin(), count.end(), [](int n) { return n > 0; });
+  const auto channels = std::ranges::count_if(count, [](int n) { return n > 0; });
   Misses misses(setpoints.size());
   for (std::size_t s = 0; s < setpoints.size(); ++s)
     for (std::size_t c = 0; c < count.size(); ++c) {
@@ -163,7 +163,7 @@ bool clearly_farther(const Misses& farther, const Misses& nearest) {
 }
 
 bool all_answered(const std::vector<Answer>& answers) {
-  return std::all_of(answers.begin(), answers.end(), [](const Answer& one) { return one.result.has_value(); });
+  return std::ranges::all_of(answers, [](const Answer& one) { return one.result.has_value(); });
 }
 
 }  // namespace
@@ -193,12 +193,12 @@ std::vector<Setpoint> between(const std::vector<Setpoint>& setpoints, double Ope
 }
 
 bool Decision::decided() const {
-  return std::any_of(trials.begin(), trials.end(), [](const Trial& trial) { return trial.error.has_value(); });
+  return std::ranges::any_of(trials, [](const Trial& trial) { return trial.error.has_value(); });
 }
 
 int Decision::tied() const {
   return static_cast<int>(
-      std::count_if(trials.begin(), trials.end(), [](const Trial& trial) { return trial.error && !trial.apart; }));
+      std::ranges::count_if(trials, [](const Trial& trial) { return trial.error && !trial.apart; }));
 }
 
 Decision decide(std::string campaign, std::vector<Setpoint> setpoints, std::vector<std::vector<Answer>> answers,

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/report/json_fields.hpp"
-#include "compare/report/json_file.hpp"
 #include "scenario/atomic_file.hpp"
+#include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
 
@@ -151,10 +151,10 @@ void ExperimentStore::take(const std::filesystem::path& other) {
           if (mine.key == test.key)
             for (const StoredExperiment& known : mine.experiments)
               if (same_question(known.experiment, fresh.values, fresh.seed) && !same_answer(known.experiment, fresh))
-                throw InputError(fmt::format(
-                    "{}: another answer to an experiment than in {}\n  hint: the same program gives the same "
-                    "bits on every machine; different sources may not",
-                    other.string(), file_.string()));
+                throw InputError(
+                    fmt::format("{}: another answer to an experiment than in {}\n  hint: the same program gives the "
+                                "same bits on every machine; different sources may not",
+                                other.string(), file_.string()));
         put(test.key, fresh);
       }
   });
@@ -173,7 +173,7 @@ void ExperimentStore::add(const std::function<void()>& change) {
 }
 
 void ExperimentStore::put(const std::string& key, const Experiment& experiment) {
-  const auto known = std::find_if(tests_.begin(), tests_.end(), [&](const OfOneTest& one) { return one.key == key; });
+  const auto known = std::ranges::find_if(tests_, [&](const OfOneTest& one) { return one.key == key; });
   OfOneTest& into = known != tests_.end() ? *known : tests_.emplace_back(OfOneTest{key, {}});
   std::erase_if(into.experiments, [&](const StoredExperiment& old) {
     return same_question(old.experiment, experiment.values, experiment.seed);
@@ -184,7 +184,7 @@ void ExperimentStore::put(const std::string& key, const Experiment& experiment) 
 std::size_t ExperimentStore::unsealed() const {
   std::ptrdiff_t sum = 0;
   for (const OfOneTest& test : tests_)
-    sum += std::count_if(test.experiments.begin(), test.experiments.end(), [](const auto& one) { return !one.sealed; });
+    sum += std::ranges::count_if(test.experiments, [](const auto& one) { return !one.sealed; });
   return static_cast<std::size_t>(sum);
 }
 
@@ -231,6 +231,59 @@ std::pair<Experiment, bool> experiment_at(const VirtualTest& test, const Eigen::
   store.keep(test, experiment);
   if (test.when_safe) test.when_safe();
   return {std::move(experiment), false};
+}
+
+namespace {
+
+constexpr const char* batch_format = "soilbin-batch/1";
+
+/// Sixteen digits of all that an experiment's answer follows from, beside its values and seed.
+std::string test_key(const VirtualTest& test) {
+  std::string text = test.identity;
+  for (const Factor& factor : test.factors) text += '\n' + factor.name;
+  return fnv1a_digits(text);
+}
+
+}  // namespace
+
+VirtualTest only_asking(VirtualTest test) {
+  test.run = [](const Eigen::VectorXd& values, std::uint64_t seed) -> std::vector<Estimate> {
+    throw ExperimentsAsked({{values, seed}});
+  };
+  return test;
+}
+
+std::string batch_text(const VirtualTest& test, const std::vector<AskedExperiment>& batch) {
+  Json experiments = Json::array();
+  for (const AskedExperiment& one : batch) {
+    Json values = Json::object();
+    for (std::size_t k = 0; k < test.factors.size(); ++k) values[test.factors[k].name] = one.values[k];
+    experiments.push_back({{"seed", one.seed}, {"values", values}});
+  }
+  return json_text({{"format", batch_format}, {"test", test_key(test)}, {"experiments", experiments}});
+}
+
+std::vector<AskedExperiment> parse_batch(const SourceText& source, const VirtualTest& test) {
+  const std::string hint = "a batch is written by --ask";
+  const Json document = parse_json(source, hint);
+  return read_json_at(source.file, [&] {
+    if (document.at("format") != batch_format)
+      throw InputError(fmt::format("{}: expected the format '{}'\n  hint: {}", source.file, batch_format, hint));
+    if (document.at("test") != test_key(test))
+      throw InputError(
+          fmt::format("{}: these experiments were asked for by another question\n  hint: all flags but those of the "
+                      "batch are those that it was asked with",
+                      source.file));
+    std::vector<AskedExperiment> batch;
+    for (const Json& one : document.at("experiments")) {
+      AskedExperiment asked{Eigen::VectorXd(static_cast<Eigen::Index>(test.factors.size())),
+                            one.at("seed").get<std::uint64_t>()};
+      for (std::size_t k = 0; k < test.factors.size(); ++k)
+        asked.values[k] = one.at("values").at(test.factors[k].name).get<double>();
+      batch.push_back(std::move(asked));
+    }
+    return batch;
+  });
 }
 
 }  // namespace soilbin::compare

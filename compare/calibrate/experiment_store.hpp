@@ -1,16 +1,45 @@
 // Finished experiments, kept in a file, so that work that was stopped goes on where it was.
 #pragma once
 
+#include <Eigen/Dense>
+#include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "compare/calibrate/virtual_test.hpp"
+#include "compare/design/factor.hpp"
+#include "scenario/estimate.hpp"
 #include "scenario/file_lock.hpp"
+#include "scenario/source_text.hpp"
 
 namespace soilbin::compare {
+
+// A virtual test: values of some contact parameters in, what a laboratory would measure out.
+
+/// A number that was measured on the real soil and that a virtual test should give.
+struct Target {
+  std::string name;        ///< "friction_angle"
+  Estimate measured;       ///< [SI], not 0; the error is the measurement's
+  std::string unit = "-";  ///< in which people read it
+};
+
+/// What to vary, what to reach, and how to find out.
+struct VirtualTest {
+  std::string identity;  ///< a text of all that its answers follow from, beside factors and seed; keys the store
+  std::vector<Factor> factors;
+  std::vector<Target> targets;
+  /// An estimate of each target at these values of the factors [SI]. seed: of the packing; another one is a repetition.
+  /// Throws NoSolution where the values have no answer (the sample doesn't settle, the plane never slides).
+  std::function<std::vector<Estimate>(const Eigen::VectorXd& values, std::uint64_t seed)> run;
+  /// Called once what the last run gave is kept, where it is set.
+  std::function<void()> when_safe{};
+};
+
+/// Throws InputError where a test can't be calibrated: no factor or target, bounds out of order, a target of 0.
+void check(const VirtualTest& test);
 
 /// One experiment: what was asked and what came of it.
 struct Experiment {
@@ -70,5 +99,43 @@ class ExperimentStore {
 /// that aren't finite become its error; what else the test throws goes through.
 std::pair<Experiment, bool> experiment_at(const VirtualTest& test, const Eigen::VectorXd& values, std::uint64_t seed,
                                           ExperimentStore& store);
+
+// Experiments that are asked for now and made elsewhere: a batch in a file, answered in shards, each into a store of
+// its own, and learnt from by whoever asked.
+//
+//   try { map_failures(question_of(only_asking(test)), {.at_once = 8}); }
+//   catch (const ExperimentsAsked& asked) { write(batch_text(test, asked.experiments)); }
+
+struct AskedExperiment {
+  Eigen::VectorXd values;  ///< of the factors [SI]
+  std::uint64_t seed = 1;
+};
+
+/// Thrown where experiments are asked for that a store lacks and nobody is to make now.
+struct ExperimentsAsked : std::exception {
+  explicit ExperimentsAsked(std::vector<AskedExperiment> asked) : experiments(std::move(asked)) {}
+  const char* what() const noexcept override { return "experiments are asked for"; }
+  std::vector<AskedExperiment> experiments;
+};
+
+/// The test, whose run throws ExperimentsAsked in place of working.
+VirtualTest only_asking(VirtualTest test);
+
+/// Calls `ask` for each; what they ask for is asked together, once all were called.
+template <class Items, class Ask>
+void ask_together(Items&& items, const Ask& ask) {
+  std::vector<AskedExperiment> asked;
+  for (auto& item : items) try {
+      ask(item);
+    } catch (const ExperimentsAsked& more) {
+      asked.insert(asked.end(), more.experiments.begin(), more.experiments.end());
+    }
+  if (!asked.empty()) throw ExperimentsAsked(std::move(asked));
+}
+
+/// soilbin-batch/1: values by the factors' names in SI, and which test they are of. Reading it gives the same bits.
+std::string batch_text(const VirtualTest& test, const std::vector<AskedExperiment>& batch);
+/// Throws InputError for what is no batch, and for one of another test.
+std::vector<AskedExperiment> parse_batch(const SourceText& source, const VirtualTest& test);
 
 }  // namespace soilbin::compare

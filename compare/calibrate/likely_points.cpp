@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/design/next_point.hpp"
+#include "compare/design/gaussian_process.hpp"
 #include "compare/design/space_filling.hpp"
 #include "scenario/errors.hpp"
 
@@ -55,8 +55,8 @@ LikelyPoints::LikelyPoints(const VirtualTest& test, const std::vector<Calibratio
   const Eigen::MatrixXd points = latin_hypercube(settings.cloud, static_cast<int>(test.factors.size()), settings.seed);
   for (Index i = 0; i < points.rows(); ++i) cloud_.push_back(look_at(from_unit(test.factors, points.row(i))));
   for (const Experiment* experiment : good) {
-    const auto same = std::find_if(tried_.begin(), tried_.end(),
-                                   [&](const Candidate& one) { return one.values == experiment->values; });
+    const auto same =
+        std::ranges::find_if(tried_, [&](const Candidate& one) { return one.values == experiment->values; });
     if (same != tried_.end())
       ++same->runs;
     else
@@ -86,10 +86,10 @@ bool LikelyPoints::is_near(const Candidate& candidate, double near) const {
   return true;
 }
 
-Candidate LikelyPoints::likeliest_tried() const { return *std::min_element(tried_.begin(), tried_.end(), likelier); }
+Candidate LikelyPoints::likeliest_tried() const { return *std::ranges::min_element(tried_, likelier); }
 
 Candidate LikelyPoints::likeliest() const {
-  const Candidate fresh = *std::min_element(cloud_.begin(), cloud_.end(), likelier), tried = likeliest_tried();
+  const Candidate fresh = *std::ranges::min_element(cloud_, likelier), tried = likeliest_tried();
   return likelier(tried, fresh) ? tried : fresh;
 }
 
@@ -97,10 +97,10 @@ std::vector<Candidate> LikelyPoints::spread_out(double near, int count) const {
   std::vector<Candidate> left, taken;
   for (const Candidate& candidate : cloud_)
     if (is_near(candidate, near)) left.push_back(candidate);
-  std::sort(left.begin(), left.end(), likelier);
+  std::ranges::sort(left, likelier);
   std::vector<double> distance(left.size(), std::numeric_limits<double>::infinity());
   while (static_cast<int>(taken.size()) < count && taken.size() < left.size()) {
-    const auto farthest = std::max_element(distance.begin(), distance.end());  // the first, and likeliest, of equals
+    const auto farthest = std::ranges::max_element(distance);  // the first, and likeliest, of equals
     taken.push_back(left[farthest - distance.begin()]);
     const VectorXd at = to_unit(test_.factors, taken.back().values);
     for (std::size_t i = 0; i < left.size(); ++i)
@@ -113,7 +113,7 @@ std::vector<Candidate> LikelyPoints::tried_near(double near, int count) const {
   std::vector<Candidate> close;
   for (const Candidate& candidate : tried_)
     if (is_near(candidate, near)) close.push_back(candidate);
-  std::sort(close.begin(), close.end(), likelier);
+  std::ranges::sort(close, likelier);
   if (static_cast<int>(close.size()) > count) close.resize(static_cast<std::size_t>(count));
   return close;
 }

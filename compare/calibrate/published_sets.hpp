@@ -28,6 +28,6 @@ void run_sets(std::vector<PublishedSet>& sets, const VirtualTest& test, std::uin
               const std::function<void(int done, int total)>& progress = {});
 
 /// A row a set: values, theirs, ours, the difference.
-HtmlTable beside_table(const VirtualTest& test, const std::vector<PublishedSet>& sets);
+Table beside_table(const VirtualTest& test, const std::vector<PublishedSet>& sets);
 
 }  // namespace soilbin::compare

@@ -2,7 +2,12 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compare/design/orthogonal_array.hpp"
@@ -26,5 +31,16 @@ Eigen::VectorXd from_unit(const std::vector<Factor>& factors, const Eigen::Vecto
 
 /// The design's runs as points of the unit cube, a row each.
 Eigen::MatrixXd unit_points(const LevelTable& design);
+
+// The order of the runs of a test, drawn: otherwise what drifts meanwhile looks like what was varied.
+
+/// 0 .. count - 1 in an order drawn from the seed (Fisher and Yates), the same bits everywhere.
+inline std::vector<std::size_t> drawn_order(std::size_t count, std::uint64_t seed) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::mt19937_64 random(seed);
+  for (std::size_t k = count; k > 1; --k) std::swap(order[k - 1], order[random() % k]);
+  return order;
+}
 
 }  // namespace soilbin::compare

@@ -34,7 +34,7 @@ void give_f(VarianceRow& row, const AnalysisOfVariance& analysis) {
 void pool(AnalysisOfVariance& analysis) {
   std::vector<std::size_t> rising(analysis.factors.size());
   std::iota(rising.begin(), rising.end(), 0);
-  std::sort(rising.begin(), rising.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::sort(rising, [&](std::size_t a, std::size_t b) {
     return analysis.factors[a].sum_of_squares < analysis.factors[b].sum_of_squares;
   });
   rising.resize(std::max<std::size_t>(1, rising.size() / 2));
@@ -73,13 +73,13 @@ RangeAnalysis range_analysis(const LevelTable& design, const std::vector<double>
     FactorRange factor{std::vector<double>(levels, 0.0), {}, 0.0};
     for (std::size_t run = 0; run < responses.size(); ++run) factor.sums[design.rows[run][j]] += responses[run];
     for (const double sum : factor.sums) factor.means.push_back(sum / at_a_level);
-    const auto [least, most] = std::minmax_element(factor.means.begin(), factor.means.end());
+    const auto [least, most] = std::ranges::minmax_element(factor.means);
     factor.range = *most - *least;
     analysis.factors.push_back(std::move(factor));
     analysis.order.push_back(j);
   }
-  std::stable_sort(analysis.order.begin(), analysis.order.end(),
-                   [&](int a, int b) { return analysis.factors[a].range > analysis.factors[b].range; });
+  std::ranges::stable_sort(analysis.order,
+                           [&](int a, int b) { return analysis.factors[a].range > analysis.factors[b].range; });
   return analysis;
 }
 

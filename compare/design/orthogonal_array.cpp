@@ -49,7 +49,7 @@ bool is_balanced(const LevelTable& table) {
       std::vector<int> met(levels * levels, 0);
       for (const std::vector<int>& row : table.rows)
         ++met[static_cast<std::size_t>(row[i]) * levels + static_cast<std::size_t>(row[j])];
-      if (std::adjacent_find(met.begin(), met.end(), std::not_equal_to<>()) != met.end()) return false;
+      if (std::ranges::adjacent_find(met, std::not_equal_to<>()) != met.end()) return false;
     }
   return true;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/estimate.hpp"
 
@@ -30,7 +31,7 @@ BudgetTable budget_at(const Comparison& comparison, std::size_t condition) {
     if (result == nullptr || result->budget.empty()) continue;
     table.sides.push_back(s);
     for (const Contribution& part : result->budget)
-      if (std::none_of(table.rows.begin(), table.rows.end(), [&](const BudgetRow& r) { return r.name == part.name; }))
+      if (std::ranges::none_of(table.rows, [&](const BudgetRow& r) { return r.name == part.name; }))
         table.rows.push_back({part.name, {}});
   }
   for (BudgetRow& row : table.rows)
@@ -52,9 +53,7 @@ std::string part_in_words(const std::string& name) {
   };
   const auto found = known.find(name);
   if (found != known.end()) return found->second;
-  std::string words = name;
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
+  return spaced(name);
 }
 
 std::optional<BudgetGap> widest_part(const Comparison& comparison, std::size_t side, std::size_t reference,

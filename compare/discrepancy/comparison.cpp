@@ -86,7 +86,7 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<Side
 }
 
 Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& choices, std::vector<Side> sides) {
-  std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.kind < b.kind; });
+  std::ranges::stable_sort(sides, [](const Side& a, const Side& b) { return a.kind < b.kind; });
   Comparison comparison{
       question, curves_against_slip(question.study.conditions, Spread::exact), std::move(sides), {}, {}, {}, {},
       choices};

@@ -6,7 +6,7 @@
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/discrepancy/comparison_sheets.hpp"
-#include "compare/discrepancy/comparison_tables.hpp"
+#include "compare/discrepancy/summary.hpp"
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/report/page.hpp"
@@ -69,8 +69,8 @@ void add_curves(Page& page, const Comparison& comparison, bool coarse_grains) {
     parts.push_back({named(names[c]), [&page, &comparison, c, coarse_grains] {
                        page.figure(curve_sheet(comparison, c, coarse_grains),
                                    "bekker_wong: the analytic wheel. dem: grains. Lines: models. Points on lines: "
-                                   "grains. Points: measured. Band and bars: one standard "
-                                   "error of the soil's values, of the grains' runs, of the measured runs.");
+                                   "grains. Points: measured. Band and bars: one standard error of the soil's values, "
+                                   "of the grains' runs, of the measured runs.");
                      }});
   if (names.size() > 1)
     parts.push_back({"all curves at once", [&page, &comparison] {
@@ -91,10 +91,10 @@ void add_opening(Page& page, const Comparison& comparison, bool coarse_grains) {
 void add_channels(Page& page, const Comparison& comparison) {
   if (comparison.tallies.empty()) return;
   page.section("Channel by channel", "tallies");
-  page.raw(marked_html(tally_table(comparison)));
+  page.table(tally_table(comparison));
   const auto count = [&](DifferenceFinding finding) {
-    return std::to_string(std::count_if(comparison.differences.begin(), comparison.differences.end(),
-                                        [&](const Difference& d) { return d.finding == finding; }));
+    return std::to_string(
+        std::ranges::count_if(comparison.differences, [&](const Difference& d) { return d.finding == finding; }));
   };
   page.figures_at_a_glance(
       {{std::to_string(comparison.question.study.conditions.size()), "conditions"},
@@ -138,7 +138,7 @@ void add_causes(Page& page, const Comparison& comparison) {
                      }});
   }
   const std::string telling = in_words(conditions[telling_condition(comparison)]);
-  const auto first = std::find_if(parts.begin(), parts.end(), [&](const Choice& c) { return c.name == telling; });
+  const auto first = std::ranges::find_if(parts, [&](const Choice& c) { return c.name == telling; });
   page.choices("Condition", parts, first == parts.end() ? 0 : static_cast<std::size_t>(first - parts.begin()));
   page.subsection("Contact and sinkage");
   const std::vector<std::string>& names = comparison.curves.labels;
@@ -149,7 +149,7 @@ void add_causes(Page& page, const Comparison& comparison) {
                                       "Where the contact begins and ends, and the sinkage beyond that at slip 0.");
                         }});
   page.choices("Curve", contacts, (names.size() - 1) / 2);
-  if (const HtmlTable table = sinkage_table(comparison); !table.rows.empty()) page.table(table);
+  if (const Table table = sinkage_table(comparison); !table.rows.empty()) page.table(table);
 }
 
 void add_loop(Page& page, const ComparisonAbout& about) {
@@ -160,10 +160,10 @@ void add_loop(Page& page, const ComparisonAbout& about) {
       "tests every effect of the catalogue, and judges on conditions that neither choice nor fit has seen.",
       about.loop->campaign));
   page.summary(headline(*about.loop));
-  if (const MarkedTable next = next_run_table(*about.loop); !next.rows.empty()) page.raw(marked_html(next));
-  for (const MarkedTable& table : {error_table(*about.loop), parameters_table(*about.loop)})
-    if (!table.rows.empty()) page.raw(marked_html(table));
-  if (about.loop->has_candidates()) page.raw(marked_html(candidates_table(*about.loop)));
+  if (const Table next = next_run_table(*about.loop); !next.rows.empty()) page.table(next);
+  for (const Table& table : {error_table(*about.loop), parameters_table(*about.loop)})
+    if (!table.rows.empty()) page.table(table);
+  if (about.loop->has_candidates()) page.table(candidates_table(*about.loop));
   page.list(notes(*about.loop));
 }
 
@@ -187,14 +187,14 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
     page.backed_summary(backed(comparison, limits));
   if (!comparison.joint.empty()) page.table(joint_table(comparison));
   page.list(
-      {"A difference d with standard error u counts where |d| is above 2 u and above the scatter of one run; u is "
-       "the root of both sides' variances. Where u rests on few re-runs, Student's t takes the place of 2.",
+      {"A difference d with standard error u counts where |d| is above 2 u and above the scatter of one run; u is the "
+       "root of both sides' variances. Where u rests on few re-runs, Student's t takes the place of 2.",
        "Analytic: the declared standard deviations of the soil's values, propagated to first order. They move all "
        "conditions together; the joint test takes that in.",
        "Grains: block averages of each run, or the spread between packings where that is larger. A point from one "
        "packing says nothing of that spread, and its row carries the doubt.",
-       "Convergence of the balance: 1e-14 of the load; of its quadrature 1e-9. Of grains with their size: by the "
-       "study of grain sizes (docs/lab/grain-size.md), where it reaches; with the time step and the bed: not part of a "
+       "Convergence of the balance: 1e-14 of the load; of its quadrature 1e-9. Of grains with their size: by the study "
+       "of grain sizes (docs/lab/grain-size.md), where it reaches; with the time step and the bed: not part of a "
        "comparison; see docs/guide/soil-bin.md.",
        "Measured: the noise of one run, pooled over all setpoints that were run twice or more, over the root of the "
        "number of runs near a condition. Slips and forces are turned to the study's definitions by each run's yaw."});
@@ -215,8 +215,8 @@ std::string comparison_page(const Comparison& comparison, const ComparisonAbout&
                                           scenario.soil.name, sides_in_words(comparison)));
   if (!page.libraries().missing.empty())
     page.raw(
-        fmt::format("<p class=\"warning\" role=\"note\">Made without {}: the figures that need it are plain "
-                    "drawings. Install it and make the page again.</p>\n",
+        fmt::format("<p class=\"warning\" role=\"note\">Made without {}: the figures that need it are plain drawings. "
+                    "Install it and make the page again.</p>\n",
                     escaped(fmt::format("{}", fmt::join(page.libraries().missing, ", ")))));
   add_opening(page, comparison, speak_of_coarse_grains(about.page.doubts));
   add_channels(page, comparison);

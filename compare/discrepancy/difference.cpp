@@ -7,7 +7,6 @@
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
-
 namespace {
 
 /// For programs and for people, in the order of DifferenceFinding.
@@ -29,8 +28,8 @@ double value_of(const SidePoint& point, std::size_t channel) {
 bool asked_of(const Side& side, const Side& reference, std::size_t channel) {
   if (channel_views[channel].name != "lateral_force") return true;
   const auto not_zero = [&](const Side& one) {
-    return std::any_of(one.points.begin(), one.points.end(),
-                       [&](const SidePoint& p) { return speaks(p, channel) && std::abs(value_of(p, channel)) > 1e-9; });
+    return std::ranges::any_of(
+        one.points, [&](const SidePoint& p) { return speaks(p, channel) && std::abs(value_of(p, channel)) > 1e-9; });
   };
   return not_zero(side) && not_zero(reference);
 }

@@ -42,8 +42,8 @@ struct Estimated {
 Estimated estimated_of(const Observations& observations, const Side& reference) {
   Estimated all;
   for (int channel = 0; channel < channel_count; ++channel) {
-    const bool asked = std::any_of(observations.cells.begin(), observations.cells.end(),
-                                   [&](const Cell& cell) { return cell.channel == channel; });
+    const bool asked =
+        std::ranges::any_of(observations.cells, [&](const Cell& cell) { return cell.channel == channel; });
     all.channels += asked;
     if (asked && reference.noise) all.freedom = std::min(all.freedom, reference.noise->channels[channel].freedom);
   }

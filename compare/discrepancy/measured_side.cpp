@@ -9,6 +9,7 @@
 #include "compare/discrepancy/rerun_noise.hpp"
 #include "compare/discrepancy/side.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/estimate.hpp"
 #include "scenario/unit.hpp"
 #include "scenario/yawed_frames.hpp"
 
@@ -71,9 +72,8 @@ struct SortedRuns {
 SortedRuns sorted(const Campaign& campaign, const std::vector<OperatingCondition>& conditions) {
   SortedRuns sorted;
   for (const Run& run : campaign.runs) {
-    const auto nearest = std::min_element(conditions.begin(), conditions.end(), [&](const auto& a, const auto& b) {
-      return apart(run.at, a) < apart(run.at, b);
-    });
+    const auto nearest = std::ranges::min_element(
+        conditions, [&](const auto& a, const auto& b) { return apart(run.at, a) < apart(run.at, b); });
     const bool counts = nearest != conditions.end() && apart(run.at, *nearest) <= 1.0;
     sorted.asked.push_back(nearest == conditions.end() ? run : as_asked(run, *nearest));
     sorted.condition.push_back(counts ? static_cast<std::size_t>(nearest - conditions.begin()) : SortedRuns::none);
@@ -99,7 +99,7 @@ std::vector<std::vector<const Run*>> setpoints_of(const Campaign& campaign, cons
 std::vector<std::string> doubts_of(const std::vector<const Run*>& runs, std::size_t forces, const NoiseFloor& noise) {
   std::vector<std::string> doubts;
   const auto kept = static_cast<std::size_t>(
-      std::count_if(runs.begin(), runs.end(), [](const Run* run) { return run->drawbar_pull || run->lateral_force; }));
+      std::ranges::count_if(runs, [](const Run* run) { return run->drawbar_pull || run->lateral_force; }));
   if (kept < forces)
     doubts.push_back(
         fmt::format("forces of {} of {} run{} left out: turning them {} takes both drawbar pull and lateral force",
@@ -112,7 +112,7 @@ std::vector<std::string> doubts_of(const std::vector<const Run*>& runs, std::siz
       unknown += fmt::format("{}{}", unknown.empty() ? "" : ", ", channel_views[c].title);
   if (!unknown.empty()) doubts.push_back("no setpoint was run twice: the scatter is not known (" + unknown + ")");
   const auto other = [&](const Run* run) { return run->setpoint != runs.front()->setpoint; };
-  if (std::any_of(runs.begin(), runs.end(), other))
+  if (std::ranges::any_of(runs, other))
     doubts.push_back("runs of more than one setpoint: what sets these apart is not in the error");
   return doubts;
 }

@@ -16,8 +16,8 @@ void doubt_budget(SidePoint& point) {
   const BudgetRest& rest = point.result->budget_rest;
   if (std::abs(rest.force) > rest.bound)
     point.doubts.push_back(
-        fmt::format("the parts of its drawbar pull leave {:.3g} N unexplained, where at most {:.3g} N "
-                    "can be chance: look at them with caution",
+        fmt::format("the parts of its drawbar pull leave {:.3g} N unexplained, where at most {:.3g} N can be chance: "
+                    "look at them with caution",
                     rest.force, rest.bound));
 }
 
@@ -60,15 +60,14 @@ SidePoint combine(const std::vector<const RecordedRun*>& runs) {
   }
   if (solved.size() < runs.size())
     point.doubts.push_back(fmt::format("{} of {} runs without a result", runs.size() - solved.size(), runs.size()));
-  const auto drifting = std::count_if(solved.begin(), solved.end(), [](const auto* run) { return !run->steady; });
+  const auto drifting = std::ranges::count_if(solved, [](const auto* run) { return !run->steady; });
   double most = 0.0;
   for (const RecordedRun* run : solved)
     if (std::isfinite(run->drift)) most = std::max(most, run->drift);
   if (drifting > 0)
     point.doubts.push_back(fmt::format("{} of {} run{} not steady: halves differ by up to {:.1f} standard errors",
                                        drifting, solved.size(), solved.size() == 1 ? "" : "s", most));
-  if (std::all_of(solved.begin(), solved.end(),
-                  [&](const auto* run) { return run->packing == solved.front()->packing; }))
+  if (std::ranges::all_of(solved, [&](const auto* run) { return run->packing == solved.front()->packing; }))
     point.doubts.push_back("one packing: the scatter between packings is not known");
   doubt_budget(point);
   return point;

@@ -13,6 +13,7 @@
 #include "compare/loop/answer_words.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -68,14 +69,12 @@ Clause in_short(const Comparison& comparison, const Tally& widest) {
   }
   if (judged > 0)
     clause.text = fmt::format(
-        "{} of {} numbers differ by more than their errors and a run's scatter; the others agree within "
-        "them. ",
+        "{} of {} numbers differ by more than their errors and a run's scatter; the others agree within them. ",
         clause.rows.size(), judged);
   else
     clause.text =
         "Which is right only a measurement can tell: these models share the soil's values, so their errors do not "
-        "judge "
-        "a difference. ";
+        "judge a difference. ";
   const Difference& worst = comparison.differences[widest.worst];
   clause.text +=
       fmt::format("Widest apart is the {}, of {} and {}: {} of {}, root mean square; at {} it is {} against {}.",
@@ -83,8 +82,7 @@ Clause in_short(const Comparison& comparison, const Tally& widest) {
                   comparison.sides[widest.reference].label, percent(widest.rms_share), measure_of(widest),
                   in_words(comparison.question.study.conditions[worst.condition]),
                   in_unit(widest.channel, worst.value.value), in_unit(widest.channel, worst.reference_value.value));
-  if (std::find(clause.rows.begin(), clause.rows.end(), widest.worst) == clause.rows.end())
-    clause.rows.push_back(widest.worst);
+  if (std::ranges::find(clause.rows, widest.worst) == clause.rows.end()) clause.rows.push_back(widest.worst);
   return clause;
 }
 
@@ -164,12 +162,11 @@ Clause chance_clause(const Comparison& comparison) {
   double fewest = std::numeric_limits<double>::infinity();
   for (const Difference& d : comparison.differences)
     if (d.finding != DifferenceFinding::not_judged) ++counted, fewest = std::min(fewest, d.freedom);
-  const std::string student = std::isinf(fewest)
-                                  ? ""
-                                  : fmt::format(
-                                        " Errors that rest on few re-runs count more (Student's t): {:.3g} of them at "
-                                        "{:.3g} degrees of freedom, the fewest here.",
-                                        counting_errors(fewest), fewest);
+  const std::string student = std::isinf(fewest) ? ""
+                                                 : fmt::format(
+                                                       " Errors that rest on few re-runs count more (Student's t): "
+                                                       "{:.3g} of them at {:.3g} degrees of freedom, the fewest here.",
+                                                       counting_errors(fewest), fewest);
   return {"How sure",
           fmt::format("A row counts as a difference beyond two standard errors of both sides together and beyond the "
                       "scatter of one run.{} Of {} rows about {:.0f} would pass the errors by chance alone.",
@@ -217,8 +214,7 @@ std::vector<Clause> cause_clauses(const Comparison& comparison) {
     if (!part) continue;
     clauses.push_back(
         {"Why",
-         fmt::format("At {} the pull of {} and {} is {} apart; the widest part of that is the {}: {} N "
-                     "against {} N.",
+         fmt::format("At {} the pull of {} and {} is {} apart; the widest part of that is the {}: {} N against {} N.",
                      in_words(comparison.question.study.conditions[worst.condition]), comparison.sides[t.side].label,
                      comparison.sides[t.reference].label, in_unit(t.channel, std::abs(worst.difference)),
                      part_in_words(part->name), number(part->side), number(part->reference)),
@@ -231,8 +227,7 @@ std::vector<Clause> cause_clauses(const Comparison& comparison) {
 std::vector<const Tally*> widest_first(const Comparison& comparison) {
   std::vector<const Tally*> order;
   for (const Tally& t : comparison.tallies) order.push_back(&t);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const Tally* a, const Tally* b) { return a->rms_share > b->rms_share; });
+  std::ranges::stable_sort(order, [](const Tally* a, const Tally* b) { return a->rms_share > b->rms_share; });
   return order;
 }
 
@@ -252,8 +247,8 @@ std::vector<Clause> missing_clauses(const LoopAnswer& loop) {
 
 std::vector<Clause> limits_of_the_comparison(const Comparison& comparison) {
   std::vector<Clause> clauses;
-  const bool judged = std::any_of(comparison.differences.begin(), comparison.differences.end(),
-                                  [](const Difference& d) { return d.finding != DifferenceFinding::not_judged; });
+  const bool judged = std::ranges::any_of(
+      comparison.differences, [](const Difference& d) { return d.finding != DifferenceFinding::not_judged; });
   if (judged) clauses.push_back(chance_clause(comparison));
   for (Clause& clause : doubt_clauses(comparison)) clauses.push_back(std::move(clause));
   for (const std::string& gap : comparison.not_compared) clauses.push_back({"not compared", gap + "."});

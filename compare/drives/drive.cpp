@@ -149,7 +149,7 @@ Json to_json(const DrivePart& part) {
                    {"end", std::string(word_of(record.end))},
                    {"end_time", record.end_time},
                    {"travelled", end.travelled},
-                   {"steepest_steady_slope", part.steepest ? Json(*part.steepest) : Json(nullptr)}};
+                   {"steepest_steady_slope", or_null(part.steepest)}};
   document["happenings"] = happenings_json(record.happenings);
   document["energy"] = {{"motor", end.energy.motor},
                         {"kinetic", end.energy.kinetic},
@@ -179,17 +179,16 @@ std::string drive_page(const DrivePart& part, const PageAbout& about) {
   page.figure(drive_sheet(part),
               "The soil in contact has seen the slip of the last quarter turn or so: it lags behind the speeds.");
   page.section("Where the motor's work went");
-  HtmlTable energy{"Of the motor's work in all", {"", "J", "%"}, {true}};
+  Table energy{"Of the motor's work in all", {"", "J", "%"}, {true}};
   for (const auto& [name, joules] : energy_rows(end.energy))
-    energy.rows.push_back(
-        {name, number(joules), end.energy.motor != 0.0 ? number(100 * joules / end.energy.motor) : "-"});
-  energy.rows.push_back({"motor's work", number(end.energy.motor), "100"});
+    energy.add({name, number(joules), end.energy.motor != 0.0 ? number(100 * joules / end.energy.motor) : "-"});
+  energy.add({"motor's work", number(end.energy.motor), "100"});
   page.table(energy);
   if (!part.record.happenings.empty()) {
     page.section("On the way");
-    HtmlTable events{"", {"time [s]", "travelled [m]", "what happened"}, {false, false, true}};
+    Table events{"", {"time [s]", "travelled [m]", "what happened"}, {false, false, true}};
     for (const DriveHappening& h : part.record.happenings)
-      events.rows.push_back({number(h.time), number(h.travelled), std::string(word_of(h.what))});
+      events.add({number(h.time), number(h.travelled), std::string(word_of(h.what))});
     page.table(events);
   }
   page.section("Made by");

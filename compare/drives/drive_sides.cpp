@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "compare/doubts/doubts.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/errors.hpp"
@@ -131,8 +132,7 @@ Estimate over_packings_of(const std::vector<const DriveSide*>& grains, const Val
 }
 
 Steady steady_over_packings(const std::vector<const DriveSide*>& grains) {
-  if (!std::all_of(grains.begin(), grains.end(), [](const DriveSide* side) { return side->steady.has_value(); }))
-    return std::nullopt;
+  if (!std::ranges::all_of(grains, [](const DriveSide* side) { return side->steady.has_value(); })) return std::nullopt;
   dem::SteadyDrive mean = *grains.front()->steady;
   for (const DriveSide* side : grains) {
     const dem::SteadyDrive& one = *side->steady;
@@ -167,10 +167,9 @@ std::string sentence_of(const DriveOverPackings& one) {
   std::string ends;
   std::vector<DriveEnd> told;
   for (const DriveEnd end : one.ends) {
-    if (std::find(told.begin(), told.end(), end) != told.end()) continue;
+    if (std::ranges::find(told, end) != told.end()) continue;
     told.push_back(end);
-    ends += fmt::format("{}{} on {}", ends.empty() ? "" : ", ", word_of(end),
-                        std::count(one.ends.begin(), one.ends.end(), end));
+    ends += fmt::format("{}{} on {}", ends.empty() ? "" : ", ", word_of(end), std::ranges::count(one.ends, end));
   }
   std::string text = fmt::format("dem, mean of {} packings: {}, after {} s and {} m", one.ends.size(), ends,
                                  number(one.end_time), number(one.travelled));
@@ -236,8 +235,8 @@ std::optional<dem::SteadyDrive> steady_of_grains(const DriveSides& drive) {
   return grains.empty() ? std::nullopt : grains.front()->steady;
 }
 
-HtmlTable packings_table(const DriveSides& drive) {
-  HtmlTable table{
+Table packings_table(const DriveSides& drive) {
+  Table table{
       "± is one standard error; of the mean from the scatter of packings or, where it is larger, from their own",
       {"on each packing"},
       {true}};
@@ -245,10 +244,10 @@ HtmlTable packings_table(const DriveSides& drive) {
   const DriveOverPackings& mean = *drive.over_packings;
   const std::vector<const DriveSide*> grains = grain_sides(drive);
   const auto add = [&](const std::string& name, const auto& of, const std::string& last) {
-    std::vector<std::string> row{name};
+    std::vector<TableCell> row{name};
     for (const DriveSide* side : grains) row.push_back(of(*side));
     row.push_back(last);
-    table.rows.push_back(std::move(row));
+    table.add(std::move(row));
   };
   for (const DriveSide* side : grains) table.header.push_back(side->label);
   table.header.emplace_back("mean");
@@ -303,6 +302,54 @@ std::vector<DriveWorkRow> work_rows(const DriveSides& drive) {
     }
   add("unaccounted for", [](const DriveSideSample& s) { return s.energy.left() - s.soil; });
   return rows;
+}
+
+// A drive's samples as answers, to be doubted as any others.
+
+namespace {
+
+/// How deep the wheel stood; a drive has no balance of which the rest could be told.
+template <class Sample>
+ModelAnswers answers_of(const ModelChoice& choice, const Drive& drive, const std::vector<Sample>& samples) {
+  ModelAnswers answers{choice, {}};
+  for (const Sample& sample : samples) {
+    OperatingCondition at;
+    at.load = drive.load, at.pass = drive.pass, at.speed = sample.speed;
+    at.slip = sample.slip.value_or(0.0), at.longitudinal_incline = sample.longitudinal_incline;
+    TractionResult result;
+    result.at = at;
+    result.sinkage.value = sample.sinkage;
+    result.tractive_efficiency = result.entry_angle = result.exit_angle = result.max_stress_angle = not_a_number;
+    answers.answers.push_back({at, result, ""});
+  }
+  return answers;
+}
+
+std::vector<std::string> doubts_of(Case question, const std::vector<ModelAnswers>& study) {
+  question.study.models.clear(), question.study.conditions.clear();
+  for (const ModelAnswers& model : study) {
+    question.study.models.push_back(model.choice);
+    for (const Answer& answer : model.answers) question.study.conditions.push_back(answer.at);
+  }
+  return doubts(question, study);
+}
+
+}  // namespace
+
+std::vector<std::string> doubts(const DrivePart& part) {
+  const ModelChoice wheel{ModelKind::bekker_wong, part.question.drive->effects, ""};
+  return doubts_of(part.question, {answers_of(wheel, *part.question.drive, part.record.samples)});
+}
+
+std::vector<std::string> doubts(const DriveSides& drive) {
+  std::vector<ModelAnswers> study;
+  for (const DriveSide& side : drive.sides) {
+    const bool grains = side.kind == SideKind::grains;
+    const ModelChoice choice{grains ? ModelKind::dem : ModelKind::bekker_wong,
+                             grains ? std::vector<EffectChoice>{} : drive.question.drive->effects, side.label};
+    study.push_back(answers_of(choice, *drive.question.drive, side.samples));
+  }
+  return doubts_of(drive.question, study);
 }
 
 }  // namespace soilbin::compare

@@ -94,11 +94,11 @@ struct DriveWorkRow {
 std::vector<DriveWorkRow> work_rows(const DriveSides& drive);
 
 /// Steady values of both sides and how they differ; a row each.
-HtmlTable differences_table(const DriveSides& drive);
+Table differences_table(const DriveSides& drive);
 /// What the summary tells, a column each packing and their mean; no rows where there is one packing.
-HtmlTable packings_table(const DriveSides& drive);
+Table packings_table(const DriveSides& drive);
 /// work_rows, the whole of it last [J].
-HtmlTable work_table(const DriveSides& drive);
+Table work_table(const DriveSides& drive);
 
 /// Travelled way, speed, slip, sinkage, torque and work against time, a colour for each side; steady means of grains
 /// with their errors as bands; of several packings the mean's.

@@ -103,12 +103,12 @@ Json over_packings_json(const DriveOverPackings& one) {
           {"steady", one.steady ? steady_json(*one.steady) : Json(nullptr)}};
 }
 
-HtmlTable happenings_table(const DriveSides& drive) {
-  HtmlTable table{"", {"model", "time [s]", "travelled [m]", "what happened"}, {true, false, false, true}};
+Table happenings_table(const DriveSides& drive) {
+  Table table{"", {"model", "time [s]", "travelled [m]", "what happened"}, {true, false, false, true}};
   for (const DriveSide& side : drive.sides) {
     for (const DriveHappening& h : side.happenings)
-      table.rows.push_back({side.label, number(h.time), number(h.travelled), std::string(word_of(h.what))});
-    table.rows.push_back(
+      table.add({side.label, number(h.time), number(h.travelled), std::string(word_of(h.what))});
+    table.add(
         {side.label, number(side.end_time), number(side.samples.back().travelled), std::string(word_of(side.end))});
   }
   return table;
@@ -116,29 +116,29 @@ HtmlTable happenings_table(const DriveSides& drive) {
 
 }  // namespace
 
-HtmlTable differences_table(const DriveSides& drive) {
-  HtmlTable table{fmt::format("± is one standard error: of the analytic wheel the soil's doubt, of grains {}",
-                              drive.over_packings ? "the scatter of packings" : "block averages of one run"),
-                  {"steadily", "bekker_wong", "dem", "difference", ""},
-                  {true, false, false, false, true}};
+Table differences_table(const DriveSides& drive) {
+  Table table{fmt::format("± is one standard error: of the analytic wheel the soil's doubt, of grains {}",
+                          drive.over_packings ? "the scatter of packings" : "block averages of one run"),
+              {"steadily", "bekker_wong", "dem", "difference", ""},
+              {true, false, false, false, true}};
   for (const DriveDifference& row : drive.differences)
-    table.rows.push_back({fmt::format("{} [{}]", row.name, row.unit), number(row.analytic, row.per_si),
-                          number(row.grains, row.per_si), number({row.difference, row.std_error}, row.per_si),
-                          std::string(words(row.finding))});
+    table.add({fmt::format("{} [{}]", row.name, row.unit), number(row.analytic, row.per_si),
+               number(row.grains, row.per_si), number({row.difference, row.std_error}, row.per_si),
+               std::string(words(row.finding))});
   return table;
 }
 
-HtmlTable work_table(const DriveSides& drive) {
-  HtmlTable table{"Of the motor's work in all", {"J"}, {true}};
+Table work_table(const DriveSides& drive) {
+  Table table{"Of the motor's work in all", {"J"}, {true}};
   for (const DriveSide& side : drive.sides) table.header.push_back(side.label), table.text_columns.push_back(false);
   for (const DriveWorkRow& work : work_rows(drive)) {
-    std::vector<std::string> row{work.name};
+    std::vector<TableCell> row{work.name};
     for (const std::optional<double>& joules : work.joules) row.push_back(joules ? number(*joules) : "");
-    table.rows.push_back(std::move(row));
+    table.add(std::move(row));
   }
-  std::vector<std::string> all{"motor's work"};
+  std::vector<TableCell> all{"motor's work"};
   for (const DriveSide& side : drive.sides) all.push_back(number(side.samples.back().energy.motor));
-  table.rows.push_back(std::move(all));
+  table.add(std::move(all));
   return table;
 }
 
@@ -192,10 +192,9 @@ std::string drive_page(const DriveSides& drive, const PageAbout& about) {
   page.sentences(in_words(drive));
   page.doubts(about.doubts);
   page.section("Against time");
-  page.figure(
-      drive_sheet(drive),
-      "Instants of the analytic wheel; of grains means since the sample before. Dashed: mean of the grains where "
-      "way and motor no longer change, with its standard error.");
+  page.figure(drive_sheet(drive),
+              "Instants of the analytic wheel; of grains means since the sample before. Dashed: mean of the grains "
+              "where way and motor no longer change, with its standard error.");
   if (!drive.differences.empty()) {
     page.section("Where nothing changes any more");
     page.table(differences_table(drive));

@@ -15,11 +15,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// One choice changed.
+struct Variant {
+  std::string name;  ///< "bed twice as long"
+  dem::DemSettings settings;
+  Scenario scenario;
+};
+
 constexpr std::array<std::size_t, 3> shown_channels = {0, 1, 2};  // pull, torque, sinkage
 
 fs::path file_of(const fs::path& record, std::string variant) {
   if (record.empty()) return {};
-  std::replace(variant.begin(), variant.end(), ' ', '-');
+  std::ranges::replace(variant, ' ', '-');
   return record.parent_path() / (record.stem().string() + "." + variant + record.extension().string());
 }
 
@@ -31,8 +38,8 @@ std::optional<double> in_errors(const RecordedRun& first, const RecordedRun& run
   return (b.value - a.value) / std::hypot(a.std_error, b.std_error);
 }
 
-}  // namespace
-
+/// The choices as they are, first, then each changed: another packing, length, width and depth of the bed, warm-up,
+/// time step, mesh of the tire, sampling time, skin.
 std::vector<Variant> variants_of(const dem::DemSettings& settings, const Scenario& scenario) {
   std::vector<Variant> all = {{"as it is", settings, scenario}};
   const auto add = [&](const char* name) -> Variant& { return all.emplace_back(name, settings, scenario); };
@@ -63,6 +70,8 @@ std::vector<Variant> variants_of(const dem::DemSettings& settings, const Scenari
   return all;
 }
 
+}  // namespace
+
 std::vector<VariantRun> run_variants(const dem::DemSettings& settings, const Case& question,
                                      const EffectVocabulary& effects, const RunKeeping& keeping) {
   if (question.study.conditions.size() != 1)
@@ -88,14 +97,14 @@ std::vector<VariantRun> run_variants(const dem::DemSettings& settings, const Cas
   return runs;
 }
 
-HtmlTable convergence_table(const std::vector<VariantRun>& runs) {
-  HtmlTable table{"", {"choice"}};
+Table convergence_table(const std::vector<VariantRun>& runs) {
+  Table table{"", {"choice"}};
   for (const std::size_t c : shown_channels)
     table.header.insert(table.header.end(),
                         {fmt::format("{} [{}]", channel_views[c].title, channel_views[c].unit), "differs [errors]"});
   table.header.emplace_back("time [s]");
   for (const auto& [name, run] : runs) {
-    std::vector<std::string> row = {name};
+    std::vector<TableCell> row = {name};
     for (const std::size_t c : shown_channels) {
       const ChannelView& channel = channel_views[c];
       const auto& result = run.answer.result;
@@ -104,7 +113,7 @@ HtmlTable convergence_table(const std::vector<VariantRun>& runs) {
       row.push_back(differs ? fmt::format("{:.1f}", *differs) : "-");
     }
     row.push_back(fmt::format("{:.0f}", run.seconds));
-    table.rows.push_back(std::move(row));
+    table.add(std::move(row));
   }
   return table;
 }

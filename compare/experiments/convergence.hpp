@@ -6,17 +6,6 @@
 
 namespace soilbin::compare {
 
-/// One choice changed.
-struct Variant {
-  std::string name;  ///< "bed twice as long"
-  dem::DemSettings settings;
-  Scenario scenario;
-};
-
-/// The choices as they are, first, then each changed: another packing, length, width and depth of the bed, warm-up,
-/// time step, mesh of the tire, sampling time, skin.
-std::vector<Variant> variants_of(const dem::DemSettings& settings, const Scenario& scenario);
-
 /// A variant and its run. A bed that would be too shallow or narrow is a run whose answer says so.
 struct VariantRun {
   std::string name;
@@ -29,7 +18,7 @@ std::vector<VariantRun> run_variants(const dem::DemSettings& settings, const Cas
                                      const EffectVocabulary& effects, const RunKeeping& keeping);
 
 /// What each variant changes, beside the standard error of the difference.
-HtmlTable convergence_table(const std::vector<VariantRun>& runs);
+Table convergence_table(const std::vector<VariantRun>& runs);
 /// soilbin-convergence/1.
 nlohmann::ordered_json convergence_json(const std::vector<VariantRun>& runs);
 

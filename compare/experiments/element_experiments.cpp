@@ -77,8 +77,8 @@ double board_step(const GranularSoil& soil) {
   return dem::longest_step(soil) / (directional ? 8 : 4);
 }
 
-}  // namespace
-
+/// Sand on sand: direct shear under several stresses; knows the targets friction_angle and cohesion. A seed gives
+/// packings of its own.
 VirtualTest shear_box_test(const ElementExperiment& experiment, const dem::DirectShearSettings& settings,
                            Strength strength) {
   Identity identity(strength == Strength::peak ? "direct shear, peak" : "direct shear, residual");
@@ -105,6 +105,8 @@ VirtualTest shear_box_test(const ElementExperiment& experiment, const dem::Direc
   return test;
 }
 
+/// Tire on sand: the tilting board; knows the target board_angle. Mean and standard error over `packings` boards, at
+/// least two.
 VirtualTest tilting_board_test(const ElementExperiment& experiment, const dem::TiltingBoardSettings& settings,
                                int packings) {
   if (packings < 2) throw InputError("packings: an angle with an error needs at least two boards");
@@ -131,6 +133,8 @@ VirtualTest tilting_board_test(const ElementExperiment& experiment, const dem::T
   return test;
 }
 
+}  // namespace
+
 VirtualTest contact_test(const Soil& soil, const ContactQuestion& question) {
   if (!soil.granular)
     throw InputError(fmt::format("soil '{}' has no grains\n  hint: it needs a section 'granular'", soil.name));
@@ -153,8 +157,8 @@ VirtualTest contact_test(const Soil& soil, const ContactQuestion& question) {
 std::vector<Target> targets_of(const Soil& soil, ContactKind kind) {
   if (kind == ContactKind::grain_tire)
     throw InputError(
-        "what did the board measure?\n  hint: --target board_angle=31.47deg, or with its error "
-        "--target board_angle=31.47deg,0.5deg");
+        "what did the board measure?\n  hint: --target board_angle=31.47deg, or with its error --target "
+        "board_angle=31.47deg,0.5deg");
   if (!soil.semi_empirical)
     throw InputError("the soil tells no friction angle and cohesion to reach\n  hint: --target friction_angle=31deg");
   std::vector<Target> targets;
@@ -175,6 +179,58 @@ std::vector<Factor> usual_factors(ContactKind kind) {
   if (kind == ContactKind::grain_tire)
     return {{"restitution", 0.3, 0.7, "-"}, {"sliding_friction", 0.3, 0.9, "-"}, {"rolling_friction", 0.1, 0.7, "-"}};
   return {{"sliding_friction", 0.1, 0.9, "-"}, {"rolling_friction", 0.0, 0.5, "-"}, {"cohesion", 0.0, 1e6, "kJ/m^3"}};
+}
+
+namespace {
+
+/// A plate's curve from where it seats itself, as in the field: the surface is rough, and its mean as seen from above
+/// lies below the tops that the plate comes to rest on.
+bekker_wong::PlateCurve curve_of(const dem::PlateRun& run, double grain) {
+  constexpr double seated = 1e3;  // [Pa]
+  bekker_wong::PlateCurve out{.radius = run.diameter / 2, .pressure = {}, .sinkage = {}};
+  double contact = 0;
+  bool found = false;
+  for (const dem::PlateSample& sample : run.curve) {
+    if (!found && sample.pressure > seated) contact = sample.sinkage, found = true;
+    if (!found || sample.sinkage < contact + 0.1 * grain || sample.pressure <= 0) continue;
+    out.pressure.push_back(sample.pressure);
+    out.sinkage.push_back(sample.sinkage - contact);
+  }
+  return out;
+}
+
+ShearCurve curve_of(const dem::AnnulusRun& run) {
+  ShearCurve out;
+  for (const dem::AnnulusSample& sample : run.curve) {
+    out.displacement.push_back(sample.displacement);
+    out.shear_stress.push_back(sample.shear_stress);
+    out.normal_stress += sample.normal_stress / static_cast<double>(run.curve.size());
+  }
+  return out;
+}
+
+}  // namespace
+
+BevameterReadings virtual_bevameter(const GranularSoil& grains, const VirtualBevameter& asked, dem::BedStore& beds) {
+  BevameterReadings out;
+  dem::PlateSettings plates;
+  dem::AnnulusSettings ring;
+  for (dem::TestBed* bed : {&plates.bed, &ring.bed}) {
+    bed->specimen = asked.specimen;
+    bed->width *= asked.size, bed->depth *= asked.size;
+  }
+  for (int k = 0; k < asked.packings; ++k) {
+    PlateSet set;
+    for (const dem::PlateRun& run : dem::plate_sinkage(grains, plates, asked.how, &beds)) {
+      set.push_back(curve_of(run, mean_diameter(grains)));
+      out.density = run.density;
+    }
+    out.plates.push_back(std::move(set));
+    for (const dem::AnnulusRun& run : dem::annular_shear(grains, ring, asked.how, &beds))
+      out.shear.push_back(curve_of(run));
+    ++plates.bed.specimen.packing, ++ring.bed.specimen.packing;
+  }
+  return out;
 }
 
 }  // namespace soilbin::compare

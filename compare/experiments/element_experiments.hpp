@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "compare/bevameter/bevameter.hpp"
 #include "compare/calibrate/calibration_words.hpp"
 #include "dem/element_tests/direct_shear.hpp"
+#include "dem/element_tests/plate_tests.hpp"
 #include "dem/element_tests/tilting_board.hpp"
 #include "scenario/soil.hpp"
 
@@ -21,16 +23,6 @@ struct ElementExperiment {
   std::vector<Target> targets;
   dem::WorkOptions how;
 };
-
-/// Sand on sand: direct shear under several stresses; knows the targets friction_angle and cohesion. A seed gives
-/// packings of its own.
-VirtualTest shear_box_test(const ElementExperiment& experiment, const dem::DirectShearSettings& settings,
-                           Strength strength);
-
-/// Tire on sand: the tilting board; knows the target board_angle. Mean and standard error over `packings` boards, at
-/// least two.
-VirtualTest tilting_board_test(const ElementExperiment& experiment, const dem::TiltingBoardSettings& settings,
-                               int packings);
 
 /// What a person asks when he calibrates a contact.
 struct ContactQuestion {
@@ -57,5 +49,26 @@ std::vector<Target> targets_of(const Soil& soil, ContactKind kind);
 std::vector<std::string> target_names(ContactKind kind);
 std::string unit_of_target(const std::string& name);
 std::vector<Factor> usual_factors(ContactKind kind);
+
+// A bevameter in the computer: round plates pressed into beds of a soil's grains, rings with grousers turned on them.
+//
+//   const BevameterReadings read = virtual_bevameter(grains, {.packings = 3}, beds);
+//   const BevameterFit fit = fit_bevameter(read.plates, read.shear);
+
+struct VirtualBevameter {
+  dem::SpecimenSettings specimen{};  ///< its packing is the first bed's seed
+  double size = 1;                   ///< of the beds, as a multiple of the default; tools keep theirs
+  int packings = 2;                  ///< beds; at least one
+  dem::WorkOptions how{};
+};
+
+struct BevameterReadings {
+  std::vector<PlateSet> plates;  ///< a set a packing
+  std::vector<ShearCurve> shear;
+  double density = 0;  ///< of the last bed [kg/m^3]
+};
+
+/// Throws what dem::plate_sinkage and dem::annular_shear throw.
+BevameterReadings virtual_bevameter(const GranularSoil& grains, const VirtualBevameter& asked, dem::BedStore& beds);
 
 }  // namespace soilbin::compare

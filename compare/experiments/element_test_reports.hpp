@@ -15,7 +15,7 @@ namespace soilbin::compare {
 
 /// One test's outcome: a table of its runs and sentences, SI and radians for programs, curves to draw.
 struct TestReport {
-  HtmlTable table;   ///< without a header: the test has one run, which the sentences tell
+  Table table;       ///< without a header: the test has one run, which the sentences tell
   std::string text;  ///< whole lines
   nlohmann::ordered_json json;
   Sheet sheet;

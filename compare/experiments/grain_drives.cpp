@@ -68,8 +68,8 @@ void GrainDrives::drive(int k) {
 void GrainDrives::note(const dem::GrainDriveRecord& record, std::uint64_t packing, double seconds) {
   const dem::BedSize& size = settings_.size;
   notes_.push_back(fmt::format(
-      "dem: {} grains in {:.4g} x {:.4g} x {:.4g} m, packing {}, settling friction {:.3g}; {} "
-      "steps, {:.0f} s with the bed",
+      "dem: {} grains in {:.4g} x {:.4g} x {:.4g} m, packing {}, settling friction {:.3g}; {} steps, {:.0f} s with the "
+      "bed",
       record.grains, size.length, size.width, size.depth, packing, settings_.settling_friction, record.steps, seconds));
 }
 

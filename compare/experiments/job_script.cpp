@@ -6,11 +6,29 @@
 #include <cstdlib>
 
 #include "compare/experiments/jobs.hpp"
+#include "compare/report/javascript.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/report/shell_words.hpp"
 #include "scenario/atomic_file.hpp"
 
 namespace soilbin::compare {
+
+/// The files of compare/experiments/scripts; made by the build.
+std::vector<EmbeddedFile> job_scripts();
+
+std::vector<std::size_t> runs_of_shard(const RunPlan& plan, const Shard& shard) {
+  std::vector<AskedRun> list;
+  for (const PlannedRun& run : plan.runs) list.push_back(run.run);
+  std::vector<std::size_t> places;
+  std::size_t from = 0;
+  for (int k = 1; k <= shard.number; ++k) {  // shards are stretches of the list, one behind the other
+    const std::size_t size = shard_of(list, {k, shard.of}).size();
+    if (k == shard.number)
+      for (std::size_t i = from; i < from + size; ++i) places.push_back(i);
+    from += size;
+  }
+  return places;
+}
+
 namespace {
 
 std::string quoted(const std::vector<std::string>& words) { return shell_words(words); }
@@ -52,75 +70,31 @@ std::string script_head(const Jobs& jobs) {
                             quoted(jobs.bed_words), quoted(jobs.run_words));
 }
 
-std::string merge_job(const Jobs& jobs) {
-  return fmt::format(
-      "  merge)\n"
-      "    \"$soilbin\" record merge \"$folder/record.json\" \"$folder\"/shards/*.json{}\n"
-      "    \"$soilbin\" sweep status \"$folder\"\n"
-      "    ;;\n",
-      jobs.known.empty() ? "" : " " + quoted(jobs.known));
+/// A file of compare/experiments/scripts, its places "@name@" filled in.
+std::string filled(const char* script, const std::vector<std::pair<const char*, std::string>>& places) {
+  std::string text = embedded(job_scripts(), script);
+  for (const auto& [name, value] : places) {
+    const std::string place = fmt::format("@{}@", name);
+    for (std::size_t at = text.find(place); at != text.npos; at = text.find(place, at + value.size()))
+      text.replace(at, place.size(), value);
+  }
+  return text;
 }
 
-std::string slurm_script(const Jobs& jobs) {
-  return script_head(jobs) +
-         fmt::format(
-             R"(# A job that is stopped before its time limit ends with 3 and goes to the queue again.
-again() {{
-  srun --cpus-per-task={threads} "$@"
-  status=$?
-  [ $status -ne 3 ] || scontrol requeue "$SLURM_JOB_ID"
-  exit $status
-}}
-
-case "${{1-submit}}" in
-  bed) again "$soilbin" bed "${{bed[@]}}" --shard "$SLURM_ARRAY_TASK_ID/{beds}" ;;
-  run)
-    part=$SLURM_ARRAY_TASK_ID
-    again "$soilbin" run "${{run[@]}}" --shard "$part/{shards}" --record "$folder/shards/$part-of-{shards}.json"
-    ;;
-{merge}  submit)
-    job() {{
-      sbatch --parsable --requeue --signal=TERM@60 --open-mode=append --ntasks=1 --cpus-per-task={threads} --mem={memory}M "$@"
-    }}
-    beds=$(job --job-name={name}-beds --array=1-{beds} --time={bed_minutes} --output="$folder/logs/bed-%a.log" \
-      "$folder/sweep.sh" bed) &&
-      runs=$(job --job-name={name}-runs --array=1-{shards} --time={run_minutes} --output="$folder/logs/run-%a.log" \
-        --dependency="afterany:$beds" "$folder/sweep.sh" run) &&
-      merge=$(job --job-name={name}-merge --time=10 --output="$folder/logs/merge.log" \
-        --dependency="afterany:$runs" "$folder/sweep.sh" merge) || exit
-    echo "$beds $runs $merge" >"$folder/jobs"
-    echo "submitted: beds $beds, runs $runs, merge $merge"
-    ;;
-esac
-)",
-             fmt::arg("beds", jobs.plan.beds), fmt::arg("shards", jobs.shards), fmt::arg("merge", merge_job(jobs)),
-             fmt::arg("threads", jobs.plan.threads), fmt::arg("memory", std::ceil(1.5 * jobs.plan.memory / 1e6) + 100),
-             fmt::arg("name", quoted(std::vector{jobs.plan.study})),
-             fmt::arg("bed_minutes", minutes_for(jobs.plan.bed_seconds)),
-             fmt::arg("run_minutes", minutes_for(longest_shard(jobs))));
-}
-
-std::string local_script(const Jobs& jobs) {
-  return script_head(jobs) + fmt::format(
-                                 R"(# The job KIND for each of 1 .. COUNT, {at_once} at once.
-each() {{ seq "$2" | xargs -P {at_once} -I NUMBER bash "$folder/sweep.sh" "$1" NUMBER; }}
-
-case "${{1-all}}" in
-  bed) exec "$soilbin" bed "${{bed[@]}}" --shard "$2/{beds}" >>"$folder/logs/bed-$2.log" 2>&1 ;;
-  run)
-    echo $$ >"$folder/running/$2"  # this process, which soilbin becomes
-    exec "$soilbin" run "${{run[@]}}" --shard "$2/{shards}" --record "$folder/shards/$2-of-{shards}.json" \
-      >>"$folder/logs/run-$2.log" 2>&1
-    ;;
-{merge}  all)
-    each bed {beds}
-    each run {shards}
-    bash "$folder/sweep.sh" merge
-    ;;
-esac
-)",
-                                 fmt::arg("at_once", jobs.at_once), fmt::arg("beds", jobs.plan.beds),
-                                 fmt::arg("shards", jobs.shards), fmt::arg("merge", merge_job(jobs)));
+std::string script_of(const Jobs& jobs) {
+  const auto told = [](const auto& number) { return fmt::format("{}", number); };
+  const std::string merge = filled("merge.sh", {{"known", jobs.known.empty() ? "" : " " + quoted(jobs.known)}});
+  const std::string beds = told(jobs.plan.beds), shards = told(jobs.shards);
+  if (jobs.on == JobsOn::local)
+    return filled("local.sh", {{"at_once", told(jobs.at_once)}, {"beds", beds}, {"shards", shards}, {"merge", merge}});
+  return filled("slurm.sh", {{"beds", beds},
+                             {"shards", shards},
+                             {"merge", merge},
+                             {"threads", told(jobs.plan.threads)},
+                             {"memory", told(std::ceil(1.5 * jobs.plan.memory / 1e6) + 100)},
+                             {"name", quoted(std::vector{jobs.plan.study})},
+                             {"bed_minutes", told(minutes_for(jobs.plan.bed_seconds))},
+                             {"run_minutes", told(minutes_for(longest_shard(jobs)))}});
 }
 
 }  // namespace
@@ -132,25 +106,9 @@ int shards_for(const RunPlan& plan, double at_least) {
   return std::clamp(static_cast<int>(std::min<double>(most, seconds / std::max(at_least, 1e-3))), 1, most);
 }
 
-std::vector<std::size_t> runs_of_shard(const RunPlan& plan, const Shard& shard) {
-  std::vector<AskedRun> list;
-  for (const PlannedRun& run : plan.runs) list.push_back(run.run);
-  std::vector<std::size_t> places;
-  std::size_t from = 0;
-  for (int k = 1; k <= shard.number; ++k) {  // shards are stretches of the list, one behind the other
-    const std::size_t size = shard_of(list, {k, shard.of}).size();
-    if (k == shard.number)
-      for (std::size_t i = from; i < from + size; ++i) places.push_back(i);
-    from += size;
-  }
-  return places;
-}
-
 std::filesystem::path shard_record(const std::filesystem::path& folder, const Shard& shard) {
   return folder / "shards" / fmt::format("{}-of-{}.json", shard.number, shard.of);
 }
-
-std::string job_script(const Jobs& jobs) { return jobs.on == JobsOn::slurm ? slurm_script(jobs) : local_script(jobs); }
 
 void write_jobs(const Jobs& jobs) {
   for (const char* part : {"shards", "logs", "running"}) make_folder(jobs.folder / part);
@@ -159,7 +117,7 @@ void write_jobs(const Jobs& jobs) {
   document["on"] = jobs.on == JobsOn::slurm ? "slurm" : "local";
   document["shards"] = jobs.shards;
   write_file_atomically(jobs.folder / "sweep.json", json_text(document));
-  write_file_atomically(jobs.folder / "sweep.sh", job_script(jobs));
+  write_file_atomically(jobs.folder / "sweep.sh", script_head(jobs) + script_of(jobs));
 }
 
 }  // namespace soilbin::compare

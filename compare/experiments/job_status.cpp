@@ -8,10 +8,9 @@
 #include <sstream>
 
 #include "compare/experiments/jobs.hpp"
-#include "compare/report/json_file.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/report/shell_words.hpp"
-#include "compare/report/text_table.hpp"
+#include "compare/report/table.hpp"
 #include "compare/sweep/result_json.hpp"
 
 namespace soilbin::compare {
@@ -142,10 +141,10 @@ JobStatus job_status(const fs::path& folder) {
 }
 
 std::string in_words(const JobStatus& status) {
-  TextTable table({"shard", "runs", "recorded", "state", "last said"});
+  Table table{"", {"shard", "runs", "recorded", "state", "last said"}};
   std::map<std::string, int> states;
   for (const ShardStatus& shard : status.shards) {
-    table.add({std::to_string(table.rows() + 1), std::to_string(shard.runs), std::to_string(shard.recorded),
+    table.add({std::to_string(table.rows.size() + 1), std::to_string(shard.runs), std::to_string(shard.recorded),
                shard.state, shard.words});
     ++states[shard.state];
   }
@@ -159,7 +158,7 @@ std::string in_words(const JobStatus& status) {
     text += fmt::format(
         "; {} of work left{}", duration_text(status.seconds_left),
         running > 1 ? fmt::format(", {} for {} at once", duration_text(status.seconds_left / running), running) : "");
-  text += "\n\n" + table.text();
+  text += "\n\n" + as_text(table);
   if (!status.complete() && running + states["waiting"] == 0)
     text += fmt::format("\ngo on: bash {}\n", shell_words({(status.folder / "sweep.sh").string()}));
   return text;

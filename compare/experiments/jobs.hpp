@@ -43,9 +43,6 @@ std::vector<std::size_t> runs_of_shard(const RunPlan& plan, const Shard& shard);
 /// The record of a shard, below the jobs' folder.
 std::filesystem::path shard_record(const std::filesystem::path& folder, const Shard& shard);
 
-/// The script, for bash. Without arguments it submits or runs all; with 'bed', 'run' or 'merge' it is a job.
-std::string job_script(const Jobs& jobs);
-
 /// Makes the folder, with the script (sweep.sh) and what it does for job_status to read (sweep.json).
 void write_jobs(const Jobs& jobs);
 

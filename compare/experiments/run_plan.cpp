@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "compare/report/number_text.hpp"
-#include "compare/report/text_table.hpp"
+#include "compare/report/table.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "dem/rig/wheel_in_bin.hpp"
@@ -130,8 +130,7 @@ double RunCosts::trial(dem::DemSettings settings) const {
 }  // namespace
 
 std::size_t RunPlan::recorded() const {
-  return static_cast<std::size_t>(
-      std::count_if(runs.begin(), runs.end(), [](const auto& run) { return run.recorded; }));
+  return static_cast<std::size_t>(std::ranges::count_if(runs, [](const auto& run) { return run.recorded; }));
 }
 
 double RunPlan::seconds_left() const {
@@ -162,7 +161,7 @@ RunPlan plan_of(const Case& question, const dem::DemSettings& settings, const st
 }
 
 std::string plan_text(const RunPlan& plan) {
-  TextTable table({"run", "packing", "condition", "time"});
+  Table table{"", {"run", "packing", "condition", "time"}};
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     const PlannedRun& planned = plan.runs[k];
     table.add({std::to_string(k + 1), std::to_string(planned.run.packing),
@@ -171,7 +170,7 @@ std::string plan_text(const RunPlan& plan) {
   }
   const std::size_t recorded = plan.recorded(), left = plan.runs.size() - recorded;
   std::string text = fmt::format("{}: {} of grains on {}\n\n{}\n", plan.study, counted(plan.runs.size(), "run"),
-                                 counted(plan.beds, "bed"), table.text());
+                                 counted(plan.beds, "bed"), as_text(table));
   text += fmt::format("recorded  {}\nto make   {}\n", recorded, left);
   text += fmt::format("beds      {} to settle, {} each\n", plan.unsettled.size(), duration_text(plan.bed_seconds));
   text += fmt::format(

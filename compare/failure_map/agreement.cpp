@@ -205,7 +205,7 @@ std::optional<Box> largest_box(const FailureQuestion& question, const FailureMap
 }
 
 bool was_run(const FailureMap& map, const VectorXd& values) {
-  return std::any_of(map.rows.begin(), map.rows.end(), [&](const FailureRow& row) { return row.values == values; });
+  return std::ranges::any_of(map.rows, [&](const FailureRow& row) { return row.values == values; });
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/calibrate/experiment_batch.hpp"
-#include "compare/design/next_point.hpp"
+#include "compare/calibrate/experiment_store.hpp"
+#include "compare/design/gaussian_process.hpp"
 #include "compare/design/space_filling.hpp"
 #include "scenario/errors.hpp"
 
@@ -40,9 +40,8 @@ void learn(const FailureQuestion& question, std::uint64_t seed, FailureMap& map)
 
 /// Whether a place was already asked: a condition without an answer is not asked again and again.
 bool asked(const FailureQuestion& question, const FailureMap& map, const VectorXd& unit) {
-  return std::any_of(map.rows.begin(), map.rows.end(), [&](const FailureRow& row) {
-    return (to_unit(question.factors, row.values) - unit).norm() < 0.02;
-  });
+  return std::ranges::any_of(
+      map.rows, [&](const FailureRow& row) { return (to_unit(question.factors, row.values) - unit).norm() < 0.02; });
 }
 
 /// The cloud's points that were not asked yet.

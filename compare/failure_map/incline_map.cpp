@@ -5,7 +5,7 @@
 
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/model.hpp"
-#include "compare/calibrate/experiment_batch.hpp"
+#include "compare/calibrate/experiment_store.hpp"
 #include "compare/design/space_filling.hpp"
 #include "compare/sweep/answers.hpp"
 #include "scenario/errors.hpp"
@@ -83,14 +83,13 @@ std::vector<Target> grain_channels() {
 FailureQuestion failure_question(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store,
                                  std::uint64_t seed, double tolerance) {
   if (!map.scenario.soil.semi_empirical)
-    throw InputError("soil '" + map.scenario.soil.name +
-                     "' has no semi-empirical values for the analytic model\n  hint: soilbin bevameter gives them from "
-                     "the grains");
-  if (map.factors.at(map_lug_height).upper > 0 && !(map.scenario.tire.lugs.count && map.scenario.tire.lugs.thickness))
     throw InputError(
-        "tire '" + map.scenario.tire.name +
-        "' tells no count and thickness of lugs, which runs with lugs need\n  hint: a lugged tire; the map "
-        "varies its lugs' height");
+        "soil '" + map.scenario.soil.name +
+        "' has no semi-empirical values for the analytic model\n  hint: soilbin bevameter gives them from the grains");
+  if (map.factors.at(map_lug_height).upper > 0 && !(map.scenario.tire.lugs.count && map.scenario.tire.lugs.thickness))
+    throw InputError("tire '" + map.scenario.tire.name +
+                     "' tells no count and thickness of lugs, which runs with lugs need\n  hint: a lugged tire; the "
+                     "map varies its lugs' height");
   FailureQuestion question;
   question.name = name_of(map.incline);
   question.factors = map.factors;

@@ -5,12 +5,70 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/doubts/doubts.hpp"
+#include "compare/report/heat_map.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/report/sliding_map.hpp"
 #include "compare/sweep/varying.hpp"
 
 namespace soilbin::compare {
+namespace {
+
+/// Where the models agree: without lugs at any slip, else also up to a slip; with any lugs; and the largest box of all.
+std::vector<AgreementClause> agreements(const FailureQuestion& question, FailureMap& rows, int rounds) {
+  std::vector<AgreementClause> clauses;
+  const auto add = [&](const std::vector<Role>& roles) {
+    if (const auto clause = agreement(question, rows, roles, 9, rounds)) clauses.push_back(*clause);
+    return !clauses.empty();
+  };
+  if (!add({Role::limited, Role::held, Role::limited, Role::whole}))
+    add({Role::limited, Role::held, Role::limited, Role::limited});
+  add({Role::limited, Role::limited, Role::limited, Role::whole});
+  add({Role::bounded, Role::bounded, Role::bounded, Role::bounded});
+  return clauses;
+}
+
+/// Of the analytic model and the grains at the conditions that were run, with the highest lugs.
+std::vector<std::string> doubts_at_rows(const MapStory& story) {
+  Case question;
+  std::vector<Eigen::VectorXd> rows;
+  for (const FailureRow& row : story.rows.rows) {
+    rows.push_back(row.values);
+    question.study.conditions.push_back(condition_at(story.map, row.values));
+  }
+  if (rows.empty()) return {};
+  const auto height = [](const Eigen::VectorXd& values) { return values[map_lug_height]; };
+  question.scenario = scenario_at(story.map, *std::ranges::max_element(rows, {}, height));
+  question.study.models = {{ModelKind::bekker_wong, question.scenario.effects, ""}};
+  question.scenario.effects.clear();
+  const std::vector<ModelAnswers> study = run_study(question);
+  question.study.models.push_back({ModelKind::dem, {}, ""});
+  return doubts(question, study);
+}
+
+}  // namespace
+
+MapStory learn_map(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store, const MapLearning& how) {
+  MapStory story;
+  story.map = map;
+  story.question = failure_question(story.map, grains, store, how.packing, how.tolerance);
+  story.rows = map_failures(story.question, how.runs);
+  story.clauses = agreements(story.question, story.rows, how.rounds);
+  story.coordinates = compare_coordinates(story.map, story.rows);
+  story.checks = check_fresh(story.question, story.rows, how.fresh, how.runs.seed);
+  return story;
+}
+
+std::vector<std::string> doubts_of(const MapStory& story, const VirtualTest& grains, const ExperimentStore& store) {
+  std::vector<std::string> all = doubts_at_rows(story);
+  if (const std::size_t older = store.of_other_engines(grains); older > 0)
+    all.push_back(
+        fmt::format("{} of the experiments were made by an earlier engine, whose shear springs did not turn with the "
+                    "spin of a pair: this one's answers differ",
+                    older));
+  return all;
+}
+
 namespace {
 
 using Eigen::Index;
@@ -69,10 +127,8 @@ std::string knowledge_sentence(const MapStory& story) {
     if (row.difference) squares += std::pow(row.difference->value - mean, 2) / n;
   return fmt::format(
       "Cross-validated error of the map: {:.1f} % of the load (each row predicted from all others, root mean square); "
-      "{:.0f} % "
-      "of the rows lie within 1.96 of their stated errors. The rows scatter by {:.1f} % about their mean, a run by "
-      "{:.1f} % "
-      "about its own.",
+      "{:.0f} % of the rows lie within 1.96 of their stated errors. The rows scatter by {:.1f} % about their mean, a "
+      "run by {:.1f} % about its own.",
       100 * held_out.rms(), 100 * inside / static_cast<double>(held_out.standardised.size()), 100 * std::sqrt(squares),
       100 * std::sqrt(noise / n));
 }
@@ -84,8 +140,8 @@ std::string coordinates_sentence(const MapStory& story) {
     text +=
         fmt::format("{} ({}) is off by {:.1f} %", &c == story.coordinates.data() ? "" : ",", c.name, 100 * c.held_out);
   const double plain = story.coordinates.front().held_out;
-  const auto best = std::min_element(story.coordinates.begin(), story.coordinates.end(),
-                                     [](const auto& a, const auto& b) { return a.held_out < b.held_out; });
+  const auto best =
+      std::ranges::min_element(story.coordinates, [](const auto& a, const auto& b) { return a.held_out < b.held_out; });
   if (best == story.coordinates.begin()) return text + ": no group of these does better than the numbers as set.";
   return text + fmt::format(": ({}) does better than the numbers as set, by {:.0f} % of their error.", best->name,
                             100 * (1 - best->held_out / plain));
@@ -210,8 +266,7 @@ std::vector<std::pair<std::string, std::string>> opening(const MapStory& story) 
   parts.emplace_back(
       "Trust it",
       story.clauses.empty()
-          ? fmt::format("Nowhere for sure: no box of conditions is within {:.3g} % of the load with 95 % "
-                        "confidence.",
+          ? fmt::format("Nowhere for sure: no box of conditions is within {:.3g} % of the load with 95 % confidence.",
                         tolerance)
           : fmt::format("The estimate is within {:.3g} % of the load of what grains give, with 95 % confidence, {}",
                         tolerance, boxes));
@@ -220,8 +275,8 @@ std::vector<std::pair<std::string, std::string>> opening(const MapStory& story) 
                      fmt::format("By the map it is off by more in {:.0f} % of the conditions asked for. {}", beyond,
                                  capital(rows_sentence(story))));
   std::string sure = fmt::format(
-      "The map predicts a condition that it has not seen to {:.1f} % of the load (root mean "
-      "square, each row left out in turn).",
+      "The map predicts a condition that it has not seen to {:.1f} % of the load (root mean square, each row left out "
+      "in turn).",
       100 * story.rows.held_out.rms());
   if (const std::string fresh = checks_sentence(story); !fresh.empty()) sure += " " + fresh;
   parts.emplace_back("How sure", sure);
@@ -234,13 +289,13 @@ std::vector<std::string> details(const MapStory& story) {
   return text;
 }
 
-HtmlTable rows_table(const MapStory& story) {
-  HtmlTable table{"Every condition run, in order: analytic less grains, share of the load", {}};
+Table rows_table(const MapStory& story) {
+  Table table{"Every condition run, in order: analytic less grains, share of the load", {}};
   for (const Factor& factor : story.question.factors) table.header.push_back(heading(factor.name, factor.unit));
   table.header.insert(table.header.end(), {"difference [%]", "left out, predicted [%]", "beyond"});
   Index k = 0;
   for (const FailureRow& row : story.rows.rows) {
-    std::vector<std::string> cells;
+    std::vector<TableCell> cells;
     for (std::size_t j = 0; j < story.question.factors.size(); ++j)
       cells.push_back(number(row.values[j] * per_unit(story.question.factors[j].unit)));
     if (row.difference) {
@@ -251,31 +306,29 @@ HtmlTable rows_table(const MapStory& story) {
     } else {
       cells.insert(cells.end(), {"-", "-", "no answer"});
     }
-    table.rows.push_back(std::move(cells));
+    table.add(std::move(cells));
   }
   return table;
 }
 
-HtmlTable coordinates_table(const MapStory& story) {
-  HtmlTable table{"What the map may see, and its error with each row left out",
-                  {"coordinates", "error [% of the load]"}};
-  for (const Coordinates& c : story.coordinates)
-    table.rows.push_back({c.name, fmt::format("{:.2f}", 100 * c.held_out)});
+Table coordinates_table(const MapStory& story) {
+  Table table{"What the map may see, and its error with each row left out", {"coordinates", "error [% of the load]"}};
+  for (const Coordinates& c : story.coordinates) table.add({c.name, fmt::format("{:.2f}", 100 * c.held_out)});
   return table;
 }
 
-HtmlTable checks_table(const MapStory& story) {
-  HtmlTable table{"Fresh conditions: predicted, then run", {}};
+Table checks_table(const MapStory& story) {
+  Table table{"Fresh conditions: predicted, then run", {}};
   for (const Factor& factor : story.question.factors) table.header.push_back(heading(factor.name, factor.unit));
   table.header.insert(table.header.end(), {"predicted [%]", "found [%]", "apart [standard errors]"});
   for (const FreshCheck& check : story.checks) {
-    std::vector<std::string> cells;
+    std::vector<TableCell> cells;
     for (std::size_t j = 0; j < story.question.factors.size(); ++j)
       cells.push_back(number(check.values[j] * per_unit(story.question.factors[j].unit)));
     cells.push_back(in_percent(check.predicted));
     cells.push_back(check.found ? in_percent(*check.found) : "no answer");
     cells.push_back(check.found ? fmt::format("{:.1f}", check.sigma()) : "-");
-    table.rows.push_back(std::move(cells));
+    table.add(std::move(cells));
   }
   return table;
 }
@@ -313,8 +366,7 @@ std::string failure_map_page(const MapStory& story, const PageAbout& about, cons
   page.raw(sliding_map_html(
       sliding_map_of(story),
       "Drawbar pull, analytic less grains, in per cent of the load, as the map has it; loads across, angles up. Blue: "
-      "the "
-      "analytic pull is too low; orange: too high. Bold: the map is sure that the models differ by more than the "
+      "the analytic pull is too low; orange: too high. Bold: the map is sure that the models differ by more than the "
       "tolerance. Faint: they agree, or the map cannot tell; each cell says which."));
   page.figures_at_a_glance(
       {{std::to_string(story.rows.rows.size()), "conditions run"},

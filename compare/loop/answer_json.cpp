@@ -235,8 +235,8 @@ Json details_json(const LoopAnswer& answer) {
     Json forms = Json::array();
     auto form = in_order.begin();
     for (const std::string& effect : candidate.ids) forms.push_back(effect + "/" + *form++);
-    const auto listed = std::find_if(answer.ambiguity_set.begin(), answer.ambiguity_set.end(),
-                                     [&](const Weighted& one) { return one.ids == w.ids; });
+    const auto listed =
+        std::ranges::find_if(answer.ambiguity_set, [&](const Weighted& one) { return one.ids == w.ids; });
     sets.push_back({{"effects", w.ids},
                     {"forms", forms},
                     {"weight", finite(listed == answer.ambiguity_set.end() ? 0.0 : listed->weight)},

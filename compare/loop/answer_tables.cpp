@@ -15,12 +15,12 @@ namespace soilbin::compare {
 namespace {
 
 /// "1 : 132"; what is beyond a million is only counted so, its number in grey.
-MarkedCell odds_to_the_first(double behind) {
+TableCell odds_to_the_first(double behind) {
   constexpr double million = 1e6;
   const double odds = std::exp(std::abs(behind));
-  if (behind <= 0) return {.text = number(odds) + " : 1"};
-  if (odds > million) return {.text = "< 1 : 1,000,000", .note = fmt::format("1 : {:.2g}", odds)};
-  return {.text = "1 : " + number(odds)};
+  if (behind <= 0) return number(odds) + " : 1";
+  if (odds > million) return {"< 1 : 1,000,000", fmt::format("1 : {:.2g}", odds)};
+  return "1 : " + number(odds);
 }
 
 Tone tone_of(const ErrorPair& error) {
@@ -34,53 +34,53 @@ std::string change_of(const ErrorPair& error) {
 
 }  // namespace
 
-MarkedTable next_run_table(const LoopAnswer& answer) {
+Table next_run_table(const LoopAnswer& answer) {
   if (!answer.next) return {};
   const NextTest& next = *answer.next;
-  MarkedTable table{"The next run, as a row of the campaign", {}, {}, {{}}};
+  MarkedTable table{"The next run, as a row of the campaign", {}};
+  table.add({});
   for (const std::string& name : next.quantities) {
     const auto [value, unit] = next_setting(answer, name);
     if (value.empty()) continue;
     table.header.push_back(heading(std::string(condition_view(name).title), unit.empty() ? "-" : unit));
-    const bool beyond = std::find(next.beyond.begin(), next.beyond.end(), name) != next.beyond.end();
-    table.rows[0].push_back({.text = value, .note = beyond ? "beyond what was run" : ""});
+    const bool beyond = std::ranges::find(next.beyond, name) != next.beyond.end();
+    table.rows[0].push_back({value, beyond ? "beyond what was run" : ""});
   }
   table.header.insert(table.header.end(), {"runs", "decides between"});
-  table.rows[0].push_back({.text = std::to_string(next.runs)});
-  table.rows[0].push_back(
-      {.text = named_effects(next.separates.front()) + " | " + named_effects(next.separates.back())});
+  table.rows[0].push_back(std::to_string(next.runs));
+  table.rows[0].push_back(named_effects(next.separates.front()) + " | " + named_effects(next.separates.back()));
   table.text_columns.assign(table.header.size(), false);
   table.text_columns.back() = true;
   return table;
 }
 
-MarkedTable error_table(const LoopAnswer& answer) {
+Table error_table(const LoopAnswer& answer) {
   MarkedTable table{
-      "Root mean square error on conditions that neither choice nor fit has seen; before: soil refitted, "
-      "no effect added",
+      "Root mean square error on conditions that neither choice nor fit has seen; before: soil refitted, no effect "
+      "added",
       {"channel", "values", "before", "after", "change", "noise alone"}};
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const ErrorPair& e = answer.validation.channels[c];
     if (e.cells == 0) continue;
-    table.rows.push_back({{.text = std::string(channel_views[c].title)},
-                          {.text = std::to_string(e.cells)},
-                          {.text = in_unit(c, e.before)},
-                          {.text = in_unit(c, e.after), .tone = tone_of(e)},
-                          {.text = change_of(e)},
-                          {.text = in_unit(c, e.noise_floor)}});
+    table.add({std::string(channel_views[c].title),
+               std::to_string(e.cells),
+               in_unit(c, e.before),
+               {in_unit(c, e.after), "", tone_of(e)},
+               change_of(e),
+               in_unit(c, e.noise_floor)});
   }
   const ErrorPair& all = answer.validation.overall;
   if (all.cells > 0)
-    table.rows.push_back({{.text = "all, in standard deviations of the noise"},
-                          {.text = std::to_string(all.cells)},
-                          {.text = number(all.before)},
-                          {.text = number(all.after), .tone = tone_of(all)},
-                          {.text = change_of(all)},
-                          {.text = "1"}});
+    table.add({"all, in standard deviations of the noise",
+               std::to_string(all.cells),
+               number(all.before),
+               {number(all.after), "", tone_of(all)},
+               change_of(all),
+               "1"});
   return table;
 }
 
-MarkedTable candidates_table(const LoopAnswer& answer) {
+Table candidates_table(const LoopAnswer& answer) {
   const std::string premise = !answer.second           ? ""
                               : answer.second->decides ? ", beside a base model that may be off by itself"
                                                        : ", the base model taken as exact";
@@ -93,68 +93,60 @@ MarkedTable candidates_table(const LoopAnswer& answer) {
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const Weighted& w = *sets[i];
     const CandidateModel& candidate = answer.found().candidates.models[w.best_candidate];
-    table.rows.push_back(
-        {{.text = named_effects(w.ids), .note = joined(w.ids) == named_effects(w.ids) ? "" : joined(w.ids)},
-         {.text = fmt::format("{}", fmt::join(forms_in_order(candidate), " + "))},
-         {.text = i < answer.ambiguity_set.size() ? share_words(w.weight) : "-"},
-         i == 0 ? MarkedCell{.text = "-"} : odds_to_the_first(sets.front()->log_evidence - w.log_evidence),
-         {.text = number(candidate.fit().chi2)},
-         {.text = values}});
+    table.add({{named_effects(w.ids), joined(w.ids) == named_effects(w.ids) ? "" : joined(w.ids)},
+               fmt::format("{}", fmt::join(forms_in_order(candidate), " + ")),
+               i < answer.ambiguity_set.size() ? share_words(w.weight) : "-",
+               i == 0 ? TableCell("-") : odds_to_the_first(sets.front()->log_evidence - w.log_evidence),
+               number(candidate.fit().chi2),
+               values});
   }
-  table.rows.push_back({{.text = "none: the base model"},
-                        {.text = "-"},
-                        {.text = "-"},
-                        {.text = "-"},
-                        {.text = number(answer.found().base.fit().chi2)},
-                        {.text = values}});
+  table.add({"none: the base model", "-", "-", "-", number(answer.found().base.fit().chi2), values});
   return table;
 }
 
-MarkedTable parameters_table(const LoopAnswer& answer) {
+Table parameters_table(const LoopAnswer& answer) {
   MarkedTable table{answer.effects.empty() ? "The stand-in of the saved model: its fitted parameters"
                                            : "The effects of the saved model: their fitted parameters",
                     {"effect", "parameter", "value", "95 %", "the form allows", "determined?"},
                     {true, true, false, false, false, true}};
-  for (const std::vector<AcceptedEffect>* effects : {&answer.effects, &answer.stand_in})
-    for (const AcceptedEffect& effect : *effects) {
-      const bekker_wong::EffectForm& form = bekker_wong::find_form(effect.choice);
-      if (form.id == bekker_wong::learned_id) {  // its weights mean nothing one by one
-        table.rows.push_back({{.text = std::string(bekker_wong::effect_title(form.id).name), .note = form.id},
-                              {.text = form.equation, .note = "form " + form.form},
-                              {.text = std::to_string(effect.fitted.size()) + " weights"},
-                              {.text = "-"},
-                              {.text = "-"},
-                              {.text = "-"}});
-        continue;
-      }
-      for (std::size_t i = 0; i < effect.fitted.size(); ++i) {
-        const auto p = std::find_if(form.parameters.begin(), form.parameters.end(),
-                                    [&](const auto& one) { return one.name == effect.fitted[i]; });
-        const double scale = per_unit(p->unit);
-        const std::string unit = p->unit == "-" ? "" : " " + p->unit;
-        const auto& [low, high] = effect.ci95[i];
-        table.rows.push_back({i == 0 ? MarkedCell{.text = std::string(bekker_wong::effect_title(form.id).name),
-                                                  .note = form.id + ", form " + form.form}
-                                     : MarkedCell{},
-                              {.text = p->meaning, .note = p->name},
-                              {.text = number(scale * effect.choice.parameters.at(p->name)) + unit},
-                              {.text = fmt::format("{} to {}{}", number(scale * low), number(scale * high), unit)},
-                              {.text = fmt::format("{:.4g} to {:.4g}{}", scale * p->lower, scale * p->upper, unit)},
-                              effect.at_bound[i] ? MarkedCell{.text = "no: at its bound", .tone = Tone::bad}
-                                                 : MarkedCell{.text = "yes"}});
-      }
+  for (const AcceptedEffect& effect : answer.taken()) {
+    const bekker_wong::EffectForm& form = bekker_wong::find_form(effect.choice);
+    if (form.id == bekker_wong::learned_id) {  // its weights mean nothing one by one
+      table.add({{std::string(bekker_wong::effect_title(form.id).name), form.id},
+                 {form.equation, "form " + form.form},
+                 std::to_string(effect.fitted.size()) + " weights",
+                 "-",
+                 "-",
+                 "-"});
+      continue;
     }
+    for (std::size_t i = 0; i < effect.fitted.size(); ++i) {
+      const auto p =
+          std::ranges::find_if(form.parameters, [&](const auto& one) { return one.name == effect.fitted[i]; });
+      const double scale = per_unit(p->unit);
+      const std::string unit = p->unit == "-" ? "" : " " + p->unit;
+      const auto& [low, high] = effect.ci95[i];
+      table.add({i == 0
+                     ? TableCell(std::string(bekker_wong::effect_title(form.id).name), form.id + ", form " + form.form)
+                     : TableCell{},
+                 {p->meaning, p->name},
+                 number(scale * effect.choice.parameters.at(p->name)) + unit,
+                 fmt::format("{} to {}{}", number(scale * low), number(scale * high), unit),
+                 fmt::format("{:.4g} to {:.4g}{}", scale * p->lower, scale * p->upper, unit),
+                 effect.at_bound[i] ? TableCell("no: at its bound", "", Tone::bad) : TableCell("yes")});
+    }
+  }
   return table;
 }
 
-HtmlTable soil_table(const LoopAnswer& answer) {
-  HtmlTable table{"The soil's values, and the bias that leaving the effects out puts into them",
-                  {"value", "with", "without", "bias", "unit"},
-                  {true, false, false, false, true}};
+Table soil_table(const LoopAnswer& answer) {
+  Table table{"The soil's values, and the bias that leaving the effects out puts into them",
+              {"value", "with", "without", "bias", "unit"},
+              {true, false, false, false, true}};
   for (const SoilShift& s : answer.soil_shifts) {
     const SoilParameter& p = soil_parameter(s.name);
-    table.rows.push_back({p.title, number(s.with, p.per_si), number(s.without, p.per_si),
-                          number(p.per_si * (s.without.value - s.with.value)), p.unit});
+    table.add({p.title, number(s.with, p.per_si), number(s.without, p.per_si),
+               number(p.per_si * (s.without.value - s.with.value)), p.unit});
   }
   return table;
 }

@@ -33,12 +33,6 @@ std::string in_a_row(const std::vector<std::string>& words) {
   return text;
 }
 
-/// A name as people write it: "cross_slope" becomes "cross slope".
-std::string spaced(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 /// "4,000"
 std::string thousands_apart(long long value) {
   std::string text = std::to_string(value);
@@ -105,7 +99,7 @@ std::string sets_with_shares(const std::vector<Weighted>& sets, std::size_t firs
 /// Why the first set is taken where another one has the larger share; "" where none has.
 std::string why_taken(const std::vector<Weighted>& sets) {
   const auto lighter = [](const Weighted& a, const Weighted& b) { return a.weight < b.weight; };
-  const Weighted &taken = sets.front(), &heaviest = *std::max_element(sets.begin(), sets.end(), lighter);
+  const Weighted &taken = sets.front(), &heaviest = *std::ranges::max_element(sets, lighter);
   if (heaviest.ids == taken.ids) return "";
   return fmt::format(
       " The model takes {} all the same: what {} has beyond it does not predict conditions left out better.",
@@ -269,12 +263,12 @@ std::string to_show_its_shape(const LoopAnswer& answer) {
   const std::string how =
       on->variable == "run" ? "one setpoint, repeated through the whole campaign"
                             : fmt::format("one run, all else kept, at several settings of the {} alone, each one twice",
-                                          spaced(std::string(condition_view(on->variable).title)));
+                                          spaced(condition_view(on->variable).title));
   return fmt::format(
       "The unexplained part of the {} depends most on the {} (p = {:.2g}; false-discovery rate over {} pairs of "
       "channel and variable: {}). Measure next {}.",
-      channel_views[on->channel].title, spaced(std::string(condition_view(on->variable).title)), on->p_value,
-      looked_at.size(), share_words(on->false_discovery_rate), how);
+      channel_views[on->channel].title, spaced(condition_view(on->variable).title), on->p_value, looked_at.size(),
+      share_words(on->false_discovery_rate), how);
 }
 
 // Parameters.
@@ -286,8 +280,7 @@ std::string effect_sentence(const AcceptedEffect& effect) {
                        spaced(effect.choice.form), form.equation, learned_ranges(effect.choice));
   std::vector<std::string> parameters;
   for (std::size_t i = 0; i < effect.fitted.size(); ++i) {
-    const auto p = std::find_if(form.parameters.begin(), form.parameters.end(),
-                                [&](const auto& one) { return one.name == effect.fitted[i]; });
+    const auto p = std::ranges::find_if(form.parameters, [&](const auto& one) { return one.name == effect.fitted[i]; });
     const double scale = per_unit(p->unit);
     parameters.push_back(fmt::format("{} {}{} (95 %: {} to {}{})", p->meaning,
                                      number(scale * effect.choice.parameters.at(p->name)),
@@ -323,8 +316,7 @@ std::string note_on_the_other_attribution(const LoopAnswer& answer) {
 /// The forms that the answer names: of the effects in the model, and of the sets that compete.
 std::vector<EffectChoice> forms_named(const LoopAnswer& answer) {
   std::vector<EffectChoice> forms;
-  for (const std::vector<AcceptedEffect>* effects : {&answer.effects, &answer.stand_in})
-    for (const AcceptedEffect& effect : *effects) forms.push_back(effect.choice);
+  for (const AcceptedEffect& effect : answer.taken()) forms.push_back(effect.choice);
   for (const Weighted* w : sets_shown(answer))
     for (const Term& term : answer.found().candidates.models[w->best_candidate].terms())
       forms.push_back({term.form->id, term.form->form, {}});
@@ -350,7 +342,7 @@ std::string outlier_sentence(const LoopAnswer& answer) {
 
 }  // namespace
 
-bool takes_effects(const LoopAnswer& answer) { return !answer.effects.empty() || !answer.stand_in.empty(); }
+bool takes_effects(const LoopAnswer& answer) { return !answer.taken().empty(); }
 
 std::string joined(const std::set<std::string>& ids) {
   return ids.empty() ? "no effect" : fmt::format("{}", fmt::join(ids, " + "));
@@ -387,7 +379,7 @@ std::vector<const Weighted*> sets_shown(const LoopAnswer& answer) {
   std::vector<const Weighted*> sets;
   for (const Weighted& w : answer.ambiguity_set) sets.push_back(&w);
   const auto listed = [&](const Weighted& w) {
-    return std::any_of(sets.begin(), sets.end(), [&](const Weighted* one) { return one->ids == w.ids; });
+    return std::ranges::any_of(sets, [&](const Weighted* one) { return one->ids == w.ids; });
   };
   if (!answer.has_candidates()) return sets;
   for (const Weighted& w : answer.found().candidates.sets)
@@ -461,7 +453,7 @@ std::vector<Dependence> sure_dependences(const LoopAnswer& answer) {
   if (answer.verdict != Verdict::unknown_effect) return {};
   std::vector<Dependence> all = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
   std::erase_if(all, [](const Dependence& d) { return d.false_discovery_rate > level; });
-  std::stable_sort(all.begin(), all.end(), [](const Dependence& a, const Dependence& b) {
+  std::ranges::stable_sort(all, [](const Dependence& a, const Dependence& b) {
     return std::pair(a.p_value, -a.share) < std::pair(b.p_value, -b.share);
   });
   return all;
@@ -484,8 +476,7 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
   if (answer.ambiguity_set.size() == 1 && !unknown)
     sentences.push_back(
         fmt::format("One name is left. To be surer still, measure: {}. There it differs most from the next candidate, "
-                    "{}: by {:.1f} "
-                    "standard deviations of one run.",
+                    "{}: by {:.1f} standard deviations of one run.",
                     condition_words(answer), behind, std::sqrt(next.distance)));
   else
     sentences.push_back(
@@ -521,8 +512,7 @@ std::vector<std::string> explanation(const LoopAnswer& answer) {
   std::vector<std::string> sentences;
   if (std::string sure = how_sure(answer); !sure.empty()) sentences.push_back(sure.substr(1));
   if (std::string stand_in = stand_in_sentence(answer); !stand_in.empty()) sentences.push_back(std::move(stand_in));
-  for (const std::vector<AcceptedEffect>* effects : {&answer.effects, &answer.stand_in})
-    for (const AcceptedEffect& effect : *effects) sentences.push_back(effect_sentence(effect));
+  for (const AcceptedEffect& effect : answer.taken()) sentences.push_back(effect_sentence(effect));
   if (answer.validation.overall.cells > 0) sentences.push_back(error_sentence(answer));
   for (std::string& sentence : what_next(answer)) sentences.push_back(std::move(sentence));
   for (std::string& sentence : notes(answer)) sentences.push_back(std::move(sentence));

@@ -2,7 +2,7 @@
 // say the same sentences in the same order.
 //
 //   for (const auto& [about, text] : headline(answer)) fmt::print("{}: {}\n", about, text);
-//   fmt::print("{}", as_text(without_marks(error_table(answer))));
+//   fmt::print("{}", as_text(error_table(answer)));
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "compare/loop/loop.hpp"
-#include "compare/report/marked_table.hpp"
+#include "compare/report/table.hpp"
 
 namespace soilbin::compare {
 
@@ -89,15 +89,15 @@ std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const
 // Tables (answer_tables.cpp).
 
 /// The next run as a row: a column each condition, how many runs, what they decide between. No row: no run is proposed.
-MarkedTable next_run_table(const LoopAnswer& answer);
+Table next_run_table(const LoopAnswer& answer);
 /// Held-out errors before and after by channel; what falls is marked good, what rises bad.
-MarkedTable error_table(const LoopAnswer& answer);
+Table error_table(const LoopAnswer& answer);
 /// Candidates, first those that the data can't tell apart, their weights and chi2.
-MarkedTable candidates_table(const LoopAnswer& answer);
+Table candidates_table(const LoopAnswer& answer);
 /// The fitted parameters of the effects that the saved model takes: meaning, value, unit, whether they are at a bound.
-MarkedTable parameters_table(const LoopAnswer& answer);
+Table parameters_table(const LoopAnswer& answer);
 /// The soil's values beside the effects and without them.
-HtmlTable soil_table(const LoopAnswer& answer);
+Table soil_table(const LoopAnswer& answer);
 
 /// The report: headline, the next run, measured points with the model before and after, tables, doubts, and folded what
 /// stands behind it. `doubts`: in the campaign (compare/doubts/doubts.hpp). `command`: how to repeat it.

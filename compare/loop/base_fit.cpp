@@ -95,7 +95,7 @@ Dataset with_noise(const FittedModel& model, const NoiseEstimate& estimate, bool
   const Dataset& data = model.data();
   std::vector<bool> drop(data.observations.cells.size());
   for (std::size_t i = 0; i < drop.size(); ++i) drop[i] = estimate.outlier_score[i] > thresholds::outlier_limit;
-  const auto count = static_cast<double>(std::count(drop.begin(), drop.end(), true));
+  const auto count = static_cast<double>(std::ranges::count(drop, true));
   if (!drop_outliers || count == 0 || count > thresholds::most_outliers * static_cast<double>(drop.size()))
     drop.assign(drop.size(), false);
   std::vector<bool> outlier = data.outlier;

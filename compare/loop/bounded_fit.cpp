@@ -15,8 +15,7 @@ namespace {
 
 /// Index of k_phi, which stiffens the soil; nothing where the campaign takes it as known.
 std::optional<Index> k_phi_of(const std::vector<FreeParameter>& parameters) {
-  const auto k_phi =
-      std::find_if(parameters.begin(), parameters.end(), [](const auto& p) { return p.name == "k_phi"; });
+  const auto k_phi = std::ranges::find_if(parameters, [](const auto& p) { return p.name == "k_phi"; });
   return k_phi == parameters.end() ? std::nullopt : std::optional(k_phi - parameters.begin());
 }
 

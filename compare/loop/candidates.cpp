@@ -20,7 +20,7 @@ std::vector<const Signature*> strongest_forms(const std::vector<Signature>& sign
   std::vector<const Signature*> order;
   for (const Signature& s : signatures)
     if (s.projected_norm > 0 && s.strength() > thresholds::least_strength) order.push_back(&s);
-  std::stable_sort(order.begin(), order.end(), [](auto a, auto b) { return a->strength() > b->strength(); });
+  std::ranges::stable_sort(order, [](auto a, auto b) { return a->strength() > b->strength(); });
   std::vector<const Signature*> chosen;
   std::map<std::string, int> forms;
   std::set<const bekker_wong::EffectForm*> taken;
@@ -65,8 +65,7 @@ std::vector<SignaturePair> strongest_pairs(const std::vector<Signature>& signatu
       if ((a.one_sided && u < 0) || (b.one_sided && v < 0)) continue;
       pairs.push_back({u * a.score + v * b.score, &a, &b});
     }
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const SignaturePair& x, const SignaturePair& y) { return x.gain > y.gain; });
+  std::ranges::stable_sort(pairs, [](const SignaturePair& x, const SignaturePair& y) { return x.gain > y.gain; });
   std::vector<SignaturePair> best;
   std::map<std::set<std::string>, int> sets;
   for (const SignaturePair& pair : pairs) {
@@ -145,8 +144,8 @@ class Search {
 
   /// Where even the candidate that leaves least is far from the noise, all are weighed by what they leave from here on.
   void judge_misfit() {
-    found_.none_near_noise = std::all_of(found_.models.begin(), found_.models.end(),
-                                         [](const CandidateModel& c) { return far_from_noise(c.model); });
+    found_.none_near_noise =
+        std::ranges::all_of(found_.models, [](const CandidateModel& c) { return far_from_noise(c.model); });
     if (!found_.none_near_noise) return;
     found_.base_log_evidence = log_evidence(base_, true);
     for (CandidateModel& c : found_.models) c.log_evidence = log_evidence(c.model, true);
@@ -333,8 +332,7 @@ void Search::weigh() {
     w.log_evidence = w.weight > 0 ? top + std::log(w.weight) : -std::numeric_limits<double>::infinity();
     w.weight /= total;
   }
-  std::stable_sort(found_.sets.begin(), found_.sets.end(),
-                   [](const Weighted& x, const Weighted& y) { return x.weight > y.weight; });
+  std::ranges::stable_sort(found_.sets, [](const Weighted& x, const Weighted& y) { return x.weight > y.weight; });
 }
 
 /// From the strongest signatures to sets of up to three effects. further: beyond single effects, and one may stand.
@@ -363,7 +361,7 @@ Candidates worth_fitting_again(Candidates found) {
     std::vector<std::size_t> forms;
     for (std::size_t i = 0; i < found.models.size(); ++i)
       if (found.models[i].ids == w.ids) forms.push_back(i);
-    std::stable_sort(forms.begin(), forms.end(), [&](std::size_t a, std::size_t b) {
+    std::ranges::stable_sort(forms, [&](std::size_t a, std::size_t b) {
       return found.models[a].log_evidence > found.models[b].log_evidence;
     });
     for (std::size_t k = 0; k < forms.size() && k < thresholds::forms_fitted_again; ++k) kept.insert(forms[k]);
@@ -396,7 +394,7 @@ Candidates candidates_of(const FittedModel& base, const std::vector<Signature>& 
 }  // namespace
 
 const Weighted& Candidates::weighed(const std::set<std::string>& ids) const {
-  const auto found = std::find_if(sets.begin(), sets.end(), [&](const Weighted& w) { return w.ids == ids; });
+  const auto found = std::ranges::find_if(sets, [&](const Weighted& w) { return w.ids == ids; });
   if (found == sets.end()) throw std::out_of_range("a set of effects that wasn't weighed");
   return *found;
 }

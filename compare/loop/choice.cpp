@@ -4,7 +4,10 @@
 #include <cmath>
 #include <optional>
 
+#include "compare/loop/thresholds.hpp"
+
 namespace soilbin::compare {
+
 namespace {
 
 /// The best candidate whose effects are one fewer of these; none for a single effect.

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <vector>
 
+#include "compare/loop/noise_floor.hpp"
 #include "compare/loop/observations.hpp"
 
 namespace soilbin::compare {
@@ -20,5 +22,14 @@ Eigen::MatrixXd with_constant(const Eigen::MatrixXd& functions);
 /// Waves of one to a tenth as many periods as there are values (five at most) over the range of a covariate's values;
 /// sine and cosine of each, mean square about 1.
 Eigen::MatrixXd waves(const Eigen::VectorXd& values);
+
+// A smooth term without a name: what any function of the conditions would do for the residual. A yardstick beside the
+// named effects, not a candidate of theirs.
+
+/// A smooth function of the conditions, channel by channel, fitted to the residual of the rows that are kept and
+/// evaluated at all cells. Ridge regression; how stiff is chosen by evidence. all: observations; kept: by row;
+/// prediction: the base model's, of every cell (not finite: left out).
+Eigen::VectorXd smooth_term(const Observations& all, const std::vector<bool>& kept, const Eigen::VectorXd& prediction,
+                            const NoiseFloor& noise);
 
 }  // namespace soilbin::compare

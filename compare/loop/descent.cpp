@@ -76,7 +76,7 @@ VectorXd damped_step(const AugmentedLine& l, const MatrixXd& walls, const Vector
     int stops = -1;
     for (Index w = 0; w < room.size(); ++w) {
       const double nearer = walls.row(w).dot(way), left = room[w] - walls.row(w).dot(step);
-      const bool new_one = std::find(touched.begin(), touched.end(), w) == touched.end();
+      const bool new_one = std::ranges::find(touched, w) == touched.end();
       if (new_one && nearer > 1e-12 && left < reach * nearer)
         reach = std::max(0.0, left / nearer), stops = static_cast<int>(w);
     }
@@ -157,7 +157,7 @@ bool Descent::put(VectorXd theta, bool gives_way) {
 }
 
 bool Descent::carries(const Point& at) {
-  return std::all_of(at.memory.shortfall.begin(), at.memory.shortfall.end(), [](double s) { return s == 0.0; });
+  return std::ranges::all_of(at.memory.shortfall, [](double s) { return s == 0.0; });
 }
 
 bool Descent::would_carry(const VectorXd& theta) {

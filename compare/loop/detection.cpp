@@ -6,8 +6,7 @@
 #include <random>
 
 #include "bekker_wong/gsl.hpp"
-#include "compare/loop/projector.hpp"
-#include "compare/loop/setpoint_permutation.hpp"
+#include "compare/loop/evidence.hpp"
 #include "compare/loop/setpoint_squares.hpp"
 #include "compare/loop/thresholds.hpp"
 
@@ -66,7 +65,7 @@ std::vector<RunSeries> run_series(const FittedModel& model, const VectorXd& orde
   const Observations& observations = model.data().observations;
   std::vector<std::size_t> by_run(observations.cells.size());
   std::iota(by_run.begin(), by_run.end(), 0u);
-  std::stable_sort(by_run.begin(), by_run.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(by_run, [&](std::size_t a, std::size_t b) {
     return order[observations.cells[a].row] < order[observations.cells[b].row];
   });
   std::vector<RunSeries> all(channel_count + 1);
@@ -135,7 +134,7 @@ namespace {
 /// Orthonormal columns of 1, u, u^2 over one channel's cells; empty where the variable takes one value there.
 MatrixXd parabola(const std::vector<double>& u) {
   const Index n = u.size();
-  const auto [low, high] = std::minmax_element(u.begin(), u.end());
+  const auto [low, high] = std::ranges::minmax_element(u);
   if (!(*high > *low)) return MatrixXd(n, 0);
   MatrixXd columns(n, 3);
   for (Index i = 0; i < n; ++i) {
@@ -155,8 +154,7 @@ double explained(const MatrixXd& q, const VectorXd& r, double mean) {
 void tell_false_discovery_rates(std::vector<Dependence>& table) {
   std::vector<Dependence*> by_p;
   for (Dependence& d : table) by_p.push_back(&d);
-  std::stable_sort(by_p.begin(), by_p.end(),
-                   [](const Dependence* a, const Dependence* b) { return a->p_value < b->p_value; });
+  std::ranges::stable_sort(by_p, [](const Dependence* a, const Dependence* b) { return a->p_value < b->p_value; });
   double least = 1.0;
   for (std::size_t i = by_p.size(); i-- > 0;) {
     least = std::min(least, by_p[i]->p_value * static_cast<double>(by_p.size()) / static_cast<double>(i + 1));

@@ -67,7 +67,7 @@ std::vector<Signature> large_secants(std::vector<Signature> all) {
 }
 
 bool is_among(const std::vector<std::string>& wanted, const std::string& id) {
-  return wanted.empty() || std::find(wanted.begin(), wanted.end(), id) != wanted.end();
+  return wanted.empty() || std::ranges::find(wanted, id) != wanted.end();
 }
 
 /// Effects of the catalogue that the campaign does not declare.
@@ -129,9 +129,8 @@ ExpectedNoise usual_noise(const Campaign& campaign, const std::vector<OperatingC
       if (cell.channel == c) low = std::min(low, cell.value), high = std::max(high, cell.value);
     noise[c] = thresholds::typical_noise_share * std::max({high - low, 0.1 * std::abs(high), 0.1 * std::abs(low)});
   }
-  const bool aside = std::any_of(conditions.begin(), conditions.end(), [](const OperatingCondition& at) {
-    return at.yaw != 0.0 || at.transverse_incline != 0.0;
-  });
+  const bool aside = std::ranges::any_of(
+      conditions, [](const OperatingCondition& at) { return at.yaw != 0.0 || at.transverse_incline != 0.0; });
   if (!aside) noise[lateral_force].reset();
   return noise;
 }

@@ -1,9 +1,7 @@
 #include "compare/loop/evidence.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "compare/loop/condition_functions.hpp"
 
@@ -104,7 +102,7 @@ MatrixXd without_amplitudes(const LinearProblem& problem) {
   MatrixXd others(problem.nuisance.rows(), problem.nuisance.cols());
   Index used = 0;
   for (Index c = 0; c < problem.nuisance.cols(); ++c)
-    if (std::find(problem.amplitudes.begin(), problem.amplitudes.end(), c) == problem.amplitudes.end())
+    if (std::ranges::find(problem.amplitudes, c) == problem.amplitudes.end())
       others.col(used++) = problem.nuisance.col(c);
   return others.leftCols(used);
 }
@@ -133,7 +131,7 @@ MatrixXd padded_columns(const LinearProblem& problem, const MatrixXd& columns) {
 }  // namespace
 
 double log_mean_exp(const std::vector<double>& logs) {
-  const double top = *std::max_element(logs.begin(), logs.end());
+  const double top = *std::ranges::max_element(logs);
   double sum = 0.0;
   for (const double x : logs) sum += std::exp(x - top);
   return top + std::log(sum / static_cast<double>(logs.size()));

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/loop/projector.hpp"
+#include "compare/loop/evidence.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {

@@ -55,37 +55,6 @@ struct LearnedProspect {
   double log_evidence = 0.0;  ///< mean over the sizes
 };
 
-std::optional<LearnedProspect> learned_prospect(const FittedModel& beside, const LinearProblem& problem,
-                                                const EffectForm& form) {
-  const Observations& observations = beside.data().observations;
-  const auto term = learned_term(form, observations, 1.0);
-  if (!term) return std::nullopt;
-  const auto columns = columns_of_weights(beside, *term);
-  if (!columns) return std::nullopt;
-  const JoinedColumns joined(problem, *columns);
-  std::vector<double> gains;
-  for (const double size : thresholds::learned_sizes) gains.push_back(joined.gain(size));
-  const auto best = std::max_element(gains.begin(), gains.end()) - gains.begin();
-  return LearnedProspect{*learned_term(form, observations, thresholds::learned_sizes.at(best)), log_mean_exp(gains)};
-}
-
-/// Every form that leaves a trace, of most evidence first.
-std::vector<LearnedProspect> learned_prospects(const FittedModel& beside, const ThreadPool& pool) {
-  const std::vector<EffectForm>& forms = bekker_wong::learned_forms();
-  const LinearProblem problem = problem_of(beside);
-  std::vector<std::optional<LearnedProspect>> found(forms.size());
-  pool.each(static_cast<int>(forms.size()), [&](int i, const Pulse& pulse) {
-    pulse();
-    found[i] = learned_prospect(beside, problem, forms[i]);
-  });
-  std::vector<LearnedProspect> prospects;
-  for (std::optional<LearnedProspect>& one : found)
-    if (one) prospects.push_back(std::move(*one));
-  std::stable_sort(prospects.begin(), prospects.end(),
-                   [](const LearnedProspect& a, const LearnedProspect& b) { return a.log_evidence > b.log_evidence; });
-  return prospects;
-}
-
 }  // namespace
 
 std::optional<MatrixXd> columns_of_weights(const FittedModel& beside, const Term& term) {
@@ -108,6 +77,41 @@ std::optional<MatrixXd> columns_of_weights(const FittedModel& beside, const Term
   const MatrixXd white = beside.data().whitening(columns);
   return white.norm() > thresholds::least_signature ? std::optional(white) : std::nullopt;
 }
+
+namespace {
+
+std::optional<LearnedProspect> learned_prospect(const FittedModel& beside, const LinearProblem& problem,
+                                                const EffectForm& form) {
+  const Observations& observations = beside.data().observations;
+  const auto term = learned_term(form, observations, 1.0);
+  if (!term) return std::nullopt;
+  const auto columns = columns_of_weights(beside, *term);
+  if (!columns) return std::nullopt;
+  const JoinedColumns joined(problem, *columns);
+  std::vector<double> gains;
+  for (const double size : thresholds::learned_sizes) gains.push_back(joined.gain(size));
+  const auto best = std::ranges::max_element(gains) - gains.begin();
+  return LearnedProspect{*learned_term(form, observations, thresholds::learned_sizes.at(best)), log_mean_exp(gains)};
+}
+
+/// Every form that leaves a trace, of most evidence first.
+std::vector<LearnedProspect> learned_prospects(const FittedModel& beside, const ThreadPool& pool) {
+  const std::vector<EffectForm>& forms = bekker_wong::learned_forms();
+  const LinearProblem problem = problem_of(beside);
+  std::vector<std::optional<LearnedProspect>> found(forms.size());
+  pool.each(static_cast<int>(forms.size()), [&](int i, const Pulse& pulse) {
+    pulse();
+    found[i] = learned_prospect(beside, problem, forms[i]);
+  });
+  std::vector<LearnedProspect> prospects;
+  for (std::optional<LearnedProspect>& one : found)
+    if (one) prospects.push_back(std::move(*one));
+  std::ranges::stable_sort(
+      prospects, [](const LearnedProspect& a, const LearnedProspect& b) { return a.log_evidence > b.log_evidence; });
+  return prospects;
+}
+
+}  // namespace
 
 std::optional<FittedModel> fitted_with_learned(const FittedModel& beside, const Term& term) {
   const WheelPredictor predictor = beside.predictor().with({term});

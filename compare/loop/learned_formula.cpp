@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-using Places = std::vector<int>;
+using Combination = std::vector<int>;
 
 /// Root mean square of a term over the runs; 0 where it isn't told in some.
 double usual_size(const FormulaTerm& term, const Observations& observations) {
@@ -55,7 +55,7 @@ class Library {
   }
 
   /// ln evidence that these terms add, weights of one size.
-  double gain(const Places& terms, double size) const {
+  double gain(const Combination& terms, double size) const {
     MatrixXd m = gram_(terms, terms);
     const double narrowed = log_narrowing(m, VectorXd::Constant(m.rows(), size));
     m.diagonal().array() += 1 / (size * size);
@@ -63,12 +63,11 @@ class Library {
     return 0.5 * seen.dot(m.llt().solve(seen)) - narrowed;
   }
   /// The size of most evidence.
-  double best_size(const Places& terms) const {
+  double best_size(const Combination& terms) const {
     const auto& sizes = thresholds::learned_sizes;
-    return *std::max_element(sizes.begin(), sizes.end(),
-                             [&](double a, double b) { return gain(terms, a) < gain(terms, b); });
+    return *std::ranges::max_element(sizes, [&](double a, double b) { return gain(terms, a) < gain(terms, b); });
   }
-  double evidence(const Places& terms) const {
+  double evidence(const Combination& terms) const {
     std::vector<double> gains;
     for (const double size : thresholds::learned_sizes) gains.push_back(gain(terms, size));
     return log_mean_exp(gains);
@@ -81,26 +80,26 @@ class Library {
 };
 
 /// Combinations, of most evidence first.
-std::vector<Places> sorted(std::vector<Places> all, const Library& library) {
-  std::vector<std::pair<double, Places>> weighed;
-  for (Places& one : all) weighed.emplace_back(-library.evidence(one), std::move(one));
-  std::sort(weighed.begin(), weighed.end());
+std::vector<Combination> sorted(std::vector<Combination> all, const Library& library) {
+  std::vector<std::pair<double, Combination>> weighed;
+  for (Combination& one : all) weighed.emplace_back(-library.evidence(one), std::move(one));
+  std::ranges::sort(weighed);
   all.clear();
   for (auto& [evidence, one] : weighed) all.push_back(std::move(one));
   return all;
 }
 
 /// These with each further term of the library.
-std::vector<Places> wider(const std::vector<Places>& some, const Library& library) {
-  std::vector<Places> all;
-  for (const Places& one : some)
+std::vector<Combination> wider(const std::vector<Combination>& some, const Library& library) {
+  std::vector<Combination> all;
+  for (const Combination& one : some)
     for (int k = 0; k < library.terms(); ++k) {
-      if (std::find(one.begin(), one.end(), k) != one.end()) continue;
+      if (std::ranges::find(one, k) != one.end()) continue;
       all.push_back(one);
       all.back().push_back(k);
-      std::sort(all.back().begin(), all.back().end());
+      std::ranges::sort(all.back());
     }
-  std::sort(all.begin(), all.end());
+  std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
@@ -140,7 +139,7 @@ std::optional<LearnedFormula> find_formula(const FittedModel& beside, const Lear
   const auto columns = columns_of_weights(beside, formula_term(whole, all, observations, 1.0));
   if (!columns) return std::nullopt;
   const Library library(*columns, problem_of(beside));
-  std::vector<Places> best = {{}};
+  std::vector<Combination> best = {{}};
   for (int count = 1; count <= thresholds::most_formula_terms; ++count) {
     best = sorted(wider(best, library), library);
     std::vector<FormulaTerm> terms;

@@ -7,8 +7,55 @@
 #include "compare/loop/thresholds.hpp"
 
 namespace soilbin::compare {
-
 namespace {
+
+/// The effects of a candidate, with errors; p-values and cosines are those of effects that stand in (1, none).
+std::vector<AcceptedEffect> effects_of(const CandidateModel& candidate) {
+  constexpr double two_sided = 1.96;
+  const WheelPredictor& predictor = candidate.model.predictor();
+  const Eigen::VectorXd errors = candidate.model.standard_errors();
+  const std::vector<EffectChoice> choices = predictor.choices(candidate.fit().theta);
+  std::vector<AcceptedEffect> effects;
+  for (std::size_t term = 0; term < candidate.terms().size(); ++term) {
+    const Term& t = candidate.terms()[term];
+    AcceptedEffect effect;
+    effect.choice = choices[choices.size() - candidate.terms().size() + term];
+    for (std::size_t k = 0; k < t.free.size(); ++k) {
+      const Eigen::Index i = predictor.amplitude_index(static_cast<int>(term)) + k;
+      const FreeParameter& bounds = predictor.parameters()[i];
+      const bool held = errors[i] == 0.0;
+      const double value = candidate.fit().theta[i], error = held ? candidate.model.held_error(i) : errors[i];
+      effect.at_bound.push_back(held);
+      effect.fitted.push_back(t.form->parameters[t.free[k]].name);
+      effect.ci95.emplace_back(std::max(bounds.lower, value - two_sided * error),
+                               std::min(bounds.upper, value + two_sided * error));
+    }
+    effects.push_back(std::move(effect));
+  }
+  return effects;
+}
+
+/// The same with the p-value and the cosines of each.
+std::vector<AcceptedEffect> accepted_effects(const Attribution& found, const AttributionOptions& options) {
+  std::vector<AcceptedEffect> effects = effects_of(found.best());
+  for (std::size_t t = 0; t < effects.size(); ++t) {
+    effects[t].p_value = p_beside_others(found, found.best(), static_cast<int>(t), options);
+    effects[t].cosines = cosines(found.signatures.all, effects[t].choice.id);
+  }
+  return effects;
+}
+
+/// Of each free soil value, beside a model with effects and beside the base model.
+std::vector<SoilShift> soil_shifts(const FittedModel& with, const FittedModel& without) {
+  // the same soil parameters come first in both
+  const Eigen::VectorXd error = with.standard_errors(), base_error = without.standard_errors();
+  std::vector<SoilShift> shifts;
+  for (int i = 0; i < without.predictor().soil_parameters(); ++i)
+    shifts.push_back({with.predictor().parameters()[i].name,
+                      {with.fit().theta[i], error[i]},
+                      {without.fit().theta[i], base_error[i]}});
+  return shifts;
+}
 
 /// Shares of the progress: until the attribution, the choice, and the validation are done.
 constexpr std::size_t all_steps = 100, attributed = 30, chosen = 40, pulses_a_step = 10;
@@ -67,8 +114,7 @@ std::vector<Weighted> noted_sets(const LoopAnswer& answer) {
   if (!answer.second->decides && behind > competitors(note.candidates).front().allowed) return {};
   std::vector<Weighted> noted = ambiguity_set(note.candidates);
   std::erase_if(noted, [&](const Weighted& w) {
-    return std::any_of(answer.ambiguity_set.begin(), answer.ambiguity_set.end(),
-                       [&](const Weighted& decided) { return decided.ids == w.ids; });
+    return std::ranges::any_of(answer.ambiguity_set, [&](const Weighted& decided) { return decided.ids == w.ids; });
   });
   for (Weighted& w : noted) w.weight = 0.0;
   return noted;
@@ -98,7 +144,7 @@ LoopAnswer answer_of(const Campaign& campaign, Judgement judgement) {
     if (judgement.verdict == Verdict::unknown_effect) answer.stand_in = effects_of(found.best());
   }
   const std::vector<bool>& outlier = found.base.data().outlier;
-  answer.outliers = static_cast<int>(std::count(outlier.begin(), outlier.end(), true));
+  answer.outliers = static_cast<int>(std::ranges::count(outlier, true));
   answer.judgement = std::move(judgement);
   return answer;
 }

@@ -11,13 +11,14 @@
 //   loop_page.cpp
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "compare/loop/accepted_model.hpp"
 #include "compare/loop/learned_formula.hpp"
 #include "compare/loop/next_test.hpp"
 #include "compare/loop/validation.hpp"
@@ -25,6 +26,24 @@
 #include "scenario/case.hpp"
 
 namespace soilbin::compare {
+
+// What the best candidate puts into the answer: effects with their errors, the soil refitted with them.
+
+/// An effect that the loop accepts, in the form that fits best.
+struct AcceptedEffect {
+  EffectChoice choice;                          ///< with fitted parameters [SI]
+  std::vector<std::string> fitted;              ///< names of the parameters that were fitted
+  std::vector<std::pair<double, double>> ci95;  ///< of each fitted parameter, cut off at its bounds
+  std::vector<bool> at_bound;                   ///< of each: the fit ended at a bound, where its form ends
+  double p_value = 1.0;                         ///< family-wise, beside the other accepted effects
+  std::map<std::string, double> cosines;        ///< of its signature with each other effect's: what separates them
+};
+
+/// A soil value refitted with the accepted effects and without: the difference is the bias of leaving them out.
+struct SoilShift {
+  std::string name;
+  Estimate with, without;  ///< [SI]
+};
 
 struct LoopOptions {
   AttributionOptions attribution;
@@ -85,6 +104,8 @@ struct LoopAnswer {
   bool has_candidates() const { return judgement && !found().candidates.sets.empty(); }
   /// What the chosen candidate leaves, and what it gains over the base model; without one nothing.
   ChosenCandidate choice() const { return judgement && judgement->choice ? *judgement->choice : ChosenCandidate{}; }
+  /// The effects of the model that is saved: those accepted, or those that stand in.
+  const std::vector<AcceptedEffect>& taken() const { return effects.empty() ? stand_in : effects; }
   /// What is saved: the base model, or one with the accepted effects or those that stand in.
   const FittedModel& model() const {
     return learned ? learned->candidate.model : judgement->takes_best() ? found().best().model : found().base;

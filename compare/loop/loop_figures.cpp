@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "compare/loop/answer_words.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
@@ -22,13 +23,10 @@ constexpr int before_color = 1, after_color = 0, measured_color = 5;
 const Observations& seen(const LoopAnswer& answer) { return answer.found().base.data().observations; }
 
 /// The model with effects; null where the answer's model takes none.
-const FittedModel* model_after(const LoopAnswer& answer) {
-  return answer.effects.empty() && answer.stand_in.empty() ? nullptr : &answer.model();
-}
+const FittedModel* model_after(const LoopAnswer& answer) { return takes_effects(answer) ? &answer.model() : nullptr; }
 
 bool has_cells(const Observations& observations, int channel) {
-  return std::any_of(observations.cells.begin(), observations.cells.end(),
-                     [&](const Cell& c) { return c.channel == channel; });
+  return std::ranges::any_of(observations.cells, [&](const Cell& c) { return c.channel == channel; });
 }
 
 /// (measured - predicted)/sd of each cell.
@@ -67,7 +65,7 @@ Sheet over(const Observations& observations, const Covariate& x, std::string tit
       for (std::size_t i = 0; i < observations.cells.size(); ++i)
         if (observations.cells[i].channel == channel)
           points.emplace_back(view.per_si * x.values[observations.cells[i].row], values[i]);
-      std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      std::ranges::stable_sort(points, [](const auto& a, const auto& b) { return a.first < b.first; });
       Series& series = plot.series.emplace_back(Series{.label = label, .mark = Mark::points, .color = color});
       for (const auto& [at, value] : points) series.x.push_back(at), series.y.push_back(value);
     }
@@ -145,8 +143,8 @@ Series measured_on(const LoopAnswer& answer, const std::vector<int>& rows, int c
 Sheet curve_sheet_of(const LoopAnswer& answer, const std::vector<int>& rows) {
   const Observations& observations = seen(answer);
   const OperatingCondition middle = middle_of(observations, rows);
-  const auto [low, high] = std::minmax_element(
-      rows.begin(), rows.end(), [&](int a, int b) { return observations.rows[a].slip < observations.rows[b].slip; });
+  const auto [low, high] = std::ranges::minmax_element(
+      rows, [&](int a, int b) { return observations.rows[a].slip < observations.rows[b].slip; });
   const double from = observations.rows[*low].slip, to = observations.rows[*high].slip;
   const FittedModel* after = model_after(answer);
   const auto before_curves =
@@ -201,8 +199,8 @@ std::vector<std::pair<std::string, Sheet>> curves_of_the_fit(const LoopAnswer& a
         if (wanted.contains(observations.cells[i].row)) sum += std::pow(change[i], 2), ++cells;
       return cells > 0 ? sum / cells : 0.0;
     };
-    std::stable_sort(curves.begin(), curves.end(),
-                     [&](const auto& a, const auto& b) { return mean_square(a.second) > mean_square(b.second); });
+    std::ranges::stable_sort(
+        curves, [&](const auto& a, const auto& b) { return mean_square(a.second) > mean_square(b.second); });
   }
   std::vector<std::pair<std::string, Sheet>> sheets;
   for (const auto& [label, rows] : curves)
@@ -233,7 +231,7 @@ Sheet gap_sheet(const LoopAnswer& answer, const Covariate& x) {
         modelled.x.push_back(measured.x.back()),
             modelled.y.push_back(per_si * (after->fit().prediction[e] - before[e]));
     }
-    const auto [low, high] = std::minmax_element(measured.x.begin(), measured.x.end());
+    const auto [low, high] = std::ranges::minmax_element(measured.x);
     plot.series = {measured,
                    {.label = after ? "model before" : "model",
                     .x = {*low, *high},
@@ -275,8 +273,8 @@ std::vector<Covariate> variables_by_weight(const LoopAnswer& answer) {
   std::map<std::string, double> explained;
   for (const Dependence& d : dependences(observations, change, 0, 1))
     explained[d.variable] += d.share * size[d.channel];
-  std::stable_sort(variables.begin(), variables.end(),
-                   [&](const Covariate& a, const Covariate& b) { return explained[a.name] > explained[b.name]; });
+  std::ranges::stable_sort(
+      variables, [&](const Covariate& a, const Covariate& b) { return explained[a.name] > explained[b.name]; });
   return variables;
 }
 

@@ -3,51 +3,56 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "compare/loop/answer_words.hpp"
 #include "compare/loop/loop_figures.hpp"
+#include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/report/page.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-HtmlTable dependence_table(const LoopAnswer& answer) {
-  HtmlTable table{"Share of each channel's residual that a parabola in the variable explains, and its p by permutation",
-                  {"channel", "variable", "before [%]", "p", "after [%]", "p"},
-                  {true, true}};
+Table dependence_table(const LoopAnswer& answer) {
+  Table table{"Share of each channel's residual that a parabola in the variable explains, and its p by permutation",
+              {"channel", "variable", "before [%]", "p", "after [%]", "p"},
+              {true, true}};
   for (std::size_t i = 0; i < answer.dependences_before.size(); ++i) {
     const Dependence& b = answer.dependences_before[i];
-    std::vector<std::string> row = {std::string(channel_views[b.channel].title),
-                                    std::string(condition_view(b.variable).title),
-                                    number(100 * b.share),
-                                    number(b.p_value),
-                                    "-",
-                                    "-"};
+    std::vector<TableCell> row = {std::string(channel_views[b.channel].title),
+                                  std::string(condition_view(b.variable).title),
+                                  number(100 * b.share),
+                                  number(b.p_value),
+                                  "-",
+                                  "-"};
     if (i < answer.dependences_after.size()) {
       row[4] = number(100 * answer.dependences_after[i].share);
       row[5] = number(answer.dependences_after[i].p_value);
     }
-    table.rows.push_back(std::move(row));
+    table.add(std::move(row));
   }
   return table;
 }
 
-HtmlTable noise_table(const LoopAnswer& answer) {
-  const bool unsteady = std::any_of(answer.noise.channels.begin(), answer.noise.channels.end(),
-                                    [](const ChannelNoise& n) { return n.unsteady > 0.0; });
-  HtmlTable table{unsteady ? "Noise of one run that scattered by s in time, at a predicted value f: "
-                             "sqrt(a² + b² f² + q² s²)"
-                           : "Noise of one run at a predicted value f: sqrt(a² + b² f²)",
-                  {"channel", "a", "b [%]", "degrees of freedom", "sd within re-runs"}};
+Table noise_table(const LoopAnswer& answer) {
+  const bool unsteady =
+      std::ranges::any_of(answer.noise.channels, [](const ChannelNoise& n) { return n.unsteady > 0.0; });
+  Table table{unsteady
+                  ? "Noise of one run that scattered by s in time, at a predicted value f: sqrt(a² + b² f² + q² s²)"
+                  : "Noise of one run at a predicted value f: sqrt(a² + b² f²)",
+              {"channel", "a", "b [%]", "degrees of freedom", "sd within re-runs"}};
   if (unsteady) table.header.insert(table.header.end(), {"q", "s (median)"});
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const ChannelNoise& n = answer.noise.channels[c];
     if (!n.measured) continue;
     const ChannelView& view = channel_views[c];
-    table.rows.push_back({std::string(view.title), fmt::format("{} {}", number(n.floor * view.per_si), view.unit),
-                          number(100 * n.growth), number(n.freedom),
-                          n.rerun_sd > 0 ? fmt::format("{} {}", number(n.rerun_sd * view.per_si), view.unit) : "-"});
+    table.add({std::string(view.title), fmt::format("{} {}", number(n.floor * view.per_si), view.unit),
+               number(100 * n.growth), number(n.freedom),
+               n.rerun_sd > 0 ? fmt::format("{} {}", number(n.rerun_sd * view.per_si), view.unit) : "-"});
     if (unsteady)
       table.rows.back().insert(table.rows.back().end(),
                                {number(n.unsteady), fmt::format("{} {}", number(n.spread * view.per_si), view.unit)});
@@ -61,22 +66,20 @@ std::vector<const Signature*> strongest_signatures(const LoopAnswer& answer) {
   std::vector<const Signature*> order, strongest;
   for (const Signature& s : answer.found().signatures.all)
     if (s.projected_norm > 0) order.push_back(&s);
-  std::stable_sort(order.begin(), order.end(), [](auto a, auto b) { return a->strength() > b->strength(); });
+  std::ranges::stable_sort(order, [](auto a, auto b) { return a->strength() > b->strength(); });
   std::set<const bekker_wong::EffectForm*> shown;
   for (const Signature* s : order)
     if (strongest.size() < most && shown.insert(s->term.form).second) strongest.push_back(s);
   return strongest;
 }
 
-HtmlTable signature_table(const std::vector<const Signature*>& signatures) {
-  HtmlTable table{
-      "The strongest signatures against the base model; kept: the share that the soil's values cannot absorb",
-      {"effect", "form", "score [sd]", "amplitude [SI]", "kept [%]", "detectable from [SI]"},
-      {true, true}};
+Table signature_table(const std::vector<const Signature*>& signatures) {
+  Table table{"The strongest signatures against the base model; kept: the share that the soil's values cannot absorb",
+              {"effect", "form", "score [sd]", "amplitude [SI]", "kept [%]", "detectable from [SI]"},
+              {true, true}};
   for (const Signature* s : signatures)
-    table.rows.push_back({s->term.form->id, s->term.form->form, number(s->score),
-                          number(Estimate{s->amplitude, s->std_error}), number(100 * s->share_kept),
-                          number(s->detectable)});
+    table.add({s->term.form->id, s->term.form->form, number(s->score), number(Estimate{s->amplitude, s->std_error}),
+               number(100 * s->share_kept), number(s->detectable)});
   return table;
 }
 
@@ -88,17 +91,17 @@ void add_presumptions(Page& page, const std::vector<const Signature*>& signature
 }
 
 /// The effects whose signatures look most like an accepted one's.
-HtmlTable likeness_table(const LoopAnswer& answer) {
-  HtmlTable table{"What looks most like the accepted effects: cosine of the traces off what the soil's values absorb",
-                  {"effect", "p-value", "most alike", "cosine"},
-                  {true, false, true, false}};
+Table likeness_table(const LoopAnswer& answer) {
+  Table table{"What looks most like the accepted effects: cosine of the traces off what the soil's values absorb",
+              {"effect", "p-value", "most alike", "cosine"},
+              {true, false, true, false}};
   constexpr std::size_t most = 3;
   for (const AcceptedEffect& effect : answer.effects) {
     std::vector<std::pair<double, std::string>> order;
     for (const auto& [id, cosine] : effect.cosines) order.emplace_back(-cosine, id);
-    std::sort(order.begin(), order.end());
+    std::ranges::sort(order);
     for (std::size_t i = 0; i < std::min(most, order.size()); ++i)
-      table.rows.push_back({effect.choice.id, number(effect.p_value), order[i].second, number(-order[i].first)});
+      table.add({effect.choice.id, number(effect.p_value), order[i].second, number(-order[i].first)});
   }
   return table;
 }
@@ -107,8 +110,7 @@ std::string caption_of_models(const LoopAnswer& answer) {
   const std::string noise = "Bars: one standard deviation of a run's noise. ";
   if (!takes_effects(answer)) return noise + "The model's soil values are refitted to these runs.";
   return noise + fmt::format("Before: the soil refitted to these runs, no effect added. After: with {}{}.",
-                             named_effects(ids_of(answer.effects.empty() ? answer.stand_in : answer.effects)),
-                             answer.effects.empty() ? " as a stand-in" : "");
+                             named_effects(ids_of(answer.taken())), answer.effects.empty() ? " as a stand-in" : "");
 }
 
 /// The figure that answers: curves where the runs lie on curves, else what the base model misses.
@@ -117,11 +119,10 @@ void add_main_figure(Page& page, const LoopAnswer& answer, const std::vector<Cov
   const auto curves = curves_of_the_fit(answer);
   if (curves.empty()) {
     if (variables.empty()) return;
-    page.figure(
-        gap_sheet(answer, variables.front()),
-        "Each run's measured value and the model after, both less the model before: where the two lie together, "
-        "the effects explain what was missing. " +
-            caption_of_models(answer));
+    page.figure(gap_sheet(answer, variables.front()),
+                "Each run's measured value and the model after, both less the model before: where the two lie "
+                "together, the effects explain what was missing. " +
+                    caption_of_models(answer));
     return;
   }
   std::vector<Choice> parts;
@@ -144,16 +145,16 @@ void add_main_figure(Page& page, const LoopAnswer& answer, const std::vector<Cov
 void add_tables(Page& page, const LoopAnswer& answer) {
   if (answer.validation.overall.cells > 0) {
     page.section("Error before and after", "error");
-    page.raw(marked_html(error_table(answer)));
+    page.table(error_table(answer));
   }
   if (takes_effects(answer)) {
     page.section(answer.effects.empty() ? "The stand-in of the saved model" : "The effects and their size", "effects");
-    page.raw(marked_html(parameters_table(answer)));
+    page.table(parameters_table(answer));
     if (!answer.soil_shifts.empty()) page.table(soil_table(answer));
   }
   if (answer.has_candidates()) {
     page.section("Candidates", "candidates");
-    page.raw(marked_html(candidates_table(answer)));
+    page.table(candidates_table(answer));
   }
 }
 
@@ -198,12 +199,13 @@ void add_appendix(Page& page, const LoopAnswer& answer, const std::vector<Covari
 
 std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const std::vector<std::string>& doubts,
                       const std::string& command) {
-  Page page(campaign.name + ": what the model lacks",
-            fmt::format("The analytic wheel against {} measured runs: what is missing, how sure that is, and what to "
-                        "measure next",
-                        campaign.runs.size()));
+  Page page(
+      campaign.name + ": what the model lacks",
+      fmt::format(
+          "The analytic wheel against {} measured runs: what is missing, how sure that is, and what to measure next",
+          campaign.runs.size()));
   page.summary(headline(answer));
-  if (const MarkedTable next = next_run_table(answer); !next.rows.empty()) page.raw(marked_html(next));
+  if (const Table next = next_run_table(answer); !next.rows.empty()) page.table(next);
   const bool judged = answer.judgement && (answer.verdict != Verdict::not_enough_data || answer.has_candidates());
   const std::vector<Covariate> variables = judged ? variables_by_weight(answer) : std::vector<Covariate>();
   if (judged) {

@@ -28,8 +28,7 @@ double NoiseFloor::freedom() const {
 }
 
 double NoiseFloor::typical_freedom() const {
-  const auto measured =
-      std::count_if(channels.begin(), channels.end(), [](const ChannelNoise& c) { return c.measured; });
+  const auto measured = std::ranges::count_if(channels, [](const ChannelNoise& c) { return c.measured; });
   return measured > 0 ? freedom() / static_cast<double>(measured) : 1.0;
 }
 

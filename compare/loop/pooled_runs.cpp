@@ -112,7 +112,7 @@ std::vector<std::vector<int>> near_rows(const Observations& observations, int mo
   }
   std::vector<std::vector<int>> groups;
   for (; !open.empty(); open.pop()) groups.push_back(open.top().rows);
-  std::sort(groups.begin(), groups.end());
+  std::ranges::sort(groups);
   return groups;
 }
 

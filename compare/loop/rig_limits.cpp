@@ -79,7 +79,7 @@ double rig_setting(const ConditionView& view, double value, const Observations& 
   for (const OperatingCondition& at : observations.rows)
     if (const double x = view.get(at); std::isfinite(x)) made.push_back(x);
   if (made.empty() || view.whole) return value;
-  std::sort(made.begin(), made.end());
+  std::ranges::sort(made);
   double scatter = rerun_scatter(view, observations), spread = run_share * (made.back() - made.front());
   if (scatter <= set_exactly * std::max(std::abs(made.front()), std::abs(made.back()))) scatter = 0.0;
   if (made.front() > 0.0) {
@@ -87,8 +87,8 @@ double rig_setting(const ConditionView& view, double value, const Observations& 
     spread = std::min(spread, value_share * std::abs(value));
   }
   std::pair<double, double> near = {value, value};
-  const auto nearest = std::min_element(made.begin(), made.end(),
-                                        [&](double a, double b) { return std::abs(a - value) < std::abs(b - value); });
+  const auto nearest =
+      std::ranges::min_element(made, [&](double a, double b) { return std::abs(a - value) < std::abs(b - value); });
   const bool as_made = std::abs(*nearest - value) <= std::max(2 * scatter, set_exactly * std::abs(value));
   if (as_made) {
     auto low = nearest, high = nearest;

@@ -16,8 +16,8 @@ namespace {
 /// hears of it; else all have the median speed.
 std::vector<OperatingCondition> asked_of(const Campaign& campaign, const std::vector<EffectChoice>& effects) {
   const auto heard = [&](const char* key) {
-    return std::any_of(effects.begin(), effects.end(),
-                       [&](const EffectChoice& effect) { return hears_of(bekker_wong::find_form(effect), key); });
+    return std::ranges::any_of(
+        effects, [&](const EffectChoice& effect) { return hears_of(bekker_wong::find_form(effect), key); });
   };
   std::vector<double> speeds;
   for (const Run& run : campaign.runs) speeds.push_back(run.at.speed);
@@ -48,8 +48,7 @@ Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
   model.study.name = model.name;
   ModelChoice choice;
   choice.effects = campaign.effects;
-  for (const AcceptedEffect& effect : answer.effects) choice.effects.push_back(effect.choice);
-  for (const AcceptedEffect& effect : answer.stand_in) choice.effects.push_back(effect.choice);
+  for (const AcceptedEffect& effect : answer.taken()) choice.effects.push_back(effect.choice);
   model.description = "Made by soilbin loop: " + verdict_sentence(answer);
   for (const auto& [about, text] : headline(answer))
     if (about == stands_in) model.description += " " + text;

@@ -69,8 +69,8 @@ Signature signature_of(const Base& base, const Term& term, double amplitude, con
 bool named_already(const FittedModel& model, const std::string& id) {
   const auto& terms = model.terms();
   const auto& declared = model.data().campaign->effects;
-  return std::any_of(terms.begin(), terms.end(), [&](const Term& t) { return t.form->id == id; }) ||
-         std::any_of(declared.begin(), declared.end(), [&](const EffectChoice& c) { return c.id == id; });
+  return std::ranges::any_of(terms, [&](const Term& t) { return t.form->id == id; }) ||
+         std::ranges::any_of(declared, [&](const EffectChoice& c) { return c.id == id; });
 }
 
 /// A form as its reference values may lie: at the observations' mean, and by a standard deviation to either side.

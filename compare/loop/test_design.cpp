@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/design/drawn_order.hpp"
+#include "compare/design/factor.hpp"
 #include "compare/loop/thresholds.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
@@ -85,7 +85,7 @@ class Rig {
     if (all.size() > thresholds::most_choices) {
       std::vector<std::size_t> order = drawn_order(all.size(), seed);
       order.resize(thresholds::most_choices);
-      std::sort(order.begin(), order.end());
+      std::ranges::sort(order);
       Conditions drawn;
       for (const std::size_t i : order) drawn.push_back(all[i]);
       all = std::move(drawn);
@@ -111,7 +111,7 @@ class Rig {
       std::erase_if(firm, [&](const OperatingCondition& at) { return !carried(at); });
       if (firm.empty()) firm = {otherwise};
       for (const OperatingCondition& at : one)
-        rows.push_back(*std::min_element(firm.begin(), firm.end(), [&](const auto& a, const auto& b) {
+        rows.push_back(*std::ranges::min_element(firm, [&](const auto& a, const auto& b) {
           return std::abs(view.get(a) - view.get(at)) < std::abs(view.get(b) - view.get(at));
         }));
     }
@@ -193,10 +193,10 @@ class Exchange {
     const int parts = std::max(1, options_.threads);
     ThreadPool{options_.threads}.each(parts, [&](int part, const Pulse&) {
       for (std::size_t c = part; c < choices_; c += parts)
-        if (static_cast<std::size_t>(std::count(others.begin(), others.end(), c)) < most_often_)
+        if (static_cast<std::size_t>(std::ranges::count(others, c)) < most_often_)
           worths[c] = share_named_right(shapes_, known + shapes_.information_of(c));
     });
-    const auto best = std::max_element(worths.begin(), worths.end());
+    const auto best = std::ranges::max_element(worths);
     return {static_cast<std::size_t>(best - worths.begin()), *best};
   }
 
@@ -222,13 +222,11 @@ Observations made_runs(const Campaign& campaign, const Rig* rig = nullptr) {
 }
 
 ExpectedNoise noise_of(const Campaign& campaign, const Conditions& conditions, const ExpectedNoise& given) {
-  if (std::any_of(given.begin(), given.end(), [](const auto& sd) { return sd.has_value(); })) return given;
+  if (std::ranges::any_of(given, [](const auto& sd) { return sd.has_value(); })) return given;
   ExpectedNoise noise = usual_noise(campaign, conditions);
   for (int c = 0; c < channel_count; ++c) {  // what the runs did not measure, further ones won't
     const auto holds = [&](const Run& run) { return (run.*channel_views[c].measured).has_value(); };
-    if (std::any_of(campaign.runs.begin(), campaign.runs.end(), has_channel) &&
-        std::none_of(campaign.runs.begin(), campaign.runs.end(), holds))
-      noise[c].reset();
+    if (std::ranges::any_of(campaign.runs, has_channel) && std::ranges::none_of(campaign.runs, holds)) noise[c].reset();
   }
   return noise;
 }
@@ -236,7 +234,7 @@ ExpectedNoise noise_of(const Campaign& campaign, const Conditions& conditions, c
 void refuse_unknown(const Campaign& campaign, const std::vector<std::string>& wanted) {
   const std::vector<std::string> known = bekker_wong::effect_ids();
   for (const std::string& id : wanted) {
-    if (std::find(known.begin(), known.end(), id) == known.end())
+    if (std::ranges::find(known, id) == known.end())
       throw InputError(fmt::format("--effect: unknown effect '{}'{}\n  hint: see soilbin list effects", id,
                                    did_you_mean(id, known)));
     for (const EffectChoice& declared : campaign.effects)
@@ -253,7 +251,7 @@ std::vector<Run> in_drawn_order(const Campaign& campaign, Conditions conditions,
     if (label.starts_with("D") && label.find_first_not_of("0123456789", 1) == label.npos && label.size() < 9)
       plans = std::max(plans, label.size() > 1 ? std::stoi(label.substr(1)) : 0);
   }
-  std::sort(conditions.begin(), conditions.end());
+  std::ranges::sort(conditions);
   const Conditions sorted = [&] {
     Conditions once = conditions;
     once.erase(std::unique(once.begin(), once.end()), once.end());
@@ -298,8 +296,8 @@ TestDesign design_test(const Campaign& campaign, const DesignOptions& options) {
                                                                                    }});
   if (shapes.ids.empty() || (!options.effects.empty() && !shapes.not_shown.empty()))
     throw InputError(
-        fmt::format("no test within these limits shows {}\n  hint: an effect shows where what it depends "
-                    "on varies: --limit; soilbin list effects says what that is",
+        fmt::format("no test within these limits shows {}\n  hint: an effect shows where what it depends on varies: "
+                    "--limit; soilbin list effects says what that is",
                     listed(shapes.not_shown)));
   design.effects = shapes.ids, design.not_shown = shapes.not_shown;
 

@@ -8,7 +8,7 @@
 
 #include "compare/loop/effect_shapes.hpp"
 #include "compare/loop/rig_limits.hpp"
-#include "compare/report/marked_table.hpp"
+#include "compare/report/table.hpp"
 #include "compare/sweep/answers.hpp"
 
 namespace soilbin::compare {
@@ -55,8 +55,8 @@ TestDesign design_test(const Campaign& campaign, const DesignOptions& options);
 /// For people: what the plan is expected to tell, in two or three sentences.
 std::vector<std::string> in_sentences(const TestDesign& design);
 /// The runs; each effect with what it is most easily taken for, by the plan and by the sweep.
-MarkedTable runs_table(const TestDesign& design);
-MarkedTable pairs_table(const TestDesign& design);
+Table runs_table(const TestDesign& design);
+Table pairs_table(const TestDesign& design);
 
 /// The rows as a campaign's CSV, the channels to measure empty.
 std::string rows_to_fill_in(const TestDesign& design);

@@ -60,8 +60,8 @@ std::vector<std::string> in_sentences(const TestDesign& design) {
                            channel_views[c].unit);
   noise.back() = '.';
   sentences.push_back(noise +
-                      " Of two names 2 standard deviations apart the right one fits better in 84 %, 3 apart in 93 "
-                      "%; an effect twice as large is twice as far from every other.");
+                      " Of two names 2 standard deviations apart the right one fits better in 84 %, 3 apart in 93 %; "
+                      "an effect twice as large is twice as far from every other.");
   if (!design.not_shown.empty()) {
     std::vector<std::string> names;
     for (const std::string& id : design.not_shown) names.push_back(effect_name(id));
@@ -70,7 +70,7 @@ std::vector<std::string> in_sentences(const TestDesign& design) {
   return sentences;
 }
 
-MarkedTable runs_table(const TestDesign& design) {
+Table runs_table(const TestDesign& design) {
   MarkedTable table{"The runs, in the order in which to make them; runs of one setpoint are its re-runs",
                     {"run", "setpoint"},
                     {false, true}};
@@ -79,27 +79,25 @@ MarkedTable runs_table(const TestDesign& design) {
     table.text_columns.push_back(false);
   }
   for (const Run& run : design.runs) {
-    std::vector<MarkedCell> row = {{.text = std::to_string(*run.at.run)}, {.text = *run.setpoint}};
+    std::vector<TableCell> row = {std::to_string(*run.at.run), *run.setpoint};
     for (const std::string& name : design.varied) {
       const ConditionView& view = condition_view(name);
-      row.push_back({.text = fmt::format("{:.6g}", view.get(run.at) * view.per_si)});
+      row.push_back(fmt::format("{:.6g}", view.get(run.at) * view.per_si));
     }
-    table.rows.push_back(std::move(row));
+    table.add(std::move(row));
   }
   return table;
 }
 
-MarkedTable pairs_table(const TestDesign& design) {
+Table pairs_table(const TestDesign& design) {
   MarkedTable table{"What each effect is most easily taken for, and how many standard deviations the two are apart",
                     {"effect", "by these runs", "apart", "by a sweep", "apart"},
                     {true, true, false, true, false}};
   for (std::size_t e = 0; e < design.effects.size(); ++e) {
     const CandidatePair &planned = hardest(design.planned, e), &swept = hardest(design.swept, e);
-    table.rows.push_back({{.text = effect_name(design.effects[e])},
-                          {.text = name_of_other(design, planned)},
-                          {.text = fmt::format("{:.1f}", planned.separation)},
-                          {.text = name_of_other(design, swept)},
-                          {.text = fmt::format("{:.1f}", swept.separation)}});
+    table.add({effect_name(design.effects[e]), name_of_other(design, planned),
+               fmt::format("{:.1f}", planned.separation), name_of_other(design, swept),
+               fmt::format("{:.1f}", swept.separation)});
   }
   return table;
 }

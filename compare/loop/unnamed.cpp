@@ -170,7 +170,7 @@ UnnamedEvidence unnamed_evidence(const LinearProblem& problem, const std::vector
     }
     of_kinds.push_back(log_mean_exp(gains));
   }
-  const auto likest = std::max_element(of_kinds.begin(), of_kinds.end()) - of_kinds.begin();
+  const auto likest = std::ranges::max_element(of_kinds) - of_kinds.begin();
   return {log_mean_exp(of_kinds), kinds[static_cast<std::size_t>(likest)].name};
 }
 

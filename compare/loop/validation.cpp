@@ -5,10 +5,10 @@
 #include <map>
 #include <tuple>
 
+#include "compare/loop/condition_functions.hpp"
 #include "compare/loop/learned_effect.hpp"
 #include "compare/loop/model_discrepancy.hpp"
 #include "compare/loop/predictive_gain.hpp"
-#include "compare/loop/smooth_term.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 

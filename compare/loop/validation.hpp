@@ -16,7 +16,7 @@ struct HeldOut {
   int row = 0;  ///< of the observations given
   int channel = 0;
   double measured = 0.0, before = 0.0, after = 0.0;
-  double smooth = 0.0;  ///< base model plus a smooth term without a name (smooth_term.hpp)
+  double smooth = 0.0;  ///< base model plus a smooth term without a name (condition_functions.hpp)
   double named = 0.0;   ///< the chosen model without a learned effect
   double sd = 0.0;      ///< noise of this cell
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "compare/loop/answer_words.hpp"
+#include "compare/loop/thresholds.hpp"
 
 namespace soilbin::compare {
 
@@ -82,8 +83,8 @@ std::optional<std::string> more_than_named(const Attribution& found, const Resid
   if (choice.after.reruns.p_value < thresholds::rerun_level &&
       choice.after.reruns.excess > thresholds::rerun_share * before.reruns.excess)
     return fmt::format(
-        "and after the best set of named effects the setpoints are still off by more than their re-runs differ "
-        "(p = {:.2g})",
+        "and after the best set of named effects the setpoints are still off by more than their re-runs differ (p = "
+        "{:.2g})",
         choice.after.reruns.p_value);
   return std::nullopt;
 }
@@ -94,7 +95,7 @@ std::optional<std::string> not_judgeable(const Attribution& found) {
   if (freedom < thresholds::least_noise_freedom)
     return fmt::format("the noise of a channel rests on {:.1f} degrees of freedom only, too few to judge by", freedom);
   const std::vector<Signature>& all = found.signatures.all;
-  if (std::none_of(all.begin(), all.end(), [](const Signature& s) { return s.testable; }))
+  if (std::ranges::none_of(all, [](const Signature& s) { return s.testable; }))
     return "no effect of the catalogue would show in these data, whatever its size";
   return std::nullopt;
 }
@@ -108,11 +109,10 @@ Conclusion conclude(const Attribution& found, const ResidualTests& before,
   if (const auto more = more_than_named(found, before, *choice))
     return {Verdict::unknown_effect, fmt::format("the residual is real ({}), {}", odds_and_p(p), *more)};
   if (!choice->stands)
-    return without_effect(
-        found, before,
-        fmt::format("the best effect fits (p = {:.2g}) but does not predict held-out conditions better "
-                    "(gain in ln density a condition {:.2g} +- {:.2g})",
-                    p, choice->gain.mean, choice->gain.std_error));
+    return without_effect(found, before,
+                          fmt::format("the best effect fits (p = {:.2g}) but does not predict held-out conditions "
+                                      "better (gain in ln density a condition {:.2g} +- {:.2g})",
+                                      p, choice->gain.mean, choice->gain.std_error));
   return {Verdict::effect_found, fmt::format("p = {:.2g} among the whole catalogue", p)};
 }
 

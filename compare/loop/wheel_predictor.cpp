@@ -67,8 +67,7 @@ constexpr double most_shortfall = 1.6;     // ln 5
 constexpr double least_shortfall = 1e-12;  // tells a row that gives way by less than the quadrature's error
 
 bool all_finite(const bekker_wong::Reading& r) {
-  return std::all_of(bekker_wong::reading_members.begin(), bekker_wong::reading_members.end(),
-                     [&](auto member) { return std::isfinite(r.*member); });
+  return std::ranges::all_of(bekker_wong::reading_members, [&](auto member) { return std::isfinite(r.*member); });
 }
 
 }  // namespace
@@ -284,7 +283,7 @@ WheelPredictor::Moved WheelPredictor::moved_from(const Eigen::VectorXd& theta) c
     const auto crosses = [&](const Wall& w) {
       return w.normal[p] * step > 0.0 && w.normal.dot(theta) + w.normal[p] * step > w.limit;
     };
-    if (std::any_of(walls.begin(), walls.end(), crosses)) step = -step;
+    if (std::ranges::any_of(walls, crosses)) step = -step;
     Eigen::VectorXd at = theta;
     at[p] += step;
     moved.steps.push_back(at[p] - theta[p]);
@@ -334,8 +333,8 @@ std::optional<PredictionSlopes> WheelPredictor::linearise(const Eigen::VectorXd&
     for (std::size_t t = 0; t < terms_.size(); ++t) {
       const Eigen::Index begin = first_of_term_[t], size = std::ssize(terms_[t].free);
       const std::vector<double> products = terms_[t].weighs ? terms_[t].weighs(at) : std::vector<double>();
-      const auto largest = std::max_element(products.begin(), products.end(),
-                                            [](double a, double b) { return std::abs(a) < std::abs(b); });
+      const auto largest =
+          std::ranges::max_element(products, [](double a, double b) { return std::abs(a) < std::abs(b); });
       if (largest == products.end() || *largest == 0.0) {
         for (Eigen::Index p = begin; p < begin + size; ++p) difference(p);
         continue;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "compare/design/drawn_order.hpp"
+#include "compare/design/factor.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/measured/run_columns.hpp"
 #include "compare/sweep/varying.hpp"
@@ -28,7 +28,7 @@ void hide_conditions(const std::set<std::string>& hide, Run& run) {
 
 /// The setpoint's number, from 1: that of the first row whose conditions agree.
 std::size_t setpoint_of(const OperatingCondition& at, std::vector<OperatingCondition>& known) {
-  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return alike(k, at); });
+  const auto found = std::ranges::find_if(known, [&](const auto& k) { return alike(k, at); });
   if (found != known.end()) return static_cast<std::size_t>(found - known.begin()) + 1;
   known.push_back(at);
   return known.size();
@@ -39,7 +39,7 @@ bool has_side(const RecordedRun& run) { return run.answer.at.yaw != 0 || run.ans
 void check_words(const std::set<std::string>& hide) {
   const std::vector<std::string> right = things_to_hide();
   for (const std::string& word : hide)
-    if (std::find(right.begin(), right.end(), word) == right.end())
+    if (std::ranges::find(right, word) == right.end())
       throw InputError(fmt::format("nothing to hide is called '{}'{}\n  hint: what can be hidden is {}", clipped(word),
                                    did_you_mean(word, right), listed(right)));
 }
@@ -73,12 +73,12 @@ CampaignOfRecords tell_campaign(const Scenario& scenario, const std::vector<Reco
   check_words(disclosed.hide);
   if (!scenario.soil.semi_empirical)
     throw InputError(
-        fmt::format("soil '{}' has no semi-empirical values, which a campaign declares\n  hint: soilbin "
-                    "bevameter gives them from the grains; --soil takes the file",
+        fmt::format("soil '{}' has no semi-empirical values, which a campaign declares\n  hint: soilbin bevameter "
+                    "gives them from the grains; --soil takes the file",
                     scenario.soil.name));
   CampaignOfRecords made;
   if (!runs.empty()) made.campaign = empty_campaign(scenario, disclosed, runs.front().answer.at);
-  const bool sideways = std::any_of(runs.begin(), runs.end(), has_side);
+  const bool sideways = std::ranges::any_of(runs, has_side);
   std::vector<OperatingCondition> setpoints;
   for (const std::size_t index : drawn_order(runs.size(), disclosed.seed)) {
     const RecordedRun& run = runs[index];

@@ -28,9 +28,8 @@ std::string made_by(const FoundRun& found) {
 }
 
 void add(std::vector<FoundRun>& all, FoundRun fresh, bool half_step) {
-  const auto known = std::find_if(all.begin(), all.end(), [&](const FoundRun& one) {
-    return answers(one.run, fresh.run.answer.at, fresh.run.packing);
-  });
+  const auto known = std::ranges::find_if(
+      all, [&](const FoundRun& one) { return answers(one.run, fresh.run.answer.at, fresh.run.packing); });
   if (known == all.end()) return all.push_back(std::move(fresh));
   if (answer_text(known->run) != answer_text(fresh.run))
     throw InputError(fmt::format(
@@ -59,8 +58,7 @@ void refuse_another_question(const NamedRecord& first, const NamedRecord& other)
   if (other.record.question != first.record.question)
     throw InputError(
         fmt::format("{} and {} were begun with different cases\n  hint: all shards take the same study; 'soilbin "
-                    "record show' tells "
-                    "which a record was begun with",
+                    "record show' tells which a record was begun with",
                     first.file.string(), other.file.string()));
 }
 

@@ -8,9 +8,7 @@
 #include <optional>
 #include <tuple>
 
-#include "compare/recorded/record_fields.hpp"
 #include "compare/report/json_fields.hpp"
-#include "compare/report/json_file.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
@@ -20,6 +18,85 @@
 
 namespace soilbin::compare {
 namespace {
+
+// A record's members as JSON keys, for the visitors of json_fields.hpp.
+
+template <class Visitor, class Losses>
+void loss_fields(Visitor& v, Losses& losses) {
+  v.number("damping", losses.damping, "W", "in normal dashpots");
+  v.number("shear_damping", losses.shear_damping, "W", "in tangential dashpots");
+  v.number("sliding", losses.sliding, "W", "in sliders");
+  v.number("into_slide", losses.into_slide, "W", "taken by tangential springs, dashpots and sliders together");
+  v.number("into_roll", losses.into_roll, "W", "taken by rolling resistance");
+}
+
+template <class Visitor, class Power>
+void power_fields(Visitor& v, Power& power) {
+  v.number("drive", power.drive, "W", "M w");
+  v.number("pull", power.pull, "W", "F_DP v");
+  v.number("climb", power.climb, "W", "lifts the load up the slope");
+  v.number("heave", power.heave, "W", "lifts the load out of the soil; negative while the wheel sinks");
+  v.number("into_soil", power.into_soil, "W", "given to the grains");
+  v.number("rest", power.rest, "W", "drive less all these");
+  v.group("losses", "where grains lost it; all 0 where nobody counted",
+          [&](auto& inner) { loss_fields(inner, power.losses); });
+}
+
+template <class Visitor, class Density>
+void bed_fields(Visitor& v, Density& bed) {
+  v.number("void_ratio", bed.void_ratio, "-", "volume of voids over volume of grains");
+  v.number("bulk_density", bed.bulk, "kg/m^3", "mass of grains over the volume with voids");
+  v.number("coordination", bed.coordination, "-", "contacts a grain");
+}
+
+template <class Visitor, class Profile>
+void rut_fields(Visitor& v, Profile& rut) {
+  v.number("from", rut.from, "m", "begin of the stretch behind the wheel, x in the bin");
+  v.number("to", rut.to, "m", "its end");
+  v.number("axle", rut.axle, "m", "where the axle stood at the end, x in the bin");
+  v.numbers("y", rut.y, "m", "from the middle of the track to the left");
+  v.numbers("across", rut.across, "m", "change of height at each y, mean over the stretch");
+  v.numbers("x", rut.x, "m", "along the bin");
+  v.numbers("along", rut.along, "m", "change of height at each x, mean over the tire's width");
+  v.number("volume", rut.volume, "m^3", "of the change over the whole bin: heaped - dug");
+  v.number("heaped", rut.heaped, "m^3", "above the old surface");
+  v.number("dug", rut.dug, "m^3", "below the old surface");
+}
+
+template <class Visitor, class Flow>
+void flow_fields(Visitor& v, Flow& flow) {
+  v.number("cell", flow.cell, "m", "side of a cell");
+  v.whole("nx", flow.nx, "cells along x, which varies fastest");
+  v.whole("nz", flow.nz, "cells along z");
+  v.number("x", flow.x, "m", "lower corner of the first cell, from the axle");
+  v.number("z", flow.z, "m", "lower corner of the first cell, from the axle");
+  v.numbers("vx", flow.vx, "m/s", "mean velocity against the bin, forward; null where no grain came");
+  v.numbers("vz", flow.vz, "m/s", "upward");
+  v.numbers("solid", flow.solid, "-", "mean volume of grains with their centres in a cell, over the cell's");
+}
+
+/// What every run has, with a result or without.
+template <class Visitor, class Run>
+void run_fields(Visitor& v, Run& run) {
+  v.whole("packing", run.packing, "seed of the bed");
+  v.text("source", run.source, "state of the sources that the program was built from");
+  v.number("seconds", run.seconds, "s", "that it took on the clock on the wall");
+}
+
+/// What a run with a result has beside the result itself.
+template <class Visitor, class Run>
+void outcome_fields(Visitor& v, Run& run) {
+  stress_fields(v, *run.answer.result);
+  v.flag("steady", run.steady, "whether the run became steady");
+  v.number("drift", run.drift, "-",
+           "largest difference of halves over its standard error, of pull, torque and sinkage");
+  v.group("power", "powers, means over the steady part", [&](auto& inner) { power_fields(inner, run.power); });
+  v.added_group("bed", "how dense the bed was before the wheel, in its core",
+                [&](auto& inner) { bed_fields(inner, run.bed); });
+  v.group("rut", "change of the surface seen from above", [&](auto& inner) { rut_fields(inner, run.rut); });
+  v.group("flow", "mean velocity of the soil round the wheel, in its middle plane",
+          [&](auto& inner) { flow_fields(inner, run.flow); });
+}
 
 constexpr const char* how_to_mend = "take that run out of the file, and the command that made it runs it again";
 
@@ -105,15 +182,13 @@ Seal check_head(const Json& document, const Record& record, const std::string& f
   const std::string begin_anew = "take a copy of the file, or begin another one";
   const Seal seal = check_seal(head, file + ": the inputs or the case", begin_anew);
   if (document.contains("inputs_key") && document["inputs_key"] != inputs_key(record.inputs))
-    throw InputError(
-        fmt::format("{}: the inputs don't fit their key: they were changed after they were written"
-                    "\n  hint: {}",
-                    file, begin_anew));
+    throw InputError(fmt::format(
+        "{}: the inputs don't fit their key: they were changed after they were written\n  hint: {}", file, begin_anew));
   return seal;
 }
 
 const std::string* value_of(const Inputs& inputs, const std::string& name) {
-  const auto found = std::find_if(inputs.begin(), inputs.end(), [&](const auto& input) { return input.first == name; });
+  const auto found = std::ranges::find_if(inputs, [&](const auto& input) { return input.first == name; });
   return found == inputs.end() ? nullptr : &found->second;
 }
 
@@ -122,8 +197,7 @@ Json seal_schema(const std::string& of) {
 }
 
 bool looked_at(const std::string& name, const std::vector<std::string>& only) {
-  return only.empty() ||
-         std::any_of(only.begin(), only.end(), [&](const std::string& begin) { return name.starts_with(begin); });
+  return only.empty() || std::ranges::any_of(only, [&](const std::string& begin) { return name.starts_with(begin); });
 }
 
 /// Void ratios of the beds that tell it, from the densest to the loosest.
@@ -209,7 +283,7 @@ void put_in_order(Record& record) {
 }
 
 std::string unsealed_note(const Record& record, const std::filesystem::path& file) {
-  const auto bare = std::count_if(record.runs.begin(), record.runs.end(), [](const auto& run) { return !run.sealed; });
+  const auto bare = std::ranges::count_if(record.runs, [](const auto& run) { return !run.sealed; });
   if (bare == 0) return "";
   return fmt::format("{}: {} of its {} runs carry no seal, as from before there were any: damage to them can't be told",
                      file.string(), bare, record.runs.size());
@@ -272,8 +346,7 @@ bool answers(const RecordedRun& run, const OperatingCondition& at, std::uint64_t
 }
 
 const RecordedRun* find_run(const std::vector<RecordedRun>& runs, const OperatingCondition& at, std::uint64_t packing) {
-  const auto found =
-      std::find_if(runs.begin(), runs.end(), [&](const RecordedRun& run) { return answers(run, at, packing); });
+  const auto found = std::ranges::find_if(runs, [&](const RecordedRun& run) { return answers(run, at, packing); });
   return found == runs.end() ? nullptr : &*found;
 }
 

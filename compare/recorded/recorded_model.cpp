@@ -55,7 +55,7 @@ std::vector<Contribution> mean_budget(const Runs& runs) {
   for (const RecordedRun* run : runs)
     for (const Contribution& part : run->answer.result->budget) {
       const auto same = [&](const Contribution& known) { return known.name == part.name; };
-      auto found = std::find_if(budget.begin(), budget.end(), same);
+      auto found = std::ranges::find_if(budget, same);
       if (found == budget.end()) found = budget.insert(budget.end(), {part.name, 0.0});
       found->force += part.force / static_cast<double>(runs.size());
     }
@@ -77,7 +77,7 @@ std::vector<Runs> by_condition(const Record& record) {
   for (const RecordedRun& run : record.runs) {
     if (!run.answer.result) continue;
     const auto same = [&](const Runs& group) { return alike(group.front()->answer.at, run.answer.at); };
-    const auto group = std::find_if(groups.begin(), groups.end(), same);
+    const auto group = std::ranges::find_if(groups, same);
     if (group == groups.end())
       groups.push_back({&run});
     else

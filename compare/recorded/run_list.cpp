@@ -16,8 +16,8 @@ namespace {
 std::vector<OperatingCondition> sorted_once(const std::vector<OperatingCondition>& conditions) {
   std::vector<OperatingCondition> kept;
   for (const OperatingCondition& at : conditions)
-    if (std::none_of(kept.begin(), kept.end(), [&](const auto& known) { return alike(known, at); })) kept.push_back(at);
-  std::sort(kept.begin(), kept.end());
+    if (std::ranges::none_of(kept, [&](const auto& known) { return alike(known, at); })) kept.push_back(at);
+  std::ranges::sort(kept);
   return kept;
 }
 
@@ -40,7 +40,7 @@ std::vector<AskedRun> run_list(const std::vector<OperatingCondition>& conditions
     for (const OperatingCondition& at : sorted) list.push_back({at, packing});
   if (test == TestStep::no || list.empty()) return list;
   const OperatingCondition tested = hardest(sorted);
-  const auto whole = std::find_if(list.begin(), list.end(), [&](const AskedRun& run) { return alike(run.at, tested); });
+  const auto whole = std::ranges::find_if(list, [&](const AskedRun& run) { return alike(run.at, tested); });
   std::rotate(list.begin(), whole, whole + 1);
   list.insert(list.begin() + 1, {list.front().at, list.front().packing, true});
   return list;
@@ -51,10 +51,8 @@ Shard parse_shard(std::string_view text) {
   const std::optional<int> number = whole_number(text.substr(0, slash));
   const std::optional<int> of = slash == text.npos ? std::nullopt : whole_number(text.substr(slash + 1));
   if (!number || !of || *of < 1 || *number < 1 || *number > *of)
-    throw InputError(
-        fmt::format("--shard: expected K/N with K of 1 .. N, not '{}'\n  hint: --shard 2/4 is the second of "
-                    "four",
-                    text));
+    throw InputError(fmt::format(
+        "--shard: expected K/N with K of 1 .. N, not '{}'\n  hint: --shard 2/4 is the second of four", text));
   return {*number, *of};
 }
 
@@ -78,7 +76,7 @@ const RecordedRun* find_run(const Record& record, const AskedRun& asked) {
 std::vector<AskedRun> missing_runs(const std::vector<AskedRun>& list, const std::vector<Record>& records) {
   std::vector<AskedRun> missing;
   for (const AskedRun& run : list)
-    if (std::none_of(records.begin(), records.end(), [&](const Record& r) { return find_run(r, run) != nullptr; }))
+    if (std::ranges::none_of(records, [&](const Record& r) { return find_run(r, run) != nullptr; }))
       missing.push_back(run);
   return missing;
 }

@@ -48,8 +48,8 @@ std::vector<StepPair> step_pairs(const Record& record) {
 }
 
 bool agrees(const StepPair& pair) {
-  return pair.difference && std::all_of(pair.difference->begin(), pair.difference->end(),
-                                        [](const Estimate& of) { return in_errors(of) <= step_alike; });
+  return pair.difference &&
+         std::ranges::all_of(*pair.difference, [](const Estimate& of) { return in_errors(of) <= step_alike; });
 }
 
 std::string in_words(const StepPair& pair) {
@@ -84,8 +84,7 @@ OperatingCondition hardest(const std::vector<OperatingCondition>& conditions) {
     return std::tuple(at.load, std::abs(at.longitudinal_incline) + std::abs(at.transverse_incline), std::abs(at.yaw),
                       at.slip);
   };
-  return *std::max_element(conditions.begin(), conditions.end(),
-                           [&](const auto& a, const auto& b) { return hardness(a) < hardness(b); });
+  return *std::ranges::max_element(conditions, [&](const auto& a, const auto& b) { return hardness(a) < hardness(b); });
 }
 
 }  // namespace soilbin::compare

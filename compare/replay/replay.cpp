@@ -12,7 +12,6 @@
 #include <stdexcept>
 
 #include "compare/report/json_fields.hpp"
-#include "compare/report/json_file.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
 #include "scenario/source_text.hpp"
@@ -48,7 +47,7 @@ Raster raster_of(const Replay& replay) {
 std::vector<std::size_t> order_by_place(const std::vector<Point>& grains) {
   std::vector<std::size_t> order(grains.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return grains[a] < grains[b]; });
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return grains[a] < grains[b]; });
   return order;
 }
 

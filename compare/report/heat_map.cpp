@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
+#include "compare/report/javascript.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/report/plot.hpp"
 
 namespace soilbin::compare {
@@ -19,6 +22,12 @@ double deepest(const HeatMap& map) {
     for (const HeatCell& cell : row)
       if (std::isfinite(cell.value)) most = std::max(most, std::abs(cell.value));
   return most > 0.0 ? most : 1.0;
+}
+
+/// How deep a cell's colour is; `limit` as in HeatMap, above 0.
+double heat_opacity(const HeatCell& cell, double limit) {
+  const double depth = std::clamp(std::abs(cell.value) / limit, 0.0, 1.0) * (cell.counts ? 1.0 : 0.35);
+  return 0.08 + 0.5 * depth;
 }
 
 std::string cell_svg(const HeatMap& map, double x, double y, double limit, std::size_t row, std::size_t column) {
@@ -44,11 +53,6 @@ std::string cell_svg(const HeatMap& map, double x, double y, double limit, std::
 }  // namespace
 
 std::string heat_class(const HeatCell& cell) { return cell.value == 0.0 ? "none" : cell.value < 0.0 ? "c0" : "c1"; }
-
-double heat_opacity(const HeatCell& cell, double limit) {
-  const double depth = std::clamp(std::abs(cell.value) / limit, 0.0, 1.0) * (cell.counts ? 1.0 : 0.35);
-  return 0.08 + 0.5 * depth;
-}
 
 std::string heat_map_svg(const HeatMap& map) {
   std::size_t longest = 3;
@@ -78,6 +82,39 @@ std::string heat_map_svg(const HeatMap& map) {
       R"(height="{1:.0f}" role="group" aria-label="{2}" font-size="12">{3}</svg>)",
       width, bottom + below, escaped(map.title + ", " + map.subtitle + ", " + map.y_title + " by " + map.x_title),
       body);
+}
+
+namespace {
+
+Json one_map(const HeatMap& map) {
+  Json json = {{"title", map.title}, {"cells", Json::array()}};
+  for (const auto& row : map.cells)
+    for (const HeatCell& cell : row)
+      json["cells"].push_back({cell.text, cell.meaning, heat_class(cell),
+                               std::stod(fmt::format("{:.2f}", heat_opacity(cell, map.limit))), cell.counts ? 1 : 0,
+                               std::stod(fmt::format("{:.6g}", cell.value))});
+  return json;
+}
+
+}  // namespace
+
+std::string sliding_map_html(const SlidingMap& map, const std::string& caption) {
+  std::size_t settings = 1, first = 0;
+  for (std::size_t s = 0; s < map.sliders.size(); ++s) {
+    const std::size_t places = map.sliders[s].settings.size();
+    settings *= places;
+    first = first * places + map.first.at(s);
+  }
+  if (settings != map.maps.size()) throw std::invalid_argument("sliding map: a map for each setting of the sliders");
+  Json data = {{"sliders", Json::array()}, {"maps", Json::array()}};
+  for (std::size_t s = 0; s < map.sliders.size(); ++s)
+    data["sliders"].push_back(
+        {{"name", map.sliders[s].name}, {"settings", map.sliders[s].settings}, {"first", map.first[s]}});
+  for (const HeatMap& one : map.maps) data["maps"].push_back(one_map(one));
+  return fmt::format(
+      "<figure class=\"sliding-map\"><div class=\"sliders\"></div><div class=\"maps\"><div>{}</div></div><script "
+      "type=\"application/json\">{}</script><figcaption>{}</figcaption></figure>\n",
+      heat_map_svg(map.maps[first]), json_in_script(data.dump()), escaped(caption));
 }
 
 }  // namespace soilbin::compare

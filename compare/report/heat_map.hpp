@@ -25,11 +25,29 @@ struct HeatMap {
 /// The class of a cell's colour: "c0" below zero, "c1" above, "none" at zero.
 std::string heat_class(const HeatCell& cell);
 
-/// How deep a cell's colour is; `limit` as in HeatMap, above 0.
-double heat_opacity(const HeatCell& cell, double limit);
-
 /// An <svg> element of its natural size, its text 12 px high; a page lets it scroll rather than shrink. Blue below
 /// zero, orange above, so that most colour-blind people tell them apart; the sign is in the text as well.
 std::string heat_map_svg(const HeatMap& map);
+
+// Heat maps of which one is shown at a time, picked by sliders; without scripts the first alone.
+//
+//   const SlidingMap map{{{"slip", {"5 %", "20 %"}}, {"lug height", {"0 mm", "30 mm"}}}, maps};   // 4 maps
+//   page.raw(sliding_map_html(map, "Loads across, angles up."));
+
+struct Slider {
+  std::string name;
+  std::vector<std::string> settings;  ///< what the slider says at each of its places
+};
+
+/// A map for each setting of the sliders, the last slider's settings next to each other. All have the same rows and
+/// columns and a cell everywhere.
+struct SlidingMap {
+  std::vector<Slider> sliders;
+  std::vector<HeatMap> maps;
+  std::vector<std::size_t> first;  ///< place of each slider at the start
+};
+
+/// A figure. Throws std::invalid_argument where there is not a map for each setting.
+std::string sliding_map_html(const SlidingMap& map, const std::string& caption);
 
 }  // namespace soilbin::compare

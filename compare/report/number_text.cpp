@@ -49,6 +49,16 @@ std::string size_text(double bytes) {
   return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
+std::string spaced(std::string_view name) {
+  std::string words(name);
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
+std::string newtons(double force) {
+  return force >= 1000.0 ? fmt::format("{:.4g} kN", force / 1000) : fmt::format("{:.4g} N", force);
+}
+
 std::string capital(std::string text) {
   if (!text.empty()) text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
   return text;
@@ -64,6 +74,21 @@ std::string heading(const TractionChannel& channel) {
 
 std::string in_unit(std::size_t channel, double si) {
   return fmt::format("{} {}", number(si * traction_channels[channel].per_si), traction_channels[channel].unit);
+}
+
+std::string shell_words(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) {
+    const bool bare =
+        !word.empty() &&
+        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+.,:/%@") ==
+            std::string::npos;
+    std::string quoted = word;
+    for (std::size_t at = quoted.find('\''); at != std::string::npos; at = quoted.find('\'', at + 4))
+      quoted.replace(at, 1, "'\\''");
+    line += (line.empty() ? "" : " ") + (bare ? word : "'" + quoted + "'");
+  }
+  return line;
 }
 
 }  // namespace soilbin::compare

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "scenario/estimate.hpp"
 #include "scenario/traction_channels.hpp"
@@ -29,6 +31,12 @@ std::string duration_text(double seconds);
 /// Bytes as "600 kB", "72 MB", "1.2 GB".
 std::string size_text(double bytes);
 
+/// A name as people write it: "cross_slope" becomes "cross slope".
+std::string spaced(std::string_view name);
+
+/// A load: "80 N", "4 kN".
+std::string newtons(double force);
+
 /// "drawbar pull" as "Drawbar pull".
 std::string capital(std::string text);
 
@@ -39,5 +47,10 @@ std::string heading(const TractionChannel& channel);
 
 /// "12.3 N", "4.1 mm" of a number in SI of one of traction_channels.
 std::string in_unit(std::size_t channel, double si);
+
+// Words of a command line as a shell reads them back: shell_words({"run", "my case"}) is "run 'my case'".
+
+/// The words with a blank between them; those that a shell would take apart are quoted.
+std::string shell_words(const std::vector<std::string>& words);
 
 }  // namespace soilbin::compare

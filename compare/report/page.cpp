@@ -2,7 +2,8 @@
 
 #include <fmt/core.h>
 
-#include "compare/report/sheet_json.hpp"
+#include "compare/report/json_fields.hpp"
+#include "compare/report/plot.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
 
@@ -10,18 +11,6 @@ namespace soilbin::compare {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_text(const HtmlTable& table, std::size_t column) {
-  return table.text_columns.empty() ? column == 0 : column < table.text_columns.size() && table.text_columns[column];
-}
-
-/// A cell; a long text may wrap.
-std::string cell(const char* tag, const std::string& text, bool to_the_left) {
-  constexpr std::size_t long_text = 48;
-  std::string classes = to_the_left ? "t" : "";
-  if (text.size() > long_text) classes += " wide";
-  return fmt::format("<{0}{1}>{2}</{0}>", tag, classes.empty() ? "" : " class=\"" + classes + "\"", escaped(text));
-}
 
 /// Escaped prose whose percent signs stay with their numbers.
 std::string prose(const std::string& text) {
@@ -90,8 +79,7 @@ PageCard page_card(const fs::path& page, const fs::path& from) {
                 between(text, "<svg class=\"plot\"", "</svg>", true)};
   if (card.title.empty())
     throw InputError(
-        fmt::format("{}: no page of soilbin\n  hint: --report of compare, loop, reproduce and failure-map "
-                    "writes one",
+        fmt::format("{}: no page of soilbin\n  hint: --report of compare, loop, reproduce and failure-map writes one",
                     page.string()));
   return card;
 }
@@ -154,25 +142,13 @@ void Page::doubts(const std::vector<std::string>& doubts) {
   list(doubts);
 }
 
-void Page::table(const HtmlTable& table) {
-  body_ += "<div class=\"scroll\"><table>";
-  if (!table.caption.empty()) body_ += "<caption>" + escaped(table.caption) + "</caption>";
-  body_ += "<thead><tr>";
-  for (std::size_t c = 0; c < table.header.size(); ++c) body_ += cell("th", table.header[c], is_text(table, c));
-  body_ += "</tr></thead><tbody>\n";
-  for (const std::vector<std::string>& row : table.rows) {
-    body_ += "<tr>";
-    for (std::size_t c = 0; c < row.size(); ++c) body_ += cell("td", row[c], is_text(table, c));
-    body_ += "</tr>\n";
-  }
-  body_ += "</tbody></table></div>\n";
-}
+void Page::table(const Table& table) { body_ += html_of(table); }
 
 void Page::facts(const std::vector<std::string>& header,
                  const std::vector<const std::vector<std::pair<std::string, std::string>>*>& lists) {
-  HtmlTable all{"", header, {true, true}};
+  Table all{"", header, {true, true}};
   for (const auto* list : lists)
-    for (const auto& [name, value] : *list) all.rows.push_back({name, value});
+    for (const auto& [name, value] : *list) all.add({name, value});
   table(all);
 }
 
@@ -227,8 +203,7 @@ void Page::replay(const std::string& title, const std::string& bytes, const std:
   const bool can = libraries_.three && libraries_.orbit;
   body_ += fmt::format(
       "<figure><div class=\"replay\" role=\"group\" aria-label=\"Replay in 3D: {}\"><p "
-      "class=\"replay-note\">{}</p></div>"
-      "<figcaption>{}</figcaption></figure>\n",
+      "class=\"replay-note\">{}</p></div><figcaption>{}</figcaption></figure>\n",
       escaped(title),
       can ? "The replay needs scripts, which this browser doesn't run."
           : "The replay can't be shown: three.js was not installed where this page was made (package libjs-three).",
@@ -260,8 +235,8 @@ std::string Page::html() const {
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n"
       "<meta name=\"description\" content=\"{6}\">\n"
-      "<style>\n{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n<p class=\"subtitle\">{2}</p>\n{3}{4}</main>\n{5}"
-      "</body>\n</html>\n",
+      "<style>\n{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n<p "
+      "class=\"subtitle\">{2}</p>\n{3}{4}</main>\n{5}</body>\n</html>\n",
       escaped(title_), page_style(), escaped(subtitle_), contents.empty() ? "" : "<nav>" + contents + "</nav>\n", body_,
       scripts(), escaped(description_.empty() ? subtitle_ : description_));
 }

@@ -19,6 +19,7 @@
 
 #include "compare/report/javascript.hpp"
 #include "compare/report/plot.hpp"
+#include "compare/report/table.hpp"
 
 namespace soilbin::compare {
 
@@ -28,14 +29,6 @@ struct PageAbout {
   std::string command;  ///< that made the page
   std::vector<std::pair<std::string, std::string>> versions;
   std::vector<std::string> doubts{};  ///< in what the page says (compare/doubts/doubts.hpp)
-};
-
-/// A table of texts; cells are escaped.
-struct HtmlTable {
-  std::string caption;
-  std::vector<std::string> header;
-  std::vector<bool> text_columns{};              ///< columns set to the left; empty: the first alone
-  std::vector<std::vector<std::string>> rows{};  ///< each as long as the header
 };
 
 /// A row of key figures.
@@ -88,7 +81,7 @@ class Page {
   void list(const std::vector<std::string>& items);
   /// A section of what is doubtful in what the page tells (compare/doubts/doubts.hpp); none where there is nothing.
   void doubts(const std::vector<std::string>& doubts);
-  void table(const HtmlTable& table);
+  void table(const Table& table);
   /// Names and their values, list after list.
   void facts(const std::vector<std::string>& header,
              const std::vector<const std::vector<std::pair<std::string, std::string>>*>& lists);

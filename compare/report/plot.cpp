@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/measured/csv.hpp"
+#include "compare/report/json_fields.hpp"
 #include "compare/report/plot_panel.hpp"
+#include "scenario/quantity.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -15,7 +18,7 @@ constexpr const char* fonts = "system-ui, -apple-system, 'Segoe UI', 'DejaVu San
 /// Width of a text in the legend, near enough [px].
 double text_width(const std::string& text) {
   const auto characters =
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
   return 6.6 * static_cast<double>(characters);
 }
 
@@ -32,8 +35,7 @@ std::vector<Entry> entries_of(const Sheet& sheet) {
   for (const Plot& plot : sheet.plots)
     for (const Series& series : plot.series) {
       if (series.label.empty()) continue;
-      auto entry =
-          std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.series->label == series.label; });
+      auto entry = std::ranges::find_if(entries, [&](const Entry& e) { return e.series->label == series.label; });
       if (entry == entries.end()) entry = entries.insert(entries.end(), Entry{&series});
       const bool area = !series.base.empty();
       entry->area = entry->area || area;
@@ -144,8 +146,8 @@ std::string svg(const Sheet& sheet) {
     title += fmt::format(R"(<text class="quiet" fill="#5a6270" x="20" y="44">{}</text>)", escaped(sheet.note));
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
-      "height=\"{1:.0f}\" font-family=\"{2}\" font-size=\"12\">\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+      "font-family=\"{2}\" font-size=\"12\">\n"
       "<rect class=\"paper\" width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{3}\n{4}\n</svg>\n",
       width, y + 4, fonts, title, body);
 }
@@ -164,6 +166,61 @@ std::vector<LegendEntry> legend(const Sheet& sheet) {
                        fmt::format(R"(<svg viewBox="0 0 26 12" width="26" height="12" aria-hidden="true">{}</svg>)",
                                    swatch(sheet, entry, 0, 6))});
   return entries;
+}
+
+namespace {
+
+/// Six digits: what a screen can show, at a third of the bytes.
+double shortened(double value) { return read_number(fmt::format("{:.6g}", value)).value_or(value); }
+
+Json numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(finite(shortened(value)));
+  return list;
+}
+
+Json axis_json(const Axis& axis) {
+  return {{"title", axis.title}, {"lower", or_null(axis.lower)}, {"upper", or_null(axis.upper)}};
+}
+
+constexpr const char* mark_words[] = {"line", "points", "line_and_points"};  // in the order of Mark
+
+}  // namespace
+
+Json to_json(const Sheet& sheet) {
+  Json json = {{"title", sheet.title}, {"plots", Json::array()}};
+  for (const Plot& plot : sheet.plots) {
+    Json one = {{"title", plot.title}, {"x", axis_json(plot.x)}, {"y", axis_json(plot.y)}, {"series", Json::array()}};
+    one["identity_line"] = plot.identity_line;
+    const std::vector<double> shifts = bar_shifts(plot);
+    for (std::size_t s = 0; s < shifts.size(); ++s) {
+      const Series& series = plot.series[s];
+      one["series"].push_back(
+          {{"label", series.label},
+           {"x", numbers(series.x)},
+           {"y", numbers(series.y)},
+           {"error", numbers(series.error)},
+           {"base", numbers(series.base)},
+           {"mark", mark_words[static_cast<std::size_t>(series.mark)]},
+           {"color", fmt::format("{}{}", sheet.palette == Palette::named ? 'c' : 'q', color_of(sheet, series))},
+           {"dash", series.dash}});
+      if (shifts[s] != 0.0) one["series"].back()["shift"] = shifts[s];  // [px]
+    }
+    json["plots"].push_back(std::move(one));
+  }
+  return json;
+}
+
+std::string sheet_csv(const Sheet& sheet) {
+  std::string text = "plot,series,x,y,error\n";
+  const auto cell = [](double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); };
+  for (const Plot& plot : sheet.plots)
+    for (const Series& series : plot.series)
+      for (std::size_t i = 0; i < series.x.size(); ++i)
+        text += fmt::format("{},{},{},{},{}\n", csv_cell(plot.title), csv_cell(series.label), cell(series.x[i]),
+                            cell(series.base.empty() ? series.y[i] : series.y[i] - series.base[i]),
+                            i < series.error.size() ? cell(series.error[i]) : "");
+  return text;
 }
 
 }  // namespace soilbin::compare

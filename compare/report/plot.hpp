@@ -4,6 +4,7 @@
 // its colour, so that a page can give it other colours in the dark (page.hpp does).
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,5 +78,14 @@ std::string escaped(const std::string& text);
 
 /// Round values that divide [lower, upper] into about `count` parts.
 std::vector<double> ticks(double lower, double upper, int count);
+
+// A sheet of plots as data: for the scripts of a page, and for who wants a figure's numbers.
+
+/// {"title", "plots": [{"title", "x": {"title", "lower", "upper"}, "y", "series": [{"label", "x", "y", "error", "base",
+/// "mark", "color": "c0", "dash"}]}]}; numbers have six digits, and what is not a number is null.
+nlohmann::ordered_json to_json(const Sheet& sheet);
+
+/// The same as CSV, a row a point: plot, series, x, y (of an area what it adds to the pile), error.
+std::string sheet_csv(const Sheet& sheet);
 
 }  // namespace soilbin::compare

@@ -31,8 +31,7 @@ bool has_bars(const Series& series) {
 }
 
 bool share_a_place(const Series& a, const Series& b) {
-  return std::any_of(a.x.begin(), a.x.end(),
-                     [&](double x) { return std::find(b.x.begin(), b.x.end(), x) != b.x.end(); });
+  return std::ranges::any_of(a.x, [&](double x) { return std::ranges::find(b.x, x) != b.x.end(); });
 }
 
 /// Whether a series lies on points of another one, which it marks.
@@ -248,7 +247,7 @@ std::vector<double> bar_shifts(const Plot& plot) {
   std::vector<double> shifts(plot.series.size(), 0.0);
   std::vector<std::size_t> together;
   for (std::size_t s = 0; s < shifts.size(); ++s)
-    if (has_bars(plot.series[s]) && std::any_of(plot.series.begin(), plot.series.end(), [&](const Series& other) {
+    if (has_bars(plot.series[s]) && std::ranges::any_of(plot.series, [&](const Series& other) {
           return &other != &plot.series[s] && has_bars(other) && share_a_place(plot.series[s], other);
         }))
       together.push_back(s);

@@ -1,5 +1,5 @@
-// One panel of a sheet, drawn, and how its colours are written in SVG: what plot.cpp, bars.cpp and sheet_json.cpp
-// share.
+// One panel of a sheet, drawn, and how its colours are written in SVG: what plot.cpp and bars.cpp share, and a
+// sheet as data.
 #pragma once
 
 #include <string>

@@ -2,8 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
+#include <limits>
+#include <random>
 
 #include "compare/measured/channels.hpp"
 #include "compare/recorded/recorded_model.hpp"
@@ -12,76 +16,164 @@
 namespace soilbin::compare {
 namespace {
 
+std::vector<double> weights(const Curve& curve) {
+  const bool exact = std::ranges::any_of(curve, [](const CurvePoint& p) { return !(p.error > 0); });
+  std::vector<double> out;
+  for (const CurvePoint& point : curve) out.push_back(exact ? 1.0 : 1 / (point.error * point.error));
+  return out;
+}
+
+/// A line's slope as a weighted sum of y: the factors.
+std::vector<double> slope_factors(const Curve& curve) {
+  const std::vector<double> w = weights(curve);
+  double sum = 0, mean = 0, spread = 0;
+  for (std::size_t k = 0; k < curve.size(); ++k) sum += w[k], mean += w[k] * curve[k].x;
+  mean /= sum;
+  for (std::size_t k = 0; k < curve.size(); ++k) spread += w[k] * (curve[k].x - mean) * (curve[k].x - mean);
+  std::vector<double> factors;
+  for (std::size_t k = 0; k < curve.size(); ++k) factors.push_back(w[k] * (curve[k].x - mean) / spread);
+  return factors;
+}
+
+/// z of the two-sided normal interval: 1.96 for 0.95.
+double normal_quantile(double level) { return std::sqrt(2.0) * boost::math::erf_inv(level); }
+
+/// A weighted sum of y with its normal interval.
+Interval sum_interval(const Curve& curve, const std::vector<double>& factors, double level) {
+  double value = 0, variance = 0;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    value += factors[k] * curve[k].y;
+    variance += std::pow(factors[k] * curve[k].error, 2);
+  }
+  const double reach = normal_quantile(level) * std::sqrt(variance);
+  return {value, value - reach, value + reach};
+}
+
+std::vector<double> mean_factors(const Curve& curve) {
+  return std::vector<double>(curve.size(), 1 / static_cast<double>(curve.size()));
+}
+
+/// Where the parabola through three points has its extreme.
+double vertex(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {
+  const double ab = (b.y - a.y) / (b.x - a.x), bc = (c.y - b.y) / (c.x - b.x);
+  const double bend = (bc - ab) / (c.x - a.x);
+  return bend == 0 ? b.x : (a.x + b.x) / 2 - ab / (2 * bend);
+}
+
+double extreme(const Curve& curve, double sign) {
+  const auto top = std::ranges::max_element(
+      curve, [&](const CurvePoint& a, const CurvePoint& b) { return sign * a.y < sign * b.y; });
+  if (top == curve.begin() || top + 1 == curve.end()) return top->x;
+  return vertex(*(top - 1), *top, *(top + 1));
+}
+
+double quantile(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const std::size_t below = static_cast<std::size_t>(at);
+  if (below + 1 >= sorted.size() || sorted[below] == sorted[below + 1]) return sorted[below];
+  return sorted[below] + (at - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
+}
+
+double largest_value(const Curve& curve) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const CurvePoint& point : curve) most = std::max(most, point.y);
+  return most;
+}
+
+}  // namespace
+
+double slope(const Curve& curve) { return slope_interval(curve, 0.5).value; }
+Interval slope_interval(const Curve& curve, double level) { return sum_interval(curve, slope_factors(curve), level); }
+
+double mean_level(const Curve& curve) { return mean_interval(curve, 0.5).value; }
+Interval mean_interval(const Curve& curve, double level) { return sum_interval(curve, mean_factors(curve), level); }
+
+double curvature_share(const Curve& curve) {
+  const std::vector<double> w = weights(curve);
+  const double middle = (curve.front().x + curve.back().x) / 2, range = curve.back().x - curve.front().x;
+  const Eigen::Index n = static_cast<Eigen::Index>(curve.size());
+  Eigen::MatrixXd design(n, 3);
+  Eigen::VectorXd values(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const CurvePoint& point = curve[k];
+    const double u = (point.x - middle) / range, root = std::sqrt(w[k]);
+    design.row(k) << root, root * u, root * u * u;
+    values(k) = root * point.y;
+  }
+  const Eigen::VectorXd c = design.colPivHouseholderQr().solve(values);
+  return c(2) / (4 * c(1));
+}
+
+double peak(const Curve& curve) { return extreme(curve, 1); }
+double lowest(const Curve& curve) { return extreme(curve, -1); }
+
+Interval bootstrap(std::span<const Curve> curves, const CurveStatistic& statistic, double level, std::uint64_t seed,
+                   int draws) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  std::vector<double> found;
+  int lost = 0;
+  std::vector<Curve> moved(curves.begin(), curves.end());
+  for (int draw = 0; draw < draws; ++draw) {
+    for (std::size_t c = 0; c < curves.size(); ++c)
+      for (std::size_t k = 0; k < curves[c].size(); ++k)
+        moved[c][k].y = curves[c][k].y + curves[c][k].error * normal(random);
+    const double value = statistic(moved);
+    if (std::isfinite(value)) found.push_back(value);
+    lost += std::isfinite(value) ? 0 : 1;
+  }
+  const double infinity = std::numeric_limits<double>::infinity();
+  found.insert(found.end(), lost, infinity);
+  found.insert(found.end(), lost, -infinity);
+  std::ranges::sort(found);
+  return {statistic(curves), quantile(found, (1 - level) / 2), quantile(found, (1 + level) / 2)};
+}
+
+namespace {
+
 constexpr double tolerance = 1e-9;  // of ranges and of equal values along an axis
 
 bool within(const OperatingCondition& at, const Where& where) {
-  return std::all_of(where.begin(), where.end(), [&](const auto& axis) {
+  return std::ranges::all_of(where, [&](const auto& axis) {
     const double x = view_of(axis.first).get(at), slack = tolerance * std::max(1.0, std::abs(x));
     return x >= axis.second.first - slack && x <= axis.second.second + slack;
   });
 }
 
 Estimate value_of(const TractionResult& result, FindingQuantity quantity) {
-  switch (quantity) {
-    case FindingQuantity::drawbar_pull:
-      return result.drawbar_pull;
-    case FindingQuantity::torque:
-      return result.torque;
-    case FindingQuantity::sinkage:
-      return result.sinkage;
-    case FindingQuantity::tractive_efficiency:
-      break;
-  }
-  return efficiency_with_error(result);
+  if (quantity == FindingQuantity::drawbar_pull) return result.drawbar_pull;
+  if (quantity == FindingQuantity::torque) return result.torque;
+  return quantity == FindingQuantity::sinkage ? result.sinkage : efficiency_with_error(result);
 }
 
-/// Fewest points of a curve from which a test can be made.
-std::size_t least_points(FindingTest test) {
-  switch (test) {
-    case FindingTest::mean:
-    case FindingTest::largest:
-      return 1;
-    case FindingTest::curvature:
-    case FindingTest::peak:
-    case FindingTest::lowest:
-    case FindingTest::peak_shift:
-      return 3;
-    default:
-      return 2;
-  }
-}
+/// A test's statistic of one curve or two, and the fewest points of a curve from which it can be made.
+struct TestStatistic {
+  FindingTest test;
+  std::size_t least_points;
+  double (*of)(std::span<const Curve>, double step);
+};
 
-CurveStatistic statistic_of(const Finding& finding) {
-  using Curves = std::span<const Curve>;
-  switch (finding.test) {
-    case FindingTest::slope:
-      return [](Curves c) { return slope(c[0]); };
-    case FindingTest::curvature:
-      return [](Curves c) { return curvature_share(c[0]); };
-    case FindingTest::slope_difference:
-      return [](Curves c) { return slope(c[0]) - slope(c[1]); };
-    case FindingTest::slope_ratio:
-      return [](Curves c) { return slope(c[0]) / slope(c[1]); };
-    case FindingTest::peak:
-      return [](Curves c) { return peak(c[0]); };
-    case FindingTest::lowest:
-      return [](Curves c) { return lowest(c[0]); };
-    case FindingTest::peak_shift:
-      return [](Curves c) { return peak(c[0]) - peak(c[1]); };
-    case FindingTest::change:
-      return [step = finding.step](Curves c) { return slope(c[0]) * step / mean_level(c[0]); };
-    case FindingTest::mean:
-      return [](Curves c) { return mean_level(c[0]); };
-    case FindingTest::largest:
-      break;
-  }
-  return [](Curves c) { return largest_value(c[0]); };
+const TestStatistic& statistic_of(FindingTest test) {
+  using C = std::span<const Curve>;
+  static constexpr TestStatistic all[] = {
+      {FindingTest::slope, 2, [](C c, double) { return slope(c[0]); }},
+      {FindingTest::curvature, 3, [](C c, double) { return curvature_share(c[0]); }},
+      {FindingTest::slope_difference, 2, [](C c, double) { return slope(c[0]) - slope(c[1]); }},
+      {FindingTest::slope_ratio, 2, [](C c, double) { return slope(c[0]) / slope(c[1]); }},
+      {FindingTest::peak, 3, [](C c, double) { return peak(c[0]); }},
+      {FindingTest::lowest, 3, [](C c, double) { return lowest(c[0]); }},
+      {FindingTest::peak_shift, 3, [](C c, double) { return peak(c[0]) - peak(c[1]); }},
+      {FindingTest::change, 2, [](C c, double step) { return slope(c[0]) * step / mean_level(c[0]); }},
+      {FindingTest::mean, 1, [](C c, double) { return mean_level(c[0]); }},
+      {FindingTest::largest, 1, [](C c, double) { return largest_value(c[0]); }}};
+  return *std::ranges::find(all, test, &TestStatistic::test);
 }
 
 Interval interval_of(const Finding& finding, const std::vector<Curve>& curves, double level, std::uint64_t seed) {
   if (finding.test == FindingTest::slope) return slope_interval(curves[0], level);
   if (finding.test == FindingTest::mean) return mean_interval(curves[0], level);
-  return bootstrap(curves, statistic_of(finding), level, seed);
+  const auto statistic = [&](std::span<const Curve> c) { return statistic_of(finding.test).of(c, finding.step); };
+  return bootstrap(curves, statistic, level, seed);
 }
 
 FindingVerdict verdict_on(const Interval& interval, const Finding& finding) {
@@ -106,7 +198,7 @@ Curve curve_of(const Finding& finding, const Where& where, const std::vector<Ans
     if (!within(answer.at, where)) continue;
     const double x = view_of(finding.along).get(answer.at);
     const auto same = [&](const Sum& sum) { return std::abs(sum.x - x) <= tolerance * std::max(1.0, std::abs(x)); };
-    auto sum = std::find_if(sums.begin(), sums.end(), same);
+    auto sum = std::ranges::find_if(sums, same);
     if (sum == sums.end()) sum = sums.insert(sums.end(), {.x = x});
     const Estimate one = answer.result ? value_of(*answer.result, finding.quantity) : Estimate{std::nan(""), 0};
     if (!std::isfinite(one.value)) {
@@ -119,7 +211,7 @@ Curve curve_of(const Finding& finding, const Where& where, const std::vector<Ans
   Curve curve;
   for (const Sum& sum : sums)
     if (sum.whole) curve.push_back({sum.x, sum.y / sum.count, std::sqrt(sum.variance) / sum.count});
-  std::sort(curve.begin(), curve.end(), [](const CurvePoint& a, const CurvePoint& b) { return a.x < b.x; });
+  std::ranges::sort(curve, [](const CurvePoint& a, const CurvePoint& b) { return a.x < b.x; });
   return curve;
 }
 
@@ -129,7 +221,7 @@ Evidence test_finding(const Finding& finding, const std::vector<Answer>& answers
   if (finding.compares()) curves.push_back(curve_of(finding, finding.against, answers, evidence.missing));
   evidence.curves = curves;
   for (const Curve& curve : curves)
-    if (curve.size() < least_points(finding.test)) return evidence;
+    if (curve.size() < statistic_of(finding.test).least_points) return evidence;
   evidence.interval = interval_of(finding, curves, level, seed);
   evidence.verdict = verdict_on(*evidence.interval, finding);
   return evidence;
@@ -138,14 +230,12 @@ Evidence test_finding(const Finding& finding, const std::vector<Answer>& answers
 Reproduction reproduce(const Findings& findings, const std::vector<StudyAnswers>& studies) {
   Reproduction all{findings, {}, {}, {}};
   for (const StudyAnswers& study : studies)
-    if (std::find(all.labels.begin(), all.labels.end(), study.label) == all.labels.end())
-      all.labels.push_back(study.label);
+    if (std::ranges::find(all.labels, study.label) == all.labels.end()) all.labels.push_back(study.label);
   for (const Finding& finding : findings.all) {
     ReproducedFinding row{finding, {}};
     for (const std::string& label : all.labels) {
-      const auto study = std::find_if(studies.begin(), studies.end(), [&](const StudyAnswers& known) {
-        return known.label == label && known.study == finding.study;
-      });
+      const auto study = std::ranges::find_if(
+          studies, [&](const StudyAnswers& known) { return known.label == label && known.study == finding.study; });
       row.evidence.push_back(
           study == studies.end() ? Evidence{} : test_finding(finding, study->answers, findings.level, findings.seed));
     }
@@ -170,11 +260,11 @@ std::vector<Answer> recorded_answers(const Record& record, const std::vector<Ope
     factors[c] = std::max(1.0, factor.value_or(1.0));
     if (factor) remark += fmt::format("{}{} {:.2g}", remark.empty() ? "" : ", ", channel_views[c].title, *factor);
   }
-  remark = remark.empty()
-               ? "errors are those of single runs: too few conditions have several packings to know more"
-               : "scatter between packings over the errors of single runs (errors are widened by it where it "
-                 "is above 1): " +
-                     remark;
+  remark =
+      remark.empty()
+          ? "errors are those of single runs: too few conditions have several packings to know more"
+          : "scatter between packings over the errors of single runs (errors are widened by it where it is above 1): " +
+                remark;
   const RecordedModel model(record);
   std::vector<Answer> answers;
   for (const OperatingCondition& at : conditions) {

@@ -16,70 +16,39 @@
 namespace soilbin::compare {
 namespace {
 
-std::string plain(std::string_view word) {
-  std::string text(word);
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
-}
-
-/// A number along an axis, as people read it.
-struct AxisScale {
+/// A number along an axis or of a quantity, as people read it.
+struct Scale {
   double per_si;
   const char* unit;
 };
 
-AxisScale scale_of(FindingAxis axis) {
-  switch (axis) {
-    case FindingAxis::load:
-      return {1e-3, "kN"};
-    case FindingAxis::slip:
-      return {100, "%"};
-    default:
-      return {1 / degree, "deg"};
-  }
+Scale scale_of(FindingAxis axis) {
+  if (axis == FindingAxis::load) return {1e-3, "kN"};
+  return axis == FindingAxis::slip ? Scale{100, "%"} : Scale{1 / degree, "deg"};
 }
 
-struct QuantityScale {
-  double per_si;
-  const char* unit;
-};
-
-QuantityScale scale_of(FindingQuantity quantity) {
-  switch (quantity) {
-    case FindingQuantity::drawbar_pull:
-      return {1, "N"};
-    case FindingQuantity::torque:
-      return {1, "N m"};
-    case FindingQuantity::sinkage:
-      return {1e3, "mm"};
-    case FindingQuantity::tractive_efficiency:
-      return {100, "%"};
-  }
-  return {1, ""};
+Scale scale_of(FindingQuantity quantity) {
+  if (quantity == FindingQuantity::drawbar_pull) return {1, "N"};
+  if (quantity == FindingQuantity::torque) return {1, "N m"};
+  return quantity == FindingQuantity::sinkage ? Scale{1e3, "mm"} : Scale{100, "%"};
 }
 
 /// Its title; where it has none, "Uphill pull falls" of "uphill-pull-falls".
 std::string title_of(const Finding& finding) {
   if (!finding.title.empty()) return finding.title;
   std::string words = finding.id;
-  std::replace(words.begin(), words.end(), '-', ' ');
+  std::ranges::replace(words, '-', ' ');
   return capital(std::move(words));
 }
 
 std::string finding_anchor(const std::string& id) { return "finding-" + id; }
 
-MarkedCell verdict_cell(FindingVerdict verdict, const std::string& id) {
-  switch (verdict) {
-    case FindingVerdict::shown:
-      return {.text = "shown", .tone = Tone::good, .anchor = finding_anchor(id)};
-    case FindingVerdict::contradicted:
-      return {.text = "contradicted", .tone = Tone::bad, .anchor = finding_anchor(id)};
-    case FindingVerdict::not_shown:
-      return {.text = "open", .tone = Tone::open, .anchor = finding_anchor(id)};
-    case FindingVerdict::no_data:
-      return {.text = "-"};
-  }
-  return {};
+TableCell verdict_cell(FindingVerdict verdict, const std::string& id) {
+  if (verdict == FindingVerdict::no_data) return "-";
+  const auto [word, tone] = verdict == FindingVerdict::shown          ? std::pair{"shown", Tone::good}
+                            : verdict == FindingVerdict::contradicted ? std::pair{"contradicted", Tone::bad}
+                                                                      : std::pair{"open", Tone::open};
+  return {word, "", tone, finding_anchor(id)};
 }
 
 bool is_place(FindingTest test) {
@@ -95,8 +64,8 @@ std::string unit_of(const Finding& finding) {
 std::string where_in_words(const Where& where) {
   std::string words;
   for (const auto& [axis, range] : where) {
-    const AxisScale scale = scale_of(axis);
-    words += (words.empty() ? "" : ", ") + plain(word_of(axis)) + " ";
+    const Scale scale = scale_of(axis);
+    words += (words.empty() ? "" : ", ") + spaced(word_of(axis)) + " ";
     words += range.first == range.second ? fmt::format("{:.4g} {}", scale.per_si * range.first, scale.unit)
                                          : fmt::format("{:.4g} .. {:.4g} {}", scale.per_si * range.first,
                                                        scale.per_si * range.second, scale.unit);
@@ -112,10 +81,48 @@ std::string missing_in_words(const Evidence& evidence) {
   return words + (shown < evidence.missing.size() ? "; ..." : "");
 }
 
+/// "0.31 (0.24 .. 0.38)", in the statistic's unit; "" without an interval.
+std::string interval_in_words(const Finding& finding, const Evidence& evidence) {
+  if (!evidence.interval) return "";
+  const double scale = per_si(finding);
+  const Interval& found = *evidence.interval;
+  if (found.lower == found.upper) return fmt::format("{:.3g}{}", scale * found.value, unit_of(finding));
+  return fmt::format("{:.3g} ({:.3g} .. {:.3g}){}", scale * found.value, scale * found.lower, scale * found.upper,
+                     unit_of(finding));
+}
+
 std::string cell(const Finding& finding, const Evidence& evidence) {
   std::string text(word_of(evidence.verdict));
   if (evidence.interval) text += ": " + interval_in_words(finding, evidence);
   return text;
+}
+
+/// The curves that a finding's statistic was taken of, a colour a label; what it is held against is dashed. No plots
+/// where no label has data.
+Sheet finding_sheet(const ReproducedFinding& row, const std::vector<std::string>& labels) {
+  const Finding& finding = row.finding;
+  const Scale x = scale_of(finding.along);
+  const Scale y = scale_of(finding.quantity);
+  Plot plot{fmt::format("{} [{}]", capital(spaced(word_of(finding.quantity))), y.unit),
+            {fmt::format("{} [{}]", spaced(word_of(finding.along)), x.unit)}};
+  for (std::size_t k = 0; k < row.evidence.size(); ++k)
+    for (std::size_t c = 0; c < row.evidence[k].curves.size(); ++c) {
+      Series series{.label = labels[k] + (c == 0 ? "" : ", against"),
+                    .mark = Mark::line_and_points,
+                    .color = static_cast<int>(k),
+                    .dash = static_cast<int>(c)};
+      bool exact = true;
+      for (const CurvePoint& point : row.evidence[k].curves[c]) {
+        series.x.push_back(x.per_si * point.x), series.y.push_back(y.per_si * point.y);
+        series.error.push_back(y.per_si * point.error);
+        exact = exact && point.error == 0;
+      }
+      if (exact) series.error.clear();
+      if (!series.x.empty()) plot.series.push_back(std::move(series));
+    }
+  Sheet sheet{""};
+  if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
+  return sheet;
 }
 
 /// A finding's words, figure and intervals.
@@ -124,9 +131,9 @@ void add_finding(Page& page, const ReproducedFinding& row, const std::vector<std
   page.paragraph("\u201c" + finding.quote + "\u201d");
   if (const Sheet sheet = finding_sheet(row, labels); !sheet.plots.empty())
     page.figure(sheet, claim_in_words(finding) + (finding.compares() ? ". Dashed: what it is held against." : "."));
-  HtmlTable table{claim_in_words(finding), {"answers of", "verdict", "conditions missing"}, {true, true, true}};
+  Table table{claim_in_words(finding), {"answers of", "verdict", "conditions missing"}, {true, true, true}};
   for (std::size_t k = 0; k < row.evidence.size(); ++k)
-    table.rows.push_back({labels[k], cell(finding, row.evidence[k]), missing_in_words(row.evidence[k])});
+    table.add({labels[k], cell(finding, row.evidence[k]), missing_in_words(row.evidence[k])});
   page.table(table);
   if (!finding.chosen.empty()) page.paragraph("Chosen here: " + finding.chosen);
 }
@@ -137,11 +144,11 @@ std::string claim_in_words(const Finding& finding) {
   const double scale = per_si(finding);
   const std::string unit = unit_of(finding);
   std::string words =
-      fmt::format("{} of {} along {}, {}", plain(word_of(finding.test)), plain(word_of(finding.quantity)),
-                  plain(word_of(finding.along)), where_in_words(finding.where));
+      fmt::format("{} of {} along {}, {}", spaced(word_of(finding.test)), spaced(word_of(finding.quantity)),
+                  spaced(word_of(finding.along)), where_in_words(finding.where));
   if (finding.compares()) words += ", against " + where_in_words(finding.against);
   if (finding.step > 0) {
-    const AxisScale axis = scale_of(finding.along);
+    const Scale axis = scale_of(finding.along);
     words += fmt::format(", per {:.4g} {}", axis.per_si * finding.step, axis.unit);
   }
   words += ": ";
@@ -151,20 +158,11 @@ std::string claim_in_words(const Finding& finding) {
   return words;
 }
 
-std::string interval_in_words(const Finding& finding, const Evidence& evidence) {
-  if (!evidence.interval) return "";
-  const double scale = per_si(finding);
-  const Interval& found = *evidence.interval;
-  if (found.lower == found.upper) return fmt::format("{:.3g}{}", scale * found.value, unit_of(finding));
-  return fmt::format("{:.3g} ({:.3g} .. {:.3g}){}", scale * found.value, scale * found.lower, scale * found.upper,
-                     unit_of(finding));
-}
-
 std::string tally(const Reproduction& reproduction, std::size_t label) {
   std::string words;
   for (const Word<FindingVerdict>& verdict : words_of(std::type_identity<FindingVerdict>{})) {
-    const auto count = std::count_if(reproduction.rows.begin(), reproduction.rows.end(),
-                                     [&](const auto& row) { return row.evidence[label].verdict == verdict.value; });
+    const auto count = std::ranges::count_if(
+        reproduction.rows, [&](const auto& row) { return row.evidence[label].verdict == verdict.value; });
     words += fmt::format("{}{} {}", words.empty() ? "" : ", ", count, verdict.text);
   }
   return words;
@@ -209,8 +207,7 @@ std::vector<std::pair<std::string, std::string>> opening(const Reproduction& rep
   std::vector<std::pair<std::string, std::string>> sentences;
   for (std::size_t k = 0; k < reproduction.labels.size(); ++k) {
     const auto count = [&](FindingVerdict verdict) {
-      return std::count_if(rows.begin(), rows.end(),
-                           [&](const auto& row) { return row.evidence[k].verdict == verdict; });
+      return std::ranges::count_if(rows, [&](const auto& row) { return row.evidence[k].verdict == verdict; });
     };
     const auto asked = static_cast<long>(rows.size()) - count(FindingVerdict::no_data);
     const std::string& label = reproduction.labels[k];
@@ -226,9 +223,9 @@ std::vector<std::pair<std::string, std::string>> opening(const Reproduction& rep
   }
   std::string contradicted;
   for (const ReproducedFinding& row : rows) {
-    const bool any = std::any_of(row.evidence.begin(), row.evidence.end(),
-                                 [](const Evidence& e) { return e.verdict == FindingVerdict::contradicted; });
-    const bool all = std::all_of(row.evidence.begin(), row.evidence.end(), [](const Evidence& e) {
+    const bool any =
+        std::ranges::any_of(row.evidence, [](const Evidence& e) { return e.verdict == FindingVerdict::contradicted; });
+    const bool all = std::ranges::all_of(row.evidence, [](const Evidence& e) {
       return e.verdict == FindingVerdict::contradicted || e.verdict == FindingVerdict::no_data;
     });
     if (any && all) contradicted += (contradicted.empty() ? "" : "; ") + title_of(row.finding);
@@ -237,7 +234,7 @@ std::vector<std::pair<std::string, std::string>> opening(const Reproduction& rep
   return sentences;
 }
 
-MarkedTable findings_matrix(const Reproduction& reproduction) {
+Table findings_matrix(const Reproduction& reproduction) {
   MarkedTable table{
       fmt::format("Shown: the whole {:.0f} % interval lies in what is claimed. Contradicted: no part of it does. Open: "
                   "between. A cell opens its figure. bekker_wong: the analytic wheel; dem: grains",
@@ -247,37 +244,11 @@ MarkedTable findings_matrix(const Reproduction& reproduction) {
   table.header.insert(table.header.end(), reproduction.labels.begin(), reproduction.labels.end());
   table.text_columns.resize(table.header.size(), true);
   for (const ReproducedFinding& row : reproduction.rows) {
-    std::vector<MarkedCell> cells = {{.text = row.finding.section}, {.text = title_of(row.finding)}};
+    std::vector<TableCell> cells = {row.finding.section, title_of(row.finding)};
     for (const Evidence& evidence : row.evidence) cells.push_back(verdict_cell(evidence.verdict, row.finding.id));
-    table.rows.push_back(std::move(cells));
+    table.add(std::move(cells));
   }
   return table;
-}
-
-Sheet finding_sheet(const ReproducedFinding& row, const std::vector<std::string>& labels) {
-  const Finding& finding = row.finding;
-  const AxisScale x = scale_of(finding.along);
-  const QuantityScale y = scale_of(finding.quantity);
-  Plot plot{fmt::format("{} [{}]", capital(plain(word_of(finding.quantity))), y.unit),
-            {fmt::format("{} [{}]", plain(word_of(finding.along)), x.unit)}};
-  for (std::size_t k = 0; k < row.evidence.size(); ++k)
-    for (std::size_t c = 0; c < row.evidence[k].curves.size(); ++c) {
-      Series series{.label = labels[k] + (c == 0 ? "" : ", against"),
-                    .mark = Mark::line_and_points,
-                    .color = static_cast<int>(k),
-                    .dash = static_cast<int>(c)};
-      bool exact = true;
-      for (const CurvePoint& point : row.evidence[k].curves[c]) {
-        series.x.push_back(x.per_si * point.x), series.y.push_back(y.per_si * point.y);
-        series.error.push_back(y.per_si * point.error);
-        exact = exact && point.error == 0;
-      }
-      if (exact) series.error.clear();
-      if (!series.x.empty()) plot.series.push_back(std::move(series));
-    }
-  Sheet sheet{""};
-  if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
-  return sheet;
 }
 
 std::string reproduction_page(const Reproduction& reproduction, const PageAbout& about) {
@@ -286,12 +257,12 @@ std::string reproduction_page(const Reproduction& reproduction, const PageAbout&
   if (!sentences.empty()) page.describe(sentences.front().first + ": " + sentences.front().second);
   page.summary(sentences);
   page.section("Findings against models", "matrix");
-  page.raw(marked_html(findings_matrix(reproduction)));
+  page.table(findings_matrix(reproduction));
   page.section("How it is judged", "method");
-  page.paragraph(fmt::format(
-      "Each finding is a statistic with its {:.0f} % interval. The analytic model's answers are taken as exact: an "
-      "interval of one value.",
-      100 * reproduction.findings.level));
+  page.paragraph(
+      fmt::format("Each finding is a statistic with its {:.0f} % interval. The analytic model's answers are taken as "
+                  "exact: an interval of one value.",
+                  100 * reproduction.findings.level));
   page.list(reproduction.remarks);
   page.doubts(about.doubts);
   page.section("Each finding: words, figure, intervals", "findings");

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "compare/report/marked_table.hpp"
+#include "compare/report/page.hpp"
 #include "compare/report/plot.hpp"
 #include "compare/reproduction/reproduction.hpp"
 
@@ -12,9 +12,6 @@ namespace soilbin::compare {
 
 /// What a finding asks: "slope of drawbar pull along load, at slip 10 .. 60 %: at least 0".
 std::string claim_in_words(const Finding& finding);
-
-/// "0.31 (0.24 .. 0.38)", in the statistic's unit; "" without an interval.
-std::string interval_in_words(const Finding& finding, const Evidence& evidence);
 
 /// "12 shown, 3 not shown, 1 contradicted, 8 no data", of a label.
 std::string tally(const Reproduction& reproduction, std::size_t label);
@@ -28,11 +25,7 @@ std::vector<std::pair<std::string, std::string>> opening(const Reproduction& rep
 
 /// Findings against models: shown, contradicted, open, or "-" where a model has no data; each cell leads to the
 /// finding's figure.
-MarkedTable findings_matrix(const Reproduction& reproduction);
-
-/// The curves that a finding's statistic was taken of, a colour a label; what it is held against is dashed. No plots
-/// where no label has data.
-Sheet finding_sheet(const ReproducedFinding& row, const std::vector<std::string>& labels);
+Table findings_matrix(const Reproduction& reproduction);
 
 /// Opening, matrix, doubts; folded each finding with its words, figure and intervals.
 std::string reproduction_page(const Reproduction& reproduction, const PageAbout& about);

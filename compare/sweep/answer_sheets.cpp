@@ -50,8 +50,7 @@ Series series_of(const std::vector<Answer>& answers, const Curves& curves, std::
   std::vector<const Answer*> members;
   for (std::size_t i = 0; i < answers.size(); ++i)
     if (curves.curve_of[i] == curve) members.push_back(&answers[i]);
-  std::stable_sort(members.begin(), members.end(),
-                   [](const Answer* a, const Answer* b) { return a->at.slip < b->at.slip; });
+  std::ranges::stable_sort(members, [](const Answer* a, const Answer* b) { return a->at.slip < b->at.slip; });
   Series series;
   for (const Answer* answer : members) {
     const Estimate y = answer->result ? shown.get(*answer->result) : Estimate{not_a_number, 0.0};
@@ -96,13 +95,13 @@ Series predicted_line(const std::vector<const PredictedRun*>& runs, const Channe
   std::vector<Mean> means;
   for (const PredictedRun* run : runs) {
     if (!run->predicted.result) continue;
-    auto place = std::find_if(means.begin(), means.end(), [&](const Mean& m) { return same_setpoint(*m.first, *run); });
+    auto place = std::ranges::find_if(means, [&](const Mean& m) { return same_setpoint(*m.first, *run); });
     if (place == means.end()) place = means.insert(means.end(), Mean{run});
     place->x += run->measured.at.slip;
     place->y += ((*run->predicted.result).*channel.predicted).value;
     place->count += 1;
   }
-  std::sort(means.begin(), means.end(), [](const Mean& a, const Mean& b) { return a.x / a.count < b.x / b.count; });
+  std::ranges::sort(means, [](const Mean& a, const Mean& b) { return a.x / a.count < b.x / b.count; });
   Series line;
   for (const Mean& mean : means) {
     line.x.push_back(100 * mean.x / mean.count);
@@ -150,16 +149,14 @@ Sheet budget_sheet(const std::string& title, const std::vector<LabelledAnswers>&
     for (const Answer& answer : curve.answers)
       if (answer.result)
         for (const Contribution& part : answer.result->budget)
-          if (std::find(names.begin(), names.end(), part.name) == names.end()) names.push_back(part.name);
+          if (std::ranges::find(names, part.name) == names.end()) names.push_back(part.name);
   for (const LabelledAnswers& curve : curves) {
     Plot plot{join("Parts of the drawbar pull [N]", curve.label), {"slip [%]"}};
     std::vector<double> above(curve.answers.size(), 0.0), below = above;  // the piles so far
     for (std::size_t k = 0; k < names.size(); ++k) {
-      std::string label = names[k];
-      std::replace(label.begin(), label.end(), '_', ' ');
       for (const bool drives : {true, false}) {
         Series area;
-        area.label = label, area.color = static_cast<int>(k) % sum_color;
+        area.label = spaced(names[k]), area.color = static_cast<int>(k) % sum_color;
         std::vector<double>& pile = drives ? above : below;
         bool there = false;
         for (std::size_t i = 0; i < curve.answers.size(); ++i) {

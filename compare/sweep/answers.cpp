@@ -60,9 +60,8 @@ std::vector<ModelAnswers> run_study(const Case& question, const Progress& progre
 }
 
 bool any_result(const std::vector<ModelAnswers>& study) {
-  return std::any_of(study.begin(), study.end(), [](const ModelAnswers& model) {
-    return std::any_of(model.answers.begin(), model.answers.end(),
-                       [](const Answer& a) { return a.result.has_value(); });
+  return std::ranges::any_of(study, [](const ModelAnswers& model) {
+    return std::ranges::any_of(model.answers, [](const Answer& a) { return a.result.has_value(); });
   });
 }
 

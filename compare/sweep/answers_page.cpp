@@ -78,8 +78,8 @@ std::string largest_pull(const Peak& peak) {
 /// What another model of the study says of the same curve.
 std::string other_model(const std::string& label, const Peak& base, const Peak& other) {
   return fmt::format(
-      "With {} it is {} at {:.3g} % slip, and at {:.3g} % slip the wheel sinks {:.0f} mm where the base "
-      "model says {:.0f} mm.",
+      "With {} it is {} at {:.3g} % slip, and at {:.3g} % slip the wheel sinks {:.0f} mm where the base model says "
+      "{:.0f} mm.",
       label, force(other.pull->drawbar_pull.value), 100 * other.pull->at.slip, 100 * other.last->at.slip,
       1000 * other.last->sinkage.value, 1000 * base.last->sinkage.value);
 }
@@ -87,9 +87,9 @@ std::string other_model(const std::string& label, const Peak& base, const Peak& 
 std::string percent_to_tenths(double share) { return fmt::format("{:.4g}", std::round(1000 * share) / 10); }
 
 /// The cells of one curve, without its model.
-std::vector<std::string> peak_row(const Peak& peak) {
-  std::vector<std::string> row = {peak.label.empty() ? "all" : peak.label};
-  if (peak.unsolved > 0) row[0] += fmt::format(" ({} without a solution)", peak.unsolved);
+std::vector<TableCell> peak_row(const Peak& peak) {
+  std::vector<TableCell> row = {peak.label.empty() ? "all" : peak.label};
+  if (peak.unsolved > 0) row[0].text += fmt::format(" ({} without a solution)", peak.unsolved);
   if (peak.pull != nullptr)
     row.insert(row.end(), {number(peak.pull->drawbar_pull), percent_to_tenths(peak.pull->at.slip),
                            number(peak.pull->torque), number(peak.pull->sinkage, 1000)});
@@ -100,11 +100,11 @@ std::vector<std::string> peak_row(const Peak& peak) {
   return row;
 }
 
-HtmlTable peak_table(const StudyPart& part) {
-  HtmlTable table{"Where each curve pulls most, and where it is most efficient",
-                  {"curve", "largest pull [N]", "at slip [%]", "torque [N m]", "sinkage [mm]", "best efficiency [%]",
-                   "at slip [%]"},
-                  {true}};
+Table peak_table(const StudyPart& part) {
+  Table table{"Where each curve pulls most, and where it is most efficient",
+              {"curve", "largest pull [N]", "at slip [%]", "torque [N m]", "sinkage [mm]", "best efficiency [%]",
+               "at slip [%]"},
+              {true}};
   const bool several = part.study.size() > 1;
   if (several) {
     table.header.insert(table.header.begin(), "model");
@@ -112,20 +112,20 @@ HtmlTable peak_table(const StudyPart& part) {
   }
   for (const ModelAnswers& model : part.study)
     for (const Peak& peak : peaks(model)) {
-      table.rows.push_back(peak_row(peak));
+      table.add(peak_row(peak));
       if (several) table.rows.back().insert(table.rows.back().begin(), model.choice.label);
     }
   return table;
 }
 
-HtmlTable answers_table(const StudyPart& part) {
-  HtmlTable table{
+Table answers_table(const StudyPart& part) {
+  Table table{
       "",
       {"model", "condition", "drawbar pull [N]", "torque [N m]", "sinkage [mm]", "lateral force [N]", "efficiency [%]"},
       {true, true}};
   for (const ModelAnswers& model : part.study)
     for (const Answer& answer : model.answers) {
-      std::vector<std::string> row = {model.choice.label, in_words(answer.at)};
+      std::vector<TableCell> row = {model.choice.label, in_words(answer.at)};
       if (!answer.result)
         row.push_back("no solution: " + answer.error);
       else
@@ -134,18 +134,18 @@ HtmlTable answers_table(const StudyPart& part) {
       if (answer.result)
         row.push_back(has_efficiency(*answer.result) ? number(100 * answer.result->tractive_efficiency) : "-");
       row.resize(table.header.size());
-      table.rows.push_back(std::move(row));
+      table.add(std::move(row));
     }
   return table;
 }
 
-HtmlTable error_table(const Prediction& prediction) {
-  HtmlTable table{"Predicted less measured, nothing fitted",
-                  {"channel", "runs", "root mean square", "bias", "range measured", "share of range [%]"}};
+Table error_table(const Prediction& prediction) {
+  Table table{"Predicted less measured, nothing fitted",
+              {"channel", "runs", "root mean square", "bias", "range measured", "share of range [%]"}};
   for (const ChannelError& error : prediction.errors) {
-    table.rows.push_back({std::string(channel_views[error.channel].title), std::to_string(error.runs),
-                          in_unit(error.channel, error.rmse), in_unit(error.channel, error.bias),
-                          in_unit(error.channel, error.range), number(100 * error.share_of_range)});
+    table.add({std::string(channel_views[error.channel].title), std::to_string(error.runs),
+               in_unit(error.channel, error.rmse), in_unit(error.channel, error.bias),
+               in_unit(error.channel, error.range), number(100 * error.share_of_range)});
   }
   return table;
 }
@@ -155,14 +155,14 @@ std::string source_of(const std::map<std::string, std::string>& sources, const s
   return found == sources.end() ? "" : found->second;
 }
 
-HtmlTable soil_table(const std::string& name, const SemiEmpiricalSoil& soil, const std::string& source) {
-  HtmlTable table{"Soil " + name + (source.empty() ? "" : ": " + source),
-                  {"value", "", "unit", "source"},
-                  {true, false, true, true}};
+Table soil_table(const std::string& name, const SemiEmpiricalSoil& soil, const std::string& source) {
+  Table table{"Soil " + name + (source.empty() ? "" : ": " + source),
+              {"value", "", "unit", "source"},
+              {true, false, true, true}};
   for (const SoilParameter& p : soil_parameters)
-    table.rows.push_back({p.title, number(soil.*p.value, p.per_si), p.unit, source_of(soil.sources, p.name)});
-  table.rows.push_back({"density", number(bulk_density(soil)), "kg/m^3",
-                        soil.density ? source_of(soil.sources, "density") : "presumed: the soil declares none"});
+    table.add({p.title, number(soil.*p.value, p.per_si), p.unit, source_of(soil.sources, p.name)});
+  table.add({"density", number(bulk_density(soil)), "kg/m^3",
+             soil.density ? source_of(soil.sources, "density") : "presumed: the soil declares none"});
   return table;
 }
 
@@ -176,13 +176,13 @@ std::string tire_words(const Tire& tire) {
 void add_curves(Page& page, const StudyPart& part) {
   const Sheet sheet = study_sheet(part.curves, part.along_curves);
   const auto has_band = [](const Series& series) {
-    return std::any_of(series.error.begin(), series.error.end(), [](double error) { return error > 0.0; });
+    return std::ranges::any_of(series.error, [](double error) { return error > 0.0; });
   };
   const std::vector<Series>& pulls = sheet.plots.front().series;
   page.figure(sheet, fmt::format("{} on {}. Efficiency is drawn where the wheel both drives and pulls.{}{}",
                                  part.question.scenario.tire.name, in_words(part.question.scenario.soil),
                                  part.study.size() > 1 ? fmt::format(" Dashed: {}.", part.study[1].choice.label) : "",
-                                 std::any_of(pulls.begin(), pulls.end(), has_band)
+                                 std::ranges::any_of(pulls, has_band)
                                      ? " Bands: one standard error, from the standard deviations of the soil's values."
                                      : ""));
 }
@@ -213,7 +213,7 @@ void add_provenance(Page& page, const std::vector<StudyPart>& studies, const std
   page.section("Where the numbers come from");
   std::vector<std::string> written;
   const auto once = [&](const std::string& what) {
-    const bool fresh = std::find(written.begin(), written.end(), what) == written.end();
+    const bool fresh = std::ranges::find(written, what) == written.end();
     if (fresh) written.push_back(what);
     return fresh;
   };
@@ -257,8 +257,8 @@ std::vector<KeyFigure> key_figures(const std::vector<StudyPart>& studies, const 
     for (const ChannelError& error : part.prediction.errors)
       if (channel_views[error.channel].name == "drawbar_pull")
         figures.push_back({fmt::format("{:.3g} N", error.rmse),
-                           fmt::format("error of the predicted drawbar pull, nothing fitted: root mean square over "
-                                       "{} runs, {:.0f} % of the measured range ({})",
+                           fmt::format("error of the predicted drawbar pull, nothing fitted: root mean square over {} "
+                                       "runs, {:.0f} % of the measured range ({})",
                                        error.runs, 100 * error.share_of_range, part.campaign.name)});
   return figures;
 }
@@ -306,8 +306,8 @@ std::string in_words(const CampaignPart& part) {
 std::string analysis_page(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns,
                           const PageAbout& about, const std::vector<PageCard>& links) {
   Page page(about.title,
-            "What does this tire do on this soil? Answers of the semi-empirical wheel model, and how they "
-            "compare with measurements.");
+            "What does this tire do on this soil? Answers of the semi-empirical wheel model, and how they compare with "
+            "measurements.");
   std::vector<std::pair<std::string, std::string>> summary;
   for (const StudyPart& part : studies) summary.emplace_back(part.question.study.name, in_words(part));
   for (const CampaignPart& part : campaigns) summary.emplace_back(part.campaign.name, in_words(part));
@@ -330,10 +330,10 @@ std::string analysis_page(const std::vector<StudyPart>& studies, const std::vect
   add_provenance(page, studies, campaigns);
   page.section("How this page was made");
   page.paragraph(
-      "The model is Bekker's pressure-sinkage law with Wong and Reece's stresses under a rigid wheel and "
-      "Janosi's shear law; effects named in a model's label are added to it. ± is one standard error, "
-      "propagated to first order from the standard deviations of the soil's values. The balance of the load "
-      "is solved to about 1e-14; the quadrature is good to 1e-9.");
+      "The model is Bekker's pressure-sinkage law with Wong and Reece's stresses under a rigid wheel and Janosi's "
+      "shear law; effects named in a model's label are added to it. ± is one standard error, propagated to first order "
+      "from the standard deviations of the soil's values. The balance of the load is solved to about 1e-14; the "
+      "quadrature is good to 1e-9.");
   page.code(about.command);
   page.facts({"part", "version"}, {&about.versions});
   return page.html();

@@ -48,8 +48,7 @@ Prediction predict(const Model& model, const Scenario& scenario, const Campaign&
   }
   for (std::size_t channel = 0; channel < channel_views.size(); ++channel) {
     const auto holds = [&](const Run& run) { return (run.*channel_views[channel].measured).has_value(); };
-    if (std::any_of(campaign.runs.begin(), campaign.runs.end(), holds))
-      prediction.errors.push_back(error_of(prediction.runs, channel));
+    if (std::ranges::any_of(campaign.runs, holds)) prediction.errors.push_back(error_of(prediction.runs, channel));
   }
   return prediction;
 }

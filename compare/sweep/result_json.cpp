@@ -6,95 +6,34 @@
 
 #include "compare/measured/channels.hpp"
 #include "compare/measured/csv.hpp"
-#include "compare/sweep/result_fields.hpp"
 #include "scenario/mapping_writer.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-/// The visitor of OperatingCondition's description that writes its members in SI.
-class ConditionJson {
- public:
-  using C = OperatingCondition;
+template <class T>
+constexpr bool may_be_absent = false;
+template <class T>
+constexpr bool may_be_absent<std::optional<T>> = true;
 
-  explicit ConditionJson(const C& at) : at_(at) {}
-  Json document;
-
-  void number(const char* key, double C::*member, const Measure&, Need, const char*) { document[key] = at_.*member; }
-  void number(const char* key, std::optional<double> C::*member, const Measure&, Need, const char*) {
-    if (at_.*member) document[key] = *(at_.*member);
+/// A member of a condition, read back as it was written.
+template <class N>
+void read_member(const ReadJson& from, const char* key, N& into) {
+  if constexpr (may_be_absent<N>) {
+    if (from.has(key)) read_member(from, key, into.emplace());
+  } else if constexpr (std::is_enum_v<N>) {
+    const Json& found = from.at(key);
+    const auto value = found.is_string() ? value_named<N>(found.get<std::string>()) : std::nullopt;
+    if (!value) ReadJson::refuse(from.below(key), "one of the words of a case file");
+    into = *value;
+  } else {
+    constexpr bool whole = std::is_integral_v<N>;
+    if (!(whole ? from.at(key).is_number_integer() : from.at(key).is_number()))
+      ReadJson::refuse(from.below(key), whole ? "a whole number" : "a number");
+    into = from.at(key).get<N>();
   }
-  void integer(const char* key, int C::*member, int, Need, const char*) { document[key] = at_.*member; }
-  void integer(const char* key, std::optional<int> C::*member, int, Need, const char*) {
-    if (at_.*member) document[key] = *(at_.*member);
-  }
-  template <class E>
-  void choice(const char* key, E C::*member, Need, const char*) {
-    document[key] = std::string(word_of(at_.*member));
-  }
-
- private:
-  const C& at_;
-};
-
-/// The visitor of OperatingCondition's description that reads what ConditionJson wrote.
-class ConditionFromJson {
- public:
-  using C = OperatingCondition;
-
-  explicit ConditionFromJson(const ReadJson& from) : from_(from) {}
-  C at;
-
-  void number(const char* key, double C::*member, const Measure&, Need, const char*) { at.*member = number_at(key); }
-  void number(const char* key, std::optional<double> C::*member, const Measure&, Need, const char*) {
-    if (from_.has(key)) at.*member = number_at(key);
-  }
-  void integer(const char* key, int C::*member, int, Need, const char*) { at.*member = whole_at(key); }
-  void integer(const char* key, std::optional<int> C::*member, int, Need, const char*) {
-    if (from_.has(key)) at.*member = whole_at(key);
-  }
-  template <class E>
-  void choice(const char* key, E C::*member, Need, const char*) {
-    const Json& found = from_.at(key);
-    const auto value = found.is_string() ? value_named<E>(found.get<std::string>()) : std::nullopt;
-    if (!value) ReadJson::refuse(from_.below(key), "one of the words of a case file");
-    at.*member = *value;
-  }
-
- private:
-  double number_at(const char* key) const {
-    if (!from_.at(key).is_number()) ReadJson::refuse(from_.below(key), "a number");
-    return from_.at(key).get<double>();
-  }
-  int whole_at(const char* key) const {
-    if (!from_.at(key).is_number_integer()) ReadJson::refuse(from_.below(key), "a whole number");
-    return from_.at(key).get<int>();
-  }
-
-  const ReadJson& from_;
-};
-
-/// The visitor that makes the schema of what ConditionJson writes.
-class ConditionSchema {
- public:
-  using C = OperatingCondition;
-
-  Json properties = Json::object();
-
-  template <class N>
-  void number(const char* key, N C::*, const Measure&, Need, const char* meaning) {
-    properties[key] = {{"type", "number"}, {"description", std::string(meaning) + " [SI]"}};
-  }
-  template <class N>
-  void integer(const char* key, N C::*, int lowest, Need, const char* meaning) {
-    properties[key] = {{"type", "integer"}, {"minimum", lowest}, {"description", meaning}};
-  }
-  template <class E>
-  void choice(const char* key, E C::*, Need, const char* meaning) {
-    properties[key] = {{"enum", all_words<E>()}, {"description", meaning}};
-  }
-};
+}
 
 Json errors_json(const std::vector<ChannelError>& errors) {
   Json all = Json::object();
@@ -148,8 +87,8 @@ std::string csv_row(const std::string& model, const Answer& answer, const std::s
 
 /// Files from before budget_rest hold the rest of a run of grains as a part.
 void take_rest_out(TractionResult& result) {
-  const auto row = std::find_if(result.budget.begin(), result.budget.end(),
-                                [](const Contribution& part) { return part.name == "between_samples"; });
+  const auto row =
+      std::ranges::find_if(result.budget, [](const Contribution& part) { return part.name == "between_samples"; });
   if (row == result.budget.end()) return;
   result.budget_rest.force = row->force;
   result.budget.erase(row);
@@ -158,9 +97,18 @@ void take_rest_out(TractionResult& result) {
 }  // namespace
 
 Json to_json(const OperatingCondition& at) {
-  ConditionJson visitor(at);
-  describe(visitor, std::type_identity<OperatingCondition>{});
-  return visitor.document;
+  Json document;
+  each_member<OperatingCondition>([&](const char* key, auto member, const auto&, const char*) {
+    const auto& value = at.*member;
+    if constexpr (may_be_absent<std::decay_t<decltype(value)>>) {
+      if (value) document[key] = *value;
+    } else if constexpr (std::is_enum_v<std::decay_t<decltype(value)>>) {
+      document[key] = std::string(word_of(value));
+    } else {
+      document[key] = value;
+    }
+  });
+  return document;
 }
 
 Json to_json(const Answer& answer) {
@@ -178,9 +126,10 @@ Json to_json(const Answer& answer) {
 
 OperatingCondition condition_from_json(const Json& row, const std::string& place) {
   const ReadJson reader(row, place);
-  ConditionFromJson visitor(reader);
-  describe(visitor, std::type_identity<OperatingCondition>{});
-  return visitor.at;
+  OperatingCondition at;
+  each_member<OperatingCondition>(
+      [&](const char* key, auto member, const auto&, const char*) { read_member(reader, key, at.*member); });
+  return at;
 }
 
 Answer answer_from_json(const Json& row, const std::string& place) {
@@ -197,9 +146,18 @@ Answer answer_from_json(const Json& row, const std::string& place) {
 }
 
 Json condition_schema() {
-  ConditionSchema visitor;
-  describe(visitor, std::type_identity<OperatingCondition>{});
-  return visitor.properties;
+  Json properties = Json::object();
+  each_member<OperatingCondition>([&](const char* key, auto member, const auto& limits, const char* meaning) {
+    using Limits = std::decay_t<decltype(limits)>;
+    if constexpr (std::is_same_v<Limits, Measure>)
+      properties[key] = {{"type", "number"}, {"description", std::string(meaning) + " [SI]"}};
+    else if constexpr (std::is_same_v<Limits, int>)
+      properties[key] = {{"type", "integer"}, {"minimum", limits}, {"description", meaning}};
+    else
+      properties[key] = {{"enum", all_words<std::decay_t<decltype(OperatingCondition().*member)>>()},
+                         {"description", meaning}};
+  });
+  return properties;
 }
 
 Json rows_json(const std::vector<ModelAnswers>& study) {

@@ -7,40 +7,13 @@
 #include <map>
 #include <set>
 
+#include "compare/report/number_text.hpp"
 #include "scenario/condition_axes.hpp"
 #include "scenario/description.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-/// The visitor of OperatingCondition's description that compares member by member.
-class Agreement {
- public:
-  using C = OperatingCondition;
-  Agreement(const C& a, const C& b) : a_(a), b_(b) {}
-  bool agree = true;
-
-  void number(const char*, double C::*member, const Measure&, Need, const char*) { near(a_.*member, b_.*member); }
-  void number(const char*, std::optional<double> C::*member, const Measure&, Need, const char*) {
-    agree = agree && (a_.*member).has_value() == (b_.*member).has_value();
-    near((a_.*member).value_or(0.0), (b_.*member).value_or(0.0));
-  }
-  template <class N>
-  void integer(const char*, N C::*member, int, Need, const char*) {
-    agree = agree && a_.*member == b_.*member;
-  }
-  template <class E>
-  void choice(const char*, E C::*member, Need, const char*) {
-    agree = agree && a_.*member == b_.*member;
-  }
-
- private:
-  void near(double x, double y) { agree = agree && std::abs(x - y) <= 1e-9 * std::max(std::abs(x), std::abs(y)); }
-
-  const C& a_;
-  const C& b_;
-};
 
 /// A condition that can tell curves apart.
 struct ConditionAxis {
@@ -51,9 +24,6 @@ struct ConditionAxis {
   bool follows_slip = false;          ///< may vary with slip alone, and then tells nothing apart
 };
 
-std::string newtons(double newton) {
-  return newton >= 1000.0 ? fmt::format("{:.4g} kN", newton / 1000) : fmt::format("{:.4g} N", newton);
-}
 std::string angle(const char* name, double radian) { return fmt::format("{} {:.4g}°", name, radian / degree); }
 
 const std::vector<ConditionAxis>& axes() {
@@ -85,7 +55,7 @@ Levels levels(const ConditionAxis& axis, const std::vector<OperatingCondition>& 
   std::vector<std::size_t> order(conditions.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   const auto at = [&](std::size_t i) { return axis.get(conditions[i]); };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
   Levels found{std::vector<std::size_t>(conditions.size()), {}};
   std::vector<double> members;
   for (std::size_t k = 0; k < order.size(); ++k) {
@@ -157,7 +127,7 @@ Case with_smooth_curves(Case question, int points) {
     }
     for (const double slip : slips) {
       // Beside the condition with the nearest slip: its speed, where that varies along the curve, is the nearest too.
-      const std::size_t near = *std::min_element(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
+      const std::size_t near = *std::ranges::min_element(members, [&](std::size_t a, std::size_t b) {
         return std::abs(slip_of(a) - slip) < std::abs(slip_of(b) - slip);
       });
       OperatingCondition at = asked.conditions[near];
@@ -203,9 +173,18 @@ std::string in_words(const OperatingCondition& at) {
 }
 
 bool alike(const OperatingCondition& a, const OperatingCondition& b) {
-  Agreement visitor(a, b);
-  describe(visitor, std::type_identity<OperatingCondition>{});
-  return visitor.agree;
+  bool agree = true;
+  const auto near = [](double x, double y) { return std::abs(x - y) <= 1e-9 * std::max(std::abs(x), std::abs(y)); };
+  each_member<OperatingCondition>([&](const char*, auto member, const auto&, const char*) {
+    const auto &x = a.*member, &y = b.*member;
+    if constexpr (std::is_same_v<decltype(x), const double&>)
+      agree = agree && near(x, y);
+    else if constexpr (std::is_same_v<decltype(x), const std::optional<double>&>)
+      agree = agree && x.has_value() == y.has_value() && near(x.value_or(0.0), y.value_or(0.0));
+    else
+      agree = agree && x == y;
+  });
+  return agree;
 }
 
 }  // namespace soilbin::compare

@@ -9,7 +9,7 @@
 #include "bekker_wong/model.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/report/number_text.hpp"
-#include "compare/report/text_table.hpp"
+#include "compare/report/table.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
@@ -87,8 +87,8 @@ std::vector<WheelLimits> limits_of(const Case& question) {
   for (const ModelChoice& model : question.study.models)
     for (const OperatingCondition& at : without_slip(question.study.conditions)) {
       WheelLimits answer = limits_at(question.scenario, model, at);
-      const auto known = std::find_if(answers.begin(), answers.end(),
-                                      [&](const WheelLimits& other) { return same_but_speed(other, answer); });
+      const auto known =
+          std::ranges::find_if(answers, [&](const WheelLimits& other) { return same_but_speed(other, answer); });
       if (known == answers.end())
         answers.push_back(std::move(answer));
       else
@@ -117,11 +117,11 @@ std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vec
 std::string in_words(const WheelLimits& answer) {
   std::string text = fmt::format("{}, load {:.6g} N\n", answer.model.label, answer.at.load);
   if (!answer.error.empty()) return text + "no solution: " + answer.error + "\n";
-  TextTable table({"slope [deg]", "slip [%]", "largest pull [N]", "at slip [%]"});
+  Table table{"", {"slope [deg]", "slip [%]", "largest pull [N]", "at slip [%]"}};
   for (const SlopeRow& row : answer.slopes)
     table.add({number(row.slope / degree), row.slip ? number(100 * *row.slip) : "-", number(row.best.drawbar_pull),
                number(100 * row.best.slip)});
-  text += table.text();
+  text += as_text(table);
   if (!answer.steepest) return text + "The steepest slope lies beyond -60 .. 80 deg.\n";
   return text + steepest_in_words(*answer.steepest) + "\n";
 }
@@ -136,12 +136,11 @@ Json to_json(const WheelLimits& answer) {
     row["error"] = answer.error;
     return row;
   }
-  const auto value = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
-  row["steepest_slope"] = value(answer.steepest);
+  row["steepest_slope"] = or_null(answer.steepest);
   row["slopes"] = Json::array();
   for (const SlopeRow& slope : answer.slopes)
     row["slopes"].push_back({{"longitudinal_incline", slope.slope},
-                             {"slip", value(slope.slip)},
+                             {"slip", or_null(slope.slip)},
                              {"largest_pull", slope.best.drawbar_pull},
                              {"slip_of_largest_pull", slope.best.slip}});
   return row;
@@ -172,9 +171,8 @@ std::string limits_csv(const std::vector<WheelLimits>& answers, const std::vecto
 /// Largest pull against the slope, and the slips: a colour for each model and load.
 Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& answers) {
   const Axis slope{"slope [deg]"};
-  const bool one_load = std::all_of(answers.begin(), answers.end(), [&](const WheelLimits& answer) {
-    return answer.at.load == answers.front().at.load;
-  });
+  const bool one_load = std::ranges::all_of(
+      answers, [&](const WheelLimits& answer) { return answer.at.load == answers.front().at.load; });
   Sheet sheet{fmt::format("{} on {}{}", question.scenario.tire.name, in_words(question.scenario.soil),
                           one_load && !answers.empty() ? fmt::format(", load {:.6g} N", answers.front().at.load) : ""),
               {{"Largest pull [N]", slope, {}, {}}, {"Slip [%]", slope, {}, {}}}};

@@ -5,7 +5,6 @@
 #include <random>
 
 #include "compare/design/gaussian_process.hpp"
-#include "compare/design/next_point.hpp"
 #include "compare/design/space_filling.hpp"
 
 namespace soilbin::compare {

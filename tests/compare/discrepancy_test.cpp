@@ -7,7 +7,6 @@
 #include "compare/comparison_fixture.hpp"
 #include "compare/discrepancy/causes.hpp"
 #include "compare/discrepancy/comparison_sheets.hpp"
-#include "compare/discrepancy/comparison_tables.hpp"
 #include "compare/discrepancy/summary.hpp"
 #include "scenario/errors.hpp"
 
@@ -141,13 +140,13 @@ TEST_F(Pair, EveryClauseOfTheSummaryHasItsRows) {
 
 // The table's first row is the widest pair; what the errors cannot have made is bad news, what they can is good.
 TEST_F(Pair, TheTableOfChannelsPutsTheWidestFirstAndMarksIt) {
-  const MarkedTable apart = tally_table(against({300}, 40.0));
+  const Table apart = tally_table(against({300}, 40.0));
   EXPECT_EQ(apart.rows.at(0).at(0).text, "drawbar pull");
   EXPECT_EQ(apart.rows.at(0).at(1).tone, Tone::bad);
   EXPECT_EQ(apart.rows.at(0).at(4).text, "4 of 4");
   EXPECT_EQ(apart.rows.at(0).at(0).anchor, "rows-0-1-0");
   const Comparison near = against({10}, 40.0);
-  const MarkedTable table = tally_table(near);
+  const Table table = tally_table(near);
   const auto pull =
       std::find_if(table.rows.begin(), table.rows.end(), [](const auto& row) { return row[0].text == "drawbar pull"; });
   ASSERT_NE(pull, table.rows.end());
@@ -226,9 +225,9 @@ TEST_F(Pair, PartsThatLeaveMoreThanTheirBoundAreADoubtOfThePoint) {
   EXPECT_THAT(side.points[3].doubts, Not(Contains(HasSubstr("unexplained"))));
   // It is told beside the parts, and no part: each side's parts and the rest are its pull.
   const Comparison comparison = compare_sides(question, {base.choice}, {side_of(base), side});
-  const HtmlTable table = budget_table(comparison, 2);
+  const Table table = budget_table(comparison, 2);
   EXPECT_EQ(budget_at(comparison, 2).rows.size() + 2, table.rows.size());
-  EXPECT_EQ(table.rows[table.rows.size() - 2].back(), "-30.00 (12.00)");
+  EXPECT_EQ(table.rows[table.rows.size() - 2].back().text, "-30.00 (12.00)");
 }
 
 TEST_F(Pair, SinkageIsWhatTheLoadPressesAndWhatSlipAdds) {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "compare/calibrate/experiment_batch.hpp"
+#include "compare/calibrate/experiment_store.hpp"
 #include "compare/design/space_filling.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"

@@ -13,7 +13,7 @@
 
 #include "compare/loop/base_fit.hpp"
 #include "compare/loop/detection.hpp"
-#include "compare/loop/setpoint_permutation.hpp"
+#include "compare/loop/setpoint_squares.hpp"
 #include "compare/loop_fixture.hpp"
 #include "compare/measured/condition_views.hpp"
 

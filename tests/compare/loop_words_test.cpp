@@ -121,7 +121,7 @@ TEST(ErrorSentence, TellsGainLossAndWhatHardlyChanges) {
                 "noise alone: 3.40 mm) and hardly changes for the torque (2.00 to 2.00 N m; noise alone: 1.90 N m)."),
             0u)
       << parts[1].second;
-  const MarkedTable table = error_table(answer);
+  const Table table = error_table(answer);
   EXPECT_EQ(table.rows.at(0).at(3).tone, Tone::bad);
   EXPECT_EQ(table.rows.at(1).at(3).tone, Tone::none);
   EXPECT_EQ(table.rows.at(2).at(3).tone, Tone::good);
@@ -143,7 +143,7 @@ TEST(ParametersTable, ShowsUnitsMeaningAndBounds) {
   layer.ci95 = {{0.0, 50.0}, {0.0373, 0.045}};
   layer.at_bound = {true, false};
   answer.stand_in = {layer};
-  const MarkedTable table = parameters_table(answer);
+  const Table table = parameters_table(answer);
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_EQ(table.rows[0][0].text, "hard layer");
   EXPECT_EQ(table.rows[0][5].tone, Tone::bad);
@@ -172,7 +172,7 @@ TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
   found.candidates.models = {candidate};
   found.candidates.sets = {{.ids = candidate.ids, .weight = 1.0}};
   answer.judgement = Judgement{.found = found, .before = {}, .choice = {}, .reason = {}};
-  const std::vector<MarkedCell> row = candidates_table(answer).rows.front();
+  const std::vector<TableCell> row = candidates_table(answer).rows.front();
   EXPECT_EQ(row[0].text, "bulldozing and slip sinkage");
   EXPECT_EQ(row[0].note, "bulldozing + slip_sinkage");
   EXPECT_EQ(row[1].text, candidate.terms()[1].form->form + " + lyasko");

@@ -115,7 +115,7 @@ std::string all_words(const LoopAnswer& answer) {
 /// Each set's share is one number: in the list, the JSON with its details, the table and the sentence.
 void expect_same_shares(const LoopAnswer& answer) {
   const auto sets = to_json(answer).at("ambiguity_set");
-  const MarkedTable table = candidates_table(answer);
+  const Table table = candidates_table(answer);
   const std::string words = all_words(answer);
   const std::size_t decided = answer.ambiguity_set.size();
   ASSERT_EQ(sets.size(), decided + answer.noted_sets.size());

@@ -9,7 +9,6 @@
 #include "compare/report/page.hpp"
 #include "compare/report/plot.hpp"
 #include "compare/report/plot_panel.hpp"
-#include "compare/report/sheet_json.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"

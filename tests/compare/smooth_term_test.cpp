@@ -1,11 +1,10 @@
 // The smooth term, on residuals that are smooth and on residuals that are not.
-#include "compare/loop/smooth_term.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
+#include "compare/loop/condition_functions.hpp"
 #include "compare/loop_fixture.hpp"
 
 namespace soilbin::compare {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/calibrate/virtual_test.hpp"
+#include "compare/calibrate/experiment_store.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {

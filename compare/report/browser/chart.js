@@ -1,4 +1,4 @@
-// Interactive line charts from the data of a sheet (sheet_json.hpp): zoom, pan, readings by mouse and by keys.
+// Interactive line charts from the data of a sheet (plot.hpp): zoom, pan, readings by mouse and by keys.
 // Colours are the page's classes (s c0, f q3), so that light, dark and print need nothing here.
 'use strict';
 

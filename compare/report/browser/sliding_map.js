@@ -1,4 +1,4 @@
-// Sliders that pick one of several heat maps (sliding_map.hpp): the drawing stays, its cells change.
+// Sliders that pick one of several heat maps (heat_map.hpp): the drawing stays, its cells change.
 'use strict';
 
 soilbin.enlivenSlidingMap = function (figure) {

@@ -1,10 +1,9 @@
-#include "compare/report/json_file.hpp"
+#include "compare/report/json_fields.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 
-#include "compare/report/json_fields.hpp"
 #include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"
 
