@@ -227,11 +227,13 @@ double open_paddle(RollingLaw rolling, double dt) {
   return std::abs(simulation.energy().total()) / work;
 }
 
+// Falls as the step does; in the mean of two steps, as each run takes its own way through the grains.
 TEST(SlowLedger, ClosesWithADrivenBody) {
   for (const RollingLaw rolling : {RollingLaw::elastic_plastic, RollingLaw::directional}) {
-    const double coarse = open_paddle(rolling, 2e-5), fine = open_paddle(rolling, 1e-5);
+    const double coarse = (open_paddle(rolling, 8e-5) + open_paddle(rolling, 4e-5)) / 2;
+    const double fine = (open_paddle(rolling, 1e-5) + open_paddle(rolling, 5e-6)) / 2;
     EXPECT_LT(coarse, 1e-3);
-    EXPECT_LT(fine, 0.6 * coarse);
+    EXPECT_LT(fine, 0.2 * coarse) << "an eighth of the step";
   }
 }
 
