@@ -48,8 +48,10 @@ def liggghts(cores, steps, forces, log):
 
 
 def soilbin(cores, steps, text):
-    seconds = float(re.search(r"^# seconds (\S+)$", text, re.M)[1])
-    of_wheel("soilbin", cores, grains_of_bed * steps / seconds, text.splitlines())
+    seconds = re.search(r"^# seconds (\S+)$", text, re.M)
+    if not seconds:
+        sys.exit("peer_wheel ended without an answer")
+    of_wheel("soilbin", cores, grains_of_bed * steps / float(seconds[1]), text.splitlines())
 
 
 def ratios(peer, fields, allowed, text):
