@@ -9,6 +9,7 @@
 
 #include "compare/measured/channels.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/quantity.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -190,11 +191,12 @@ double error_with_loads(double times, const Campaign& campaign, const std::vecto
 void add_loads_in_another_unit(const Campaign& campaign, const std::vector<Answer>& answers, const AskAgain& ask,
                                Warnings& warnings) {
   constexpr double clearly = 0.5;
-  constexpr std::pair<const char*, double> units[] = {{"kg", 9.80665}, {"lbf", 4.4482216}, {"kN", 1000.0}};
+  constexpr std::pair<const char*, const char*> units[] = {{"kg", "1 kgf"}, {"lbf", "1 lbf"}, {"kN", "1 kN"}};
   double least = clearly;
   std::string words;
   const DataColumn column = column_of(campaign, "load");
-  for (const auto& [unit, newtons] : units)
+  for (const auto& [unit, one] : units) {
+    const double newtons = read_quantity(one, {"N", above_zero});
     if (const double error = error_with_loads(newtons, campaign, answers, ask); error < least) {
       least = error;
       words = fmt::format(
@@ -202,6 +204,7 @@ void add_loads_in_another_unit(const Campaign& campaign, const std::vector<Answe
           "fits far better; look at its unit",
           place_of(column), clipped(column.header), unit, newtons);
     }
+  }
   if (!words.empty()) warnings.push_back(words);
 }
 
