@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -70,6 +71,13 @@ std::vector<std::string> effect_ids() {
   for (const EffectForm& form : effect_catalogue())
     if (ids.empty() || ids.back() != form.id) ids.push_back(form.id);
   return ids;
+}
+
+bool depends_on(const EffectForm& form, std::string_view key) {
+  const auto is = [&](const std::string& condition) { return condition == key; };
+  const auto read = [&](const Presumption& p) { return p.key == key || p.key.starts_with(std::string(key) + "."); };
+  return std::ranges::any_of(form.conditions, is) || std::ranges::any_of(form.presumes, read) ||
+         std::ranges::any_of(form.parameters, is, &EffectParameter::centred_on);
 }
 
 const EffectForm& find_form(const EffectChoice& choice) {

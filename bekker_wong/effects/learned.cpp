@@ -53,12 +53,14 @@ EffectForm form_of(const LearnedJoint& joint, const LearnedFunction& function) {
                   .form_tolerance = 0.0,
                   .steady_only = "it was learned from steady runs",
                   .presumes = {},
+                  .conditions = {},
                   .make = [&function, make = joint.make](const std::vector<double>& p) {
                     return make(p[0] == 0.0 ? LearnedChange() : Smooth(function, p));
                   }};
   for (std::size_t v = 0; v < function.variables.size(); ++v) {
     const LearnedVariable& variable = function.variables[v];
     const std::string name(variable.name), unit(variable.unit);
+    form.conditions.push_back(name);
     form.form += (v == 0 ? "_by_" : "_and_") + name;
     form.parameters.push_back(
         {name + "_from", unit, 0.0, -widest_range, widest_range, "smallest value that it was learned from"});

@@ -103,6 +103,7 @@ EffectForm reload(const std::string& form, bool from_surface) {
                      {"p0", "-", 1.0, 0.2, 20.0, "passes after which most of the compaction is done"},
                      {"e", "-", 0.1, 0.02, 1.0, "elastic share: rebound of the rut over the static sinkage"}},
       .steady_only = from_surface ? "a drive counts its sinkage from the rut's floor: take the form reload" : "",
+      .conditions = {"pass"},
       .make = [from_surface](const std::vector<double>& p) { return std::make_unique<const Reload>(p, from_surface); }};
 }
 
@@ -117,6 +118,7 @@ std::vector<EffectForm> multipass_forms() {
        .source = "stated here; after Holm 1969, J. Terramechanics 6(3) (a rut's soil stiffens, most on the first pass)",
        .parameters = {{"a", "-", 0.5, 0.0, 20.0, "relative growth of the stiffness after many passes"},
                       {"p0", "-", 1.0, 0.2, 20.0, "passes after which most of the compaction is done"}},
+       .conditions = {"pass"},
        .make = maker<Stiffer>()},
       reload("reload", false),
       reload("reload_from_surface", true),
@@ -127,6 +129,7 @@ std::vector<EffectForm> multipass_forms() {
        .parameters = {{"a", "-", 0.3, 0.0, 5.0, "relative growth of the strength by slip in the earlier passes"},
                       {"s1", "-", 0.2, 0.02, 2.0, "slip that does most of it"},
                       {"q", "-", 0.3, 0.0, 2.0, "further growth a pass, over that by slip"}},
+       .conditions = {"pass"},
        .make = maker<SlipHardening>()},
       {.id = id,
        .form = "rut_power",
@@ -134,6 +137,7 @@ std::vector<EffectForm> multipass_forms() {
        .source = "after Abebe, Tanaka, Yamazaki 1989, J. Terramechanics 26(2):139 (rut depth over passes, e = 1/a)",
        .parameters = {{"e", "-", 0.3, 0.0, 1.0, "growth of the total rut depth with the pass"}},
        .steady_only = "it changes what a gauge reads, not the wheel",
+       .conditions = {"pass"},
        .make = maker<RutPower>()},
   };
 }

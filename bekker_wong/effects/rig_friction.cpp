@@ -82,6 +82,7 @@ std::vector<EffectForm> rig_friction_forms() {
        .measurement = true,
        .form_tolerance = 0.15,
        .steady_only = of_an_instrument,
+       .conditions = {"speed"},
        .make = maker<Taken<viscous>>()},
       {.id = id,
        .form = "transmission",

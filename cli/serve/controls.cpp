@@ -6,7 +6,6 @@
 #include "bekker_wong/effect.hpp"
 #include "cli/described_flags.hpp"
 #include "cli/text_output.hpp"
-#include "compare/doubts/unheard.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/quantity.hpp"
 #include "scenario/soil_parameters.hpp"
@@ -166,7 +165,7 @@ double given_value(const OperatingCondition& at, const Heard& heard) {
 Json hearing_ids(const std::string& key) {
   Json ids = Json::array();
   for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue())
-    if (compare::hears_of(form, key) && (ids.empty() || ids.back() != form.id)) ids.push_back(form.id);
+    if (depends_on(form, key) && (ids.empty() || ids.back() != form.id)) ids.push_back(form.id);
   return ids;
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "bekker_wong/learned.hpp"
+#include "bekker_wong/effect.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -34,7 +34,7 @@ const std::vector<Declared>& declarable() {
   static const std::vector<Declared> all = {
       {"lugs", "the tire's lugs change nothing: the analytic wheel is smooth without {}", "", "",
        [](const Case& question) { return is_lugged(question.scenario.tire); }},
-      {"inflation", "the tire's inflation pressure changes nothing: the analytic wheel is rigid without {}",
+      {"inflation_pressure", "the tire's inflation pressure changes nothing: the analytic wheel is rigid without {}",
        "the tire's inflation pressure changes nothing: grains meet a rigid tire", "",
        [](const Case& question) { return question.scenario.tire.inflation_pressure.has_value(); }},
       of_condition("pass", "", "no condition has a 'pass' of 2 or more", [](At at) { return at.pass > 1; }),
@@ -52,13 +52,13 @@ const std::vector<Declared>& declarable() {
 std::string hearing_effects(const std::string& key) {
   std::vector<std::string> ids;
   for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue())
-    if (hears_of(form, key) && (ids.empty() || ids.back() != form.id)) ids.push_back(form.id);
+    if (depends_on(form, key) && (ids.empty() || ids.back() != form.id)) ids.push_back(form.id);
   return ids.empty() ? "" : fmt::format("effect {}", fmt::join(ids, " or "));
 }
 
 bool hears(const ModelChoice& choice, const Declared& declared) {
   return std::any_of(choice.effects.begin(), choice.effects.end(), [&](const EffectChoice& effect) {
-    return hears_of(bekker_wong::find_form(effect), declared.key);
+    return depends_on(bekker_wong::find_form(effect), declared.key);
   });
 }
 
@@ -77,7 +77,7 @@ std::vector<std::string> in_need(const std::vector<ModelChoice>& models, const D
   std::vector<std::string> ids;
   for (const ModelChoice& choice : models)
     for (const EffectChoice& effect : choice.effects)
-      if (hears_of(bekker_wong::find_form(effect), declared.key) &&
+      if (depends_on(bekker_wong::find_form(effect), declared.key) &&
           std::find(ids.begin(), ids.end(), effect.id) == ids.end())
         ids.push_back(effect.id);
   return ids;
@@ -99,18 +99,6 @@ void add_depths_of_the_bin(const Case& question, std::vector<Unheard>& all) {
 }
 
 }  // namespace
-
-bool hears_of(const bekker_wong::EffectForm& form, const std::string& key) {
-  // A parameter about which a form is centred tells; passes, speed, lugs and inflation have none.
-  if (key == "pass" && form.id == "multipass") return true;
-  if (key == "speed" && (form.id == "rate_dependence" || form.form == "viscous")) return true;
-  if (key == "lugs") return form.id == "lug_thrust";
-  if (key == "inflation") return form.id == "tire_flexibility";
-  for (const bekker_wong::LearnedVariable& variable : bekker_wong::learned_function(form).variables)
-    if (variable.name == key) return true;
-  return std::any_of(form.parameters.begin(), form.parameters.end(),
-                     [&](const bekker_wong::EffectParameter& parameter) { return parameter.centred_on == key; });
-}
 
 std::vector<Unheard> unheard(const Case& question) {
   std::vector<Unheard> all;

@@ -4,23 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "bekker_wong/effect.hpp"
 #include "scenario/case.hpp"
 
 namespace soilbin::compare {
 
 /// Something that is declared and changes no digit.
 struct Unheard {
-  std::string key;  ///< "lugs", "inflation", "pass", "moisture", "position", "run"; "effect": one without such a value
+  /// "lugs", "inflation_pressure", "pass", "moisture", "position", "run"; "effect": one without such a value
+  std::string key;
   std::string words;  ///< why
 };
 
 /// What a case declares and its analytic models, or its grains, hear nothing of, and the effects that it switches on
 /// whose condition it gives nowhere.
 std::vector<Unheard> unheard(const Case& question);
-
-/// Whether a form's answer hangs on this key of Unheard, or on the "speed". Where it is not given the form changes
-/// nothing (of lugs it assumes some).
-bool hears_of(const bekker_wong::EffectForm& form, const std::string& key);
 
 }  // namespace soilbin::compare

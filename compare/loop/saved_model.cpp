@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "compare/doubts/unheard.hpp"
+#include "bekker_wong/effect.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/report/number_text.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 std::vector<OperatingCondition> asked_of(const Campaign& campaign, const std::vector<EffectChoice>& effects) {
   const auto heard = [&](const char* key) {
     return std::ranges::any_of(
-        effects, [&](const EffectChoice& effect) { return hears_of(bekker_wong::find_form(effect), key); });
+        effects, [&](const EffectChoice& effect) { return depends_on(bekker_wong::find_form(effect), key); });
   };
   std::vector<double> speeds;
   for (const Run& run : campaign.runs) speeds.push_back(run.at.speed);

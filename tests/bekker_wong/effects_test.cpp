@@ -245,6 +245,26 @@ TEST(Effects, AmplitudeZeroIsTheBaseModelAtTheCorners) {
   }
 }
 
+// Who asks depends_on is told the truth: the answer moves with a condition where the form's description says so, and
+// nowhere else.
+TEST(Effects, DependOnTheConditionsThatTheirDescriptionsName) {
+  const std::map<std::string, void (*)(OperatingCondition&)> changes = {
+      {"pass", [](OperatingCondition& at) { at.pass = 2; }},
+      {"speed", [](OperatingCondition& at) { at.speed *= 2; }},
+      {"moisture", [](OperatingCondition& at) { at.moisture = 0.12; }},
+      {"position", [](OperatingCondition& at) { at.position = 4; }},
+      {"run", [](OperatingCondition& at) { at.run = 9; }}};
+  const Setting& s = settings()[1];
+  for (const EffectForm& form : effect_catalogue())
+    for (const auto& [name, change] : changes) {
+      OperatingCondition at = condition(s, questions[5]), other = at;
+      change(other);
+      const RollingWheel wheel = wheel_with(s, form);
+      EXPECT_EQ(channels(wheel.roll(at).reading) != channels(wheel.roll(other).reading), depends_on(form, name))
+          << key(form) << ", " << name;
+    }
+}
+
 // Effects know nothing of each other: one at amplitude 0 beside another at its default changes no bit of the other's.
 TEST(Effects, AmplitudeZeroBesideAnotherEffectIsThatEffectAlone) {
   const Setting& s = settings()[0];

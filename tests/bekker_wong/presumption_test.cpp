@@ -63,6 +63,9 @@ TEST(Presumption, IsStatedByEachFormForWhatItReadsAndNothingElse) {
     std::set<std::string> stated;
     for (const Presumed& value : presumed(form, smooth_tire())) stated.insert(value.key);
     EXPECT_EQ(stated, read_by(form));
+    for (const Optional& value : optional_values())
+      EXPECT_EQ(depends_on(form, value.key), stated.contains(value.key)) << value.key;
+    EXPECT_EQ(depends_on(form, "lugs"), depends_on(form, "lugs.height"));
     EXPECT_TRUE(presumed(form, fully_declared()).empty());
     if (!stated.empty()) presuming.insert(form.id);
   }

@@ -187,7 +187,7 @@ TEST(Doubts, InflationIsHeardByAFlexibleTireAlone) {
   question.study.models[0].effects = {{"tire_flexibility", "", {}}};
   EXPECT_THAT(keys_of_unheard(question), IsEmpty());
   question.study.models = {{ModelKind::dem, {}, ""}};
-  EXPECT_THAT(keys_of_unheard(question), ElementsAre("inflation"));
+  EXPECT_THAT(keys_of_unheard(question), ElementsAre("inflation_pressure"));
 }
 
 TEST(Doubts, WhatAnEffectPresumesOfTheTireIsToldUntilItIsDeclared) {
