@@ -5,7 +5,6 @@
 #include <cctype>
 #include <filesystem>
 #include <memory>
-#include <set>
 #include <tuple>
 
 #include "cli/commands.hpp"
@@ -74,31 +73,14 @@ std::vector<ModelChoice> analytic_choices(const Case& question, const CompareOpt
 }
 
 /// Runs the grains, or takes them from the record, and tells what they rest on.
-compare::Side grain_side(const Case& question, const CompareOptions& asked, const Session& session, const RunLog& log,
-                         compare::ComparisonAbout& about) {
+compare::Side answer_of_grains(const Case& question, const CompareOptions& asked, const Session& session,
+                               const RunLog& log, compare::ComparisonAbout& about) {
   const auto model = models_with(asked.soil_bin, question, session.place.effects, log)(ModelKind::dem);
   compare::sweep(*model, question.scenario, question.study.conditions, shown_progress());
-  std::set<std::string> packings, sources;
-  double seconds = 0.0;
-  for (const compare::RecordedRun& run : *log) {
-    packings.insert(std::to_string(run.packing));
-    if (!run.source.empty()) sources.insert(run.source);
-    seconds += run.seconds;
-  }
-  about.facts.emplace_back("runs of grains", fmt::format("{}, {:.0f} s in all", log->size(), seconds));
-  about.facts.emplace_back("packings (seeds of the beds)", listed({packings.begin(), packings.end()}));
-  about.facts.emplace_back("sources of the runs", listed({sources.begin(), sources.end()}));
-  compare::Side side = compare::side_of("dem", *log, question.study.conditions);
-  const std::string& file = !asked.soil_bin.recorded.empty() ? asked.soil_bin.recorded : asked.soil_bin.record;
-  if (!file.empty()) {
-    const compare::Record record = compare::read_record(file);
-    about.facts.emplace_back("record", file);
-    if (const std::string note = compare::unsealed_note(record, file); !note.empty())
-      about.facts.emplace_back("seals of the record's runs", note);
-    about.facts.emplace_back("hash of the record's inputs", compare::inputs_key(record.inputs));
-    side.doubts = compare::step_doubts(record);
-  }
-  return side;
+  const std::string& record = !asked.soil_bin.recorded.empty() ? asked.soil_bin.recorded : asked.soil_bin.record;
+  compare::GrainSide grains = compare::grain_side(*log, question.study.conditions, record);
+  about.facts.insert(about.facts.end(), grains.facts.begin(), grains.facts.end());
+  return std::move(grains.side);
 }
 
 /// What the loop makes of the best reference there is: measurements before grains.
@@ -175,7 +157,7 @@ int compare_models(CompareOptions asked, const Session& session) {
   }
   if (asked.model == "dem" || !asked.soil_bin.recorded.empty() ||
       (asked.model.empty() && asks(question.study, ModelKind::dem)))
-    sides.push_back(grain_side(question, asked, session, log, about));
+    sides.push_back(answer_of_grains(question, asked, session, log, about));
   about.page.doubts = compare::doubts(question, choices, sides);
   print_warnings(about.page.doubts);
   if (!asked.measured.empty())

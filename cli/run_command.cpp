@@ -33,15 +33,6 @@ struct RunOptions {
   SoilBinFlags soil_bin;
 };
 
-void keep_model(Case& question, const std::string& name) {
-  if (name.empty()) return;
-  check_model(name, all_words<ModelKind>());
-  const ModelKind kind = *value_named<ModelKind>(name);
-  std::vector<ModelChoice>& models = question.study.models;
-  std::erase_if(models, [&](const ModelChoice& choice) { return choice.model != kind; });
-  if (models.empty()) models.push_back({kind, {}, name});
-}
-
 /// Answers by LAMMPS carry its name.
 void name_engine(Case& question, const std::string& engine) {
   if (engine != "lammps") return;
@@ -135,7 +126,10 @@ int run(RunOptions options, const Session& session) {
     options.soil_bin.recorded = find_record(session.place, options.study, options.soil_bin.recorded);
   Case question = find_study(session.place, options.study);
   options.errors.apply(question.scenario.soil);
-  keep_model(question, options.model);
+  if (!options.model.empty()) {
+    check_model(options.model, all_words<ModelKind>());
+    compare::keep_models(question.study, *value_named<ModelKind>(options.model));
+  }
   if (!options.soil_bin.recorded.empty() && options.model.empty() && !asks(question.study, ModelKind::dem))
     question.study.models.push_back({ModelKind::dem, {}, "dem"});  // a record answers beside the study's own models
   if (options.soil_bin.recorded.empty()) require_grains(question, session.place.library);

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <memory>
 
-#include "bekker_wong/limits.hpp"
 #include "bekker_wong/model.hpp"
 #include "cli/text_output.hpp"
 #include "compare/report/json_fields.hpp"
@@ -117,21 +116,6 @@ Json readings_json(const ServedAnswer& one) {
     for (const Reading& reading : readings(*result))
       all.push_back({{"name", reading.name}, {"value", reading.value}, {"unit", reading.unit}});
   return all;
-}
-
-Json carried_load(const ServedAnswer& one) {
-  const Case& question = one.asked.question;
-  if (compare::any_result(one.point) || !question.scenario.soil.semi_empirical) return nullptr;
-  try {
-    const bekker_wong::RollingWheel wheel(
-        question.scenario.tire, bekker_wong::values_of(*question.scenario.soil.semi_empirical),
-        bekker_wong::make_effects(question.study.models.front().effects), question.scenario.bin);
-    const OperatingCondition& at = question.study.conditions.front();
-    const std::optional<double> load = bekker_wong::largest_load(wheel, at, at.load);
-    return compare::or_null(load);
-  } catch (const std::exception&) {  // the point's own error says why
-    return nullptr;
-  }
 }
 
 }  // namespace soilbin::cli

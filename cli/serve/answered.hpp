@@ -38,7 +38,4 @@ nlohmann::ordered_json wheel_json(const ServedAnswer& one);
 /// Names, values and units as `soilbin estimate` prints them.
 nlohmann::ordered_json readings_json(const ServedAnswer& one);
 
-/// The largest load [N] that the soil carries at the point; null where there is none, or the point has a solution.
-nlohmann::ordered_json carried_load(const ServedAnswer& one);
-
 }  // namespace soilbin::cli

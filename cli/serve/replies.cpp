@@ -16,6 +16,7 @@
 #include "compare/report/page.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "compare/sweep/wheel_limits.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/source_text.hpp"
 
@@ -119,12 +120,11 @@ std::string question_in_words(const Case& question) {
 
 /// What is said of a point without solution.
 void add_refusal(Json& document, const ServedAnswer& one) {
-  const Json carried = carried_load(one);
+  const std::optional<double> carried = compare::carried_load(one.asked.question);
   document["error"] = "no solution: " + error_and_hint(one.point.front().answers.front().error).first;
-  document["carried_load"] = carried;
-  if (!carried.is_null())
-    document["hint"] =
-        "at this slip the soil carries up to " + compare::newtons(carried.get<double>()) + " under this wheel";
+  document["carried_load"] = compare::or_null(carried);
+  if (carried)
+    document["hint"] = "at this slip the soil carries up to " + compare::newtons(*carried) + " under this wheel";
   else
     document["hint"] = compare::any_result(one.curves) ? "the curves show the slips that have one"
                                                        : "less load, another soil or other effects may have one";

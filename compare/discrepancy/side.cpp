@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "compare/recorded/step_pair.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/nearest_word.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -83,6 +86,29 @@ Side side_of(const std::string& label, const std::vector<RecordedRun>& runs,
     side.points.push_back(combine(members));
   }
   return side;
+}
+
+GrainSide grain_side(const std::vector<RecordedRun>& runs, const std::vector<OperatingCondition>& conditions,
+                     const std::filesystem::path& record) {
+  std::set<std::string> packings, sources;
+  double seconds = 0.0;
+  for (const RecordedRun& run : runs) {
+    packings.insert(std::to_string(run.packing));
+    if (!run.source.empty()) sources.insert(run.source);
+    seconds += run.seconds;
+  }
+  GrainSide grains{side_of("dem", runs, conditions),
+                   {{"runs of grains", fmt::format("{}, {:.0f} s in all", runs.size(), seconds)},
+                    {"packings (seeds of the beds)", listed({packings.begin(), packings.end()})},
+                    {"sources of the runs", listed({sources.begin(), sources.end()})}}};
+  if (record.empty()) return grains;
+  const Record kept = read_record(record);
+  grains.facts.emplace_back("record", record.string());
+  if (const std::string note = unsealed_note(kept, record); !note.empty())
+    grains.facts.emplace_back("seals of the record's runs", note);
+  grains.facts.emplace_back("hash of the record's inputs", inputs_key(kept.inputs));
+  grains.side.doubts = step_doubts(kept);
+  return grains;
 }
 
 }  // namespace soilbin::compare

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compare/loop/noise_floor.hpp"
@@ -63,6 +65,16 @@ SidePoint combine(const std::vector<const RecordedRun*>& runs);
 /// Runs as a side: each counts at the condition that it is alike.
 Side side_of(const std::string& label, const std::vector<RecordedRun>& runs,
              const std::vector<OperatingCondition>& conditions);
+
+/// Grains as a side, and what a page tells of their runs.
+struct GrainSide {
+  Side side;
+  std::vector<std::pair<std::string, std::string>> facts;  ///< "packings (seeds of the beds)": "1, 2"; and so on
+};
+
+/// The runs behind it; `record`: the file that keeps them, which also knows whether they hang on the time step, or "".
+GrainSide grain_side(const std::vector<RecordedRun>& runs, const std::vector<OperatingCondition>& conditions,
+                     const std::filesystem::path& record);
 
 /// How far a measured run may be from a study's condition and still count as one of it: share of the load, slip [-],
 /// angles [rad].

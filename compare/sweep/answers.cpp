@@ -59,6 +59,12 @@ std::vector<ModelAnswers> run_study(const Case& question, const Progress& progre
   return study;
 }
 
+void keep_models(Study& study, ModelKind kind) {
+  std::erase_if(study.models, [&](const ModelChoice& choice) { return choice.model != kind; });
+  if (study.models.empty()) study.models.push_back({kind, {}, ""});
+  label_models(study.models);
+}
+
 bool any_result(const std::vector<ModelAnswers>& study) {
   return std::ranges::any_of(study, [](const ModelAnswers& model) {
     return std::ranges::any_of(model.answers, [](const Answer& a) { return a.result.has_value(); });

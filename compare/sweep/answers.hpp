@@ -45,6 +45,9 @@ std::vector<Answer> sweep(const Model& model, const Scenario& scenario,
 std::vector<ModelAnswers> run_study(const Case& question, const Progress& progress = {},
                                     const MakeModel& make = make_model);
 
+/// Leaves out a study's models of every other kind; where it has none of this one, it gets that without effects.
+void keep_models(Study& study, ModelKind kind);
+
 /// Whether any answer of a study holds a result.
 bool any_result(const std::vector<ModelAnswers>& study);
 

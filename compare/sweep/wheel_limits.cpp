@@ -30,11 +30,15 @@ std::vector<double> slopes_up_to(double steepest) {
   return slopes;
 }
 
+bekker_wong::RollingWheel wheel_of(const Scenario& scenario, const ModelChoice& model) {
+  return {scenario.tire, bekker_wong::values_of(*scenario.soil.semi_empirical),
+          bekker_wong::make_effects(model.effects), scenario.bin};
+}
+
 WheelLimits limits_at(const Scenario& scenario, const ModelChoice& model, const OperatingCondition& at) {
   WheelLimits answer{model, at, {}, {}, "", false};
   if (model.model != ModelKind::bekker_wong) throw InputError("limits asks the model bekker_wong alone");
-  const bekker_wong::RollingWheel wheel(scenario.tire, bekker_wong::values_of(*scenario.soil.semi_empirical),
-                                        bekker_wong::make_effects(model.effects), scenario.bin);
+  const bekker_wong::RollingWheel wheel = wheel_of(scenario, model);
   try {
     OperatingCondition there = at;
     there.longitudinal_incline = 0.0;
@@ -112,6 +116,16 @@ std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vec
     }
   }
   return study;
+}
+
+std::optional<double> carried_load(const Case& question) {
+  if (!question.scenario.soil.semi_empirical) return std::nullopt;
+  const OperatingCondition& at = question.study.conditions.front();
+  try {
+    return bekker_wong::largest_load(wheel_of(question.scenario, question.study.models.front()), at, at.load);
+  } catch (const std::exception&) {  // whatever keeps the model from an answer there, its own error says
+    return std::nullopt;
+  }
 }
 
 std::string in_words(const WheelLimits& answer) {

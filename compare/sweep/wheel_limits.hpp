@@ -46,6 +46,10 @@ std::vector<WheelLimits> limits_of(const Case& question);
 /// The wheel where it pulls most on each slope: what there may be doubts about.
 std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vector<WheelLimits>& answers);
 
+/// The largest load [N], up to the one that is asked for, that the soil carries at the question's first condition under
+/// the wheel of its first model; nothing where it carries none, or is known by its grains alone.
+std::optional<double> carried_load(const Case& question);
+
 /// A table over the slopes and what the steepest one is.
 std::string in_words(const WheelLimits& answer);
 /// A row of soilbin-limits/1.
