@@ -69,7 +69,7 @@ VectorXd drawn_soil(const WheelPredictor& predictor, std::mt19937_64& random) {
 /// ended there.
 FittedModel fit_from_several(Dataset made, std::optional<VectorXd> start, std::uint64_t seed) {
   const auto data = std::make_shared<const Dataset>(std::move(made));
-  const WheelPredictor predictor(*data->campaign, data->observations);
+  const WheelPredictor predictor = data->declared_model();
   std::mt19937_64 random(seed);
   std::optional<FittedModel> best;
   int ended_there = 0;

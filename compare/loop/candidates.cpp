@@ -401,13 +401,14 @@ const Weighted& Candidates::weighed(const std::set<std::string>& ids) const {
 
 Attribution attribute(const FittedModel& base, const AttributionOptions& options) {
   const LinearProblem problem = problem_of(base);
-  const UnnamedEvidence unnamed = unnamed_evidence(problem, unnamed_kinds(base));
+  std::vector<UnnamedKind> kinds = unnamed_kinds(base);
+  const UnnamedEvidence unnamed = unnamed_evidence(problem, kinds);
   ResidualSignatures signatures{residual_signatures(base, problem, options.pool)};
   signatures.p_value = family_wise_p(signatures.all, strongest(signatures.all), base.data().noise.typical_freedom(),
                                      options.simulations, options.seed);
   const bool stands_out = signatures.p_value <= thresholds::family_level;
   Candidates candidates = candidates_of(base, signatures.all, stands_out, options);
-  return {base, std::move(signatures), unnamed, std::move(candidates)};
+  return {base, std::move(signatures), std::move(kinds), unnamed, std::move(candidates)};
 }
 
 double p_beside_others(const Attribution& found, const CandidateModel& candidate, int term,

@@ -41,8 +41,9 @@ struct Candidates {
 ///     if (found.candidates.best) found.best().ids;   // {"slip_sinkage"}
 struct Attribution {
   FittedModel base;
-  ResidualSignatures signatures;  ///< against the base model
-  UnnamedEvidence unnamed;        ///< for an unnamed term beside the base model
+  ResidualSignatures signatures;           ///< against the base model
+  std::vector<UnnamedKind> unnamed_kinds;  ///< of the base model
+  UnnamedEvidence unnamed;                 ///< for an unnamed term of these beside the base model
   Candidates candidates;
   /// The candidate that stands, Candidates::best; there must be one.
   const CandidateModel& best() const { return candidates.models[*candidates.best]; }

@@ -54,7 +54,7 @@ ChosenCandidate choose(const Attribution& found, const AttributionOptions& optio
   return {.candidate = best,
           .gain = gain,
           .after = test_residual(model, options.seed),
-          .unnamed = unnamed_evidence(problem_of(model), unnamed_kinds(found.base)),
+          .unnamed = unnamed_evidence(problem_of(model), found.unnamed_kinds),
           .stands = earns_its_place(gain, evidence(best) - all.base_log_evidence)};
 }
 

@@ -31,11 +31,9 @@ Observations runs_to_make(const std::vector<OperatingCondition>& conditions, con
 
 /// The runs with what the declared soil predicts as their values.
 Observations as_declared(const Campaign& campaign, Observations runs) {
-  const WheelPredictor predictor(campaign, runs);
-  VectorXd prediction;
-  if (!predictor.predict(predictor.start(), prediction))
-    throw NoSolution("the declared soil does not carry the wheel at one of the conditions");
-  for (std::size_t i = 0; i < runs.cells.size(); ++i) runs.cells[i].value = prediction[static_cast<Index>(i)];
+  const auto prediction = declared_prediction(campaign, runs);
+  if (!prediction) throw NoSolution("the declared soil does not carry the wheel at one of the conditions");
+  for (std::size_t i = 0; i < runs.cells.size(); ++i) runs.cells[i].value = (*prediction)[static_cast<Index>(i)];
   return runs;
 }
 
@@ -47,7 +45,7 @@ FittedModel declared_model(const Campaign& campaign, Observations runs, const No
                                                             .outlier = std::vector<bool>(runs.cells.size(), false),
                                                             .noise = noise,
                                                             .whitening = Whitening(runs, noise, values)});
-  const WheelPredictor predictor(*data->campaign, data->observations);
+  const WheelPredictor predictor = data->declared_model();
   auto model = fitted(data, predictor, predictor.start());
   if (!model) throw NoSolution("the declared soil does not carry the wheel at one of the conditions");
   return *model;

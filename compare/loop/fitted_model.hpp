@@ -23,6 +23,8 @@ struct Dataset {
   NoiseFloor noise;
   Whitening whitening;  ///< takes that noise off, at the base model's predictions
   Hidden hidden{};      ///< where the observations are pooled runs
+  /// The declared model over these observations, where every fit begins; the data set must outlive it.
+  WheelPredictor declared_model() const { return {*campaign, observations}; }
   Eigen::Index cells() const { return static_cast<Eigen::Index>(observations.cells.size()); }
 };
 

@@ -124,9 +124,8 @@ class Rig {
     at.load *= thresholds::spare_load;
     const Observations one{
         .rows = {at}, .condition = {0}, .source_row = {0}, .cells = {{0, sinkage, 0.0, 0.0}}, .conditions = 1};
-    const WheelPredictor predictor(campaign_, one);
-    Eigen::VectorXd prediction;
-    return predictor.predict(predictor.start(), prediction) && prediction.allFinite();
+    const auto prediction = declared_prediction(campaign_, one);
+    return prediction && prediction->allFinite();
   }
 
  private:

@@ -128,7 +128,7 @@ std::optional<ChosenCandidate> settle(Attribution& found, const AttributionOptio
 
 std::optional<std::string> too_small(const Campaign& campaign, const Observations& observations) {
   const int values = static_cast<int>(observations.cells.size());
-  const int free = WheelPredictor(campaign, observations).soil_parameters();
+  const int free = free_parameters(campaign.soil);
   if (values - free >= thresholds::least_spare_values && observations.conditions >= thresholds::least_conditions)
     return std::nullopt;
   return fmt::format("{} measured values of {} conditions for {} soil values leave too little to judge by", values,

@@ -358,4 +358,10 @@ bekker_wong::Reading WheelPredictor::reading(const Eigen::VectorXd& theta, const
   return wheel_at(theta).roll(at).reading;
 }
 
+std::optional<Eigen::VectorXd> declared_prediction(const Campaign& campaign, const Observations& runs) {
+  const WheelPredictor declared(campaign, runs);
+  Eigen::VectorXd prediction;
+  return declared.predict(declared.start(), prediction) ? std::optional(prediction) : std::nullopt;
+}
+
 }  // namespace soilbin::compare

@@ -147,4 +147,7 @@ class WheelPredictor {
   bekker_wong::EffectList declared_;
 };
 
+/// What a campaign's declared soil and effects predict of runs, cell by cell; nothing where it does not carry one.
+std::optional<Eigen::VectorXd> declared_prediction(const Campaign& campaign, const Observations& runs);
+
 }  // namespace soilbin::compare
