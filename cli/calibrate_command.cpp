@@ -16,6 +16,7 @@
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "compare/calibrate/calibration_words.hpp"
+#include "compare/calibrate/decision_words.hpp"
 #include "compare/calibrate/published_sets.hpp"
 #include "compare/experiments/element_experiments.hpp"
 #include "compare/measured/csv.hpp"

@@ -1,5 +1,5 @@
-// Plates that somebody pressed into a soil: a CSV of the readings, and the n, k_c and k_phi of Bekker's form
-// p = (k_c/b + k_phi) z^n that they give, with errors. b is a round plate's radius, or half the width of a strip.
+// The n, k_c and k_phi of Bekker's form p = (k_c/b + k_phi) z^n that measured plate tests give, with errors. b is a
+// round plate's radius, or half the width of a strip.
 //
 //   const std::vector<MeasuredPlate> plates = read_plates(read_source_text("plates.csv", largest_csv));
 //   const MeasuredPlatesFit fit = fit_measured_plates(plates);   // fit.k_phi.value +- fit.k_phi.std_error [N/m^(n+2)]
@@ -8,34 +8,19 @@
 #include <limits>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "bekker_wong/plate_fit.hpp"
+#include "compare/bevameter/plate_tests.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/plot.hpp"
 #include "scenario/estimate.hpp"
-#include "scenario/source_text.hpp"
 
 namespace soilbin::compare {
-
-/// One plate pressed in once.
-struct MeasuredPlate {
-  std::string test;               ///< what tells it from its repeats: "large-box, force-displacement_1"
-  bekker_wong::PlateCurve curve;  ///< b [m]; its readings of a pressure and a sinkage above 0 [Pa, m]
-};
 
 /// Readings that are used: those of a pressure from `first` to `last` [Pa].
 struct PressureWindow {
   double first = 0.0, last = std::numeric_limits<double>::infinity();
 };
-
-/// Reads a CSV with one row a reading. A column's name ends in its unit: sinkage_m or sinkage_mm; pressure_kPa, or
-/// force_N; plate_diameter_mm, plate_radius_mm or plate_width_mm (of a strip), or a label such as 'plate_d60mm' under
-/// 'plate' or 'tool'. Columns without a unit (box, test_id) tell one test from another; others are left aside.
-/// `only`: column and value; rows in which they differ are left out. Throws InputError with file, line and hint.
-std::vector<MeasuredPlate> read_plates(const SourceText& csv,
-                                       const std::vector<std::pair<std::string, std::string>>& only = {});
 
 /// A value and the two parts of its standard error, which is the root of the sum of their squares.
 struct PlateValue {

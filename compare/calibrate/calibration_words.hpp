@@ -6,26 +6,11 @@
 #include <vector>
 
 #include "compare/calibrate/calibration.hpp"
-#include "compare/calibrate/decision.hpp"
+#include "compare/calibrate/contact_values.hpp"
 #include "compare/report/page.hpp"
 #include "scenario/soil.hpp"
 
 namespace soilbin::compare {
-
-// A decision between candidates: as sentences, as columns beside the candidates, as JSON.
-
-/// "(a)" for the first.
-std::string candidate_name(std::size_t candidate);
-
-/// What the soil bin says, what it can't tell apart, and what the errors don't hold. One string a sentence.
-std::vector<std::string> decision_sentences(const Decision& decision);
-
-/// Headings and a candidate's cells: the error of each channel that was measured, of all, and the verdict.
-std::vector<std::string> decision_columns(const Decision& decision);
-std::vector<std::string> decision_cells(const Decision& decision, std::size_t candidate);
-
-/// All in SI; errors as shares of the load.
-nlohmann::ordered_json to_json(const Decision& decision);
 
 /// The verdict, then what the design, the candidates and the targets say. One string a sentence.
 std::vector<std::string> calibration_sentences(const VirtualTest& test, const CalibrationOptions& options,
@@ -41,17 +26,6 @@ Table candidates_table(const VirtualTest& test, const Calibration& calibration);
 /// soilbin-calibration/1, all in SI.
 nlohmann::ordered_json to_json(const VirtualTest& test, const CalibrationOptions& options,
                                const Calibration& calibration);
-
-/// A contact pair of a soil by its key in files: "grain_grain" or "grain_tire".
-enum class ContactKind { grain_grain, grain_tire };
-std::string key_of(ContactKind kind);
-
-/// A contact's number by its name: "sliding_friction". Throws std::invalid_argument for an unknown one.
-double& value_of(ContactPair& pair, const std::string& name);
-
-/// Puts values of factors, which are named as a contact's numbers, into that contact.
-void put_values(GranularSoil& soil, ContactKind kind, const std::vector<Factor>& factors,
-                const Eigen::VectorXd& values);
 
 /// The soil with the calibrated values in this contact; each names, as its source, the test, what it reached, and how
 /// well the targets determine the value. Factors are named as the contact's numbers.

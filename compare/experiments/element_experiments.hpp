@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "compare/bevameter/bevameter.hpp"
-#include "compare/calibrate/calibration_words.hpp"
+#include "compare/calibrate/calibration.hpp"
+#include "compare/calibrate/contact_values.hpp"
 #include "dem/element_tests/direct_shear.hpp"
 #include "dem/element_tests/plate_tests.hpp"
 #include "dem/element_tests/tilting_board.hpp"

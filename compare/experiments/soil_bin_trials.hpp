@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "compare/calibrate/calibration_words.hpp"
+#include "compare/calibrate/calibration.hpp"
+#include "compare/calibrate/contact_values.hpp"
+#include "compare/calibrate/decision.hpp"
 #include "compare/experiments/soil_bin_runs.hpp"
 #include "compare/failure_map/incline_map.hpp"
 #include "dem/rig/dem_model.hpp"

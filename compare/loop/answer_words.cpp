@@ -21,24 +21,7 @@ namespace {
 
 using bekker_wong::effect_title;
 
-// Shares of the evidence.
-constexpr double little = 0.005;        // is told as "< 1 %"
-constexpr double worth_listing = 0.05;  // in a sentence, where a table lists them all
-
-/// "a", "a and b", "a, b and c".
-std::string in_a_row(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
-  return text;
-}
-
-/// "4,000"
-std::string thousands_apart(long long value) {
-  std::string text = std::to_string(value);
-  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
-  return text;
-}
+constexpr double worth_listing = 0.05;  // share of the evidence, in a sentence, where a table lists them all
 
 // What is missing.
 
@@ -148,7 +131,7 @@ std::string how_sure(const LoopAnswer& answer) {
     case Verdict::effect_found:
       return " " + noise_alone +
              (answer.ambiguity_set.size() > 1
-                  ? " Other candidates: " + sets_with_shares(answer.ambiguity_set, 1, little) + "." +
+                  ? " Other candidates: " + sets_with_shares(answer.ambiguity_set, 1, least_share) + "." +
                         why_taken(answer.ambiguity_set)
                   : next_candidate(answer)) +
              presumed_of_the_wheel(answer);
@@ -344,36 +327,6 @@ std::string outlier_sentence(const LoopAnswer& answer) {
 
 bool takes_effects(const LoopAnswer& answer) { return !answer.taken().empty(); }
 
-std::string joined(const std::set<std::string>& ids) {
-  return ids.empty() ? "no effect" : fmt::format("{}", fmt::join(ids, " + "));
-}
-
-std::string named_effects(const std::set<std::string>& ids) {
-  std::vector<std::string> names;
-  for (const std::string& id : ids) names.emplace_back(effect_title(id).name);
-  return names.empty() ? "no effect" : in_a_row(names);
-}
-
-std::string times_likelier(double log_odds) {
-  constexpr double million = 1e6;
-  const double odds = std::exp(log_odds);
-  if (odds > million) return "more than a million times";
-  if (odds < 10) return fmt::format("{:.2g} times", odds);
-  const double step = std::pow(10.0, std::floor(std::log10(odds)) - 1);
-  return thousands_apart(std::llround(std::round(odds / step) * step)) + " times";
-}
-
-std::string odds_words(double p) {
-  constexpr double often = 0.095;
-  if (p >= often) return fmt::format("{:.0f} of 100 campaigns", 100 * p);
-  const double one_in = 1 / std::max(p, 1e-12), step = std::pow(10.0, std::floor(std::log10(one_in)) - 1);
-  return fmt::format("1 of {} campaigns", thousands_apart(std::llround(std::round(one_in / step) * step)));
-}
-
-std::string odds_and_p(double p) {
-  return fmt::format("noise alone would look like this in {}, p = {:.2g}", odds_words(p), p);
-}
-
 std::vector<const Weighted*> sets_shown(const LoopAnswer& answer) {
   constexpr std::size_t most = 8;
   std::vector<const Weighted*> sets;
@@ -386,8 +339,6 @@ std::vector<const Weighted*> sets_shown(const LoopAnswer& answer) {
     if (sets.size() < most && !listed(w)) sets.push_back(&w);
   return sets;
 }
-
-std::string share_words(double weight) { return weight < little ? "< 1 %" : fmt::format("{:.0f} %", 100 * weight); }
 
 std::string setting(double value) {
   if (std::abs(value) < 1e-9) return "0";

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "compare/loop/evidence_words.hpp"
 #include "compare/loop/loop.hpp"
 #include "compare/report/table.hpp"
 
@@ -16,20 +17,6 @@ namespace soilbin::compare {
 
 /// Whether the saved model takes any effects, accepted ones or stand-ins.
 bool takes_effects(const LoopAnswer& answer);
-
-/// Ids: "slip_sinkage", "multipass + sensor_offset"; "no effect" for an empty set.
-std::string joined(const std::set<std::string>& ids);
-
-/// Names for people: "side-wall bulldozing, slip sinkage and hard layer"; "no effect" for an empty set.
-std::string named_effects(const std::set<std::string>& ids);
-
-/// A share of campaigns: "1 of 4,000 campaigns", "30 of 100 campaigns".
-std::string odds_words(double p);
-/// "noise alone would look like this in 1 of 4,000 campaigns, p = 0.00025".
-std::string odds_and_p(double p);
-
-/// Odds from their logarithm: "132 times", "more than a million times".
-std::string times_likelier(double log_odds);
 
 /// The verdict as one sentence.
 std::string verdict_sentence(const LoopAnswer& answer);
@@ -75,9 +62,6 @@ std::vector<std::string> forms_in_order(const CandidateModel& candidate);
 
 /// The sets of the table of candidates: those that compete, then those that stand next.
 std::vector<const Weighted*> sets_shown(const LoopAnswer& answer);
-
-/// A set's share of the evidence, the same in every place: "81 %".
-std::string share_words(double weight);
 
 /// A number in three digits.
 std::string setting(double value);

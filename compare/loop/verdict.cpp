@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "compare/loop/answer_words.hpp"
+#include "compare/loop/evidence_words.hpp"
 #include "compare/loop/thresholds.hpp"
 
 namespace soilbin::compare {

@@ -1,0 +1,206 @@
+#include "compare/bevameter/plate_tests.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <numbers>
+#include <optional>
+
+#include "compare/measured/csv.hpp"
+#include "compare/report/number_text.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+#include "scenario/quantity.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// What a column of a plate file holds.
+enum class Holds { diameter, radius, width, plate_label, sinkage, pressure, force, label, nothing };
+
+struct PlateColumn {
+  Holds holds = Holds::nothing;
+  std::string unit;
+};
+
+constexpr const char* columns_hint =
+    "columns: sinkage_m, pressure_kPa (or force_N), plate_diameter_m (or plate_radius_m, plate_width_m), in any unit, "
+    "and those without a unit that tell tests apart, such as test";
+
+/// A name and, behind its last '_', a unit of the dimension that it must have; no value where it isn't one.
+std::optional<PlateColumn> measured_column(const std::string& name) {
+  const std::size_t bar = name.rfind('_');
+  if (bar == std::string::npos || bar + 1 == name.size()) return std::nullopt;
+  const std::string unit = name.substr(bar + 1);
+  Unit parsed;
+  try {
+    parsed = parse_unit(unit);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  const std::string what = name.substr(0, bar);
+  const auto is = [&](std::initializer_list<const char*> words, const char* dimension) {
+    return std::ranges::find(words, what) != words.end() &&
+           same_dimension(parsed.dimension, parse_unit(dimension).dimension);
+  };
+  if (is({"plate_diameter", "diameter"}, "m")) return PlateColumn{Holds::diameter, unit};
+  if (is({"plate_radius", "radius"}, "m")) return PlateColumn{Holds::radius, unit};
+  if (is({"plate_width", "width"}, "m")) return PlateColumn{Holds::width, unit};
+  if (is({"sinkage", "depth"}, "m")) return PlateColumn{Holds::sinkage, unit};
+  if (is({"pressure"}, "Pa")) return PlateColumn{Holds::pressure, unit};
+  if (is({"force"}, "N")) return PlateColumn{Holds::force, unit};
+  return PlateColumn{Holds::nothing, unit};
+}
+
+std::vector<PlateColumn> columns_of(const CsvTable& table) {
+  std::vector<PlateColumn> columns;
+  for (const CsvCell& header : table.header.cells) {
+    if (const auto measured = measured_column(header.text))
+      columns.push_back(*measured);
+    else
+      columns.push_back({header.text == "plate" || header.text == "tool" ? Holds::plate_label : Holds::label, ""});
+  }
+  const auto has = [&](Holds what) {
+    return std::ranges::any_of(columns, [&](const PlateColumn& c) { return c.holds == what; });
+  };
+  for (PlateColumn& column : columns) {
+    if (column.holds == Holds::force && has(Holds::pressure)) column.holds = Holds::nothing;
+    const bool sized = has(Holds::diameter) || has(Holds::radius) || has(Holds::width);
+    if (column.holds == Holds::plate_label && sized) column.holds = Holds::label;
+  }
+  return columns;
+}
+
+void need_columns(const std::vector<PlateColumn>& columns, const CsvTable& table, const SourceText& csv) {
+  const auto count = [&](std::initializer_list<Holds> kinds) {
+    return std::ranges::count_if(
+        columns, [&](const PlateColumn& c) { return std::ranges::find(kinds, c.holds) != kinds.end(); });
+  };
+  const std::size_t at = table.header.cells.front().offset;
+  const auto one = [&](std::initializer_list<Holds> kinds, const char* what) {
+    if (count(kinds) == 0) csv.refuse(at, fmt::format("no column holds {}", what), columns_hint);
+    if (count(kinds) > 1) csv.refuse(at, fmt::format("more than one column holds {}", what), columns_hint);
+  };
+  one({Holds::sinkage}, "the sinkage");
+  one({Holds::pressure, Holds::force}, "the pressure");
+  one({Holds::diameter, Holds::radius, Holds::width, Holds::plate_label}, "the size of the plate");
+  if (count({Holds::force}) > 0 && count({Holds::width}) > 0)
+    csv.refuse(at, "a force on a strip gives no pressure: its length is not told", columns_hint);
+}
+
+double value_in(const CsvCell& cell, const std::string& unit, const SourceText& csv) {
+  const std::optional<double> value = read_number(cell.text);
+  if (!value) csv.refuse(cell.offset, fmt::format("expected a number, not '{}'", clipped(cell.text)));
+  return *value / per_unit(unit);
+}
+
+/// "plate_d60mm": the diameter behind the last 'd' that a length follows.
+double diameter_in(const CsvCell& cell, const SourceText& csv) {
+  const std::string& text = cell.text;
+  for (std::size_t i = text.size(); i-- > 0;) {
+    if (text[i] != 'd' || i + 1 == text.size() || std::isdigit(static_cast<unsigned char>(text[i + 1])) == 0) continue;
+    const std::size_t end = std::min(text.find_first_of("_ ,;", i), text.size());
+    try {
+      return read_quantity(text.substr(i + 1, end - i - 1), {"m", above_zero});
+    } catch (const InputError&) {
+      continue;
+    }
+  }
+  csv.refuse(cell.offset, fmt::format("'{}' tells no size of a plate", clipped(text)),
+             "a label such as 'plate_d60mm' does, or a column plate_diameter_mm");
+}
+
+double radius_in(const CsvCell& cell, const PlateColumn& column, const SourceText& csv) {
+  const double size = column.holds == Holds::plate_label ? diameter_in(cell, csv) : value_in(cell, column.unit, csv);
+  if (!(size > 0.0)) csv.refuse(cell.offset, "a plate's size must be above 0");
+  return column.holds == Holds::radius ? size : size / 2;
+}
+
+struct PlateReading {
+  double radius = 0.0, sinkage = 0.0, pressure = 0.0;
+  std::string test;
+};
+
+PlateReading reading_of(const CsvRow& row, const std::vector<PlateColumn>& columns, const SourceText& csv) {
+  PlateReading reading;
+  bool by_force = false;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const CsvCell& cell = row.cells[i];
+    switch (columns[i].holds) {
+      case Holds::diameter:
+      case Holds::radius:
+      case Holds::width:
+      case Holds::plate_label:
+        reading.radius = radius_in(cell, columns[i], csv);
+        break;
+      case Holds::sinkage:
+        reading.sinkage = value_in(cell, columns[i].unit, csv);
+        break;
+      case Holds::force:
+        by_force = true;
+        [[fallthrough]];
+      case Holds::pressure:
+        reading.pressure = value_in(cell, columns[i].unit, csv);
+        break;
+      case Holds::label:
+        reading.test += (reading.test.empty() ? "" : ", ") + cell.text;
+        break;
+      case Holds::nothing:
+        break;
+    }
+  }
+  if (by_force) reading.pressure /= std::numbers::pi * reading.radius * reading.radius;
+  return reading;
+}
+
+/// The places of the columns that `only` names, with the values that they must have.
+std::vector<std::pair<std::size_t, std::string>> wanted(const CsvTable& table, const SourceText& csv,
+                                                        const std::vector<std::pair<std::string, std::string>>& only) {
+  std::vector<std::string> names;
+  for (const CsvCell& cell : table.header.cells) names.push_back(cell.text);
+  std::vector<std::pair<std::size_t, std::string>> all;
+  for (const auto& [name, value] : only) {
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end())
+      throw InputError(fmt::format("--only: {} has no column '{}'{}\n  hint: its columns are {}", csv.file,
+                                   clipped(name), did_you_mean(name, names), listed(names)));
+    const auto column = static_cast<std::size_t>(found - names.begin());
+    std::vector<std::string> values;
+    for (const CsvRow& row : table.rows)
+      if (std::ranges::find(values, row.cells[column].text) == values.end()) values.push_back(row.cells[column].text);
+    if (std::ranges::find(values, value) == values.end())
+      throw InputError(fmt::format("--only: no row of {} has {} '{}'{}", csv.file, name, clipped(value),
+                                   did_you_mean(value, values)));
+    all.emplace_back(column, value);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<MeasuredPlate> read_plates(const SourceText& csv,
+                                       const std::vector<std::pair<std::string, std::string>>& only) {
+  const CsvTable table = parse_csv(csv);
+  const std::vector<PlateColumn> columns = columns_of(table);
+  need_columns(columns, table, csv);
+  const auto kept = wanted(table, csv, only);
+  std::vector<MeasuredPlate> plates;
+  for (const CsvRow& row : table.rows) {
+    if (std::ranges::any_of(kept, [&](const auto& want) { return row.cells[want.first].text != want.second; }))
+      continue;
+    const PlateReading reading = reading_of(row, columns, csv);
+    auto plate = std::ranges::find_if(plates, [&](const MeasuredPlate& known) {
+      return known.test == reading.test && known.curve.radius == reading.radius;
+    });
+    if (plate == plates.end())
+      plate = plates.insert(plates.end(), {reading.test, {.radius = reading.radius, .pressure = {}, .sinkage = {}}});
+    if (!(reading.pressure > 0.0 && reading.sinkage > 0.0)) continue;
+    plate->curve.pressure.push_back(reading.pressure);
+    plate->curve.sinkage.push_back(reading.sinkage);
+  }
+  return plates;
+}
+
+}  // namespace soilbin::compare

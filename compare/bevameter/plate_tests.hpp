@@ -1,0 +1,28 @@
+// Plate tests that somebody made: plates pressed into a soil, as a CSV of the readings holds them.
+//
+//   for (const MeasuredPlate& plate : read_plates(read_source_text("plates.csv", largest_csv))) plate.curve.radius;
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bekker_wong/plate_fit.hpp"
+#include "scenario/source_text.hpp"
+
+namespace soilbin::compare {
+
+/// One plate pressed in once.
+struct MeasuredPlate {
+  std::string test;               ///< what tells it from its repeats: "large-box, force-displacement_1"
+  bekker_wong::PlateCurve curve;  ///< b [m]; its readings of a pressure and a sinkage above 0 [Pa, m]
+};
+
+/// Reads a CSV with one row a reading. A column's name ends in its unit: sinkage_m or sinkage_mm; pressure_kPa, or
+/// force_N; plate_diameter_mm, plate_radius_mm or plate_width_mm (of a strip), or a label such as 'plate_d60mm' under
+/// 'plate' or 'tool'. Columns without a unit (box, test_id) tell one test from another; others are left aside.
+/// `only`: column and value; rows in which they differ are left out. Throws InputError with file, line and hint.
+std::vector<MeasuredPlate> read_plates(const SourceText& csv,
+                                       const std::vector<std::pair<std::string, std::string>>& only = {});
+
+}  // namespace soilbin::compare

@@ -1,0 +1,29 @@
+#include "compare/calibrate/contact_values.hpp"
+
+#include <stdexcept>
+
+namespace soilbin::compare {
+namespace {
+
+ContactPair& pair_of(GranularSoil& soil, ContactKind kind) {
+  return kind == ContactKind::grain_grain ? soil.grain_grain : soil.grain_tire;
+}
+
+}  // namespace
+
+std::string key_of(ContactKind kind) { return kind == ContactKind::grain_grain ? "grain_grain" : "grain_tire"; }
+
+double& value_of(ContactPair& pair, const std::string& name) {
+  if (name == "restitution") return pair.restitution;
+  if (name == "sliding_friction") return pair.sliding_friction;
+  if (name == "rolling_friction") return pair.rolling_friction;
+  if (name == "cohesion") return pair.cohesion;
+  throw std::invalid_argument("a contact has no number '" + name + "'");
+}
+
+void put_values(GranularSoil& soil, ContactKind kind, const std::vector<Factor>& factors,
+                const Eigen::VectorXd& values) {
+  for (std::size_t j = 0; j < factors.size(); ++j) value_of(pair_of(soil, kind), factors[j].name) = values[j];
+}
+
+}  // namespace soilbin::compare
