@@ -7,8 +7,6 @@
 
 namespace soilbin::bekker_wong {
 
-inline constexpr double standard_gravity = 9.80665;  ///< [m/s^2]
-
 /// Specific weight gamma = rho g [N/m^3].
 double specific_weight(const SoilValues& soil);
 

@@ -70,8 +70,8 @@ Campaign declared(const Side& side, const Case& question, const std::vector<Effe
   return campaign;
 }
 
-}  // namespace
-
+/// Which sides are held against which: every analytic one against grains and measurements, grains against measurements,
+/// and, where there is neither, the analytic ones against each other.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<Side>& sides) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t reference = 0; reference < sides.size(); ++reference) {
@@ -84,6 +84,8 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<Side
       for (std::size_t side = reference + 1; side < sides.size(); ++side) pairs.emplace_back(side, reference);
   return pairs;
 }
+
+}  // namespace
 
 Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& choices, std::vector<Side> sides) {
   std::ranges::stable_sort(sides, [](const Side& a, const Side& b) { return a.kind < b.kind; });

@@ -33,10 +33,6 @@ struct Comparison {
   std::vector<ModelChoice> choices;       ///< of the analytic sides
 };
 
-/// Which sides are held against which: every analytic one against grains and measurements, grains against measurements,
-/// and, where there is neither, the analytic ones against each other.
-std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<Side>& sides);
-
 /// Sides have a point for each condition of the question. `choices`: of each analytic side, its model and effects, for
 /// the joint test; in the sides' order.
 Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& choices, std::vector<Side> sides);

@@ -11,6 +11,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+VectorXd LinearProblem::padded(const VectorXd& signature) const {
+  VectorXd full = VectorXd::Zero(residual.size());
+  full.head(signature.size()) = signature;
+  return full;
+}
+
+namespace {
+
+/// Whitened columns by which a form may be wrong (Tolerance); contribution: of its effect to each cell, unwhitened.
 MatrixXd form_columns(const Dataset& data, const VectorXd& contribution, double tolerance) {
   constexpr int smooth_columns = 6;
   const MatrixXd basis = with_constant(smooth_basis(data.observations, smooth_columns));
@@ -28,14 +37,6 @@ MatrixXd form_columns(const Dataset& data, const VectorXd& contribution, double 
   const double each = tolerance / std::sqrt(static_cast<double>(basis.cols()));
   return each * data.whitening(MatrixXd(columns.leftCols(used)));
 }
-
-VectorXd LinearProblem::padded(const VectorXd& signature) const {
-  VectorXd full = VectorXd::Zero(residual.size());
-  full.head(signature.size()) = signature;
-  return full;
-}
-
-namespace {
 
 LinearProblem linear_problem(const FittedModel& model, const MatrixXd& tolerance) {
   const Fit& fit = model.fit();

@@ -34,12 +34,6 @@ class Projector {
   Eigen::MatrixXd q_;
 };
 
-/// Freedom that an effect's form may be wrong: its contribution, channel by channel, times a smooth factor 1 + g of the
-/// conditions, with g of the relative size `tolerance`. Such columns enter every later test with a unit normal prior,
-/// so that what a wrong form leaves over is not taken for a second effect. Whitened; contribution: of the effect to
-/// each cell, unwhitened.
-Eigen::MatrixXd form_columns(const Dataset& data, const Eigen::VectorXd& contribution, double tolerance);
-
 /// A fitted model with the form tolerance of its terms, ready for tests.
 struct LinearProblem {
   Eigen::VectorXd residual;              ///< augmented with the priors and with a zero a tolerance column
@@ -53,9 +47,11 @@ struct LinearProblem {
 /// The model's, with the tolerance of its terms' forms.
 LinearProblem problem_of(const FittedModel& model);
 
-/// Freedom of one term's form.
+/// Freedom of one term's form to be wrong: its contribution, channel by channel, times a smooth factor 1 + g of the
+/// conditions, with g of the relative size of the form's tolerance. Such columns enter every later test with a unit
+/// normal prior, so that what a wrong form leaves over is not taken for a second effect.
 struct Tolerance {
-  Eigen::MatrixXd columns;         ///< form_columns
+  Eigen::MatrixXd columns;         ///< whitened
   std::span<const double> scales;  ///< of their unit weights
 };
 

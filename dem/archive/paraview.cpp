@@ -132,8 +132,7 @@ bool has_mesh(const Body& body) {
   return false;
 }
 
-}  // namespace
-
+/// Grains as points: radius, velocity (of the half step before), id, material.
 std::string grains_vtp(const Grains& grains) {
   std::vector<float> positions, velocities, radii;
   for (std::size_t k = 0; k < grains.count(); ++k) {
@@ -148,6 +147,8 @@ std::string grains_vtp(const Grains& grains) {
       "", fmt::format("NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\"", grains.count()),
       data + "<Points>\n" + vectors("Points", positions) + "</Points>\n" + cells("Verts", grains.count(), 1));
 }
+
+}  // namespace
 
 std::string body_vtp(const Body& body) {
   std::vector<float> positions, velocities;

@@ -9,9 +9,6 @@
 
 namespace soilbin::dem {
 
-/// Grains as points: radius, velocity (of the half step before), id, material.
-std::string grains_vtp(const Grains& grains);
-
 /// All meshes of a body where it is now, with the velocity of their points, and what the grains do to it (force,
 /// torque) as field data. Planes have no end and are left out.
 std::string body_vtp(const Body& body);
