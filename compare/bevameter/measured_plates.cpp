@@ -4,16 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
-#include <numbers>
-#include <optional>
 
-#include "compare/measured/csv.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/table.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/nearest_word.hpp"
 #include "scenario/quantity.hpp"
 #include "scenario/soil_parameters.hpp"
 

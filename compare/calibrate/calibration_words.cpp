@@ -9,7 +9,6 @@
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
-#include "scenario/nearest_word.hpp"
 
 namespace soilbin::compare {
 namespace {

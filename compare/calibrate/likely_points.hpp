@@ -1,4 +1,5 @@
-// What finished runs say about every point of the box: surrogates of the targets, and how likely each point meets them.
+// What finished runs say about every point within the factors' bounds: surrogates of the targets, and how likely each
+// point meets them.
 #pragma once
 
 #include <vector>
