@@ -121,7 +121,9 @@ Reading reading_at(const AgreedPoint& point) {
 }
 
 double worst_difference(const AgreedPoint& point, const Reading& reading) {
-  const auto off = [](double value, const Told& told) { return std::abs(value - told.value) / told.half_unit; };
+  const auto off = [](double value, const RoundedValue& rounded) {
+    return std::abs(value - rounded.value) / rounded.half_unit;
+  };
   return std::max({off(reading.sinkage, point.sinkage), off(reading.drawbar_pull, point.drawbar_pull),
                    off(reading.torque, point.torque)});
 }

@@ -11,8 +11,8 @@
 
 namespace soilbin::bekker_wong {
 
-/// A result with half a unit of the last digit that is told [SI].
-struct Told {
+/// A result as it is written, with half a unit of its last digit [SI].
+struct RoundedValue {
   double value = 0.0, half_unit = 0.0;
 };
 
@@ -24,7 +24,7 @@ struct AgreedPoint {
   SoilValues soil;
   std::vector<EffectChoice> effects;
   OperatingCondition at;
-  Told sinkage, drawbar_pull, torque;  ///< [m], [N], [N m]
+  RoundedValue sinkage, drawbar_pull, torque;  ///< [m], [N], [N m]
 };
 
 /// Every point, the light wheel first. No result of them is a publication's: two codes, neither of which is this one,

@@ -1,4 +1,4 @@
-// What element-test and bevameter share: the soil's grains and how a specimen of them is made.
+// Flags that element-test and bevameter share: the soil's grains and how a specimen of them is made.
 #pragma once
 
 #include <CLI/CLI.hpp>

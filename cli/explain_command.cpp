@@ -88,7 +88,7 @@ int explain(const Question& inputs, bool json, const Session& session) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   if (!json) fmt::print("{} on {}\n\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil));
   bool first = true;
-  std::vector<compare::ModelAnswers> told;
+  std::vector<compare::ModelAnswers> answered;
   for (const ModelChoice& choice : question.study.models) {
     if (choice.model != ModelKind::bekker_wong) compare::make_model(choice.model);
     Scenario scenario = question.scenario;
@@ -100,10 +100,10 @@ int explain(const Question& inputs, bool json, const Session& session) {
       else
         fmt::print("{}", first ? "" : "\n"), print_text(choice, explanation, at);
       first = false;
-      told.push_back({choice, {{at, explanation.result, ""}}});
+      answered.push_back({choice, {{at, explanation.result, ""}}});
     }
   }
-  const std::vector<std::string> doubts = compare::doubts(question, told);
+  const std::vector<std::string> doubts = compare::doubts(question, answered);
   print_warnings(doubts);
   if (json) print_json(document_of("soilbin-explain/1", question, rows), doubts);
   return done;

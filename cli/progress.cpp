@@ -48,9 +48,9 @@ bool a_word_is_due() {
 /// Called ten times a second while a lock is waited for.
 void look_up_from_waiting(const std::filesystem::path& place) {
   if (stop_asked) throw Interrupted();
-  static std::filesystem::path told;
-  if (told == place) return;
-  told = place;
+  static std::filesystem::path reported;
+  if (reported == place) return;
+  reported = place;
   fmt::print(stderr, "waiting: another process is writing in {}\n",
              std::filesystem::absolute(place).lexically_normal().string());
 }

@@ -1,5 +1,5 @@
 // A case is a question: this tire, on this soil, at these conditions, answered by these models.
-// The file format soilbin-case/1 is told in docs/reference/case-files.md.
+// The file format soilbin-case/1 is described in docs/reference/case-files.md.
 #pragma once
 
 #include <array>

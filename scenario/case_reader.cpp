@@ -55,9 +55,9 @@ std::vector<ModelChoice> read_models(const YamlNode* list, const YamlNode& study
   if (list == nullptr) {
     ModelChoice base;
     check_soil_for(base, soil, study, reading);
-    std::vector<ModelChoice> alone = {base};
-    label_models(alone);
-    return alone;
+    std::vector<ModelChoice> only_base = {base};
+    label_models(only_base);
+    return only_base;
   }
   if (!list->is_sequence()) reading.refuse(*list, "expected a list of models, not " + list->kind_name());
   if (list->items.empty()) reading.refuse(*list, "the list of models is empty");

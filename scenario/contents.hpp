@@ -1,5 +1,4 @@
-// What stands on a shelf of the library, in sections and with a line on each name, as contents.yaml tells it. A folder
-// of cases may hold one:
+// What a folder of the library holds, in sections and with a line on each name, as its contents.yaml says:
 //
 //   format: soilbin-contents/1
 //   tires:

@@ -125,10 +125,10 @@ void describe(Visitor& v, std::type_identity<SemiEmpiricalSoil>) {
   v.number("density", &S::density, Measure{"kg/m^3", above_zero}, Need::optional, "bulk density");
 }
 
-/// What a file may leave out of a soil, and what is then taken. `told`: whether it holds a key.
-inline void fill_in(SemiEmpiricalSoil& soil, const std::function<bool(const char*)>& told) {
+/// What a file may leave out of a soil, and what is then taken. `given`: whether it holds a key.
+inline void fill_in(SemiEmpiricalSoil& soil, const std::function<bool(const char*)>& given) {
   const auto usual = [&](const char* key, Estimate SemiEmpiricalSoil::*value, const Estimate& taken) {
-    if (!told(key)) soil.*value = taken, soil.sources[key] = usual_stress_angle_source;
+    if (!given(key)) soil.*value = taken, soil.sources[key] = usual_stress_angle_source;
   };
   usual("stress_angle_c1", &SemiEmpiricalSoil::stress_angle_c1, usual_stress_angle_c1);
   usual("stress_angle_c2", &SemiEmpiricalSoil::stress_angle_c2, usual_stress_angle_c2);

@@ -28,8 +28,8 @@ double force_put_in(const TractionResult& result) { return pull_along_travel(res
 double pull_along_travel(const TractionResult& result) {
   const OperatingCondition& at = result.at;
   if (at.force_frame == ForceFrame::travel || at.yaw == 0.0) return result.drawbar_pull.value;
-  const GroundForce told{result.drawbar_pull.value, result.lateral_force.value};
-  return turned(told, at.yaw, at.force_frame, ForceFrame::travel).forward;
+  const GroundForce given{result.drawbar_pull.value, result.lateral_force.value};
+  return turned(given, at.yaw, at.force_frame, ForceFrame::travel).forward;
 }
 
 double tractive_efficiency(const TractionResult& result, double radius) {

@@ -1,4 +1,5 @@
-// What is varied: named numbers between bounds, and the unit cube that designs and surrogates work in.
+// Factors: the numbers that a design of experiments varies, each with a name and bounds, and the unit cube that designs
+// and surrogates work in.
 #pragma once
 
 #include <Eigen/Dense>

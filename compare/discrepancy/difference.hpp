@@ -1,4 +1,4 @@
-// One number of one side against the same number of another, with what either doesn't know.
+// The difference between two sides in one channel at one condition, with its standard error.
 #pragma once
 
 #include <limits>

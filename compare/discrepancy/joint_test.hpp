@@ -1,4 +1,5 @@
-// All differences of a pair at once, with the soil's doubt that they share.
+// All differences between a model and a reference tested together: a chi-square test that allows for the uncertainty of
+// the soil's values, which moves all conditions at once.
 #pragma once
 
 #include <optional>
@@ -9,8 +10,8 @@ namespace soilbin::compare {
 
 /// chi2 = d' (D + J S J')^-1 d over all channels and conditions: D, the reference's variances, with the correlation of
 /// a measured run's channels; S, the declared variances of the soil's values; J, the model's derivatives by them. The
-/// soil's doubt moves all conditions together, which rows taken one by one can't tell. First order in the soil's
-/// values.
+/// uncertainty of the soil moves all conditions together, which rows taken one by one can't show. First order in the
+/// soil's values.
 struct JointTest {
   std::size_t side = 0, reference = 0;
   std::size_t values = 0;
@@ -20,7 +21,7 @@ struct JointTest {
   /// Of chi2 where nothing differs: by chi square with `values` degrees of freedom where the errors are known, else by
   /// trace_tail.
   double p_value = 1.0;
-  double chi2_soil_exact = 0.0;   ///< the same with S = 0: what the soil's doubt takes away is the rest
+  double chi2_soil_exact = 0.0;   ///< the same with S = 0: what the soil's uncertainty explains is the rest
   std::vector<std::string> soil;  ///< values that were free to move
 };
 

@@ -1,4 +1,4 @@
-// The noise of a measured campaign from its re-runs alone: what runs of one setpoint leave between them.
+// The noise of a measured campaign, estimated from its re-runs: the scatter between runs of one setpoint.
 #pragma once
 
 #include <vector>

@@ -48,13 +48,13 @@ Clause tally_clause(const Comparison& comparison, const Tally& t) {
   const std::string side = comparison.sides[t.side].label, reference = comparison.sides[t.reference].label;
   Clause clause{std::string(channel_views[t.channel].title), "", {}, rows_of(comparison, t)};
   clause.text = fmt::format("{} against {}: {}. ", side, reference, counts(t));
-  const std::string alone =
+  const std::string expected =
       t.expected_rms > 0.0 ? fmt::format("; the stated errors alone would give {}", in_unit(t.channel, t.expected_rms))
                            : "";
   clause.text += fmt::format(
       "The root mean square is {} ({} of {}), on average {} is {} {}{}. Widest at {}: {} against {}.",
       in_unit(t.channel, t.rms), percent(t.rms_share), measure_of(t), side, in_unit(t.channel, std::abs(t.bias)),
-      t.bias < 0 ? "lower" : "higher", alone, in_words(comparison.question.study.conditions[worst.condition]),
+      t.bias < 0 ? "lower" : "higher", expected, in_words(comparison.question.study.conditions[worst.condition]),
       in_unit(t.channel, worst.value.value), in_unit(t.channel, worst.reference_value.value));
   return clause;
 }

@@ -49,15 +49,15 @@ void add_flipped_pull(const Campaign& campaign, const std::vector<Answer>& answe
   if (slip.size() < fewest ||
       !(correlation(slip, pull, curve) < -clearly && correlation(slip, torque, curve) > clearly))
     return;
-  double as_told = 0, turned_round = 0;
+  double as_given = 0, turned_round = 0;
   for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
     const auto& measured = campaign.runs[i].drawbar_pull;
     const auto& predicted = answers[i].result;
     if (!measured || !predicted) continue;
-    as_told += std::pow(*measured - predicted->drawbar_pull.value, 2);
+    as_given += std::pow(*measured - predicted->drawbar_pull.value, 2);
     turned_round += std::pow(*measured + predicted->drawbar_pull.value, 2);
   }
-  if (turned_round < as_told)
+  if (turned_round < as_given)
     warnings.emplace_back(
         "the drawbar pull falls as slip rises while the torque rises: is its sign flipped? Positive pulls forward");
 }
@@ -91,23 +91,23 @@ std::string swapped(const Campaign& campaign, std::string_view one, std::string_
 }
 
 /// How much nearer two channels lie to what the model says of the other: the product of their two errors that way over
-/// the product as it is told; 1 where few rows say anything.
+/// the product as it is given; 1 where few rows say anything.
 double error_if_swapped(const Campaign& campaign, const std::vector<Answer>& answers, const ChannelView& one,
                         const ChannelView& other) {
-  std::vector<double> as_told[2], exchanged[2];
+  std::vector<double> as_given[2], exchanged[2];
   for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
     const auto &a = campaign.runs[i].*one.measured, &b = campaign.runs[i].*other.measured;
     const auto& predicted = answers[i].result;
     if (!a || !b || !predicted) continue;
     const double says_a = ((*predicted).*one.predicted).value, says_b = ((*predicted).*other.predicted).value;
-    as_told[0].push_back(*a - says_a), as_told[1].push_back(*b - says_b);
+    as_given[0].push_back(*a - says_a), as_given[1].push_back(*b - says_b);
     exchanged[0].push_back(*a - says_b), exchanged[1].push_back(*b - says_a);
   }
-  if (as_told[0].size() < fewest_to_compare) return 1.0;
+  if (as_given[0].size() < fewest_to_compare) return 1.0;
   const auto product = [](const std::vector<double>(&errors)[2]) {
     return root_mean_square(errors[0]) * root_mean_square(errors[1]);
   };
-  return product(as_told) > 0.0 ? product(exchanged) / product(as_told) : 1.0;
+  return product(as_given) > 0.0 ? product(exchanged) / product(as_given) : 1.0;
 }
 
 /// The two channels that look most like each other's. Their error if swapped is below this in no campaign known to be
@@ -133,7 +133,7 @@ void add_swapped_channels(const Campaign& campaign, const std::vector<Answer>& a
 void add_swapped_load(const Campaign& campaign, const std::vector<Answer>& answers, const AskAgain& ask,
                       Warnings& warnings) {
   constexpr double clearly = 1.0 / 3;
-  std::vector<double> load, as_told, exchanged, pull_told, load_told;
+  std::vector<double> load, as_given, exchanged, pull_given, load_given;
   std::vector<OperatingCondition> other_way;
   for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
     const Run& run = campaign.runs[i];
@@ -143,23 +143,23 @@ void add_swapped_load(const Campaign& campaign, const std::vector<Answer>& answe
     other_way.push_back(run.at);
     other_way.back().load = *run.drawbar_pull;
     if (!answers[i].result) continue;
-    as_told.push_back(*run.drawbar_pull - answers[i].result->drawbar_pull.value);
-    pull_told.push_back(*run.drawbar_pull);
+    as_given.push_back(*run.drawbar_pull - answers[i].result->drawbar_pull.value);
+    pull_given.push_back(*run.drawbar_pull);
   }
-  if (as_told.size() < fewest_to_compare) return;
+  if (as_given.size() < fewest_to_compare) return;
   const std::vector<Answer> again = ask(other_way);
   for (std::size_t i = 0; i < again.size(); ++i)
     if (again[i].result)
-      exchanged.push_back(load[i] - again[i].result->drawbar_pull.value), load_told.push_back(load[i]);
+      exchanged.push_back(load[i] - again[i].result->drawbar_pull.value), load_given.push_back(load[i]);
   if (exchanged.size() < fewest_to_compare || 2 * exchanged.size() < again.size()) return;
-  if (root_mean_square(exchanged) / root_mean_square(load_told) <
-      clearly * root_mean_square(as_told) / root_mean_square(pull_told))
+  if (root_mean_square(exchanged) / root_mean_square(load_given) <
+      clearly * root_mean_square(as_given) / root_mean_square(pull_given))
     warnings.push_back(swapped(campaign, "load", "drawbar_pull", "exchanged, they fit the prediction far better"));
 }
 
-/// How much smaller the model's errors are where each load is this many times what is told: the ratio of the root mean
-/// square errors, the geometric mean over the channels that are measured. 1 where few rows say anything. Of a long
-/// campaign only so many rows, evenly, are asked.
+/// How much smaller the model's errors are where each load is this many times what the campaign says: the ratio of the
+/// root mean square errors, the geometric mean over the channels that are measured. 1 where few rows say anything. Of a
+/// long campaign only so many rows, evenly, are asked.
 double error_with_loads(double times, const Campaign& campaign, const std::vector<Answer>& answers,
                         const AskAgain& ask) {
   constexpr std::size_t most = 100;
@@ -173,16 +173,16 @@ double error_with_loads(double times, const Campaign& campaign, const std::vecto
   double log_ratio = 0;
   int channels = 0;
   for (const ChannelView& view : channel_views) {
-    std::vector<double> as_told, otherwise;
+    std::vector<double> as_given, otherwise;
     for (std::size_t i = 0; i < campaign.runs.size(); i += every) {
       const auto& measured = campaign.runs[i].*view.measured;
-      const std::optional<TractionResult>&told = answers[i].result, &heavy = again[i / every].result;
-      if (!measured || !told) continue;
-      as_told.push_back(*measured - ((*told).*view.predicted).value);
+      const std::optional<TractionResult>&answer = answers[i].result, &heavy = again[i / every].result;
+      if (!measured || !answer) continue;
+      as_given.push_back(*measured - ((*answer).*view.predicted).value);
       if (heavy) otherwise.push_back(*measured - ((*heavy).*view.predicted).value);
     }
-    if (as_told.size() < fewest_to_compare || 2 * otherwise.size() < as_told.size()) continue;
-    log_ratio += std::log(root_mean_square(otherwise) / root_mean_square(as_told)), ++channels;
+    if (as_given.size() < fewest_to_compare || 2 * otherwise.size() < as_given.size()) continue;
+    log_ratio += std::log(root_mean_square(otherwise) / root_mean_square(as_given)), ++channels;
   }
   return channels > 0 ? std::exp(log_ratio / channels) : 1.0;
 }

@@ -1,4 +1,5 @@
-// Columns of a campaign that are hardly meant: a part of the list of doubts (doubts.hpp).
+// Columns of a campaign that seem mistaken (swapped, of the wrong sign, in another unit): a part of the list of doubts
+// (doubts.hpp).
 #pragma once
 
 #include <functional>

@@ -17,7 +17,7 @@
 #include "compare/doubts/column_doubts.hpp"
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/doubts/row_doubts.hpp"
-#include "compare/doubts/unheard.hpp"
+#include "compare/doubts/unused_inputs.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/unit.hpp"
@@ -26,6 +26,31 @@ namespace soilbin::compare {
 namespace {
 
 using Warnings = std::vector<std::string>;
+
+/// Doubts that differ in numbers alone, up to the condition or the line that they name, as one, with the number of the
+/// others: "(and at 3 other conditions)".
+Warnings once_each(const Warnings& warnings) {
+  Warnings shown;
+  std::vector<std::pair<std::string, std::size_t>> kinds;
+  for (const std::string& warning : warnings) {
+    std::string kind = warning.substr(0, warning.find(" at load"));
+    std::erase_if(kind, [](unsigned char c) { return std::isdigit(c) || c == '.' || c == '-'; });
+    const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.first == kind; });
+    if (known != kinds.end()) {
+      ++known->second;
+      continue;
+    }
+    kinds.emplace_back(kind, 0);
+    shown.push_back(warning);
+  }
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const std::size_t others = kinds[i].second;
+    if (others == 0) continue;
+    const std::string what = shown[i].starts_with("line ") ? "line" : "condition";
+    shown[i] += fmt::format(" (and at {} other {}{})", others, what, others > 1 ? "s" : "");
+  }
+  return shown;
+}
 
 /// Of the radius. The base model has no balance beyond 0.9; its stresses are tested up to about this.
 constexpr double stretched_sinkage_share = 0.5;
@@ -185,7 +210,7 @@ Warnings doubts_of_learned(const Case& question) {
 /// What is declared and has no influence, and what has influence and is not declared.
 Warnings doubts_of_declarations(const Case& question) {
   Warnings words;
-  for (Unheard& one : unheard(question)) words.push_back(std::move(one.words));
+  for (UnusedInput& one : unused_inputs(question)) words.push_back(std::move(one.words));
   append(words, doubts_of_learned(question));
   std::vector<EffectChoice> effects;
   for (const ModelChoice& model : question.study.models)
@@ -203,7 +228,7 @@ Warnings doubts_of_declarations(const Case& question) {
 enum class Answered { no, yes };
 
 /// doubts(question, study) without what changes nothing.
-Warnings doubts_but_unheard(const Case& question, const std::vector<ModelAnswers>& study, Answered answered) {
+Warnings doubts_but_unused_inputs(const Case& question, const std::vector<ModelAnswers>& study, Answered answered) {
   const Scenario& scenario = question.scenario;
   const bool open = answered == Answered::no;
   Warnings warnings;
@@ -227,7 +252,7 @@ Case question_of(const Campaign& campaign, const Scenario& asked) {
 }
 
 /// Each row has a run and a place: so a campaign is told, whether or not its model asks for them.
-bool only_tells_the_row(const Unheard& one) { return one.key == "run" || one.key == "position"; }
+bool only_tells_the_row(const UnusedInput& one) { return one.key == "run" || one.key == "position"; }
 
 /// The campaign's model at other conditions.
 AskAgain asked_again(const Case& question) {
@@ -242,9 +267,9 @@ enum class NextIs { nothing, a_fit_for_effects };
 
 Warnings doubts_of(const Campaign& campaign, const Case& question, const std::vector<ModelAnswers>& study,
                    Answered answered, NextIs next) {
-  Warnings warnings = doubts_but_unheard(question, study, answered);
+  Warnings warnings = doubts_but_unused_inputs(question, study, answered);
   if (next == NextIs::nothing)
-    for (Unheard& one : unheard(question))
+    for (UnusedInput& one : unused_inputs(question))
       if (!only_tells_the_row(one)) warnings.push_back(std::move(one.words));
   Warnings of_data;
   for (const RowDoubt& one : row_doubts(campaign))
@@ -260,30 +285,6 @@ Warnings doubts_as_declared(const Campaign& campaign, NextIs next) {
 }
 
 }  // namespace
-
-/// The same kind of warning is one that differs in numbers alone, up to the condition or the line that it tells.
-Warnings once_each(const Warnings& warnings) {
-  Warnings shown;
-  std::vector<std::pair<std::string, std::size_t>> kinds;
-  for (const std::string& warning : warnings) {
-    std::string kind = warning.substr(0, warning.find(" at load"));
-    std::erase_if(kind, [](unsigned char c) { return std::isdigit(c) || c == '.' || c == '-'; });
-    const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.first == kind; });
-    if (known != kinds.end()) {
-      ++known->second;
-      continue;
-    }
-    kinds.emplace_back(kind, 0);
-    shown.push_back(warning);
-  }
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    const std::size_t others = kinds[i].second;
-    if (others == 0) continue;
-    const std::string what = shown[i].starts_with("line ") ? "line" : "condition";
-    shown[i] += fmt::format(" (and at {} other {}{})", others, what, others > 1 ? "s" : "");
-  }
-  return shown;
-}
 
 std::string remark_on(const Scenario& scenario, const ModelChoice& model, const Answer& answer) {
   std::string remark;
@@ -356,13 +357,13 @@ Warnings doubts(const SemiEmpiricalSoil& soil) {
 }
 
 Warnings doubts(const Case& question, const std::vector<ModelAnswers>& study) {
-  Warnings warnings = doubts_but_unheard(question, study, Answered::yes);
+  Warnings warnings = doubts_but_unused_inputs(question, study, Answered::yes);
   append(warnings, doubts_of_declarations(question));
   return warnings;
 }
 
 Warnings doubts(const Case& question) {
-  Warnings warnings = doubts_but_unheard(question, quick_answers(question), Answered::no);
+  Warnings warnings = doubts_but_unused_inputs(question, quick_answers(question), Answered::no);
   append(warnings,
          doubts_of_declarations(question.drive && question.study.conditions.empty() ? as_study(question) : question));
   return warnings;

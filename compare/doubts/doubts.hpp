@@ -8,7 +8,7 @@
 //   a soil by itself     values out of the usual, no strength, nothing carried     doubts.cpp
 //   a wheel on a soil    proportions, a width for which the soil carries nothing   doubts.cpp
 //   an answer            deep sinkage, odd pressure, more power out than in        doubts.cpp
-//   no influence         lugs, inflation, passes, ... that change no digit         unheard.cpp
+//   no influence         lugs, inflation, passes, ... that change no digit         unused_inputs.cpp
 //   a presumption        what an effect takes the wheel to have, and nobody said   doubts.cpp
 //   grains               too coarse for the wheel, a law that hangs on the step    grain_doubts.cpp
 //   measured rows        repeated, flipped, swapped, impossible                    row_doubts.cpp
@@ -54,8 +54,5 @@ Remark remarks_about(const Scenario& scenario);
 
 /// A remark for each run of a prediction, on the answer and on the measured row.
 std::vector<std::string> remarks_on(const Campaign& campaign, const Scenario& asked, const Prediction& prediction);
-
-/// Doubts that differ in numbers alone as one, with the number of the others: "(and at 3 other conditions)".
-std::vector<std::string> once_each(const std::vector<std::string>& doubts);
 
 }  // namespace soilbin::compare

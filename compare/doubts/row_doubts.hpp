@@ -1,4 +1,5 @@
-// Rows of a campaign that are hardly meant: a part of the list of doubts (doubts.hpp).
+// Rows of a campaign that seem mistaken (repeated, impossible, far from all others): a part of the list of doubts
+// (doubts.hpp).
 #pragma once
 
 #include <optional>

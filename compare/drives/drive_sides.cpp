@@ -126,9 +126,9 @@ std::vector<const DriveSide*> grain_sides(const DriveSides& drive) {
 
 template <class Value>
 Estimate over_packings_of(const std::vector<const DriveSide*>& grains, const Value& value) {
-  std::vector<Estimate> told;
-  for (const DriveSide* side : grains) told.push_back(value(*side));
-  return mean_over_packings(told);
+  std::vector<Estimate> values;
+  for (const DriveSide* side : grains) values.push_back(value(*side));
+  return mean_over_packings(values);
 }
 
 Steady steady_over_packings(const std::vector<const DriveSide*>& grains) {
@@ -165,10 +165,10 @@ std::string steady_words(const dem::SteadyDrive& s) {
 /// "dem, mean of 3 packings: arrived on 2 and stuck on 1, ..."
 std::string sentence_of(const DriveOverPackings& one) {
   std::string ends;
-  std::vector<DriveEnd> told;
+  std::vector<DriveEnd> listed;
   for (const DriveEnd end : one.ends) {
-    if (std::ranges::find(told, end) != told.end()) continue;
-    told.push_back(end);
+    if (std::ranges::find(listed, end) != listed.end()) continue;
+    listed.push_back(end);
     ends += fmt::format("{}{} on {}", ends.empty() ? "" : ", ", word_of(end), std::ranges::count(one.ends, end));
   }
   std::string text = fmt::format("dem, mean of {} packings: {}, after {} s and {} m", one.ends.size(), ends,
@@ -209,7 +209,7 @@ DriveSide grain_side(const dem::GrainDriveRecord& record, std::optional<std::uin
   DriveSide side{SideKind::grains, label, packing, record.end, record.end_time, {}, record.happenings, {}, {}, {}};
   for (const dem::GrainDriveSample& s : record.samples) side.samples.push_back(side_sample(s, s.energy.soil));
   const dem::GrainDriveEnergy& end = record.samples.back().energy;
-  if (end.told)
+  if (end.known)
     side.soil_parts = {{"grains slide", end.sliding},
                        {"grains roll", end.rolling},
                        {"grains hit each other", end.damping},
@@ -259,10 +259,12 @@ Table packings_table(const DriveSides& drive) {
   add(
       "travelled [m]", [](const DriveSide& s) { return number(s.samples.back().travelled); }, number(mean.travelled));
   for (const SteadyValue& value : steady_values) {
-    const auto told = [&](const Steady& steady) { return steady ? number((*steady).*value.value, value.per_si) : "-"; };
+    const auto text_of = [&](const Steady& steady) {
+      return steady ? number((*steady).*value.value, value.per_si) : "-";
+    };
     add(
-        fmt::format("{} [{}]", value.name, value.unit), [&](const DriveSide& s) { return told(s.steady); },
-        told(mean.steady));
+        fmt::format("{} [{}]", value.name, value.unit), [&](const DriveSide& s) { return text_of(s.steady); },
+        text_of(mean.steady));
   }
   return table;
 }

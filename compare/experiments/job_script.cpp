@@ -82,19 +82,20 @@ std::string filled(const char* script, const std::vector<std::pair<const char*, 
 }
 
 std::string script_of(const Jobs& jobs) {
-  const auto told = [](const auto& number) { return fmt::format("{}", number); };
+  const auto text_of = [](const auto& number) { return fmt::format("{}", number); };
   const std::string merge = filled("merge.sh", {{"known", jobs.known.empty() ? "" : " " + quoted(jobs.known)}});
-  const std::string beds = told(jobs.plan.beds), shards = told(jobs.shards);
+  const std::string beds = text_of(jobs.plan.beds), shards = text_of(jobs.shards);
   if (jobs.on == JobsOn::local)
-    return filled("local.sh", {{"at_once", told(jobs.at_once)}, {"beds", beds}, {"shards", shards}, {"merge", merge}});
+    return filled("local.sh",
+                  {{"at_once", text_of(jobs.at_once)}, {"beds", beds}, {"shards", shards}, {"merge", merge}});
   return filled("slurm.sh", {{"beds", beds},
                              {"shards", shards},
                              {"merge", merge},
-                             {"threads", told(jobs.plan.threads)},
-                             {"memory", told(std::ceil(1.5 * jobs.plan.memory / 1e6) + 100)},
+                             {"threads", text_of(jobs.plan.threads)},
+                             {"memory", text_of(std::ceil(1.5 * jobs.plan.memory / 1e6) + 100)},
                              {"name", quoted(std::vector{jobs.plan.study})},
-                             {"bed_minutes", told(minutes_for(jobs.plan.bed_seconds))},
-                             {"run_minutes", told(minutes_for(longest_shard(jobs)))}});
+                             {"bed_minutes", text_of(minutes_for(jobs.plan.bed_seconds))},
+                             {"run_minutes", text_of(minutes_for(longest_shard(jobs)))}});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a study came to: each model's answers, by grains too, what is doubtful in them, and the grains' time step.
+// The results of a study: each model's answers, by grains too, what is doubtful in them, and the grains' time step.
 //
 //   results.doubts = doubts_of(question, results, "runs.json");
 //   fmt::print("{}", json_text(to_json(question, results)));

@@ -1,4 +1,4 @@
-// Functions of the conditions that no law asked for: what stands in for an effect without a name.
+// Smooth functions and waves of a campaign's conditions: how the loop looks for an effect that has no name.
 #pragma once
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
-// Levenberg-Marquardt between walls (Levenberg 1944, Marquardt 1963; damping after Nielsen 1999), which may cross soils
-// that do not carry the wheel.
+// Least squares within linear bounds ("walls") by Levenberg and Marquardt (Levenberg 1944, Marquardt 1963; damping
+// after Nielsen 1999), which may cross soils that do not carry the wheel.
 #pragma once
 
 #include <Eigen/Dense>

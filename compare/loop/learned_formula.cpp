@@ -20,7 +20,7 @@ namespace {
 
 using Combination = std::vector<int>;
 
-/// Root mean square of a term over the runs; 0 where it isn't told in some.
+/// Root mean square of a term over the runs; 0 where it has no value in some.
 double usual_size(const FormulaTerm& term, const Observations& observations) {
   double sum = 0.0;
   for (const OperatingCondition& at : observations.rows) sum += std::pow(term.value(at), 2);
@@ -104,12 +104,12 @@ std::vector<Combination> wider(const std::vector<Combination>& some, const Libra
   return all;
 }
 
-/// Terms that are told in every run.
+/// Terms that have a value in every run.
 std::vector<FormulaTerm> candidate_terms(const Term& learned, const Observations& observations) {
-  std::vector<FormulaTerm> told =
+  std::vector<FormulaTerm> terms =
       bekker_wong::formula_terms(bekker_wong::learned_function(*learned.form), learned.defaults);
-  std::erase_if(told, [&](const FormulaTerm& term) { return !(usual_size(term, observations) > 0.0); });
-  return told;
+  std::erase_if(terms, [&](const FormulaTerm& term) { return !(usual_size(term, observations) > 0.0); });
+  return terms;
 }
 
 /// Fitted in full and set beside the learned effect on conditions left out.

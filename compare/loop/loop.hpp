@@ -4,11 +4,11 @@
 //   1 observe            Campaign -> Observations                       observations.hpp
 //   2 fit_base           -> FittedModel: noise, outliers, base fit      base_fit.hpp, fitted_model.hpp
 //   3 residual_signatures, 4 candidates: attribute -> Attribution       signatures.hpp, candidates.hpp
-//   5 choose, judge      -> ChosenCandidate, Judgement: the verdict              choice.hpp, verdict.hpp
+//   5 choose, judge      -> ChosenCandidate, Judgement: the verdict     choice.hpp, verdict.hpp
 //   6 cross_validate     -> CrossValidation: honest errors              validation.hpp
 //   7 next_test          -> NextTest                                    next_test.hpp
 //   8 LoopAnswer: JSON, sentences, page, saved model                    answer_json.cpp, answer_words.hpp,
-//   loop_page.cpp
+//                                                                       loop_page.cpp
 #pragma once
 
 #include <map>
@@ -127,7 +127,7 @@ std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects);
 ///     if (answer.verdict == Verdict::effect_found) answer.effects.front().choice;   // {"slip_sinkage", "linear", ...}
 LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options);
 
-/// The answer in the contract's form, soilbin-loop/1.
+/// The answer as JSON, soilbin-loop/1.
 nlohmann::ordered_json to_json(const LoopAnswer& answer);
 
 /// The formula as a file for the catalogue of effects (bekker_wong/effects); empty where there is none.

@@ -1,5 +1,5 @@
-// A base model whose form isn't the soil's. On soils that no equation was made for, an attribution with an exact base
-// model has no way to say so but to name effects that make up for it; this is the second one.
+// Model discrepancy (Kennedy and O'Hagan 2001): a second attribution of the residual, in which the base model's own
+// form may be wrong. One with an exact base model has no way to say so but to name effects that make up for it.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 namespace soilbin::compare {
 
 /// What the base model's own form may leave in the cells: smooth functions of its variables, load and slip, in every
-/// channel, whitened to about 1 sd a cell each (the model discrepancy, or inadequacy, of Kennedy and O'Hagan 2001, J.
+/// channel, whitened to about 1 sd a cell each (the model discrepancy of Kennedy and O'Hagan 2001, J.
 /// R. Stat. Soc. B 63:425).
 Eigen::MatrixXd model_discrepancy_columns(const FittedModel& base);
 

@@ -86,8 +86,8 @@ inline BalanceMemory giving_way() {
 using RowWatch =
     std::function<bool(Eigen::Index first, Eigen::Index count, const Eigen::VectorXd& prediction, double shortfall)>;
 
-/// What the declared campaign and some terms predict. theta: the soil's free values in the contract's order (those
-/// declared with sd > 0), then each term's free parameters. All const members may be called from any thread.
+/// What the declared campaign and some terms predict. theta: the soil's free values in the order of soil_parameters
+/// (those declared with sd > 0), then each term's free parameters. All const members may be called from any thread.
 class WheelPredictor {
  public:
   WheelPredictor(const Campaign& campaign, const Observations& observations, std::vector<Term> terms = {});

@@ -1,4 +1,4 @@
-// A measured campaign: campaign.yaml and a CSV of runs (docs/reference/campaigns.md tells the contract).
+// A measured campaign: campaign.yaml and a CSV of runs (format: docs/reference/campaigns.md).
 #pragma once
 
 #include <array>
@@ -77,8 +77,8 @@ int free_parameters(const SemiEmpiricalSoil& soil);
 enum class CampaignUse { prediction, fit, design };
 
 /// Reads a campaign: its folder or its campaign.yaml. Throws InputError with file, line, column and the nearest right
-/// word for everything that the contract refuses. A wheel or soil that it names is looked up beside the file, then in
-/// the library.
+/// word for everything that the format does not allow. A wheel or soil that it names is looked up beside the file, then
+/// in the library.
 Campaign read_campaign(const std::filesystem::path& path, const Library& library, const EffectVocabulary& effects,
                        CampaignUse use = CampaignUse::prediction);
 

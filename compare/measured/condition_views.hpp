@@ -36,9 +36,9 @@ constexpr auto get = [](const OperatingCondition& at) { return at.*member; };
 template <double OperatingCondition::*member>
 constexpr auto set = [](OperatingCondition& at, double value) { at.*member = value; };
 template <std::optional<double> OperatingCondition::*member>
-constexpr auto get_told = [](const OperatingCondition& at) { return (at.*member).value_or(not_a_number); };
+constexpr auto get_optional = [](const OperatingCondition& at) { return (at.*member).value_or(not_a_number); };
 template <std::optional<double> OperatingCondition::*member>
-constexpr auto set_told = [](OperatingCondition& at, double value) { at.*member = value; };
+constexpr auto set_optional = [](OperatingCondition& at, double value) { at.*member = value; };
 
 }  // namespace condition_members
 
@@ -58,10 +58,10 @@ inline constexpr std::array<ConditionView, 10> condition_views = [] {
       {"transverse_incline", "cross slope", "deg", 1 / degree, "transverse_incline_deg", "deg", inclines, false,
        m::get<&C::transverse_incline>, m::set<&C::transverse_incline>},
       {"speed", "speed", "m/s", 1.0, "speed_m_s", "m/s", zero_or_more, false, m::get<&C::speed>, m::set<&C::speed>},
-      {"position", "position", "m", 1.0, "position_m", "m", any_value, false, m::get_told<&C::position>,
-       m::set_told<&C::position>},
-      {"moisture", "moisture", "%", 100.0, "moisture_percent", "%", fractions, false, m::get_told<&C::moisture>,
-       m::set_told<&C::moisture>},
+      {"position", "position", "m", 1.0, "position_m", "m", any_value, false, m::get_optional<&C::position>,
+       m::set_optional<&C::position>},
+      {"moisture", "moisture", "%", 100.0, "moisture_percent", "%", fractions, false, m::get_optional<&C::moisture>,
+       m::set_optional<&C::moisture>},
       {"run", "run", "", 1.0, "run", "-", zero_or_more, true,
        [](const C& at) { return at.run ? static_cast<double>(*at.run) : not_a_number; },
        [](C& at, double value) { at.run = static_cast<int>(std::lround(value)); }},

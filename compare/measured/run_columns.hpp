@@ -29,7 +29,7 @@ struct RunColumn {
   std::function<std::optional<double>(const Run&)> get{};  ///< what to write; no value: an empty cell
 };
 
-/// Every column of the contract, in its order.
+/// Every column of the format (docs/reference/campaigns.md), in its order.
 const std::vector<RunColumn>& run_columns();
 
 /// A column of an actual file.

@@ -1,6 +1,6 @@
-// How much a campaign's runs scatter in time, each within itself: the usual run, against which unsteady ones show.
+// How much each channel fluctuates in time within a run, in the median run of a campaign: unsteady runs stand out.
 //
-//   usual_scatter(campaign.runs, 0)   // of the drawbar pull, [N]; nothing where no run tells it
+//   usual_scatter(campaign.runs, 0)   // of the drawbar pull, [N]; nothing where no run says it
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ inline double upper_median(std::vector<double> values) {
   return *middle;
 }
 
-/// Median of what the runs tell of a channel's standard deviation in time [SI]; nothing where none does.
+/// Median over the runs of a channel's standard deviation in time [SI]; nothing where none does.
 inline std::optional<double> usual_scatter(const std::vector<Run>& runs, std::size_t channel) {
   std::vector<double> scatters;
   for (const Run& run : runs)

@@ -1,5 +1,5 @@
-// Runs of the virtual soil bin as a measured campaign: grains as the nature that an analyst measures, with what he is
-// told of it. What is switched on in the grains and not told, or not in his model, is what the loop should find.
+// Runs of the virtual soil bin written as a measured campaign, to test the loop: the grains are the nature that an
+// analyst measures. What acts in them and is left out of the campaign, or of his model, is what the loop should find.
 #pragma once
 
 #include <set>

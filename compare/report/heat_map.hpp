@@ -1,4 +1,4 @@
-// A grid of numbers in colours that diverge from zero, as SVG; every cell also tells its number in text.
+// A grid of numbers in colours that diverge from zero, as SVG; every cell also holds its number as text.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // Findings of a publication as rows of a file: what it says, word by word, and the statistic that would show it.
-// The format soilbin-findings/1 is told in docs/reference/findings.md.
+// The format soilbin-findings/1 is described in docs/reference/findings.md.
 #pragma once
 
 #include <array>

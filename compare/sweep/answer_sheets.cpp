@@ -115,8 +115,8 @@ Series predicted_line(const std::vector<const PredictedRun*>& runs, const Channe
 Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, Panels panels) {
   Sheet sheet{question.study.name, {}, Palette::ordered};
   const Curves curves = curves_against_slip(question.study.conditions, Spread::exact);
-  const bool alone = curves.labels.size() == 1;
-  if (alone) sheet.palette = Palette::named;
+  const bool one_curve = curves.labels.size() == 1;
+  if (one_curve) sheet.palette = Palette::named;
   const bool all_bands = curves.labels.size() * study.size() <= most_bands;
   const bool first_bands = curves.labels.size() <= most_bands;
   sheet.note = in_words(question.scenario.tire) + " on " + in_words(question.scenario.soil) + "; ";
@@ -132,8 +132,8 @@ Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, 
       for (std::size_t curve = 0; curve < curves.labels.size(); ++curve) {
         Series series = series_of(study[m].answers, curves, curve, shown, all_bands || (m == 0 && first_bands));
         series.label = join(study.size() > 1 ? study[m].choice.label : "", curves.labels[curve]);
-        series.color = static_cast<int>(alone ? m : curve);
-        series.dash = alone ? 0 : static_cast<int>(m);
+        series.color = static_cast<int>(one_curve ? m : curve);
+        series.dash = one_curve ? 0 : static_cast<int>(m);
         plot.series.push_back(std::move(series));
       }
     sheet.plots.push_back(std::move(plot));

@@ -1,4 +1,4 @@
-// Results as JSON, with the contract's names. A value that is not a number is written as null.
+// Results as JSON, with the names that every format of soilbin uses. A value that is not a number is written as null.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace soilbin::compare {
 /// {"load": N, "slip": -, ...} in SI; speed, angles, pass and what else differs from nothing.
 Json to_json(const OperatingCondition& at);
 
-/// The contract's names at the top ("drawbar_pull", ..., "theta_1" [rad]), their standard errors under "std_error",
+/// The channels' names at the top ("drawbar_pull", ..., "theta_1" [rad]), their standard errors under "std_error",
 /// then efficiency (null unless has_efficiency), angles and budget; or {"error": "..."} beside the condition.
 Json to_json(const Answer& answer);
 
@@ -42,7 +42,7 @@ std::string study_csv(const std::vector<ModelAnswers>& study, const Remark& rema
 /// prediction's standard error; error, remark. SI, angles in degrees. `remarks`: one for each run.
 std::string prediction_csv(const Prediction& prediction, const std::vector<std::string>& remarks);
 
-// A result's members as JSON keys, for the visitors of json_fields.hpp. The names are the contract's.
+// A result's members as JSON keys, for the visitors of json_fields.hpp. The names are those of the file formats.
 
 /// Four results, their standard errors, efficiency, angles, budget. `result`: a TractionResult, const or not.
 template <class Visitor, class Result>

@@ -1,5 +1,4 @@
-// Conditions beside each other: alike or not, which vary beside slip and so which answers belong to one curve, in
-// words.
+// How a study's conditions differ from each other: which of them belong to one curve against slip, and in words.
 #pragma once
 
 #include <string>

@@ -21,11 +21,11 @@ Start resume_or_start(const std::filesystem::path& restart, const std::function<
                       std::optional<int> threads) {
   if (!has_restart(restart)) return {fresh(), {}, ""};
   LastGood found = read_last_good(restart);
-  std::string told = found.warning.empty() ? "" : found.warning + "\n";
-  told += fmt::format("going on from {}, step {}", found.from.string(), found.restart.state.step);
+  std::string message = found.warning.empty() ? "" : found.warning + "\n";
+  message += fmt::format("going on from {}, step {}", found.from.string(), found.restart.state.step);
   if (threads) found.restart.setup.numerics.threads = *threads;
   return {Simulation(std::move(found.restart.setup), std::move(found.restart.state)), std::move(found.restart.notes),
-          std::move(told)};
+          std::move(message)};
 }
 
 }  // namespace soilbin::dem

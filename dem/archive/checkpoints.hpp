@@ -42,7 +42,7 @@ class Checkpointer {
 struct Start {
   Simulation simulation;
   Notes notes;
-  std::string told;  ///< from which file and step it goes on, and what was wrong with a later one; empty: fresh
+  std::string message;  ///< from which file and step it goes on, and what was wrong with a later one; empty: fresh
 };
 
 /// Goes on from the last good restart; where there is none at all, from `fresh`. `threads`: as in Numerics; absent:

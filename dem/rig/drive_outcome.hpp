@@ -18,11 +18,11 @@ struct GrainDriveEnergy : WheelEnergy {
   double rolling = 0;  ///< lost by rolling resistance
   double damping = 0;  ///< lost in normal dashpots, and left in bonds that broke
   double stored = 0;   ///< the grains hold it: motion, height, springs; less what turning gravity brought in
-  bool told = false;   ///< whether these four were counted (Rig::ledger)
+  bool known = false;  ///< whether these four were counted (Rig::ledger)
   /// Of the wheel's own balance: rounding alone.
   double unaccounted() const { return left() - soil; }
   /// What the time step leaves over of the grains' balance; 0 where it was not counted.
-  double soil_unaccounted() const { return told ? soil - sliding - rolling - damping - stored : 0.0; }
+  double soil_unaccounted() const { return known ? soil - sliding - rolling - damping - stored : 0.0; }
 };
 
 /// The wheel over the time since the sample before: means over all steps of it, but for time, way and energy, which are

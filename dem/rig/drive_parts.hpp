@@ -23,7 +23,7 @@ void parts(Notes& notes, WheelEnergy& e) {
 template <class Notes>
 void parts(Notes& notes, GrainDriveEnergy& e) {
   static_assert(sizeof(GrainDriveEnergy) == sizeof(WheelEnergy) + 6 * sizeof(double));
-  notes(static_cast<WheelEnergy&>(e), e.soil, e.sliding, e.rolling, e.damping, e.stored, e.told);
+  notes(static_cast<WheelEnergy&>(e), e.soil, e.sliding, e.rolling, e.damping, e.stored, e.known);
 }
 
 template <class Notes>

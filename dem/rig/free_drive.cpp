@@ -245,7 +245,7 @@ GrainDriveEnergy FreeDrive::energy() const {
   const EnergyBalance now = bin_.simulation().energy();
   const Ledger &a = first_.ledger, &b = now.ledger;
   const double slid = now.tangential - first_.tangential, rolled = now.rolling - first_.rolling;
-  e.told = true;
+  e.known = true;
   e.sliding = b.into_slide - a.into_slide - slid;
   e.rolling = b.into_roll - a.into_roll - rolled;
   e.damping = b.damping - a.damping + b.adhesion - a.adhesion;

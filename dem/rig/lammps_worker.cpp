@@ -130,9 +130,9 @@ std::string last_lines(const fs::path& file) {
   std::istringstream text(text_of(file));
   for (std::string line; std::getline(text, line);)
     if (line.find_first_not_of("- \t\r") != std::string::npos) lines.push_back(line);
-  std::string told;
-  for (std::size_t k = lines.size() > most ? lines.size() - most : 0; k < lines.size(); ++k) told += "\n  " + lines[k];
-  return told;
+  std::string last;
+  for (std::size_t k = lines.size() > most ? lines.size() - most : 0; k < lines.size(); ++k) last += "\n  " + lines[k];
+  return last;
 }
 
 /// What the worker says of its progress: 'progress STAGE SHARE SECONDS', the stage of several words.

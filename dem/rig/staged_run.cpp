@@ -37,7 +37,7 @@ Start begin(const Checkpoints& checkpoints, const std::string& inputs, int threa
             const std::function<Simulation()>& fresh) {
   if (checkpoints.restart.empty()) return {fresh(), {}, ""};
   Start start = resume_or_start(checkpoints.restart, fresh, threads);
-  if (!start.told.empty() && start.notes[inputs_note] != inputs)
+  if (!start.message.empty() && start.notes[inputs_note] != inputs)
     throw InputError({checkpoints.restart.string(), 0, 0}, "is the restart of another run", "",
                      "remove it to start anew");
   return start;
@@ -54,9 +54,9 @@ StagedRun::StagedRun(const Checkpoints& checkpoints, std::string inputs, const W
       start_(begin(checkpoints_, inputs_, how.threads, fresh)),
       checkpointer_(checkpoints_, start_.simulation.state().step) {
   if (!is_kept()) return;
-  if (!start_.told.empty()) go_on_from(std::move(start_.notes), checkpoints_.restart.string());
+  if (!start_.message.empty()) go_on_from(std::move(start_.notes), checkpoints_.restart.string());
   keep(where_note, *this);
-  if (!start_.told.empty() && checkpoints_.tell) checkpoints_.tell(start_.told);
+  if (!start_.message.empty() && checkpoints_.tell) checkpoints_.tell(start_.message);
 }
 
 StagedRun::~StagedRun() {

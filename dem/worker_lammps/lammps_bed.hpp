@@ -1,8 +1,7 @@
 // A bed that settles in LAMMPS: the engine's stages (dem/bed/settling.hpp) over grains that no process holds all of.
 //
 //   LammpsRun run(MPI_COMM_WORLD, recipe, how, folder);
-//   const BedReport report = settle_in_lammps(run, recipe);   // the grains lie in the folder: LammpsRun goes on from
-//   it
+//   const BedReport report = settle_in_lammps(run, recipe);   // the grains lie in the folder: LammpsRun begins there
 //
 // Each process sees its own part of the bin: the grains there, and copies of those that reach into it. What is counted
 // over parts is summed up.

@@ -9,7 +9,7 @@
 
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"
-#include "compare/doubts/unheard.hpp"
+#include "compare/doubts/unused_inputs.hpp"
 #include "tests/fixtures.hpp"
 
 namespace soilbin::compare {
@@ -66,9 +66,9 @@ TEST(Doubts, AHardLayersDepthIsTheBinsWhereThatIsDeclared) {
   EXPECT_TRUE(doubts(question).empty());
 }
 
-std::vector<std::string> keys_of_unheard(const Case& question) {
+std::vector<std::string> keys_of_unused(const Case& question) {
   std::vector<std::string> keys;
-  for (const Unheard& one : unheard(question)) keys.push_back(one.key);
+  for (const UnusedInput& one : unused_inputs(question)) keys.push_back(one.key);
   return keys;
 }
 
@@ -77,18 +77,18 @@ TEST(Doubts, WhatNoModelHearsOfIsTold) {
   question.scenario = wheel_on_sand();
   question.study.models = {ModelChoice{}};
   question.study.conditions = {condition(80, 0.2)};
-  EXPECT_THAT(keys_of_unheard(question), IsEmpty());
+  EXPECT_THAT(keys_of_unused(question), IsEmpty());
   question.scenario.tire.lugs.height = 0.01;
   question.study.conditions[0].pass = 2;
   question.study.conditions[0].moisture = 0.05;
-  EXPECT_THAT(keys_of_unheard(question), ElementsAre("lugs", "pass", "moisture"));
+  EXPECT_THAT(keys_of_unused(question), ElementsAre("lugs", "pass", "moisture"));
   question.study.models.push_back({ModelKind::dem, {}, ""});
-  EXPECT_THAT(keys_of_unheard(question), ElementsAre("lugs", "pass", "moisture")) << "the wheel beside them doesn't";
+  EXPECT_THAT(keys_of_unused(question), ElementsAre("lugs", "pass", "moisture")) << "the wheel beside them doesn't";
   question.study.models.push_back({ModelKind::bekker_wong, {{"moisture", "", {}}, {"drift", "", {}}}, ""});
-  EXPECT_THAT(keys_of_unheard(question), ElementsAre("lugs", "pass", "moisture", "effect"))
+  EXPECT_THAT(keys_of_unused(question), ElementsAre("lugs", "pass", "moisture", "effect"))
       << "grains don't hear of moisture; drift without a run";
   question.study.models = {{ModelKind::dem, {}, ""}};
-  EXPECT_THAT(keys_of_unheard(question), ElementsAre("moisture")) << "grains alone hear of lugs and passes";
+  EXPECT_THAT(keys_of_unused(question), ElementsAre("moisture")) << "grains alone hear of lugs and passes";
 }
 
 /// Eight runs over slip, so far apart, at one load as the base model has them.
@@ -185,9 +185,9 @@ TEST(Doubts, InflationIsHeardByAFlexibleTireAlone) {
   EXPECT_THAT(doubts(question, {}), ElementsAre(HasSubstr("inflation pressure changes nothing: the analytic wheel is "
                                                           "rigid without effect tire_flexibility")));
   question.study.models[0].effects = {{"tire_flexibility", "", {}}};
-  EXPECT_THAT(keys_of_unheard(question), IsEmpty());
+  EXPECT_THAT(keys_of_unused(question), IsEmpty());
   question.study.models = {{ModelKind::dem, {}, ""}};
-  EXPECT_THAT(keys_of_unheard(question), ElementsAre("inflation_pressure"));
+  EXPECT_THAT(keys_of_unused(question), ElementsAre("inflation_pressure"));
 }
 
 TEST(Doubts, WhatAnEffectPresumesOfTheTireIsToldUntilItIsDeclared) {

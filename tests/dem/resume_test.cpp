@@ -160,7 +160,7 @@ TEST(Resumable, StopsWhenAskedAndGoesOn) {
   EXPECT_THROW(run_in(halted.path(), nullptr, how), Stopped);
   const Start again = resume_or_start(halted / "run.h5", [] { return scene(60); });
   EXPECT_EQ(again.simulation.state().step, 2000);  // of 6000; asked for at 1900, it looks each 100
-  EXPECT_THAT(again.told, HasSubstr("run.h5, step 2000"));
+  EXPECT_THAT(again.message, HasSubstr("run.h5, step 2000"));
   run_in(halted.path(), nullptr);
   EXPECT_EQ(Bits(read_restart(halted / "run.h5").state), Bits(read_restart(whole / "run.h5").state));
 }
@@ -182,8 +182,8 @@ TEST(Resumable, NeverStartsAnewByMistake) {
   write_restart(previous_of(folder / "run.h5"), simulation.setup(), simulation.state());
   const Start start = resume_or_start(folder / "run.h5", [] { return scene(20); });
   EXPECT_EQ(start.simulation.state().step, 30);
-  EXPECT_THAT(start.told, HasSubstr("is no soilbin restart"));
-  EXPECT_THAT(start.told, HasSubstr("run.h5.previous, step 30"));
+  EXPECT_THAT(start.message, HasSubstr("is no soilbin restart"));
+  EXPECT_THAT(start.message, HasSubstr("run.h5.previous, step 30"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "compare/doubts/unheard.hpp"
+#include "compare/doubts/unused_inputs.hpp"
 
 #include <fmt/format.h>
 
@@ -63,7 +63,7 @@ bool hears(const ModelChoice& choice, const Declared& declared) {
 }
 
 /// Why a thing that is given changes nothing, of the analytic models or, where these hear or aren't asked, of grains.
-std::string why_unheard(const std::vector<ModelChoice>& models, const Declared& declared) {
+std::string why_unused(const std::vector<ModelChoice>& models, const Declared& declared) {
   const auto is_grains = [](const ModelChoice& m) { return m.model == ModelKind::dem; };
   const bool grains = std::any_of(models.begin(), models.end(), is_grains);
   const bool wheel = !std::all_of(models.begin(), models.end(), is_grains);
@@ -84,7 +84,7 @@ std::vector<std::string> in_need(const std::vector<ModelChoice>& models, const D
 }
 
 /// Depths that an effect has and does not take, since the bin's is declared.
-void add_depths_of_the_bin(const Case& question, std::vector<Unheard>& all) {
+void add_depths_of_the_bin(const Case& question, std::vector<UnusedInput>& all) {
   if (!question.scenario.bin || question.scenario.bin->depth <= 0) return;
   const double bin = question.scenario.bin->depth;
   for (const ModelChoice& choice : question.study.models)
@@ -100,13 +100,13 @@ void add_depths_of_the_bin(const Case& question, std::vector<Unheard>& all) {
 
 }  // namespace
 
-std::vector<Unheard> unheard(const Case& question) {
-  std::vector<Unheard> all;
+std::vector<UnusedInput> unused_inputs(const Case& question) {
+  std::vector<UnusedInput> all;
   const std::vector<ModelChoice>& models = question.study.models;
   if (question.study.conditions.empty()) return all;
   for (const Declared& declared : declarable()) {
     if (declared.given(question)) {
-      if (const std::string why = why_unheard(models, declared); !why.empty()) all.push_back({declared.key, why});
+      if (const std::string why = why_unused(models, declared); !why.empty()) all.push_back({declared.key, why});
     } else if (!declared.needs.empty()) {
       for (const std::string& id : in_need(models, declared))
         all.push_back({"effect", fmt::format("effect {} changes nothing: {}", id, declared.needs)});

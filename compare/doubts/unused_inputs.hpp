@@ -9,7 +9,7 @@
 namespace soilbin::compare {
 
 /// Something that is declared and changes no digit.
-struct Unheard {
+struct UnusedInput {
   /// "lugs", "inflation_pressure", "pass", "moisture", "position", "run"; "effect": one without such a value
   std::string key;
   std::string words;  ///< why
@@ -17,6 +17,6 @@ struct Unheard {
 
 /// What a case declares and its analytic models, or its grains, hear nothing of, and the effects that it switches on
 /// whose condition it gives nowhere.
-std::vector<Unheard> unheard(const Case& question);
+std::vector<UnusedInput> unused_inputs(const Case& question);
 
 }  // namespace soilbin::compare
