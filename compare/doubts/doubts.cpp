@@ -128,8 +128,9 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings&
     const double carried = *tire.inflation_pressure + tire.carcass_pressure.value_or(0.0);
     const double critical = bekker_wong::critical_ground_pressure(bekker_wong::values_of(*scenario.soil.semi_empirical),
                                                                   tire.radius, tire.width, answer.at.load);
-    const bool flexible = std::any_of(scenario.effects.begin(), scenario.effects.end(),
-                                      [](const EffectChoice& e) { return e.id == "tire_flexibility"; });
+    const bool flexible = std::ranges::any_of(scenario.effects, [](const EffectChoice& effect) {
+      return depends_on(bekker_wong::find_form(effect), "inflation_pressure");
+    });
     if (carried < critical && !flexible)
       warnings.push_back(
           fmt::format("inflation {:.3g} kPa lies under the critical ground pressure {:.3g} kPa{}: the tire "
