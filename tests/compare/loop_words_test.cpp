@@ -169,7 +169,7 @@ TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
   const CandidateModel candidate{
       .ids = {"bulldozing", "slip_sinkage"},
       .model = FittedModel(data, predictor.with({term("slip_sinkage", "lyasko"), term("bulldozing", "")}), Fit())};
-  Attribution found{FittedModel(data, predictor, Fit()), {}, {}, {}};
+  Attribution found{FittedModel(data, predictor, Fit()), {}, {}, {}, {}};
   found.candidates.models = {candidate};
   found.candidates.sets = {{.ids = candidate.ids, .weight = 1.0}};
   answer.judgement = Judgement{.found = found, .before = {}, .choice = {}, .reason = {}};
