@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -74,24 +73,36 @@ double three_digits(double value) {
 
 double rig_setting(const ConditionView& view, double value, const Observations& observations,
                    const std::pair<double, double>& within, double per_si) {
-  constexpr double share = 0.015, most_scatter = 0.1, set_exactly = 1e-9;  // of the value or, the first, of the range
+  constexpr double run_share = 0.01, most_of_one_setting = 8, set_exactly = 1e-9;
+  constexpr double value_share = 0.02, most_scatter_share = 0.1;  // of a quantity that is positive in every run
   std::vector<double> made;
   for (const OperatingCondition& at : observations.rows)
     if (const double x = view.get(at); std::isfinite(x)) made.push_back(x);
   if (made.empty() || view.whole) return value;
   std::ranges::sort(made);
-  const double size = made.front() > 0.0 ? std::abs(value) : std::numeric_limits<double>::infinity();
-  const double scatter = std::min(rerun_scatter(view, observations), most_scatter * size);
-  const double alike = std::max(2 * scatter, set_exactly * std::abs(value));
-  const auto first = std::ranges::lower_bound(made, value - alike),
-             last = std::ranges::upper_bound(made, value + alike);
-  const bool as_made = first != last;
-  const double room = as_made ? scatter : std::max(scatter, share * std::min(size, made.back() - made.front()));
+  double scatter = rerun_scatter(view, observations), spread = run_share * (made.back() - made.front());
+  if (scatter <= set_exactly * std::max(std::abs(made.front()), std::abs(made.back()))) scatter = 0.0;
+  if (made.front() > 0.0) {
+    scatter = std::min(scatter, most_scatter_share * std::abs(value));
+    spread = std::min(spread, value_share * std::abs(value));
+  }
+  std::pair<double, double> near = {value, value};
+  const auto nearest =
+      std::ranges::min_element(made, [&](double a, double b) { return std::abs(a - value) < std::abs(b - value); });
+  const bool as_made = std::abs(*nearest - value) <= std::max(2 * scatter, set_exactly * std::abs(value));
+  if (as_made) {
+    auto low = nearest, high = nearest;
+    while (low != made.begin() && *low - *std::prev(low) <= 2 * scatter) --low;
+    while (std::next(high) != made.end() && *std::next(high) - *high <= 2 * scatter) ++high;
+    near = *high - *low <= most_of_one_setting * scatter ? std::pair(*low, *high) : std::pair(*nearest, *nearest);
+  }
+  const bool alone = near.first == near.second;
+  const double room = as_made && scatter == 0.0 ? 0.0
+                      : alone                   ? std::max(scatter, spread)
+                                                : std::min(scatter, (near.second - near.first) / 3);
   const auto reachable = [&](double x) { return std::clamp(x, within.first, within.second); };
-  const double low = reachable((as_made ? *first : value) - room),
-               high = reachable((as_made ? *std::prev(last) : value) + room);
-  const auto round = roundest(low, high, per_si);
-  return round ? *round : reachable(three_digits(per_si * (low + high) / 2) / per_si);
+  const auto round = roundest(reachable(near.first - room), reachable(near.second + room), per_si);
+  return round ? *round : reachable(three_digits(per_si * (near.first + near.second) / 2) / per_si);
 }
 
 std::vector<double> evenly(const std::pair<double, double>& range, int levels) {

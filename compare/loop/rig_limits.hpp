@@ -22,10 +22,9 @@ Limits ranges_of(const Observations& observations);
 Limits limits_of(const Observations& observations);
 
 /// What a rig would be set to for a condition's value [SI]: the roundest number in a unit (units per SI unit: per_si),
-/// 1, 2 or 5 with noughts, that differs from it by no more than re-runs of one setpoint scatter or, where no run was
-/// made there, 1.5 % of the range that was run. Where every run's value is positive, by no more than a tenth and 1.5 %
-/// of the value either. From runs within twice the scatter it is taken to be set as they were. Never beyond `within`,
-/// where the rig can go.
+/// 1, 2 or 5 with noughts, that differs from it by no more than re-runs of one setpoint scatter or 1 % of what was run,
+/// and by a tenth and a fiftieth of itself where every run's value is positive. Where the value lies so near to a run
+/// that was made, from what that run and its like were set to. Never beyond `within`, where the rig can go.
 ///
 ///     rig_setting(condition_view("speed"), 0.00998, observations, {0.001, 0.1}, 1000);   // 0.01: 10 mm/s
 double rig_setting(const ConditionView& view, double value, const Observations& observations,

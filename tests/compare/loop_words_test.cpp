@@ -60,11 +60,10 @@ TEST(RigSetting, OfWhatWasSetToTheDigitIsThatDigit) {
   const ConditionView& yaw = condition_view("yaw");
   const std::pair<double, double> all = {0.0, 20 * degree};
   EXPECT_NEAR(rig_setting(yaw, 7.35 * degree, runs, all, yaw.per_si) / degree, 7.35, 1e-9);
-  EXPECT_NEAR(rig_setting(yaw, 3.33 * degree, runs, all, yaw.per_si) / degree, 3.5,
-              1e-9);  // within 1.5 % of what was run
+  EXPECT_NEAR(rig_setting(yaw, 3.33 * degree, runs, all, yaw.per_si) / degree, 3.5, 1e-9);  // 1 % of what was run
 }
 
-// Where a quantity spans decades, 1.5 % of what was run is more than its small values: they stay what they are.
+// Where a quantity spans decades, 1 % of what was run is more than its small values: they stay what they are.
 TEST(RigSetting, OfASmallValueAmongLargeOnesIsNotZero) {
   const Observations runs = runs_at("speed", {{0.02, 0.02}, {0.2, 0.2}, {3.0, 3.0}});
   const ConditionView& speed = condition_view("speed");
