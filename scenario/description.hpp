@@ -64,6 +64,13 @@ constexpr std::array<Word<TwistingResistance>, 2> words_of(std::type_identity<Tw
   return {{{"none", TwistingResistance::none}, {"marshall", TwistingResistance::marshall}}};
 }
 
+constexpr std::array<Word<GrainShape>, 4> words_of(std::type_identity<GrainShape>) {
+  return {{{"sphere", GrainShape::sphere},
+           {"two_spheres", GrainShape::two_spheres},
+           {"three_spheres", GrainShape::three_spheres},
+           {"four_spheres", GrainShape::four_spheres}}};
+}
+
 /// All words of an enum, as files spell them.
 template <class E>
 std::vector<std::string> all_words() {
@@ -164,6 +171,11 @@ void describe(Visitor& v, std::type_identity<GranularSoil>) {
            "how grains resist rolling; directional: the answer depends on the time step");
   v.choice("twisting_resistance", &G::twisting_resistance, Need::optional,
            "how grains resist spin about the normal of their contact");
+  v.choice("shape", &G::shape, Need::optional,
+           "what a grain is made of: a sphere, or several joined in a row, a triangle, a tetrahedron; radii are then "
+           "those of the sphere of its volume");
+  v.number("sphere_spacing", &G::sphere_spacing, Measure{"-", {.lower = 0.1, .upper = 2.0}}, Need::optional,
+           "between the centres of a grain's spheres, in their radii; read where a grain has several");
   v.group("grain_grain", &G::grain_grain, Need::required, "contact of two grains");
   v.group("grain_tire", &G::grain_tire, Need::required, "contact of a grain and the tire");
 }

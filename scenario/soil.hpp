@@ -56,15 +56,20 @@ enum class RollingResistance { elastic_plastic, directional, directional_with_tw
 /// How grains resist twisting, spin about the normal of their contact (docs/theory/dem-laws.md).
 enum class TwistingResistance { none, marshall };
 
+/// What a grain is made of: a sphere, or a few equal ones joined for good, in a row, a triangle, a tetrahedron.
+enum class GrainShape { sphere, two_spheres, three_spheres, four_spheres };
+
 /// The same soil as grains, for the discrete element model.
 struct GranularSoil {
   double radius_min = 0.0;      ///< [m] radii are uniform between radius_min and radius_max
-  double radius_max = 0.0;      ///< [m]
+  double radius_max = 0.0;      ///< [m]; of a grain of several spheres, that of the sphere of its volume
   double grain_density = 0.0;   ///< [kg/m^3]
   double youngs_modulus = 0.0;  ///< [Pa]
   double poisson_ratio = 0.25;  ///< [-], -1 .. 0.5
   RollingResistance rolling_resistance = RollingResistance::elastic_plastic;
   TwistingResistance twisting_resistance = TwistingResistance::none;
+  GrainShape shape = GrainShape::sphere;
+  double sphere_spacing = 1;  ///< between the centres of a grain's spheres, in their radii [-], 0.1 .. 2
   ContactPair grain_grain;
   ContactPair grain_tire;
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "grain_tire.restitution"

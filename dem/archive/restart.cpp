@@ -206,10 +206,11 @@ void save(const hdf5::Group& root, const Setup& setup, const State& state, const
   const std::vector<SharedMesh> meshes = meshes_of(state.bodies);
   save_meshes(ours.inner("meshes"), meshes);
   save_bodies(ours.inner("bodies"), state.bodies, meshes);
+  if (!state.clumps.all.empty()) describe_clumps(ours.inner("clumps"), state.clumps, state.grains.clump);
   save_notes(ours.inner("notes").group(), notes);
 }
 
-Grains load_grains(const hdf5::Group& root) {
+Grains load_grains(const hdf5::Group& root, Clumps& clumps) {
   const Loader ours(root.open("soilbin"));
   Grains grains;
   ours.inner("state").length("grains", grains.id);
@@ -218,8 +219,10 @@ Grains load_grains(const hdf5::Group& root) {
   grains.spin.resize(count);
   grains.load.resize(count);
   grains.material.resize(count);
+  grains.clump.assign(count, lone);
   describe_particles(Loader(root.open("particles").open("grains")), grains, 0, 0, 0);
   describe_grains(ours.inner("grains"), grains);
+  if (ours.group().has("clumps")) describe_clumps(ours.inner("clumps"), clumps, grains.clump);
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
   grains.reorder(order);  // brings the idle rows back
@@ -231,7 +234,7 @@ Restart load(const hdf5::Group& root, const std::string& file) {
   const Loader ours(root.open("soilbin"));
   describe_setup(ours.inner("setup"), run.setup);
   describe_state(ours.inner("state"), run.state);
-  run.state.grains = load_grains(root);
+  run.state.grains = load_grains(root, run.state.clumps);
   FlatSurfaces surfaces;
   describe_surfaces(ours.inner("surfaces"), surfaces);
   run.state.surfaces = by_slab(surfaces, file);

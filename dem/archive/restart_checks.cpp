@@ -59,6 +59,25 @@ bool surfaces_fit(const State& state) {
   return true;
 }
 
+bool clumps_fit(const State& state) {
+  const Clumps& clumps = state.clumps;
+  const Grains& grains = state.grains;
+  if (grains.clump.size() != grains.count()) return false;
+  std::size_t spheres = 0;
+  for (const std::uint32_t clump : grains.clump) spheres += clump != lone;
+  if (spheres != clumps.members.size()) return false;
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < clumps.all.size(); ++k) {
+    const Clump& clump = clumps.all[k];
+    if (clump.first != first || clump.count == 0 || clump.count > spheres - first) return false;
+    first += clump.count;
+    for (const ClumpMember& member : clumps.of(clump))
+      if (member.row >= grains.count() || grains.clump[member.row] != k || grains.id[member.row] != member.id)
+        return false;
+  }
+  return first == spheres;
+}
+
 /// What is left from before a change is not read again.
 bool sleep_fits(const State& state) {
   if (state.travel == std::numeric_limits<double>::infinity()) return true;
@@ -78,6 +97,7 @@ void check_restart(const Setup& setup, const State& state, const std::string& fi
   require(materials >= 1 && materials <= most_materials && setup.materials.interactions.size() == materials * materials,
           "materials");
   require(below(state.grains.material, materials) && below(state.grains.id, state.next_id), "grains");
+  require(clumps_fit(state), "clumps");
   require(bodies_fit(state, materials), "bodies");
   // Grains that were added since the last search are in no slab yet.
   const std::size_t searched = state.searched_at.size();

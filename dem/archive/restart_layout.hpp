@@ -102,7 +102,7 @@ void describe_particles(const Archive& a, T& grains, std::int64_t step, double t
 
 template <class Archive, class T>
 void describe_grains(const Archive& a, T& grains) {
-  auto& [motion, spin, load, id, material] = grains;
+  auto& [motion, spin, load, id, material, clump] = grains;  // clump: with the clumps, where there are any
   static_assert(sizeof(Motion) == 64 && sizeof(Spin) == 32);
   const std::span motions(motion.data(), id.size()), spins(spin.data(), id.size()), loads(load.data(), id.size());
   a.column(
@@ -247,11 +247,43 @@ void describe_ledger(const Archive& a, T& ledger) {
   a.value("added", added);
 }
 
-/// All but particles, bodies and surfaces.
+/// Written where there are any, with the clump of each grain.
+template <class Archive, class C, class G>
+void describe_clumps(const Archive& a, C& clumps, G& clump_of_grain) {
+  auto& [all, members] = clumps;
+  static_assert(sizeof(Clump) == 144 && sizeof(ClumpMember) == 40);
+  a.column("of_grain", clump_of_grain, itself);
+  a.length("count", all);
+  a.length("spheres", members);
+  a.column(
+      "mass", all, [](auto& row) -> auto& { return row.mass; }, "kg");
+  a.column(
+      "inertia", all, [](auto& row) -> auto& { return row.inertia; }, "kg m2");
+  a.column(
+      "position", all, [](auto& row) -> auto& { return row.motion.position; }, "m");
+  a.column(
+      "rotation", all, [](auto& row) -> auto& { return row.motion.rotation; });
+  a.column(
+      "velocity", all, [](auto& row) -> auto& { return row.motion.velocity; }, "m s-1");
+  a.column(
+      "spin", all, [](auto& row) -> auto& { return row.motion.spin; }, "rad s-1");
+  a.column(
+      "first", all, [](auto& row) -> auto& { return row.first; });
+  a.column(
+      "spheres_of", all, [](auto& row) -> auto& { return row.count; });
+  a.column(
+      "id", members, [](auto& row) -> auto& { return row.id; });
+  a.column(
+      "arm", members, [](auto& row) -> auto& { return row.arm; }, "m");
+  a.column(
+      "row", members, [](auto& row) -> auto& { return row.row; });
+}
+
+/// All but particles, bodies, surfaces and clumps.
 template <class Archive, class T>
 void describe_state(const Archive& a, T& state) {
   auto& [step, time, gravity, grains, bodies, pairs, slab_rows, surfaces, calm, body_loads, searched_at, travel,
-         next_id, new_grains, ledger] = state;
+         next_id, new_grains, ledger, clumps] = state;
   a.value("step", step);
   a.value("time", time);
   a.value("gravity", gravity);

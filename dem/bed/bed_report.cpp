@@ -72,10 +72,16 @@ void report_contacts(const Simulation& simulation, const std::vector<Contact>& c
     overlap += contact.overlap;
   }
   int here = 0, sum = 0, loose = 0;
-  for (std::size_t k = 0; k < grains.count(); ++k) {
-    if (!inside(region, grains.motion[k].position)) continue;
-    const int n = count[grains.id[k]];
-    ++here, sum += n, loose += n < 2 ? 1 : 0;
+  const auto add = [&](const Vec3& at, int n) {
+    if (inside(region, at)) ++here, sum += n, loose += n < 2 ? 1 : 0;
+  };
+  for (std::size_t k = 0; k < grains.count(); ++k)
+    if (grains.clump[k] == lone) add(grains.motion[k].position, count[grains.id[k]]);
+  const Clumps& clumps = simulation.state().clumps;
+  for (const Clump& clump : clumps.all) {
+    int n = 0;
+    for (const ClumpMember& member : clumps.of(clump)) n += count[member.id];
+    add(clump.motion.position, n);
   }
   if (here > 0)
     report.coordination = static_cast<double>(sum) / here, report.rattlers = static_cast<double>(loose) / here;
@@ -162,8 +168,8 @@ Unrest unrest_since(const Simulation& simulation, const std::vector<Motion>& bef
   UnrestSums sums;
   for (std::size_t k = 0; k < grains.count(); ++k) {
     const Motion &grain = grains.motion[k], &was = before[grains.id[k]];
-    sums.add(1 / grain.inverse_mass, grain.radius, grain.position - was.position, grain.velocity - was.velocity, g,
-             time);
+    sums.add(mass_share(grains, simulation.state().clumps, k), grain.radius, grain.position - was.position,
+             grain.velocity - was.velocity, g, time);
   }
   for (const Contact& contact : simulation.contacts()) sums.forces += length(contact.force), sums.contacts += 1;
   return sums.means();
@@ -179,7 +185,8 @@ Unrest unrest(Simulation& simulation, int steps) {
 BedReport report_on(Simulation simulation, const BedSize& size) {
   const Grains& grains = simulation.state().grains;
   BedReport report;
-  report.grains = grains.count();
+  const Clumps& clumps = simulation.state().clumps;
+  report.grains = grains.count() - clumps.members.size() + clumps.all.size();
   const double radius = mean_radius(grains), spacing = smallest_radius(grains) / 5;
   const Footprint over{2 * radius, size.length - 2 * radius, 2 * radius, size.width - 2 * radius};
   const SurfaceHeight surface = surface_height(grains, over, radius / 4);

@@ -58,6 +58,8 @@ std::string recipe_text(const BedRecipe& recipe) {
   add("density", soil.grain_density), add("young", soil.youngs_modulus), add("poisson", soil.poisson_ratio);
   add("restitution", soil.grain_grain.restitution);
   add("sliding", soil.grain_grain.sliding_friction), add("rolling", soil.grain_grain.rolling_friction);
+  if (soil.shape != GrainShape::sphere)
+    add("shape", static_cast<int>(soil.shape)), add("sphere_spacing", soil.sphere_spacing);
   if (soil.grain_grain.cohesion > 0) add("cohesion", soil.grain_grain.cohesion);  // keys of beds without it stay
   add("length", recipe.size.length), add("width", recipe.size.width), add("depth", recipe.size.depth);
   text += fmt::format("packing {}\n", recipe.packing);

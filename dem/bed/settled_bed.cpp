@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dem/bed/grain_shape.hpp"
 #include "dem/bed/settling.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
@@ -13,42 +14,45 @@
 namespace soilbin::dem {
 namespace {
 
-constexpr double densest = 0.64;        // share of grains in random packing, without friction
-constexpr double spare = 1.03;          // of grains, so that levelling finds enough
-constexpr double loosely = 0.22;        // share of grains where they are put at random, without a lattice
-constexpr double most_grading = 4;      // beyond it fine grains begin to fall through coarse ones
-constexpr double most_grains = 2e7;     // of one process: 20 GB of memory
-constexpr double most_in_lammps = 1e9;  // its ids have 31 bits
-constexpr double headroom = 20;         // of the domain, for grains that are thrown [m]
+constexpr double densest = 0.64;         // share of spheres in random packing, without friction
+constexpr double densest_clumps = 0.72;  // of others: Donev et al. (2004) find up to 0.735
+constexpr double spare = 1.03;           // of grains, so that levelling finds enough
+constexpr double loosely = 0.22;         // share of grains where they are put at random, without a lattice
+constexpr double most_grading = 4;       // beyond it fine grains begin to fall through coarse ones
+constexpr double most_grains = 2e7;      // of one process: 20 GB of memory
+constexpr double most_in_lammps = 1e9;   // its ids have 31 bits
+constexpr double headroom = 20;          // of the domain, for grains that are thrown [m]
+
+double densest_of(const GranularSoil& soil) { return soil.shape == GrainShape::sphere ? densest : densest_clumps; }
 
 /// Of all grains that are put in [m^3].
 double volume_of_grains(const BedRecipe& recipe) {
   const auto& [length, width, depth] = recipe.size;
-  return spare * densest * length * width * (depth + recipe.grading.factor * recipe.soil.radius_max);
+  return spare * densest_of(recipe.soil) * length * width * (depth + recipe.grading.factor * recipe.soil.radius_max);
 }
 
 /// The soil's grains everywhere, on a lattice.
 void pour_evenly(const BedRecipe& recipe, const GrainSink& put) {
-  const GranularSoil& soil = recipe.soil;
   const int count = static_cast<int>(std::ceil(expected_grains(recipe)));
-  const RadiusRange radii{soil.radius_min, soil.radius_max};
+  const RadiusRange balls = GrainMaker(recipe.soil, 0).balls();
   Region region{{0, 0, 0}, {recipe.size.length, recipe.size.width, 0}};
-  while (room_for(region, radii) < count) region.upper.z += soil.radius_max;
+  while (room_for(region, balls) < count) region.upper.z += balls.largest;
   if (region.upper.z > headroom) throw InputError("the bed is too high to be poured");
-  insert_loosely(put, region, radii, count, recipe.packing);
+  insert_loosely(put, region, balls, count, recipe.packing);
 }
 
 /// Grains of each place's own sizes, equally loose everywhere, so that all of the bed comes down by the same share and
 /// the zones come to lie where they belong.
 void pour_graded(const BedRecipe& recipe, const GrainSink& put) {
-  const GranularSoil& soil = recipe.soil;
+  const RadiusRange balls = GrainMaker(recipe.soil, 0).balls();
   const auto& [length, width, depth] = recipe.size;
-  const double volume = volume_of_grains(recipe), height = volume / (loosely * length * width);
+  const double grains = volume_of_grains(recipe), ball = proportions_of(recipe.soil).ball;
+  const double volume = grains * ball * ball * ball, height = volume / (loosely * length * width);
   if (height > headroom) throw InputError("the bed is too high to be poured");
-  const double settles = volume / (densest * length * width) / height;
+  const double settles = grains / (densest_of(recipe.soil) * length * width) / height;
   const auto scale = [&](const Vec3& at) { return recipe.grading.scale(recipe.size, at.y, settles * at.z); };
-  insert_graded(put, {{0, 0, 0}, {length, width, height}},
-                {{soil.radius_min, soil.radius_max}, scale, recipe.grading.factor, volume}, recipe.packing);
+  insert_graded(put, {{0, 0, 0}, {length, width, height}}, {balls, scale, recipe.grading.factor, volume},
+                recipe.packing);
 }
 
 /// The run of a bed that the engine settles: at once, and not kept.
@@ -79,6 +83,17 @@ class BedRun {
 
 }  // namespace
 
+double longest_step(const GranularSoil& soil) {
+  const Material grains{"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio};
+  return 0.999 * Numerics{}.safe_share * rayleigh_time(grains, proportions_of(soil).sphere * soil.radius_min);
+}
+
+void spheres_alone(const GranularSoil& soil) {
+  if (soil.shape != GrainShape::sphere)
+    throw InputError(
+        "LAMMPS is given spheres alone, not grains of several\n  hint: soilbin's own engine, or shape: sphere");
+}
+
 void check(const BedRecipe& recipe) {
   const auto& [length, width, depth] = recipe.size;
   const Grading& grading = recipe.grading;
@@ -103,6 +118,7 @@ void check(const BedRecipe& recipe) {
         fmt::format("a time step of {:.3g} s is too short to get anywhere: these grains usually take {:.3g} s\n"
                     "  hint: {:.3g} s or more",
                     recipe.dt, usual, least_share * usual));
+  if (recipe.settled_by == SettledBy::lammps) spheres_alone(recipe.soil);
   if (!(recipe.gravity > 0)) throw InputError("a bed settles under gravity: it must be above 0");
   const bool in_lammps = recipe.settled_by == SettledBy::lammps;
   const double count = expected_grains(recipe), most = in_lammps ? most_in_lammps : most_grains;
@@ -229,7 +245,8 @@ SettledBed settle_bed(const BedRecipe& recipe, const WorkOptions& how) {
   Simulation simulation(setup_of(recipe, how.threads));
   simulation.set_gravity({0, 0, -recipe.gravity});
   simulation.add_body(bin_of(recipe.size));
-  pour(recipe, [&](const Vec3& centre, double radius) { simulation.add_grain(centre, radius, grain_material); });
+  GrainMaker maker(recipe.soil, recipe.packing);
+  pour(recipe, [&](const Vec3& centre, double ball) { maker.put(simulation, centre, ball); });
   BedRun run(simulation, how);
   Settling<BedRun>(recipe, run).settle();
 

@@ -83,10 +83,10 @@ Interaction interaction_of(const ContactPair& pair);
 ContactLaws with_cohesion_of(const ContactPair& pair, ContactLaws laws);
 
 /// The longest step for grains of this soil that the engine's check lets pass [s].
-inline double longest_step(const GranularSoil& soil) {
-  const Material grains{"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio};
-  return 0.999 * Numerics{}.safe_share * rayleigh_time(grains, soil.radius_min);
-}
+double longest_step(const GranularSoil& soil);
+
+/// Throws InputError for grains that LAMMPS is not given: those of several spheres.
+void spheres_alone(const GranularSoil& soil);
 
 /// How many grains are put into a bed, about.
 double expected_grains(const BedRecipe& recipe);
@@ -97,7 +97,8 @@ void check(const BedRecipe& recipe);
 Setup setup_of(const BedRecipe& recipe, int threads);
 /// Floor and walls.
 Body bin_of(const BedSize& size);
-/// Gives all grains of the recipe, where they begin to fall, to `put`. A graded bed takes 32 bytes a grain meanwhile.
+/// Gives the balls around all grains of the recipe, where they begin to fall, to `put`; spheres fill theirs. A graded
+/// bed takes 32 bytes a grain meanwhile.
 void pour(const BedRecipe& recipe, const GrainSink& put);
 
 /// Puts grains in loosely, lets them fall, takes away what stands above the depth so that the surface seen from above

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dem/bed/insertion.hpp"
+#include "dem/bed/grain_shape.hpp"
 #include "dem/bed/surface_height.hpp"
 #include "scenario/errors.hpp"
 
@@ -73,15 +73,17 @@ Setup Heap::setup_for(const WorkOptions& how) const {
 
 /// Fills the cylinder: grains put in loosely over the square around it, those outside taken away.
 void Heap::pour() {
-  const double radius = settings_.radius * d_, rim = radius - soil_.radius_max;
-  const RadiusRange radii{soil_.radius_min, soil_.radius_max};
+  GrainMaker maker(soil_, settings_.packing);
+  const RadiusRange radii{soil_.radius_min, soil_.radius_max}, balls = maker.balls();
+  const double radius = settings_.radius * d_, rim = radius - balls.largest;
   const double volume = pi * radius * radius * settings_.height * d_ * loose;
   const double a = radii.smallest, b = radii.largest;
   const double mean_volume = pi / 3 * (a + b) * (a * a + b * b);
   const double wanted = volume / mean_volume;
   Region region{{-radius, -radius, 0}, {radius, radius, 0}};
-  while (room_for(region, radii) * pi / 4 * (rim * rim) / (radius * radius) < wanted) region.upper.z += radii.largest;
-  insert_loosely(simulation_, region, radii, grain_material, room_for(region, radii), settings_.packing);
+  while (room_for(region, balls) * pi / 4 * (rim * rim) / (radius * radius) < wanted) region.upper.z += balls.largest;
+  insert_loosely([&](const Vec3& centre, double ball) { maker.put(simulation_, centre, ball); }, region, balls,
+                 room_for(region, balls), settings_.packing);
   simulation_.remove_grains([&](const GrainNow& grain) {
     return std::hypot(grain.position.x, grain.position.y) > radius - 1.02 * grain.radius;
   });

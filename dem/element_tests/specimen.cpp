@@ -63,16 +63,29 @@ int add_wall_material(Setup& setup, const GranularSoil& soil, double share_of_fr
   return setup.materials.add({"wall", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio}, interaction);
 }
 
+namespace {
+
+ClumpMotion at_rest(const ClumpMotion& motion) { return {.position = motion.position, .rotation = motion.rotation}; }
+
+}  // namespace
+
 double put_grains(Simulation& simulation, const SettledBed& bed) {
   // By id, so that the order does not depend on where the bed's search for pairs left them.
-  std::vector<const Motion*> by_id(bed.state.next_id, nullptr);
+  constexpr std::uint32_t none = ~0u;
+  std::vector<std::uint32_t> row_of(bed.state.next_id, none);
   const Grains& grains = bed.state.grains;
-  for (std::size_t k = 0; k < grains.count(); ++k) by_id[grains.id[k]] = &grains.motion[k];
+  for (std::uint32_t k = 0; k < grains.count(); ++k) row_of[grains.id[k]] = k;
   double top = 0;
-  for (const Motion* grain : by_id) {
-    if (!grain) continue;
-    simulation.add_grain(grain->position, grain->radius, grain_material);
-    top = std::max(top, grain->position.z + grain->radius);
+  for (const std::uint32_t row : row_of) {
+    if (row == none) continue;
+    const Motion& grain = grains.motion[row];
+    if (grains.clump[row] == lone)
+      simulation.add_grain(grain.position, grain.radius, grain_material);
+    else if (bed.state.clumps.of(bed.state.clumps.all[grains.clump[row]]).front().row == row)
+      simulation.add_clump(
+          shape_of(grains, bed.state.clumps, grains.clump[row], bed.setup.materials.all[grain_material].density),
+          at_rest(bed.state.clumps.all[grains.clump[row]].motion), grain_material);
+    top = std::max(top, grain.position.z + grain.radius);
   }
   return top;
 }

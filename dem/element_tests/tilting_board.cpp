@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dem/bed/insertion.hpp"
+#include "dem/bed/grain_shape.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
@@ -53,20 +53,21 @@ Setup Board::setup_for(const GranularSoil& soil, const WorkOptions& how) const {
   return setup;
 }
 
-/// Layers of grains that do not touch, the lowest just above the board; they fall by less than a tenth of a grain
-/// each.
+/// Layers of grains that do not touch, the lowest just above the board; spheres fall by less than a tenth of a grain
+/// each, others by up to half of one.
 void Board::lay(const GranularSoil& soil) {
   Body board;
   board.name = "board";
   board.surfaces.push_back({Plane{}, 1});
   simulation_.add_body(board);
-  const RadiusRange radii{soil.radius_min, soil.radius_max};
-  const double place = 1.06 * 2 * radii.largest;
+  GrainMaker maker(soil, settings_.packing);
+  const RadiusRange balls = maker.balls();
+  const double place = 1.06 * 2 * balls.largest;
   const int layers = static_cast<int>(std::lround(settings_.layers)), across = settings_.across;
   for (int layer = 0; layer < layers; ++layer) {
     const Region region{{0, 0, layer * place}, {across * place, across * place, (layer + 1) * place}};
-    insert_loosely(simulation_, region, radii, grain_material, across * across,
-                   settings_.packing + static_cast<std::uint64_t>(layer));
+    insert_loosely([&](const Vec3& centre, double ball) { maker.put(simulation_, centre, ball); }, region, balls,
+                   across * across, settings_.packing + static_cast<std::uint64_t>(layer));
   }
 }
 

@@ -151,28 +151,62 @@ Kick kick_of(const World& world, std::size_t row, const Load& load, double time)
           (time * world.state.grains.spin[row].inverse_inertia) * load.torque};
 }
 
-GrainNow motion_at(const World& world, std::size_t row, const Load& load) {
+std::vector<Kick> kicks_of(const World& world, const std::vector<Load>& loads, double time) {
+  const State& s = world.state;
+  std::vector<Kick> all(loads.size());
+  for (std::size_t row = 0; row < all.size(); ++row)
+    if (s.grains.clump[row] == lone) all[row] = kick_of(world, row, loads[row], time);
+  for (const Clump& clump : s.clumps.all) {
+    if (s.grains.motion[s.clumps.of(clump).front().row].held()) continue;
+    const ClumpAcceleration change = acceleration(clump, load_of(s.clumps, clump, loads), s.gravity);
+    for (const ClumpMember& member : s.clumps.of(clump))
+      all[member.row] = {time * (change.velocity + cross(change.spin, clump.motion.rotation(member.arm))),
+                         time * change.spin};
+  }
+  return all;
+}
+
+GrainNow motion_at(const World& world, std::size_t row, const Kick& kick) {
   const Motion& grain = world.state.grains.motion[row];
   GrainNow now{grain.position, grain.velocity, world.state.grains.spin[row].rate, grain.radius};
   if (is_new(world, row)) return now;
-  const Kick change = kick_of(world, row, load, world.setup.numerics.dt / 2);
-  now.velocity += change.velocity;
-  now.spin += change.spin;
+  now.velocity += kick.velocity;
+  now.spin += kick.spin;
   return now;
 }
+
+namespace {
+
+/// Kinetic and potential energy of the clumps, at a whole step.
+void add_clumps(const World& world, const std::vector<Load>& loads, EnergyBalance& out) {
+  const State& s = world.state;
+  const double half = world.setup.numerics.dt / 2;
+  for (const Clump& clump : s.clumps.all) {
+    const std::uint32_t row = s.clumps.of(clump).front().row;
+    if (s.grains.motion[row].held() || is_new(world, row)) continue;
+    const ClumpAcceleration change = acceleration(clump, load_of(s.clumps, clump, loads), s.gravity);
+    out.kinetic +=
+        kinetic_energy(clump, clump.motion.velocity + half * change.velocity, clump.motion.spin + half * change.spin);
+    out.potential -= clump.mass * dot(s.gravity, clump.motion.position);
+  }
+}
+
+}  // namespace
 
 EnergyBalance energy_of(const World& world) {
   const State& s = world.state;
   EnergyBalance out;
-  const std::vector<Load> all = loads_of(world);
+  const std::vector<Load> loads = loads_of(world);
+  const std::vector<Kick> kicks = kicks_of(world, loads, world.setup.numerics.dt / 2);
   for (std::size_t k = 0; k < s.grains.count(); ++k) {
     const Motion& grain = s.grains.motion[k];
-    if (grain.held() || is_new(world, k)) continue;
-    const GrainNow now = motion_at(world, k, all[k]);
+    if (grain.held() || is_new(world, k) || s.grains.clump[k] != lone) continue;
+    const GrainNow now = motion_at(world, k, kicks[k]);
     out.kinetic +=
         0.5 * (squared(now.velocity) / grain.inverse_mass + squared(now.spin) / s.grains.spin[k].inverse_inertia);
     out.potential -= dot(s.gravity, grain.position) / grain.inverse_mass;
   }
+  add_clumps(world, loads, out);
   std::vector<BodyLoad> on_bodies(s.bodies.size());
   for_each_contact(world, [&](const Evaluated& c) {
     if (c.second < 0) {

@@ -41,8 +41,11 @@ EnergyBalance energy_of(const World& world);
 
 /// Whether the velocity of the grain in this row is still at a whole step.
 bool is_new(const World& world, std::size_t row);
-/// Within `time` [s].
+/// Of a grain that is no sphere of a clump, within `time` [s].
 Kick kick_of(const World& world, std::size_t row, const Load& load, double time);
-GrainNow motion_at(const World& world, std::size_t row, const Load& load);
+/// Of all, from the loads of all, row by row.
+std::vector<Kick> kicks_of(const World& world, const std::vector<Load>& loads, double time);
+/// From the kick of half a step.
+GrainNow motion_at(const World& world, std::size_t row, const Kick& kick);
 
 }  // namespace soilbin::dem

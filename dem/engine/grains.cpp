@@ -31,10 +31,12 @@ void Grains::add(const NewGrain& grain) {
   spin.resize(count());
   load.resize(count());
   motion.push_back({grain.position, grain.radius, grain.velocity, 1 / grain.mass});
-  spin.push_back({grain.spin, 1 / (0.4 * grain.mass * grain.radius * grain.radius)});
+  const double inertia = grain.inertia > 0 ? grain.inertia : 0.4 * grain.mass * grain.radius * grain.radius;
+  spin.push_back({grain.spin, 1 / inertia});
   load.push_back({});
   id.push_back(grain.id);
   material.push_back(grain.material);
+  clump.push_back(grain.clump);
   close();
 }
 
@@ -44,6 +46,7 @@ void Grains::move_row(std::uint32_t from, std::uint32_t to) {
   load[to] = load[from];
   id[to] = id[from];
   material[to] = material[from];
+  clump[to] = clump[from];
 }
 
 /// In place, cycle by cycle: a bed of millions need not be copied.
@@ -51,6 +54,7 @@ void Grains::reorder(std::span<const std::uint32_t> order) {
   const std::uint32_t spare = idle_first();
   id.resize(count() + 1);
   material.resize(id.size());
+  clump.resize(id.size());
   std::vector<bool> done(order.size());
   for (std::uint32_t start = 0; start < order.size(); ++start) {
     if (done[start] || order[start] == start) continue;
@@ -65,6 +69,7 @@ void Grains::reorder(std::span<const std::uint32_t> order) {
   }
   id.pop_back();
   material.pop_back();
+  clump.pop_back();
   close();
 }
 
@@ -74,6 +79,7 @@ void Grains::remove(std::span<const std::uint8_t> gone) {
     if (!gone[k]) move_row(k, kept++);
   id.resize(kept);
   material.resize(kept);
+  clump.resize(kept);
   close();
 }
 

@@ -12,14 +12,18 @@
 namespace soilbin::dem {
 
 using GrainId = std::uint32_t;
+/// Of a grain that is a sphere by itself, in Grains::clump.
+inline constexpr std::uint32_t lone = ~0u;
 
-/// A grain to be added.
+/// A grain to be added, or a sphere of a clump.
 struct NewGrain {
   GrainId id = 0;
   double radius = 0;  ///< [m]
-  double mass = 1;    ///< [kg]
+  double mass = 1;    ///< [kg]; of a clump's sphere the clump's
   std::uint8_t material = 0;
   Vec3 position{}, velocity{}, spin{};
+  std::uint32_t clump = lone;
+  double inertia = 0;  ///< [kg m^2]; 0: that of a sphere of this mass
 };
 
 /// All grains, in the order in which they lie in the cells; a grain's id stays with it.
@@ -29,10 +33,13 @@ struct Grains {
   std::vector<Load> load;
   std::vector<GrainId> id;
   std::vector<std::uint8_t> material;
+  std::vector<std::uint32_t> clump;  ///< that a sphere belongs to (clumps.hpp), or lone
 
   std::size_t count() const { return id.size(); }
   /// [m]; 0 where there are none.
   double largest_radius() const;
+  /// Whether two rows belong to one clump.
+  bool of_one_clump(std::uint32_t i, std::uint32_t j) const { return clump[i] == clump[j] && clump[i] != lone; }
   /// Adds a grain at the end; its row may move at the next sorting.
   void add(const NewGrain& grain);
   /// Takes away the rows marked.

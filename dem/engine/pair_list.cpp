@@ -50,7 +50,8 @@ PairsOfSlab pairs_of_slab(const Cells& cells, int slab, const Grains& grains, Ne
       kernel(sweep, i, runs.data(), static_cast<int>(runs.size()), found);
       const auto add = [&, i = i](const std::uint32_t* rows, int count, std::vector<Pair>& to) {
         for (const std::uint32_t* j = rows; j != rows + count; ++j)
-          if (!grains.motion[i].held() || !grains.motion[*j].held()) to.push_back({i, *j});
+          if ((!grains.motion[i].held() || !grains.motion[*j].held()) && !grains.of_one_clump(i, *j))
+            to.push_back({i, *j});
       };
       add(found.touching, found.touching_count, out.all);
       add(found.near, found.near_count, near);

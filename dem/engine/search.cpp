@@ -74,9 +74,17 @@ void wrap_grains(World& world, std::span<const std::uint8_t> gone) {
     at.x = wrapped(at.x, domain.lower.x, periods.length.x);
     at.y = wrapped(at.y, domain.lower.y, periods.length.y);
     at.z = wrapped(at.z, domain.lower.z, periods.length.z);
-    if (world.setup.numerics.ledger && !s.grains.motion[k].held())
+    if (world.setup.numerics.ledger && !s.grains.motion[k].held() && s.grains.clump[k] == lone)
       s.ledger.added += dot(s.gravity, from - at) / s.grains.motion[k].inverse_mass;
     if ((gone.empty() || !gone[k]) && !domain.contains(at)) stop_for_loss(s, k);
+  }
+  for (Clump& clump : s.clumps.all) {
+    Vec3& at = clump.motion.position;
+    const Vec3 from = at;
+    at = {wrapped(at.x, domain.lower.x, periods.length.x), wrapped(at.y, domain.lower.y, periods.length.y),
+          wrapped(at.z, domain.lower.z, periods.length.z)};
+    const bool held = s.grains.motion[s.clumps.of(clump).front().row].held();
+    if (world.setup.numerics.ledger && !held) s.ledger.added += clump.mass * dot(s.gravity, from - at);
   }
 }
 
@@ -117,13 +125,17 @@ void search(World& world, std::span<const std::uint8_t> gone) {
   wrap_grains(world, gone);
   const KeptOnSurfaces kept_on_surfaces = by_id(s.surfaces, s.grains);
   const std::size_t rows_before = s.grains.count();
-  if (!gone.empty()) s.grains.remove(gone);
+  if (!gone.empty()) {
+    s.clumps.remove(gone, s.grains);
+    s.grains.remove(gone);
+  }
   const double reach = world.margins.both();
   Cells cells(setup.domain, {s.grains.motion.data(), s.grains.count()},
               std::max(2 * s.grains.largest_radius() + world.margins.motion + world.margins.adhesion, 1e-12));
   const std::vector<std::uint32_t> order = cells.order(s.grains), calm = calm_by_row(s, order);
   world.kept.take(s.pairs, new_rows(order, gone, rows_before), order.size());
   s.grains.reorder(order);
+  s.clumps.find_rows(s.grains);
   cells.index(s.grains);
   find_pairs(cells, s.grains, setup.domain, world.kept,
              {.kernel = world.kernels.near,

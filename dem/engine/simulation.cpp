@@ -43,6 +43,10 @@ void check_step(const Setup& setup, const Grains& grains) {
                     n.dt, n.dt / rayleigh, rayleigh, n.safe_share, n.safe_share * rayleigh));
 }
 
+std::string outside(const Vec3& at) {
+  return fmt::format("a grain at ({:.4g}, {:.4g}, {:.4g}) m is outside the domain", at.x, at.y, at.z);
+}
+
 /// Each mesh has an index that finds all triangles a grain can touch before the next search.
 void give_grids(std::vector<Body>& bodies, double reach) {
   if (reach <= 0) return;  // there are no grains
@@ -79,13 +83,25 @@ void note_change(State& state) {
 
 /// Velocities of the grains that are new, or of the others, become those of `time` later [s].
 void shift(World& world, bool new_ones, double time) {
+  State& s = world.state;
   const std::vector<Load> loads = loads_of(world);
-  for (std::size_t k = 0; k < loads.size(); ++k) {
-    if (is_new(world, k) != new_ones) continue;
-    const Kick change = kick_of(world, k, loads[k], time);
-    world.state.grains.motion[k].velocity += change.velocity;
-    world.state.grains.spin[k].rate += change.spin;
+  const std::vector<Kick> kicks = kicks_of(world, loads, time);
+  for (Clump& clump : s.clumps.all) {
+    const std::uint32_t row = s.clumps.of(clump).front().row;
+    if (is_new(world, row) != new_ones || s.grains.motion[row].held()) continue;
+    const ClumpAcceleration change = acceleration(clump, load_of(s.clumps, clump, loads), s.gravity);
+    clump.motion.velocity += time * change.velocity;
+    clump.motion.spin += time * change.spin;
   }
+  for (std::size_t k = 0; k < kicks.size(); ++k) {
+    if (is_new(world, k) != new_ones) continue;
+    s.grains.motion[k].velocity += kicks[k].velocity;
+    s.grains.spin[k].rate += kicks[k].spin;
+  }
+}
+
+std::vector<Kick> half_step_kicks(const World& world) {
+  return kicks_of(world, loads_of(world), world.setup.numerics.dt / 2);
 }
 
 /// Velocities of new grains are those of a whole step; all others live at half steps.
@@ -167,15 +183,49 @@ GrainId Simulation::add_grain(const Vec3& position, double radius, int material,
   if (!positive(radius)) throw InputError("a grain's radius must be above 0");
   if (material < 0 || material >= static_cast<int>(materials.all.size()))
     throw InputError(fmt::format("there is no material {}", material));
-  if (!world_.setup.domain.contains(position))
-    throw InputError(
-        fmt::format("a grain at ({:.4g}, {:.4g}, {:.4g}) m is outside the domain", position.x, position.y, position.z));
+  if (!world_.setup.domain.contains(position)) throw InputError(outside(position));
   const double mass = sphere_mass(materials.all[material].density, radius);
   const GrainId id = state.next_id++;
   state.grains.add({id, radius, mass, static_cast<std::uint8_t>(material), position, velocity, spin});
   state.new_grains.push_back(id);
   note_change(state);
   return id;
+}
+
+GrainId Simulation::add_clump(const ClumpShape& shape, const ClumpMotion& motion, int material) {
+  State& s = world_.state;
+  const Materials& materials = world_.setup.materials;
+  if (material < 0 || material >= static_cast<int>(materials.all.size()))
+    throw InputError(fmt::format("there is no material {}", material));
+  for (const Sphere& sphere : shape.spheres) {
+    const Vec3 at = motion.position + motion.rotation(sphere.centre);
+    if (!world_.setup.domain.contains(at)) throw InputError(outside(at));
+  }
+  const double density = materials.all[static_cast<std::size_t>(material)].density;
+  const auto number = static_cast<std::uint32_t>(s.clumps.all.size());
+  const GrainId first = s.next_id;
+  s.clumps.all.push_back({.mass = density * shape.volume,
+                          .inertia = density * shape.inertia,
+                          .motion = motion,
+                          .first = static_cast<std::uint32_t>(s.clumps.members.size()),
+                          .count = static_cast<std::uint32_t>(shape.spheres.size())});
+  const Clump& clump = s.clumps.all.back();
+  for (const Sphere& sphere : shape.spheres) {
+    const Vec3 arm = motion.rotation(sphere.centre);
+    s.clumps.members.push_back({s.next_id, sphere.centre, static_cast<std::uint32_t>(s.grains.count())});
+    s.new_grains.push_back(s.next_id);
+    s.grains.add({.id = s.next_id++,
+                  .radius = sphere.radius,
+                  .mass = clump.mass,
+                  .material = static_cast<std::uint8_t>(material),
+                  .position = motion.position + arm,
+                  .velocity = motion.velocity + cross(motion.spin, arm),
+                  .spin = motion.spin,
+                  .clump = number,
+                  .inertia = (clump.inertia.x + clump.inertia.y + clump.inertia.z) / 3});
+  }
+  note_change(s);
+  return first;
 }
 
 int Simulation::add_body(Body body) {
@@ -191,6 +241,7 @@ std::size_t Simulation::remove_grains(const std::function<bool(const GrainNow&)>
   settle_changes(world_);
   std::vector<std::uint8_t> marked;
   for (const GrainNow& grain : grains()) marked.push_back(gone(grain));
+  world_.state.clumps.join(marked);
   const auto count = static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1));
   if (count == 0) return 0;
   wake_all(world_.state);
@@ -201,10 +252,13 @@ std::size_t Simulation::remove_grains(const std::function<bool(const GrainNow&)>
 std::size_t Simulation::hold_grains(const std::function<bool(const GrainNow&)>& which) {
   settle_changes(world_);
   Grains& all = world_.state.grains;
+  std::vector<std::uint8_t> marked;
   const std::vector<GrainNow> now = grains();
+  for (std::size_t row = 0; row < now.size(); ++row) marked.push_back(!all.motion[row].held() && which(now[row]));
+  world_.state.clumps.join(marked);
   std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < now.size(); ++row)
-    if (!all.motion[row].held() && which(now[row])) rows.push_back(row);
+    if (marked[row]) rows.push_back(row);
   if (rows.empty()) return 0;
   wake_all(world_.state);
   accounted(world_, [&] {
@@ -227,13 +281,13 @@ GrainNow Simulation::grain(GrainId id) const {
   const auto found = std::find(ids.begin(), ids.end(), id);
   if (found == ids.end()) throw std::out_of_range("there is no grain " + std::to_string(id));
   const std::size_t row = found - ids.begin();
-  return motion_at(world_, row, is_new(world_, row) ? Load{} : loads_of(world_)[row]);
+  return motion_at(world_, row, is_new(world_, row) ? Kick{} : half_step_kicks(world_)[row]);
 }
 
 std::vector<GrainNow> Simulation::grains() const {
-  const std::vector<Load> loads = loads_of(world_);
+  const std::vector<Kick> kicks = half_step_kicks(world_);
   std::vector<GrainNow> out;
-  for (std::size_t row = 0; row < loads.size(); ++row) out.push_back(motion_at(world_, row, loads[row]));
+  for (std::size_t row = 0; row < kicks.size(); ++row) out.push_back(motion_at(world_, row, kicks[row]));
   return out;
 }
 

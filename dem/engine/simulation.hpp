@@ -32,11 +32,16 @@ class Simulation {
   /// or a place outside the domain.
   GrainId add_grain(const Vec3& position, double radius, int material, const Vec3& velocity = {},
                     const Vec3& spin = {});
-  /// Removes grains for which `gone` holds; gives how many. Contacts of others keep their memory.
+  /// Adds the spheres of a clump; a velocity and spin are those at the present time. Gives the id of the first sphere,
+  /// the others follow. Throws InputError for an unknown material, or where a sphere lies outside the domain.
+  GrainId add_clump(const ClumpShape& shape, const ClumpMotion& motion, int material);
+  /// Removes grains for which `gone` holds; gives how many. It is asked of each sphere, and a clump goes as a whole.
+  /// Contacts of others keep their memory.
   std::size_t remove_grains(const std::function<bool(const GrainNow&)>& gone);
   /// Holds grains for which `which` holds, from now on: they stay where they are, without velocity or spin, and neither
-  /// another grain that is held nor a surface presses on them. To a free grain they are of infinite mass. Gives how
-  /// many are newly held. For a rough base: settle a bed, hold a slice of it, remove the rest.
+  /// another grain that is held nor a surface presses on them. To a free grain they are of infinite mass. A
+  /// clump of which one sphere is meant is held as a whole. Gives how many are newly held. For a rough base: settle a
+  /// bed, hold a slice of it, remove the rest.
   std::size_t hold_grains(const std::function<bool(const GrainNow&)>& which);
   /// Gives the body's index. Throws InputError for an unknown material or a mass or inertia that isn't positive.
   int add_body(Body body);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dem/engine/clumps.hpp"
 #include "dem/engine/domain.hpp"
 #include "dem/engine/energy.hpp"
 #include "dem/engine/materials.hpp"
@@ -68,6 +69,7 @@ struct State {
   std::uint32_t next_id = 0;
   std::vector<GrainId> new_grains;  ///< whose velocity is still at a whole step
   Ledger ledger;
+  Clumps clumps;
 };
 
 /// A run that can't go on: an overlap too deep, a grain lost or not finite. what() names the grain and the time. A

@@ -25,6 +25,7 @@ void choose_sleepers(World& world) {
         s.grains.motion[k].velocity = s.grains.spin[k].rate = {};
       world.speeds[slab] = {};
     }
+    still_sleeping_clumps(world);
   });
 }
 
@@ -161,11 +162,12 @@ void step(World& world) {
   choose_sleepers(world);
   aim_sweep(world);
   work_on_slabs(world);
+  double fastest = move_clumps(world);
   load_bodies(s);
   world.ledger.end_step(world);
   world.sleeping.count_calm(s, world.setup.numerics, world.speeds);
   world.searched_now = false;
-  double fastest = move_bodies(world);
+  fastest = std::max(fastest, move_bodies(world));
   for (const SlabSpeed& speed : world.speeds) fastest = std::max(fastest, speed.fastest);
   ++s.step;
   s.time += dt;
@@ -206,13 +208,18 @@ void move_grains(World& world, int slab) {
   Spin* spins = s.grains.spin.data();
   Load* loads = s.grains.load.data();
   const double dt = world.setup.numerics.dt;
-  const bool counted = world.setup.numerics.ledger;
+  const bool counted = world.setup.numerics.ledger, clumps = !s.clumps.all.empty();
   double fastest = 0, sum = 0;
   bool finite = true;
   for (std::uint32_t k = s.slab_rows[slab]; k < s.slab_rows[slab + 1]; ++k) {
     Motion& grain = motion[k];
     Spin& spin = spins[k];
     Load& load = loads[k];
+    if (clumps && s.grains.clump[k] != lone) {
+      sum += squared(grain.velocity);  // of the step before: its clump moves when all slabs are done
+      fastest = std::max(fastest, squared(grain.velocity));
+      continue;
+    }
     if (counted) world.ledger.count_kick(k, load, kick_of(world, k, load, dt / 2), world.found[slab].lost);
     const double share = dt * grain.inverse_mass;
     grain.velocity += share * load.force + (grain.held() ? 0.0 : dt) * s.gravity;

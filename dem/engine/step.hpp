@@ -1,6 +1,6 @@
 // The stages of a step, as functions of a World. step() reads as their list: search for pairs where it is due, choose
-// who sleeps; slab by slab forces of pairs, forces of surfaces, motion of grains; motion of bodies; stop what can't go
-// on. The same setup and state give the same bits for any number of threads.
+// who sleeps; slab by slab forces of pairs, forces of surfaces, motion of grains; motion of clumps and of bodies; stop
+// what can't go on. The same setup and state give the same bits for any number of threads.
 #pragma once
 
 #include <span>
@@ -26,7 +26,7 @@ void cut_blocks(World& world);
 void pair_forces(World& world, int slab);
 /// Adds the forces of a slab's contacts with surfaces to the loads of grains and bodies.
 void surface_forces(World& world, int slab);
-/// Moves the grains of a slab by their loads, and clears those.
+/// Moves the grains of a slab by their loads, and clears those; spheres of clumps wait for move_clumps.
 void move_grains(World& world, int slab);
 
 }  // namespace soilbin::dem

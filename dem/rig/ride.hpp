@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include "dem/bed/grain_shape.hpp"
 #include "dem/rig/wheel_in_bin.hpp"
 #include "dem/rig/wheel_result.hpp"
 #include "scenario/errors.hpp"
@@ -123,7 +124,7 @@ template <class Run>
 FlowMeter Ride<Run>::flow_meter() const {
   const GranularSoil& soil = bed_.recipe.soil;
   const double depth = bed_.recipe.size.depth, rim = tire_.radius + tire_.lugs.height;
-  return FlowMeter(mean_diameter(soil), 2 * rim, rim + depth, 0);
+  return FlowMeter(mean_diameter(soil), 2 * rim, rim + depth, 0, proportions_of(soil).solid);
 }
 
 /// Samples until the bed ends; over the second half of the way also what the soil does round the wheel.

@@ -8,7 +8,7 @@
 
 namespace soilbin::dem {
 
-FlowMeter::FlowMeter(double cell, double ahead, double below, double above) {
+FlowMeter::FlowMeter(double cell, double ahead, double below, double above, double solid) : solid_(solid) {
   layout_.cell = cell;
   layout_.nx = 2 * static_cast<int>(std::ceil(ahead / cell));
   layout_.nz = static_cast<int>(std::ceil((below + above) / cell));
@@ -27,7 +27,7 @@ void FlowMeter::add(const Grains& grains, const Vec3& axle) {
     const double iz = std::floor((from.z - layout_.z) / layout_.cell);
     if (!(ix >= 0 && ix < layout_.nx && iz >= 0 && iz < layout_.nz)) continue;
     const std::size_t at = static_cast<std::size_t>(iz) * layout_.nx + static_cast<std::size_t>(ix);
-    const double volume = sphere_volume(grain.radius);
+    const double volume = solid_ * sphere_volume(grain.radius);
     volume_[at] += volume;
     vx_[at] += volume * grain.velocity.x, vz_[at] += volume * grain.velocity.z;
   }

@@ -11,7 +11,8 @@ namespace soilbin::dem {
 class FlowMeter {
  public:
   /// Cells reach `ahead` to both sides of the axle and from `below` to `above` it; the plane is as thick as two cells.
-  FlowMeter(double cell, double ahead, double below, double above);
+  /// `solid`: volume of a grain over that of its spheres, of which overlaps count once.
+  FlowMeter(double cell, double ahead, double below, double above, double solid = 1);
 
   /// Velocities are taken as the engine keeps them, half a step behind: free fall adds g dt/2 to a bed at rest.
   void add(const Grains& grains, const Vec3& axle);
@@ -37,7 +38,7 @@ class FlowMeter {
  private:
   SoilFlow layout_;
   std::vector<double> volume_, vx_, vz_;
-  double moments_ = 0;
+  double moments_ = 0, solid_ = 1;
 };
 
 template <class Notes>

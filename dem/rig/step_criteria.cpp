@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "dem/bed/grain_shape.hpp"
 #include "dem/engine/time_step.hpp"
 #include "dem/surface/mass_properties.hpp"
 
@@ -35,7 +36,8 @@ StepCriteria step_criteria(const BedRecipe& recipe, const Rig& rig, double rim_s
   Materials materials;
   materials.add({"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio});
   Grains grains;
-  grains.add({.radius = soil.radius_min, .mass = sphere_volume(soil.radius_min) * soil.grain_density});
+  const double radius = proportions_of(soil).sphere * soil.radius_min;
+  grains.add({.radius = radius, .mass = sphere_volume(soil.radius_min) * soil.grain_density});
   return {.step = step_of(recipe, rig),
           .rayleigh = rayleigh_time(materials, grains),
           .speed = rim_speed,

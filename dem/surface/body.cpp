@@ -6,33 +6,17 @@
 #include <cmath>
 
 #include "dem/surface/positive.hpp"
+#include "dem/surface/turning.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
 namespace {
 
-Vec3 times(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-Vec3 over(const Vec3& a, const Vec3& b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
-
 bool is_unit(const Vec3& a) { return std::abs(squared(a) - 1) < 1e-6; }
 
-/// I w in the frame of the bin, and back.
-Vec3 momentum_of(const Body& body, const Vec3& spin) {
-  return body.rotation(times(body.inertia, body.rotation.inverse()(spin)));
-}
-Vec3 spin_of(const Body& body, const Vec3& momentum) {
-  return body.rotation(over(body.rotation.inverse()(momentum), body.inertia));
-}
+Vec3 momentum_of(const Body& body, const Vec3& spin) { return angular_momentum(body.rotation, body.inertia, spin); }
 
 double inertia_about_axis(const Body& body) { return dot(body.axis, momentum_of(body, body.axis)); }
-
-/// The angular momentum at the half step after is that of the half step before and the torque's. There the body has
-/// turned by half a step's turn more than now, so the spin is found by iteration; it keeps the momentum exactly.
-void turn_freely(Body& body, const Vec3& torque, double dt) {
-  const Vec3 before = rotation_by(-dt / 2 * body.spin)(momentum_of(body, body.spin));
-  const Vec3 momentum = before + dt * torque;
-  for (int k = 0; k < 8; ++k) body.spin = spin_of(body, rotation_by(-dt / 2 * body.spin)(momentum));
-}
 
 void follow(const Servo& servo, Body& body) {
   const double wanted = servo.gain * (dot(body.force, servo.direction) - servo.target);
@@ -74,7 +58,7 @@ Acceleration acceleration(const Body& body, const Vec3& force, const Vec3& torqu
   const Vec3 pull = (force + body.applied_force) / body.mass + (body.weighs ? gravity : Vec3{});
   Acceleration out{where(body.free_translation, pull), {}};
   const Vec3 turn = torque + body.applied_torque;
-  if (body.turning == Turning::free) out.spin = spin_of(body, turn - cross(body.spin, momentum_of(body, body.spin)));
+  if (body.turning == Turning::free) out.spin = spin_rate(body.rotation, body.inertia, body.spin, turn);
   if (body.turning == Turning::about_axis) out.spin = dot(turn, body.axis) / inertia_about_axis(body) * body.axis;
   return out;
 }
@@ -84,7 +68,8 @@ void advance(Body& body, const Vec3& gravity, double dt) {
   const Acceleration change = acceleration(body, body.force, body.torque, gravity);
   body.velocity += dt * change.velocity;
   if (body.servo) follow(*body.servo, body);
-  if (body.turning == Turning::free) turn_freely(body, body.torque + body.applied_torque, dt);
+  if (body.turning == Turning::free)
+    body.spin = spin_after(body.rotation, body.inertia, body.spin, body.torque + body.applied_torque, dt);
   if (body.turning == Turning::about_axis) body.spin = dot(body.spin + dt * change.spin, body.axis) * body.axis;
 
   const Vec3 velocity = 0.5 * (before + body.velocity), spin = 0.5 * (spin_before + body.spin);
@@ -94,11 +79,7 @@ void advance(Body& body, const Vec3& gravity, double dt) {
   body.driven_work += dt * (dot(body.applied_force, free) - dot(body.force, driven) +
                             dot(turns ? body.applied_torque : -body.torque, spin));
   body.position += dt * body.velocity;
-  if (body.spin != Vec3{}) {
-    const Rotation q = rotation_by(dt * body.spin) * body.rotation;
-    const double size = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    body.rotation = {q.w / size, q.x / size, q.y / size, q.z / size};
-  }
+  body.rotation = turned(body.rotation, dt * body.spin);
 }
 
 double extent(const Body& body) {

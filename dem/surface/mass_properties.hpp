@@ -1,7 +1,9 @@
-// Volume, centroid and moments of inertia of the body that a closed mesh bounds; volume and mass of a sphere.
+// Volume, centroid and moments of inertia of the body that a closed mesh bounds, or that spheres fill together; volume
+// and mass of a sphere.
 #pragma once
 
 #include <numbers>
+#include <span>
 
 #include "dem/surface/triangle_mesh.hpp"
 
@@ -19,6 +21,26 @@ struct MassProperties {
 ///   Int dV = D/6,  Int x dV = D s/24,  Int x_i x_j dV = D (s_i s_j + a_i a_j + b_i b_j + c_i c_j)/120.
 /// Throws std::logic_error where the mesh is not closed.
 MassProperties mass_properties(const TriangleMesh& mesh);
+
+struct Sphere {
+  Vec3 centre;        ///< [m]
+  double radius = 0;  ///< [m]
+};
+
+/// Of what the spheres fill together: where they overlap counts once. By the divergence theorem over the part of each
+/// sphere that no other hides, n its normal,
+///   Int dV = Int x.n dA/3,  Int x dV = Int x (x.n) dA/4,  Int x_i x_j dV = Int x_i x_j (x.n) dA/5,
+/// in Gauss quadrature, latitude by latitude: to 1e-9 for two spheres, 1e-6 where three overlap. Throws InputError
+/// where a radius isn't above 0, or two spheres are the same.
+MassProperties mass_properties(std::span<const Sphere> spheres);
+
+/// The principal moments about the centroid at unit density [m^5], and the rotation from the principal axes to the
+/// frame in which the properties were taken: none where that has them already.
+struct PrincipalAxes {
+  Vec3 inertia;
+  Rotation rotation;
+};
+PrincipalAxes principal_axes(const MassProperties& properties);
 
 /// Of a sphere of this radius [m], in [m^3] and, with a density [kg/m^3], in [kg].
 constexpr double sphere_volume(double radius) { return 4.0 / 3 * std::numbers::pi * radius * radius * radius; }
