@@ -185,8 +185,7 @@ Unrest unrest(Simulation& simulation, int steps) {
 BedReport report_on(Simulation simulation, const BedSize& size) {
   const Grains& grains = simulation.state().grains;
   BedReport report;
-  const Clumps& clumps = simulation.state().clumps;
-  report.grains = grains.count() - clumps.members.size() + clumps.all.size();
+  report.grains = grain_count(simulation.state());
   const double radius = mean_radius(grains), spacing = smallest_radius(grains) / 5;
   const Footprint over{2 * radius, size.length - 2 * radius, 2 * radius, size.width - 2 * radius};
   const SurfaceHeight surface = surface_height(grains, over, radius / 4);

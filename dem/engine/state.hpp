@@ -72,6 +72,11 @@ struct State {
   Clumps clumps;
 };
 
+/// How many grains there are; one of several spheres is one.
+inline std::size_t grain_count(const State& state) {
+  return state.grains.count() - state.clumps.members.size() + state.clumps.all.size();
+}
+
 /// A run that can't go on: an overlap too deep, a grain lost or not finite. what() names the grain and the time. A
 /// grain lost is noticed at a search, so it may be half the skin outside.
 class RunStopped : public std::runtime_error {

@@ -4,8 +4,8 @@ namespace soilbin::dem {
 
 std::vector<VerificationCase> verification_cases() {
   std::vector<VerificationCase> all;
-  for (const auto& cases :
-       {chung_ooi_cases(), motion_cases(), adhesion_cases(), mercury_cases(), mesh_cases(), step_size_cases()})
+  for (const auto& cases : {chung_ooi_cases(), motion_cases(), adhesion_cases(), mercury_cases(), mesh_cases(),
+                            clump_cases(), step_size_cases()})
     all.insert(all.end(), cases.begin(), cases.end());
   return all;
 }

@@ -84,6 +84,8 @@ std::vector<VerificationCase> adhesion_cases();
 std::vector<VerificationCase> mercury_cases();
 /// Plates, ridges, corners, a turntable and a drum of triangles, on the fast engine whichever is started.
 std::vector<VerificationCase> mesh_cases();
+/// Closed forms of grains of several spheres, on the fast engine whichever is started.
+std::vector<VerificationCase> clump_cases();
 /// What must not depend on the time step, each at a step, a half and a quarter of it: grains that roll or spin, two
 /// that spin as one (by the law alone), a wheel in a small bin (on the fast engine whichever is started).
 std::vector<VerificationCase> step_size_cases();

@@ -162,31 +162,6 @@ TEST(Clump, KeepsItsFormAndItsMomentum) {
   EXPECT_LT(length(momentum() - before), 1e-12 * 0.03);
 }
 
-/// A rod at a slant strikes a smooth floor: of what the point of contact brings, v_n, an elastic impact gives all back
-/// by J = 2 v_n / (1/m + c^2/I), c its lever.
-TEST(Clump, BouncesOffAFloorAsARigidBody) {
-  const double r = 0.01, slant = 0.5, fall = 0.3;
-  dem::Setup setup = smooth(2e-7);
-  setup.materials.all[0].young = 5e9;
-  Simulation simulation(setup);
-  Body floor;
-  floor.surfaces = {{Plane{}, 0}};
-  simulation.add_body(floor);
-  const ClumpShape shape = rod(r);
-  const double lever = r / 2 * std::cos(slant), low = r / 2 * std::sin(slant);
-  simulation.add_clump(
-      shape, {.position = {0, 0, r + low + 1e-5}, .rotation = rotation_by({0, slant, 0}), .velocity = {0, 0, -fall}},
-      0);
-  const double mass = 2500 * shape.volume, inertia = 2500 * shape.inertia.y;
-  const double impulse = 2 * fall / (1 / mass + lever * lever / inertia);
-  for (int k = 0; k < 2000 && (simulation.contacts().empty() || k < 10); ++k) simulation.run(10);
-  while (!simulation.contacts().empty()) simulation.run(10);
-  const ClumpMotion& after = simulation.state().clumps.all[0].motion;
-  EXPECT_NEAR(after.velocity.z, -fall + impulse / mass, 2e-3 * fall);
-  EXPECT_NEAR(after.spin.y, -impulse * lever / inertia, 2e-3 * impulse * lever / inertia);
-  EXPECT_NEAR(after.velocity.x, 0, 1e-12);
-}
-
 /// One sphere as a clump is that sphere.
 TEST(Clump, OfOneSphereIsThatSphere) {
   const auto run = [](bool clump) {
@@ -208,31 +183,6 @@ TEST(Clump, OfOneSphereIsThatSphere) {
   EXPECT_LT(length(sphere.position - clump.position), 1e-9);
   EXPECT_LT(length(sphere.velocity - clump.velocity), 1e-7);
   EXPECT_LT(length(sphere.spin - clump.spin), 1e-4);
-}
-
-/// Four spheres stand on three of them, without any law of rolling, until the weight passes over an edge of the
-/// triangle: tan = (a/(2 sqrt 3))/(r + a/(2 sqrt 6)), a between centres. A sphere rolls at once.
-TEST(Clump, StandsOnASlopeUpToTheAngleAtWhichItTips) {
-  const double r = 0.01, a = 1.5 * r;
-  const double tips = std::atan(a / (2 * std::sqrt(3.0)) / (r + a / (2 * std::sqrt(6.0))));
-  const double low = a / std::sqrt(12.0), high = a * std::sqrt(2.0 / 3);
-  const ClumpShape shape =
-      clump_shape({{{-low, -a / 2, 0}, r}, {{-low, a / 2, 0}, r}, {{2 * low, 0, 0}, r}, {{0, 0, high}, r}});
-  const auto way = [&](double slope) {
-    dem::Setup setup = soft_stone({{NormalLaw::hertz, RollingLaw::none, CohesionLaw::none}, -1},
-                                  {.restitution = 0.2, .sliding_friction = 1});
-    Simulation simulation(setup);
-    Body floor;
-    floor.surfaces = {{Plane{}, 0}};
-    simulation.add_body(floor);
-    // The side of the triangle that looks down the slope: that between the first two, so down along -x.
-    simulation.set_gravity({-gravity_here * std::sin(slope), 0, -gravity_here * std::cos(slope)});
-    simulation.add_clump(shape, {.position = {0, 0, r + a / (2 * std::sqrt(6.0))}}, 0);
-    simulation.run(30000);
-    return std::abs(simulation.state().clumps.all[0].motion.position.x);
-  };
-  EXPECT_LT(way(0.95 * tips), 0.05 * r);
-  EXPECT_GT(way(1.05 * tips), r);
 }
 
 // Energy, bits, bookkeeping.
