@@ -42,9 +42,11 @@ void settle(dem::DemSettings settings, const Scenario& scenario, std::uint64_t p
   const auto bed = model.bed(recipe);
   clear_progress_line();
   if (!fs::exists(file)) throw std::runtime_error(fmt::format("{}: {} can't be kept", file.string(), name));
-  const std::string density =
-      limits ? fmt::format(", relative density {:.0f} %", 100 * dem::relative_density(bed->report.void_ratio, *limits))
-             : "";
+  std::string density;
+  if (limits) {
+    const double share = dem::relative_density(bed->report.void_ratio, *limits);
+    density = fmt::format(", relative density {:.0f} %{}", 100 * share, dem::beyond_limits(share));
+  }
   fmt::print("{}: {} grains, void ratio {:.3f}{}, {} {}\n", name, bed->report.grains, bed->report.void_ratio, density,
              was_there ? "is there:" : "settled:", file.string());
 }

@@ -59,6 +59,8 @@ enum class TwistingResistance { none, marshall };
 /// What a grain is made of: a sphere, or a few equal ones joined for good, in a row, a triangle, a tetrahedron.
 enum class GrainShape { sphere, two_spheres, three_spheres, four_spheres };
 
+constexpr int spheres_of(GrainShape shape) { return static_cast<int>(shape) + 1; }
+
 /// The same soil as grains, for the discrete element model.
 struct GranularSoil {
   double radius_min = 0.0;      ///< [m] radii are uniform between radius_min and radius_max

@@ -108,8 +108,9 @@ int RunCosts::threads() const {
 void RunCosts::tell(RunPlan& plan) const {
   plan.threads = threads(), plan.in_lammps = settings_.lammps.has_value(), plan.from_runs = from_runs_,
   plan.speed = speed_, plan.grains = grains_;
-  plan.bed_seconds = bed_seconds(), plan.memory = 60e6 + 900 * grains_ / (plan.in_lammps ? threads() : 1);
-  plan.bed_bytes = 250 * grains_, plan.record_bytes = 40e3;
+  const double spheres = grains_ * spheres_of(recipe_.soil.shape);
+  plan.bed_seconds = bed_seconds(), plan.memory = 60e6 + 900 * spheres / (plan.in_lammps ? threads() : 1);
+  plan.bed_bytes = 250 * spheres, plan.record_bytes = 40e3;
 }
 
 double RunCosts::trial(dem::DemSettings settings) const {

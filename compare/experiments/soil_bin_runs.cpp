@@ -219,8 +219,9 @@ std::string relative_density_of(const std::vector<RecordedRun>& runs, const Soil
     }
   if (!(least <= most)) return "";
   const std::string low = fmt::format("{:.0f}", 100 * least), high = fmt::format("{:.0f}", 100 * most);
-  return fmt::format("relative density {} % (void ratios {:.3f} loosest, {:.3f} densest)\n",
-                     low == high ? low : low + " to " + high, limits->loosest, limits->densest);
+  return fmt::format("relative density {} % (void ratios {:.3f} loosest, {:.3f} densest{})\n",
+                     low == high ? low : low + " to " + high, limits->loosest, limits->densest,
+                     low == high ? dem::beyond_limits(least) : "");
 }
 
 std::optional<dem::StepCriteria> step_of(dem::DemSettings settings, const Case& question,

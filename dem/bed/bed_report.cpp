@@ -185,7 +185,7 @@ Unrest unrest(Simulation& simulation, int steps) {
 BedReport report_on(Simulation simulation, const BedSize& size) {
   const Grains& grains = simulation.state().grains;
   BedReport report;
-  report.grains = grain_count(simulation.state());
+  report.grains = number_of_grains(simulation.state());
   const double radius = mean_radius(grains), spacing = smallest_radius(grains) / 5;
   const Footprint over{2 * radius, size.length - 2 * radius, 2 * radius, size.width - 2 * radius};
   const SurfaceHeight surface = surface_height(grains, over, radius / 4);

@@ -33,4 +33,9 @@ double relative_density(double void_ratio, const DensityLimits& limits) {
   return apart > 0 ? (limits.loosest - void_ratio) / apart : not_a_number;
 }
 
+std::string_view beyond_limits(double relative_density) {
+  if (relative_density < 0) return ", looser than the small bed that counts as 0 %";
+  return relative_density > 1 ? ", denser than the small bed that counts as 100 %" : "";
+}
+
 }  // namespace soilbin::dem

@@ -39,5 +39,7 @@ std::optional<DensityLimits> known_density_limits(const GranularSoil& soil, BedS
 /// (e_loosest - e)/(e_loosest - e_densest): 0 loosest, 1 densest; beyond both for a bed that is looser or denser than
 /// they are. NaN where the limits are not apart.
 double relative_density(double void_ratio, const DensityLimits& limits);
+/// What to add where it lies beyond both: ", looser than the small bed that counts as 0 %"; else "".
+std::string_view beyond_limits(double relative_density);
 
 }  // namespace soilbin::dem

@@ -83,11 +83,6 @@ class BedRun {
 
 }  // namespace
 
-double longest_step(const GranularSoil& soil) {
-  const Material grains{"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio};
-  return 0.999 * Numerics{}.safe_share * rayleigh_time(grains, proportions_of(soil).sphere * soil.radius_min);
-}
-
 void spheres_alone(const GranularSoil& soil) {
   if (soil.shape != GrainShape::sphere)
     throw InputError(

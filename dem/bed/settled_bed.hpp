@@ -83,7 +83,11 @@ Interaction interaction_of(const ContactPair& pair);
 ContactLaws with_cohesion_of(const ContactPair& pair, ContactLaws laws);
 
 /// The longest step for grains of this soil that the engine's check lets pass [s].
-double longest_step(const GranularSoil& soil);
+inline double longest_step(const GranularSoil& soil) {
+  const Material grains{"grains", soil.grain_density, soil.youngs_modulus, soil.poisson_ratio};
+  const double sphere = soil.radius_min / std::cbrt(spheres_of(soil.shape));  // or larger, where spheres overlap
+  return 0.999 * Numerics{}.safe_share * rayleigh_time(grains, sphere);
+}
 
 /// Throws InputError for grains that LAMMPS is not given: those of several spheres.
 void spheres_alone(const GranularSoil& soil);

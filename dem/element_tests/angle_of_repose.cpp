@@ -190,7 +190,7 @@ AngleOfReposeResult Heap::run() {
   simulation_.body(tube_).velocity = {};
   come_to_rest(settings_.rest);
   result.settling_time = simulation_.time() - begin;
-  result.grains = static_cast<int>(grain_count(simulation_.state()));
+  result.grains = static_cast<int>(number_of_grains(simulation_.state()));
   measure(result);
   return result;
 }

@@ -37,7 +37,7 @@ PlateRun press_plate(const SettledBed& bed, double diameter, const PlateSettings
   disc.position = {middle, middle, base + thick / 2};
   PlateRun run;
   run.diameter = diameter, run.speed = settings.speed * std::sqrt(bed.recipe.gravity * d);
-  run.packing = bed.recipe.packing, run.grains = grain_count(bed.state);
+  run.packing = bed.recipe.packing, run.grains = number_of_grains(bed.state);
   run.void_ratio = bed.report.void_ratio, run.density = bed.report.bulk_density;
   disc.velocity = {0, 0, -run.speed};
   const int index = simulation.add_body(disc);

@@ -73,7 +73,7 @@ struct State {
 };
 
 /// How many grains there are; one of several spheres is one.
-inline std::size_t grain_count(const State& state) {
+inline std::size_t number_of_grains(const State& state) {
   return state.grains.count() - state.clumps.members.size() + state.clumps.all.size();
 }
 

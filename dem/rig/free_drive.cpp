@@ -296,7 +296,7 @@ GrainDriveRecord FreeDrive::run() {
   const double before = bin_.tilting() + rig_.lowering + rig_.resting;
   bin_.run().plan(static_cast<double>(bin_.steps_of(before + drive_.duration)));
   bin_.run().through([&] { stages(); });
-  record_.grains = grain_count(bin_.simulation().state());
+  record_.grains = number_of_grains(bin_.simulation().state());
   record_.earlier = bin_.run().earlier();
   tell_steady(record_, drive_, rig_.steady_drift);
   return std::move(record_);

@@ -187,6 +187,15 @@ int follow(Child& child, const WorkOptions& how, const std::function<void()>& wh
     if (kind == "no_solution") throw NoSolution(words);
     if (kind == "stopped") throw RunStopped(words);
   }
+  const std::string launcher = text_of(folder / "stderr.txt");
+  if (launcher.find("allow-run-as-root") != std::string::npos)
+    throw std::runtime_error(
+        "mpirun starts nothing as root\n  hint: another user, or SOILBIN_MPIRUN=\"mpirun --allow-run-as-root\"");
+  if (launcher.find("not enough slots") != std::string::npos)
+    throw std::runtime_error(
+        fmt::format("mpirun finds no room for {} processes on this machine\n  hint: fewer --ranks, "
+                    "or SOILBIN_MPIRUN=\"mpirun --oversubscribe\"",
+                    ranks));
   throw std::runtime_error(fmt::format("soilbin-lammps ended without an answer, on {} {}, exit status {}{}{}", ranks,
                                        ranks == 1 ? "process" : "processes", status, last_lines(folder / "log.lammps"),
                                        last_lines(folder / "stderr.txt")));

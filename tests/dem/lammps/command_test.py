@@ -83,6 +83,28 @@ class Lammps(unittest.TestCase):
                 found.append(int(entry.name))
         return found
 
+    def test_a_launcher_that_refuses_is_told_with_what_to_type(self):
+        for flags, launcher, hint in ((["--ranks", "500"], "mpirun --allow-run-as-root", "--oversubscribe"),
+                                      ([], "mpirun", "--allow-run-as-root")):
+            if launcher == "mpirun" and os.geteuid() != 0:
+                continue
+            environment = {k: v for k, v in self.environment.items() if not k.startswith("OMPI_ALLOW")}
+            done = subprocess.run(self.words("--engine", "lammps", *flags), cwd=self.folder, text=True,
+                                  env={**environment, "SOILBIN_MPIRUN": launcher}, capture_output=True,
+                                  timeout=PATIENCE, check=False)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("hint: ", done.stderr)
+            self.assertIn(hint, done.stderr)
+
+    def test_grains_of_several_spheres_are_refused(self):
+        (self.folder / "rods.yaml").write_text(CASE.replace("  granular:", "  granular:\n    shape: two_spheres"),
+                                               encoding="utf-8")
+        words = [word.replace("small.yaml", "rods.yaml") for word in self.words("--engine", "lammps")]
+        done = subprocess.run(words, cwd=self.folder, env=self.environment, text=True, capture_output=True,
+                              timeout=PATIENCE, check=False)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("shape: sphere", done.stderr)
+
     def test_a_run_is_recorded_as_that_of_dem_lammps(self):
         done = self.run_it("--engine", "lammps", "--ranks", "2", "--record", "two.json")
         self.assertEqual(done.returncode, 0, done.stderr)
