@@ -17,6 +17,8 @@
 namespace soilbin::cli {
 namespace {
 
+constexpr const char* on_command_line = "given on the command line";  // as a value's source
+
 const EffectFormWords& pick_form(const std::string& id, const std::string& form,
                                  const std::vector<EffectFormWords>& forms) {
   std::vector<std::string> names;
@@ -189,13 +191,13 @@ void SoilFlags::apply(Soil& soil) const {
   for (const SoilParameter& p : soil_parameters)  // n first: the units of k_c and k_phi depend on it
     if (const std::string& text = texts_.at(p.name); !text.empty()) {
       set_value(p, text, values);
-      values.sources[p.name] = "given on the command line";
+      values.sources[p.name] = on_command_line;
     }
   if (const std::string& text = texts_.at(density_key); !text.empty()) {
     if (!value_and_deviation(text).second.empty())
       throw InputError("--density: a density has no standard deviation here\n  hint: such as --density 1600kg/m^3");
     values.density = read_flag(flag_of("", density_key), text, density_measure);
-    values.sources[density_key] = "given on the command line";
+    values.sources[density_key] = on_command_line;
   }
   soil.name += ", changed";
 }
@@ -220,7 +222,13 @@ void Question::override_tire(Tire& tire, const Workplace& place) const {
   if (!tire_.empty()) tire = find_tire(tire_, place.library);
   wheel_.apply(tire);
   lugs_.apply(tire.lugs);
-  if (tire.name.empty()) tire.name = "wheel";
+  const std::vector<std::string> of_wheel = wheel_.given_keys(), of_lugs = lugs_.given_keys();
+  for (const std::string& key : of_wheel) tire.sources[key] = on_command_line;
+  for (const std::string& key : of_lugs) tire.sources["lugs." + key] = on_command_line;
+  if (tire.name.empty())
+    tire.name = "wheel";
+  else if (!of_wheel.empty() || !of_lugs.empty())
+    tire.name += ", changed";
 }
 
 Case Question::from_flags(const Workplace& place) const {

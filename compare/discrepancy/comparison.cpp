@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bekker_wong/effect.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
@@ -57,6 +58,16 @@ std::vector<std::string> gaps_of(const Comparison& comparison) {
   return gaps;
 }
 
+/// Effects of a rig, of a tire that yields and of water: dry grains under a rigid wheel have none of them.
+std::set<std::string> impossible_in_grains() {
+  std::set<std::string> ids;
+  for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue())
+    if (form.measurement || bekker_wong::depends_on(form, "inflation_pressure") ||
+        bekker_wong::depends_on(form, "moisture"))
+      ids.insert(form.id);
+  return ids;
+}
+
 /// The case as the loop's declared model, without a run.
 Campaign declared(const Side& side, const Case& question, const std::vector<EffectChoice>& effects) {
   if (!question.scenario.soil.semi_empirical)
@@ -67,6 +78,7 @@ Campaign declared(const Side& side, const Case& question, const std::vector<Effe
   campaign.soil = *question.scenario.soil.semi_empirical;
   campaign.bin = question.scenario.bin;
   campaign.effects = effects;
+  if (side.kind == SideKind::grains) campaign.impossible = impossible_in_grains();
   return campaign;
 }
 

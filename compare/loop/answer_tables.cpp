@@ -34,13 +34,36 @@ std::string change_of(const ErrorPair& error) {
 
 }  // namespace
 
+/// The rows of shape_series: what is set alike in all, then what varies.
+Table series_table(const LoopAnswer& answer, const std::vector<OperatingCondition>& series) {
+  const std::string& varied = sure_dependences(answer).front().variable;
+  const Limits conditions = ranges_of(answer.found().base.data().observations);
+  MarkedTable table{fmt::format("The next runs, as rows of the campaign: the {} alone varies, all else is as in the "
+                                "middle of the runs that were made",
+                                condition_view(varied).title),
+                    {}};
+  for (std::size_t k = 0; k < series.size(); ++k) table.add({});
+  for (const auto& [name, range] : conditions) {
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      const auto [value, unit] = next_setting(answer, series[k], name);
+      if (k == 0) table.header.push_back(heading(std::string(condition_view(name).title), unit.empty() ? "-" : unit));
+      table.rows[k].push_back(value);
+    }
+  }
+  table.header.emplace_back("runs");
+  for (auto& row : table.rows) row.push_back("2");
+  return table;
+}
+
 Table next_run_table(const LoopAnswer& answer) {
-  if (!answer.next) return {};
+  if (const std::vector<OperatingCondition> series = shape_series(answer); !series.empty())
+    return series_table(answer, series);
+  if (!proposes_next(answer)) return {};
   const NextTest& next = *answer.next;
   MarkedTable table{"The next run, as a row of the campaign", {}};
   table.add({});
   for (const std::string& name : next.quantities) {
-    const auto [value, unit] = next_setting(answer, name);
+    const auto [value, unit] = next_setting(answer, next.at, name);
     if (value.empty()) continue;
     table.header.push_back(heading(std::string(condition_view(name).title), unit.empty() ? "-" : unit));
     const bool beyond = std::ranges::find(next.beyond, name) != next.beyond.end();
@@ -84,10 +107,12 @@ Table candidates_table(const LoopAnswer& answer) {
   const std::string premise = !answer.second           ? ""
                               : answer.second->decides ? ", beside a base model that may be off by itself"
                                                        : ", the base model taken as exact";
-  MarkedTable table{
-      "Candidates, each fitted in full" + premise + "; shares are of those that these data do not rule out",
-      {"effects", "form", "share", "odds to the first", "chi2", "values"},
-      {true, true}};
+  const std::string shares = answer.verdict == Verdict::unknown_effect
+                                 ? "; none of them explains the data, shares are among those that come nearest"
+                                 : "; shares are of those that these data do not rule out";
+  MarkedTable table{"Candidates, each fitted in full" + premise + shares,
+                    {"effects", "form", "share", "odds to the first", "chi2", "values"},
+                    {true, true}};
   const std::string values = std::to_string(answer.found().base.data().cells());
   const std::vector<const Weighted*> sets = sets_shown(answer);
   for (std::size_t i = 0; i < sets.size(); ++i) {

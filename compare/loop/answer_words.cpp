@@ -217,7 +217,7 @@ std::string error_sentence(const LoopAnswer& answer) {
 std::string condition_words(const LoopAnswer& answer) {
   std::string text;
   for (const std::string& name : answer.next->quantities) {
-    const auto [value, unit] = next_setting(answer, name);
+    const auto [value, unit] = next_setting(answer, answer.next->at, name);
     if (value.empty()) continue;
     text += fmt::format("{}{} {}{}{}", text.empty() ? "" : ", ", condition_view(name).title, value,
                         unit.empty() ? "" : " ", unit);
@@ -345,7 +345,8 @@ std::string setting(double value) {
   return fmt::format("{:.10g}", three_digits(value));
 }
 
-std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const std::string& condition) {
+std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const OperatingCondition& at,
+                                                 const std::string& condition) {
   const ConditionView& view = condition_view(condition);
   const Dataset& data = answer.found().base.data();
   std::string unit(view.unit);
@@ -353,14 +354,33 @@ std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const
   if (const auto own = data.campaign->columns.find(condition);
       own != data.campaign->columns.end() && own->second.unit != view.column_unit)
     unit = own->second.unit, per_si = per_unit(unit);
-  const double value = view.get(answer.next->at);
+  const double value = view.get(at);
   if (!std::isfinite(value)) return {"", unit};
   constexpr double anywhere = std::numeric_limits<double>::infinity();
-  const auto given = answer.next->given.find(condition);
-  const std::pair<double, double> within =
-      given != answer.next->given.end() ? given->second : std::pair(-anywhere, anywhere);
+  const Limits limits = answer.next ? answer.next->given : Limits{};
+  const auto given = limits.find(condition);
+  const std::pair<double, double> within = given != limits.end() ? given->second : std::pair(-anywhere, anywhere);
   const double set = rig_setting(view, value, data.observations, within, per_si);
   return {fmt::format("{:.6g}", per_si * set), unit};
+}
+
+std::vector<OperatingCondition> shape_series(const LoopAnswer& answer) {
+  const std::vector<Dependence> sure = sure_dependences(answer);
+  if (sure.empty() || sure.front().variable == "run") return {};
+  const Observations& observations = answer.found().base.data().observations;
+  OperatingCondition centre = observations.rows.front();
+  for (const ConditionView& view : condition_views) {
+    std::vector<double> values;
+    for (const OperatingCondition& at : observations.rows)
+      if (const double x = view.get(at); std::isfinite(x)) values.push_back(x);
+    if (values.empty()) continue;
+    const auto middle = values.begin() + std::ssize(values) / 2;
+    std::ranges::nth_element(values, middle);
+    view.set(centre, *middle);
+  }
+  constexpr int settings = 5;
+  const std::string& variable = sure.front().variable;
+  return combinations(centre, {{variable, evenly(ranges_of(observations).at(variable), settings)}});
 }
 
 std::string verdict_sentence(const LoopAnswer& answer) {
@@ -410,11 +430,20 @@ std::vector<Dependence> sure_dependences(const LoopAnswer& answer) {
   return all;
 }
 
+bool proposes_next(const LoopAnswer& answer) {
+  if (!answer.next || answer.verdict != Verdict::unknown_effect) return answer.next.has_value();
+  constexpr double settled = 100;  // to one
+  const std::vector<const Weighted*> sets = sets_shown(answer);
+  const auto other =
+      std::ranges::find_if(sets, [&](const Weighted* set) { return set->ids == answer.next->separates.back(); });
+  return other == sets.end() || sets.front()->log_evidence - (*other)->log_evidence < std::log(settled);
+}
+
 std::vector<std::string> what_next(const LoopAnswer& answer) {
   const bool unknown = answer.verdict == Verdict::unknown_effect;
   std::vector<std::string> sentences;
   if (unknown) sentences.push_back(to_show_its_shape(answer));
-  if (!answer.next) {
+  if (!proposes_next(answer)) {
     if (!unknown && answer.ambiguity_set.size() > 1)
       sentences.push_back("No condition within the limits would set these candidates apart in 50 runs.");
     if (answer.verdict == Verdict::effect_found && answer.ambiguity_set.size() == 1)
@@ -451,6 +480,10 @@ std::vector<std::string> notes(const LoopAnswer& answer) {
   if (answer.verdict != Verdict::not_enough_data && answer.found().base.data().noise.rerun_freedom == 0)
     sentences.push_back("No setpoint was run twice: the noise was estimated together with the fit.");
   if (answer.outliers > 0) sentences.push_back(outlier_sentence(answer));
+  if (!answer.judgement) return sentences;
+  if (const auto& impossible = answer.found().base.data().campaign->impossible; !impossible.empty())
+    sentences.push_back(
+        fmt::format("Not looked for, since these data can't hold them: {}.", named_effects(impossible)));
   if (!answer.not_testable.empty()) {
     std::set<std::string> ids(answer.not_testable.begin(), answer.not_testable.end());
     sentences.push_back(

@@ -54,6 +54,10 @@ std::string held_out_clause(const LoopAnswer& answer);
 /// many as keep the false-discovery rate at 5 %.
 std::vector<Dependence> sure_dependences(const LoopAnswer& answer);
 
+/// Whether the run of LoopAnswer::next is worth making: not where the sets that it decides between are a hundred to one
+/// apart already and neither explains the data.
+bool proposes_next(const LoopAnswer& answer);
+
 /// What to measure next, or why no run is proposed; empty where no question is open.
 std::vector<std::string> what_next(const LoopAnswer& answer);
 
@@ -66,13 +70,19 @@ std::vector<const Weighted*> sets_shown(const LoopAnswer& answer);
 /// A number in three digits.
 std::string setting(double value);
 
-/// A condition of the next run as the rig would be set to it (rig_setting), in the unit of the campaign's own column,
-/// and that unit: ("10", "mm/s"). An empty value where the condition is not told.
-std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const std::string& condition);
+/// A condition of a run to be made as the rig would be set to it (rig_setting), in the unit of the campaign's own
+/// column, and that unit: ("10", "mm/s"). An empty value where the condition is not known.
+std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const OperatingCondition& at,
+                                                 const std::string& condition);
+
+/// Of an unknown effect that depends on a condition (sure_dependences): runs that show how, with that condition alone
+/// at five settings over the range that was run and all else at the median of the runs. Empty where none is known.
+std::vector<OperatingCondition> shape_series(const LoopAnswer& answer);
 
 // Tables (answer_tables.cpp).
 
-/// The next run as a row: a column each condition, how many runs, what they decide between. No row: no run is proposed.
+/// The next run as a row: a column each condition, how many runs, what they decide between; of an unknown effect the
+/// rows of shape_series. No row: no run is proposed.
 Table next_run_table(const LoopAnswer& answer);
 /// Held-out errors before and after by channel; what falls is marked good, what rises bad.
 Table error_table(const LoopAnswer& answer);

@@ -65,7 +65,9 @@ std::vector<std::string> not_testable(const Attribution& found) {
   std::vector<std::string> hidden = bekker_wong::effect_ids();
   for (const Signature& s : found.signatures.all)
     if (s.testable) std::erase(hidden, s.term.form->id);
-  for (const EffectChoice& declared : found.base.data().campaign->effects) std::erase(hidden, declared.id);
+  const Campaign& campaign = *found.base.data().campaign;
+  for (const EffectChoice& declared : campaign.effects) std::erase(hidden, declared.id);
+  for (const std::string& id : campaign.impossible) std::erase(hidden, id);
   return hidden;
 }
 

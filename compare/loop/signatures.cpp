@@ -66,7 +66,9 @@ Signature signature_of(const Base& base, const Term& term, double amplitude, con
   return s;
 }
 
-bool named_already(const FittedModel& model, const std::string& id) {
+/// Declared, fitted already, or not in data that were made so.
+bool is_no_candidate(const FittedModel& model, const std::string& id) {
+  if (model.data().campaign->impossible.contains(id)) return true;
   const auto& terms = model.terms();
   const auto& declared = model.data().campaign->effects;
   return std::ranges::any_of(terms, [&](const Term& t) { return t.form->id == id; }) ||
@@ -112,7 +114,7 @@ std::vector<Signature> residual_signatures(const FittedModel& model, const Linea
   const Base base{model, problem, Projector(problem.nuisance)};
   std::vector<Term> terms;
   for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue())
-    if (!named_already(model, form.id))
+    if (!is_no_candidate(model, form.id))
       for (Term& term : placed(form, model.data().observations)) terms.push_back(std::move(term));
   std::vector<std::vector<Signature>> of_term(terms.size());
   pool.each(static_cast<int>(terms.size()), [&](int t, const Pulse& pulse) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,8 @@ struct Campaign {
   Tire wheel;
   SemiEmpiricalSoil soil;  ///< std_error: what plate and shear tests leave open; 0: taken as exact
   std::optional<Bin> bin;
-  std::vector<EffectChoice> effects;  ///< already in the analyst's model
+  std::vector<EffectChoice> effects;   ///< already in the analyst's model
+  std::set<std::string> impossible{};  ///< ids of effects that can't be in the data, by how they were made
   std::string data = "runs.csv";
   ForceFrame force_frame = ForceFrame::travel;
   SlipBy slip_by = SlipBy::wheel_plane_speed;
