@@ -36,7 +36,7 @@ std::string change_of(const ErrorPair& error) {
 
 /// The rows of shape_series: what is set alike in all, then what varies.
 Table series_table(const LoopAnswer& answer, const std::vector<OperatingCondition>& series) {
-  const std::string& varied = sure_dependences(answer).front().variable;
+  const std::string varied = sure_dependences(answer).front().variable;
   const Limits conditions = ranges_of(answer.found().base.data().observations);
   MarkedTable table{fmt::format("The next runs, as rows of the campaign: the {} alone varies, all else is as in the "
                                 "middle of the runs that were made",

@@ -246,8 +246,21 @@ class TwistingResistance:
     @property
     def value(self) -> int: ...
 
+class GrainShape:
+    """What a grain is made of: a sphere, or several joined for good."""
+    sphere: ClassVar[GrainShape]
+    two_spheres: ClassVar[GrainShape]
+    three_spheres: ClassVar[GrainShape]
+    four_spheres: ClassVar[GrainShape]
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
 class GranularSoil:
-    """A soil as grains: spheres, radii uniform between two bounds."""
+    """A soil as grains, radii uniform between two bounds."""
     @property
     def radius_min(self) -> float:
         """smallest grain radius [m], above 0 m"""
@@ -284,6 +297,19 @@ class GranularSoil:
     @twisting_resistance.setter
     def twisting_resistance(self, value: TwistingResistance) -> None: ...
     @property
+    def shape(self) -> GrainShape:
+        """what a grain is made of: a sphere, or several joined in a row, a triangle, a tetrahedron; radii are then those
+        of the sphere of its volume
+        """
+    @shape.setter
+    def shape(self, value: GrainShape) -> None: ...
+    @property
+    def sphere_spacing(self) -> float:
+        """between the centres of a grain's spheres, in their radii; read where a grain has several [-], 0.1 .. 2
+        """
+    @sphere_spacing.setter
+    def sphere_spacing(self, value: float) -> None: ...
+    @property
     def grain_grain(self) -> ContactPair:
         """contact of two grains"""
     @grain_grain.setter
@@ -293,9 +319,9 @@ class GranularSoil:
         """contact of a grain and the tire"""
     @grain_tire.setter
     def grain_tire(self, value: ContactPair) -> None: ...
-    def __init__(self, *, radius_min: float, radius_max: float, grain_density: float, youngs_modulus: float, poisson_ratio: float, rolling_resistance: RollingResistance = ..., twisting_resistance: TwistingResistance = ..., grain_grain: ContactPair, grain_tire: ContactPair) -> None:
+    def __init__(self, *, radius_min: float, radius_max: float, grain_density: float, youngs_modulus: float, poisson_ratio: float, rolling_resistance: RollingResistance = ..., twisting_resistance: TwistingResistance = ..., shape: GrainShape = ..., sphere_spacing: float = ..., grain_grain: ContactPair, grain_tire: ContactPair) -> None:
         """By keywords: the attributes, in SI."""
-    def replace(self, *, radius_min: float = ..., radius_max: float = ..., grain_density: float = ..., youngs_modulus: float = ..., poisson_ratio: float = ..., rolling_resistance: RollingResistance = ..., twisting_resistance: TwistingResistance = ..., grain_grain: ContactPair = ..., grain_tire: ContactPair = ...) -> GranularSoil:
+    def replace(self, *, radius_min: float = ..., radius_max: float = ..., grain_density: float = ..., youngs_modulus: float = ..., poisson_ratio: float = ..., rolling_resistance: RollingResistance = ..., twisting_resistance: TwistingResistance = ..., shape: GrainShape = ..., sphere_spacing: float = ..., grain_grain: ContactPair = ..., grain_tire: ContactPair = ...) -> GranularSoil:
         """A copy in which the attributes given are changed."""
 
 class Soil:
