@@ -230,6 +230,17 @@ TEST_F(Pair, PartsThatLeaveMoreThanTheirBoundAreADoubtOfThePoint) {
   EXPECT_EQ(table.rows[table.rows.size() - 2].back().text, "-30.00 (12.00)");
 }
 
+// Dry grains under a rigid wheel on no rig: none of these can be why the models differ.
+TEST_F(Pair, TheLoopDoesNotLookForWhatGrainsCannotHave) {
+  const Side dem = side_of("dem", grain_runs(base, {300}, 40.0), question.study.conditions);
+  const std::set<std::string> impossible = means_of(dem, question, {}).impossible;
+  for (const char* id : {"rig_friction", "sensor_offset", "drift", "tire_flexibility", "moisture"})
+    EXPECT_TRUE(impossible.contains(id)) << id;
+  for (const char* id : {"slip_sinkage", "lug_thrust", "rate_dependence", "multipass"})
+    EXPECT_FALSE(impossible.contains(id)) << id;
+  EXPECT_TRUE(means_of(side_of(base), question, {}).impossible.empty());
+}
+
 TEST_F(Pair, SinkageIsWhatTheLoadPressesAndWhatSlipAdds) {
   const std::vector<SinkageSplit> splits = sinkage_splits(against({0}, 1.0));
   ASSERT_EQ(splits.size(), 8U);  // two sides, four slips

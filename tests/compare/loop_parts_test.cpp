@@ -65,6 +65,19 @@ Traced traced(const Campaign& campaign) {
   return {base, residual_signatures(base, problem_of(base))};
 }
 
+TEST(Signatures, LeaveOutWhatTheDataCannotHold) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 7);
+  const auto has = [](const std::vector<Signature>& all, const std::string& id) {
+    return std::ranges::any_of(all, [&](const Signature& s) { return s.term.form->id == id; });
+  };
+  EXPECT_TRUE(has(traced(campaign).signatures, "sensor_offset"));
+  campaign.impossible = {"sensor_offset"};
+  const std::vector<Signature> signatures = traced(campaign).signatures;
+  EXPECT_FALSE(has(signatures, "sensor_offset"));
+  EXPECT_TRUE(has(signatures, "slip_sinkage"));
+}
+
 // Without anything missing they are reached by chance as seldom as they say (or seldomer: the setpoint farthest off is
 // left out, and the least of several p-values counts times their number). 3 standard errors of 120 campaigns allowed.
 TEST(SlowResidualTests, KeepTheirLevels) {

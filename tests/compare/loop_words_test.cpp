@@ -154,8 +154,8 @@ TEST(ParametersTable, ShowsUnitsMeaningAndBounds) {
   EXPECT_EQ(table.rows[1][5].text, "yes");
 }
 
-// A set's forms stand in the order of its ids, whichever was fitted first.
-TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
+/// Two sets of effects, as if fitted to sand: bulldozing with slip sinkage, and slip sinkage by itself.
+LoopAnswer two_sets() {
   Campaign campaign = sand_campaign();
   measure(campaign, sweep(), {}, fine_noise, 3);
   const auto data = std::make_shared<const Dataset>(Dataset{
@@ -165,13 +165,22 @@ TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
     return make_term(bekker_wong::find_form({id, form, {}}), data->observations, true);
   };
   LoopAnswer answer;
-  const CandidateModel candidate{
+  const CandidateModel both{
       .ids = {"bulldozing", "slip_sinkage"},
       .model = FittedModel(data, predictor.with({term("slip_sinkage", "lyasko"), term("bulldozing", "")}), Fit())};
+  const CandidateModel one{.ids = {"slip_sinkage"},
+                           .model = FittedModel(data, predictor.with({term("slip_sinkage", "lyasko")}), Fit())};
   Attribution found{FittedModel(data, predictor, Fit()), {}, {}, {}, {}};
-  found.candidates.models = {candidate};
-  found.candidates.sets = {{.ids = candidate.ids, .weight = 1.0}};
+  found.candidates.models = {both, one};
+  found.candidates.sets = {{.ids = both.ids, .weight = 1.0}, {.ids = one.ids, .best_candidate = 1}};
   answer.judgement = Judgement{.found = found, .before = {}, .choice = {}, .reason = {}};
+  return answer;
+}
+
+// A set's forms stand in the order of its ids, whichever was fitted first.
+TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
+  const LoopAnswer answer = two_sets();
+  const CandidateModel& candidate = answer.found().candidates.models.front();
   const std::vector<TableCell> row = candidates_table(answer).rows.front();
   EXPECT_EQ(row[0].text, "bulldozing and slip sinkage");
   EXPECT_EQ(row[0].note, "bulldozing + slip_sinkage");
@@ -179,6 +188,46 @@ TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
   const auto forms = details_json(answer).at("sets").at(0).at("forms");
   EXPECT_EQ(forms.at(0), "bulldozing/" + candidate.terms()[1].form->form);
   EXPECT_EQ(forms.at(1), "slip_sinkage/lyasko");
+}
+
+/// As if something without a name depended on the slip.
+LoopAnswer unknown_by_slip() {
+  LoopAnswer answer = two_sets();
+  answer.verdict = Verdict::unknown_effect;
+  answer.dependences_before = {
+      {.channel = drawbar_pull, .variable = "slip", .share = 0.6, .p_value = 0.001, .false_discovery_rate = 0.01}};
+  return answer;
+}
+
+// What shows the form of an effect without a name: the condition it depends on, alone, from end to end.
+TEST(NextRunTable, OfAnUnknownEffectVariesWhatItDependsOnAlone) {
+  const LoopAnswer answer = unknown_by_slip();
+  const std::vector<OperatingCondition> series = shape_series(answer);
+  const auto [lowest, highest] = ranges_of(answer.found().base.data().observations).at("slip");
+  ASSERT_EQ(series.size(), 5u);
+  EXPECT_DOUBLE_EQ(series.front().slip, lowest);
+  EXPECT_DOUBLE_EQ(series.back().slip, highest);
+  for (const OperatingCondition& at : series) EXPECT_EQ(at.load, series.front().load);
+  const Table table = next_run_table(answer);
+  EXPECT_NE(table.title.find("the slip alone varies"), std::string::npos) << table.title;
+  ASSERT_EQ(table.rows.size(), 5u);
+  EXPECT_EQ(table.rows.front().back().text, "2");
+}
+
+// Candidates of which none explains the data need no run between them where they are far apart already.
+TEST(NextRun, BetweenNamedSetsIsNotProposedWhereTheyAreFarApart) {
+  LoopAnswer answer = unknown_by_slip();
+  answer.dependences_before.clear();
+  answer.next = NextTest{};
+  answer.next->separates = {{"bulldozing", "slip_sinkage"}, {"slip_sinkage"}};
+  auto& sets = answer.judgement->found.candidates.sets;
+  answer.ambiguity_set = sets;
+  for (const double behind : {2.0, 12.0}) {
+    answer.ambiguity_set[1].log_evidence = sets[1].log_evidence = -behind;
+    EXPECT_EQ(proposes_next(answer), behind < 4.6) << behind;
+  }
+  answer.verdict = Verdict::effect_found;
+  EXPECT_TRUE(proposes_next(answer));
 }
 
 }  // namespace

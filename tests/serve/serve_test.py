@@ -145,6 +145,8 @@ class TheServer(unittest.TestCase):
         curves = self.server.ask(f"/curves.csv?{query}")[2]
         with tempfile.TemporaryDirectory() as folder:
             file, table = Path(folder) / "case.yaml", Path(folder) / "t.csv"
+            self.assertRegex(case, "radius: .*400 mm.*given on the command line")
+            self.assertRegex(case, "name: .*, changed")
             file.write_text(case)
             self.assertEqual(soilbin("run", str(file), "--csv", str(table)).returncode, 0)
             self.assertEqual(table.read_text(), curves)
