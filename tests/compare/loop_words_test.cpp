@@ -209,7 +209,7 @@ TEST(NextRunTable, OfAnUnknownEffectVariesWhatItDependsOnAlone) {
   EXPECT_DOUBLE_EQ(series.back().slip, highest);
   for (const OperatingCondition& at : series) EXPECT_EQ(at.load, series.front().load);
   const Table table = next_run_table(answer);
-  EXPECT_NE(table.title.find("the slip alone varies"), std::string::npos) << table.title;
+  EXPECT_NE(table.caption.find("the slip alone varies"), std::string::npos) << table.caption;
   ASSERT_EQ(table.rows.size(), 5u);
   EXPECT_EQ(table.rows.front().back().text, "2");
 }
