@@ -17,7 +17,8 @@ extensions = ["myst_parser", "sphinx.ext.autodoc"]
 sys.path[:0] = [str(ROOT / "build/release/python"), str(ROOT / "docs/site")]
 mathml = importlib.import_module("formula").mathml
 MODULES = ("soilbin", "soilbin.bekker_wong", "soilbin.dem", "soilbin.compare")
-HAS_PACKAGE = importlib.util.find_spec("soilbin") is not None and importlib.util.find_spec("pandas") is not None
+# a build of the command alone leaves an empty folder soilbin, which Python takes for a package without a file
+HAS_PACKAGE = all(getattr(importlib.util.find_spec(name), "origin", None) for name in ("soilbin", "pandas"))
 nitpick_ignore_regex = [("py:.*", ".*")]  # signatures name types that are not documented by themselves
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4  # links to headings, by the names that GitHub gives them
@@ -108,7 +109,13 @@ def shorter(app, what, name, obj, options, signature, answer):
     return tuple(text and text.replace("soilbin._soilbin.", "") for text in (signature, answer))
 
 
+def mend_theme(app, error):
+    if error is None:
+        importlib.import_module("furo_repaired").repair(Path(app.outdir) / "_static")
+
+
 def setup(app):
+    app.connect("build-finished", mend_theme)
     app.connect("autodoc-process-docstring", as_it_stands)
     app.connect("autodoc-process-signature", shorter)
     app.connect("source-read", prepare)
