@@ -19,17 +19,19 @@ PER_SI = {"deg": (180 / math.pi, "deg"), "mm": (1e3, "mm"), "kPa": (1e-3, "kPa")
           "N": (1.0, "N"), "N m": (1.0, "N m"), "%": (100.0, "%"), "kN": (1e-3, "kN"), "1/kPa": (1e3, "1/kPa")}
 HEAD = """# The effects and their formulas
 
-Which physical causes can be switched on beyond the wheel of Wong and Reece, and by which equations? This page lists all of them. It is
-written by [make.py](effects/make.py) from what `soilbin list effects --json` says, and a test holds it to that. What trace each
-effect leaves in measurements: [effects.md]({effects}) and [effects-bed-and-measurement.md]({bed}).
+Which physical causes can be switched on beyond the wheel of Wong and Reece, and by which equations? This page lists all
+of them. It is written by [make.py](effects/make.py) from what `soilbin list effects --json` says, and a test holds it to
+that. What trace each effect leaves in measurements: [effects.md]({effects}) and
+[effects-bed-and-measurement.md]({bed}).
 
 - An effect may have several **forms**, one equation each. The first is the default.
-- **Source**: *published* is the author's own equation; *after a source* has its shape, as others quote it; *ours* is stated here for the
-  first time. They count {counts}.
+- **Source**: *published* is the author's own equation; *after a source* has its shape, as others quote it; *ours* is
+  stated here for the first time. They count {counts}.
 - Parameters: name = default (range). With the first one at 0 the form is the base model, to the bit.
 - Sketches, not to scale: the soil is brown, what the effect adds orange ([sketches.py](effects/sketches.py)).
-- Symbols: [the list](symbols.md). A subscript 0 is the value without the effect, $z_b$ the sinkage of the balance, $d$ in drift and gradient
-  the distance from a reference run or place, $L$ its logarithm, $N_\\phi = \\tan^2(\\pi/4 + \\varphi/2)$.
+- Symbols: [the list](symbols.md). A subscript 0 is the value without the effect, $z_b$ the sinkage of the balance, $d$
+  in drift and gradient the distance from a reference run or place, $L$ its logarithm,
+  $N_\\phi = \\tan^2(\\pi/4 + \\varphi/2)$.
 """
 
 

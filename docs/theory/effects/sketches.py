@@ -1,4 +1,4 @@
-"""Draws the sketches of docs/theory/effects.md, one for each effect that a picture explains better than a sentence.
+"""Draws the sketches of docs/theory/effects.md, one for each effect.
 
     /usr/bin/python3 docs/theory/effects/sketches.py
 
@@ -187,8 +187,157 @@ def bed_tilt():
     save(figure, "bed_tilt")
 
 
-DRAWN = (exit_angle, slip_sinkage, lug_thrust, bulldozing, multipass, tire_flexibility, hard_layer, sidewall_bulldozing,
-         interface_limit, shear_hump, bed_tilt)
+def axes(x, y, **more):
+    """A plot of one quantity against another, without numbers."""
+    figure, ax = plt.subplots(figsize=(3.6, 2.5))
+    ax.set(xlabel=x, ylabel=y, xticks=[], yticks=[], **more)
+    ax.spines[["top", "right"]].set_visible(False)
+    return figure, ax
+
+
+def turning(ax, radius, start, end, colour, centre=(0, 1)):
+    """An arrow round a centre, clockwise from one angle to another [deg from the downward vertical]."""
+    angles = np.linspace(start, end, 40) * deg
+    x, y = centre[0] + radius * np.sin(angles), centre[1] - radius * np.cos(angles)
+    ax.plot(x, y, color=colour, lw=1.5)
+    arrow(ax, (x[-2], y[-2]), (x[-1], y[-1]), colour)
+
+
+def rate_dependence():
+    figure, ax = axes("sinkage z", "pressure σ", ylim=(0, 1.3))
+    z = np.linspace(0, 1, 60)
+    ax.plot(z, 0.75 * z**0.8, color=GREY, label="slow, as the plate test")
+    ax.plot(z, 1.1 * z**0.8, color=ADDED, label="fast: the soil resists more")
+    arrow(ax, (0.7, 0.75 * 0.7**0.8), (0.7, 1.08 * 0.7**0.8), ADDED)
+    ax.legend(frameon=False, fontsize=8, loc="upper left")
+    save(figure, "rate_dependence")
+
+
+def pressure_dependent_shear_modulus():
+    figure, ax = axes("shear displacement j", "share of the strength", ylim=(0, 1.1))
+    j = np.linspace(0, 5, 200)
+    for k, colour, style, label in ((0.5, ADDED, "--", "light wheel: small K"), (1, GREY, "-", "base model: one K"),
+                                    (2, ADDED, "-", "heavy wheel: large K")):
+        ax.plot(j, 1 - np.exp(-j / k), color=colour, ls=style, label=label)
+    ax.legend(frameon=False, fontsize=8, loc="lower right")
+    save(figure, "pressure_dependent_shear_modulus")
+
+
+def moisture():
+    figure, ax = axes("water content w", "cohesion, stiffness", xlim=(0, 1), ylim=(0, 1.3))
+    w = np.linspace(0.02, 0.98, 100)
+    ax.axhline(0.8, color=GREY, label="base model: one value")
+    ax.plot(w, np.exp(-8 * (w - 0.45)**2), color=ADDED, label="an optimum, then too wet")
+    place = 0.45 + np.sqrt(-np.log(0.8) / 8)
+    ax.plot(place, 0.8, "o", color=ADDED, ms=4)
+    ax.vlines(place, 0, 0.8, color=GREY, ls=":", lw=1)
+    ax.text(place + 0.02, 0.05, r"$w_{ref}$", color=GREY, fontsize=8)
+    ax.legend(frameon=False, fontsize=8, loc="upper left")
+    save(figure, "moisture")
+
+
+def slope_weakening():
+    figure, ax = canvas(low=-1.7, high=2.2)
+    rise, x = np.tan(18 * deg), np.array([-1.9, 1.9])
+    ax.fill_between(x, rise * x, -0.95, color=SOIL, lw=0)
+    ax.plot(x, rise * x, color=EDGE, lw=1.2)
+    ax.plot(x, 0 * x + rise * -1.9, color=GREY, ls=":", lw=1)
+    ax.text(-1.4, rise * -1.9 + 0.03, "i", color=GREY, fontsize=9)
+    lift = 1 / np.cos(18 * deg) - 1.05
+    wheel(ax, lift=lift)
+    for place in (-0.75, 0.35, 1.35):
+        arrow(ax, (place + 0.25, rise * (place + 0.25) - 0.22), (place - 0.15, rise * (place - 0.15) - 0.22), ADDED)
+    ax.barh(-1.3, 1.6, 0.16, left=-1.9, color=ADDED)
+    ax.barh(-1.3, 2.2, 0.16, left=-0.3, color=EDGE, alpha=0.6)
+    ax.text(-1.85, -1.17, "the soil's strength, tan φ:", fontsize=8)
+    ax.text(-1.85, -1.62, "holds the slope", color=ADDED, fontsize=8)
+    ax.text(0.15, -1.62, "left for the wheel", fontsize=8)
+    save(figure, "slope_weakening")
+
+
+def rig_friction():
+    figure, ax = canvas()
+    ground(ax)
+    wheel(ax)
+    around = np.linspace(0, 2 * np.pi, 60)
+    ax.fill(0.2 * np.sin(around), 1 - 0.2 * np.cos(around), color=ADDED, alpha=0.35, lw=0)
+    ax.plot(0.2 * np.sin(around), 1 - 0.2 * np.cos(around), color=ADDED, lw=1)
+    turning(ax, 0.34, 300, 130, ADDED)
+    turning(ax, 0.72, 300, 130, "k")
+    ax.text(-1.85, 2.0, "soil's torque M", fontsize=9)
+    ax.text(1.05, 2.0, "bearing", color=ADDED, fontsize=9)
+    ax.plot([1.03, 0.22], [1.98, 1.13], color=ADDED, lw=0.8)
+    ax.text(-1.85, -0.6, "the sensor reads both together", fontsize=9)
+    save(figure, "rig_friction")
+
+
+def sensor_offset():
+    figure, ax = axes("slip", "drawbar pull", ylim=(-0.35, 1.35))
+    s = np.linspace(0, 1, 60)
+    pull = 1.1 * (1 - np.exp(-5 * s)) - 0.2
+    ax.axhline(0, color=GREY, lw=0.6)
+    ax.plot(s, pull, color=GREY, label="base model")
+    ax.plot(s, pull + 0.28, color=ADDED, label="as read: the zero is off by a")
+    ax.annotate("", (0.75, pull[45]), (0.75, pull[45] + 0.28), arrowprops={"arrowstyle": "<->", "color": ADDED})
+    ax.text(0.77, pull[45] + 0.09, "a", color=ADDED)
+    ax.legend(frameon=False, fontsize=8, loc="lower right")
+    save(figure, "sensor_offset")
+
+
+def cross_talk():
+    figure, ax = canvas(low=-0.75, high=1.75, left=-1.9, right=1.9)
+    turn = 20 * deg
+    for angle, colour, style in ((0, GREY, ":"), (-turn, ADDED, "-")):
+        along, across = np.array([-np.sin(angle), np.cos(angle)]), np.array([-np.cos(angle), -np.sin(angle)])
+        for axis in (along, across):
+            ax.plot([0, 1.5 * axis[0]], [0, 1.5 * axis[1]], color=colour, ls=style, lw=1.2)
+        ax.fill(*np.array([0.22 * (p * along + q * across) for p, q in ((1, 1), (1, -1), (-1, -1), (-1, 1))]).T,
+                color=colour, alpha=0.35, lw=0)
+    arrow(ax, (0, 0), (0, 1.15))
+    along = np.array([np.sin(turn), np.cos(turn)])
+    across = np.array([-np.cos(turn), np.sin(turn)])
+    for axis in (along, across):
+        foot = 1.15 * axis[1] * axis
+        ax.plot([0, foot[0]], [1.15, foot[1]], color=ADDED, ls="--", lw=0.8)
+        ax.plot([0, foot[0]], [0, foot[1]], color=ADDED, lw=3)
+    ax.text(-0.98, 1.22, "true pull", fontsize=9)
+    ax.text(0.6, 1.35, "pull as read", color=ADDED, fontsize=9)
+    ax.text(-1.9, 0.62, "lateral force\nas read", color=ADDED, fontsize=9)
+    ax.text(-1.85, -0.65, "from above: a cell that is turned", fontsize=9)
+    save(figure, "cross_talk")
+
+
+def soil_gradient():
+    figure, ax = canvas(low=-0.95, high=1.6, left=-2.0, right=2.0)
+    count = 40
+    for k, left in enumerate(np.linspace(-2, 2, count, endpoint=False)):
+        ax.fill_between([left, left + 4 / count], 0, -0.65, color=ADDED, alpha=0.12 + 0.6 * k / count, lw=0)
+    ax.plot([-2, 2], [0, 0], color=EDGE, lw=1.2)
+    around = np.linspace(0, 2 * np.pi, 100)
+    for place, sunk in ((-1.15, 0.3), (1.15, 0.08)):
+        ax.fill(place + 0.62 * np.sin(around), 0.62 - sunk - 0.62 * np.cos(around), fc="white", ec="k", lw=1.5, zorder=3)
+    ax.text(-1.95, -0.58, "soft", fontsize=9)
+    ax.text(1.5, -0.58, "firm", fontsize=9)
+    arrow(ax, (-0.4, 1.2), (0.4, 1.2))
+    ax.text(0, 1.32, "along the bin", fontsize=8, ha="center")
+    ax.text(-1.95, -0.88, "where a run is made changes its sinkage", fontsize=9)
+    save(figure, "soil_gradient")
+
+
+def drift():
+    figure, ax = axes("order of the runs", "reading of the same run", ylim=(0, 1.4))
+    runs = np.arange(1, 13)
+    noise = np.array([0.02, -0.05, 0.04, 0.01, -0.03, 0.05, -0.04, 0.02, -0.01, 0.03, -0.05, 0.02])
+    ax.axhline(0.4, color=GREY, label="base model: the order does not matter")
+    ax.plot(runs, 0.4 + 0.045 * (runs - 1) + noise, "o", color=ADDED, ms=4, label="soil or sensor drifts")
+    ax.plot(runs, 0.4 + 0.045 * (runs - 1), color=ADDED, lw=1)
+    ax.legend(frameon=False, fontsize=8, loc="upper left")
+    save(figure, "drift")
+
+
+DRAWN = (exit_angle, slip_sinkage, lug_thrust, bulldozing, multipass, tire_flexibility, rate_dependence, interface_limit,
+         shear_hump, pressure_dependent_shear_modulus, hard_layer, moisture, slope_weakening, sidewall_bulldozing, bed_tilt,
+         rig_friction, sensor_offset, cross_talk, soil_gradient, drift)
 
 if __name__ == "__main__":
     for draw in DRAWN:
