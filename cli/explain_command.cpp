@@ -1,4 +1,4 @@
-// soilbin explain: the budget of forces, the equations with the values put in, closed forms to check by.
+// soilbin explain: the budget of forces, the equations with the values put in, closed forms to check by, sources.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/sweep/explanation.hpp"
 #include "compare/sweep/result_json.hpp"
+#include "compare/sweep/sources.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 
@@ -79,6 +80,25 @@ void print_text(const ModelChoice& choice, const Explanation& explanation, const
   print_steps("Closed forms to check by (no balance, no effects)", explanation.cross_checks);
 }
 
+void print_sources(const Scenario& scenario) {
+  Table table{"", {"", "value", "source"}, {true, true, true}};
+  for (const compare::SourcedValue& value : compare::sourced_values(scenario))
+    table.add({fmt::format("  {}: {}", value.of, value.name), compare::in_words(value), value.source});
+  fmt::print("\nWhere the values come from\n{}", as_text(table));
+}
+
+nlohmann::ordered_json sources_json(const Scenario& scenario) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const compare::SourcedValue& value : compare::sourced_values(scenario))
+    all.push_back({{"of", value.of},
+                   {"name", value.key},
+                   {"value", value.value.value},
+                   {"std_error", value.value.std_error},
+                   {"assumed_sd", value.assumed_sd},
+                   {"source", value.source}});
+  return all;
+}
+
 int explain(const Question& inputs, bool json, const Session& session) {
   const Case question = inputs.ask(session.place);
   constexpr std::size_t most = 20;
@@ -103,16 +123,21 @@ int explain(const Question& inputs, bool json, const Session& session) {
       answered.push_back({choice, {{at, explanation.result, ""}}});
     }
   }
+  if (!json) print_sources(question.scenario);
   const std::vector<std::string> doubts = compare::doubts(question, answered);
   print_warnings(doubts);
-  if (json) print_json(document_of("soilbin-explain/1", question, rows), doubts);
+  if (!json) return done;
+  nlohmann::ordered_json document = document_of("soilbin-explain/1", question, rows);
+  document["sources"] = sources_json(question.scenario);
+  print_json(document, doubts);
   return done;
 }
 
 }  // namespace
 
 void add_explain(CLI::App& app, Session& session) {
-  CLI::App* command = app.add_subcommand("explain", "why: the budget of forces, and the equations with their values");
+  CLI::App* command = app.add_subcommand(
+      "explain", "why: the budget of forces, the equations with their values, and where the values come from");
   const auto inputs = std::make_shared<Question>(*command);
   const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "as JSON");

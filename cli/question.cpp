@@ -17,8 +17,6 @@
 namespace soilbin::cli {
 namespace {
 
-constexpr const char* on_command_line = "given on the command line";  // as a value's source
-
 const EffectFormWords& pick_form(const std::string& id, const std::string& form,
                                  const std::vector<EffectFormWords>& forms) {
   std::vector<std::string> names;
@@ -82,6 +80,7 @@ double implied_speed(const AskedCondition& one, const Tire& tire) {
       fmt::format("soil '{}' has no {}\n  hint: these have: {}", clipped(soil.name), lacks, listed(right)));
 }
 
+constexpr const char* on_command_line = "given on the command line";  // the source of such a value
 constexpr const char* density_key = "density";
 constexpr Measure density_measure{"kg/m^3", above_zero};
 
@@ -138,7 +137,7 @@ void add_effect(std::vector<EffectChoice>& effects, const std::string& text, con
   for (const EffectChoice& known : effects)
     if (known.id == effect.id)
       throw InputError(
-          fmt::format("--effect: '{}' is given twice ({} and {}): its forms tell the same physics\n"
+          fmt::format("--effect: '{}' is given twice ({} and {}): its forms describe the same physics\n"
                       "  hint: give one form; a case file can set models with different forms side by side",
                       effect.id, known.form, effect.form));
   effects.push_back(std::move(effect));

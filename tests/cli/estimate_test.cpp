@@ -9,6 +9,7 @@ namespace soilbin::cli::test {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -261,6 +262,24 @@ TEST(Explain, TheBudgetAddsUpAndTheFaultOfEquationFiveIsNamed) {
   for (const auto& part : row["budget"]) sum += part["force"].get<double>();
   EXPECT_NEAR(sum, row["drawbar_pull"].get<double>(), 1e-9);
   EXPECT_EQ(row["effects"].size(), 1U);
+}
+
+TEST(Explain, EndsWithTheSourceOfEachValue) {
+  const std::string question = "explain --tire rover-wheel --soil dry-sand --radius 95mm --load 80N --slip 0.2 ";
+  const Outcome text = soilbin(question);
+  const std::string sources = text.out.substr(text.out.find("Where the values come from"));
+  EXPECT_THAT(sources, ContainsRegex("tire: radius +95 mm +given on the command line"));
+  EXPECT_THAT(sources, ContainsRegex("tire: width +110 mm +Ishigami"));
+  EXPECT_THAT(sources, ContainsRegex("soil: cohesion c +1.04 ± 0.10 kPa \\(± assumed\\) +Wong"));
+  EXPECT_THAT(sources, ContainsRegex("soil: shear modulus K +20.0 ± 6.0 mm +chosen"));
+  const nlohmann::json all = soilbin(question + "--json").json()["sources"];
+  ASSERT_EQ(all.size(), 2U + 8U + 1U);  // wheel, soil, its density
+  EXPECT_EQ(all[0], (nlohmann::json{{"of", "tire"},
+                                    {"name", "radius"},
+                                    {"value", 0.095},
+                                    {"std_error", 0.0},
+                                    {"assumed_sd", false},
+                                    {"source", "given on the command line"}}));
 }
 
 }  // namespace

@@ -1,0 +1,70 @@
+#include "compare/sweep/sources.hpp"
+
+#include <fmt/core.h>
+
+#include <map>
+#include <optional>
+#include <type_traits>
+
+#include "compare/report/number_text.hpp"
+#include "scenario/description.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// A source of a value's own, else that of the whole.
+std::string source_of(const std::string& key, const std::map<std::string, std::string>& own, const std::string& whole) {
+  if (const auto found = own.find(key); found != own.end() && !found->second.empty()) return found->second;
+  return whole.empty() ? "not stated" : whole;
+}
+
+/// The numbers of a wheel, or of its lugs, that are declared.
+template <class Part>
+void add_numbers(const Part& part, const std::string& prefix, const Tire& tire, std::vector<SourcedValue>& all) {
+  each_member<Part>([&](const std::string& key, auto member, const auto& limits, const char*) {
+    const std::optional number(part.*member);
+    if constexpr (std::is_arithmetic_v<typename decltype(number)::value_type>) {
+      std::string unit = "-";
+      if constexpr (std::is_same_v<std::decay_t<decltype(limits)>, Measure>) unit = limits.unit;
+      if (number)
+        all.push_back({.of = "tire",
+                       .key = prefix + key,
+                       .name = (prefix.empty() ? "" : "lug ") + spaced(key),
+                       .unit = unit,
+                       .per_si = per_unit(unit),
+                       .value = {static_cast<double>(*number), 0.0},
+                       .source = source_of(prefix + key, tire.sources, tire.source)});
+    }
+  });
+}
+
+}  // namespace
+
+std::vector<SourcedValue> sourced_values(const Scenario& scenario) {
+  std::vector<SourcedValue> all;
+  add_numbers(scenario.tire, "", scenario.tire, all);
+  if (is_lugged(scenario.tire)) add_numbers(scenario.tire.lugs, "lugs.", scenario.tire, all);
+  if (!scenario.soil.semi_empirical) return all;
+  const SemiEmpiricalSoil& soil = *scenario.soil.semi_empirical;
+  for (const SoilParameter& p : soil_parameters)
+    all.push_back({"soil", p.name, p.title, p.unit, p.per_si, soil.*p.value, has_assumed_sd(soil, soil.*p.value),
+                   source_of(p.name, soil.sources, scenario.soil.source)});
+  if (soil.density)
+    all.push_back({"soil",
+                   "density",
+                   "density",
+                   "kg/m^3",
+                   1.0,
+                   {*soil.density, 0.0},
+                   false,
+                   source_of("density", soil.sources, scenario.soil.source)});
+  return all;
+}
+
+std::string in_words(const SourcedValue& value) {
+  const bool exact = value.value.std_error == 0.0;
+  return (exact ? fmt::format("{:.6g}", value.value.value * value.per_si) : number(value.value, value.per_si)) +
+         (value.unit == "-" ? "" : " " + value.unit) + (value.assumed_sd ? " (± assumed)" : "");
+}
+
+}  // namespace soilbin::compare
