@@ -26,7 +26,7 @@ struct Listing {
   Json json = Json::array();
 };
 
-/// What a shelf tells of a name: cells of the table between the name and what it is, keys beside "name".
+/// What a shelf holds of a name: cells of the table between the name and what it is, keys beside "name".
 struct ShelfRow {
   std::vector<TableCell> cells;
   Json json;
@@ -39,14 +39,20 @@ struct ShelfView {
   std::string title;                 ///< over its names in the list of all shelves
   std::vector<std::string> columns;  ///< of `row`
   ShelfRow (*row)(const std::string& name, const Workplace& place);
+  std::string note = {};  ///< below the table
 };
 
 ShelfRow soil_row(const std::string& name, const Workplace& place) {
   const Soil soil = find_soil(name, place.library);
   ShelfRow row;
   for (const SoilParameter& p : bevameter_parameters) {
-    row.cells.push_back(soil.semi_empirical ? number((*soil.semi_empirical).*p.value, p.per_si) : "-");
-    if (soil.semi_empirical) row.json[p.name] = ((*soil.semi_empirical).*p.value).value;
+    if (!soil.semi_empirical) {
+      row.cells.emplace_back("-");
+      continue;
+    }
+    const Estimate& value = (*soil.semi_empirical).*p.value;
+    row.cells.push_back(number(value, p.per_si) + (has_assumed_sd(*soil.semi_empirical, value) ? "*" : ""));
+    row.json[p.name] = value.value;
   }
   row.cells.emplace_back(soil.granular ? "yes" : "no");
   row.json["granular"] = soil.granular.has_value(), row.json["source"] = soil.source;
@@ -101,7 +107,8 @@ const std::vector<ShelfView>& shelf_views() {
     for (const SoilParameter& p : bevameter_parameters) soil_columns.push_back(compare::heading(p.symbol, p.unit));
     soil_columns.emplace_back("grains");
     return std::vector<ShelfView>{
-        {Shelf::soils, "Soils", soil_columns, soil_row},
+        {Shelf::soils, "Soils", soil_columns, soil_row,
+         "\n*: an assumed standard deviation; the source of the value gives none\n"},
         {Shelf::tires, "Tires and wheels", {"radius [mm]", "width [mm]", "lugs", "pressure [kPa]"}, tire_row},
         {Shelf::studies, "Studies", {"tire", "soil", "models", "conditions"}, study_row},
         {Shelf::measured, "Measured campaigns", {"runs", "measured"}, campaign_row}};
@@ -188,13 +195,13 @@ Json effect_json(const bekker_wong::EffectForm& form) {
           {"presumes", presumes}};
 }
 
-/// A value of a parameter in its own unit; units that need the soil's exponent are left in SI.
+/// A value of a parameter in its own unit, as people read it; units that need the soil's exponent are left in SI.
 std::string in_unit(double value, const std::string& unit) {
   if (!std::isfinite(value)) return value < 0 ? "-inf" : "inf";
   try {
-    return write_quantity(value, unit);
+    return fmt::format("{:.4g}{}", value * compare::per_unit(unit), unit == "-" ? "" : " " + unit);
   } catch (const InputError&) {
-    return fmt::format("{:.6g} (SI)", value);
+    return fmt::format("{:.4g} (SI)", value);
   }
 }
 
@@ -232,7 +239,7 @@ int list(const std::string& what, bool json, const Session& session) {
     if (json)
       print_json({{"format", "soilbin-list/1"}, {name, listing.json}});
     else
-      fmt::print("{}", as_text(listing.table));
+      fmt::print("{}{}", as_text(listing.table), view.note);
     return done;
   }
   throw InputError("can't list '" + clipped(what) + "'" + did_you_mean(what, right) + "\n  hint: one of " +

@@ -6,6 +6,7 @@
 namespace soilbin::cli::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 TEST(Help, OfTheProgramAndOfEveryCommand) {
@@ -89,7 +90,8 @@ TEST(List, EveryShelfAndTheCatalogue) {
     const nlohmann::json json = soilbin(std::string("list --json ") + what).json();
     EXPECT_GT(json[what].size(), 2U) << what;
   }
-  EXPECT_THAT(soilbin("list effects").out, HasSubstr("lyasko"));
+  EXPECT_THAT(soilbin("list effects").out, HasSubstr("theta_c = 5.73 deg, from 0 deg to 34.38 deg"));
+  EXPECT_THAT(soilbin("list soils").out, AllOf(HasSubstr(" 1.04 ± 0.10* "), HasSubstr("*: an assumed standard dev")));
   EXPECT_THAT(soilbin("list soil").err, HasSubstr("did you mean 'soils'?"));
 }
 
