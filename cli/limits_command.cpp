@@ -63,7 +63,7 @@ void add_limits(CLI::App& app, Session& session) {
   add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");
   command->add_flag("--json", options->json, "soilbin-limits/1, in SI");
   command->footer(
-      "A load that has no solution is told in its place; the status is 1 where none has one.\n"
+      "Where a load has no solution, its line gives the reason; the status is 1 where none has one.\n"
       "Example: soilbin limits --tire rover-wheel --soil dry-sand --load 64.68N");
   command->callback([=, &session] { session.action = [=, &session] { return limits(*inputs, *options, session); }; });
 }

@@ -34,6 +34,11 @@ std::string troff(const std::string& text) {
   return out;
 }
 
+/// The options that --help shows: a command hides those of its group of flags that it has no use for.
+std::vector<const CLI::Option*> shown_options(const CLI::App& command) {
+  return command.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
+}
+
 std::string described(const CLI::Option& option) {
   const std::string kind = option.get_type_name();
   return fmt::format(".TP\n\\fB{}\\fR{}\n{}\n", troff(option.get_name(option.get_positional())),
@@ -42,7 +47,7 @@ std::string described(const CLI::Option& option) {
 
 std::string command_page(const CLI::App& command) {
   std::string page = fmt::format(".SS {}\n{}\n", troff(command.get_name()), troff(command.get_description()));
-  for (const CLI::Option* option : command.get_options())
+  for (const CLI::Option* option : shown_options(command))
     if (option->get_name() != "--help") page += described(*option);
   for (const CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; }))
     page += command_page(*below);
@@ -81,12 +86,12 @@ std::string cell(const std::string& text) {
 /// The options of a command, a table a group.
 std::string option_tables(const CLI::App& command) {
   std::vector<std::string> groups;
-  for (const CLI::Option* option : command.get_options())
+  for (const CLI::Option* option : shown_options(command))
     if (std::ranges::find(groups, option->get_group()) == groups.end()) groups.push_back(option->get_group());
   std::string text;
   for (const std::string& group : groups) {
     std::string rows;
-    for (const CLI::Option* option : command.get_options()) {
+    for (const CLI::Option* option : shown_options(command)) {
       if (option->get_group() != group || option->get_name() == "--help" || option->get_positional()) continue;
       const std::string kind = option->get_type_name();
       rows += fmt::format("| `{}`{} | {} |\n", option->get_name(), kind.empty() ? "" : " `" + cell(kind) + "`",
@@ -100,7 +105,7 @@ std::string option_tables(const CLI::App& command) {
 std::string markdown_of(const CLI::App& command, const std::string& before) {
   const std::string name = before + command.get_name();
   std::string usage = name, places;
-  for (const CLI::Option* option : command.get_options()) {
+  for (const CLI::Option* option : shown_options(command)) {
     if (!option->get_positional()) continue;
     usage += " " + (option->get_required() ? option->get_type_name() : "[" + option->get_type_name() + "]");
     places += fmt::format("- `{}`: {}\n", option->get_type_name(), option->get_description());
@@ -118,9 +123,9 @@ std::string markdown_of(const CLI::App& command, const std::string& before) {
 std::string markdown_page(const CLI::App& app) {
   std::string page =
       "# The commands\n\n"
-      "Every command with its options, as `soilbin COMMAND --help` shows them. This page is written by `soilbin manual "
-      "--markdown`,\nand a test holds it to that. Numbers carry their unit: `80N`, `110mm`, `20%`, `5deg`. Errors and "
-      "exit statuses:\n[errors.md](errors.md).\n\n| command | what it does |\n|---|---|\n";
+      "Every command with its options, as `soilbin COMMAND --help` shows them. This page is written by\n"
+      "`soilbin manual --markdown`, and a test holds it to that. Numbers carry their unit: `80N`, `110mm`, `20%`, `5deg`. Errors\nand "
+      "exit statuses: [errors.md](errors.md).\n\n| command | what it does |\n|---|---|\n";
   const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
   std::string heading;
   for (const CLI::App* command : commands) {
@@ -133,7 +138,7 @@ std::string markdown_page(const CLI::App& app) {
 
 std::string joined_names(const CLI::App& command) {
   std::string names;
-  for (const CLI::Option* option : command.get_options())
+  for (const CLI::Option* option : shown_options(command))
     for (const std::string& name : option->get_lnames()) names += (names.empty() ? "--" : " --") + name;
   return names;
 }

@@ -57,8 +57,8 @@ void add_plates(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("plates", "n, k_c and k_phi of measured plate tests, with errors and a plot");
   const auto options = std::make_shared<PlatesOptions>();
   add_value(*command, "file", options->file, "FILE.csv",
-            "one row a reading: sinkage_m, pressure_kPa or force_N, plate_diameter_m (any units), and what tells one "
-            "test from another")
+            "one row a reading: sinkage_m, pressure_kPa or force_N, plate_diameter_m (any units), and a name "
+            "for each test")
       ->required();
   add_value(*command, "--only", options->only, "COLUMN=VALUE", "rows that have this value alone; may be given again")
       ->allow_extra_args(false);
