@@ -22,7 +22,7 @@ std::vector<Presumed> presumed(const EffectForm& form, const Tire& tire) {
     if (p.declared(tire)) continue;
     const double value = p.presumed(tire);
     const double shown = std::stod(fmt::format("{:.6g}", value));  // 5.5 mm, not 5.5000000000000005 mm
-    std::string words = fmt::format("{} = {}", p.key, write_quantity(shown, std::string(p.unit)));
+    std::string words = fmt::format("{} = {}", p.name, write_quantity(shown, std::string(p.unit)));
     if (!words.ends_with(fmt::format("= {}", p.rule))) words += fmt::format(" ({})", p.rule);
     all.push_back({std::string(p.key), value, std::move(words)});
   }
@@ -40,9 +40,10 @@ std::vector<std::string> presumptions(const std::vector<EffectChoice>& choices, 
     }
   std::vector<std::string> sentences;
   for (const auto& [id, values] : by_effect) {
-    std::string listed;
+    std::string name = id, listed;
+    std::replace(name.begin(), name.end(), '_', ' ');
     for (const std::string& value : values) listed += (listed.empty() ? "" : ", ") + value;
-    sentences.push_back(fmt::format("{} presumes {}, which the tire does not declare.", id, listed));
+    sentences.push_back(fmt::format("{} presumes {}, which the tire does not declare.", name, listed));
   }
   return sentences;
 }

@@ -17,6 +17,7 @@ struct EffectForm;
 /// it takes instead can be stated wherever the effect is.
 struct Presumption {
   std::string_view key;                            ///< of tire files: "lugs.height"
+  std::string_view name;                           ///< for people: "lug height"
   std::string_view unit;                           ///< as in files; "-" for a count
   std::string_view rule;                           ///< what is taken instead: "5 % of the radius"
   std::optional<double> (*declared)(const Tire&);  ///< [SI]; nothing where the tire leaves it out
@@ -30,13 +31,13 @@ struct Presumption {
 struct Presumed {
   std::string key;
   double value = 0.0;  ///< [SI]
-  std::string words;   ///< "lugs.height = 12.5 mm (5 % of the radius)"
+  std::string words;   ///< "lug height = 12.5 mm (5 % of the radius)"
 };
 
 /// All that a form presumes of this tire; empty where the tire declares whatever the form reads.
 std::vector<Presumed> presumed(const EffectForm& form, const Tire& tire);
 
-/// What these choices presume of the tire, one sentence an effect: "lug_thrust presumes lugs.height = 12.5 mm (5 % of
+/// What these choices presume of the tire, one sentence an effect: "lug thrust presumes lug height = 12.5 mm (5 % of
 /// the radius), which the tire does not declare." Throws InputError as find_form.
 std::vector<std::string> presumptions(const std::vector<EffectChoice>& choices, const Tire& tire);
 

@@ -68,16 +68,21 @@ void make_runs(const Case& question, const Case& whole, const RunOptions& option
   const SoilBinFlags& bin = options.soil_bin;
   dem::DemSettings settings = settings_of(bin);
   const std::vector<compare::AskedRun> list = bin.runs(question);
+  std::vector<compare::Record> before;  // what the record holds already is not made again
+  if (fs::exists(bin.record)) before.push_back(compare::read_record(bin.record));
   const auto at = std::make_shared<std::string>();
   settings.how.progress = [at](const dem::Progress& progress) { show_progress_of(*at, progress); };
-  compare::make_runs(list, settings, whole, session.place.effects, keeping_of(bin),
-                     [&](std::size_t place, const compare::AskedRun& run) {
-                       if (interrupt_asked()) throw Interrupted();
-                       *at = fmt::format("run {} of {}", place + 1, list.size());
-                       if (!bin.shard.empty()) tell_beside_progress(fmt::format("{}: {}", *at, compare::in_words(run)));
-                     });
+  compare::make_runs(
+      list, settings, whole, session.place.effects, keeping_of(bin),
+      [&](std::size_t place, const compare::AskedRun& run) {
+        if (interrupt_asked()) throw Interrupted();
+        *at = fmt::format("run {} of {}", place + 1, list.size());
+        if (!bin.shard.empty())
+          tell_beside_progress(fmt::format("{}: {}{}", *at, compare::in_words(run),
+                                           compare::missing_runs({run}, before).empty() ? ", recorded before" : ""));
+      });
   if (!bin.shard.empty())
-    fmt::print("{}: {} of shard {} are recorded\n", bin.record, compare::counted(list.size(), "run"), bin.shard);
+    fmt::print("{}: shard {} is done, {} recorded\n", bin.record, bin.shard, compare::counted(list.size(), "run"));
 }
 
 /// Calls `work`; what an interrupted one has recorded stays, and the command says how to go on.

@@ -129,6 +129,10 @@ std::optional<dem::LammpsWorker> lammps_of(const SoilBinFlags& flags) {
     return std::nullopt;
   }
   if (flags.ranks < 1) throw InputError("--ranks: 1 or more");
+  if (!flags.replay.empty())
+    throw InputError(
+        "--replay needs soilbin's own engine, which keeps the motion of the grains\n  hint: leave out "
+        "--engine lammps, or --replay");
   dem::LammpsWorker worker{.ranks = flags.ranks, .program = this_program().parent_path() / "soilbin-lammps"};
   if (const char* launcher = std::getenv("SOILBIN_MPIRUN")) worker.launcher = launcher;
   return worker;

@@ -35,9 +35,9 @@ std::string kind_of(Shelf shelf) {
   return "";
 }
 
-/// What to do with a name that is asked for on the wrong shelf.
-std::string where_it_goes(Shelf shelf, const std::string& name, const std::string& there) {
-  if (shelf == Shelf::tires || shelf == Shelf::soils)
+/// What to do with a name that is asked for on the wrong shelf. Who asks for a campaign has no flag for a tire or soil.
+std::string where_it_goes(Shelf shelf, Shelf asked, const std::string& name, const std::string& there) {
+  if (asked != Shelf::measured && (shelf == Shelf::tires || shelf == Shelf::soils))
     return fmt::format("--{} {} takes it; {}", kind_of(shelf), name, there);
   return there;
 }
@@ -80,7 +80,7 @@ fs::path find_file(const Library& library, Shelf shelf, const std::string& name)
   for (const Shelf other : {Shelf::tires, Shelf::soils, Shelf::studies, Shelf::measured})
     if (other != shelf && library.find(other, name))
       throw InputError(fmt::format("no {} '{}' in the library: that is a {}\n  hint: {}", kind_of(shelf), name,
-                                   kind_of(other), where_it_goes(other, name, there)));
+                                   kind_of(other), where_it_goes(other, shelf, name, there)));
   throw InputError(fmt::format("no {} '{}' in the library, and no such file{}\n  hint: {}", kind_of(shelf),
                                clipped(name), did_you_mean(name, names), there));
 }

@@ -19,6 +19,7 @@ namespace {
 
 constexpr Presumption lug_height = {
     .key = "lugs.height",
+    .name = "lug height",
     .unit = "mm",
     .rule = "5 % of the radius",
     .declared = [](const Tire& t) { return is_lugged(t) ? std::optional<double>(t.lugs.height) : std::nullopt; },
@@ -26,6 +27,7 @@ constexpr Presumption lug_height = {
 
 constexpr Presumption lug_count = {
     .key = "lugs.count",
+    .name = "number of lugs",
     .unit = "-",
     .rule = "24",
     .declared = [](const Tire& t) { return t.lugs.count ? std::optional<double>(*t.lugs.count) : std::nullopt; },

@@ -27,6 +27,7 @@ namespace soilbin::bekker_wong {
 namespace {
 
 constexpr Presumption carcass_pressure = {.key = "carcass_pressure",
+                                          .name = "carcass pressure",
                                           .unit = "kPa",
                                           .rule = "0 kPa",
                                           .declared = [](const Tire& t) { return t.carcass_pressure; },
@@ -34,6 +35,7 @@ constexpr Presumption carcass_pressure = {.key = "carcass_pressure",
 
 /// A tire without any pressure carries nothing: 0 says no more than silence.
 constexpr Presumption inflation_pressure = {.key = "inflation_pressure",
+                                            .name = "inflation pressure",
                                             .unit = "kPa",
                                             .rule = "100 kPa",
                                             .declared =

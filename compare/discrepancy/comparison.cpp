@@ -71,7 +71,9 @@ std::set<std::string> impossible_in_grains() {
 /// The case as the loop's declared model, without a run.
 Campaign declared(const Side& side, const Case& question, const std::vector<EffectChoice>& effects) {
   if (!question.scenario.soil.semi_empirical)
-    throw InputError("soil '" + question.scenario.soil.name + "' has no semi_empirical values, which the loop needs");
+    throw InputError(
+        "soil '" + question.scenario.soil.name +
+        "' has no semi_empirical values, which the loop needs\n  hint: soilbin compare --no-loop compares without it");
   Campaign campaign;
   campaign.name = question.study.name + "-" + side.label;
   campaign.wheel = question.scenario.tire;

@@ -28,7 +28,7 @@ void each_answer_for_grains(const std::vector<ModelAnswers>& study, const Use& u
         use(answer, of_grains ? SinkageOf::grains : SinkageOf::another_model);
 }
 
-/// By how much coarse grains change an answer: where the study of it tells, at the condition where that is most.
+/// By how much coarse grains change an answer: where the study of it reaches, at the condition where that is most.
 std::string by_how_much(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
   std::optional<ResolutionError> largest;
   OperatingCondition where;

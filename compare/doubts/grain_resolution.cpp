@@ -71,10 +71,10 @@ Estimate times(const Estimate& estimate, double factor) {
   return {estimate.value * factor, estimate.std_error * std::abs(factor)};
 }
 
-/// Why nothing in the study tells of grains this large beside that length; "" where it does.
+/// Why the study does not reach to grains this large beside that length; "" where it does.
 std::string coarser(const char* length, double grains, double most) {
   if (!(grains > most * size_reach)) return "";
-  return fmt::format("a grain is {:.2g} {}, in the study at most {:.2g}", grains, length, most);
+  return fmt::format("a grain is {:.2g} {}, and in the study it was at most {:.2g}", grains, length, most);
 }
 
 ResolutionError leaves_it(std::string beyond) { return {{}, {}, {}, std::move(beyond)}; }
@@ -127,8 +127,8 @@ ResolutionError resolution_error(const Scenario& scenario, const OperatingCondit
   const double coarsest = with_lugs.front().diameter;
   const double lowest = studied.front().slip - slip_reach, highest = studied.back().slip + slip_reach;
   if (!(at.slip >= lowest - 1e-9 && at.slip <= highest + 1e-9))
-    return leaves_it(fmt::format("slip {:.3g} %, studied for {:.0f} .. {:.0f} %{}", 100 * at.slip, 100 * lowest,
-                                 100 * highest, is_lugged(tire) ? "" : " without lugs"));
+    return leaves_it(fmt::format("slip {:.3g} % lies outside the {:.0f} .. {:.0f} % that were studied{}", 100 * at.slip,
+                                 100 * lowest, 100 * highest, is_lugged(tire) ? "" : " without lugs"));
   if (std::string lug = is_lugged(tire) ? coarser("lug heights", d / tire.lugs.height, coarsest / studied_lugs) : "";
       !lug.empty())
     return leaves_it(std::move(lug));

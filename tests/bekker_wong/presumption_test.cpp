@@ -86,13 +86,14 @@ TEST(Presumption, IsWhatTheFormReckonsWith) {
 
 // 5 % of a radius of 250 mm.
 TEST(Presumption, IsToldInWordsOneSentenceAnEffect) {
-  EXPECT_EQ(presumptions({{"lug_thrust", "shear_radius", {}}, {"lug_thrust", "free_blade", {}}, {"bulldozing", "", {}}},
-                         smooth_tire()),
-            std::vector<std::string>{"lug_thrust presumes lugs.height = 12.5 mm (5 % of the radius), lugs.count = 24, "
-                                     "which the tire does not declare."});
+  EXPECT_EQ(
+      presumptions({{"lug_thrust", "shear_radius", {}}, {"lug_thrust", "free_blade", {}}, {"bulldozing", "", {}}},
+                   smooth_tire()),
+      std::vector<std::string>{"lug thrust presumes lug height = 12.5 mm (5 % of the radius), number of lugs = 24, "
+                               "which the tire does not declare."});
   EXPECT_EQ(
       presumptions({{"tire_flexibility", "flat_section", {}}}, smooth_tire()),
-      std::vector<std::string>{"tire_flexibility presumes inflation_pressure = 100 kPa, carcass_pressure = 0 kPa, "
+      std::vector<std::string>{"tire flexibility presumes inflation pressure = 100 kPa, carcass pressure = 0 kPa, "
                                "which the tire does not declare."});
   EXPECT_TRUE(presumptions({{"lug_thrust", "shear_radius", {}}}, fully_declared()).empty());
 }

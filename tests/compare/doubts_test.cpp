@@ -201,7 +201,7 @@ TEST(Doubts, WhatAnEffectPresumesOfTheTireIsToldUntilItIsDeclared) {
   const auto presumes = [&] {
     const std::vector<std::string> all = doubts(question);
     return std::any_of(all.begin(), all.end(),
-                       [](const std::string& d) { return d.starts_with("lug_thrust presumes"); });
+                       [](const std::string& d) { return d.starts_with("lug thrust presumes"); });
   };
   EXPECT_TRUE(presumes());
   question.scenario.tire.lugs.height = 0.0125;

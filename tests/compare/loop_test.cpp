@@ -358,13 +358,13 @@ TEST(SlowLoop, TellsWhatAnEffectPresumesOfTheWheel) {
     EXPECT_EQ(presumed.at("key"), "lugs.height");
     EXPECT_DOUBLE_EQ(presumed.at("value").get<double>(), 0.0125);
   }
-  const std::string words = "lug_thrust presumes lugs.height = 12.5 mm (5 % of the radius)";
+  const std::string words = "lug thrust presumes lug height = 12.5 mm (5 % of the radius)";
   const auto tells = [&](const std::string& text) { return text.find(words) != std::string::npos; };
   const std::vector<std::string> said = explanation(answer);
   EXPECT_TRUE(std::any_of(said.begin(), said.end(), tells));
   EXPECT_TRUE(tells(resolved_model(campaign, answer).description));
   const std::string page = loop_page(campaign, answer, {"rows 3 and 7 repeat each other"}, "");
-  EXPECT_NE(page.find("lug_thrust presumes lugs.height = 12.5 mm (5"), std::string::npos);
+  EXPECT_NE(page.find("lug thrust presumes lug height = 12.5 mm (5"), std::string::npos);
   EXPECT_NE(page.find("rows 3 and 7 repeat each other"), std::string::npos);
   campaign.wheel.lugs.height = 0.0125;
   campaign.wheel.lugs.count = 24;

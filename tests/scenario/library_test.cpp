@@ -54,6 +54,9 @@ TEST(Library, FindsTheFileBehindANameOrAPath) {
               HasSubstr("no campaign 'cmu-smoth' in the library, and no such file, did you mean 'cmu-smooth'?"));
   EXPECT_THAT(test::refusal([] { find_file(library(), Shelf::studies, "rover-wheel"); }),
               HasSubstr("no study 'rover-wheel' in the library: that is a tire\n  hint: --tire rover-wheel takes it"));
+  EXPECT_THAT(test::refusal([] { find_file(library(), Shelf::measured, "rover-wheel"); }),
+              HasSubstr("that is a tire\n  hint: there are cmu-grousered, "))
+      << "who asks for a campaign has no flag --tire";
   EXPECT_THAT(
       test::refusal([] { find_file(library(), Shelf::measured, "rover-climb"); }),
       HasSubstr("no campaign 'rover-climb' in the library: that is a study\n  hint: there are cmu-grousered, "));

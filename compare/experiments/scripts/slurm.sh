@@ -13,6 +13,11 @@ case "${1-submit}" in
     again "$soilbin" run "${run[@]}" --shard "$part/@shards@" --record "$folder/shards/$part-of-@shards@.json"
     ;;
 @merge@  submit)
+    command -v sbatch >/dev/null || {
+      echo "Slurm is not on this machine: there is no sbatch. Start this script on a machine of the cluster; on this" \
+        "machine alone: soilbin sweep --on local" >&2
+      exit 1
+    }
     job() {
       sbatch --parsable --requeue --signal=TERM@60 --open-mode=append --ntasks=1 --cpus-per-task=@threads@ --mem=@memory@M "$@"
     }
