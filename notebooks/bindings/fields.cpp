@@ -30,8 +30,11 @@ std::string field_doc(const std::string& meaning, const Measure& measure) {
 void check_value(const char* key, double value, const Measure& measure) {
   if (!std::isfinite(value)) throw InputError(fmt::format("{}: {} is no number to work with", key, value));
   if (measure.range.holds(value)) return;
-  throw InputError(fmt::format("{}: {} is out of range, which is {}", key, value,
-                               describe_range({si_unit_of(measure.unit), measure.range})));
+  const bool share = si_unit_of(measure.unit) == "-" && measure.range.upper <= 1.0;
+  const bool meant_percent = share && measure.range.holds(value / 100);
+  throw InputError(fmt::format("{}: {} is out of range, which is {}{}", key, value,
+                               describe_range({si_unit_of(measure.unit), measure.range}),
+                               meant_percent ? fmt::format(", did you mean {} ({} %)?", value / 100, value) : ""));
 }
 
 namespace {

@@ -32,12 +32,15 @@ void bind_plate(py::module_& module, const char* name, const char* doc) {
                    fmt::format("{} pressures for {} sinkages", plate.pressure.size(), plate.sinkage.size()));
              return plate;
            }),
-           py::arg("radius"), py::arg("pressure"), py::arg("sinkage"))
+           py::arg("radius"), py::arg("pressure"), py::arg("sinkage"),
+           "radius [m]; pressure [Pa] and sinkage [m]: arrays of one shape (readings,).")
       .def_readonly("radius", &Plate::radius, "b [m]; of a strip half the width")
       .def_property_readonly(
-          "pressure", [](const py::object& self) { return view(self.cast<const Plate&>().pressure, self); }, "[Pa]")
+          "pressure", [](const py::object& self) { return view(self.cast<const Plate&>().pressure, self); },
+          "[Pa], shape (readings,)")
       .def_property_readonly(
-          "sinkage", [](const py::object& self) { return view(self.cast<const Plate&>().sinkage, self); }, "[m]");
+          "sinkage", [](const py::object& self) { return view(self.cast<const Plate&>().sinkage, self); },
+          "[m], shape (readings,)");
 }
 
 void bind_fits(py::module_& module) {
@@ -49,7 +52,7 @@ void bind_fits(py::module_& module) {
       .def_readonly("k_c", &PlateFit::k_c, "[N/m^(n+1)]")
       .def_readonly("k_phi", &PlateFit::k_phi,
                     "[N/m^(n+2)]; may come out negative where the plates disagree with Bekker's form")
-      .def_readonly("plate_exponents", &PlateFit::plate_exponents, "of each plate by itself")
+      .def_readonly("plate_exponents", &PlateFit::plate_exponents, "n of each plate by itself [-]")
       .def_readonly("plate_moduli", &PlateFit::plate_moduli, "k of each plate at the exponent [N/m^(n+2)]")
       .def("__repr__", [](const PlateFit& f) {
         return fmt::format("PlateFit(exponent={:.4g}, k_c={:.4g}, k_phi={:.4g})", f.exponent, f.k_c, f.k_phi);
@@ -91,7 +94,8 @@ void bind_janosi(py::module_& module) {
         return compare::fit_janosi({.displacement = numbers(displacement), .shear_stress = numbers(shear_stress)});
       },
       py::arg("displacement"), py::arg("shear_stress"),
-      "Least squares in tau; displacements j > 0 [m], stresses [Pa]. Raises InputError for fewer than four points.");
+      "Least squares in tau; displacements j > 0 [m] and stresses [Pa], arrays of one shape (readings,). Raises "
+      "InputError for fewer than four points.");
 }
 
 }  // namespace

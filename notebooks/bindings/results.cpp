@@ -32,7 +32,9 @@ py::dict budget_of(const TractionResult& result) {
 
 void bind_result(py::module_& module) {
   using R = TractionResult;
-  py::class_<R> result(module, "TractionResult", "The answer of a model or of a measurement at one condition.");
+  py::class_<R> result(module, "TractionResult",
+                       "The answer of a model or of a measurement at one condition; the four channels are Estimates, "
+                       "value and std_error.");
   result.def_readonly("at", &R::at);
   for (const TractionChannel& channel : traction_channels)
     result.def_readonly(channel.name.data(), channel.predicted, channel.meaning);
@@ -59,11 +61,9 @@ void bind_result(py::module_& module) {
       .def_readonly("without_error_of", &R::without_error_of,
                     "parameters of the soil that the standard errors leave out: the results have no derivative by them")
       .def("__repr__", [](const R& r) {
-        const std::string side =
-            r.lateral_force.value == 0.0 ? "" : ", lateral_force=" + compare::number(r.lateral_force) + " N";
         return "TractionResult(drawbar_pull=" + compare::number(r.drawbar_pull) +
-               " N, torque=" + compare::number(r.torque) + " N m, sinkage=" + compare::number(r.sinkage) + " m" + side +
-               ")";
+               " N, torque=" + compare::number(r.torque) + " N m, sinkage=" + compare::number(r.sinkage) +
+               " m, lateral_force=" + compare::number(r.lateral_force) + " N)";
       });
   module.def(
       "channels",
@@ -88,7 +88,8 @@ void bind_models(py::module_& module) {
             return unlocked([&] { return model.evaluate(scenario, at); });
           },
           py::arg("scenario"), py::arg("at"),
-          "Raises InputError where the scenario lacks what the model needs, NoSolution where it has no answer.");
+          "The answer at one condition, a TractionResult [SI]. Raises InputError where the scenario lacks what the "
+          "model needs, NoSolution where it has no answer.");
   using bekker_wong::BekkerWong;
   py::class_<BekkerWong, Model>(module, "BekkerWong", "The Bekker / Wong-Reece model (docs/reference/conventions.md).")
       .def(py::init([](bool errors, bool patch) { return BekkerWong({.errors = errors, .patch = patch}); }),
@@ -106,7 +107,8 @@ void bind_models(py::module_& module) {
         return unlocked([&] { return compare::sweep(model, scenario, conditions, told); });
       },
       py::arg("model"), py::arg("scenario"), py::arg("conditions"), py::arg("progress") = py::none(),
-      "Each condition in turn; one without solution carries its error. progress: called with (share done, stage).");
+      "A list of Answers, one for each condition, in their order; one without solution carries its error. progress: "
+      "called with (share done 0 .. 1, stage).");
 }
 
 void bind_explanation(py::module_& module) {

@@ -80,8 +80,8 @@ void bind_rolled(py::module_& module) {
 void bind_limits(py::module_& module) {
   using bekker_wong::PullPeak;
   py::class_<PullPeak>(module, "PullPeak", "The largest drawbar pull [N] and the slip that gives it.")
-      .def_readonly("slip", &PullPeak::slip)
-      .def_readonly("drawbar_pull", &PullPeak::drawbar_pull)
+      .def_readonly("slip", &PullPeak::slip, "[-]")
+      .def_readonly("drawbar_pull", &PullPeak::drawbar_pull, "[N]")
       .def("__repr__", [](const PullPeak& p) {
         return fmt::format("PullPeak(slip={:.4g}, drawbar_pull={:.4g} N)", p.slip, p.drawbar_pull);
       });
@@ -123,9 +123,9 @@ void bind_closed_forms(py::module_& module) {
   form("bekker_static_sinkage", &bekker_wong::bekker_static_sinkage,
        "Bekker's static sinkage of a towed rigid wheel [m] (Bekker 1956). load [N] >= 0.");
   form("rolling_resistance", &bekker_wong::rolling_resistance,
-       "Bekker's rolling resistance of a towed rigid wheel [N] (Bekker 1956).");
+       "Bekker's rolling resistance of a towed rigid wheel [N] (Bekker 1956). load [N] >= 0.");
   form("critical_ground_pressure", &bekker_wong::critical_ground_pressure,
-       "Wong's critical ground pressure [Pa]: a tire harder than this rolls as if rigid.");
+       "Wong's critical ground pressure [Pa]: a tire harder than this rolls as if rigid. load [N] >= 0.");
 }
 
 void bind_presumptions(py::module_& module) {
@@ -133,7 +133,7 @@ void bind_presumptions(py::module_& module) {
                                     "A value that an effect takes although the wheel does not declare it.")
       .def_readonly("key", &bekker_wong::Presumed::key, "as in a tire file: 'lugs.height'")
       .def_readonly("value", &bekker_wong::Presumed::value, "[SI]")
-      .def_readonly("words", &bekker_wong::Presumed::words, "'lugs.height = 12.5 mm (5 % of the radius)'");
+      .def_readonly("words", &bekker_wong::Presumed::words, "'lug height = 12.5 mm (5 % of the radius)'");
   module.def(
       "presumed",
       [](const EffectName& effect, const Tire& tire) {

@@ -100,7 +100,7 @@ class Values(unittest.TestCase):
     def test_what_is_shown_carries_its_error(self):
         self.assertEqual(repr(soilbin.Estimate(28.04, 1.5)), "Estimate(28.0 ± 1.5)")
         self.assertEqual(str(soilbin.Estimate(28.04)), "28.04")
-        self.assertRegex(repr(soilbin.estimate(ROVER, AT)), r"TractionResult\(drawbar_pull=\S+ ± \S+ N, torque=")
+        self.assertRegex(repr(soilbin.estimate(ROVER, AT)), r"TractionResult\(drawbar_pull=\S+ ± \S+ N, torque=.*lateral_force=0 N")
         self.assertIn("friction_angle=Estimate(0.489 ± 0.049)", repr(ROVER.soil.semi_empirical))
         with self.assertRaises(soilbin.InputError):
             soilbin.Estimate(1.0, -0.1)
@@ -142,6 +142,14 @@ class Errors(unittest.TestCase):
                 wrong()
             self.assertIn(right, str(caught.exception))
             self.assertIsNone(caught.exception.line)
+
+    def test_a_percentage_is_answered_with_the_share(self):
+        with self.assertRaisesRegex(soilbin.InputError, r"slip: 20 is out of range, which is -1 \.\. 1, did you mean 0\.2 \(20 %\)\?"):
+            soilbin.estimate(ROVER, load=65, slip=20)
+        for wrong in (lambda: soilbin.estimate(ROVER, load=65, slip=200), lambda: ROVER.soil.semi_empirical.replace(exponent=soilbin.Estimate(20))):
+            with self.assertRaises(soilbin.InputError) as caught:
+                wrong()
+            self.assertNotIn("did you mean", str(caught.exception))
 
     def test_keywords_are_checked(self):
         with self.assertRaisesRegex(TypeError, "did you mean 'radius'"):

@@ -757,7 +757,8 @@ def write_soil(soil: Soil) -> str:
     """The soil as a YAML file's text."""
 
 class TractionResult:
-    """The answer of a model or of a measurement at one condition."""
+    """The answer of a model or of a measurement at one condition; the four channels are Estimates, value and std_error.
+    """
     @property
     def at(self) -> OperatingCondition: ...
     @property
@@ -820,7 +821,9 @@ class Model:
     @property
     def name(self) -> str: ...
     def evaluate(self, scenario: Scenario, at: OperatingCondition) -> TractionResult:
-        """Raises InputError where the scenario lacks what the model needs, NoSolution where it has no answer."""
+        """The answer at one condition, a TractionResult [SI]. Raises InputError where the scenario lacks what the model
+        needs, NoSolution where it has no answer.
+        """
 
 class BekkerWong(Model):
     """The Bekker / Wong-Reece model (docs/reference/conventions.md)."""
@@ -830,7 +833,8 @@ class BekkerWong(Model):
         """
 
 def answers(model: Model, scenario: Scenario, conditions: Sequence[OperatingCondition], progress: Optional[Told] = ...) -> list[Answer]:
-    """Each condition in turn; one without solution carries its error. progress: called with (share done, stage).
+    """A list of Answers, one for each condition, in their order; one without solution carries its error. progress:
+    called with (share done 0 .. 1, stage).
     """
 
 class Step:
@@ -881,7 +885,7 @@ class Presumed:
         """[SI]"""
     @property
     def words(self) -> str:
-        """'lugs.height = 12.5 mm (5 % of the radius)'"""
+        """'lug height = 12.5 mm (5 % of the radius)'"""
 
 def presumed(effect: Union[EffectChoice, str], tire: Tire) -> list[Presumed]:
     """What an effect takes for values that the tire does not declare; empty where the tire declares all that it reads.
@@ -934,9 +938,11 @@ class RollingWheel:
 class PullPeak:
     """The largest drawbar pull [N] and the slip that gives it."""
     @property
-    def slip(self) -> float: ...
+    def slip(self) -> float:
+        """[-]"""
     @property
-    def drawbar_pull(self) -> float: ...
+    def drawbar_pull(self) -> float:
+        """[N]"""
 
 def largest_pull(scenario: Scenario, at: OperatingCondition) -> PullPeak:
     """Largest drawbar pull over 0 <= slip <= 1; the slip of `at` is not read. Raises NoSolution where no slip has a
@@ -954,10 +960,10 @@ def bekker_static_sinkage(scenario: Scenario, load: float) -> float:
     """Bekker's static sinkage of a towed rigid wheel [m] (Bekker 1956). load [N] >= 0."""
 
 def rolling_resistance(scenario: Scenario, load: float) -> float:
-    """Bekker's rolling resistance of a towed rigid wheel [N] (Bekker 1956)."""
+    """Bekker's rolling resistance of a towed rigid wheel [N] (Bekker 1956). load [N] >= 0."""
 
 def critical_ground_pressure(scenario: Scenario, load: float) -> float:
-    """Wong's critical ground pressure [Pa]: a tire harder than this rolls as if rigid."""
+    """Wong's critical ground pressure [Pa]: a tire harder than this rolls as if rigid. load [N] >= 0."""
 
 class EnergyLedger:
     """Where the motor's work went, from the start [J]."""
@@ -1042,11 +1048,12 @@ class PlateTest:
         """b [m]; of a strip half the width"""
     @property
     def pressure(self) -> Array:
-        """[Pa]"""
+        """[Pa], shape (readings,)"""
     @property
     def sinkage(self) -> Array:
-        """[m]"""
-    def __init__(self, radius: float, pressure: Union[Array, Sequence[float]], sinkage: Union[Array, Sequence[float]]) -> None: ...
+        """[m], shape (readings,)"""
+    def __init__(self, radius: float, pressure: Union[Array, Sequence[float]], sinkage: Union[Array, Sequence[float]]) -> None:
+        """radius [m]; pressure [Pa] and sinkage [m]: arrays of one shape (readings,)."""
 
 class PlateCurve:
     """Sinkage [m] against pressure [Pa] of one plate; no zeros."""
@@ -1055,11 +1062,12 @@ class PlateCurve:
         """b [m]; of a strip half the width"""
     @property
     def pressure(self) -> Array:
-        """[Pa]"""
+        """[Pa], shape (readings,)"""
     @property
     def sinkage(self) -> Array:
-        """[m]"""
-    def __init__(self, radius: float, pressure: Union[Array, Sequence[float]], sinkage: Union[Array, Sequence[float]]) -> None: ...
+        """[m], shape (readings,)"""
+    def __init__(self, radius: float, pressure: Union[Array, Sequence[float]], sinkage: Union[Array, Sequence[float]]) -> None:
+        """radius [m]; pressure [Pa] and sinkage [m]: arrays of one shape (readings,)."""
 
 class PlateExponent:
     """How one exponent comes from several plates."""
@@ -1085,7 +1093,7 @@ class PlateFit:
         """[N/m^(n+2)]; may come out negative where the plates disagree with Bekker's form"""
     @property
     def plate_exponents(self) -> list[float]:
-        """of each plate by itself"""
+        """n of each plate by itself [-]"""
     @property
     def plate_moduli(self) -> list[float]:
         """k of each plate at the exponent [N/m^(n+2)]"""
@@ -1116,7 +1124,8 @@ class JanosiFit:
         """of what is left [Pa]"""
 
 def fit_janosi(displacement: Union[Array, Sequence[float]], shear_stress: Union[Array, Sequence[float]]) -> JanosiFit:
-    """Least squares in tau; displacements j > 0 [m], stresses [Pa]. Raises InputError for fewer than four points.
+    """Least squares in tau; displacements j > 0 [m] and stresses [Pa], arrays of one shape (readings,). Raises
+    InputError for fewer than four points.
     """
 
 class NormalLaw:

@@ -42,7 +42,9 @@ __all__ = [
 
 
 def explain(scenario: Scenario, at: Optional[OperatingCondition] = None, **condition: Any) -> Explanation:
-    """The model's equations with their values: explain(wheel, load=80, slip=0.2). Raises as estimate."""
+    """The model's equations with their values: explain(wheel, load=80, slip=0.2). Keywords and errors as of estimate;
+    each step's value is in its own `unit`.
+    """
     return _soilbin.explain(checked(scenario), one_condition(at, condition))
 
 
@@ -51,15 +53,15 @@ def at_any_slip(at: Optional[OperatingCondition], condition: dict[str, Any]) -> 
 
 
 def largest_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, **condition: Any) -> PullPeak:
-    """Largest drawbar pull over 0 <= slip <= 1: largest_pull(wheel, load=80). The slip of `at` is not read. Raises
-    NoSolution where no slip has a balance.
+    """Largest drawbar pull [N] over 0 <= slip <= 1, and its slip [-]: largest_pull(wheel, load=80). The slip of `at` is
+    not read. Keywords as of estimate. Raises NoSolution where no slip has a balance.
     """
     return _soilbin.largest_pull(checked(scenario), at_any_slip(at, condition))
 
 
 def slip_for_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, drawbar: float = 0.0,
                   **condition: Any) -> Optional[float]:
-    """Smallest slip above -0.5 at which the wheel pulls `drawbar` [N] on the slope of `at`; None where it can't."""
+    """Smallest slip [-] above -0.5 at which the wheel pulls `drawbar` [N] on the slope of `at`; None where it can't."""
     return _soilbin.slip_for_pull(checked(scenario), at_any_slip(at, condition), drawbar)
 
 
@@ -82,5 +84,5 @@ def drive_wheel(scenario: Scenario, drive: Optional[Drive], samples: int = 400,
 
 
 def drive_frame(record: DriveRecord) -> pd.DataFrame:
-    """A drive's samples, a row a time; SI and radians, works in J since the start."""
+    """A drive's samples, a row a time [s]; SI and radians, works in J since the start."""
     return pd.DataFrame(record.samples)

@@ -141,7 +141,7 @@ def record_runs(case: Union[Case, str], file: Union[str, Path], bin: Optional[So
 
 
 def samples_frame(run: WheelRun) -> pd.DataFrame:
-    """A run's samples, a row a sampling time; vectors as NAME_x, NAME_y, NAME_z. SI."""
+    """A run's samples, a row a sampling time [s]; arrays of shape (samples, 3) as columns NAME_x, NAME_y, NAME_z. SI."""
     columns = {}
     for name, values in run.samples.items():
         if values.ndim == 1:

@@ -67,8 +67,10 @@ def names(shelf: Union[Shelf, str]) -> list[str]:
 def estimate(scenario: Scenario, at: Optional[OperatingCondition] = None, **condition: Any) -> TractionResult:
     """The analytic model's answer at one condition: estimate(wheel, load=80, slip=0.2).
 
-    Keywords set or change attributes of the condition. Raises InputError for what is refused, NoSolution where the
-    wheel would bury itself.
+    Keywords set or change attributes of the condition, in SI: load [N] > 0, slip [-] in -1 .. 1 (0.2 is 20 %), speed
+    [m/s], longitudinal_incline, transverse_incline and yaw [rad], pass [-]. The result holds drawbar_pull [N], torque
+    [N m], sinkage [m] and lateral_force [N], each with value and std_error, tractive_efficiency [-], and the arrays of
+    `patch`, of shape (nodes,). Raises InputError for what is refused, NoSolution where the wheel would bury itself.
     """
     return BekkerWong().evaluate(checked(scenario), one_condition(at, condition))
 
