@@ -124,8 +124,8 @@ std::string markdown_page(const CLI::App& app) {
   std::string page =
       "# The commands\n\n"
       "Every command with its options, as `soilbin COMMAND --help` shows them. This page is written by\n"
-      "`soilbin manual --markdown`, and a test holds it to that. Numbers carry their unit: `80N`, `110mm`, `20%`, `5deg`. Errors\nand "
-      "exit statuses: [errors.md](errors.md).\n\n| command | what it does |\n|---|---|\n";
+      "`soilbin manual --markdown`, and a test holds it to that. Numbers carry their unit: `80N`, `110mm`, `20%`, "
+      "`5deg`. Errors\nand exit statuses: [errors.md](errors.md).\n\n| command | what it does |\n|---|---|\n";
   const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
   std::string heading;
   for (const CLI::App* command : commands) {
