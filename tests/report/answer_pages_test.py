@@ -115,6 +115,14 @@ class Pages(unittest.TestCase):
         self.assertTrue(self.browser.until(f"{fold} && {fold}.open"))
         self.assertTrue(self.browser.until(f"{fold}.querySelectorAll('svg.live circle').length > 2"))
 
+    def test_no_two_ticks_of_an_axis_bear_the_same_number(self):
+        self.show("reproduction")
+        twice = self.js("""(() => {
+          for (const fold of document.querySelectorAll('details')) fold.open = true;
+          return [...document.querySelectorAll('svg.live .axis')].map(axis => [...axis.querySelectorAll('text')]
+            .map(t => t.textContent)).filter(all => new Set(all).size < all.length); })()""")
+        self.assertEqual(twice, [])
+
     def test_the_sliders_of_the_failure_map_change_it(self):
         self.show("map")
         self.assertEqual(self.js("document.querySelector('h1').textContent"), "Where may I trust the quick estimate?")

@@ -125,11 +125,15 @@ soilbin.Chart = class {
 
   drawAxes(frame) {
     const {svg, plot} = this;
-    const format = scale => { const own = scale.tickFormat(5); return value => own(value).replace('-', '\u2212'); };
+    // A tick's digits follow from how many ticks there are: one count for both.
+    const ticked = (axis, scale, count) => {
+      const own = scale.tickFormat(count);
+      return axis(scale).ticks(count).tickFormat(value => own(value).replace('-', '\u2212'));
+    };
     svg.append('g').attr('class', 'axis lines').attr('transform', `translate(${frame.left},0)`)
-      .call(d3.axisLeft(frame.y).ticks(5).tickSize(frame.left - frame.right).tickFormat(format(frame.y)));
+      .call(ticked(d3.axisLeft, frame.y, 5).tickSize(frame.left - frame.right));
     svg.append('g').attr('class', 'axis').attr('transform', `translate(0,${frame.bottom})`)
-      .call(d3.axisBottom(frame.x).ticks(Math.max(3, frame.width / 80)).tickSizeOuter(0).tickFormat(format(frame.x)));
+      .call(ticked(d3.axisBottom, frame.x, Math.max(3, frame.width / 80)).tickSizeOuter(0));
     svg.append('text').attr('class', 'ink title').attr('x', 4).attr('y', 17).text(plot.title);
     svg.append('text').attr('class', 'quiet').attr('text-anchor', 'middle').attr('x', (frame.left + frame.right) / 2)
       .attr('y', frame.height - 6).text(plot.x.title);
