@@ -113,6 +113,8 @@ std::vector<ServedAnswer> answers_to(const Setup& setup, const std::string& quer
   return sides;
 }
 
+std::string title_of(const Case& question) { return in_words(question.scenario.tire); }
+
 std::string question_in_words(const Case& question) {
   return in_words(question.scenario.tire) + " on " + compare::in_words(question.scenario.soil) + ", " +
          compare::in_words(question.study.conditions.front());
@@ -133,7 +135,7 @@ void add_refusal(Json& document, const ServedAnswer& one) {
 /// Self-contained HTML with the reports' style, charts and d3; where d3 isn't installed the page says so, and shows
 /// numbers without curves.
 std::string live_page(const Setup& setup) {
-  compare::Page page(in_words(setup.ask({}).question.scenario.tire),
+  compare::Page page(title_of(setup.ask({}).question),
                      "By the analytic model of soilbin estimate: move a number, and everything follows.");
   const std::vector<compare::EmbeddedFile> own = live_files();
   page.raw("<style>\n" + compare::embedded(own, "live.css") + "</style>\n");
@@ -154,6 +156,7 @@ Reply estimate_reply(const Setup& setup, const std::string& query) {
   compare::tell_doubts(document, compare::doubts(question, first.point));
   document["command"] = command_line(first.asked.words);
   document["in_words"] = question_in_words(question);
+  document["title"] = title_of(question);
   document["readings"] = readings_json(first);
   document["numbers"] = numbers_json(question);
   document["effects"] = effect_values_json(question);

@@ -205,6 +205,7 @@ Json to_json(const Sheet& sheet) {
            {"color", fmt::format("{}{}", sheet.palette == Palette::named ? 'c' : 'q', color_of(sheet, series))},
            {"dash", series.dash}});
       if (shifts[s] != 0.0) one["series"].back()["shift"] = shifts[s];  // [px]
+      if (!series.band) one["series"].back()["band"] = false;
     }
     json["plots"].push_back(std::move(one));
   }

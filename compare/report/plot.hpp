@@ -25,6 +25,7 @@ struct Series {
   std::string label{};  ///< in the legend; empty: not there. Series with one label share an entry.
   std::vector<double> x{}, y{};
   std::vector<double> error{};  ///< one standard error of each y: a band along lines, bars at points; empty: none
+  bool band = true;             ///< whether its errors are drawn; else readings alone tell them
   std::vector<double> base{};   ///< as long as y: fills from there to y, with no line; for parts piled up. Empty: none
   Mark mark = Mark::line;
   int color = 0;  ///< from 0, of the sheet's palette
@@ -82,7 +83,8 @@ std::vector<double> ticks(double lower, double upper, int count);
 // A sheet of plots as data: for the scripts of a page, and for who wants a figure's numbers.
 
 /// {"title", "plots": [{"title", "x": {"title", "lower", "upper"}, "y", "series": [{"label", "x", "y", "error", "base",
-/// "mark", "color": "c0", "dash"}]}]}; numbers have six digits, and what is not a number is null.
+/// "mark", "color": "c0", "dash"}]}]}; numbers have six digits, and what is not a number is null. Where there is one,
+/// "shift" [px] of the points; "band": false where errors are told and not drawn.
 nlohmann::ordered_json to_json(const Sheet& sheet);
 
 /// The same as CSV, a row a point: plot, series, x, y (of an area what it adds to the pile), error.

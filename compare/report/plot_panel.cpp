@@ -20,14 +20,16 @@ struct Span {
   double length() const { return upper - lower; }
 };
 
+/// The error that is drawn.
 double error_at(const Series& series, std::size_t i) {
-  const double error = i < series.error.size() ? series.error[i] : 0.0;
+  const double error = series.band && i < series.error.size() ? series.error[i] : 0.0;
   return std::isfinite(error) ? error : 0.0;
 }
 
 /// Whether its errors are bars at its points, which may hide those of another series.
 bool has_bars(const Series& series) {
-  return (series.mark == Mark::points || series.y.size() == 1) && !series.error.empty() && series.base.empty();
+  return (series.mark == Mark::points || series.y.size() == 1) && series.band && !series.error.empty() &&
+         series.base.empty();
 }
 
 bool share_a_place(const Series& a, const Series& b) {
@@ -158,7 +160,7 @@ std::vector<std::pair<std::size_t, std::size_t>> unbroken(const Series& series) 
 std::string band(const Sheet& sheet, const Series& series, const Frame& f) {
   std::string out;
   const bool area = !series.base.empty();
-  if (!area && (series.error.empty() || series.mark == Mark::points)) return out;
+  if (!area && (series.error.empty() || !series.band || series.mark == Mark::points)) return out;
   for (const auto& [first, last] : unbroken(series)) {
     std::string upper, lower;
     for (std::size_t i = first; i < last; ++i) {

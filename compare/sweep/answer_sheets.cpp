@@ -45,8 +45,7 @@ Plot empty_plot(const Shown& shown) {
 std::string join(const std::string& a, const std::string& b) { return a.empty() || b.empty() ? a + b : a + ", " + b; }
 
 /// A curve's points, in rising order of slip.
-Series series_of(const std::vector<Answer>& answers, const Curves& curves, std::size_t curve, const Shown& shown,
-                 bool with_band) {
+Series series_of(const std::vector<Answer>& answers, const Curves& curves, std::size_t curve, const Shown& shown) {
   std::vector<const Answer*> members;
   for (std::size_t i = 0; i < answers.size(); ++i)
     if (curves.curve_of[i] == curve) members.push_back(&answers[i]);
@@ -56,8 +55,9 @@ Series series_of(const std::vector<Answer>& answers, const Curves& curves, std::
     const Estimate y = answer->result ? shown.get(*answer->result) : Estimate{not_a_number, 0.0};
     series.x.push_back(100 * answer->at.slip);
     series.y.push_back(y.value * shown.per_unit);
-    if (with_band) series.error.push_back(y.std_error * shown.per_unit);
+    series.error.push_back(y.std_error * shown.per_unit);
   }
+  if (std::ranges::none_of(series.error, [](double error) { return error > 0.0; })) series.error.clear();
   return series;
 }
 
@@ -130,7 +130,8 @@ Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, 
     Plot plot = empty_plot(shown);
     for (std::size_t m = 0; m < study.size(); ++m)
       for (std::size_t curve = 0; curve < curves.labels.size(); ++curve) {
-        Series series = series_of(study[m].answers, curves, curve, shown, all_bands || (m == 0 && first_bands));
+        Series series = series_of(study[m].answers, curves, curve, shown);
+        series.band = all_bands || (m == 0 && first_bands);
         series.label = join(study.size() > 1 ? study[m].choice.label : "", curves.labels[curve]);
         series.color = static_cast<int>(one_curve ? m : curve);
         series.dash = one_curve ? 0 : static_cast<int>(m);

@@ -20,7 +20,10 @@ struct Peak {
   const TractionResult* pull = nullptr;        ///< largest drawbar pull
   const TractionResult* efficiency = nullptr;  ///< largest tractive efficiency while driving and pulling
   const TractionResult* last = nullptr;        ///< at the largest slip
-  std::size_t unsolved = 0;
+  std::size_t solved = 0, unsolved = 0;        ///< slips with a result; of the study's conditions those without
+
+  /// The pull still grows at the largest slip: whoever asks for more may find more.
+  bool at_the_end() const { return solved > 1 && pull == last; }
 };
 
 /// A peak for each curve of a model's answers, in the order of curves_against_slip.
@@ -36,6 +39,7 @@ std::vector<Peak> peaks(const ModelAnswers& model) {
       ++peak.unsolved;
       continue;
     }
+    ++peak.solved;
     const TractionResult& r = *model.answers[i].result;
     if (!peak.pull || r.drawbar_pull.value > peak.pull->drawbar_pull.value) peak.pull = &r;
     if (!peak.last || r.at.slip > peak.last->at.slip) peak.last = &r;
@@ -43,6 +47,15 @@ std::vector<Peak> peaks(const ModelAnswers& model) {
       peak.efficiency = &r;
   }
   return found;
+}
+
+/// The peaks of a part's model along its smooth curves, as they are drawn, where there are any.
+std::vector<Peak> peaks(const StudyPart& part, std::size_t model) {
+  std::vector<Peak> asked = peaks(part.study[model]);
+  if (model >= part.along_curves.size()) return asked;
+  std::vector<Peak> drawn = peaks(part.along_curves[model]);
+  for (std::size_t c = 0; c < drawn.size(); ++c) drawn[c].unsolved = asked.at(c).unsolved;
+  return drawn;
 }
 
 std::string force(double newton) {
@@ -55,22 +68,23 @@ std::string force(const Estimate& pull) {
   return number(pull, kilo ? 1e-3 : 1.0) + (kilo ? " kN" : " N");
 }
 
-/// "The largest pull rises from 817 N (2 kN) to 2.06 kN (8 kN)."
+/// "The largest pull rises from 817 N at 2 kN to 2.06 kN at 8 kN."
 std::string change(const Peak& first, const Peak& last) {
   const double a = first.pull->drawbar_pull.value, b = last.pull->drawbar_pull.value;
   if (std::abs(b - a) < 0.01 * std::abs(a))
     return fmt::format("From {} to {} the largest pull hardly changes.", first.label, last.label);
-  return fmt::format("The largest pull {} from {} ({}) to {} ({}){}.", b > a ? "rises" : "falls", force(a), first.label,
-                     force(b), last.label, b < 0.0 ? ", where it has to be pushed" : "");
+  return fmt::format("Curve by curve the largest pull {} from {} at {} to {} at {}{}.", b > a ? "rises" : "falls",
+                     force(a), first.label, force(b), last.label, b < 0.0 ? ", where the wheel has to be pushed" : "");
 }
 
 std::string largest_pull(const Peak& peak) {
   const TractionResult& r = *peak.pull;
-  std::string text = fmt::format("The wheel pulls at most {}{}, {:.0f} % of its load, at {:.3g} % slip",
-                                 force(r.drawbar_pull), peak.label.empty() ? "" : " (" + peak.label + ")",
-                                 100 * r.drawbar_pull.value / r.at.load, 100 * r.at.slip);
+  std::string text = fmt::format("{} largest pull is {}, {:.0f} % of the load, at {:.3g} % slip{}",
+                                 peak.label.empty() ? "The" : "At " + peak.label + " the", force(r.drawbar_pull),
+                                 100 * r.drawbar_pull.value / r.at.load, 100 * r.at.slip,
+                                 peak.at_the_end() ? ", the largest slip asked for, where it still grows" : "");
   if (peak.efficiency != nullptr)
-    text += fmt::format("; at best {:.0f} % of its power goes into pull, at {:.3g} % slip",
+    text += fmt::format("; at most {:.0f} % of the power put in goes into pull, at {:.3g} % slip",
                         100 * peak.efficiency->tractive_efficiency, 100 * peak.efficiency->at.slip);
   return text + ".";
 }
@@ -78,7 +92,7 @@ std::string largest_pull(const Peak& peak) {
 /// What another model of the study says of the same curve.
 std::string other_model(const std::string& label, const Peak& base, const Peak& other) {
   return fmt::format(
-      "With {} it is {} at {:.3g} % slip, and at {:.3g} % slip the wheel sinks {:.0f} mm where the base model says "
+      "With {} it is {} at {:.3g} % slip, and at {:.3g} % slip the wheel sinks {:.0f} mm where the first model says "
       "{:.0f} mm.",
       label, force(other.pull->drawbar_pull.value), 100 * other.pull->at.slip, 100 * other.last->at.slip,
       1000 * other.last->sinkage.value, 1000 * base.last->sinkage.value);
@@ -110,10 +124,10 @@ Table peak_table(const StudyPart& part) {
     table.header.insert(table.header.begin(), "model");
     table.text_columns.push_back(true);
   }
-  for (const ModelAnswers& model : part.study)
-    for (const Peak& peak : peaks(model)) {
+  for (std::size_t m = 0; m < part.study.size(); ++m)
+    for (const Peak& peak : peaks(part, m)) {
       table.add(peak_row(peak));
-      if (several) table.rows.back().insert(table.rows.back().begin(), model.choice.label);
+      if (several) table.rows.back().insert(table.rows.back().begin(), part.study[m].choice.label);
     }
   return table;
 }
@@ -173,18 +187,25 @@ std::string tire_words(const Tire& tire) {
   return text + (tire.source.empty() ? "." : ". Source: " + tire.source + ".");
 }
 
+/// Which of the curves have a band, and how to see the others'.
+std::string bands_in_words(const std::vector<Series>& pulls) {
+  std::size_t drawn = 0, kept_back = 0;
+  for (const Series& series : pulls)
+    if (!series.error.empty()) ++(series.band ? drawn : kept_back);
+  if (drawn + kept_back == 0) return "";
+  std::string text = drawn == 0       ? " So many bands of one standard error would hide each other: none is drawn"
+                     : kept_back == 0 ? " Bands: one standard error"
+                                      : " Bands, of solid curves alone: one standard error";
+  text += ", from the standard deviations of the soil's values; the efficiency has none.";
+  return text + (kept_back > 0 ? " Point at a name in the legend to see its band." : "");
+}
+
 void add_curves(Page& page, const StudyPart& part) {
   const Sheet sheet = study_sheet(part.curves, part.along_curves);
-  const auto has_band = [](const Series& series) {
-    return std::ranges::any_of(series.error, [](double error) { return error > 0.0; });
-  };
-  const std::vector<Series>& pulls = sheet.plots.front().series;
   page.figure(sheet, fmt::format("{} on {}. Efficiency is drawn where the wheel both drives and pulls.{}{}",
                                  part.question.scenario.tire.name, in_words(part.question.scenario.soil),
                                  part.study.size() > 1 ? fmt::format(" Dashed: {}.", part.study[1].choice.label) : "",
-                                 std::ranges::any_of(pulls, has_band)
-                                     ? " Bands: one standard error, from the standard deviations of the soil's values."
-                                     : ""));
+                                 bands_in_words(sheet.plots.front().series)));
 }
 
 /// `opens`: its curves stand at the head of the page already.
@@ -234,7 +255,7 @@ void add_provenance(Page& page, const std::vector<StudyPart>& studies, const std
 /// The curve that a study's sentence and key figure are about: the middle one of the first model that has a result.
 std::optional<Peak> shown_peak(const StudyPart& part) {
   if (part.study.empty()) return std::nullopt;
-  std::vector<Peak> solved = peaks(part.study.front());
+  std::vector<Peak> solved = peaks(part, 0);
   std::erase_if(solved, [](const Peak& peak) { return peak.pull == nullptr; });
   if (solved.empty()) return std::nullopt;
   return solved[(solved.size() - 1) / 2];
@@ -250,7 +271,7 @@ std::vector<KeyFigure> key_figures(const std::vector<StudyPart>& studies, const 
           {force(r.drawbar_pull),
            fmt::format("largest drawbar pull of {} on {}{}: {:.0f} % of the load, at {:.3g} % slip ({})",
                        part.question.scenario.tire.name, in_words(part.question.scenario.soil),
-                       peak->label.empty() ? "" : ", " + peak->label, 100 * r.drawbar_pull.value / r.at.load,
+                       peak->label.empty() ? "" : " at " + peak->label, 100 * r.drawbar_pull.value / r.at.load,
                        100 * r.at.slip, part.question.study.name)});
     }
   for (const CampaignPart& part : campaigns)
@@ -267,7 +288,7 @@ std::vector<KeyFigure> key_figures(const std::vector<StudyPart>& studies, const 
 
 std::string in_words(const StudyPart& part) {
   if (part.study.empty()) return "";
-  const std::vector<Peak> base = peaks(part.study.front());
+  const std::vector<Peak> base = peaks(part, 0);
   std::vector<std::size_t> solved;
   for (std::size_t i = 0; i < base.size(); ++i)
     if (base[i].pull != nullptr) solved.push_back(i);
@@ -275,7 +296,7 @@ std::string in_words(const StudyPart& part) {
   const std::size_t shown = solved[(solved.size() - 1) / 2];
   std::string text = largest_pull(base[shown]);
   for (std::size_t m = 1; m < part.study.size(); ++m) {
-    const std::vector<Peak> other = peaks(part.study[m]);
+    const std::vector<Peak> other = peaks(part, m);
     if (other[shown].pull != nullptr)
       text.append(" ").append(other_model(part.study[m].choice.label, base[shown], other[shown]));
   }

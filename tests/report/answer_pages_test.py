@@ -3,6 +3,8 @@ figure that shows it next, each control does what it says, nothing is asked for 
 
 Usage: answer_pages_test.py SOILBIN SOURCES     skipped (exit status 77) where no Chromium is installed
 """
+import base64
+import re
 import subprocess
 import sys
 import tempfile
@@ -15,6 +17,7 @@ SOURCES = Path(sys.argv.pop(2))
 SOILBIN = sys.argv.pop(1)
 
 COMMANDS = {
+    "start": ["report", "paper-straight", "paper-longitudinal", "--measured", "cmu-smooth"],
     "loop": ["loop", "docs/guide/first-campaign", "--folds", "2"],
     "scattered": ["loop", "made-lesson", "--folds", "2"],
     "reproduction": ["reproduce"],
@@ -44,7 +47,8 @@ class Pages(unittest.TestCase):
         """The page of a command, made once. A store whose runs are of another engine has no map to show."""
         if name not in self.pages:
             page = Path(self.scratch.name) / f"{name}.html"
-            done = subprocess.run([SOILBIN, *COMMANDS[name], "--report", str(page)], cwd=SOURCES, capture_output=True, text=True)
+            flag = "--output" if COMMANDS[name][0] == "report" else "--report"
+            done = subprocess.run([SOILBIN, *COMMANDS[name], flag, str(page)], cwd=SOURCES, capture_output=True, text=True)
             if "have an answer of both models" in done.stderr:
                 self.skipTest(done.stderr.splitlines()[-1])
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -141,8 +145,58 @@ class Pages(unittest.TestCase):
         self.js(slide.format(0))
         self.assertIn("lug height 15 mm", self.js(f"{figure}.querySelector('.cell').dataset.tip"))
 
+    def test_the_start_page_tells_the_peaks_that_it_draws(self):
+        self.show("start")
+        sheet = "JSON.parse(document.getElementById('figures').textContent)['figure-1']"
+        of = lambda plot, label: self.js(f"{sheet}.plots.find(p => p.title.startsWith('{plot}')).series.find(s => s.label === {label!r})")
+        text = self.js("document.querySelector('.summary p').textContent").replace("\u00a0", " ")
+        told = re.search(r"At (.*?) the largest pull is ([0-9.]+)(?: ± [0-9.]+)? kN, .*? at ([0-9.]+) % slip.*?; "
+                         r"at most ([0-9]+) % of the power put in goes into pull, at ([0-9.]+) % slip", text)
+        self.assertTrue(told, text)
+        label = self.js(f"{sheet}.plots[0].series[1].label")
+        self.assertTrue(label.endswith(told[1]), label)
+        pull, efficiency = of("Drawbar", label), of("Tractive", label)
+        most = max(range(len(pull["y"])), key=lambda i: pull["y"][i])
+        best = max(range(len(efficiency["y"])), key=lambda i: efficiency["y"][i] or 0)
+        self.assertAlmostEqual(1000 * float(told[2]), pull["y"][most], delta=10)
+        self.assertAlmostEqual(float(told[3]), pull["x"][most], delta=0.1)
+        self.assertEqual(float(told[4]), round(efficiency["y"][best]))
+        self.assertAlmostEqual(float(told[5]), efficiency["x"][best], delta=0.1)
+
+    def test_the_start_page_says_which_curves_have_a_band_and_shows_the_others_when_pointed_at(self):
+        self.show("start")
+        bands = "document.querySelector('#figure-1 .chart').querySelectorAll('path.band').length"
+        series = self.js("JSON.parse(document.getElementById('figures').textContent)['figure-1'].plots[0].series")
+        drawn = [s for s in series if s["error"] and s.get("band", True)]
+        kept_back = [s for s in series if s["error"] and not s.get("band", True)]
+        self.assertEqual(len(drawn) + len(kept_back), len(series), "each curve knows its errors")
+        self.assertEqual({s["dash"] for s in drawn}, {0})
+        self.assertEqual({s["dash"] for s in kept_back}, {1})
+        self.assertIn("Bands, of solid curves alone", self.js("document.querySelector('#figure-1 figcaption').textContent"))
+        self.assertEqual(self.js(bands), len(drawn))
+        name = f"[...document.querySelectorAll('#figure-1 .legend button')].find(b => b.textContent === {kept_back[0]['label']!r})"
+        self.js(f"{name}.focus()")
+        self.assertEqual(self.js(bands), len(drawn) + 1)
+        self.js(f"{name}.blur()")
+        self.assertEqual(self.js(bands), len(drawn))
+
+    def test_a_table_that_goes_on_by_a_few_pixels_shows_it(self):
+        self.show("start")
+        self.browser.size(500, 900)
+        for beyond in (8, 12, 300):
+            place = self.js(f"""(() => {{ const box = document.querySelector('.scroll'), table = box.querySelector('table');
+              table.style.minWidth = table.style.width = (box.clientWidth + {beyond}) + 'px'; table.style.tableLayout = 'fixed';
+              table.replaceChildren(); box.style.height = '60px'; box.scrollIntoView();
+              const r = box.getBoundingClientRect(); return [r.right - 1 - Math.min({beyond}, 10), r.top + 30, r.left + r.width / 2]; }})()""")
+            picture = base64.b64encode(self.browser.screen()).decode()
+            shades = self.js(f"""(async () => {{ const image = new Image(); image.src = 'data:image/png;base64,{picture}';
+              await image.decode(); const c = document.createElement('canvas'); c.width = image.width; c.height = image.height;
+              const x = c.getContext('2d'); x.drawImage(image, 0, 0);
+              return [{place[0]} + 1, {place[2]}].map(at => x.getImageData(at, {place[1]}, 1, 1).data[0]); }})()""")
+            self.assertLess(shades[0], shades[1] - 15, f"{beyond} px beyond the edge")
+
     def test_all_fit_a_phone_a_desk_and_the_dark(self):
-        for name in ("loop", "scattered", "reproduction", "map"):  # the map last: it may have nothing to show
+        for name in ("start", "loop", "scattered", "reproduction", "map"):  # the map last: it may have nothing to show
             self.show(name)
             browser.assert_fits_a_phone_a_desk_and_the_dark(self, self.browser)
 

@@ -144,6 +144,10 @@ class Browser:
     def mouse(self, kind, x, y, **more):
         self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)
 
+    def screen(self):
+        """What is in sight, as the bytes of a PNG."""
+        return base64.b64decode(self.call("Page.captureScreenshot")["data"])
+
     def picture(self, path, whole=True):
         params = {}
         if whole:

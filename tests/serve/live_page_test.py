@@ -166,6 +166,8 @@ class ThePage(unittest.TestCase):
             self.move(key, value)
             self.assertNotEqual(self.pull(), before, key)
             self.assertNotEqual(self.wheel(), drawn if key != "width" else "", key)
+        for title in ("document.title", "document.querySelector('h1').textContent"):
+            self.assertIn("b 200 mm", self.js(title))
         self.move("inflation-pressure", 120, "box")
         self.assertIn("--inflation-pressure=120kPa", self.command())
         self.move("inflation-pressure", "''", "box")
@@ -203,6 +205,18 @@ class ThePage(unittest.TestCase):
         self.choose("A second soil", "")
         self.choose("A second tire", "utility-vehicle")
         self.assertTrue(self.browser.until("document.getElementById('chosen').textContent.includes('utility-vehicle')"))
+        for width in (500, 1400):
+            self.browser.size(width, 900)
+            covered = """(() => [...document.querySelectorAll('.chart')].filter(chart => {
+              const buttons = chart.querySelector('.zoom').getBoundingClientRect();
+              return [...chart.querySelectorAll('.title')].some(title => {
+                const words = title.getBoundingClientRect();
+                return words.right > buttons.left && words.top < buttons.bottom && words.bottom > buttons.top; }); }).length)()"""
+            self.assertTrue(self.browser.until(f"{covered} === 0"), "titles under the buttons")
+        self.browser.size(1600, 1000)
+        points = self.js("soilbin.live.answer.curves.plots.flatMap(p => p.series.filter(s => s.label.endsWith('this point')))"
+                         ".map(s => [s.x[0], s.shift || 0].join())")
+        self.assertEqual(set(points), {"20,0"}, "both stand on their slip")
         self.choose("A second tire", "")
         self.assertTrue(self.browser.until(f"{lines} === 5"))
         self.assertEqual(self.js("document.querySelectorAll('#budget .chart').length"), 1)
@@ -236,8 +250,11 @@ class ThePage(unittest.TestCase):
             self.assertIn(begins, text[:400])
 
     def test_6b_an_impossible_load_offers_one_that_is_possible(self):
+        before = self.pull()
         self.move("load", 2000000, "box")
         self.assertTrue(self.browser.until("document.getElementById('carried') !== null"))
+        self.assertEqual(self.pull(), before, "the last curves stay")
+        self.assertRegex(self.js("document.getElementById('carried').textContent"), "^Set the load to [0-9.]+ kN$")
         self.js("document.getElementById('carried').click()")
         self.assertTrue(self.browser.until("!soilbin.live.asking && !soilbin.live.refused"))
         self.browser.errors.clear()
@@ -253,6 +270,16 @@ class ThePage(unittest.TestCase):
         self.move("slip", 20, "box")
         self.assertTrue(self.browser.until("!document.getElementById('say').textContent.includes('out of range')"))
         self.browser.errors.clear()  # the browser itself notes each status 400
+
+    def test_6c_an_emptied_box_says_what_holds(self):
+        self.move("load", 2000000, "box")
+        self.assertTrue(self.browser.until("document.getElementById('say').textContent.includes('no solution')"))
+        self.js("(e => { e.value = ''; e.dispatchEvent(new Event('input')); })(soilbin.live.numbers.get('load').box)")
+        said = self.js("document.getElementById('say').textContent")
+        self.assertNotIn("no solution", said)
+        self.assertIn("a number is missing", said)
+        self.browser.errors.clear()
+        self.reset()
 
     def test_7_kept_curves_stay_beside_the_new_ones(self):
         self.js("document.getElementById('keep').click()")

@@ -98,7 +98,7 @@ soilbin.Live = class {
     slider.setAttribute('aria-label', meaning.length < 40 ? meaning : title);
     if (doubtful) deviation.setAttribute('aria-label', `Standard deviation of ${title}`);
     const moved = (from, to) => {
-      if (from.value === '') return value === null && changed('');
+      if (from.value === '') return value === null ? changed('') : this.complain(`${title}: a number is missing`, 'the last one holds until there is another');
       to.value = from.value;
       slider.setAttribute('aria-valuetext', `${from.value} ${unit}`);
       changed(doubtful ? `${box.value}+-${deviation.value || 0}${unit}` : soilbin.quantity(from.value, unit));
@@ -224,8 +224,10 @@ soilbin.Live = class {
     const second = answer.beside && answer.beside.error ? `${answer.beside.label}: ${answer.beside.error}` : '';
     this.complain(answer.error || second || (answer.warnings || []).join('; '), answer.hint || (second && answer.beside.hint));
     if (answer.carried_load) this.offerLoad(answer.carried_load);
-    document.querySelector('.results').classList.toggle('stale', !answer.curves);
-    if (!answer.curves) return;
+    const drawn = answer.curves && answer.curves.plots.some(plot => plot.series.some(s => s.y.some(y => y !== null)));
+    document.querySelector('.results').classList.toggle('stale', !drawn);
+    if (!answer.curves || (!drawn && this.answer)) return;
+    document.title = document.querySelector('h1').textContent = answer.title;
     soilbin.part('chosen').textContent = answer.in_words + (answer.beside ? `; beside it ${answer.beside.in_words}` : '');
     soilbin.part('command').textContent = answer.command + (answer.beside ? `\n${answer.beside.command}` : '');
     for (const [id, target] of [['save-case', 'case.yaml'], ['save-csv', 'curves.csv']]) soilbin.part(id).href = `${target}?${this.state}`;
@@ -247,7 +249,7 @@ soilbin.Live = class {
   // A load that the soil carries, in place of one that it does not: a little below the largest.
   offerLoad(newton) {
     const load = Number((0.98 * newton).toPrecision(3));
-    const button = soilbin.make('button', {type: 'button', id: 'carried', textContent: `Set the load to ${soilbin.formatNumber(load)} N`});
+    const button = soilbin.make('button', {type: 'button', id: 'carried', textContent: `Set the load to ${soilbin.formatForce(load)}`});
     button.addEventListener('click', () => {
       const {box} = this.numbers.get('load');
       box.value = load;

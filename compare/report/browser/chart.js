@@ -12,6 +12,22 @@ soilbin.formatNumber = function (value) {
   return text.replace('-', '\u2212');
 };
 
+// 127000 as '127 kN', with four digits at most.
+soilbin.formatForce = function (newton) {
+  return Math.abs(newton) < 1000 ? `${soilbin.formatNumber(newton)} N` : `${soilbin.formatNumber(newton / 1000)} kN`;
+};
+
+// A text in lines of so many pixels, as far as its words allow; `letter` is a letter's width, near enough.
+soilbin.linesOf = function (text, width, letter) {
+  const lines = [''];
+  for (const word of text.split(' ')) {
+    const longer = lines[lines.length - 1] ? `${lines[lines.length - 1]} ${word}` : word;
+    if (lines[lines.length - 1] && letter * longer.length > width) lines.push(word);
+    else lines[lines.length - 1] = longer;
+  }
+  return lines;
+};
+
 soilbin.dashes = [null, '7 4', '1 4', '8 4 1 4'];
 
 // Whether a hand moved the mouse: where the page scrolls under a mouse that lies still, it is told to move too, and what
@@ -24,7 +40,8 @@ document.addEventListener('mousemove', event => {
   soilbin.pointer = {x, y};
 }, true);
 
-// One panel: a plot of the sheet in the element `host`. Hidden labels are those in the set `hidden`.
+// One panel: a plot of the sheet in the element `host`. Hidden labels are those in the set `hidden`, whose `pointed` is the
+// one that is pointed at in the legend.
 soilbin.Chart = class {
   constructor(host, plot, hidden) {
     this.host = host;
@@ -74,7 +91,7 @@ soilbin.Chart = class {
     for (const series of this.visible())
       series.x.forEach((x, i) => {
         if (series.y[i] === null) return;
-        const error = series.error[i] || 0;
+        const error = series.band === false ? 0 : series.error[i] || 0;
         xs.push(x);
         ys.push(series.y[i] - error, series.y[i] + error);
         if (series.base.length) ys.push(series.base[i]);
@@ -92,8 +109,8 @@ soilbin.Chart = class {
   // Scales of the panel's present size and zoom.
   layout() {
     const width = Math.max(240, this.host.clientWidth), height = Math.round(Math.min(340, Math.max(220, 0.68 * width)));
-    const [x, y] = this.domains();
-    const frame = {left: this.plot.y.title ? 62 : 50, right: width - 10, top: 30, bottom: height - 40, width, height};
+    const [x, y] = this.domains(), buttons = 90, title = soilbin.linesOf(this.plot.title, width - buttons, 7.2);
+    const frame = {left: this.plot.y.title ? 62 : 50, right: width - 10, top: 15 + 15 * title.length, bottom: height - 40, width, height, title};
     frame.x = this.transform.rescaleX(d3.scaleLinear().domain(x).range([frame.left, frame.right]));
     frame.y = this.transform.rescaleY(d3.scaleLinear().domain(y).range([frame.bottom, frame.top]));
     return frame;
@@ -113,7 +130,7 @@ soilbin.Chart = class {
       marks.append('line').attr('class', 'quiet-line').attr('stroke-dasharray', '4 4').attr('x1', frame.x(low))
         .attr('x2', frame.x(high)).attr('y1', frame.y(low)).attr('y2', frame.y(high));
     }
-    for (const series of this.visible()) soilbin.drawSeries(marks, series, frame);
+    for (const series of this.visible()) soilbin.drawSeries(marks, series, frame, series.label === this.hidden.pointed);
     this.marker = svg.append('line').attr('class', 'quiet-line').attr('y1', frame.top).attr('y2', frame.bottom);
     this.mark(this.marked);
     this.cursor = svg.append('line').attr('class', 'cursor').attr('y1', frame.top).attr('y2', frame.bottom)
@@ -134,7 +151,7 @@ soilbin.Chart = class {
       .call(ticked(d3.axisLeft, frame.y, 5).tickSize(frame.left - frame.right));
     svg.append('g').attr('class', 'axis').attr('transform', `translate(0,${frame.bottom})`)
       .call(ticked(d3.axisBottom, frame.x, Math.max(3, frame.width / 80)).tickSizeOuter(0));
-    svg.append('text').attr('class', 'ink title').attr('x', 4).attr('y', 17).text(plot.title);
+    frame.title.forEach((line, i) => svg.append('text').attr('class', 'ink title').attr('x', 4).attr('y', 17 + 15 * i).text(line));
     svg.append('text').attr('class', 'quiet').attr('text-anchor', 'middle').attr('x', (frame.left + frame.right) / 2)
       .attr('y', frame.height - 6).text(plot.x.title);
     if (plot.y.title)
@@ -220,9 +237,11 @@ soilbin.Chart = class {
 soilbin.valueAt = (series, i) => series.y[i] === null || !series.base.length ? series.y[i]
   : Number((series.y[i] - series.base[i]).toPrecision(6));
 
-// Area, band, line, points and error bars of one series.
-soilbin.drawSeries = function (marks, series, frame) {
-  const points = series.x.map((x, i) => ({x, y: series.y[i], error: series.error[i] || 0}));
+// Area, band, line, points and error bars of one series. `pointed`: its errors are drawn even where many series keep theirs
+// to the readings.
+soilbin.drawSeries = function (marks, series, frame, pointed) {
+  const drawn = pointed || series.band !== false;
+  const points = series.x.map((x, i) => ({x, y: series.y[i], error: drawn && series.error[i] || 0}));
   const there = p => p.y !== null, px = p => frame.x(p.x) + (series.shift || 0), py = p => frame.y(p.y);
   if (series.base.length) {
     marks.append('path').attr('class', `f ${series.color} area`)
@@ -230,7 +249,7 @@ soilbin.drawSeries = function (marks, series, frame) {
     return;
   }
   const joined = series.mark !== 'points';
-  if (joined && series.error.length)
+  if (joined && drawn && series.error.length)
     marks.append('path').attr('class', `f ${series.color} band`)
       .attr('d', d3.area().defined(there).x(px).y0(p => frame.y(p.y - p.error)).y1(p => frame.y(p.y + p.error))(points));
   if (joined)

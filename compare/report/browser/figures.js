@@ -1,7 +1,7 @@
 // Figures of the page come to life: charts in place of drawings, legends as switches, pictures and data to take along.
 'use strict';
 
-// A button for each label of the legend that shows and hides its series in all panels.
+// A button for each label of the legend that shows and hides its series in all panels; pointed at, it shows their errors.
 soilbin.enlivenLegend = function (figure, hidden, redraw) {
   for (const item of figure.querySelectorAll('.legend li')) {
     const label = item.textContent, button = document.createElement('button');
@@ -15,6 +15,9 @@ soilbin.enlivenLegend = function (figure, hidden, redraw) {
       button.setAttribute('aria-pressed', String(!hidden.has(label)));
       redraw();
     });
+    const point = at => { hidden.pointed = at; redraw(); };
+    for (const [event, at] of [['mouseenter', label], ['focus', label], ['mouseleave', null], ['blur', null]])
+      button.addEventListener(event, () => point(at));
   }
 };
 
