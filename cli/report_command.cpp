@@ -45,7 +45,7 @@ int report(const ReportOptions& options, const Session& session) {
   for (const std::string& link : options.links) links.push_back(compare::page_card(link, options.output));
   compare::NamedDoubts named;
   for (const std::string& name : options.studies) {
-    compare::StudyPart part{find_study(session.place, name), {}, {}, {}};
+    compare::StudyPart part{find_study(session.place, name), {}, {}, {}, name};
     part.study = compare::run_study(part.question, shown_progress());
     part.curves = compare::with_smooth_curves(part.question, smooth_points);
     part.along_curves = compare::run_study(part.curves, shown_progress());

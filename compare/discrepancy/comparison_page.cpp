@@ -9,6 +9,7 @@
 #include "compare/discrepancy/summary.hpp"
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/loop/answer_words.hpp"
+#include "compare/report/model_names.hpp"
 #include "compare/report/page.hpp"
 #include "compare/sweep/varying.hpp"
 
@@ -21,7 +22,7 @@ std::string named(const std::string& curve) { return curve.empty() ? "all condit
 std::string sides_in_words(const Comparison& comparison) {
   bool effects = false, grains = false, measured = false;
   for (const Side& side : comparison.sides) {
-    effects = effects || (side.kind == SideKind::analytic && side.label != "bekker_wong");
+    effects = effects || (side.kind == SideKind::analytic && &side != comparison.sides.data());
     grains = grains || side.kind == SideKind::grains;
     measured = measured || side.kind == SideKind::measured;
   }
@@ -61,29 +62,43 @@ std::vector<BackedSentence> backed(const Comparison& comparison, const std::vect
   return sentences;
 }
 
+/// How each kind of side that is there is drawn, and what its errors are.
+std::string curves_in_words(const Comparison& comparison) {
+  const auto there = [&](SideKind kind) {
+    return std::ranges::find(comparison.sides, kind, &Side::kind) != comparison.sides.end();
+  };
+  std::string text;
+  if (there(SideKind::analytic)) text += "Lines: the analytic wheel, with one standard error of the soil's values. ";
+  if (there(SideKind::grains)) text += "Points on lines: grains, with one standard error of their runs. ";
+  if (there(SideKind::measured)) text += "Points: measured, with one standard error of the measured runs. ";
+  if (!text.empty()) text.pop_back();
+  return text;
+}
+
 void add_curves(Page& page, const Comparison& comparison, bool coarse_grains) {
-  page.section("Curves", "curves");
+  page.place("Curves", "curves");
   const std::vector<std::string>& names = comparison.curves.labels;
+  const Comparison smooth = smooth_sides(comparison);
   std::vector<Choice> parts;
   for (std::size_t c = 0; c < names.size(); ++c)
-    parts.push_back({named(names[c]), [&page, &comparison, c, coarse_grains] {
-                       page.figure(curve_sheet(comparison, c, coarse_grains),
-                                   "bekker_wong: the analytic wheel. dem: grains. Lines: models. Points on lines: "
-                                   "grains. Points: measured. Band and bars: one standard error of the soil's values, "
-                                   "of the grains' runs, of the measured runs.");
+    parts.push_back({named(names[c]), [&page, &comparison, &smooth, c, coarse_grains] {
+                       page.figure(curve_sheet(comparison, c, coarse_grains, smooth), curves_in_words(comparison));
                      }});
   if (names.size() > 1)
     parts.push_back({"all curves at once", [&page, &comparison] {
                        page.figure(overview_sheet(comparison), "A colour for each curve, a dash for each side.");
                      }});
-  page.choices("Curve", parts, (names.size() - 1) / 2);
+  const Difference* told = widest_difference(comparison);
+  page.choices("Curve", parts, told != nullptr ? comparison.curves.curve_of[told->condition] : (names.size() - 1) / 2);
 }
 
 /// The answer in a sentence or two, the curves, and what to bear in mind of both: so the curves are in sight at once.
 void add_opening(Page& page, const Comparison& comparison, bool coarse_grains) {
-  std::vector<BackedSentence> sentences = backed(comparison, opening(comparison));
-  if (sentences.empty()) sentences.push_back({"", "There is nothing to compare: a single side.", {}});
-  page.backed_summary({sentences.front()});
+  const std::vector<BackedSentence> sentences = backed(comparison, opening(comparison));
+  if (const std::optional<Clause> first = headline(comparison))
+    page.backed_summary(backed(comparison, {*first}));
+  else
+    page.sentences({"There is nothing to compare: a single side."});
   add_curves(page, comparison, coarse_grains);
   if (sentences.size() > 1) page.backed_summary({sentences.begin() + 1, sentences.end()});
 }
@@ -119,8 +134,10 @@ void add_differences(Page& page, const Comparison& comparison) {
 
 void add_causes(Page& page, const Comparison& comparison) {
   page.section("Why", "why");
-  if (const std::vector<Clause> causes = cause_clauses(comparison); !causes.empty())
+  if (std::vector<Clause> causes = cause_clauses(comparison); !causes.empty()) {
+    for (Clause& cause : causes) cause.about.clear();  // the heading says it
     page.backed_summary(backed(comparison, causes));
+  }
   page.paragraph(
       "The pull is what shears the soil backward less what presses it down and away. Stresses lie under the wheel from "
       "where the soil lets go (behind, negative) to where it meets the wheel.");
@@ -134,7 +151,9 @@ void add_causes(Page& page, const Comparison& comparison) {
                        page.table(budget_table(comparison, i));
                        const Sheet stresses = stress_sheet(comparison, i);
                        if (!stresses.plots.empty())
-                         page.figure(stresses, "Stresses under the wheel, of grains over those of the analytic model.");
+                         page.figure(stresses,
+                                     "How hard the soil presses on the wheel along the contact, and how it "
+                                     "shears it: each model at this condition.");
                      }});
   }
   const std::string telling = in_words(conditions[telling_condition(comparison)]);
@@ -178,7 +197,9 @@ void add_replay(Page& page, const ComparisonAbout& about) {
                           file.title, file.grains, file.frames, file.seconds, facts));
 }
 
-void add_method(Page& page, const Comparison& comparison, const ComparisonAbout& about) {
+/// `ids`: what flags and files call the sides.
+void add_method(Page& page, const Comparison& comparison, const ComparisonAbout& about,
+                const std::vector<std::pair<std::string, std::string>>& ids) {
   page.section("Every point", "points");
   for (const Side& side : comparison.sides)
     page.folded(side.label, [&] { page.table(points_table(comparison, side)); });
@@ -203,13 +224,19 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
   });
   page.section("How to repeat this", "repeat");
   page.code(about.page.command);
-  page.facts({"part", ""}, {&about.page.versions, &about.facts});
+  page.facts({"part", ""}, {&ids, &about.page.versions, &about.facts});
   page.folded("The resolved case", [&] { page.code(about.resolved_case); });
 }
 
 }  // namespace
 
-std::string comparison_page(const Comparison& comparison, const ComparisonAbout& about) {
+std::string comparison_page(const Comparison& told, const ComparisonAbout& about) {
+  Comparison comparison = told;  // with its sides called as people call them
+  std::vector<std::string> labels;
+  for (Side& side : comparison.sides) {
+    labels.push_back(side.label);
+    side.label = model_in_words(side.label);
+  }
   const Scenario& scenario = comparison.question.scenario;
   Page page(about.page.title, fmt::format("{} on {}: {}", scenario.tire.name.empty() ? "A wheel" : scenario.tire.name,
                                           scenario.soil.name, sides_in_words(comparison)));
@@ -225,7 +252,7 @@ std::string comparison_page(const Comparison& comparison, const ComparisonAbout&
   page.doubts(about.page.doubts);
   add_differences(page, comparison);
   add_replay(page, about);
-  add_method(page, comparison, about);
+  add_method(page, comparison, about, names_and_ids(labels));
   return page.html();
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <utility>
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/discrepancy/summary.hpp"
@@ -61,12 +62,22 @@ bool says_anything(const Series& series) {
   return std::ranges::any_of(series.y, [](double y) { return std::isfinite(y); });
 }
 
+/// Smooth lines of the analytic sides, and the curve's conditions among theirs.
+struct Smooth {
+  const Comparison& sides;
+  std::vector<std::size_t> members;
+};
+
 /// A panel with a series for each side that has a value.
 void add_plot(Sheet& sheet, const Comparison& comparison, const std::string& title,
-              const std::vector<std::size_t>& members, const Reader& read, double per_unit) {
+              const std::vector<std::size_t>& members, const Reader& read, double per_unit,
+              const Smooth* smooth = nullptr) {
   Plot plot{title, {"slip [%]"}};
   for (std::size_t s = 0; s < comparison.sides.size(); ++s) {
-    Series series = series_of(comparison, s, members, read, per_unit);
+    const bool many = smooth != nullptr && s < smooth->sides.sides.size();
+    Series series = many ? series_of(smooth->sides, s, smooth->members, read, per_unit)
+                         : series_of(comparison, s, members, read, per_unit);
+    series.label = comparison.sides[s].label;
     if (says_anything(series)) plot.series.push_back(std::move(series));
   }
   if (!plot.series.empty()) sheet.plots.push_back(std::move(plot));
@@ -134,9 +145,22 @@ Sheet overview_sheet(const Comparison& comparison) {
   return sheet;
 }
 
-Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_grains) {
+Comparison smooth_sides(const Comparison& comparison) {
+  constexpr int points = 41;
+  Comparison smooth;
+  const auto analytic = std::ranges::count(comparison.sides, SideKind::analytic, &Side::kind);
+  if (std::cmp_not_equal(comparison.choices.size(), analytic)) return smooth;
+  smooth.question = with_smooth_curves(comparison.question, points);
+  smooth.question.study.models = comparison.choices;
+  smooth.curves = curves_against_slip(smooth.question.study.conditions, Spread::exact);
+  for (const ModelAnswers& answers : run_study(smooth.question)) smooth.sides.push_back(side_of(answers));
+  return smooth;
+}
+
+Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_grains, const Comparison& smooth) {
   Sheet sheet{comparison.curves.labels[curve]};
   const std::vector<std::size_t> members = members_of(comparison, curve);
+  const Smooth lines{smooth, smooth.sides.empty() ? members : members_of(smooth, curve)};
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const ChannelView& channel = channel_views[c];
     const bool compared = std::ranges::any_of(comparison.tallies, [&](const Tally& t) { return t.channel == c; });
@@ -144,7 +168,7 @@ Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_g
     const auto read = [&, c](const SidePoint& point, std::size_t) {
       return point.has[c] ? (*point.result).*channel_views[c].predicted : Estimate{not_a_number, 0.0};
     };
-    add_plot(sheet, comparison, heading(channel), members, read, channel.per_si);
+    add_plot(sheet, comparison, heading(channel), members, read, channel.per_si, &lines);
     if (!sheet.plots.empty())
       mark_limits(sheet.plots.back(), comparison, members, channel.name == "sinkage", coarse_grains);
   }
@@ -153,7 +177,7 @@ Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_g
       [](const SidePoint& point, std::size_t) {
         return has_efficiency(*point.result) ? efficiency_with_error(*point.result) : Estimate{not_a_number, 0.0};
       },
-      100);
+      100, &lines);
   if (!sheet.plots.empty()) mark_limits(sheet.plots.back(), comparison, members, false, coarse_grains);
   return sheet;
 }
@@ -254,7 +278,9 @@ std::string signed_number(double value, int places) {
 
 /// "0.76 (1.2)": what the parts leave, and how much that may be; "-" where nobody counted.
 std::string rest_cell(const BudgetRest& rest) {
+  constexpr double nothing = 1e-3;  // [N] below it is rounding alone
   if (!std::isfinite(rest.force)) return "-";
+  if (std::abs(rest.force) < nothing && std::abs(rest.bound) < nothing) return "0";
   return fmt::format("{} ({})", number(rest.force), std::isfinite(rest.bound) ? number(rest.bound) : "not known");
 }
 
@@ -267,12 +293,13 @@ Table tally_table(const Comparison& comparison) {
   const bool several = comparison.sides.size() > more_than_a_channel;
   MarkedTable table{
       "Channel by channel, the widest apart first. Green: no more than the stated errors alone would give",
-      {"channel", "root mean square", "errors alone", "mean", "differ", "widest at"},
+      {"channel", "root mean square", "errors alone", "mean difference", "differ", "widest at"},
       {true, false, false, false, true, true}};
   for (const Tally* t : widest_first(comparison)) {
     const Difference& worst = comparison.differences[t->worst];
     const std::string pair =
-        fmt::format("{} against {}", comparison.sides[t->side].label, comparison.sides[t->reference].label);
+        fmt::format("{} less {}", comparison.sides[t->side].label, comparison.sides[t->reference].label);
+    if (!several) table.header[3] = "mean of " + pair;
     const Tone tone = t->unknown == t->values     ? Tone::none
                       : t->rms <= t->expected_rms ? Tone::good
                       : t->differ > 0             ? Tone::bad

@@ -13,10 +13,15 @@ namespace soilbin::compare {
 /// All curves of all sides, as study_sheet draws them; grains with points on their lines, measurements as points.
 Sheet overview_sheet(const Comparison& comparison);
 
+/// The analytic sides along many slips of each curve, for smooth lines; no other side. No side at all where the
+/// comparison does not tell their models.
+Comparison smooth_sides(const Comparison& comparison);
+
 /// One curve: each channel against slip, a colour for each side, with bands of one standard error. What limits grains
 /// is marked: in the legend where it holds for all their points (one packing each, grains too coarse), else and for a
-/// negative sinkage at the points.
-Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_grains = false);
+/// negative sinkage at the points. The analytic sides are drawn by `smooth` where it has them.
+Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_grains = false,
+                  const Comparison& smooth = {});
 
 /// One curve: entry, largest stress and exit angle; sinkage at slip 0 and what slip adds to it.
 Sheet contact_sheet(const Comparison& comparison, std::size_t curve);

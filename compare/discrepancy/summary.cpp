@@ -231,6 +231,34 @@ std::vector<const Tally*> widest_first(const Comparison& comparison) {
   return order;
 }
 
+const Difference* widest_difference(const Comparison& comparison) {
+  if (comparison.tallies.empty()) return nullptr;
+  return &comparison.differences[widest_first(comparison).front()->worst];
+}
+
+std::optional<Clause> headline(const Comparison& comparison) {
+  const Difference* worst = widest_difference(comparison);
+  if (worst == nullptr) return std::nullopt;
+  Clause clause = in_short(comparison, *widest_first(comparison).front());
+  const auto judged = std::ranges::count_if(
+      comparison.differences, [](const Difference& d) { return d.finding != DifferenceFinding::not_judged; });
+  const auto differ = std::ranges::count(comparison.differences, DifferenceFinding::difference, &Difference::finding);
+  const std::string &curve = comparison.curves.labels[comparison.curves.curve_of[worst->condition]],
+                    slip =
+                        fmt::format("{:.4g} % slip", 100 * comparison.question.study.conditions[worst->condition].slip);
+  const ChannelView& channel = channel_views[worst->channel];
+  const auto told = [&](const Estimate& value) {
+    return fmt::format("{} {}", number(value.value * channel.per_si, 3), channel.unit);
+  };
+  clause.text = judged > 0 ? fmt::format("{} of {} numbers differ by more than errors and scatter. ", differ, judged)
+                           : "These models share the soil's values: only a measurement can tell which is right. ";
+  clause.text += fmt::format("Widest apart is the {} at {}: {} by {}, {} by {}.", channel.title,
+                             curve.empty() ? slip : curve + " and " + slip, told(worst->value),
+                             comparison.sides[worst->side].label, told(worst->reference_value),
+                             comparison.sides[worst->reference].label);
+  return clause;
+}
+
 std::vector<Clause> opening(const Comparison& comparison) {
   std::vector<Clause> clauses;
   if (!comparison.tallies.empty()) clauses.push_back(in_short(comparison, *widest_first(comparison).front()));

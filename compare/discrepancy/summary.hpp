@@ -1,6 +1,7 @@
 // The comparison in plain words; each clause knows the rows that it rests on.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,13 @@ struct Clause {
 /// better known soil could explain; what the size of the grains does to their answers. The last two are absent where
 /// nothing can be said of them.
 std::vector<Clause> opening(const Comparison& comparison);
+
+/// The first of these lines in so few words that a page shows the curves below it: how many numbers differ, and where
+/// the sides are widest apart. Nothing where nothing is compared.
+std::optional<Clause> headline(const Comparison& comparison);
+
+/// The row of the headline: the widest one of the pair and channel that are widest apart.
+const Difference* widest_difference(const Comparison& comparison);
 
 /// Where the widest gap in pull comes from.
 std::vector<Clause> cause_clauses(const Comparison& comparison);

@@ -46,16 +46,17 @@ struct Line {
   std::function<double(const DriveSample&)> get;
 };
 
-/// A label tells its panel ("speed: rim"), since the sheet's panels share one legend.
-Plot plot_of(const DrivePart& part, const std::string& title, const std::vector<Line>& lines) {
+/// A label tells its panel ("speed: rim"), since the sheet's panels share one legend: in it each has a colour, or
+/// colour and dash, of its own. `named`: how many there are so far.
+Plot plot_of(const DrivePart& part, const std::string& title, const std::vector<Line>& lines, int& named) {
+  const int available = static_cast<int>(colors(Palette::named).size());
   std::string panel = title.substr(0, title.find(" ["));
   panel.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(panel.front())));
   Plot plot{title, {"time [s]"}};
-  int color = 0;
   for (const Line& line : lines) {
     Series series;
     series.label = line.label.empty() ? "" : panel + ": " + line.label;
-    series.color = color++;
+    if (!line.label.empty()) series.color = named % available, series.dash = named / available, ++named;
     for (const DriveSample& sample : part.record.samples) {
       series.x.push_back(sample.time);
       series.y.push_back(line.get(sample));
@@ -115,27 +116,26 @@ std::vector<std::pair<std::string, double>> energy_rows(const EnergyLedger& e) {
 
 Sheet drive_sheet(const DrivePart& part) {
   Sheet sheet{part.question.name};
-  sheet.plots.push_back(plot_of(part, "Speed [cm/s]",
-                                {{"travel", [](const DriveSample& s) { return 100 * s.speed; }},
-                                 {"rim", [](const DriveSample& s) { return 100 * s.rim_speed; }}}));
-  sheet.plots.push_back(
-      plot_of(part, "Slip [%]",
-              {{"by the speeds of the instant", [](const DriveSample& s) { return 100 * slip_of(s); }},
-               {"seen by the soil in contact", [](const DriveSample& s) { return 100 * s.contact_slip; }}}));
-  sheet.plots.push_back(plot_of(part, "Sinkage [mm]", {{"", [](const DriveSample& s) { return 1000 * s.sinkage; }}}));
-  sheet.plots.push_back(plot_of(part, "Torque [N m]", {{"", [](const DriveSample& s) { return s.torque; }}}));
+  int named = 0;
+  const auto add = [&](const std::string& title, const std::vector<Line>& lines) {
+    sheet.plots.push_back(plot_of(part, title, lines, named));
+  };
+  add("Speed [cm/s]", {{"travel", [](const DriveSample& s) { return 100 * s.speed; }},
+                       {"rim", [](const DriveSample& s) { return 100 * s.rim_speed; }}});
+  add("Slip [%]", {{"by the speeds of the instant", [](const DriveSample& s) { return 100 * slip_of(s); }},
+                   {"seen by the soil in contact", [](const DriveSample& s) { return 100 * s.contact_slip; }}});
+  add("Sinkage [mm]", {{"", [](const DriveSample& s) { return 1000 * s.sinkage; }}});
+  add("Torque [N m]", {{"", [](const DriveSample& s) { return s.torque; }}});
   const double load = part.question.drive->load;
-  sheet.plots.push_back(plot_of(
-      part, "Along travel [N]",
+  add("Along travel [N]",
       {{"force of the soil", [](const DriveSample& s) { return s.forward; }},
        {"slope's share of the load", [load](const DriveSample& s) { return load * std::sin(s.longitudinal_incline); }},
-       {"drawbar load", [](const DriveSample& s) { return s.drawbar; }}}));
-  sheet.plots.push_back(plot_of(part, "Energy [J]",
-                                {{"motor's work", [](const DriveSample& s) { return s.energy.motor; }},
-                                 {"shears the soil", [](const DriveSample& s) { return s.energy.shear; }},
-                                 {"presses the soil", [](const DriveSample& s) { return s.energy.compaction; }},
-                                 {"lifts the load", [](const DriveSample& s) { return s.energy.height; }},
-                                 {"pulls the drawbar", [](const DriveSample& s) { return s.energy.drawbar; }}}));
+       {"drawbar load", [](const DriveSample& s) { return s.drawbar; }}});
+  add("Energy [J]", {{"motor's work", [](const DriveSample& s) { return s.energy.motor; }},
+                     {"shears the soil", [](const DriveSample& s) { return s.energy.shear; }},
+                     {"presses the soil", [](const DriveSample& s) { return s.energy.compaction; }},
+                     {"lifts the load", [](const DriveSample& s) { return s.energy.height; }},
+                     {"pulls the drawbar", [](const DriveSample& s) { return s.energy.drawbar; }}});
   return sheet;
 }
 

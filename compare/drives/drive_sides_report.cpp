@@ -6,6 +6,7 @@
 #include "compare/drives/drive_columns.hpp"
 #include "compare/drives/drive_sides.hpp"
 #include "compare/report/json_fields.hpp"
+#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/estimate.hpp"
 
@@ -30,7 +31,7 @@ struct Panel {
 Series steady_line(const dem::SteadyDrive& steady, const Panel& panel, int color) {
   const Estimate mean = steady.*panel.steady;
   Series line;
-  line.label = "dem, steady";
+  line.label = "grains, steady";
   line.x = {steady.from, steady.to};
   line.y.assign(2, panel.per_si * mean.value);
   line.error.assign(2, panel.per_si * mean.std_error);
@@ -43,7 +44,7 @@ Plot plot_of(const DriveSides& drive, const Panel& panel) {
   for (std::size_t i = 0; i < drive.sides.size(); ++i) {
     const DriveSide& side = drive.sides[i];
     Series series;
-    series.label = side.packing ? "dem" : side.label;  // packings are of one colour
+    series.label = side.packing ? "grains" : model_in_words(side.label);  // packings are of one colour
     series.color =
         side.packing ? static_cast<int>(drive.sides.front().kind == SideKind::analytic) : static_cast<int>(i);
     for (const DriveSideSample& sample : side.samples) {
@@ -187,7 +188,13 @@ std::string drive_csv(const DriveSides& drive) {
   return text;
 }
 
-std::string drive_page(const DriveSides& drive, const PageAbout& about) {
+std::string drive_page(const DriveSides& told, const PageAbout& about) {
+  DriveSides drive = told;  // with its sides called as people call them
+  std::vector<std::string> labels;
+  for (DriveSide& side : drive.sides) {
+    labels.push_back(side.label);
+    side.label = model_in_words(side.label);
+  }
   Page page(about.title, drive.question.description);
   page.sentences(in_words(drive));
   page.doubts(about.doubts);
@@ -197,7 +204,9 @@ std::string drive_page(const DriveSides& drive, const PageAbout& about) {
               "where way and motor no longer change, with its standard error.");
   if (!drive.differences.empty()) {
     page.section("Where nothing changes any more");
-    page.table(differences_table(drive));
+    Table table = differences_table(drive);
+    for (std::string& name : table.header) name = model_in_words(name);
+    page.table(table);
   }
   if (drive.over_packings) {
     page.section("On each packing");
@@ -210,6 +219,7 @@ std::string drive_page(const DriveSides& drive, const PageAbout& about) {
   page.section("Made by");
   page.code(about.command);
   std::vector<std::string> facts = drive.notes;
+  for (const auto& [name, id] : names_and_ids(labels)) facts.push_back(name + ": " + id);
   for (const auto& [name, version] : about.versions) facts.push_back(name + " " + version);
   page.list(facts);
   return page.html();

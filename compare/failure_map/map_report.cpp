@@ -147,6 +147,23 @@ std::string coordinates_sentence(const MapStory& story) {
                             100 * (1 - best->held_out / plain));
 }
 
+/// The same for people: what was tried, and whether it is of use.
+std::string coordinates_in_words(const MapStory& story) {
+  if (story.coordinates.empty()) return "";
+  const double plain = story.coordinates.front().held_out;
+  const auto best =
+      std::ranges::min_element(story.coordinates, [](const auto& a, const auto& b) { return a.held_out < b.held_out; });
+  const std::string text = fmt::format(
+      "Would ratios without units predict better than load, lug height, angle and slip themselves? We learnt the map "
+      "again from such ratios (the load number: the load over the weight of soil b r^2; the lugs' height over the "
+      "sinkage at rest) and let it predict each condition from all others. With the quantities themselves it errs by "
+      "{:.1f} % of the load",
+      100 * plain);
+  return text + (best == story.coordinates.begin()
+                     ? ", with each set of ratios by more: the quantities themselves serve best."
+                     : fmt::format(", with {} by {:.1f} %: these serve better.", best->name, 100 * best->held_out));
+}
+
 std::string checks_sentence(const MapStory& story) {
   std::size_t found = 0, within = 0, right = 0;
   for (const FreshCheck& check : story.checks)
@@ -199,24 +216,28 @@ Json where_known(const std::optional<Estimate>& estimate) {
   return estimate ? estimate_json(*estimate) : Json(nullptr);
 }
 
-/// The map at every setting of lug height and slip; a factor that does not vary has no slider.
+/// The map at every setting of lug height and slip; a factor that does not vary has no slider. They start where a
+/// setting is nearest to the tire's own lugs and to 20 % slip.
 SlidingMap sliding_map_of(const MapStory& story) {
   constexpr int lugs = 5, slips = 10;
+  constexpr double usual_slip = 0.2;
   const std::vector<Factor>& factors = story.question.factors;
   SlidingMap map;
-  const auto settings = [&](const Factor& factor, int count) {
+  const auto settings = [&](const Factor& factor, int count, double start) {
     const int places = factor.upper > factor.lower ? count : 1;
     std::vector<double> values;
     for (int i = 0; i < places; ++i) values.push_back(places == 1 ? factor.lower : level_value(factor, i, places));
     if (places > 1) {
       map.sliders.push_back({factor.name, {}});
       for (const double value : values) map.sliders.back().settings.push_back(in_units(factor, value));
-      map.first.push_back(0);
+      const auto nearest = std::ranges::min_element(values, {}, [&](double value) { return std::abs(value - start); });
+      map.first.push_back(static_cast<std::size_t>(nearest - values.begin()));
     }
     return values;
   };
-  const std::vector<double> heights = settings(factors[map_lug_height], lugs),
-                            at_slips = settings(factors[map_slip], slips);
+  const double own_lugs = story.map.scenario.tire.lugs.height;
+  const std::vector<double> heights = settings(factors[map_lug_height], lugs, own_lugs),
+                            at_slips = settings(factors[map_slip], slips, usual_slip);
   for (const double height : heights)
     for (const double slip : at_slips) map.maps.push_back(heat_map_of(story, height, slip));
   return map;
@@ -283,9 +304,22 @@ std::vector<std::pair<std::string, std::string>> opening(const MapStory& story) 
   return parts;
 }
 
+std::string in_short(const MapStory& story) {
+  const Tire& tire = story.map.scenario.tire;
+  const double tolerance = 100 * story.question.tolerance;
+  return fmt::format(
+      "By the map the quick estimate of the pull lies within {:.3g} % of the load of what grains give in {:.0f} % of "
+      "the "
+      "conditions. Which ones: set the sliders to your lugs and slip{}.",
+      tolerance, 100 * (1 - share_beyond(story)),
+      tire.lugs.height > 0.0
+          ? fmt::format(" (they start at the lugs of {}, {:.3g} mm)", tire.name, 1000 * tire.lugs.height)
+          : "");
+}
+
 std::vector<std::string> details(const MapStory& story) {
   std::vector<std::string> text = {knowledge_sentence(story)};
-  if (std::string groups = coordinates_sentence(story); !groups.empty()) text.push_back(std::move(groups));
+  if (std::string groups = coordinates_in_words(story); !groups.empty()) text.push_back(std::move(groups));
   return text;
 }
 
@@ -361,13 +395,15 @@ std::string failure_map_page(const MapStory& story, const PageAbout& about, cons
   Page page("Where may I trust the quick estimate?",
             fmt::format("{}: the analytic wheel against grains, {} on {}", about.title, story.map.scenario.tire.name,
                         in_words(story.map.scenario.soil)));
-  page.summary(opening(story));
-  page.raw("<span id=\"map\"></span>");
+  page.sentences({in_short(story)});
+  page.place("The map", "map");
   page.raw(sliding_map_html(
       sliding_map_of(story),
       "Drawbar pull, analytic less grains, in per cent of the load, as the map has it; loads across, angles up. Blue: "
       "the analytic pull is too low; orange: too high. Bold: the map is sure that the models differ by more than the "
       "tolerance. Faint: they agree, or the map cannot tell; each cell says which."));
+  page.place("The answer in full", "answer");
+  page.summary(opening(story));
   page.figures_at_a_glance(
       {{std::to_string(story.rows.rows.size()), "conditions run"},
        {fmt::format("{:.1f} %", 100 * story.rows.held_out.rms()), "cross-validated error, of the load"},

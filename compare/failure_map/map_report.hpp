@@ -47,11 +47,14 @@ double share_beyond(const MapStory& story);
 /// well the map knows, what dimensionless groups do, what fresh conditions showed.
 std::vector<std::string> map_summary(const MapStory& story);
 
-/// What the page opens with, (what it is about, sentences): where the quick estimate may be trusted; where not and to
+/// The answer in two lines, above the map.
+std::string in_short(const MapStory& story);
+
+/// The whole answer, (what it is about, sentences): where the quick estimate may be trusted; where not and to
 /// which side it errs; how sure that is.
 std::vector<std::pair<std::string, std::string>> opening(const MapStory& story);
 
-/// What else there is: scatter of the rows, dimensionless groups.
+/// What else there is: scatter of the rows, whether ratios without units would serve better.
 std::vector<std::string> details(const MapStory& story);
 
 Table rows_table(const MapStory& story);

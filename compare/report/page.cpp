@@ -60,6 +60,15 @@ std::string page_style() {
 
 constexpr std::size_t largest_page = 1U << 28U;  ///< [bytes]
 
+/// A text's first sentences, or where they are too long its first words.
+std::string beginning(const std::string& text) {
+  constexpr std::size_t most = 170, least = 50;
+  if (text.size() <= most) return text;
+  if (const std::size_t stop = text.rfind(". ", most); stop != std::string::npos && stop >= least)
+    return text.substr(0, stop + 1);
+  return text.substr(0, text.rfind(' ', most)) + " \u2026";
+}
+
 /// The text from `begin` to `end`, both left out, or with both; "" where it isn't there.
 std::string between(const std::string& text, const std::string& begin, const std::string& end, bool with_both = false) {
   const std::size_t first = text.find(begin);
@@ -75,7 +84,8 @@ std::string between(const std::string& text, const std::string& begin, const std
 PageCard page_card(const fs::path& page, const fs::path& from) {
   const std::string text = read_bytes(page, largest_page);
   PageCard card{fs::relative(page, from.parent_path().empty() ? fs::path(".") : from.parent_path()).generic_string(),
-                between(text, "<title>", "</title>"), between(text, "<meta name=\"description\" content=\"", "\">"),
+                between(text, "<title>", "</title>"),
+                beginning(between(text, "<meta name=\"description\" content=\"", "\">")),
                 between(text, "<svg class=\"plot\"", "</svg>", true)};
   if (card.title.empty())
     throw InputError(
@@ -124,6 +134,11 @@ void Page::figures_at_a_glance(const std::vector<KeyFigure>& figures) {
 void Page::section(const std::string& title, const std::string& anchor) {
   sections_.emplace_back(anchor.empty() ? numbered(sections_.size()) : anchor, title);
   body_ += fmt::format("<h2{}>{}</h2>\n", id_attribute(sections_.back().first), escaped(title));
+}
+
+void Page::place(const std::string& title, const std::string& anchor) {
+  sections_.emplace_back(anchor, title);
+  body_ += fmt::format("<span{}></span>\n", id_attribute(anchor));
 }
 
 void Page::subsection(const std::string& title) { body_ += "<h3>" + escaped(title) + "</h3>\n"; }

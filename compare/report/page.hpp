@@ -76,6 +76,8 @@ class Page {
   void figures_at_a_glance(const std::vector<KeyFigure>& figures);
   /// A heading with an anchor; the page's table of contents lists it.
   void section(const std::string& title, const std::string& anchor = "");
+  /// A place that the table of contents lists, without a heading of its own.
+  void place(const std::string& title, const std::string& anchor);
   void subsection(const std::string& title);
   void paragraph(const std::string& text);
   void list(const std::vector<std::string>& items);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compare/report/json_fields.hpp"
+#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/sweep/result_json.hpp"
@@ -61,6 +62,30 @@ std::string unit_of(const Finding& finding) {
   return is_place(finding.test) ? std::string(" ") + scale_of(finding.along).unit : "";
 }
 
+/// What a statistic's number is multiplied by for the page, and its unit, " N/kN": with that of whatever it is of.
+std::pair<double, std::string> shown_in(const Finding& finding) {
+  const Scale of = scale_of(finding.quantity), along = scale_of(finding.along);
+  switch (finding.test) {
+    case FindingTest::slope:
+    case FindingTest::slope_difference:
+      return {of.per_si / along.per_si, fmt::format(" {}/{}", of.unit, along.unit)};
+    case FindingTest::mean:
+    case FindingTest::largest:
+      return {of.per_si, std::string(" ") + of.unit};
+    case FindingTest::curvature:
+      return {100, " % of the rise"};
+    case FindingTest::change:
+      return {100, " % of the mean"};
+    case FindingTest::slope_ratio:
+      return {1, " times"};
+    case FindingTest::peak:
+    case FindingTest::lowest:
+    case FindingTest::peak_shift:
+      break;
+  }
+  return {along.per_si, std::string(" ") + along.unit};
+}
+
 std::string where_in_words(const Where& where) {
   std::string words;
   for (const auto& [axis, range] : where) {
@@ -81,14 +106,14 @@ std::string missing_in_words(const Evidence& evidence) {
   return words + (shown < evidence.missing.size() ? "; ..." : "");
 }
 
-/// "0.31 (0.24 .. 0.38)", in the statistic's unit; "" without an interval.
+/// "0.31 (0.24 .. 0.38) N/kN", in the statistic's unit; "" without an interval.
 std::string interval_in_words(const Finding& finding, const Evidence& evidence) {
   if (!evidence.interval) return "";
-  const double scale = per_si(finding);
+  const auto [scale, unit] = shown_in(finding);
   const Interval& found = *evidence.interval;
-  if (found.lower == found.upper) return fmt::format("{:.3g}{}", scale * found.value, unit_of(finding));
+  if (found.lower == found.upper) return fmt::format("{:.3g}{}", scale * found.value, unit);
   return fmt::format("{:.3g} ({:.3g} .. {:.3g}){}", scale * found.value, scale * found.lower, scale * found.upper,
-                     unit_of(finding));
+                     unit);
 }
 
 std::string cell(const Finding& finding, const Evidence& evidence) {
@@ -125,24 +150,29 @@ Sheet finding_sheet(const ReproducedFinding& row, const std::vector<std::string>
   return sheet;
 }
 
+std::string claim(const Finding& finding, double scale, const std::string& unit);
+
 /// A finding's words, figure and intervals.
 void add_finding(Page& page, const ReproducedFinding& row, const std::vector<std::string>& labels) {
   const Finding& finding = row.finding;
   page.paragraph("\u201c" + finding.quote + "\u201d");
-  if (const Sheet sheet = finding_sheet(row, labels); !sheet.plots.empty())
-    page.figure(sheet, claim_in_words(finding) + (finding.compares() ? ". Dashed: what it is held against." : "."));
-  Table table{claim_in_words(finding), {"answers of", "verdict", "conditions missing"}, {true, true, true}};
-  for (std::size_t k = 0; k < row.evidence.size(); ++k)
-    table.add({labels[k], cell(finding, row.evidence[k]), missing_in_words(row.evidence[k])});
+  const auto [scale, unit] = shown_in(finding);
+  const std::string claimed = claim(finding, scale, unit);
+  const Sheet sheet = finding_sheet(row, labels);
+  if (!sheet.plots.empty())
+    page.figure(sheet, claimed + (finding.compares() ? ". Dashed: what it is held against." : "."));
+  Table table{sheet.plots.empty() ? claimed : "", {"answers of", "verdict"}, {true, true, true}};
+  const bool missing = std::ranges::any_of(row.evidence, [](const Evidence& e) { return !e.missing.empty(); });
+  if (missing) table.header.emplace_back("conditions missing");
+  for (std::size_t k = 0; k < row.evidence.size(); ++k) {
+    table.add({labels[k], cell(finding, row.evidence[k])});
+    if (missing) table.rows.back().emplace_back(missing_in_words(row.evidence[k]));
+  }
   page.table(table);
   if (!finding.chosen.empty()) page.paragraph("Chosen here: " + finding.chosen);
 }
 
-}  // namespace
-
-std::string claim_in_words(const Finding& finding) {
-  const double scale = per_si(finding);
-  const std::string unit = unit_of(finding);
+std::string claim(const Finding& finding, double scale, const std::string& unit) {
   std::string words =
       fmt::format("{} of {} along {}, {}", spaced(word_of(finding.test)), spaced(word_of(finding.quantity)),
                   spaced(word_of(finding.along)), where_in_words(finding.where));
@@ -157,6 +187,10 @@ std::string claim_in_words(const Finding& finding) {
   if (std::isfinite(finding.at_most)) words += fmt::format("at most {:.4g}{}", scale * finding.at_most, unit);
   return words;
 }
+
+}  // namespace
+
+std::string claim_in_words(const Finding& finding) { return claim(finding, per_si(finding), unit_of(finding)); }
 
 std::string tally(const Reproduction& reproduction, std::size_t label) {
   std::string words;
@@ -211,10 +245,9 @@ std::vector<std::pair<std::string, std::string>> opening(const Reproduction& rep
     };
     const auto asked = static_cast<long>(rows.size()) - count(FindingVerdict::no_data);
     const std::string& label = reproduction.labels[k];
+    const std::string name = model_in_words(label);
     sentences.emplace_back(
-        label == "dem"           ? "Grains (dem)"
-        : label == "bekker_wong" ? "The analytic wheel (bekker_wong)"
-                                 : label,
+        name == label ? label : fmt::format("{} ({})", capital(name), label),
         fmt::format("{} of {} findings are shown, {} contradicted and {} left open{}.", count(FindingVerdict::shown),
                     asked, count(FindingVerdict::contradicted), count(FindingVerdict::not_shown),
                     asked < static_cast<long>(rows.size())
@@ -237,11 +270,11 @@ std::vector<std::pair<std::string, std::string>> opening(const Reproduction& rep
 Table findings_matrix(const Reproduction& reproduction) {
   MarkedTable table{
       fmt::format("Shown: the whole {:.0f} % interval lies in what is claimed. Contradicted: no part of it does. Open: "
-                  "between. A cell opens its figure. bekker_wong: the analytic wheel; dem: grains",
+                  "between. A cell opens its figure",
                   100 * reproduction.findings.level),
       {"section", "finding"},
       {true, true}};
-  table.header.insert(table.header.end(), reproduction.labels.begin(), reproduction.labels.end());
+  for (const std::string& label : reproduction.labels) table.header.push_back(model_in_words(label));
   table.text_columns.resize(table.header.size(), true);
   for (const ReproducedFinding& row : reproduction.rows) {
     std::vector<TableCell> cells = {row.finding.section, title_of(row.finding)};
@@ -266,10 +299,12 @@ std::string reproduction_page(const Reproduction& reproduction, const PageAbout&
   page.list(reproduction.remarks);
   page.doubts(about.doubts);
   page.section("Each finding: words, figure, intervals", "findings");
+  std::vector<std::string> names;
+  for (const std::string& label : reproduction.labels) names.push_back(model_in_words(label));
   for (const ReproducedFinding& row : reproduction.rows)
     page.folded(
-        fmt::format("{}: {}", row.finding.section, title_of(row.finding)),
-        [&] { add_finding(page, row, reproduction.labels); }, finding_anchor(row.finding.id));
+        fmt::format("{}: {}", row.finding.section, title_of(row.finding)), [&] { add_finding(page, row, names); },
+        finding_anchor(row.finding.id));
   page.section("How this page was made", "repeat");
   page.code(about.command);
   return page.html();

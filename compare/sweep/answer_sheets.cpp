@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/estimate.hpp"
@@ -11,7 +12,7 @@
 namespace soilbin::compare {
 namespace {
 
-constexpr std::size_t most_bands = 4;  ///< curves of a panel beyond which bands only hide each other
+constexpr std::size_t most_bands = 5;  ///< curves of a panel beyond which bands only hide each other
 
 /// What a panel shows of a result.
 struct Shown {
@@ -112,6 +113,19 @@ Series predicted_line(const std::vector<const PredictedRun*>& runs, const Channe
 
 }  // namespace
 
+std::vector<ModelAnswers> with_smooth_analytic_curves(const Case& question, std::vector<ModelAnswers> study) {
+  constexpr int points = 41;
+  Case smooth = with_smooth_curves(question, points);
+  smooth.study.models.clear();
+  for (const ModelAnswers& model : study)
+    if (model.choice.model == ModelKind::bekker_wong) smooth.study.models.push_back(model.choice);
+  std::vector<ModelAnswers> drawn = run_study(smooth);
+  std::size_t next = 0;
+  for (ModelAnswers& model : study)
+    if (model.choice.model == ModelKind::bekker_wong) model = std::move(drawn[next++]);
+  return study;
+}
+
 Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, Panels panels) {
   Sheet sheet{question.study.name, {}, Palette::ordered};
   const Curves curves = curves_against_slip(question.study.conditions, Spread::exact);
@@ -119,6 +133,12 @@ Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, 
   if (one_curve) sheet.palette = Palette::named;
   const bool all_bands = curves.labels.size() * study.size() <= most_bands;
   const bool first_bands = curves.labels.size() <= most_bands;
+  std::vector<Curves> own;  // of each model, which may have been asked at slips of its own
+  for (const ModelAnswers& model : study) {
+    std::vector<OperatingCondition> conditions;
+    for (const Answer& answer : model.answers) conditions.push_back(answer.at);
+    own.push_back(curves_against_slip(conditions, Spread::exact));
+  }
   sheet.note = in_words(question.scenario.tire) + " on " + in_words(question.scenario.soil) + "; ";
   if (all_bands)
     sheet.note += "bands and bars: one standard error";
@@ -130,9 +150,9 @@ Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, 
     Plot plot = empty_plot(shown);
     for (std::size_t m = 0; m < study.size(); ++m)
       for (std::size_t curve = 0; curve < curves.labels.size(); ++curve) {
-        Series series = series_of(study[m].answers, curves, curve, shown);
+        Series series = series_of(study[m].answers, own[m], curve, shown);
         series.band = all_bands || (m == 0 && first_bands);
-        series.label = join(study.size() > 1 ? study[m].choice.label : "", curves.labels[curve]);
+        series.label = join(study.size() > 1 ? model_in_words(study[m].choice.label) : "", curves.labels[curve]);
         series.color = static_cast<int>(one_curve ? m : curve);
         series.dash = one_curve ? 0 : static_cast<int>(m);
         plot.series.push_back(std::move(series));

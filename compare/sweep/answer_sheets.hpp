@@ -16,9 +16,13 @@ struct LabelledAnswers {
 /// Whether a panel stands there whose values are all zero.
 enum class Panels { telling, all };
 
+/// The answers with those of the analytic model, which costs little, along many slips of each curve: for smooth lines.
+std::vector<ModelAnswers> with_smooth_analytic_curves(const Case& question, std::vector<ModelAnswers> study);
+
 /// Drawbar pull, torque, sinkage, tractive efficiency (and the lateral force where there is one) against slip: a colour
-/// for each combination of the other conditions, a dash for each model; with up to four curves also error bands, else
-/// those of the first model where it has up to four.
+/// for each combination of the other conditions, a dash for each model; with up to five curves also error bands, else
+/// those of the first model where it has up to five. Every model's answers are of the question's curves, at its slips
+/// or others.
 Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, Panels panels = Panels::telling);
 
 /// The parts of the drawbar pull piled up against slip, those that drive above zero and those that hold back below it,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/sweep/answer_sheets.hpp"
@@ -324,11 +325,29 @@ std::string in_words(const CampaignPart& part) {
   return text + ".";
 }
 
-std::string analysis_page(const std::vector<StudyPart>& studies, const std::vector<CampaignPart>& campaigns,
+namespace {
+
+/// Calls the models as people call them; their labels, which flags and files spell, as they were.
+std::vector<std::string> name_models(std::vector<StudyPart>& studies) {
+  std::vector<std::string> labels;
+  for (StudyPart& part : studies)
+    for (std::vector<ModelAnswers>* study : {&part.study, &part.along_curves})
+      for (ModelAnswers& model : *study) {
+        labels.push_back(model.choice.label);
+        model.choice.label = model_in_words(model.choice.label);
+      }
+  return labels;
+}
+
+}  // namespace
+
+std::string analysis_page(const std::vector<StudyPart>& told, const std::vector<CampaignPart>& campaigns,
                           const PageAbout& about, const std::vector<PageCard>& links) {
-  Page page(about.title,
-            "What does this tire do on this soil? Answers of the semi-empirical wheel model, and how they compare with "
-            "measurements.");
+  std::vector<StudyPart> studies = told;
+  const std::vector<std::pair<std::string, std::string>> ids = names_and_ids(name_models(studies));
+  Page page(
+      about.title,
+      "What does this tire do on this soil? Answers of the analytic wheel, and how they compare with measurements.");
   std::vector<std::pair<std::string, std::string>> summary;
   for (const StudyPart& part : studies) summary.emplace_back(part.question.study.name, in_words(part));
   for (const CampaignPart& part : campaigns) summary.emplace_back(part.campaign.name, in_words(part));
@@ -345,6 +364,11 @@ std::string analysis_page(const std::vector<StudyPart>& studies, const std::vect
     page.section("More pages");
     page.cards(links);
   }
+  if (!studies.empty() && !studies.front().asked_as.empty()) {
+    page.paragraph(
+        "The live page has sliders for load, slip, tire and soil, and its curves follow them. It is opened by");
+    page.code("soilbin serve " + shell_words({studies.front().asked_as}));
+  }
   for (const StudyPart& part : studies) add_study(page, part, &part == &studies.front());
   for (const CampaignPart& part : campaigns) add_campaign(page, part);
   page.doubts(about.doubts);
@@ -356,7 +380,7 @@ std::string analysis_page(const std::vector<StudyPart>& studies, const std::vect
       "from the standard deviations of the soil's values. The balance of the load is solved to about 1e-14; the "
       "quadrature is good to 1e-9.");
   page.code(about.command);
-  page.facts({"part", "version"}, {&about.versions});
+  page.facts({"part", "id or version"}, {&ids, &about.versions});
   return page.html();
 }
 

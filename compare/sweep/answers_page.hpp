@@ -16,6 +16,7 @@ struct StudyPart {
   std::vector<ModelAnswers> study;
   Case curves;  ///< with_smooth_curves of the question
   std::vector<ModelAnswers> along_curves;
+  std::string asked_as{};  ///< the study's name or file, as the command was given it
 };
 
 /// A campaign and what the model predicts of it, without fitting.

@@ -8,6 +8,7 @@
 
 #include "bekker_wong/model.hpp"
 #include "compare/measured/csv.hpp"
+#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/table.hpp"
 #include "compare/sweep/result_json.hpp"
@@ -35,7 +36,20 @@ bekker_wong::RollingWheel wheel_of(const Scenario& scenario, const ModelChoice& 
           bekker_wong::make_effects(model.effects), scenario.bin};
 }
 
-WheelLimits limits_at(const Scenario& scenario, const ModelChoice& model, const OperatingCondition& at) {
+/// The same for a smooth line: closer together towards the steepest one, where the slip turns up.
+std::vector<double> many_slopes_up_to(double steepest) {
+  constexpr int points = 41;
+  if (steepest <= 0.0) return {0.0};
+  std::vector<double> slopes;
+  for (int i = 0; i < points; ++i) {
+    const double left = 1.0 - static_cast<double>(i) / (points - 1);
+    slopes.push_back(i + 1 == points ? steepest : steepest * (1.0 - left * left));
+  }
+  return slopes;
+}
+
+WheelLimits limits_at(const Scenario& scenario, const ModelChoice& model, const OperatingCondition& at,
+                      std::vector<double> (*slopes)(double steepest)) {
   WheelLimits answer{model, at, {}, {}, "", false};
   if (model.model != ModelKind::bekker_wong) throw InputError("limits asks the model bekker_wong alone");
   const bekker_wong::RollingWheel wheel = wheel_of(scenario, model);
@@ -43,7 +57,7 @@ WheelLimits limits_at(const Scenario& scenario, const ModelChoice& model, const 
     OperatingCondition there = at;
     there.longitudinal_incline = 0.0;
     answer.steepest = bekker_wong::steepest_slope(wheel, there);
-    for (const double slope : slopes_up_to(answer.steepest.value_or(0.0))) {
+    for (const double slope : slopes(answer.steepest.value_or(0.0))) {
       there.longitudinal_incline = slope;
       SlopeRow row{slope, bekker_wong::slip_for_pull(wheel, there), bekker_wong::largest_pull(wheel, there)};
       if (row.slip && std::abs(*row.slip) < 1e-9) row.slip = 0.0;  // closer than the root is found
@@ -90,7 +104,7 @@ std::vector<WheelLimits> limits_of(const Case& question) {
   std::vector<WheelLimits> answers;
   for (const ModelChoice& model : question.study.models)
     for (const OperatingCondition& at : without_slip(question.study.conditions)) {
-      WheelLimits answer = limits_at(question.scenario, model, at);
+      WheelLimits answer = limits_at(question.scenario, model, at, slopes_up_to);
       const auto known =
           std::ranges::find_if(answers, [&](const WheelLimits& other) { return same_but_speed(other, answer); });
       if (known == answers.end())
@@ -101,9 +115,10 @@ std::vector<WheelLimits> limits_of(const Case& question) {
   return answers;
 }
 
-/// The wheel where it pulls most on each slope: what there is to doubt in the answer.
-std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vector<WheelLimits>& answers) {
-  const bekker_wong::BekkerWong model({.errors = false, .patch = false});
+namespace {
+
+std::vector<ModelAnswers> answers_at(const Case& question, const std::vector<WheelLimits>& answers, bool errors) {
+  const bekker_wong::BekkerWong model({.errors = errors, .patch = false});
   std::vector<ModelAnswers> study;
   for (const WheelLimits& answer : answers) {
     Scenario scenario = question.scenario;
@@ -116,6 +131,13 @@ std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vec
     }
   }
   return study;
+}
+
+}  // namespace
+
+/// The wheel where it pulls most on each slope: what there is to doubt in the answer.
+std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vector<WheelLimits>& answers) {
+  return answers_at(question, answers, false);
 }
 
 std::optional<double> carried_load(const Case& question) {
@@ -182,29 +204,41 @@ std::string limits_csv(const std::vector<WheelLimits>& answers, const std::vecto
   return text;
 }
 
-/// Largest pull against the slope, and the slips: a colour for each model and load.
-Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& answers) {
+/// Largest pull against the slope, with its standard error, and the slips: a colour for each model and load. Where the
+/// pull is largest it changes with the soil's values as the pull at that slip does (the envelope theorem).
+Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& told) {
+  std::vector<WheelLimits> answers;
+  for (const WheelLimits& one : told)
+    answers.push_back(one.error.empty() ? limits_at(question.scenario, one.model, one.at, many_slopes_up_to) : one);
+  const std::vector<ModelAnswers> at_limits = answers_at(question, answers, true);
   const Axis slope{"slope [deg]"};
   const bool one_load = std::ranges::all_of(
       answers, [&](const WheelLimits& answer) { return answer.at.load == answers.front().at.load; });
   Sheet sheet{fmt::format("{} on {}{}", question.scenario.tire.name, in_words(question.scenario.soil),
                           one_load && !answers.empty() ? fmt::format(", load {:.6g} N", answers.front().at.load) : ""),
               {{"Largest pull [N]", slope, {}, {}}, {"Slip [%]", slope, {}, {}}}};
+  sheet.note = "bands: one standard error of the largest pull, from the standard deviations of the soil's values";
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const WheelLimits& answer = answers[i];
-    const std::string which = answers.size() < 2 ? ""
-                              : one_load         ? answer.model.label
-                                                 : fmt::format("{}, {:.6g} N", answer.model.label, answer.at.load);
+    const std::string model = model_in_words(answer.model.label),
+                      which = one_load ? model : fmt::format("{}, {:.6g} N", model, answer.at.load);
     const auto add = [&](std::size_t plot, const std::string& label, int dash, const auto& value) {
-      Series series{which.empty() ? label : which + (label.empty() ? "" : ": " + label)};
-      series.mark = Mark::line_and_points, series.color = static_cast<int>(i), series.dash = dash;
+      Series series{which + ": " + label};
+      series.color = static_cast<int>(i), series.dash = dash;
       for (const SlopeRow& row : answer.slopes) series.x.push_back(row.slope / degree), series.y.push_back(value(row));
       sheet.plots[plot].series.push_back(std::move(series));
     };
-    add(0, "", 0, [](const SlopeRow& row) { return row.best.drawbar_pull; });
-    add(1, "to climb this slope", 0, [](const SlopeRow& row) { return row.slip ? 100 * *row.slip : not_a_number; });
-    add(1, "of the largest pull", 1, [](const SlopeRow& row) { return 100 * row.best.slip; });
+    add(0, "largest pull", 0, [](const SlopeRow& row) { return row.best.drawbar_pull; });
+    for (const Answer& there : at_limits[i].answers)
+      sheet.plots[0].series.back().error.push_back(there.result ? there.result->drawbar_pull.std_error : 0.0);
+    add(1, "slip at which it climbs the slope", 2,
+        [](const SlopeRow& row) { return row.slip ? 100 * *row.slip : not_a_number; });
+    add(1, "slip of the largest pull", 1, [](const SlopeRow& row) { return 100 * row.best.slip; });
   }
+  if (std::ranges::all_of(sheet.plots[0].series, [](const Series& series) {
+        return std::ranges::all_of(series.error, [](double error) { return error == 0.0; });
+      }))
+    sheet.note.clear();
   return sheet;
 }
 

@@ -57,7 +57,8 @@ Json to_json(const WheelLimits& answer);
 /// A row a slope; `at_limits`: answers_at_limits of the same answers, to which each row's remark belongs.
 std::string limits_csv(const std::vector<WheelLimits>& answers, const std::vector<ModelAnswers>& at_limits,
                        const Remark& remark);
-/// Largest pull against the slope, and the slips: a colour for each model and load.
+/// Largest pull against the slope with its standard error, and the slips, at more slopes than the answers hold: a
+/// colour for each model and load.
 Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& answers);
 
 }  // namespace soilbin::compare

@@ -218,7 +218,7 @@ soilbin.Live = class {
                         ...(error && hint ? [soilbin.make('p', {textContent: `Hint: ${hint}`})] : []));
   }
 
-  // A refusal has no curves: those of the last answer stay.
+  // A refusal has no curves, or none with a point: those of the last answer stay.
   show(answer) {
     this.refused = Boolean(answer.error);
     const second = answer.beside && answer.beside.error ? `${answer.beside.label}: ${answer.beside.error}` : '';
@@ -226,12 +226,13 @@ soilbin.Live = class {
     if (answer.carried_load) this.offerLoad(answer.carried_load);
     const drawn = answer.curves && answer.curves.plots.some(plot => plot.series.some(s => s.y.some(y => y !== null)));
     document.querySelector('.results').classList.toggle('stale', !drawn);
-    if (!answer.curves || (!drawn && this.answer)) return;
+    if (!answer.curves) return;
     document.title = document.querySelector('h1').textContent = answer.title;
     soilbin.part('chosen').textContent = answer.in_words + (answer.beside ? `; beside it ${answer.beside.in_words}` : '');
     soilbin.part('command').textContent = answer.command + (answer.beside ? `\n${answer.beside.command}` : '');
     for (const [id, target] of [['save-case', 'case.yaml'], ['save-csv', 'curves.csv']]) soilbin.part(id).href = `${target}?${this.state}`;
-    this.showReadings(answer.readings, answer.beside);
+    const keeps = !drawn && this.answer;
+    if (!keeps) this.showReadings(answer.readings, answer.beside);
     for (const {key, value, sd} of answer.numbers) {
       const control = this.numbers.get(key);
       if (!control) continue;
@@ -242,6 +243,7 @@ soilbin.Live = class {
       const {controls} = this.start.effects.find(effect => effect.id === id);
       for (const {key, value} of parameters) if (controls.has(key)) this.showNumber(controls.get(key), value);
     }
+    if (keeps) return;
     this.answer = answer;
     this.draw();
   }

@@ -1,13 +1,22 @@
 // Starts what the page holds.
 'use strict';
 
+// What a figure's files are called: its title, of a lone panel with the panel's; else what its drawing is said to show.
+soilbin.fileNameOf = function (figure, sheet) {
+  const drawing = figure.querySelector('svg'), plots = sheet ? sheet.plots : [];
+  const words = sheet ? [sheet.title, ...(!sheet.title || plots.length === 1 ? plots.slice(0, 1).map(p => p.title.split(' [')[0]) : [])]
+    : [drawing.getAttribute('aria-label') || drawing.querySelector('text').textContent];
+  const name = words.join(' ').toLowerCase().normalize('NFKD').replace(/[^a-z0-9]+/g, '-').slice(0, 60).replace(/^-|-$/g, '');
+  return name || figure.id || 'figure';
+};
+
 soilbin.start = function () {
   const data = document.getElementById('figures'), sheets = data ? JSON.parse(data.textContent) : {};
   if (typeof d3 !== 'undefined')
     for (const [id, sheet] of Object.entries(sheets)) soilbin.enlivenFigure(document.getElementById(id), sheet);
   for (const figure of document.querySelectorAll('figure'))
     if (figure.querySelector('svg') && !figure.querySelector('.replay'))
-      soilbin.addTakeAlong(figure, figure.id || 'figure', sheets[figure.id] && sheets[figure.id].title || 'this figure',
+      soilbin.addTakeAlong(figure, soilbin.fileNameOf(figure, sheets[figure.id]), sheets[figure.id] && sheets[figure.id].title || 'this figure',
                            sheets[figure.id] && (() => sheets[figure.id]));
   for (const figure of document.querySelectorAll('.sliding-map')) soilbin.enlivenSlidingMap(figure);
   for (const svg of document.querySelectorAll('svg.heat')) soilbin.enlivenHeatMap(svg);

@@ -1,0 +1,49 @@
+#include "compare/report/model_names.hpp"
+
+#include <algorithm>
+
+#include "compare/report/number_text.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// "slip_sinkage:ding" as "slip sinkage (ding)".
+std::string effect_in_words(const std::string& id) {
+  const std::size_t colon = id.find(':');
+  return spaced(id.substr(0, colon)) + (colon == std::string::npos ? "" : " (" + spaced(id.substr(colon + 1)) + ")");
+}
+
+std::vector<std::string> parts_of(const std::string& label) {
+  const std::string plus = " + ";
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + plus.size()) {
+    end = label.find(plus, begin);
+    parts.push_back(label.substr(begin, end == std::string::npos ? end : end - begin));
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::string model_in_words(const std::string& label) {
+  if (label == "dem") return "grains";
+  if (label == "dem-lammps") return "grains (LAMMPS)";
+  if (const std::string packing = "dem packing "; label.starts_with(packing))
+    return "grains, packing " + label.substr(packing.size());
+  const std::vector<std::string> parts = parts_of(label);
+  if (parts.front() != "bekker_wong") return label;
+  std::string words = "analytic wheel";
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    words += (i == 1 ? " with " : i + 1 == parts.size() ? " and " : ", ") + effect_in_words(parts[i]);
+  return words;
+}
+
+std::vector<std::pair<std::string, std::string>> names_and_ids(const std::vector<std::string>& labels) {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const std::string& label : labels)
+    if (std::pair one{model_in_words(label), label}; one.first != label && std::ranges::find(names, one) == names.end())
+      names.push_back(std::move(one));
+  return names;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,18 @@
+// Models as people call them, on pages and plots. Files, flags, JSON, CSV and tables on a terminal keep the ids.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace soilbin::compare {
+
+/// "bekker_wong + slip_sinkage:ding" is "analytic wheel with slip sinkage (ding)", "dem" is "grains", "dem packing 2"
+/// is "grains, packing 2". A label that somebody chose stays as it is, and so does one that is in words already.
+std::string model_in_words(const std::string& label);
+
+/// (name in words, label) of each label that a flag or a file spells otherwise than the page: once, where a reader
+/// looks for what to type.
+std::vector<std::pair<std::string, std::string>> names_and_ids(const std::vector<std::string>& labels);
+
+}  // namespace soilbin::compare
