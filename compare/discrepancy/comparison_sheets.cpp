@@ -34,6 +34,12 @@ std::vector<std::size_t> members_of(const Comparison& comparison, std::size_t cu
   return members;
 }
 
+/// "paper-straight, 4 kN"; also what a figure's files are called by.
+std::string curve_title(const Comparison& comparison, std::size_t curve) {
+  const std::string& label = comparison.curves.labels[curve];
+  return comparison.question.study.name + (label.empty() ? "" : ", " + label);
+}
+
 Mark mark_of(SideKind kind) {
   if (kind == SideKind::measured) return Mark::points;
   return kind == SideKind::grains ? Mark::line_and_points : Mark::line;
@@ -92,7 +98,7 @@ bool of_one_packing(const SidePoint& point) { return point.result && point.runs 
 std::string label_with_limits(const Side& side, bool coarse_grains) {
   if (side.kind != SideKind::grains) return side.label;
   std::string label = side.label;
-  if (coarse_grains) label += ", grains coarse for the wheel";
+  if (coarse_grains) label += ", coarse for the wheel";
   const bool single =
       std::ranges::all_of(side.points, [](const SidePoint& point) { return !point.result || of_one_packing(point); });
   return single ? label + ", one packing each" : label;
@@ -158,7 +164,7 @@ Comparison smooth_sides(const Comparison& comparison) {
 }
 
 Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_grains, const Comparison& smooth) {
-  Sheet sheet{comparison.curves.labels[curve]};
+  Sheet sheet{curve_title(comparison, curve)};
   const std::vector<std::size_t> members = members_of(comparison, curve);
   const Smooth lines{smooth, smooth.sides.empty() ? members : members_of(smooth, curve)};
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
@@ -183,7 +189,7 @@ Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_g
 }
 
 Sheet contact_sheet(const Comparison& comparison, std::size_t curve) {
-  Sheet sheet{comparison.curves.labels[curve]};
+  Sheet sheet{curve_title(comparison, curve) + ", contact and sinkage"};
   const std::vector<std::size_t> members = members_of(comparison, curve);
   const std::pair<const char*, double TractionResult::*> angles[] = {
       {"Entry angle [deg]", &TractionResult::entry_angle},
@@ -216,7 +222,7 @@ Sheet stress_sheet(const Comparison& comparison, std::size_t condition) {
   for (std::size_t s = 0; s < comparison.sides.size(); ++s)
     if (const auto& result = comparison.sides[s].points[condition].result)
       patches.push_back({comparison.sides[s].label, static_cast<int>(s), result->patch});
-  return patch_sheet(in_words(comparison.question.study.conditions[condition]), patches);
+  return patch_sheet("stresses at " + in_words(comparison.question.study.conditions[condition]), patches);
 }
 
 HeatMap heat_map_of(const Comparison& comparison, const Tally& tally) {

@@ -252,7 +252,7 @@ std::optional<Clause> headline(const Comparison& comparison) {
   };
   clause.text = judged > 0 ? fmt::format("{} of {} numbers differ by more than errors and scatter. ", differ, judged)
                            : "These models share the soil's values: only a measurement can tell which is right. ";
-  clause.text += fmt::format("Widest apart is the {} at {}: {} by {}, {} by {}.", channel.title,
+  clause.text += fmt::format("Widest apart is the {} at {}: {} ({}) against {} ({}).", channel.title,
                              curve.empty() ? slip : curve + " and " + slip, told(worst->value),
                              comparison.sides[worst->side].label, told(worst->reference_value),
                              comparison.sides[worst->reference].label);

@@ -92,11 +92,9 @@ std::string largest_pull(const Peak& peak) {
 
 /// What another model of the study says of the same curve.
 std::string other_model(const std::string& label, const Peak& base, const Peak& other) {
-  return fmt::format(
-      "With {} it is {} at {:.3g} % slip, and at {:.3g} % slip the wheel sinks {:.0f} mm where the first model says "
-      "{:.0f} mm.",
-      label, force(other.pull->drawbar_pull.value), 100 * other.pull->at.slip, 100 * other.last->at.slip,
-      1000 * other.last->sinkage.value, 1000 * base.last->sinkage.value);
+  return fmt::format("{}: {} at {:.3g} % slip; at {:.3g} % slip it sinks {:.0f} mm, and by the first model {:.0f} mm.",
+                     capital(label), force(other.pull->drawbar_pull.value), 100 * other.pull->at.slip,
+                     100 * other.last->at.slip, 1000 * other.last->sinkage.value, 1000 * base.last->sinkage.value);
 }
 
 std::string percent_to_tenths(double share) { return fmt::format("{:.4g}", std::round(1000 * share) / 10); }

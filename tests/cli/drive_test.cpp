@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
+#include <set>
 
 #include "cli/command.hpp"
 
@@ -52,6 +54,15 @@ TEST(Drive, SpeaksWritesTableAndPage) {
   EXPECT_THAT(table, testing::StartsWith("time_s,travelled_m,speed_m_s"));
   EXPECT_THAT(text_of(page), AllOf(HasSubstr("Against time"), HasSubstr("<svg")));
   EXPECT_THAT(text_of(plot), HasSubstr("Sinkage [mm]"));
+  std::set<std::string> strokes;  // colour and dash of each entry of the legend, which stands at the end
+  const std::string drawn = text_of(plot), legend = drawn.substr(drawn.find("speed: travel") - 200);
+  const std::regex entry(
+      R"re(<line (class="s c\d" stroke="#[0-9a-f]+"(?: stroke-dasharray="[0-9 ]+")?) stroke-width)re");
+  std::size_t entries = 0;
+  for (auto at = std::sregex_iterator(legend.begin(), legend.end(), entry); at != std::sregex_iterator(); ++at)
+    strokes.insert((*at)[1]), ++entries;
+  EXPECT_EQ(entries, 12U);
+  EXPECT_EQ(strokes.size(), entries) << "no two of them look alike";
 }
 
 TEST(Drive, ACaseHasADriveOrAStudyAndEachCommandSaysWhich) {
@@ -264,6 +275,11 @@ TEST(LimitsCommand, TheSlipOnASlopeIsTheSlipOfNoPullThere) {
   const std::string drawing = (scratch / "l.svg").string();
   ASSERT_EQ(soilbin("limits --tire rover-wheel --soil dry-sand --load 64.68N --plot '" + drawing + "'").status, 0);
   EXPECT_THAT(text_of(drawing), HasSubstr("rover-wheel on dry-sand, load 64.68 N"));
+  for (const char* named : {"analytic wheel: largest pull<", "analytic wheel: slip at which it climbs the slope<",
+                            "analytic wheel: slip of the largest pull<", "<polygon", "one standard error"})
+    EXPECT_THAT(text_of(drawing), HasSubstr(named));
+  const std::string svg = text_of(drawing), path = svg.substr(svg.find(" d=\"M"), 2000);
+  EXPECT_GT(std::count(path.begin(), path.begin() + static_cast<long>(path.find("/>")), 'L'), 30) << "a smooth line";
 }
 
 TEST(LimitsCommand, AsksForTheLoadAndNoMore) {

@@ -1,3 +1,4 @@
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -138,6 +139,22 @@ TEST_F(Pair, EveryClauseOfTheSummaryHasItsRows) {
   EXPECT_THAT(clauses[first].text, HasSubstr("30 % of the load"));
 }
 
+// What a page says first fits two of its lines, and leads to the curve that it speaks of.
+TEST_F(Pair, TheHeadlineIsShortAndSpeaksOfTheWidestRow) {
+  const Comparison comparison = against({300}, 40.0);
+  const std::optional<Clause> clause = headline(comparison);
+  ASSERT_TRUE(clause);
+  EXPECT_LT(clause->text.size(), 200U);
+  EXPECT_EQ(clause->rows, opening(comparison).front().rows);
+  const Difference* worst = widest_difference(comparison);
+  ASSERT_NE(worst, nullptr);
+  EXPECT_THAT(clause->text, HasSubstr(fmt::format("{:.4g} % slip",
+                                                  100 * comparison.question.study.conditions[worst->condition].slip)));
+  EXPECT_THAT(clause->text, HasSubstr("(" + comparison.sides[worst->side].label + ") against"));
+  EXPECT_EQ(tally_table(comparison).header.at(3),
+            fmt::format("mean of {} less {}", comparison.sides[0].label, comparison.sides[1].label));
+}
+
 // The table's first row is the widest pair; what the errors cannot have made is bad news, what they can is good.
 TEST_F(Pair, TheTableOfChannelsPutsTheWidestFirstAndMarksIt) {
   const Table apart = tally_table(against({300}, 40.0));
@@ -167,7 +184,7 @@ TEST_F(Pair, LimitsOfGrainsAreMarkedOnTheCurves) {
         if (series.label == label) points += series.x.size();
     return points;
   };
-  EXPECT_GT(labelled(comparison.sides[1].label + ", grains coarse for the wheel, one packing each"), 0u);
+  EXPECT_GT(labelled(comparison.sides[1].label + ", coarse for the wheel, one packing each"), 0u);
   EXPECT_EQ(labelled("negative sinkage: the tread stands above the mean surface"), 1u);
   comparison.sides[1].points[0].runs = 2;
   const Sheet some = curve_sheet(comparison, 0, false);
@@ -214,6 +231,8 @@ TEST_F(Pair, TheBudgetNamesWhatPullsAndAddsUp) {
   double sum = 0;
   for (const BudgetRow& row : table.rows) sum += row.force[0];
   EXPECT_NEAR(sum, base.answers[2].result->drawbar_pull.value, 1e-6);
+  const Table told = budget_table(comparison, 2);
+  EXPECT_EQ(told.rows.at(told.rows.size() - 2).at(1).text, "0") << "rounding is no force";
 }
 
 TEST_F(Pair, PartsThatLeaveMoreThanTheirBoundAreADoubtOfThePoint) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "compare/report/heat_map.hpp"
+#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/plot.hpp"
@@ -125,6 +126,46 @@ TEST(Page, ACardIsTakenFromThePageItself) {
   EXPECT_THROW(page_card(folder / "other.html", folder / "index.html"), InputError);
   EXPECT_THROW(page_card(folder / "none.html", folder / "index.html"), InputError);
   fs::remove_all(folder);
+}
+
+TEST(Page, ACardsLineEndsAtAWord) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("soilbin-card-line-{}", ::getpid());
+  const auto line_of = [&](const std::string& text) {
+    Page page("title", "below");
+    page.sentences({text});
+    write_file_atomically(folder / "page.html", page.html());
+    return page_card(folder / "page.html", folder / "index.html").line;
+  };
+  std::string words;
+  for (int i = 0; i < 60; ++i) words += "seven77 ";
+  EXPECT_THAT(line_of(words), EndsWith("seven77 \u2026"));
+  EXPECT_LT(line_of(words).size(), 180U);
+  const std::string sentence = "A first sentence that says what the linked page has found out of it.";
+  EXPECT_EQ(line_of(sentence + " " + words), sentence);
+  fs::remove_all(folder);
+}
+
+TEST(ModelNames, AreThoseOfPeople) {
+  EXPECT_EQ(model_in_words("bekker_wong"), "analytic wheel");
+  EXPECT_EQ(model_in_words("bekker_wong + slip_sinkage"), "analytic wheel with slip sinkage");
+  EXPECT_EQ(model_in_words("bekker_wong + slip_sinkage:ding + exit_angle + yaw"),
+            "analytic wheel with slip sinkage (ding), exit angle and yaw");
+  EXPECT_EQ(model_in_words("dem"), "grains");
+  EXPECT_EQ(model_in_words("dem packing 2"), "grains, packing 2");
+  for (const char* own : {"my bekker_wong", "grains", "analytic wheel", "cmu-smooth (measured)", ""})
+    EXPECT_EQ(model_in_words(own), own);
+  EXPECT_THAT(names_and_ids({"dem", "mine", "dem"}), ElementsAre(std::pair<std::string, std::string>("grains", "dem")));
+}
+
+TEST(Svg, ErrorsThatAreOnlyToldTakeNoRoomAndAreNotDrawn) {
+  Series told = line("a", {1, 2});
+  told.error = {50, 50};
+  told.band = false;
+  const std::string text = svg(Sheet{"", {Plot{"pull", {}, {}, {told}}}});
+  EXPECT_THAT(text, AllOf(Not(HasSubstr("<polygon")), Not(HasSubstr(">50<"))));
+  const nlohmann::ordered_json series = to_json(Sheet{"", {Plot{"pull", {}, {}, {told}}}})["plots"][0]["series"][0];
+  EXPECT_EQ(series["error"][0], 50);
+  EXPECT_EQ(series["band"], false);
 }
 
 // Areas are drawn from their base; as data they say what they add to the pile.

@@ -1,9 +1,12 @@
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "compare/sweep/answer_sheets.hpp"
+#include "compare/sweep/answers_page.hpp"
 #include "compare/sweep/explanation.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "compare/sweep/varying.hpp"
@@ -77,6 +80,40 @@ TEST(Sweep, SmoothCurvesGoThroughTheStudysConditions) {
 }
 
 // What drives is piled up above zero and what holds back below it; the piles' ends add up to the sum of the parts.
+// What the page says of a curve's peak is what it draws, not the nearest of a few conditions; a pull that still grows
+// at the end is told so. The analytic model's lines in a plot are as smooth, those of grains hold their own points.
+TEST(Sweep, PeaksAreThoseOfTheSmoothCurves) {
+  StudyPart part;
+  part.question.scenario = wheel_on_sand();
+  part.question.study.models = {{ModelKind::bekker_wong, {}, "bekker_wong"}};
+  for (const double slip : {0.0, 0.3, 0.6}) part.question.study.conditions.push_back(condition(80, slip));
+  part.study = run_study(part.question);
+  part.curves = with_smooth_curves(part.question, 41);
+  part.along_curves = run_study(part.curves);
+  double most = 0.0, at = 0.0;
+  for (const Answer& answer : part.along_curves.front().answers)
+    if (answer.result && has_efficiency(*answer.result) && answer.result->tractive_efficiency > most)
+      most = answer.result->tractive_efficiency, at = answer.at.slip;
+  EXPECT_NE(at, 0.3);
+  EXPECT_THAT(in_words(part),
+              HasSubstr(fmt::format("at most {:.0f} % of the power put in goes into pull, at {:.3g} % slip", 100 * most,
+                                    100 * at)));
+  const double end = part.along_curves.front().answers.back().result->drawbar_pull.value;
+  const bool grows = std::ranges::all_of(part.along_curves.front().answers,
+                                         [&](const Answer& a) { return a.result->drawbar_pull.value <= end; });
+  EXPECT_EQ(in_words(part).find("where it still grows") != std::string::npos, grows);
+
+  std::vector<ModelAnswers> both = part.study;
+  both.push_back({{ModelKind::dem, {}, "dem"}, part.study.front().answers});
+  const Sheet sheet = study_sheet(part.question, with_smooth_analytic_curves(part.question, both));
+  const std::vector<Series>& pulls = sheet.plots.front().series;
+  ASSERT_EQ(pulls.size(), 2U);
+  EXPECT_GE(pulls[0].x.size(), 41U);
+  EXPECT_EQ(pulls[0].label, "analytic wheel");
+  EXPECT_EQ(pulls[1].x.size(), 3U);
+  EXPECT_EQ(pulls[1].label, "grains");
+}
+
 TEST(Sweep, PartsOfThePullArePiledUp) {
   std::vector<Answer> answers;
   for (const auto& [slip, push] : {std::pair{0.1, 5.0}, {0.2, -3.0}}) {

@@ -119,6 +119,21 @@ class Pages(unittest.TestCase):
         self.assertTrue(self.browser.until(f"{fold} && {fold}.open"))
         self.assertTrue(self.browser.until(f"{fold}.querySelectorAll('svg.live circle').length > 2"))
 
+    def test_the_appendix_of_the_reproduction_says_each_thing_once_and_with_its_unit(self):
+        self.show("reproduction")
+        heads = self.js("[...document.querySelectorAll('.marked thead th')].map(t => t.textContent)")
+        self.assertEqual(heads, ["section", "finding", "analytic wheel", "analytic wheel with slip sinkage", "grains"])
+        told = self.js("""[...document.querySelectorAll('details')].filter(d => d.querySelector('figcaption')).map(d => ({
+          caption: d.querySelector('figcaption').textContent.split(': at ')[0], text: d.textContent,
+          columns: [...d.querySelectorAll('thead th')].map((_, c) => [...d.querySelectorAll('tbody tr')].map(r => r.children[c].textContent).join('')),
+          verdicts: [...d.querySelectorAll('tbody tr')].map(r => r.children[1].textContent).filter(t => t.includes(':'))}))""")
+        self.assertGreater(len(told), 40)
+        for one in told:
+            self.assertEqual(one["text"].count(one["caption"]), 1)
+            self.assertTrue(all(one["columns"]), one)
+            for verdict in one["verdicts"]:
+                self.assertRegex(verdict, r"[0-9)] (N|mm|%|kN|deg|times)", one["caption"])
+
     def test_no_two_ticks_of_an_axis_bear_the_same_number(self):
         self.show("reproduction")
         twice = self.js("""(() => {
@@ -131,7 +146,11 @@ class Pages(unittest.TestCase):
         self.show("map")
         self.assertEqual(self.js("document.querySelector('h1').textContent"), "Where may I trust the quick estimate?")
         figure = "document.querySelector('.sliding-map')"
-        self.assertLess(self.js(f"{figure}.getBoundingClientRect().top"), 900)
+        self.assertLess(self.js(f"{figure}.querySelector('svg.heat').getBoundingClientRect().bottom"), 900, "map and x axis")
+        self.assertEqual(self.js("document.querySelector('nav a').hash"), "#map")
+        self.assertEqual(self.js(f"{figure}.querySelectorAll('output')[0].textContent"), "15 mm", "the tire's own lugs")
+        self.assertNotIn("Left out one at a time", self.js("document.body.textContent"))
+        self.js(f"{figure}.querySelectorAll('input').forEach(i => {{ i.value = 0; i.dispatchEvent(new Event('input')); }})")
         self.assertEqual(self.js(f"{figure}.querySelectorAll('input').length"), 2)
         shown = f"[...{figure}.querySelectorAll('.cell text')].map(t => t.textContent).join()"
         before, title = self.js(shown), self.js(f"{figure}.querySelector('svg text').textContent")

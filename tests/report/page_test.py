@@ -76,6 +76,33 @@ class ThePage(unittest.TestCase):
         self.assertTrue(self.browser.until("document.getElementById(location.hash.slice(1)).open === true"))
         self.js("scrollTo(0, 0)")
 
+    def test_2b_the_headline_is_two_lines_and_the_curves_it_speaks_of_are_in_sight(self):
+        self.browser.size(1400, 900)
+        self.js("scrollTo(0, 0)")
+        lines = self.js("(p => p.getBoundingClientRect().height / parseFloat(getComputedStyle(p).lineHeight))"
+                        "(document.querySelector('.summary p'))")
+        self.assertLess(lines, 2.2)
+        axis = self.js("(c => c.querySelector('.quiet').getBoundingClientRect().bottom)"
+                       "(document.querySelector('.choice:not([hidden]) .chart'))")
+        self.assertLess(axis, 900, "the x axis of the first row")
+        said = self.js("document.querySelector('.summary p').textContent").replace("\u00a0", " ")
+        shown = self.js("(s => s.selectedOptions[0].textContent)(document.querySelector('.chooser select'))")
+        self.assertIn(f"at {shown} and ", said)
+        caption = self.js("document.querySelector('.choice:not([hidden]) figcaption').textContent")
+        self.assertIn("measured", caption)
+        self.assertNotIn("grains", caption, "there are none")
+        self.assertNotIn("bekker_wong", self.js("[...document.querySelectorAll('.legend, figcaption, th, td, .summary')]"
+                                                ".filter(e => !e.closest('#repeat ~ *')).map(e => e.textContent).join()"))
+        self.assertIn("bekker_wong", self.js("document.querySelector('.subtitle').textContent"), "once, for flags")
+        self.browser.size(1600, 1000)
+
+    def test_2c_files_are_called_after_their_figure(self):
+        self.js("(window.names = [], window.kept = soilbin.saveFile, soilbin.saveFile = name => { window.names.push(name); }, 0)")
+        self.js("document.querySelector('.choice:not([hidden]) figure [data-take=csv]').click()")
+        shown = self.js("document.querySelector('.chooser select').selectedOptions[0].textContent")
+        self.assertEqual(self.js("window.names"), [f"cmu-{shown.lower().replace(' ', '-')}.csv"])
+        self.js("(soilbin.saveFile = window.kept, 0)")
+
     def test_3_charts_read_zoom_and_toggle(self):
         chart = "document.querySelector('.choice:not([hidden]) .chart')"
         self.js(f"{chart}.scrollIntoView({{block: 'center'}})")
@@ -99,9 +126,11 @@ class ThePage(unittest.TestCase):
     def test_4_keys_read_the_chart_aloud_and_walk_the_heat_map(self):
         self.js("document.querySelector('.choice:not([hidden]) svg.live').focus()")
         self.browser.key("Escape")  # whatever the mouse reads
-        self.browser.key("ArrowRight")
-        self.browser.key("ArrowRight")
-        self.assertIn("slip [%]: 0", self.js("document.querySelector('.choice:not([hidden]) .for-ears').textContent"))
+        said, heard = "document.querySelector('.choice:not([hidden]) .for-ears').textContent", []
+        for _ in range(25):  # lines are smooth: measured runs and many points between the study's slips
+            self.browser.key("ArrowRight")
+            heard.append(self.js(said))
+        self.assertIn("slip [%]: 0;", "".join(heard))
         self.js("document.querySelector('.heat .cell').focus()")
         self.browser.key("ArrowRight")
         self.assertEqual(self.js("document.activeElement.dataset.column"), "1")
