@@ -165,13 +165,18 @@ Table parameters_table(const LoopAnswer& answer) {
 }
 
 Table soil_table(const LoopAnswer& answer) {
-  Table table{"The soil's values, and the bias that leaving the effects out puts into them",
-              {"value", "with", "without", "bias", "unit"},
-              {true, false, false, false, true}};
+  MarkedTable table{"The soil's values, and the bias that leaving the effects out puts into them",
+                    {"value", "with", "without", "bias", "unit", "determined?"},
+                    {true, false, false, false, true, true}};
   for (const SoilShift& s : answer.soil_shifts) {
     const SoilParameter& p = soil_parameter(s.name);
-    table.add({p.title, number(s.with, p.per_si), number(s.without, p.per_si),
-               number(p.per_si * (s.without.value - s.with.value)), p.unit});
+    const bool held = s.with.std_error == 0;  // a fit leaves no error to a value that it ends at its bound
+    table.add({{p.title, p.meaning},
+               number(s.with, p.per_si),
+               number(s.without, p.per_si),
+               number(p.per_si * (s.without.value - s.with.value)),
+               p.unit,
+               held ? TableCell("no: at its bound", "", Tone::bad) : TableCell("yes")});
   }
   return table;
 }

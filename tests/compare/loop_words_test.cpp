@@ -190,6 +190,15 @@ TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
   EXPECT_EQ(forms.at(1), "slip_sinkage/lyasko");
 }
 
+TEST(SoilTable, SaysWhatAValueMeansAndWhetherItIsAtItsBound) {
+  LoopAnswer answer;
+  answer.soil_shifts = {{"stress_angle_c2", {-0.5, 0.0}, {0.2, 0.1}}, {"exponent", {0.9, 0.1}, {1.0, 0.1}}};
+  const Table table = soil_table(answer);
+  EXPECT_EQ(table.rows[0].front().note, "c2 of theta_m = (c1 + c2 |s|) theta_1");
+  EXPECT_EQ(table.rows[0].back().text, "no: at its bound");
+  EXPECT_EQ(table.rows[1].back().text, "yes");
+}
+
 /// As if something without a name depended on the slip.
 LoopAnswer unknown_by_slip() {
   LoopAnswer answer = two_sets();
