@@ -85,8 +85,9 @@ void add_curves(Page& page, const Comparison& comparison, bool coarse_grains) {
                        page.figure(curve_sheet(comparison, c, coarse_grains, smooth), curves_in_words(comparison));
                      }});
   if (names.size() > 1)
-    parts.push_back({"all curves at once", [&page, &comparison] {
-                       page.figure(overview_sheet(comparison), "A colour for each curve, a dash for each side.");
+    parts.push_back({"all curves at once", [&page, &comparison, &smooth] {
+                       page.figure(overview_sheet(comparison, smooth),
+                                   "A colour for each curve, a dash for each side.");
                      }});
   const Difference* told = widest_difference(comparison);
   page.choices("Curve", parts, told != nullptr ? comparison.curves.curve_of[told->condition] : (names.size() - 1) / 2);
@@ -237,6 +238,7 @@ std::string comparison_page(const Comparison& told, const ComparisonAbout& about
     labels.push_back(side.label);
     side.label = model_in_words(side.label);
   }
+  for (std::string& gap : comparison.not_compared) gap = models_in_words(std::move(gap), labels);
   const Scenario& scenario = comparison.question.scenario;
   Page page(about.page.title, fmt::format("{} on {}: {}", scenario.tire.name.empty() ? "A wheel" : scenario.tire.name,
                                           scenario.soil.name, sides_in_words(comparison)));

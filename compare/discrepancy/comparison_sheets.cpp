@@ -135,12 +135,14 @@ void mark_limits(Plot& plot, const Comparison& comparison, const std::vector<std
 
 }  // namespace
 
-Sheet overview_sheet(const Comparison& comparison) {
+Sheet overview_sheet(const Comparison& comparison, const Comparison& smooth) {
   std::vector<ModelAnswers> study;
-  for (const Side& side : comparison.sides) {
-    ModelAnswers answers{{ModelKind::bekker_wong, {}, side.label}, {}};
-    for (std::size_t i = 0; i < side.points.size(); ++i)
-      answers.answers.push_back({comparison.question.study.conditions[i], side.points[i].result, side.points[i].error});
+  for (std::size_t s = 0; s < comparison.sides.size(); ++s) {
+    const Comparison& from = s < smooth.sides.size() ? smooth : comparison;
+    const std::vector<SidePoint>& points = from.sides[s].points;
+    ModelAnswers answers{{ModelKind::bekker_wong, {}, comparison.sides[s].label}, {}};
+    for (std::size_t i = 0; i < points.size(); ++i)
+      answers.answers.push_back({from.question.study.conditions[i], points[i].result, points[i].error});
     study.push_back(std::move(answers));
   }
   Sheet sheet = study_sheet(comparison.question, study);

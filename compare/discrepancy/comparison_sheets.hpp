@@ -10,12 +10,13 @@
 
 namespace soilbin::compare {
 
-/// All curves of all sides, as study_sheet draws them; grains with points on their lines, measurements as points.
-Sheet overview_sheet(const Comparison& comparison);
-
 /// The analytic sides along many slips of each curve, for smooth lines; no other side. No side at all where the
 /// comparison does not tell their models.
 Comparison smooth_sides(const Comparison& comparison);
+
+/// All curves of all sides, as study_sheet draws them; grains with points on their lines, measurements as points. The
+/// analytic sides are drawn by `smooth` where it has them.
+Sheet overview_sheet(const Comparison& comparison, const Comparison& smooth = {});
 
 /// One curve: each channel against slip, a colour for each side, with bands of one standard error. What limits grains
 /// is marked: in the legend where it holds for all their points (one packing each, grains too coarse), else and for a

@@ -247,7 +247,7 @@ std::vector<std::pair<std::string, std::string>> opening(const Reproduction& rep
     const std::string& label = reproduction.labels[k];
     const std::string name = model_in_words(label);
     sentences.emplace_back(
-        name == label ? label : fmt::format("{} ({})", capital(name), label),
+        name == label ? label : fmt::format("{} ({})", label.starts_with("dem") ? capital(name) : "The " + name, label),
         fmt::format("{} of {} findings are shown, {} contradicted and {} left open{}.", count(FindingVerdict::shown),
                     asked, count(FindingVerdict::contradicted), count(FindingVerdict::not_shown),
                     asked < static_cast<long>(rows.size())

@@ -228,10 +228,10 @@ soilbin.Live = class {
     document.querySelector('.results').classList.toggle('stale', !drawn);
     if (!answer.curves) return;
     document.title = document.querySelector('h1').textContent = answer.title;
-    soilbin.part('chosen').textContent = answer.in_words + (answer.beside ? `; beside it ${answer.beside.in_words}` : '');
+    const keeps = !drawn && this.answer;
+    if (!keeps) soilbin.part('chosen').textContent = answer.in_words + (answer.beside ? `; beside it ${answer.beside.in_words}` : '');
     soilbin.part('command').textContent = answer.command + (answer.beside ? `\n${answer.beside.command}` : '');
     for (const [id, target] of [['save-case', 'case.yaml'], ['save-csv', 'curves.csv']]) soilbin.part(id).href = `${target}?${this.state}`;
-    const keeps = !drawn && this.answer;
     if (!keeps) this.showReadings(answer.readings, answer.beside);
     for (const {key, value, sd} of answer.numbers) {
       const control = this.numbers.get(key);
