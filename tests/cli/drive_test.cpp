@@ -278,7 +278,7 @@ TEST(LimitsCommand, TheSlipOnASlopeIsTheSlipOfNoPullThere) {
   for (const char* named : {"analytic wheel: largest pull<", "analytic wheel: slip at which it climbs the slope<",
                             "analytic wheel: slip of the largest pull<", "<polygon", "one standard error"})
     EXPECT_THAT(text_of(drawing), HasSubstr(named));
-  const std::string svg = text_of(drawing), path = svg.substr(svg.find(" d=\"M"), 2000);
+  const std::string svg = text_of(drawing), path = svg.substr(svg.find(" d=\"M", svg.find("class=\"s c0\"")), 2000);
   EXPECT_GT(std::count(path.begin(), path.begin() + static_cast<long>(path.find("/>")), 'L'), 30) << "a smooth line";
 }
 
