@@ -85,10 +85,13 @@ void add_curves(Page& page, const Comparison& comparison, bool coarse_grains) {
                        page.figure(curve_sheet(comparison, c, coarse_grains, smooth), curves_in_words(comparison));
                      }});
   if (names.size() > 1)
-    parts.push_back({"all curves at once", [&page, &comparison, &smooth] {
-                       page.figure(overview_sheet(comparison, smooth),
-                                   "A colour for each curve, a dash for each side.");
-                     }});
+    parts.push_back(
+        {"all curves at once", [&page, &comparison, &smooth] {
+           page.figure(
+               overview_sheet(comparison, smooth),
+               "A colour for each curve, a dash for each side. Bands: one standard error; where many would hide each "
+               "other, point at a name in the legend to see its own.");
+         }});
   const Difference* told = widest_difference(comparison);
   page.choices("Curve", parts, told != nullptr ? comparison.curves.curve_of[told->condition] : (names.size() - 1) / 2);
 }

@@ -155,7 +155,8 @@ std::string coordinates_in_words(const MapStory& story) {
       std::ranges::min_element(story.coordinates, [](const auto& a, const auto& b) { return a.held_out < b.held_out; });
   const std::string text = fmt::format(
       "Would ratios without units predict better than load, lug height, angle and slip themselves? We learnt the map "
-      "again from such ratios (the load number: the load over the weight of soil b r^2; the lugs' height over the "
+      "again from such ratios (the load number, which is the load over the weight of soil of the wheel's width and "
+      "radius squared; the lugs' height over the "
       "sinkage at rest) and let it predict each condition from all others. With the quantities themselves it errs by "
       "{:.1f} % of the load",
       100 * plain);
