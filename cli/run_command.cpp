@@ -45,9 +45,7 @@ void save(Outputs& outputs, const RunOptions& options, const Case& question, con
   const std::vector<compare::ModelAnswers>& study = answered.study;
   const auto csv = [&] { return compare::study_csv(study, compare::remarks_about(question.scenario)); };
   outputs.file(options.csv, csv);
-  outputs.drawing(options.plot, [&] {
-    return compare::study_sheet(question, compare::with_smooth_analytic_curves(question, study));
-  });
+  outputs.drawing(options.plot, [&] { return compare::study_sheet(question, compare::as_drawn(question, study)); });
   outputs.write(options.output, [&] {
     const fs::path folder = options.output;
     write_file_atomically(folder / "case.yaml", write_case(question, place.effects));

@@ -87,6 +87,8 @@ PageCard page_card(const fs::path& page, const fs::path& from) {
                 between(text, "<title>", "</title>"),
                 beginning(between(text, "<meta name=\"description\" content=\"", "\">")),
                 between(text, "<svg class=\"plot\"", "</svg>", true)};
+  if (card.drawing.empty())  // a page of heat maps
+    card.drawing = between(text, "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot heat\"", "</svg>", true);
   if (card.title.empty())
     throw InputError(
         fmt::format("{}: no page of soilbin\n  hint: --report of compare, loop, reproduce and failure-map writes one",

@@ -113,7 +113,7 @@ Series predicted_line(const std::vector<const PredictedRun*>& runs, const Channe
 
 }  // namespace
 
-std::vector<ModelAnswers> with_smooth_analytic_curves(const Case& question, std::vector<ModelAnswers> study) {
+std::vector<ModelAnswers> as_drawn(const Case& question, std::vector<ModelAnswers> study) {
   constexpr int points = 41;
   Case smooth = with_smooth_curves(question, points);
   smooth.study.models.clear();
@@ -121,8 +121,10 @@ std::vector<ModelAnswers> with_smooth_analytic_curves(const Case& question, std:
     if (model.choice.model == ModelKind::bekker_wong) smooth.study.models.push_back(model.choice);
   std::vector<ModelAnswers> drawn = run_study(smooth);
   std::size_t next = 0;
-  for (ModelAnswers& model : study)
+  for (ModelAnswers& model : study) {
     if (model.choice.model == ModelKind::bekker_wong) model = std::move(drawn[next++]);
+    model.choice.label = model_in_words(model.choice.label);
+  }
   return study;
 }
 
@@ -152,7 +154,7 @@ Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, 
       for (std::size_t curve = 0; curve < curves.labels.size(); ++curve) {
         Series series = series_of(study[m].answers, own[m], curve, shown);
         series.band = all_bands || (m == 0 && first_bands);
-        series.label = join(study.size() > 1 ? model_in_words(study[m].choice.label) : "", curves.labels[curve]);
+        series.label = join(study.size() > 1 ? study[m].choice.label : "", curves.labels[curve]);
         series.color = static_cast<int>(one_curve ? m : curve);
         series.dash = one_curve ? 0 : static_cast<int>(m);
         plot.series.push_back(std::move(series));

@@ -145,6 +145,17 @@ TEST(Page, ACardsLineEndsAtAWord) {
   fs::remove_all(folder);
 }
 
+TEST(Page, ACardOfAHeatMapShowsIt) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("soilbin-card-heat-{}", ::getpid());
+  Page page("title", "below");
+  HeatMap map;
+  map.title = "where", map.x = {"1"}, map.y = {"2"}, map.cells = {{{3.0, "+3", "three", true}}};
+  page.heat_maps({heat_map_svg(map)}, "caption");
+  write_file_atomically(folder / "page.html", page.html());
+  EXPECT_THAT(page_card(folder / "page.html", folder / "index.html").drawing, HasSubstr("where"));
+  fs::remove_all(folder);
+}
+
 TEST(ModelNames, AreThoseOfPeople) {
   EXPECT_EQ(model_in_words("bekker_wong"), "analytic wheel");
   EXPECT_EQ(model_in_words("bekker_wong + slip_sinkage"), "analytic wheel with slip sinkage");

@@ -19,7 +19,7 @@ soilbin.start = function () {
       soilbin.addTakeAlong(figure, soilbin.fileNameOf(figure, sheets[figure.id]), sheets[figure.id] && sheets[figure.id].title || 'this figure',
                            sheets[figure.id] && (() => sheets[figure.id]));
   for (const figure of document.querySelectorAll('.sliding-map')) soilbin.enlivenSlidingMap(figure);
-  for (const svg of document.querySelectorAll('svg.heat')) soilbin.enlivenHeatMap(svg);
+  for (const svg of document.querySelectorAll('figure svg.heat')) soilbin.enlivenHeatMap(svg);
   for (const box of document.querySelectorAll('.choices')) soilbin.enlivenChoices(box);
   for (const host of document.querySelectorAll('.replay')) soilbin.startReplay(host);
   window.addEventListener('hashchange', soilbin.openTarget);
