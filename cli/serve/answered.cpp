@@ -60,7 +60,8 @@ Json curves_json(const std::vector<ServedAnswer>& sides) {
         series.mark = compare::Mark::points;
         series.label = one.label.empty() ? "this point" : one.label + ", this point";
         series.color = side == 0 ? 1 : 2;
-        if (sides.size() > 1) series.error.clear();  // bars would stand beside each other, off their slip; bands tell it
+        if (sides.size() > 1)
+          series.error.clear();  // bars would stand beside each other, off their slip; bands tell it
         plot.series.push_back(std::move(series));
       }
     }
