@@ -33,9 +33,10 @@ struct RunOptions {
   SoilBinFlags soil_bin;
 };
 
-/// Answers by LAMMPS carry its name.
+/// Answers by LAMMPS carry its name. It is given spheres alone.
 void name_engine(Case& question, const std::string& engine) {
   if (engine != "lammps") return;
+  if (question.scenario.soil.granular) dem::spheres_alone(*question.scenario.soil.granular);
   for (ModelChoice& choice : question.study.models)
     if (choice.model == ModelKind::dem) choice.label = dem::lammps_model_name;
 }

@@ -167,7 +167,6 @@ std::vector<AskedRun> runs_of(const Case& question, const dem::DemSettings& sett
                               std::optional<bool> test) {
   const Tire& tire = question.scenario.tire;
   dem::way_in_bin(dem::DemModel(settings).recipe(question.scenario).size, tire, settings.rig);
-  if (settings.lammps) dem::spheres_alone(*question.scenario.soil.granular);
   for (const OperatingCondition& at : question.study.conditions) dem::wheel_motion(at, tire.radius);
   return run_list(question.study.conditions, packings_from(settings, packings), test_of_step(question, packings, test));
 }

@@ -72,8 +72,7 @@ void bind_tire_and_soil(py::module_& module) {
   bind_words<RollingResistance>(module, "RollingResistance", "How grains resist rolling (docs/theory/dem-laws.md).");
   bind_words<TwistingResistance>(module, "TwistingResistance", "How grains resist twisting (docs/theory/dem-laws.md).");
   bind_words<GrainShape>(module, "GrainShape", "What a grain is made of: a sphere, or several joined for good.");
-  py::class_<GranularSoil> granular(module, "GranularSoil",
-                                    "A soil as grains, radii uniform between two bounds.");
+  py::class_<GranularSoil> granular(module, "GranularSoil", "A soil as grains, radii uniform between two bounds.");
   described(granular);
   py::class_<Soil> soil(module, "Soil", "What the analytic model needs, what the grains need, or both.");
   described(soil);

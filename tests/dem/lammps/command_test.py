@@ -139,7 +139,7 @@ class Lammps(unittest.TestCase):
         self.assertIn("--engine lammps", ranks.stderr)
         replay = self.run_it("--engine", "lammps", "--record", "replay.json", "--replay", "motion.replay")
         self.assertEqual(replay.returncode, 2)
-        self.assertIn("keep no motion", replay.stderr)
+        self.assertIn("leave out --engine lammps, or --replay", replay.stderr)
 
     def test_a_bed_that_lammps_settles_is_kept_and_told_in_the_record(self):
         alone = self.run_it("--settled-by", "lammps")
