@@ -314,7 +314,7 @@ std::string in_short(const MapStory& story) {
       "conditions. Which ones: set the sliders to your lugs and slip{}.",
       tolerance, 100 * (1 - share_beyond(story)),
       tire.lugs.height > 0.0
-          ? fmt::format(" (they start at the lugs of {}, {:.3g} mm)", tire.name, 1000 * tire.lugs.height)
+          ? fmt::format(" (they start next to the lugs of {}, {:.3g} mm)", tire.name, 1000 * tire.lugs.height)
           : "");
 }
 
