@@ -173,6 +173,7 @@ void carry_velocity(const Clumps& clumps, const Clump& clump, const Rotation& ar
 
 double move_clumps(World& world) {
   State& s = world.state;
+  if (s.clumps.all.empty()) return 0;  // beds of spheres start no threads for it
   const auto count = static_cast<std::ptrdiff_t>(s.clumps.all.size());
   double fastest = 0;
   bool finite = true;
