@@ -236,11 +236,7 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
 
 std::string comparison_page(const Comparison& told, const ComparisonAbout& about) {
   Comparison comparison = told;  // with its sides called as people call them
-  std::vector<std::string> labels;
-  for (Side& side : comparison.sides) {
-    labels.push_back(side.label);
-    side.label = model_in_words(side.label);
-  }
+  const std::vector<std::string> labels = call_in_words(comparison.sides);
   for (std::string& gap : comparison.not_compared) gap = models_in_words(std::move(gap), labels);
   const Scenario& scenario = comparison.question.scenario;
   Page page(about.page.title, fmt::format("{} on {}: {}", scenario.tire.name.empty() ? "A wheel" : scenario.tire.name,

@@ -190,11 +190,7 @@ std::string drive_csv(const DriveSides& drive) {
 
 std::string drive_page(const DriveSides& told, const PageAbout& about) {
   DriveSides drive = told;  // with its sides called as people call them
-  std::vector<std::string> labels;
-  for (DriveSide& side : drive.sides) {
-    labels.push_back(side.label);
-    side.label = model_in_words(side.label);
-  }
+  const std::vector<std::string> labels = call_in_words(drive.sides);
   Page page(about.title, drive.question.description);
   page.sentences(in_words(drive));
   page.doubts(about.doubts);
