@@ -34,6 +34,13 @@ Rotation random_rotation(Random& random) {
           std::sqrt(u) * std::sin(b)};
 }
 
+GrainProportions measured_against_spheres(const std::optional<ClumpShape>& shape) {
+  if (!shape) return {};
+  const double sphere = shape->spheres.front().radius;
+  const double of_spheres = static_cast<double>(shape->spheres.size()) * std::pow(sphere, 3);
+  return {.ball = shape->reach(), .sphere = sphere, .solid = 1 / of_spheres};
+}
+
 }  // namespace
 
 std::optional<ClumpShape> shape_of(const GranularSoil& soil) {
@@ -46,18 +53,12 @@ std::optional<ClumpShape> shape_of(const GranularSoil& soil) {
   return shape.scaled(std::cbrt(sphere_volume(1) / shape.volume));
 }
 
-GrainProportions proportions_of(const GranularSoil& soil) {
-  const std::optional<ClumpShape> shape = shape_of(soil);
-  if (!shape) return {};
-  const double sphere = shape->spheres.front().radius;
-  const double of_spheres = static_cast<double>(shape->spheres.size()) * std::pow(sphere, 3);
-  return {.ball = shape->reach(), .sphere = sphere, .solid = 1 / of_spheres};
-}
+GrainProportions proportions_of(const GranularSoil& soil) { return measured_against_spheres(shape_of(soil)); }
 
 GrainMaker::GrainMaker(const GranularSoil& soil, std::uint64_t seed)
     : radii_{soil.radius_min, soil.radius_max},
-      proportions_(proportions_of(soil)),
       shape_(shape_of(soil)),
+      proportions_(measured_against_spheres(shape_)),
       random_(seed ^ 0x74726e73) {}  // a sequence of its own: places and radii are those of spheres
 
 RadiusRange GrainMaker::balls() const {

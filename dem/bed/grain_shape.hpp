@@ -39,8 +39,8 @@ class GrainMaker {
 
  private:
   RadiusRange radii_;
-  GrainProportions proportions_;
   std::optional<ClumpShape> shape_;
+  GrainProportions proportions_;
   Random random_;
 };
 

@@ -11,11 +11,6 @@
 namespace soilbin::dem {
 namespace {
 
-bool is_held(const World& world, const Clump& clump) {
-  const State& s = world.state;
-  return s.grains.motion[s.clumps.of(clump).front().row].held();
-}
-
 bool sleeps(const World& world, const Clump& clump) {
   if (world.setup.numerics.sleep.speed == 0) return false;
   const std::vector<std::uint32_t>& begins = world.state.slab_rows;
@@ -32,7 +27,7 @@ void stand_still(State& s, Clump& clump) {
 }
 
 /// Where the ledger is kept: what the contacts of its spheres take from the motion (EnergyLedger).
-void count_kicks(World& world, const Clump& clump, const ClumpAcceleration& change) {
+void count_kicks(World& world, const Clump& clump, const Acceleration& change) {
   State& s = world.state;
   const double half = world.setup.numerics.dt / 2;
   for (const ClumpMember& member : s.clumps.of(clump)) {
@@ -49,7 +44,7 @@ double move(World& world, Clump& clump) {
   ClumpMotion& motion = clump.motion;
   const double dt = world.setup.numerics.dt;
   const Load load = load_of(s.clumps, clump, s.grains.load);
-  const ClumpAcceleration change = acceleration(clump, load, s.gravity);
+  const Acceleration change = acceleration(clump, load, s.gravity);
   if (world.setup.numerics.ledger) count_kicks(world, clump, change);
   const Rotation before = motion.rotation;
   motion.velocity += dt * change.velocity;
@@ -154,7 +149,7 @@ Load load_of(const Clumps& clumps, const Clump& clump, std::span<const Load> loa
   return sum;
 }
 
-ClumpAcceleration acceleration(const Clump& clump, const Load& load, const Vec3& gravity) {
+Acceleration acceleration(const Clump& clump, const Load& load, const Vec3& gravity) {
   const ClumpMotion& motion = clump.motion;
   return {load.force / clump.mass + gravity, spin_rate(motion.rotation, clump.inertia, motion.spin, load.torque)};
 }
@@ -182,7 +177,7 @@ double move_clumps(World& world) {
     reduction(&& : finite)
   for (std::ptrdiff_t k = 0; k < count; ++k) {
     Clump& clump = s.clumps.all[static_cast<std::size_t>(k)];
-    if (is_held(world, clump) || sleeps(world, clump)) {
+    if (s.clumps.held(clump, s.grains) || sleeps(world, clump)) {
       stand_still(s, clump);
       for (const ClumpMember& member : s.clumps.of(clump)) {
         s.grains.load[member.row] = {};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "dem/engine/grains.hpp"
+#include "dem/surface/body.hpp"
 #include "dem/surface/mass_properties.hpp"
 
 namespace soilbin::dem {
@@ -58,6 +59,9 @@ struct Clumps {
   std::vector<ClumpMember> members;  ///< clump by clump
 
   std::span<const ClumpMember> of(const Clump& clump) const { return {members.data() + clump.first, clump.count}; }
+  /// The row of its first sphere: what holds for all of them is asked of that one.
+  std::uint32_t row_of(const Clump& clump) const { return members[clump.first].row; }
+  bool held(const Clump& clump, const Grains& grains) const { return grains.motion[row_of(clump)].held(); }
   /// After grains were sorted: finds the rows again.
   void find_rows(const Grains& grains);
   /// Marks all spheres of a clump of which one is marked, row by row.
@@ -74,11 +78,8 @@ double mass_share(const Grains& grains, const Clumps& clumps, std::size_t row);
 
 /// What a clump feels: the loads of its spheres, row by row in `loads`, about its centre of mass.
 Load load_of(const Clumps& clumps, const Clump& clump, std::span<const Load> loads);
-/// How that and gravity change its motion at once [m/s^2], [rad/s^2].
-struct ClumpAcceleration {
-  Vec3 velocity, spin;
-};
-ClumpAcceleration acceleration(const Clump& clump, const Load& load, const Vec3& gravity);
+/// How that and gravity change its motion at once.
+Acceleration acceleration(const Clump& clump, const Load& load, const Vec3& gravity);
 /// Kinetic energy at this velocity and spin [J].
 double kinetic_energy(const Clump& clump, const Vec3& velocity, const Vec3& spin);
 /// Gives its spheres the velocity and spin that they have with it, the rotation that of `arms_at`.

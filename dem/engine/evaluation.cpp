@@ -157,8 +157,8 @@ std::vector<Kick> kicks_of(const World& world, const std::vector<Load>& loads, d
   for (std::size_t row = 0; row < all.size(); ++row)
     if (s.grains.clump[row] == lone) all[row] = kick_of(world, row, loads[row], time);
   for (const Clump& clump : s.clumps.all) {
-    if (s.grains.motion[s.clumps.of(clump).front().row].held()) continue;
-    const ClumpAcceleration change = acceleration(clump, load_of(s.clumps, clump, loads), s.gravity);
+    if (s.clumps.held(clump, s.grains)) continue;
+    const Acceleration change = acceleration(clump, load_of(s.clumps, clump, loads), s.gravity);
     for (const ClumpMember& member : s.clumps.of(clump))
       all[member.row] = {time * (change.velocity + cross(change.spin, clump.motion.rotation(member.arm))),
                          time * change.spin};
@@ -182,9 +182,8 @@ void add_clumps(const World& world, const std::vector<Load>& loads, EnergyBalanc
   const State& s = world.state;
   const double half = world.setup.numerics.dt / 2;
   for (const Clump& clump : s.clumps.all) {
-    const std::uint32_t row = s.clumps.of(clump).front().row;
-    if (s.grains.motion[row].held() || is_new(world, row)) continue;
-    const ClumpAcceleration change = acceleration(clump, load_of(s.clumps, clump, loads), s.gravity);
+    if (s.clumps.held(clump, s.grains) || is_new(world, s.clumps.row_of(clump))) continue;
+    const Acceleration change = acceleration(clump, load_of(s.clumps, clump, loads), s.gravity);
     out.kinetic +=
         kinetic_energy(clump, clump.motion.velocity + half * change.velocity, clump.motion.spin + half * change.spin);
     out.potential -= clump.mass * dot(s.gravity, clump.motion.position);

@@ -83,8 +83,8 @@ void wrap_grains(World& world, std::span<const std::uint8_t> gone) {
     const Vec3 from = at;
     at = {wrapped(at.x, domain.lower.x, periods.length.x), wrapped(at.y, domain.lower.y, periods.length.y),
           wrapped(at.z, domain.lower.z, periods.length.z)};
-    const bool held = s.grains.motion[s.clumps.of(clump).front().row].held();
-    if (world.setup.numerics.ledger && !held) s.ledger.added += clump.mass * dot(s.gravity, from - at);
+    if (world.setup.numerics.ledger && !s.clumps.held(clump, s.grains))
+      s.ledger.added += clump.mass * dot(s.gravity, from - at);
   }
 }
 

@@ -87,9 +87,8 @@ void shift(World& world, bool new_ones, double time) {
   const std::vector<Load> loads = loads_of(world);
   const std::vector<Kick> kicks = kicks_of(world, loads, time);
   for (Clump& clump : s.clumps.all) {
-    const std::uint32_t row = s.clumps.of(clump).front().row;
-    if (is_new(world, row) != new_ones || s.grains.motion[row].held()) continue;
-    const ClumpAcceleration change = acceleration(clump, load_of(s.clumps, clump, loads), s.gravity);
+    if (is_new(world, s.clumps.row_of(clump)) != new_ones || s.clumps.held(clump, s.grains)) continue;
+    const Acceleration change = acceleration(clump, load_of(s.clumps, clump, loads), s.gravity);
     clump.motion.velocity += time * change.velocity;
     clump.motion.spin += time * change.spin;
   }
