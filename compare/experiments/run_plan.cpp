@@ -13,6 +13,7 @@
 #include "compare/report/table.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "dem/bed/relative_density.hpp"
 #include "dem/rig/wheel_in_bin.hpp"
 #include "dem/rig/wheel_motion.hpp"
 
@@ -157,6 +158,8 @@ RunPlan plan_of(const Case& question, const dem::DemSettings& settings, const st
     plan.runs.push_back({run, missing_runs({run}, records).empty(), costs.seconds(run)});
   }
   plan.beds = packings.size(), plan.unsettled = without_file(packings, settings, question.scenario);
+  plan.density_limits =
+      !settings.beds.empty() && dem::has_density_limits(*question.scenario.soil.granular, dem::BedStore(settings.beds));
   costs.tell(plan);
   return plan;
 }
@@ -173,7 +176,8 @@ std::string plan_text(const RunPlan& plan) {
   std::string text = fmt::format("{}: {} of grains on {}\n\n{}\n", plan.study, counted(plan.runs.size(), "run"),
                                  counted(plan.beds, "bed"), as_text(table));
   text += fmt::format("recorded  {}\nto make   {}\n", recorded, left);
-  text += fmt::format("beds      {} to settle, {} each\n", plan.unsettled.size(), duration_text(plan.bed_seconds));
+  text += fmt::format("beds      {} to settle, {} each{}\n", plan.unsettled.size(), duration_text(plan.bed_seconds),
+                      plan.density_limits ? "" : "; soilbin bed settles two small ones as well, to tell their density");
   text += fmt::format(
       "time      about {:.2g} core-hours, {} ({}: {:.2g} million grain-steps a second, {:.0f} grains)\n",
       plan.core_hours_left(),

@@ -24,6 +24,7 @@ struct RunPlan {
   std::vector<PlannedRun> runs;            ///< the whole list, or that of a shard
   std::vector<std::uint64_t> unsettled{};  ///< packings whose beds are not in the folder of beds yet
   std::size_t beds = 0;                    ///< packings of the list
+  bool density_limits = true;              ///< the two small beds that a density is told by are there
   int threads = 1;                         ///< of a process; in LAMMPS, of one thread each, processes of a run
   bool in_lammps = false;                  ///< grains are moved by LAMMPS
   std::size_t from_runs = 0;               ///< recorded runs that the seconds were taken from; 0: from a trial

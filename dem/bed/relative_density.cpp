@@ -1,5 +1,6 @@
 #include "dem/bed/relative_density.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "scenario/estimate.hpp"
@@ -22,9 +23,13 @@ DensityLimits density_limits(const GranularSoil& soil, BedStore& store, const Wo
   return {store.bed(loosest, how)->report.void_ratio, store.bed(densest, how)->report.void_ratio};
 }
 
+bool has_density_limits(const GranularSoil& soil, const BedStore& store) {
+  return std::ranges::all_of(limit_beds(soil),
+                             [&](const BedRecipe& recipe) { return std::filesystem::exists(store.file(recipe)); });
+}
+
 std::optional<DensityLimits> known_density_limits(const GranularSoil& soil, BedStore& store) {
-  for (const BedRecipe& recipe : limit_beds(soil))
-    if (!std::filesystem::exists(store.file(recipe))) return std::nullopt;
+  if (!has_density_limits(soil, store)) return std::nullopt;
   return density_limits(soil, store);
 }
 

@@ -33,7 +33,9 @@ std::array<BedRecipe, 2> limit_beds(const GranularSoil& soil);
 
 /// Settles both beds where the store lacks them. Throws what settle_bed throws.
 DensityLimits density_limits(const GranularSoil& soil, BedStore& store, const WorkOptions& how = {});
-/// The same without settling anything: none where the store's folder lacks one of the beds.
+/// Whether the store's folder has both.
+bool has_density_limits(const GranularSoil& soil, const BedStore& store);
+/// The same as density_limits without settling anything: none where the store's folder lacks one of the beds.
 std::optional<DensityLimits> known_density_limits(const GranularSoil& soil, BedStore& store);
 
 /// (e_loosest - e)/(e_loosest - e_densest): 0 loosest, 1 densest; beyond both for a bed that is looser or denser than
