@@ -145,7 +145,8 @@ int compare_models(CompareOptions asked, const Session& session) {
     question.scenario.soil.semi_empirical = find_soil(asked.soil, session.place.library).semi_empirical;
     about.facts.emplace_back("the analytic model's soil values", asked.soil);
   }
-  if (!asked.replay.empty()) about.replay = compare::read_replay(asked.replay);  // refused before anything is run
+  if (!asked.no_loop) compare::check_soil_for_loop(question.scenario.soil);  // refused before anything is run
+  if (!asked.replay.empty()) about.replay = compare::read_replay(asked.replay);
   const std::vector<ModelChoice> choices = analytic_choices(question, asked, session);
   const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
   std::vector<compare::Side> sides;

@@ -159,9 +159,8 @@ void add_failure_map(CLI::App& app, Session& session) {
   command->add_flag("--show-rows", asked->rows, "print every condition run");
   command->add_flag("--json", asked->json, "soilbin-failure-map/1, in SI");
   asked->soil_bin.add_to(*command);
-  command->get_option("--record")->group("");
-  command->get_option("--recorded")->group("");
-  command->get_option("--packings")->group("");
+  // A map keeps its runs in a store, each in one packing.
+  for (const char* other : {"--record", "--recorded", "--packings"}) command->remove_option(command->get_option(other));
   command->footer(
       "Example: soilbin failure-map paper-longitudinal --soil paper-sand-virtual --incline longitudinal --load "
       "2kN..8kN\n"

@@ -70,10 +70,7 @@ std::set<std::string> impossible_in_grains() {
 
 /// The case as the loop's declared model, without a run.
 Campaign declared(const Side& side, const Case& question, const std::vector<EffectChoice>& effects) {
-  if (!question.scenario.soil.semi_empirical)
-    throw InputError(
-        "soil '" + question.scenario.soil.name +
-        "' has no semi_empirical values, which the loop needs\n  hint: soilbin compare --no-loop compares without it");
+  check_soil_for_loop(question.scenario.soil);
   Campaign campaign;
   campaign.name = question.study.name + "-" + side.label;
   campaign.wheel = question.scenario.tire;
@@ -100,6 +97,14 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<Side
 }
 
 }  // namespace
+
+void check_soil_for_loop(const Soil& soil) {
+  if (!soil.semi_empirical)
+    throw InputError(
+        "soil '" + soil.name +
+        "' has no semi_empirical values, which the loop needs\n  hint: --soil SOIL takes them from another "
+        "soil, as bevameter writes one; --no-loop compares without the loop");
+}
 
 Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& choices, std::vector<Side> sides) {
   std::ranges::stable_sort(sides, [](const Side& a, const Side& b) { return a.kind < b.kind; });

@@ -41,6 +41,9 @@ Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& c
 /// wheel are the case's. Throws InputError where the case has no semi-empirical soil or the side no result.
 Campaign means_of(const Side& side, const Case& question, const std::vector<EffectChoice>& effects);
 
+/// Throws InputError for a soil without semi-empirical values: ask before grains are run.
+void check_soil_for_loop(const Soil& soil);
+
 /// What the loop looks at for what the analytic model lacks, with the case's soil and wheel as declared: of a
 /// measurement the runs that count in the comparison, as they were measured (setpoints, order, position, frame, slip);
 /// of grains or a model means_of. Throws as that.

@@ -182,7 +182,7 @@ void add_loop(Page& page, const ComparisonAbout& about) {
       "The loop takes the results of '{}' as if they had been measured: it refits the soil within its declared doubt, "
       "tests every effect of the catalogue, and judges on conditions that neither choice nor fit has seen.",
       about.loop->campaign));
-  page.summary(headline(*about.loop));
+  page.backed_summary(headline(*about.loop));
   if (const Table next = next_run_table(*about.loop); !next.rows.empty()) page.table(next);
   for (const Table& table : {error_table(*about.loop), parameters_table(*about.loop)})
     if (!table.rows.empty()) page.table(table);
@@ -236,8 +236,7 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
 
 std::string comparison_page(const Comparison& told, const ComparisonAbout& about) {
   Comparison comparison = told;  // with its sides called as people call them
-  const std::vector<std::string> labels = call_in_words(comparison.sides);
-  for (std::string& gap : comparison.not_compared) gap = models_in_words(std::move(gap), labels);
+  const std::vector<std::string> labels = call_sides_in_words(comparison);
   const Scenario& scenario = comparison.question.scenario;
   Page page(about.page.title, fmt::format("{} on {}: {}", scenario.tire.name.empty() ? "A wheel" : scenario.tire.name,
                                           scenario.soil.name, sides_in_words(comparison)));

@@ -11,6 +11,7 @@
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/loop/answer_words.hpp"
+#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/estimate.hpp"
@@ -236,6 +237,12 @@ const Difference* widest_difference(const Comparison& comparison) {
   return &comparison.differences[widest_first(comparison).front()->worst];
 }
 
+std::vector<std::string> call_sides_in_words(Comparison& comparison) {
+  std::vector<std::string> labels = call_in_words(comparison.sides);
+  for (std::string& gap : comparison.not_compared) gap = models_in_words(std::move(gap), labels);
+  return labels;
+}
+
 std::optional<Clause> headline(const Comparison& comparison) {
   const Difference* worst = widest_difference(comparison);
   if (worst == nullptr) return std::nullopt;
@@ -269,7 +276,8 @@ std::vector<Clause> opening(const Comparison& comparison) {
 
 std::vector<Clause> missing_clauses(const LoopAnswer& loop) {
   std::vector<Clause> clauses;
-  for (const auto& [about, text] : headline(loop)) clauses.push_back({about, text, {"the loop"}});
+  for (const BackedSentence& said : headline(loop))
+    clauses.push_back({said.about, said.text + (said.detail.empty() ? "" : " " + said.detail), {"the loop"}});
   return clauses;
 }
 

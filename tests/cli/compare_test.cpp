@@ -10,6 +10,7 @@
 namespace soilbin::cli::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -99,13 +100,40 @@ TEST(Compare, WritesThePageMarkdownAndData) {
     EXPECT_THAT(html, HasSubstr(part));
   for (const char* loads : {"<link", "<img", "src=", "@import"})
     EXPECT_THAT(html.substr(0, html.find("<script")), Not(HasSubstr(loads)));
-  EXPECT_THAT(text_of(folder / "report.md"), HasSubstr("![")) << "its drawings";
+  EXPECT_THAT(text_of(folder / "report.md"), AllOf(HasSubstr("!["), HasSubstr("analytic wheel"))) << "drawings, names";
   EXPECT_EQ(text_of(folder / "differences.csv"), text_of(csv));
   EXPECT_THAT(text_of(csv), StartsWith("side,reference,channel,unit,"));
   EXPECT_THAT(text_of(csv), HasSubstr(",drawbar_pull,N,"));
   EXPECT_THAT(text_of(csv), HasSubstr(",sinkage,m,"));
   EXPECT_EQ(soilbin("run '" + (folder / "case.yaml").string() + "' --json").status, 0) << "the resolved case runs";
   EXPECT_EQ(nlohmann::json::parse(text_of(folder / "comparison.json"))["format"], "soilbin-compare/1");
+}
+
+// What the loop will need is asked before grains are run for it.
+TEST(Compare, RefusesASoilWithoutAnalyticValuesBeforeGrainsAreRun) {
+  const Scratch scratch;
+  const std::string study = "'" +
+                            scratch
+                                .write("case.yaml", R"(format: soilbin-case/1
+name: grains-only
+tire: {radius: 100 mm, width: 50 mm}
+soil:
+  name: glass-beads
+  granular:
+    radius_min: 9 mm
+    radius_max: 11 mm
+    grain_density: 2500 kg/m^3
+    youngs_modulus: 5 MPa
+    poisson_ratio: 0.2
+    grain_grain: {restitution: 0.5, sliding_friction: 0.5, rolling_friction: 0.1}
+    grain_tire: {restitution: 0.5, sliding_friction: 0.5, rolling_friction: 0.1}
+study: {models: [dem], conditions: {load: [80 N], slip: [20 %]}}
+)")
+                                .string() +
+                            "'";
+  const Outcome r = soilbin("compare " + study);
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, AllOf(HasSubstr("'glass-beads' has no semi_empirical values"), HasSubstr("--no-loop")));
 }
 
 // A table of words and figures is folded to the width of a terminal; figures stay whole.

@@ -1,18 +1,16 @@
+// A comparison as data: soilbin-compare/1, and its rows as CSV.
 #include <fmt/core.h>
+
+#include <cmath>
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/discrepancy/comparison_page.hpp"
-#include "compare/discrepancy/comparison_sheets.hpp"
-#include "compare/discrepancy/summary.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"
-#include "compare/loop/answer_words.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
-#include "compare/report/plot.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
-#include "scenario/atomic_file.hpp"
 #include "scenario/mapping_writer.hpp"
 
 namespace soilbin::compare {
@@ -129,121 +127,6 @@ std::string differences_csv(const Comparison& comparison) {
                         cell(d.scatter), cell(d.difference), cell(d.std_error), cell(d.freedom), cell(d.share),
                         cell(d.sigma), word(d.finding), csv_cell(remarks_of(comparison, d)));
   return text;
-}
-
-namespace {
-
-namespace fs = std::filesystem;
-
-/// A cell or sentence that can't be taken for markup.
-std::string plain(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '|' || c == '<' || c == '*' || c == '_' || c == '\\' || c == '`') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out;
-}
-
-std::string table_text(const Table& table) {
-  std::string text = table.caption.empty() ? "" : plain(table.caption) + ".\n\n", rule = "|";
-  for (std::size_t c = 0; c < table.header.size(); ++c) rule += table.is_text(c) ? ":--|" : "--:|";
-  for (const std::vector<std::string>& line : lines_of(table)) {
-    text += "|";
-    for (const std::string& cell : line) text += " " + plain(cell) + " |";
-    text += "\n" + rule + (rule.empty() ? "" : "\n");
-    rule.clear();
-  }
-  return text + "\n";
-}
-
-/// Grows report.md, and writes each figure and its data beside it.
-class Markdown {
- public:
-  explicit Markdown(fs::path folder) : folder_(std::move(folder)) {}
-
-  void text(const std::string& paragraph) { body_ += paragraph + "\n\n"; }
-  void table(const Table& table) { body_ += table_text(table); }
-  void figure(const std::string& name, const Sheet& sheet) {
-    if (sheet.plots.empty()) return;
-    picture(name, svg(sheet), sheet.title.empty() ? name : sheet.title);
-    write_file_atomically(folder_ / (name + ".csv"), sheet_csv(sheet));
-    write_file_atomically(folder_ / (name + ".json"), json_text(to_json(sheet)));
-    body_ += fmt::format("Data: [CSV]({0}.csv), [JSON]({0}.json).\n\n", name);
-  }
-  void picture(const std::string& name, const std::string& drawing, const std::string& title) {
-    write_file_atomically(folder_ / (name + ".svg"), drawing);
-    body_ += fmt::format("![{}]({}.svg)\n\n", plain(title), name);
-  }
-  void write() const { write_file_atomically(folder_ / "report.md", body_); }
-
- private:
-  fs::path folder_;
-  std::string body_;
-};
-
-void add_differences(Markdown& md, const Comparison& comparison) {
-  md.text("## Where they differ");
-  md.table(tally_table(comparison));
-  if (!comparison.joint.empty()) md.table(joint_table(comparison));
-  for (std::size_t k = 0; k < comparison.tallies.size(); ++k) {
-    const HeatMap map = heat_map_of(comparison, comparison.tallies[k]);
-    md.picture(fmt::format("heat-map-{}", k + 1), heat_map_svg(map), map.title + ", " + map.subtitle);
-  }
-  for (const Tally& tally : comparison.tallies) md.table(rows_table(comparison, tally));
-  md.text("All rows: [CSV](differences.csv), [JSON](comparison.json).");
-}
-
-void add_causes(Markdown& md, const Comparison& comparison) {
-  md.text("## Why");
-  const std::size_t condition = telling_condition(comparison);
-  const auto [bars, side_colors] = budget_bars(comparison, condition);
-  if (!bars.groups.empty()) {
-    md.text(fmt::format("At {}:", in_words(comparison.question.study.conditions[condition])));
-    md.picture("budget", bars_svg(bars, side_colors), bars.title);
-    md.table(budget_table(comparison, condition));
-  }
-  md.figure("stresses", stress_sheet(comparison, condition));
-  for (std::size_t c = 0; c < comparison.curves.labels.size(); ++c)
-    md.figure(fmt::format("contact-{}", c + 1), contact_sheet(comparison, c));
-  if (const Table table = sinkage_table(comparison); !table.rows.empty()) md.table(table);
-}
-
-}  // namespace
-
-void write_markdown(const fs::path& folder, const Comparison& comparison, const ComparisonAbout& about) {
-  make_folder(folder);
-  Markdown md(folder);
-  md.text("# " + plain(about.page.title));
-  for (const Clause& clause : summary(comparison, about.loop ? &*about.loop : nullptr))
-    md.text(fmt::format("- {}{}", clause.about.empty() ? "" : "**" + plain(clause.about) + ".** ", plain(clause.text)));
-  if (!about.page.doubts.empty()) md.text("## What is doubtful");
-  for (const std::string& doubt : about.page.doubts) md.text("- " + plain(doubt));
-  md.text("## Curves");
-  md.figure("overview", overview_sheet(comparison));
-  for (std::size_t c = 0; c < comparison.curves.labels.size(); ++c)
-    md.figure(fmt::format("curve-{}", c + 1), curve_sheet(comparison, c));
-  add_differences(md, comparison);
-  add_causes(md, comparison);
-  if (about.loop) {
-    md.text("## What the analytic model lacks");
-    md.text(plain(verdict_sentence(*about.loop)));
-    if (about.loop->validation.overall.cells > 0) md.table(error_table(*about.loop));
-    if (about.loop->has_candidates()) md.table(candidates_table(*about.loop));
-  }
-  md.text("## Every point");
-  for (const Side& side : comparison.sides) md.table(points_table(comparison, side));
-  md.text("## How to repeat this");
-  md.text("    " + about.page.command);
-  md.text("The resolved case is [case.yaml](case.yaml).");
-  Table facts{"", {"part", "version or value"}, {true, true}};
-  for (const auto* list : {&about.page.versions, &about.facts})
-    for (const auto& [name, value] : *list) facts.add({name, value});
-  md.table(facts);
-  md.write();
-  write_file_atomically(folder / "differences.csv", differences_csv(comparison));
-  write_file_atomically(folder / "comparison.json", json_text(comparison_json(comparison, about)));
-  write_file_atomically(folder / "case.yaml", about.resolved_case);
 }
 
 }  // namespace soilbin::compare
