@@ -11,6 +11,7 @@
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/loop/answer_words.hpp"
+#include "compare/loop/next_run_words.hpp"
 #include "compare/sweep/result_json.hpp"
 
 namespace soilbin::cli {
@@ -38,7 +39,8 @@ void print_table(const compare::Table& table) {
 void print_answer(const compare::LoopAnswer& answer, bool only_next) {
   if (!only_next) {
     fmt::print("{}\n", answer.campaign);
-    for (const auto& [about, text] : compare::headline(answer)) fmt::print("\n{}. {}\n", about, text);
+    for (const compare::BackedSentence& said : compare::headline(answer))
+      fmt::print("\n{}. {}\n{}{}", said.about, said.text, said.detail, said.detail.empty() ? "" : "\n");
     print_table(compare::next_run_table(answer));
     print_table(compare::error_table(answer));
     print_table(compare::parameters_table(answer));

@@ -7,6 +7,7 @@
 #include "bekker_wong/learned.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/loop/loop.hpp"
+#include "compare/loop/next_run_words.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"

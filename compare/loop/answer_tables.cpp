@@ -7,6 +7,7 @@
 #include "bekker_wong/effects/titles.hpp"
 #include "bekker_wong/learned.hpp"
 #include "compare/loop/answer_words.hpp"
+#include "compare/loop/next_run_words.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/soil_parameters.hpp"
@@ -39,7 +40,7 @@ Table series_table(const LoopAnswer& answer, const std::vector<OperatingConditio
   const std::string varied = sure_dependences(answer).front().variable;
   const Limits conditions = ranges_of(answer.found().base.data().observations);
   MarkedTable table{fmt::format("The next runs, as rows of the campaign: the {} alone varies, all else is as in the "
-                                "middle of the runs that were made",
+                                "run that the model misses most",
                                 condition_view(varied).title),
                     {}};
   for (std::size_t k = 0; k < series.size(); ++k) table.add({});

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <regex>
 #include <set>
@@ -12,6 +11,7 @@
 
 #include "bekker_wong/effects/titles.hpp"
 #include "bekker_wong/learned.hpp"
+#include "compare/loop/next_run_words.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
@@ -98,7 +98,7 @@ std::string next_candidate(const LoopAnswer& answer) {
   const double behind = sets[0]->log_evidence - sets[1]->log_evidence;
   if (!(behind > 0)) return "";
   constexpr double clear_share = 0.9;
-  return fmt::format(" The next candidate, {}, is {} less likely{}.", named_effects(sets[1]->ids),
+  return fmt::format("The next candidate, {}, is {} less likely{}.", named_effects(sets[1]->ids),
                      times_likelier(behind),
                      sets[0]->weight < clear_share
                          ? ""
@@ -122,38 +122,33 @@ std::string presumed_of_the_wheel(const LoopAnswer& answer) {
   return text;
 }
 
-std::string how_sure(const LoopAnswer& answer) {
-  if (!answer.judgement) return "";
+/// How often noise alone would look like this, or why nothing is known by that; "" where nothing was judged.
+std::string odds_clause(const LoopAnswer& answer) {
+  if (!answer.judgement || answer.verdict == Verdict::not_enough_data) return "";
+  if (answer.verdict == Verdict::unknown_effect) return answer.judgement->reason;
   const double p = answer.found().signatures.p_value;
-  const std::string noise_alone =
-      fmt::format("Noise alone would make some effect stand out this much in {} (p = {:.2g}).", odds_words(p), p);
+  return fmt::format("noise alone would make some effect stand out this much in {} (p = {:.2g})", odds_words(p), p);
+}
+
+/// What else to know of the verdict; "" where there is nothing.
+std::string beside_the_verdict(const LoopAnswer& answer) {
+  if (!answer.judgement) return "";
+  const std::vector<Weighted>& sets = answer.ambiguity_set;
   switch (answer.verdict) {
     case Verdict::effect_found:
-      return " " + noise_alone +
-             (answer.ambiguity_set.size() > 1
-                  ? " Other candidates: " + sets_with_shares(answer.ambiguity_set, 1, least_share) + "." +
-                        why_taken(answer.ambiguity_set)
-                  : next_candidate(answer)) +
+      return (sets.size() > 1 ? "Other candidates: " + sets_with_shares(sets, 1, least_share) + "." + why_taken(sets)
+                              : next_candidate(answer)) +
              presumed_of_the_wheel(answer);
-    case Verdict::unknown_effect:  // its reason holds the odds
-      return fmt::format(" {}.", capital(answer.judgement->reason)) +
-             (answer.ambiguity_set.size() > 1
-                  ? " Of the known effects these come nearest: " +
-                        sets_with_shares(answer.ambiguity_set, 0, worth_listing) + "." + why_taken(answer.ambiguity_set)
-                  : "");
+    case Verdict::unknown_effect:
+      return sets.size() > 1 ? "Of the known effects these come nearest: " + sets_with_shares(sets, 0, worth_listing) +
+                                   "." + why_taken(sets)
+                             : "";
     case Verdict::nothing_missing:
-      return fmt::format(" {}. {}", capital(answer.judgement->reason), noise_alone);
+      return capital(answer.judgement->reason) + ".";
     case Verdict::not_enough_data:
       return "";
   }
   return "";
-}
-
-/// What predicts in the place of what has no name; "" where nothing does.
-std::string stand_in_sentence(const LoopAnswer& answer) {
-  if (answer.stand_in.empty()) return "";
-  return fmt::format("The saved model takes {}. That explains nothing, but predicts conditions left out better.{}",
-                     stand_in_words(answer), answer.formula ? formula_sentence(*answer.formula) : "");
 }
 
 // What it does to the error.
@@ -210,48 +205,6 @@ std::string error_sentence(const LoopAnswer& answer) {
   add("hardly changes for", channels_that(hardly_changes, validation, true));
   return fmt::format("On conditions that neither the choice nor the fit has seen the root mean square error {}.",
                      in_a_row(parts));
-}
-
-// What to measure next.
-
-std::string condition_words(const LoopAnswer& answer) {
-  std::string text;
-  for (const std::string& name : answer.next->quantities) {
-    const auto [value, unit] = next_setting(answer, answer.next->at, name);
-    if (value.empty()) continue;
-    text += fmt::format("{}{} {}{}{}", text.empty() ? "" : ", ", condition_view(name).title, value,
-                        unit.empty() ? "" : " ", unit);
-  }
-  return text;
-}
-
-/// What to do where no condition shows on which the rest depends.
-std::string without_a_condition(const LoopAnswer& answer) {
-  const UnnamedEvidence& unnamed = answer.found().unnamed;
-  if (unnamed.gain > thresholds::unnamed_instead && unnamed.likest == misread_kind)
-    return "The unexplained part looks like a slip or load that was misread: before more runs, check how both are "
-           "measured, and at which conditions.";
-  if (answer.judgement->before.serial.p_value <= thresholds::serial_level)
-    return "The unexplained part changes from run to run, not by chance. Measure next one setpoint, repeated through "
-           "the whole campaign.";
-  return "Where the unexplained part comes from does not show yet: vary one condition alone, each setting run twice.";
-}
-
-/// What has no name predicts nothing; but where it shows can be said.
-std::string to_show_its_shape(const LoopAnswer& answer) {
-  const std::vector<Dependence> sure = sure_dependences(answer);
-  if (sure.empty()) return without_a_condition(answer);
-  const Dependence* on = &sure.front();
-  const auto& looked_at = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
-  const std::string how =
-      on->variable == "run" ? "one setpoint, repeated through the whole campaign"
-                            : fmt::format("one run, all else kept, at several settings of the {} alone, each one twice",
-                                          spaced(condition_view(on->variable).title));
-  return fmt::format(
-      "The unexplained part of the {} depends most on the {} (p = {:.2g}; false-discovery rate over {} pairs of "
-      "channel and variable: {}). Measure next {}.",
-      channel_views[on->channel].title, spaced(condition_view(on->variable).title), on->p_value, looked_at.size(),
-      share_words(on->false_discovery_rate), how);
 }
 
 // Parameters.
@@ -340,49 +293,6 @@ std::vector<const Weighted*> sets_shown(const LoopAnswer& answer) {
   return sets;
 }
 
-std::string setting(double value) {
-  if (std::abs(value) < 1e-9) return "0";
-  return fmt::format("{:.10g}", three_digits(value));
-}
-
-std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const OperatingCondition& at,
-                                                 const std::string& condition) {
-  const ConditionView& view = condition_view(condition);
-  const Dataset& data = answer.found().base.data();
-  std::string unit(view.unit);
-  double per_si = view.per_si;
-  if (const auto own = data.campaign->columns.find(condition);
-      own != data.campaign->columns.end() && own->second.unit != view.column_unit)
-    unit = own->second.unit, per_si = per_unit(unit);
-  const double value = view.get(at);
-  if (!std::isfinite(value)) return {"", unit};
-  constexpr double anywhere = std::numeric_limits<double>::infinity();
-  const Limits limits = answer.next ? answer.next->given : Limits{};
-  const auto given = limits.find(condition);
-  const std::pair<double, double> within = given != limits.end() ? given->second : std::pair(-anywhere, anywhere);
-  const double set = rig_setting(view, value, data.observations, within, per_si);
-  return {fmt::format("{:.6g}", per_si * set), unit};
-}
-
-std::vector<OperatingCondition> shape_series(const LoopAnswer& answer) {
-  const std::vector<Dependence> sure = sure_dependences(answer);
-  if (sure.empty() || sure.front().variable == "run") return {};
-  const Observations& observations = answer.found().base.data().observations;
-  OperatingCondition centre = observations.rows.front();
-  for (const ConditionView& view : condition_views) {
-    std::vector<double> values;
-    for (const OperatingCondition& at : observations.rows)
-      if (const double x = view.get(at); std::isfinite(x)) values.push_back(x);
-    if (values.empty()) continue;
-    const auto middle = values.begin() + std::ssize(values) / 2;
-    std::ranges::nth_element(values, middle);
-    view.set(centre, *middle);
-  }
-  constexpr int settings = 5;
-  const std::string& variable = sure.front().variable;
-  return combinations(centre, {{variable, evenly(ranges_of(observations).at(variable), settings)}});
-}
-
 std::string verdict_sentence(const LoopAnswer& answer) {
   switch (answer.verdict) {
     case Verdict::effect_found: {
@@ -406,70 +316,31 @@ std::string verdict_sentence(const LoopAnswer& answer) {
   return "";
 }
 
-std::vector<std::pair<std::string, std::string>> headline(const LoopAnswer& answer) {
-  std::vector<std::pair<std::string, std::string>> parts = {
-      {"What is missing", verdict_sentence(answer) + how_sure(answer)}};
-  if (const std::string stand_in = stand_in_sentence(answer); !stand_in.empty())
-    parts.emplace_back(stands_in, stand_in);
-  if (answer.validation.overall.cells > 0)
-    parts.emplace_back(takes_effects(answer) ? "What it does to the error" : "How large the error is",
-                       error_sentence(answer));
-  if (const std::vector<std::string> next = what_next(answer); !next.empty())
-    parts.emplace_back("What to measure next", fmt::format("{}", fmt::join(next, " ")));
-  return parts;
+std::string stand_in_sentence(const LoopAnswer& answer) {
+  if (answer.stand_in.empty()) return "";
+  return fmt::format("The saved model takes {}. That explains nothing, but predicts conditions left out better.{}",
+                     stand_in_words(answer), answer.formula ? formula_sentence(*answer.formula) : "");
 }
 
-std::vector<Dependence> sure_dependences(const LoopAnswer& answer) {
-  constexpr double level = 0.05;
-  if (answer.verdict != Verdict::unknown_effect) return {};
-  std::vector<Dependence> all = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
-  std::erase_if(all, [](const Dependence& d) { return d.false_discovery_rate > level; });
-  std::ranges::stable_sort(all, [](const Dependence& a, const Dependence& b) {
-    return std::pair(a.p_value, -a.share) < std::pair(b.p_value, -b.share);
-  });
-  return all;
-}
-
-bool proposes_next(const LoopAnswer& answer) {
-  if (!answer.next || answer.verdict != Verdict::unknown_effect) return answer.next.has_value();
-  constexpr double settled = 100;  // to one
-  const std::vector<const Weighted*> sets = sets_shown(answer);
-  const auto other =
-      std::ranges::find_if(sets, [&](const Weighted* set) { return set->ids == answer.next->separates.back(); });
-  return other == sets.end() || sets.front()->log_evidence - (*other)->log_evidence < std::log(settled);
-}
-
-std::vector<std::string> what_next(const LoopAnswer& answer) {
-  const bool unknown = answer.verdict == Verdict::unknown_effect;
-  std::vector<std::string> sentences;
-  if (unknown) sentences.push_back(to_show_its_shape(answer));
-  if (!proposes_next(answer)) {
-    if (!unknown && answer.ambiguity_set.size() > 1)
-      sentences.push_back("No condition within the limits would set these candidates apart in 50 runs.");
-    if (answer.verdict == Verdict::effect_found && answer.ambiguity_set.size() == 1)
-      sentences.push_back(
-          "One name is left, and no condition within the limits would set it further apart in one run.");
-    return sentences;
+std::vector<BackedSentence> headline(const LoopAnswer& answer) {
+  std::string verdict = verdict_sentence(answer);
+  if (const std::string odds = odds_clause(answer); !odds.empty()) {
+    verdict.pop_back();
+    verdict += fmt::format("{} {}.", answer.verdict == Verdict::unknown_effect ? ":" : ";", odds);
   }
-  const NextTest& next = *answer.next;
-  const std::string ahead = named_effects(next.separates.front()), behind = named_effects(next.separates.back());
-  if (answer.ambiguity_set.size() == 1 && !unknown)
-    sentences.push_back(
-        fmt::format("One name is left. To be surer still, measure: {}. There it differs most from the next candidate, "
-                    "{}: by {:.1f} standard deviations of one run.",
-                    condition_words(answer), behind, std::sqrt(next.distance)));
-  else
-    sentences.push_back(
-        fmt::format("{}: {}. {} run{} there should decide between {} on the one hand and {} on the other.",
-                    unknown ? "To choose between the named effects that come nearest, measure" : "Measure",
-                    condition_words(answer), next.runs, next.runs == 1 ? "" : "s", ahead, behind));
-  if (next.beyond.empty()) return sentences;
-  std::vector<std::string> names = next.beyond;
-  for (std::string& name : names) name = spaced(name);
-  sentences.push_back(
-      fmt::format("Its {} lie{} beyond what was run; if your rig cannot go there: --limit {}=LOW..HIGH.",
-                  in_a_row(names), names.size() == 1 ? "s" : "", next.beyond.front()));
-  return sentences;
+  std::vector<BackedSentence> parts = {
+      {.about = "What is missing", .text = std::move(verdict), .detail = beside_the_verdict(answer)}};
+  if (answer.validation.overall.cells > 0)
+    parts.push_back({.about = !takes_effects(answer)    ? "How large the error is"
+                              : answer.stand_in.empty() ? "What it does to the error"
+                                                        : "What a stand-in does to the error",
+                     .text = error_sentence(answer),
+                     .detail = stand_in_sentence(answer)});
+  if (const std::vector<std::string> next = what_next(answer); !next.empty())
+    parts.push_back({.about = "What to measure next",
+                     .text = next.front(),
+                     .detail = fmt::format("{}", fmt::join(next.begin() + 1, next.end(), " "))});
+  return parts;
 }
 
 std::vector<std::string> notes(const LoopAnswer& answer) {
@@ -494,7 +365,8 @@ std::vector<std::string> notes(const LoopAnswer& answer) {
 
 std::vector<std::string> explanation(const LoopAnswer& answer) {
   std::vector<std::string> sentences;
-  if (std::string sure = how_sure(answer); !sure.empty()) sentences.push_back(sure.substr(1));
+  if (const std::string odds = odds_clause(answer); !odds.empty()) sentences.push_back(capital(odds) + ".");
+  if (std::string more = beside_the_verdict(answer); !more.empty()) sentences.push_back(std::move(more));
   if (std::string stand_in = stand_in_sentence(answer); !stand_in.empty()) sentences.push_back(std::move(stand_in));
   for (const AcceptedEffect& effect : answer.taken()) sentences.push_back(effect_sentence(effect));
   if (answer.validation.overall.cells > 0) sentences.push_back(error_sentence(answer));

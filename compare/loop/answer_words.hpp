@@ -1,7 +1,7 @@
 // Stage 8 of the loop: its answer in plain words, as tables and as a page. Terminal, page, Python and the comparison
 // say the same sentences in the same order.
 //
-//   for (const auto& [about, text] : headline(answer)) fmt::print("{}: {}\n", about, text);
+//   for (const BackedSentence& said : headline(answer)) fmt::print("{}. {}\n", said.about, said.text);
 //   fmt::print("{}", as_text(error_table(answer)));
 #pragma once
 
@@ -11,7 +11,7 @@
 
 #include "compare/loop/evidence_words.hpp"
 #include "compare/loop/loop.hpp"
-#include "compare/report/table.hpp"
+#include "compare/report/page.hpp"
 
 namespace soilbin::compare {
 
@@ -21,13 +21,13 @@ bool takes_effects(const LoopAnswer& answer);
 /// The verdict as one sentence.
 std::string verdict_sentence(const LoopAnswer& answer);
 
-/// What headline's sentences about the stand-in are headed by.
-inline constexpr const char* stands_in = "What stands in for it";
+/// At an unknown effect: what predicts in its place; "" where nothing does.
+std::string stand_in_sentence(const LoopAnswer& answer);
 
-/// What a page opens with, (what it is about, sentences): what is missing and how sure that is; at an
-/// unknown effect what the saved model takes in its place; what that does to the error, gain and loss alike; what to
-/// measure next. The last is absent where no question is open.
-std::vector<std::pair<std::string, std::string>> headline(const LoopAnswer& answer);
+/// What a page opens with: what is missing and how sure that is; what it, or a stand-in, does to the error, gain and
+/// loss alike; what to measure next. A sentence each, with details in smaller print. The last is absent where no
+/// question is open.
+std::vector<BackedSentence> headline(const LoopAnswer& answer);
 
 /// What else there is to know, a string a sentence: the reading that does not decide, what is presumed, set aside, not
 /// testable.
@@ -50,34 +50,11 @@ std::string held_out_words(const CrossValidation& validation);
 /// The same as the end of a reason; empty where the model takes no effects or nothing was held out.
 std::string held_out_clause(const LoopAnswer& answer);
 
-/// At an unknown effect: what the residual depends on (after the model's effects, where it takes any), surest first, as
-/// many as keep the false-discovery rate at 5 %.
-std::vector<Dependence> sure_dependences(const LoopAnswer& answer);
-
-/// Whether the run of LoopAnswer::next is worth making: not where the sets that it decides between are a hundred to one
-/// apart already and neither explains the data.
-bool proposes_next(const LoopAnswer& answer);
-
-/// What to measure next, or why no run is proposed; empty where no question is open.
-std::vector<std::string> what_next(const LoopAnswer& answer);
-
 /// The forms of a candidate's effects, in the order of its ids.
 std::vector<std::string> forms_in_order(const CandidateModel& candidate);
 
 /// The sets of the table of candidates: those that compete, then those that stand next.
 std::vector<const Weighted*> sets_shown(const LoopAnswer& answer);
-
-/// A number in three digits.
-std::string setting(double value);
-
-/// A condition of a run to be made as the rig would be set to it (rig_setting), in the unit of the campaign's own
-/// column, and that unit: ("10", "mm/s"). An empty value where the condition is not known.
-std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const OperatingCondition& at,
-                                                 const std::string& condition);
-
-/// Of an unknown effect that depends on a condition (sure_dependences): runs that show how, with that condition alone
-/// at five settings over the range that was run and all else at the median of the runs. Empty where none is known.
-std::vector<OperatingCondition> shape_series(const LoopAnswer& answer);
 
 // Tables (answer_tables.cpp).
 

@@ -204,7 +204,7 @@ std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const 
       fmt::format(
           "The analytic wheel against {} measured runs: what is missing, how sure that is, and what to measure next",
           campaign.runs.size()));
-  page.summary(headline(answer));
+  page.backed_summary(headline(answer));
   if (const Table next = next_run_table(answer); !next.rows.empty()) page.table(next);
   const bool judged = answer.judgement && (answer.verdict != Verdict::not_enough_data || answer.has_candidates());
   const std::vector<Covariate> variables = judged ? variables_by_weight(answer) : std::vector<Covariate>();

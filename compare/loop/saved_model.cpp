@@ -50,8 +50,7 @@ Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
   choice.effects = campaign.effects;
   for (const AcceptedEffect& effect : answer.taken()) choice.effects.push_back(effect.choice);
   model.description = "Made by soilbin loop: " + verdict_sentence(answer);
-  for (const auto& [about, text] : headline(answer))
-    if (about == stands_in) model.description += " " + text;
+  if (const std::string stand_in = stand_in_sentence(answer); !stand_in.empty()) model.description += " " + stand_in;
   for (const std::string& sentence : bekker_wong::presumptions(choice.effects, campaign.wheel))
     model.description += " " + sentence;
   choice.label = "fitted";

@@ -121,6 +121,7 @@ void Page::backed_summary(const std::vector<BackedSentence>& sentences) {
     body_ += "<p>" + (sentence.about.empty() ? "" : "<b>" + escaped(sentence.about) + ".</b> ") + prose(sentence.text);
     for (const auto& [anchor, text] : sentence.evidence)
       body_ += fmt::format(" <a class=\"evidence\" href=\"#{}\">{}</a>", escaped(anchor), escaped(text));
+    if (!sentence.detail.empty()) body_ += " <small>" + prose(sentence.detail) + "</small>";
     body_ += "</p>";
   }
   body_ += "</div>\n";

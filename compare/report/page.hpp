@@ -40,6 +40,7 @@ struct KeyFigure {
 struct BackedSentence {
   std::string about, text;
   std::vector<std::pair<std::string, std::string>> evidence{};
+  std::string detail{};  ///< below it, in smaller print
 };
 
 /// A link to another of our pages as a person sees it: a small drawing, the title, a line on what it answers; all taken

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "compare/loop/answer_words.hpp"
+#include "compare/loop/next_run_words.hpp"
 #include "compare/loop_fixture.hpp"
 
 namespace soilbin::compare {
@@ -114,13 +115,13 @@ TEST(ErrorSentence, TellsGainLossAndWhatHardlyChanges) {
   answer.verdict = Verdict::not_enough_data;
   const auto parts = headline(answer);
   ASSERT_EQ(parts.size(), 2u);
-  EXPECT_EQ(parts[1].first, "What it does to the error");
-  EXPECT_EQ(parts[1].second.find(
+  EXPECT_EQ(parts[1].about, "What it does to the error");
+  EXPECT_EQ(parts[1].text.find(
                 "On conditions that neither the choice nor the fit has seen the root mean square error rises for the "
                 "drawbar pull (5.95 to 6.30 N; noise alone: 5.00 N), falls for the sinkage (20.6 to 7.04 mm; "
                 "noise alone: 3.40 mm) and hardly changes for the torque (2.00 to 2.00 N m; noise alone: 1.90 N m)."),
             0u)
-      << parts[1].second;
+      << parts[1].text;
   const Table table = error_table(answer);
   EXPECT_EQ(table.rows.at(0).at(3).tone, Tone::bad);
   EXPECT_EQ(table.rows.at(1).at(3).tone, Tone::none);
@@ -154,6 +155,13 @@ TEST(ParametersTable, ShowsUnitsMeaningAndBounds) {
   EXPECT_EQ(table.rows[1][5].text, "yes");
 }
 
+/// A pull about halfway through the runs, which the base model of two_sets misses.
+std::ptrdiff_t missed_cell(const Observations& runs) {
+  const auto pull = std::find_if(runs.cells.begin() + std::ssize(runs.cells) / 2, runs.cells.end(),
+                                 [](const Cell& cell) { return cell.channel == drawbar_pull; });
+  return pull - runs.cells.begin();
+}
+
 /// Two sets of effects, as if fitted to sand: bulldozing with slip sinkage, and slip sinkage by itself.
 LoopAnswer two_sets() {
   Campaign campaign = sand_campaign();
@@ -165,12 +173,15 @@ LoopAnswer two_sets() {
     return make_term(bekker_wong::find_form({id, form, {}}), data->observations, true);
   };
   LoopAnswer answer;
+  Fit fit;
+  fit.residual = Eigen::VectorXd::Zero(data->cells());
   const CandidateModel both{
       .ids = {"bulldozing", "slip_sinkage"},
-      .model = FittedModel(data, predictor.with({term("slip_sinkage", "lyasko"), term("bulldozing", "")}), Fit())};
+      .model = FittedModel(data, predictor.with({term("slip_sinkage", "lyasko"), term("bulldozing", "")}), fit)};
   const CandidateModel one{.ids = {"slip_sinkage"},
-                           .model = FittedModel(data, predictor.with({term("slip_sinkage", "lyasko")}), Fit())};
-  Attribution found{FittedModel(data, predictor, Fit()), {}, {}, {}, {}};
+                           .model = FittedModel(data, predictor.with({term("slip_sinkage", "lyasko")}), fit)};
+  fit.residual[missed_cell(data->observations)] = 4;
+  Attribution found{FittedModel(data, predictor, fit), {}, {}, {}, {}};
   found.candidates.models = {both, one};
   found.candidates.sets = {{.ids = both.ids, .weight = 1.0}, {.ids = one.ids, .best_candidate = 1}};
   answer.judgement = Judgement{.found = found, .before = {}, .choice = {}, .reason = {}};
@@ -216,7 +227,9 @@ TEST(NextRunTable, OfAnUnknownEffectVariesWhatItDependsOnAlone) {
   ASSERT_EQ(series.size(), 5u);
   EXPECT_DOUBLE_EQ(series.front().slip, lowest);
   EXPECT_DOUBLE_EQ(series.back().slip, highest);
-  for (const OperatingCondition& at : series) EXPECT_EQ(at.load, series.front().load);
+  const Observations& runs = answer.found().base.data().observations;
+  const OperatingCondition& missed = runs.rows[runs.cells[missed_cell(runs)].row];
+  for (const OperatingCondition& at : series) EXPECT_EQ(at.load, missed.load) << "as in the run that is missed most";
   const Table table = next_run_table(answer);
   EXPECT_NE(table.caption.find("the slip alone varies"), std::string::npos) << table.caption;
   ASSERT_EQ(table.rows.size(), 5u);

@@ -52,7 +52,7 @@ class Pages(unittest.TestCase):
             if "have an answer of both models" in done.stderr:
                 self.skipTest(done.stderr.splitlines()[-1])
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.pages[name], self.words[name] = page, done.stdout
+            self.pages[name], self.words[name] = page, " ".join(done.stdout.split())
         return self.pages[name]
 
     def show(self, name):

@@ -1,0 +1,168 @@
+#include "compare/loop/next_run_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compare/loop/answer_words.hpp"
+#include "compare/loop/thresholds.hpp"
+#include "compare/measured/channels.hpp"
+#include "compare/measured/condition_views.hpp"
+#include "compare/report/number_text.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+std::string condition_words(const LoopAnswer& answer) {
+  std::string text;
+  for (const std::string& name : answer.next->quantities) {
+    const auto [value, unit] = next_setting(answer, answer.next->at, name);
+    if (value.empty()) continue;
+    text += fmt::format("{}{} {}{}{}", text.empty() ? "" : ", ", condition_view(name).title, value,
+                        unit.empty() ? "" : " ", unit);
+  }
+  return text;
+}
+
+/// What to do where no condition shows on which the rest depends.
+std::vector<std::string> without_a_condition(const LoopAnswer& answer) {
+  const UnnamedEvidence& unnamed = answer.found().unnamed;
+  if (unnamed.gain > thresholds::unnamed_instead && unnamed.likest == misread_kind)
+    return {"Before more runs, check how slip and load are measured, and at which conditions.",
+            "The unexplained part looks like a slip or load that was misread."};
+  if (answer.judgement->before.serial.p_value <= thresholds::serial_level)
+    return {"Measure one setpoint, repeated through the whole campaign.",
+            "The unexplained part changes from run to run, not by chance."};
+  return {"Vary one condition alone, each setting run twice.",
+          "Where the unexplained part comes from does not show yet."};
+}
+
+/// What has no name predicts nothing; but where it shows can be said.
+std::vector<std::string> to_show_its_shape(const LoopAnswer& answer) {
+  const std::vector<Dependence> sure = sure_dependences(answer);
+  if (sure.empty()) return without_a_condition(answer);
+  const Dependence& on = sure.front();
+  const auto& looked_at = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
+  const std::string variable = spaced(condition_view(on.variable).title);
+  return {on.variable == "run"
+              ? "Measure one setpoint, repeated through the whole campaign."
+              : fmt::format("Measure several settings of the {} alone, each one twice, all else kept.", variable),
+          fmt::format("The unexplained part of the {} depends most on the {} (p = {:.2g}; false-discovery rate over {} "
+                      "pairs of channel and variable: {}).",
+                      channel_views[on.channel].title, variable, on.p_value, looked_at.size(),
+                      share_words(on.false_discovery_rate))};
+}
+
+/// The condition of the run that the saved model misses most in a channel.
+OperatingCondition missed_most(const LoopAnswer& answer, int channel) {
+  const Observations& observations = answer.found().base.data().observations;
+  const Eigen::VectorXd residual = answer.model().cell_residual().cwiseAbs();
+  const Cell* most = nullptr;
+  double by = -1;
+  for (std::size_t i = 0; i < observations.cells.size(); ++i)
+    if (const Cell& cell = observations.cells[i]; cell.channel == channel && residual[i] > by)
+      by = residual[i], most = &cell;
+  return observations.rows[most == nullptr ? 0 : most->row];
+}
+
+/// The run that sets the candidates apart: what to do, then why.
+std::vector<std::string> to_set_apart(const LoopAnswer& answer) {
+  const NextTest& next = *answer.next;
+  const std::string ahead = named_effects(next.separates.front()), behind = named_effects(next.separates.back());
+  std::vector<std::string> sentences;
+  if (answer.verdict == Verdict::unknown_effect)
+    sentences = {
+        fmt::format("To choose between the named effects that come nearest, measure {}.", condition_words(answer))};
+  else if (answer.ambiguity_set.size() == 1)
+    sentences = {fmt::format("One name is left; to be surer still, measure {}.", condition_words(answer)),
+                 fmt::format("There it differs most from the next candidate, {}: by {:.1f} standard deviations of one "
+                             "run.",
+                             behind, std::sqrt(next.distance))};
+  else
+    sentences = {fmt::format("Measure {}.", condition_words(answer))};
+  if (sentences.size() == 1)
+    sentences.push_back(fmt::format("{} run{} there should decide between {} on the one hand and {} on the other.",
+                                    next.runs, next.runs == 1 ? "" : "s", ahead, behind));
+  if (next.beyond.empty()) return sentences;
+  std::vector<std::string> names = next.beyond;
+  for (std::string& name : names) name = spaced(name);
+  sentences.push_back(
+      fmt::format("Its {} lie{} beyond what was run; if your rig cannot go there: --limit {}=LOW..HIGH.",
+                  in_a_row(names), names.size() == 1 ? "s" : "", next.beyond.front()));
+  return sentences;
+}
+
+}  // namespace
+
+std::vector<std::string> what_next(const LoopAnswer& answer) {
+  std::vector<std::string> sentences;
+  if (answer.verdict == Verdict::unknown_effect) {
+    sentences = to_show_its_shape(answer);
+  } else if (!proposes_next(answer)) {
+    if (answer.ambiguity_set.size() > 1)
+      return {"No condition within the limits would set these candidates apart in 50 runs."};
+    if (answer.verdict == Verdict::effect_found && answer.ambiguity_set.size() == 1)
+      return {"One name is left, and no condition within the limits would set it further apart in one run."};
+  }
+  if (proposes_next(answer))
+    for (std::string& sentence : to_set_apart(answer)) sentences.push_back(std::move(sentence));
+  return sentences;
+}
+
+bool proposes_next(const LoopAnswer& answer) {
+  if (!answer.next || answer.verdict != Verdict::unknown_effect) return answer.next.has_value();
+  constexpr double settled = 100;  // to one
+  const std::vector<const Weighted*> sets = sets_shown(answer);
+  const auto other =
+      std::ranges::find_if(sets, [&](const Weighted* set) { return set->ids == answer.next->separates.back(); });
+  return other == sets.end() || sets.front()->log_evidence - (*other)->log_evidence < std::log(settled);
+}
+
+std::vector<Dependence> sure_dependences(const LoopAnswer& answer) {
+  constexpr double level = 0.05;
+  if (answer.verdict != Verdict::unknown_effect) return {};
+  std::vector<Dependence> all = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
+  std::erase_if(all, [](const Dependence& d) { return d.false_discovery_rate > level; });
+  std::ranges::stable_sort(all, [](const Dependence& a, const Dependence& b) {
+    return std::pair(a.p_value, -a.share) < std::pair(b.p_value, -b.share);
+  });
+  return all;
+}
+
+std::vector<OperatingCondition> shape_series(const LoopAnswer& answer) {
+  const std::vector<Dependence> sure = sure_dependences(answer);
+  if (sure.empty() || sure.front().variable == "run") return {};
+  const Observations& observations = answer.found().base.data().observations;
+  constexpr int settings = 5;
+  const std::string& variable = sure.front().variable;
+  return combinations(missed_most(answer, sure.front().channel),
+                      {{variable, evenly(ranges_of(observations).at(variable), settings)}});
+}
+
+std::string setting(double value) {
+  if (std::abs(value) < 1e-9) return "0";
+  return fmt::format("{:.10g}", three_digits(value));
+}
+
+std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const OperatingCondition& at,
+                                                 const std::string& condition) {
+  const ConditionView& view = condition_view(condition);
+  const Dataset& data = answer.found().base.data();
+  std::string unit(view.unit);
+  double per_si = view.per_si;
+  if (const auto own = data.campaign->columns.find(condition);
+      own != data.campaign->columns.end() && own->second.unit != view.column_unit)
+    unit = own->second.unit, per_si = per_unit(unit);
+  const double value = view.get(at);
+  if (!std::isfinite(value)) return {"", unit};
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  const Limits limits = answer.next ? answer.next->given : Limits{};
+  const auto given = limits.find(condition);
+  const std::pair<double, double> within = given != limits.end() ? given->second : std::pair(-anywhere, anywhere);
+  const double set = rig_setting(view, value, data.observations, within, per_si);
+  return {fmt::format("{:.6g}", per_si * set), unit};
+}
+
+}  // namespace soilbin::compare
