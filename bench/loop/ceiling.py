@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """How often could any method name the one effect that nature hid? An oracle that knows nature's equations answers.
 
-    ceiling.py SET [SET ...] [--posteriors FILE] [--first N]
+    ceiling.py SET [SET ...] [--posteriors FILE] [--first N] [--unknown SHARE]
     ceiling.py --self-test
 
-SET: a folder made by `python3 -m nature --only one_rich` (or one_poor), with its hidden .nature/.
+SET: a folder made by `python3 -m nature --only one_rich` (or one_poor), with its hidden .nature/. With --unknown, also
+`--only unknown`: then the oracle knows nature's effects outside the catalogue too, as one more answer, `unknown`, of that
+prior probability, and the question is how often any method could tell whether the catalogue has a name.
 
 For each effect the oracle weighs nature's own forms, all equally likely, with the generator's prior on the effect's
 size (ln of its ratio to the detectable size uniform over a wide range, held at the form's largest scale), draws of the form's
@@ -26,7 +28,7 @@ import numpy as np
 
 from nature import campaign, design, noise, sensitivity, sets
 from nature import wheel as base
-from nature.families import Form, build, catalogue
+from nature.families import Form, build, catalogue, unknown
 from nature.selftest import Checks
 
 # Ratios to the detectable size, as sets.ratio_range but wider: nature takes them from a non-linear refit about the true
@@ -219,9 +221,17 @@ class Oracle:
         return float(top + np.log(np.mean(w))), float(w.sum() ** 2 / np.sum(w ** 2))
 
 
-def variants(world, rng, shapes):
-    """(id, form's class, its other constants, sign, ln prior) of what these data could show: `shapes` draws of the constants."""
-    for name, kinds in catalogue().items():
+def variants(world, rng, shapes, outside=0.0):
+    """(id, form's class, its other constants, sign, ln prior) of what these data could show: `shapes` draws of the constants.
+
+    The effects of the catalogue are equally likely; `outside` is the probability of one that it lacks.
+    """
+    answers = dict(catalogue())
+    known = len(answers)
+    if outside > 0:
+        answers["unknown"] = unknown()
+    for name, kinds in answers.items():
+        likely = np.log(outside if name == "unknown" else (1 - outside) / known)
         for kind in kinds:
             if not campaign.usable(world, kind):
                 continue
@@ -230,7 +240,7 @@ def variants(world, rng, shapes):
             for _ in range(drawn):
                 shape = kind.draw(rng, world.scale)
                 for sign in signs:
-                    yield name, kind, shape, sign, -np.log(len(kinds) * drawn * len(signs))
+                    yield name, kind, shape, sign, likely - np.log(len(kinds) * drawn * len(signs))
 
 
 def hint(plan, kind):
@@ -239,11 +249,11 @@ def hint(plan, kind):
     return sum(-np.log(odds * (0.6 if need == "transverse" else 1.0)) for need in kind.NEEDS if need in design.FACTORS)
 
 
-def posterior(record, sizes=SIZES, seed=1):
+def posterior(record, sizes=SIZES, seed=1, outside=0.0):
     """{id: probability} of one campaign without and with the plan's hint, and the least effective number of samples."""
     oracle, rng = Oracle(record, sizes), np.random.default_rng([seed, len(record["rows"]["load"])])
     looks = []  # (id, ln prior, look)
-    for name, kind, shape, sign, prior in variants(oracle.world, rng, SHAPES):
+    for name, kind, shape, sign, prior in variants(oracle.world, rng, SHAPES, outside):
         look = oracle.first_look(kind, shape, sign)
         if look:
             looks.append((name, prior, look))
@@ -318,6 +328,8 @@ def main():
     parser.add_argument("--first", type=int, help="so many campaigns of each set")
     parser.add_argument("--sizes", nargs=2, type=float, default=SIZES, metavar=("LOW", "HIGH"),
                         help="ratios to the detectable size that an effect may have; 0.4 12")
+    parser.add_argument("--unknown", type=float, default=0.0, metavar="SHARE",
+                        help="prior probability of an effect that the catalogue lacks; 0")
     parser.add_argument("--self-test", action="store_true")
     options = parser.parse_args()
     if options.self_test:
@@ -329,11 +341,11 @@ def main():
         for name in sorted(truth)[:options.first]:
             key = f"{folder.name}/{name}"
             if key not in kept:
-                kept[key] = posterior(campaign.read(folder / name), options.sizes)
+                kept[key] = posterior(campaign.read(folder / name), options.sizes, outside=options.unknown)
                 if options.posteriors:
                     options.posteriors.write_text(json.dumps(kept, indent=1) + "\n")
             if kept[key]:
-                cases.append((truth[name]["effects"][0], kept[key]))
+                cases.append(((truth[name]["effects"] or ["unknown"])[0], kept[key]))
         print(f"{folder.name}: {len(cases)} campaigns")
         for key in ("posterior", "hint"):
             summary(cases, key)
