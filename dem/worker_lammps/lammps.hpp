@@ -4,7 +4,7 @@
 //
 //   Lammps lammps(MPI_COMM_WORLD);
 //   lammps.command("atom_style sphere");
-//   for (int row = 0; row < lammps.count(); ++row) lammps.radius()[row] = 0.01;
+//   for (int row = 0; row < lammps.count(); ++row) lammps.rows().radius[row] = 0.01;
 #pragma once
 
 #include <mpi.h>
@@ -81,5 +81,8 @@ class Lammps {
  private:
   void* handle_;
 };
+
+/// A row of LAMMPS's arrays of three.
+inline Vec3 vec(const double* a) { return {a[0], a[1], a[2]}; }
 
 }  // namespace soilbin::dem

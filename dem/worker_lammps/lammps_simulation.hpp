@@ -182,9 +182,6 @@ class LammpsSimulation {
   std::string stopped_;         ///< why the run can't go on, the same on all
 };
 
-/// What the first of the processes that found a fault says of it; "" where none did. All call it.
-std::string fault_of_any(MPI_Comm world, const std::string& mine);
-
 // What dem/rig/shares.hpp asks for.
 inline Grains own_grains(const LammpsSimulation& simulation) { return simulation.own_grains(); }
 void join_largest(const LammpsSimulation& simulation, std::span<double> numbers);

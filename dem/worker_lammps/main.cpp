@@ -21,6 +21,7 @@
 #include "dem/rig/bed_job.hpp"
 #include "dem/rig/ride.hpp"
 #include "dem/worker_lammps/lammps_bed.hpp"
+#include "dem/worker_lammps/processes.hpp"
 #include "scenario/atomic_file.hpp"
 
 namespace {
