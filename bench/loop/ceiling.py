@@ -25,6 +25,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from scipy import stats
 
 from nature import campaign, design, noise, sensitivity, sets
 from nature import wheel as base
@@ -298,6 +299,16 @@ def summary(cases, key):
                   f"true {int(chosen[:, 1].sum())} ({100 * chosen[:, 1].mean():.0f} %)")
 
 
+def power_without_equations(record, leftover, level=0.05):
+    """How often a chi2 test that knows the noise sees a change of this size beyond the soil and every one or two effects.
+
+    leftover: squared size of the change that none of them takes over [noise variances], as truth.json has it (lambda).
+    """
+    readings = sum(value is not None for column in record["read"].values() for value in column)
+    free = readings - len(base.SOIL_KEYS)
+    return float(stats.ncx2.sf(stats.chi2.isf(level, free), free, leftover))
+
+
 def self_test():
     """The evidence of a problem whose answer is known: sampling and Laplace agree where the model is all but linear."""
     check = Checks()
@@ -314,6 +325,8 @@ def self_test():
     gap = oracle.read - oracle.predict(np.zeros(8), build(effect))
     cells = int(oracle.world.present.sum())
     check.true(f"the true soil and effect leave noise: chi2/N {gap @ gap / cells:.2f}", abs(gap @ gap / cells - 1) < 5 * np.sqrt(2 / cells))
+    check.true("no change is seen as often as the level says", abs(power_without_equations(record, 0.0) - 0.05) < 1e-9)
+    check.true("a large one always", power_without_equations(record, 1000.0) > 0.999)
     found = posterior(record)
     check.true("the posteriors sum to 1", all(abs(sum(found[k].values()) - 1) < 1e-4 for k in ("posterior", "hint")))
     check.true("an offset among known soils is named", next(iter(found["posterior"])) == truth["effects"][0])
@@ -349,6 +362,10 @@ def main():
         print(f"{folder.name}: {len(cases)} campaigns")
         for key in ("posterior", "hint"):
             summary(cases, key)
+        powers = [power_without_equations(campaign.read(folder / name), truth[name]["lambda"][0])
+                  for name in sorted(truth)[:options.first] if truth[name]["verdict"] == "unknown_effect"]
+        if powers:
+            print(f"  a chi2 test that knows the noise, not the effect: {100 * np.mean(powers):.1f} % seen at level 5 %")
     return 0
 
 
