@@ -13,6 +13,8 @@ std::vector<std::string> CatalogueVocabulary::ids() const {
   return all;
 }
 
+bool CatalogueVocabulary::forms_add_up(const std::string& id) const { return id == learned_id; }
+
 std::vector<EffectFormWords> CatalogueVocabulary::forms(const std::string& id) const {
   std::vector<EffectFormWords> forms;
   for (const EffectForm& form : id == learned_id ? learned_forms() : effect_catalogue()) {

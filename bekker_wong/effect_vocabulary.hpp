@@ -10,6 +10,7 @@ class CatalogueVocabulary final : public EffectVocabulary {
  public:
   std::vector<std::string> ids() const override;
   std::vector<EffectFormWords> forms(const std::string& id) const override;
+  bool forms_add_up(const std::string& id) const override;
 };
 
 }  // namespace soilbin::bekker_wong

@@ -71,7 +71,9 @@ std::vector<std::string> add_commands(CLI::App& app, Session& session) {
 void start_with_short_waits(char** argv) {
   if (std::getenv("GOMP_SPINCOUNT") != nullptr || std::getenv("OMP_WAIT_POLICY") != nullptr) return;
   ::setenv("GOMP_SPINCOUNT", "10000", 0);
-  ::execv("/proc/self/exe", argv);
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) ::execv(program.c_str(), argv);  // by its own name, as lists of processes show it
 }
 
 int refuse(const std::string& message) {

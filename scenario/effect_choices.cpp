@@ -63,7 +63,9 @@ std::vector<EffectChoice> read_effects(const YamlNode& list, const EffectVocabul
   std::vector<EffectChoice> effects;
   for (const YamlNode& node : list.items) {
     EffectChoice choice = read_effect(node, vocabulary, reading);
-    const bool again = std::any_of(effects.begin(), effects.end(), [&](const auto& e) { return e.id == choice.id; });
+    const bool again = std::any_of(effects.begin(), effects.end(), [&](const EffectChoice& e) {
+      return e.id == choice.id && (e.form == choice.form || !vocabulary.forms_add_up(e.id));
+    });
     if (again) reading.refuse(node, fmt::format("effect '{}' is listed twice", choice.id));
     effects.push_back(std::move(choice));
   }

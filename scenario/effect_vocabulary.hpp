@@ -30,6 +30,8 @@ struct EffectVocabulary {
   virtual std::vector<std::string> ids() const = 0;
   /// Forms of an id, the default form first; none for an unknown id.
   virtual std::vector<EffectFormWords> forms(const std::string& id) const = 0;
+  /// Whether several forms of an id may act side by side, as learned effects do. Else a list holds an id once.
+  virtual bool forms_add_up(const std::string& id) const = 0;
 };
 
 }  // namespace soilbin

@@ -70,7 +70,7 @@ Json error_json(const LoopAnswer& answer) {
                    {"after", finite(e.after)},
                    {"noise_floor", finite(e.noise_floor)},
                    {"kind", "held_out"}};
-    if (answer.learned) error[name]["without_learned"] = finite(e.named);
+    if (!answer.learned.empty()) error[name]["without_learned"] = finite(e.named);
   }
   const ErrorPair& all = answer.validation.overall;
   error["overall"] = Json::object();
@@ -81,7 +81,7 @@ Json error_json(const LoopAnswer& answer) {
                         {"gain", finite(answer.validation.gain)},
                         {"gain_std_error", finite(answer.validation.gain_error)},
                         {"kind", "held_out"}};
-  if (all.cells > 0 && answer.learned) error["overall"]["without_learned"] = finite(all.named);
+  if (all.cells > 0 && !answer.learned.empty()) error["overall"]["without_learned"] = finite(all.named);
   return error;
 }
 
@@ -158,10 +158,10 @@ Json formula_json(const LoopAnswer& answer) {
           {"gain_std_error", finite(answer.formula->over_learned.std_error)}};
 }
 
-/// The learned effect: where it joins the model, of which conditions, the ranges where it holds [SI].
-Json learned_json(const LoopAnswer& answer) {
-  if (!answer.learned) return nullptr;
-  const EffectChoice& choice = answer.stand_in.back().choice;
+/// A learned effect: where it joins the model, of which conditions, the ranges where it holds [SI].
+Json learned_json(const LoopAnswer& answer, std::size_t k) {
+  const LearnedEffect& learned = answer.learned[k];
+  const EffectChoice& choice = answer.learned_choice(k);
   const bekker_wong::EffectForm& form = bekker_wong::find_form(choice);
   Json valid = Json::object();
   for (const bekker_wong::LearnedVariable& variable : bekker_wong::learned_function(form).variables) {
@@ -171,10 +171,24 @@ Json learned_json(const LoopAnswer& answer) {
   return {{"form", form.form},
           {"equation", form.equation},
           {"valid", valid},
-          {"log_evidence", finite(answer.learned->log_evidence)},
-          {"gain", finite(answer.learned->gain.mean)},
-          {"gain_std_error", finite(answer.learned->gain.std_error)},
-          {"formula", formula_json(answer)}};
+          {"log_evidence", finite(learned.log_evidence)},
+          {"gain", finite(learned.gain.mean)},
+          {"gain_std_error", finite(learned.gain.std_error)}};
+}
+
+/// The first one, with its formula; null where nothing is learned.
+Json first_learned_json(const LoopAnswer& answer) {
+  if (answer.learned.empty()) return nullptr;
+  Json first = learned_json(answer, 0);
+  first["formula"] = formula_json(answer);
+  return first;
+}
+
+/// Those beside it, in the order in which they were learned.
+Json more_learned_json(const LoopAnswer& answer) {
+  Json more = Json::array();
+  for (std::size_t k = 1; k < answer.learned.size(); ++k) more.push_back(learned_json(answer, k));
+  return more;
 }
 
 /// What the residual depends on, and how many of these may be false.
@@ -217,7 +231,8 @@ Json to_json(const LoopAnswer& answer) {
           {"with_outliers", with_outliers_json(answer)},
           {"stand_in", effects_json(answer.stand_in, answer.wheel)},
           {"worse", worse_json(answer)},
-          {"learned", learned_json(answer)},
+          {"learned", first_learned_json(answer)},
+          {"learned_more", more_learned_json(answer)},
           {"depends_on", depends_json(answer)},
           {"beside_inadequacy", model_discrepancy_json(answer)}};
 }

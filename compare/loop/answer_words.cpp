@@ -25,28 +25,34 @@ constexpr double worth_listing = 0.05;  // share of the evidence, in a sentence,
 
 // What is missing.
 
-/// "slip 5 to 70 %, load 40 to 90 N": where a learned change holds.
-std::string learned_ranges(const EffectChoice& choice) {
+/// "slip 5 to 70 %, load 40 to 90 N": where learned changes hold.
+std::string learned_ranges(const std::vector<EffectChoice>& learned) {
   std::vector<std::string> ranges;
-  for (const auto& variable : bekker_wong::learned_function(bekker_wong::find_form(choice)).variables) {
-    const std::string name(variable.name);
-    const ConditionView& view = condition_view(name);
-    ranges.push_back(fmt::format(
-        "{} {} to {}{}{}", view.title, setting(view.per_si * choice.parameters.at(name + "_from")),
-        setting(view.per_si * choice.parameters.at(name + "_to")), view.unit.empty() ? "" : " ", view.unit));
-  }
+  for (const EffectChoice& choice : learned)
+    for (const auto& variable : bekker_wong::learned_function(bekker_wong::find_form(choice)).variables) {
+      const std::string name(variable.name);
+      const ConditionView& view = condition_view(name);
+      std::string range = fmt::format(
+          "{} {} to {}{}{}", view.title, setting(view.per_si * choice.parameters.at(name + "_from")),
+          setting(view.per_si * choice.parameters.at(name + "_to")), view.unit.empty() ? "" : " ", view.unit);
+      if (std::ranges::find(ranges, range) == ranges.end()) ranges.push_back(std::move(range));
+    }
   return in_a_row(ranges);
 }
 
-/// "slip sinkage and a change of the torque by slip and load that was learned from these runs (holds for ...)".
+/// "slip sinkage and a change of the torque by slip and load, learned from these runs (for ...)".
 std::string stand_in_words(const LoopAnswer& answer) {
   std::vector<std::string> words;
-  for (const AcceptedEffect& effect : answer.stand_in)
-    words.push_back(effect.choice.id == bekker_wong::learned_id
-                        ? fmt::format("a change of the {} that was learned from these runs (it holds for {})",
-                                      spaced(effect.choice.form), learned_ranges(effect.choice))
-                        : std::string(effect_title(effect.choice.id).name));
-  return in_a_row(words);
+  std::vector<EffectChoice> learned;
+  for (const AcceptedEffect& effect : answer.stand_in) {
+    const bool is_learned = effect.choice.id == bekker_wong::learned_id;
+    if (is_learned) learned.push_back(effect.choice);
+    words.push_back(is_learned ? "a change of the " + spaced(effect.choice.form)
+                               : std::string(effect_title(effect.choice.id).name));
+  }
+  if (learned.empty()) return in_a_row(words);
+  return in_a_row(words) + fmt::format(", {}learned from these runs (for {})",
+                                       learned.size() > 1 ? "these changes " : "", learned_ranges(learned));
 }
 
 /// "(W_n: the load normal to the ground)": the symbols that a formula has; "" where it has none of its own.
@@ -213,7 +219,7 @@ std::string effect_sentence(const AcceptedEffect& effect) {
   const bekker_wong::EffectForm& form = bekker_wong::find_form(effect.choice);
   if (effect.choice.id == bekker_wong::learned_id)
     return fmt::format("{} ({}): {}; it holds for {}.", capital(std::string(effect_title(effect.choice.id).name)),
-                       spaced(effect.choice.form), form.equation, learned_ranges(effect.choice));
+                       spaced(effect.choice.form), form.equation, learned_ranges({effect.choice}));
   std::vector<std::string> parameters;
   for (std::size_t i = 0; i < effect.fitted.size(); ++i) {
     const auto p = std::ranges::find_if(form.parameters, [&](const auto& one) { return one.name == effect.fitted[i]; });

@@ -94,7 +94,11 @@ std::optional<LearnedProspect> learned_prospect(const FittedModel& beside, const
   return LearnedProspect{*learned_term(form, observations, thresholds::learned_sizes.at(best)), log_mean_exp(gains)};
 }
 
-/// Every form that leaves a trace, of most evidence first.
+bool has(const FittedModel& model, const EffectForm* form) {
+  return std::ranges::any_of(model.terms(), [&](const Term& term) { return term.form == form; });
+}
+
+/// Every form that leaves a trace and is not there yet, of most evidence first.
 std::vector<LearnedProspect> learned_prospects(const FittedModel& beside, const ThreadPool& pool) {
   const std::vector<EffectForm>& forms = bekker_wong::learned_forms();
   const LinearProblem problem = problem_of(beside);
@@ -105,7 +109,7 @@ std::vector<LearnedProspect> learned_prospects(const FittedModel& beside, const 
   });
   std::vector<LearnedProspect> prospects;
   for (std::optional<LearnedProspect>& one : found)
-    if (one) prospects.push_back(std::move(*one));
+    if (one && !has(beside, one->term.form)) prospects.push_back(std::move(*one));
   std::ranges::stable_sort(
       prospects, [](const LearnedProspect& a, const LearnedProspect& b) { return a.log_evidence > b.log_evidence; });
   return prospects;
@@ -127,29 +131,45 @@ FittedModel beside_exact(const FittedModel& base, const FittedModel* chosen) {
   return again ? *again : base;
 }
 
-std::optional<LearnedEffect> learn_effect(const FittedModel& beside, const AttributionOptions& options) {
-  const std::vector<LearnedProspect> prospects = learned_prospects(beside, options.pool);
+namespace {
+
+/// The next learned effect, beside a model that gives these densities to conditions left out; nothing where none
+/// stands.
+std::optional<LearnedEffect> learn_next(const FittedModel& beside, const std::vector<FoldDensity>& without,
+                                        const std::vector<LearnedProspect>& prospects,
+                                        const AttributionOptions& options) {
   const double choice = std::log(static_cast<double>(std::max<std::size_t>(1, prospects.size())));
   std::optional<LearnedEffect> best;
-  std::optional<std::vector<FoldDensity>> without;
   for (std::size_t i = 0; i < prospects.size() && i < thresholds::learned_refits; ++i) {
     const double evidence = prospects[i].log_evidence - choice;
     if (evidence <= 0.0) break;
     auto model = fitted_with_learned(beside, prospects[i].term);
     if (!model) continue;
-    if (!without) without = fold_densities(beside, options.seed, options.pool);
     auto held_out = fold_densities(*model, options.seed, options.pool);
-    const PredictiveGain gain = predictive_gain(held_out, *without);
+    const PredictiveGain gain = predictive_gain(held_out, without);
     if (best && gain.mean <= best->gain.mean) continue;
     std::set<std::string> ids;
     for (const Term& term : model->terms()) ids.insert(term.form->id);
-    best = LearnedEffect{{std::move(ids), std::move(*model), evidence},
-                         evidence,
-                         std::move(held_out),
-                         gain,
-                         earns_its_place(gain, evidence)};
+    best = LearnedEffect{{std::move(ids), std::move(*model), evidence}, evidence, std::move(held_out), gain};
   }
-  return best;
+  return best && earns_its_place(best->gain, best->log_evidence) ? best : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<LearnedEffect> learn_effects(const FittedModel& beside, const AttributionOptions& options) {
+  std::vector<LearnedEffect> learned;
+  std::vector<FoldDensity> without;
+  while (learned.size() < thresholds::most_learned) {
+    const FittedModel& model = learned.empty() ? beside : learned.back().candidate.model;
+    const std::vector<LearnedProspect> prospects = learned_prospects(model, options.pool);
+    if (prospects.empty()) break;
+    without = learned.empty() ? fold_densities(model, options.seed, options.pool) : learned.back().held_out;
+    auto next = learn_next(model, without, prospects, options);
+    if (!next) break;
+    learned.push_back(std::move(*next));
+  }
+  return learned;
 }
 
 }  // namespace soilbin::compare

@@ -1,5 +1,5 @@
-// Stage 5 of the loop, where no named effect explains the residual: a smooth function of one condition or of two, at
-// the joint of the model where it predicts conditions left out best (bekker_wong/learned.hpp).
+// Stage 5 of the loop, where no named effect explains the residual: smooth functions of one condition or of two, each
+// at the joint of the model where it predicts conditions left out best (bekker_wong/learned.hpp).
 #pragma once
 
 #include <optional>
@@ -10,27 +10,27 @@
 
 namespace soilbin::compare {
 
-/// A learned effect, fitted together with the soil and with the named effects that it stands beside.
+/// A learned effect, fitted together with the soil and with the effects, named or learned, that it stands beside.
 struct LearnedEffect {
   CandidateModel candidate;           ///< the learned term is its last
   double log_evidence = 0.0;          ///< gained over the model without it, the choice among all forms and sizes paid
   std::vector<FoldDensity> held_out;  ///< what it gives to conditions left out
   PredictiveGain gain;                ///< over that model
-  bool stands = false;                ///< by the rule of a named effect (choice.hpp)
 };
 
 /// A chosen model (null: the base model) fitted to the data of the base model taken as exact: beside a model
 /// discrepancy its terms were fitted to less.
 FittedModel beside_exact(const FittedModel& base, const FittedModel* chosen);
 
-/// Looks for a learned effect beside a model (the base model, or one with named effects). Every form's weights, normal
-/// about 0 and the smaller the more the function bends, join the linear problem of that model; the few forms of most
-/// evidence are fitted in full, and the one that predicts conditions left out best is returned. Nothing where none has
-/// any evidence.
+/// Looks for learned effects beside a model (the base model, or one with named effects), one after the other, each
+/// beside those before, as long as the next one stands by the rule of a named effect (choice.hpp), at most
+/// thresholds::most_learned. Every form's weights, normal about 0 and the smaller the more the function bends, join the
+/// linear problem of the model; the few forms of most evidence are fitted in full, and the one that predicts conditions
+/// left out best is the next one. Empty where none stands.
 ///
-///     const auto learned = learn_effect(found.best().model, options);
-///     if (learned && learned->stands) learned->candidate.ids;   // {"learned", "slip_sinkage"}
-std::optional<LearnedEffect> learn_effect(const FittedModel& beside, const AttributionOptions& options);
+///     const std::vector<LearnedEffect> learned = learn_effects(found.best().model, options);
+///     if (!learned.empty()) learned.back().candidate.ids;   // {"learned", "slip_sinkage"}
+std::vector<LearnedEffect> learn_effects(const FittedModel& beside, const AttributionOptions& options);
 
 /// What each weight of a term with a learned form, or with a formula, does to the cells: whitened, of 1 sd of the
 /// weight; nothing where the form leaves no trace.

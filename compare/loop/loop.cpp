@@ -151,13 +151,11 @@ LoopAnswer answer_of(const Campaign& campaign, Judgement judgement) {
   return answer;
 }
 
-/// A learned effect for what named ones do not explain; nothing where it does not stand.
-std::optional<LearnedEffect> learned_beside(const FittedModel& base, const Judgement& judgement,
-                                            const AttributionOptions& options) {
-  if (judgement.verdict != Verdict::unknown_effect) return std::nullopt;
-  auto learned =
-      learn_effect(beside_exact(base, judgement.takes_best() ? &judgement.found.best().model : nullptr), options);
-  return learned && learned->stands ? std::move(learned) : std::nullopt;
+/// Learned effects for what named ones do not explain.
+std::vector<LearnedEffect> learned_beside(const FittedModel& base, const Judgement& judgement,
+                                          const AttributionOptions& options) {
+  if (judgement.verdict != Verdict::unknown_effect) return {};
+  return learn_effects(beside_exact(base, judgement.takes_best() ? &judgement.found.best().model : nullptr), options);
 }
 
 /// Whether the whole procedure, redone in each fold, predicts better with learned effects than without, and in no
@@ -169,18 +167,18 @@ bool predicts_better(const CrossValidation& with_learned) {
   return with_learned.overall.after < with_learned.overall.named * (1 - thresholds::least_learned_gain);
 }
 
-/// A learned effect that predicts better becomes a part of the model that is saved. It explains nothing: what is told
-/// to be unexplained, and what that depends on, stays what the named effects leave.
-void take_learned(std::optional<LearnedEffect> learned, const FittedModel& base, LoopAnswer& answer) {
-  if (!learned) return;
+/// Learned effects that predict better become a part of the model that is saved. They explain nothing: what is told to
+/// be unexplained, and what that depends on, stays what the named effects leave.
+void take_learned(std::vector<LearnedEffect> learned, const FittedModel& base, LoopAnswer& answer) {
+  if (learned.empty()) return;
   if (!predicts_better(answer.validation)) {
     answer.validation = without_learned_effects(std::move(answer.validation), base.data().observations);
     return;
   }
-  answer.stand_in = effects_of(learned->candidate);
-  answer.soil = learned->candidate.model.soil();
-  answer.soil_shifts = soil_shifts(learned->candidate.model, base);
   answer.learned = std::move(learned);
+  answer.stand_in = effects_of(answer.learned.back().candidate);
+  answer.soil = answer.model().soil();
+  answer.soil_shifts = soil_shifts(answer.model(), base);
 }
 
 LoopAnswer too_small_to_judge(const Campaign& campaign, std::string reason) {
@@ -226,7 +224,7 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
     answer.validation = cross_validate(base.data(), answer.noise,
                                        {.attribution = of_a_fold(options.attribution),
                                         .with_model_discrepancy = answer.decided_with_model_discrepancy(),
-                                        .learn = learned.has_value(),
+                                        .learn = !learned.empty(),
                                         .folds = options.folds,
                                         .threads = options.threads,
                                         .progress = [&](std::size_t done, std::size_t folds) {
@@ -234,10 +232,10 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
                                         }});
   take_learned(std::move(learned), base, answer);
   whole.pool.pulse = [&] { report(all_steps - 1); };
-  if (answer.learned)
+  if (!answer.learned.empty())
     answer.formula =
         find_formula(beside_exact(base, answer.judgement->takes_best() ? &answer.found().best().model : nullptr),
-                     *answer.learned, whole);
+                     answer.learned.front(), whole);
   if (answer.verdict == Verdict::effect_found) answer.effects = accepted_effects(answer.found(), whole);
   answer.reason += held_out_clause(answer);
   if (answer.verdict != Verdict::nothing_missing && answer.found().candidates.best) {

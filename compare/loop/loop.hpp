@@ -78,10 +78,10 @@ struct LoopAnswer {
   /// Of an unknown effect: the best named ones, where conditions left out are predicted better with them. They stand in
   /// for it in the model that is saved, and explain nothing.
   std::vector<AcceptedEffect> stand_in;
-  /// Of an unknown effect: a smooth function of one condition or two that predicts conditions left out better still,
-  /// where there is one. It stands among the stand-ins, at the end, and the soil is fitted with it.
-  std::optional<LearnedEffect> learned;
-  std::optional<LearnedFormula> formula;  ///< of what is learned, where a few terms do as well
+  /// Of an unknown effect: smooth functions of one condition or two that predict conditions left out better still, each
+  /// learned beside those before. They stand among the stand-ins, at the end, and the soil is fitted with them.
+  std::vector<LearnedEffect> learned;
+  std::optional<LearnedFormula> formula;  ///< of the first one, where a few terms do as well
   std::vector<Weighted> ambiguity_set;    ///< best first; empty unless effects compete
   /// Sets that only the attribution which does not decide leaves: indices are those of its candidates, weights 0.
   std::vector<Weighted> noted_sets;
@@ -106,9 +106,15 @@ struct LoopAnswer {
   ChosenCandidate choice() const { return judgement && judgement->choice ? *judgement->choice : ChosenCandidate{}; }
   /// The effects of the model that is saved: those accepted, or those that stand in.
   const std::vector<AcceptedEffect>& taken() const { return effects.empty() ? stand_in : effects; }
+  /// A learned effect as it stands in that model.
+  const EffectChoice& learned_choice(std::size_t k) const {
+    return stand_in[stand_in.size() - learned.size() + k].choice;
+  }
   /// What is saved: the base model, or one with the accepted effects or those that stand in.
   const FittedModel& model() const {
-    return learned ? learned->candidate.model : judgement->takes_best() ? found().best().model : found().base;
+    return !learned.empty()          ? learned.back().candidate.model
+           : judgement->takes_best() ? found().best().model
+                                     : found().base;
   }
   /// Whether the attribution with a model discrepancy decides; and that attribution, null where there was none.
   bool decided_with_model_discrepancy() const { return second && second->decides; }

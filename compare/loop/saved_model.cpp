@@ -62,7 +62,7 @@ Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
 std::string proposed_effect(const LoopAnswer& answer) {
   if (!answer.formula) return "";
   const LearnedFormula& formula = *answer.formula;
-  const EffectChoice& choice = answer.stand_in.back().choice;
+  const EffectChoice& choice = answer.learned_choice(0);
   std::vector<double> weights;
   for (const Estimate& w : formula.weights) weights.push_back(w.value);
   std::string ranges;

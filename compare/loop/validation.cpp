@@ -37,9 +37,8 @@ FoldResult run_fold(const Dataset& whole, const NoiseFloor& noise, const Validat
   const Attribution& found = beside ? beside->found : exact;
   const FittedModel& base = exact.base;
   const FittedModel* better = found.candidates.best ? &found.best().model : nullptr;
-  std::optional<LearnedEffect> learned;
-  if (options.learn) learned = learn_effect(beside_exact(base, better), options.attribution);
-  if (learned && !learned->stands) learned.reset();
+  std::vector<LearnedEffect> learned;
+  if (options.learn) learned = learn_effects(beside_exact(base, better), options.attribution);
   FoldResult result;
   if (better) result.chosen = found.best().ids;
   VectorXd predicted = VectorXd::Constant(all.cells.size(), not_a_number);
@@ -58,7 +57,7 @@ FoldResult run_fold(const Dataset& whole, const NoiseFloor& noise, const Validat
       HeldOut held{.row = cell.row, .channel = cell.channel, .measured = cell.value};
       held.before = value_of(base);
       held.named = better ? value_of(*better) : held.before;
-      held.after = learned ? value_of(learned->candidate.model) : held.named;
+      held.after = learned.empty() ? held.named : value_of(learned.back().candidate.model);
       held.sd = noise.channels[cell.channel].sd(cell.value, cell.spread);
       predicted[index] = held.before;
       of_cell.push_back(index);

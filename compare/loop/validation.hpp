@@ -17,7 +17,7 @@ struct HeldOut {
   int channel = 0;
   double measured = 0.0, before = 0.0, after = 0.0;
   double smooth = 0.0;  ///< base model plus a smooth term without a name (condition_functions.hpp)
-  double named = 0.0;   ///< the chosen model without a learned effect
+  double named = 0.0;   ///< the chosen model without learned effects
   double sd = 0.0;      ///< noise of this cell
 };
 
@@ -42,7 +42,7 @@ struct ValidationOptions {
   AttributionOptions attribution;
   bool with_model_discrepancy = false;  ///< choose with the base model's discrepancy, where that can be attributed;
                                         ///< errors before are those of the base model taken as exact, all the same
-  bool learn = false;  ///< beside the chosen model a learned effect, looked for and accepted anew in each fold
+  bool learn = false;  ///< beside the chosen model learned effects, looked for and accepted anew in each fold
   int folds = 5;
   int threads = 1;    ///< folds at once; the answer does not depend on it
   Progress progress;  ///< folds done, called again and again from the calling thread alone; may throw to stop

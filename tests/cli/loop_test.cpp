@@ -25,6 +25,43 @@ TEST(SlowLoopCommand, NamesTheLessonsEffectInWordsAndLeavesItsFiles) {
   EXPECT_EQ(predicted.status, 0) << predicted.err;
 }
 
+// What the loop saves may hold several learned effects, each form once.
+TEST(LearnedEffects, OfSeveralFormsStandSideBySideInACase) {
+  const Scratch scratch;
+  const auto pull = [&](const std::string& name, const std::string& second) {
+    const fs::path file = scratch.write(name, R"(format: soilbin-case/1
+name: learned
+tire: {radius: 110 mm, width: 100 mm}
+soil: dry-sand
+study:
+  models:
+    - model: bekker_wong
+      effects:
+        - {id: learned, form: drawbar_pull_by_slip, parameters: {slip_from: 0 %, slip_to: 50 %, c0: 0.01}}
+        - )" + second + R"(
+  conditions: {load: [80 N], slip: [20 %]}
+)");
+    return soilbin("run '" + file.string() + "' --json");
+  };
+  const Outcome two = pull("two.yaml",
+                           "{id: learned, form: drawbar_pull_by_load, parameters: "
+                           "{load_from: 50 N, load_to: 100 N, c0: 0.02}}");
+  ASSERT_EQ(two.status, 0) << two.err;
+  const Outcome none = pull("none.yaml",
+                            "{id: learned, form: drawbar_pull_by_load, parameters: "
+                            "{load_from: 50 N, load_to: 100 N, c0: 0}}");
+  ASSERT_EQ(none.status, 0) << none.err;
+  const auto value = [](const Outcome& outcome) {
+    return outcome.json().at("rows").at(0).at("drawbar_pull").get<double>();
+  };
+  EXPECT_NEAR(value(two) - value(none), 0.02 * 80, 1e-9) << "g adds W g to the pull";
+  const Outcome twice = pull("twice.yaml",
+                             "{id: learned, form: drawbar_pull_by_slip, parameters: "
+                             "{slip_from: 0 %, slip_to: 50 %, c0: 0.01}}");
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.err, HasSubstr("effect 'learned' is listed twice"));
+}
+
 TEST(LoopCommand, AnswersInTheContractsForm) {
   const Outcome outcome = soilbin("loop made-lesson --json");
   ASSERT_EQ(outcome.status, 0) << outcome.err;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "bekker_wong/learned.hpp"
 #include "compare/loop/learned_formula.hpp"
@@ -53,15 +54,15 @@ TEST(LearnedEffect, WeightsHaveOneSlope) {
 TEST(SlowLearnedEffect, FindsTheFunctionAndItsJoint) {
   const Campaign campaign = with_bent_pull(3, 0.03);
   const FittedModel base = fit_base(campaign, observe(campaign), {});
-  const auto learned = learn_effect(base, {});
-  ASSERT_TRUE(learned);
-  EXPECT_TRUE(learned->stands);
-  const Term& term = learned->candidate.terms().back();
+  const std::vector<LearnedEffect> all = learn_effects(base, {});
+  ASSERT_FALSE(all.empty());
+  const LearnedEffect& learned = all.front();
+  const Term& term = learned.candidate.terms().back();
   EXPECT_TRUE(term.form->form.starts_with("drawbar_pull_by_slip")) << term.form->form;
   EXPECT_EQ(term.defaults[bekker_wong::LearnedFunction::from(0)], 0.05);
   EXPECT_EQ(term.defaults[bekker_wong::LearnedFunction::to(0)], 0.7);
-  EXPECT_LT(learned->candidate.fit().chi2, base.fit().chi2 - 30);
-  const FittedModel& model = learned->candidate.model;
+  EXPECT_LT(learned.candidate.fit().chi2, base.fit().chi2 - 30);
+  const FittedModel& model = learned.candidate.model;
   const auto pull = [&](double slip) {
     OperatingCondition at;
     at.load = 1000, at.slip = slip, at.position = 1.5, at.run = 20;
@@ -77,14 +78,32 @@ TEST(SlowLearnedEffect, FindsTheFunctionAndItsJoint) {
   }
 }
 
+// A bent pull, and a sinkage that is read 30 % deeper or less deep along the slip: two functions at two joints, each
+// form once.
+TEST(SlowLearnedEffect, ASecondFunctionIsLearnedBesideTheFirst) {
+  Campaign campaign = with_bent_pull(3, 0.03);
+  for (compare::Run& run : campaign.runs)
+    *run.sinkage *= std::exp(0.3 * std::sin(2 * std::numbers::pi * run.at.slip / 0.8));
+  const FittedModel base = fit_base(campaign, observe(campaign), {});
+  const std::vector<LearnedEffect> learned = learn_effects(base, {});
+  ASSERT_GE(learned.size(), 2U);
+  std::set<std::string> forms, joints;
+  for (const Term& term : learned.back().candidate.terms()) {
+    EXPECT_TRUE(forms.insert(term.form->form).second) << term.form->form;
+    joints.insert(term.form->form.substr(0, term.form->form.find("_by_")));
+  }
+  EXPECT_TRUE(joints.contains("sinkage")) << *forms.begin();
+  EXPECT_TRUE(joints.contains("drawbar_pull")) << *forms.begin();
+  EXPECT_LT(learned[1].candidate.fit().chi2, learned[0].candidate.fit().chi2);
+}
+
 // Noise alone: whatever is learned does not earn its place in four campaigns of five or more.
 TEST(SlowLearnedEffect, NoiseTeachesNothing) {
   int stands = 0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Campaign campaign = sand_campaign();
     measure(campaign, sweep(), {}, fine_noise, 100 + seed);
-    const auto learned = learn_effect(fit_base(campaign, observe(campaign), {}), {});
-    if (learned && learned->stands) ++stands;
+    if (!learn_effects(fit_base(campaign, observe(campaign), {}), {}).empty()) ++stands;
   }
   EXPECT_LE(stands, 1);
 }
@@ -100,10 +119,10 @@ TEST(SlowLearnedEffect, AFormulaOfFewTermsTakesThePlaceOfTheCurve) {
   measure(campaign, rows, {}, fine_noise, 5);
   for (compare::Run& run : campaign.runs) *run.drawbar_pull += 0.01 * run.at.load * std::pow(*run.at.position, 2);
   const FittedModel base = fit_base(campaign, observe(campaign), {});
-  const auto learned = learn_effect(base, {});
-  ASSERT_TRUE(learned);
-  ASSERT_TRUE(learned->candidate.terms().back().form->form.starts_with("drawbar_pull_by_"));
-  const auto formula = find_formula(base, *learned, {});
+  const std::vector<LearnedEffect> learned = learn_effects(base, {});
+  ASSERT_FALSE(learned.empty());
+  ASSERT_TRUE(learned.front().candidate.terms().back().form->form.starts_with("drawbar_pull_by_"));
+  const auto formula = find_formula(base, learned.front(), {});
   ASSERT_TRUE(formula);
   EXPECT_LE(formula->terms.size(), 2U) << formula_text(*formula);
   EXPECT_EQ(formula->joint, "force W_n g along the wheel's plane");

@@ -149,7 +149,7 @@ void expect_the_decided_model(const Campaign& campaign, const LoopAnswer& answer
   std::set<std::string> saved;
   for (const EffectChoice& choice : model.study.models.front().effects) saved.insert(choice.id);
   EXPECT_EQ(saved, ids_of(answer.stand_in));
-  EXPECT_EQ(saved.erase("learned"), answer.learned ? 1U : 0U);
+  EXPECT_EQ(saved.erase("learned"), answer.learned.empty() ? 0U : 1U);
   EXPECT_EQ(saved, answer.judgement->takes_best() ? answer.ambiguity_set.front().ids : std::set<std::string>());
 }
 

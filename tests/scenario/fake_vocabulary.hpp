@@ -9,6 +9,7 @@
 namespace soilbin::test {
 
 struct FakeVocabulary : EffectVocabulary {
+  bool forms_add_up(const std::string&) const override { return false; }
   std::vector<std::string> ids() const override { return {"slip_sinkage", "lug_thrust", "exit_angle"}; }
 
   std::vector<EffectFormWords> forms(const std::string& id) const override {
