@@ -40,19 +40,21 @@ std::string learned_ranges(const std::vector<EffectChoice>& learned) {
   return in_a_row(ranges);
 }
 
-/// "slip sinkage and a change of the torque by slip and load, learned from these runs (for ...)".
+/// "slip sinkage, and, learned from these runs (for slip 5 to 70 %), changes of the torque by slip and the pull by
+/// slip".
 std::string stand_in_words(const LoopAnswer& answer) {
-  std::vector<std::string> words;
+  std::vector<std::string> named, changes;
   std::vector<EffectChoice> learned;
-  for (const AcceptedEffect& effect : answer.stand_in) {
-    const bool is_learned = effect.choice.id == bekker_wong::learned_id;
-    if (is_learned) learned.push_back(effect.choice);
-    words.push_back(is_learned ? "a change of the " + spaced(effect.choice.form)
-                               : std::string(effect_title(effect.choice.id).name));
-  }
-  if (learned.empty()) return in_a_row(words);
-  return in_a_row(words) + fmt::format(", {}learned from these runs (for {})",
-                                       learned.size() > 1 ? "these changes " : "", learned_ranges(learned));
+  for (const AcceptedEffect& effect : answer.stand_in)
+    if (effect.choice.id == bekker_wong::learned_id) {
+      learned.push_back(effect.choice);
+      changes.push_back("the " + spaced(effect.choice.form));
+    } else {
+      named.emplace_back(effect_title(effect.choice.id).name);
+    }
+  if (learned.empty()) return in_a_row(named);
+  return fmt::format("{}{}learned from these runs (for {}), {} of {}", in_a_row(named), named.empty() ? "" : ", and, ",
+                     learned_ranges(learned), learned.size() > 1 ? "changes" : "a change", in_a_row(changes));
 }
 
 /// "(W_n: the load normal to the ground)": the symbols that a formula has; "" where it has none of its own.

@@ -136,11 +136,11 @@ namespace {
 /// The next learned effect, beside a model that gives these densities to conditions left out; nothing where none
 /// stands.
 std::optional<LearnedEffect> learn_next(const FittedModel& beside, const std::vector<FoldDensity>& without,
-                                        const std::vector<LearnedProspect>& prospects,
+                                        const std::vector<LearnedProspect>& prospects, std::size_t refits,
                                         const AttributionOptions& options) {
   const double choice = std::log(static_cast<double>(std::max<std::size_t>(1, prospects.size())));
   std::optional<LearnedEffect> best;
-  for (std::size_t i = 0; i < prospects.size() && i < thresholds::learned_refits; ++i) {
+  for (std::size_t i = 0; i < prospects.size() && i < refits; ++i) {
     const double evidence = prospects[i].log_evidence - choice;
     if (evidence <= 0.0) break;
     auto model = fitted_with_learned(beside, prospects[i].term);
@@ -165,7 +165,8 @@ std::vector<LearnedEffect> learn_effects(const FittedModel& beside, const Attrib
     const std::vector<LearnedProspect> prospects = learned_prospects(model, options.pool);
     if (prospects.empty()) break;
     without = learned.empty() ? fold_densities(model, options.seed, options.pool) : learned.back().held_out;
-    auto next = learn_next(model, without, prospects, options);
+    const std::size_t refits = learned.empty() ? thresholds::learned_refits : thresholds::later_refits;
+    auto next = learn_next(model, without, prospects, refits, options);
     if (!next) break;
     learned.push_back(std::move(*next));
   }

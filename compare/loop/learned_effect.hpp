@@ -25,8 +25,8 @@ FittedModel beside_exact(const FittedModel& base, const FittedModel* chosen);
 /// Looks for learned effects beside a model (the base model, or one with named effects), one after the other, each
 /// beside those before, as long as the next one stands by the rule of a named effect (choice.hpp), at most
 /// thresholds::most_learned. Every form's weights, normal about 0 and the smaller the more the function bends, join the
-/// linear problem of the model; the few forms of most evidence are fitted in full, and the one that predicts conditions
-/// left out best is the next one. Empty where none stands.
+/// linear problem of the model; the few forms of most evidence (beside another learned one: one) are fitted in full,
+/// and the one that predicts conditions left out best is the next one. Empty where none stands.
 ///
 ///     const std::vector<LearnedEffect> learned = learn_effects(found.best().model, options);
 ///     if (!learned.empty()) learned.back().candidate.ids;   // {"learned", "slip_sinkage"}
