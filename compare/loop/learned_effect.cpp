@@ -52,7 +52,7 @@ std::optional<Term> learned_term(const EffectForm& form, const Observations& obs
 /// A form's part in the linear problem.
 struct LearnedProspect {
   Term term;                  ///< free to the size of most evidence
-  double log_evidence = 0.0;  ///< mean over the sizes
+  double log_evidence = 0.0;  ///< mean over the sizes; of those that are looked at, the choice among them paid
 };
 
 }  // namespace
@@ -94,22 +94,22 @@ std::optional<LearnedProspect> learned_prospect(const FittedModel& beside, const
   return LearnedProspect{*learned_term(form, observations, thresholds::learned_sizes.at(best)), log_mean_exp(gains)};
 }
 
-bool has(const FittedModel& model, const EffectForm* form) {
-  return std::ranges::any_of(model.terms(), [&](const Term& term) { return term.form == form; });
-}
-
-/// Every form that leaves a trace and is not there yet, of most evidence first.
+/// Of the forms that leave a trace and are not there yet those with evidence, of most first.
 std::vector<LearnedProspect> learned_prospects(const FittedModel& beside, const ThreadPool& pool) {
   const std::vector<EffectForm>& forms = bekker_wong::learned_forms();
   const LinearProblem problem = problem_of(beside);
   std::vector<std::optional<LearnedProspect>> found(forms.size());
   pool.each(static_cast<int>(forms.size()), [&](int i, const Pulse& pulse) {
     pulse();
-    found[i] = learned_prospect(beside, problem, forms[i]);
+    const auto is_this = [&](const Term& term) { return term.form == &forms[i]; };
+    if (std::ranges::none_of(beside.terms(), is_this)) found[i] = learned_prospect(beside, problem, forms[i]);
   });
   std::vector<LearnedProspect> prospects;
   for (std::optional<LearnedProspect>& one : found)
-    if (one && !has(beside, one->term.form)) prospects.push_back(std::move(*one));
+    if (one) prospects.push_back(std::move(*one));
+  const double choice = std::log(static_cast<double>(std::max<std::size_t>(1, prospects.size())));
+  for (LearnedProspect& one : prospects) one.log_evidence -= choice;
+  std::erase_if(prospects, [](const LearnedProspect& one) { return one.log_evidence <= 0.0; });
   std::ranges::stable_sort(
       prospects, [](const LearnedProspect& a, const LearnedProspect& b) { return a.log_evidence > b.log_evidence; });
   return prospects;
@@ -138,11 +138,9 @@ namespace {
 std::optional<LearnedEffect> learn_next(const FittedModel& beside, const std::vector<FoldDensity>& without,
                                         const std::vector<LearnedProspect>& prospects, std::size_t refits,
                                         const AttributionOptions& options) {
-  const double choice = std::log(static_cast<double>(std::max<std::size_t>(1, prospects.size())));
   std::optional<LearnedEffect> best;
   for (std::size_t i = 0; i < prospects.size() && i < refits; ++i) {
-    const double evidence = prospects[i].log_evidence - choice;
-    if (evidence <= 0.0) break;
+    const double evidence = prospects[i].log_evidence;
     auto model = fitted_with_learned(beside, prospects[i].term);
     if (!model) continue;
     auto held_out = fold_densities(*model, options.seed, options.pool);
@@ -159,14 +157,15 @@ std::optional<LearnedEffect> learn_next(const FittedModel& beside, const std::ve
 
 std::vector<LearnedEffect> learn_effects(const FittedModel& beside, const AttributionOptions& options) {
   std::vector<LearnedEffect> learned;
-  std::vector<FoldDensity> without;
+  std::vector<FoldDensity> of_beside;
   while (learned.size() < thresholds::most_learned) {
-    const FittedModel& model = learned.empty() ? beside : learned.back().candidate.model;
+    const bool first = learned.empty();
+    const FittedModel& model = first ? beside : learned.back().candidate.model;
     const std::vector<LearnedProspect> prospects = learned_prospects(model, options.pool);
     if (prospects.empty()) break;
-    without = learned.empty() ? fold_densities(model, options.seed, options.pool) : learned.back().held_out;
-    const std::size_t refits = learned.empty() ? thresholds::learned_refits : thresholds::later_refits;
-    auto next = learn_next(model, without, prospects, refits, options);
+    if (first) of_beside = fold_densities(beside, options.seed, options.pool);
+    auto next = learn_next(model, first ? of_beside : learned.back().held_out, prospects,
+                           first ? thresholds::learned_refits : thresholds::later_refits, options);
     if (!next) break;
     learned.push_back(std::move(*next));
   }
