@@ -1,4 +1,8 @@
-// Answers on the back of an envelope: closed forms that need no balance, and the source paper's estimate of sinkage.
+// Closed forms for a towed rigid wheel that need no force balance (static sinkage, rolling resistance, critical ground
+// pressure, by Bekker and Wong), and the source paper's estimate of sinkage. For checks by hand.
+//
+//   const double z = bekker_static_sinkage(soil, 0.25, 0.15, 1000);  // [m]; radius and width [m], load [N]
+//   const double resistance = compaction_resistance(soil, 0.15, z);  // [N]; the same as rolling_resistance(...)
 #pragma once
 
 #include "bekker_wong/contact_patch.hpp"

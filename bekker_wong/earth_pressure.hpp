@@ -1,6 +1,6 @@
-// Soil that gives way before a pushing wall: passive earth pressure and its kin. Forces are per metre of the wall's
-// width [N/m]; depth [m] >= 0 of the wall's foot under the surface. Every one is 0 at depth 0 and finite for
-// 0 <= phi < 90 deg.
+// Passive earth pressure: the force of the soil on a wall that pushes into it, by Rankine and by Hegedus, and the
+// factors of Bekker's bulldozing resistance. Forces are per metre of the wall's width [N/m]; depth [m] >= 0 of the
+// wall's foot under the surface. Every one is 0 at depth 0 and finite for 0 <= phi < 90 deg.
 #pragma once
 
 #include "bekker_wong/contact_patch.hpp"

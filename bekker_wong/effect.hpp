@@ -1,6 +1,11 @@
-// An effect is a small value: its parameters and what it does at the joints that the wheel offers.
-// It never names another effect. Adding one: a file in effects/, a line in effects/catalogue.cpp, a test, a line in
-// docs/reference/effects.md.
+// An effect: a departure from the base model, such as slip sinkage, as a small value with its parameters and what it
+// does at the joints, the places where the wheel model can be changed. It never names another effect.
+//
+//   const EffectList effects = make_effects({{.id = "slip_sinkage", .form = "linear", .parameters = {{"S", 1.2}}}});
+//   RollingWheel(tire, soil_values, effects).roll(at).sinkage  // [m]
+//
+// A new one: its file effects/NAME.cpp; its line in effects/forms.hpp, effects/catalogue.cpp and effects/titles.cpp; a
+// test; a line in docs/reference/effects.md. CONTRIBUTING.md has the details.
 #pragma once
 
 #include <array>

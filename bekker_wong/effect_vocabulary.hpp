@@ -1,4 +1,7 @@
-// The catalogue of effects as the scenario floor's readers and writers need it.
+// The catalogue's effects with their forms and parameters, as readers and writers of files ask for them, because
+// scenario/ never includes the analytic model.
+//
+//   const Case question = read_case("rover.yaml", Library({"cases"}), CatalogueVocabulary());
 #pragma once
 
 #include "scenario/effect_vocabulary.hpp"

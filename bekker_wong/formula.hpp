@@ -1,4 +1,5 @@
-// A learned effect as people would write it: the same change g at the same joint, a sum of a few plain terms.
+// A learned effect as people would write it: the same change g at the same joint, a sum of a few plain terms. Source:
+// effects/formula.cpp, since it uses effects/learned_joints.hpp.
 #pragma once
 
 #include <functional>

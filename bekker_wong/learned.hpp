@@ -1,5 +1,6 @@
-// learned: a change that no effect of the catalogue makes, as a smooth function of one condition or of two. It has no
-// cause and no name; the loop fits it to a campaign, and it holds within the conditions of that campaign.
+// Learned effects (id "learned"): a change that no effect of the catalogue makes, as a smooth function of one condition
+// or of two. It has no known cause; the loop fits it to a campaign, and it holds within the conditions of that
+// campaign. Source: effects/learned.cpp, since it uses effects/learned_joints.hpp.
 #pragma once
 
 #include <array>

@@ -1,4 +1,9 @@
-// What a wheel can do at best in a steady state: the questions that ask for a slip or a slope instead of giving it.
+// What a wheel can do at best in a steady state: largest pull, slip for a given pull, largest load, steepest slope.
+//
+//   const RollingWheel wheel(tire, values_of(soil));
+//   const PullPeak peak = largest_pull(wheel, {.load = 4000});           // peak.drawbar_pull [N] at peak.slip
+//   const auto slip = slip_for_pull(wheel, {.load = 4000}, 500);         // at which it pulls 500 N; none: it can't
+//   const auto slope = steepest_slope(wheel, {.load = 4000});            // [rad]
 #pragma once
 
 #include <optional>

@@ -1,5 +1,9 @@
 // The analytic wheel (Bekker 1969; Wong and Reece 1967) as a Model: results with standard errors, budget and stresses.
 // The wheel itself: rolling_wheel.hpp.
+//
+//   const Scenario scenario{.tire = find_tire("rover-wheel", library), .soil = find_soil("dry-sand", library)};
+//   const TractionResult result = BekkerWong().evaluate(scenario, {.load = 100, .slip = 0.2});  // [N], [-]
+//   result.drawbar_pull.value, result.drawbar_pull.std_error                                    // [N]
 #pragma once
 
 #include "bekker_wong/contact_patch.hpp"

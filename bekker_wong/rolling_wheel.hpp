@@ -2,7 +2,8 @@
 // then.
 //
 //   const RolledWheel wheel = RollingWheel(tire, soil_values, effects).roll({.load = 4000, .slip = 0.2});
-//   wheel.reading.drawbar_pull, wheel.sinkage, wheel.patch.normal
+//   wheel.reading.drawbar_pull, wheel.sinkage    // [N], [m]
+//   wheel.patch.of(&ContactPatch::sigma)         // normal stress at each node [Pa]
 #pragma once
 
 #include <functional>

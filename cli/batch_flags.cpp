@@ -52,7 +52,7 @@ int BatchFlags::answer(const compare::VirtualTest& test, compare::ExperimentStor
   try {
     for (std::size_t k = 0; k < places.size(); ++k) {
       if (interrupt_asked()) throw Interrupted();
-      tell_beside_progress(fmt::format("experiment {} of {}", k + 1, places.size()));
+      print_beside_progress(fmt::format("experiment {} of {}", k + 1, places.size()));
       compare::experiment_at(test, all[places[k].packing].values, all[places[k].packing].seed, store);
     }
   } catch (const Interrupted&) {

@@ -1,4 +1,5 @@
-// Experiments in batches: a command asks for some, any number of processes answer them, and the command learns.
+// The flags --ask, --batch, --shard and --tell, by which a command has its experiments made elsewhere: it writes a
+// batch of those that it needs next, any number of processes make them, and it learns from their results.
 #pragma once
 
 #include <CLI/CLI.hpp>

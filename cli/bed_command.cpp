@@ -24,7 +24,7 @@ std::optional<dem::DensityLimits> limits_of(dem::DemSettings settings, const Sce
   try {
     return dem::density_limits(dem::DemModel(settings).recipe(scenario).soil, store, settings.how);
   } catch (const dem::RunStopped& stopped) {
-    tell_beside_progress(fmt::format("note: no relative density: {}", stopped.what()));
+    print_beside_progress(fmt::format("note: no relative density: {}", stopped.what()));
     return std::nullopt;
   }
 }

@@ -1,91 +1,38 @@
 // soilbin calibrate: contact parameters of grains from virtual element tests.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <tuple>
 
 #include "cli/batch_flags.hpp"
 #include "cli/commands.hpp"
+#include "cli/contact_test_flags.hpp"
 #include "cli/decision_flags.hpp"
-#include "cli/element_test_flags.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
-#include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "compare/calibrate/calibration_words.hpp"
 #include "compare/calibrate/decision_words.hpp"
 #include "compare/calibrate/published_sets.hpp"
-#include "compare/experiments/element_experiments.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "scenario/atomic_file.hpp"
-#include "scenario/errors.hpp"
-#include "scenario/nearest_word.hpp"
 
 namespace soilbin::cli {
 namespace {
 
 namespace fs = std::filesystem;
 using compare::ContactKind;
-using compare::Factor;
-using compare::Target;
 
 struct CalibrateOptions {
-  std::string soil, contact = "sand", store, output, beside, near = "5%", within = "3%", probability = "90%";
-  std::string strength = "peak", settling_friction = "1", stresses = "10kPa,20kPa,40kPa";
-  std::string rolling;
-  std::vector<std::string> targets, bounds, kept;
+  ContactTestFlags contact;
+  std::string store, output, beside, near = "5%", within = "3%", probability = "90%";
   DecisionFlags decision;
   BatchFlags batch;
   compare::CalibrationOptions options;
-  int packings = 0, threads = 0, across = 16;
   bool json = false, runs = false;
 };
-
-/// "NAME=REST" of a flag, NAME one of `right`.
-std::pair<std::string, std::string> named(const std::string& flag, const std::string& text,
-                                          const std::vector<std::string>& right) {
-  const std::size_t equals = text.find('=');
-  const std::string name = text.substr(0, equals);
-  if (std::ranges::find(right, name) == right.end()) throw InputError(flag + ": " + none_of(name, right));
-  return {name, equals == std::string::npos ? "" : text.substr(equals + 1)};
-}
-
-/// The soil's own phi and c for sand on sand; what --target names, where it names any.
-std::vector<Target> targets_of(const CalibrateOptions& asked, ContactKind kind, const Soil& soil) {
-  std::vector<Target> targets;
-  for (const std::string& text : asked.targets) {
-    const auto [name, value] = named("--target", text, compare::target_names(kind));
-    const std::string unit = compare::unit_of_target(name);
-    const std::vector<std::string> parts = split(value, ",");
-    Target target{name, {read_flag("--target " + name, parts[0], {unit, above_zero}), 0.0}, unit};
-    if (parts.size() > 1) target.measured.std_error = read_flag("--target " + name, parts[1], {unit, zero_or_more});
-    targets.push_back(std::move(target));
-  }
-  return targets.empty() ? compare::targets_of(soil, kind) : targets;
-}
-
-std::vector<Factor> factors_of(const CalibrateOptions& asked, ContactKind kind) {
-  std::vector<Factor> factors = compare::usual_factors(kind);
-  std::vector<std::string> names;
-  for (const Factor& factor : factors) names.push_back(factor.name);
-  for (const std::string& text : asked.bounds) {
-    const auto [name, range] = named("--vary", text, names);
-    for (Factor& factor : factors)
-      if (factor.name == name) {
-        const Measure measure{factor.unit, factor.name == "restitution" ? fractions : zero_or_more};
-        std::tie(factor.lower, factor.upper) = read_range("--vary " + name, range, measure);
-      }
-  }
-  for (const std::string& text : asked.kept) {
-    const std::string name = named("--keep", text, names).first;
-    std::erase_if(factors, [&](const Factor& factor) { return factor.name == name; });
-  }
-  return factors;
-}
 
 /// One line on a terminal: which run, what it is at, the time left if all runs are needed.
 class Shown {
@@ -123,40 +70,11 @@ class Shown {
   int runs_left_ = 0;
 };
 
-/// The soil with the rolling resistance that is asked for, as if it were its own.
-Soil soil_of(const CalibrateOptions& asked, const Workplace& place) {
-  Soil soil = find_soil(asked.soil, place.library);
-  if (!soil.granular)
-    throw InputError(fmt::format("soil '{}' has no grains\n  hint: it needs a section 'granular'", soil.name));
-  if (asked.rolling.empty()) return soil;
-  soil.granular->rolling_resistance = rolling_named(asked.rolling);
-  soil.granular->grain_grain.rolling_stiffness = soil.granular->grain_tire.rolling_stiffness = 0.0;
-  return soil;
-}
-
-compare::VirtualTest test_of(const CalibrateOptions& asked, ContactKind kind, const Soil& soil,
-                             const std::shared_ptr<Shown>& shown) {
-  compare::ContactQuestion question;
-  question.kind = kind, question.factors = factors_of(asked, kind), question.targets = targets_of(asked, kind, soil);
-  question.packings = asked.packings, question.across = asked.across;
-  question.settling_friction = read_settling_friction(asked.settling_friction, question.settling_friction);
-  question.stresses.clear();
-  for (const std::string& stress : split(asked.stresses, ","))
-    question.stresses.push_back(read_flag("--stresses", stress, {"kPa", above_zero}));
-  named("--strength", asked.strength, {"peak", "residual"});
-  question.strength = asked.strength == "peak" ? compare::Strength::peak : compare::Strength::residual;
-  question.how.threads = asked.threads;
-  question.how.progress = [shown](const dem::Progress& progress) { shown->within_run(progress); };
-  question.how.tell = tell_beside_progress;
-  check_threads(asked.threads);
-  return compare::contact_test(soil, question);
-}
-
 fs::path store_of(const CalibrateOptions& asked, const Soil& soil) {
   if (!asked.store.empty()) return asked.store;
   const fs::path cache = user_cache();
   if (cache.empty()) return {};
-  const fs::path file = cache / "experiments" / fmt::format("{}-{}.json", soil.name, asked.contact);
+  const fs::path file = cache / "experiments" / fmt::format("{}-{}.json", soil.name, asked.contact.contact);
   const std::string why = why_not_writable(file);
   if (why.empty()) return file;
   fmt::print(stderr, "warning: {}\n  experiments aren't kept\n", why);
@@ -208,7 +126,8 @@ struct Calibrated {
 void add_decision(CalibrateOptions& asked, const Calibrated& what, fs::path records, const Workplace& place,
                   const std::shared_ptr<Shown>& shown) {
   if (!asked.decision.given()) return;
-  asked.decision.bin.texts["--settling-friction"] = asked.settling_friction, asked.decision.bin.threads = asked.threads;
+  asked.decision.bin.texts["--settling-friction"] = asked.contact.settling_friction;
+  asked.decision.bin.threads = asked.contact.threads;
   compare::TrialQuestion question = asked.decision.question(place);
   question.soil = what.soil, question.kind = what.kind, question.factors = what.test.factors;
   compare::TrialSettings settings = asked.decision.settings(asked.options.seed, std::move(records));
@@ -233,13 +152,13 @@ int tell(const CalibrateOptions& asked, const Soil& soil, ContactKind kind, cons
 }
 
 int calibrate(CalibrateOptions asked, const Session& session) {
-  const Soil soil = soil_of(asked, session.place);
-  named("--contact", asked.contact, {"sand", "tire"});
-  const ContactKind kind = asked.contact == "sand" ? ContactKind::grain_grain : ContactKind::grain_tire;
+  const Soil soil = asked.contact.soil_with_grains(session.place);
+  const ContactKind kind = asked.contact.kind();
   read_shares(asked);
   const auto shown = std::make_shared<Shown>();
   asked.options.progress = [shown](const compare::CalibrationProgress& progress) { shown->next(progress); };
-  const compare::VirtualTest test = test_of(asked, kind, soil, shown);
+  const compare::VirtualTest test =
+      asked.contact.test(soil, [shown](const dem::Progress& progress) { shown->within_run(progress); });
   const fs::path file = store_of(asked, soil);
   add_decision(asked, {soil, kind, test}, records_beside(file), session.place, shown);
   asked.batch.check(asked.store);
@@ -265,29 +184,13 @@ int calibrate(CalibrateOptions asked, const Session& session) {
 }
 
 void add_options(CLI::App& command, CalibrateOptions& asked) {
-  add_value(command, "soil", asked.soil, "SOIL", "a soil of the library, or a file; with grains")->required();
-  add_value(command, "--contact", asked.contact, "sand|tire",
-            "sand on sand, by direct shear; or tire on sand, by the tilting board");
-  add_value(command, "--target", asked.targets, "NAME=VALUE[,SD]",
-            "what was measured; repeatable; for sand, by default, the soil's own");
-  add_value(command, "--vary", asked.bounds, "NAME=LOW..HIGH",
-            "bounds of a number of the contact, in place of the usual ones; repeatable");
-  add_value(command, "--keep", asked.kept, "NAME", "keep this number as the soil has it; repeatable");
+  asked.contact.add_to(command);
   add_value(command, "--design", asked.options.design, "L9|L16|L25", "orthogonal array to begin with, L9");
   add_value(command, "--runs", asked.options.most_runs, "N", "experiments at most, 30");
   add_value(command, "--near", asked.near, "SHARE", "candidates lie within this share of every target; 5 %");
   add_value(command, "--within", asked.within, "SHARE", "the search ends within this share of every target; 3 %");
   add_value(command, "--probability", asked.probability, "SHARE", "probability with which --within must hold; 90 %");
-  add_value(command, "--strength", asked.strength, "peak|residual", "strength that the shear box is read by");
-  add_value(command, "--stresses", asked.stresses, "P,P,...", "normal stresses of the shear box; 10kPa,20kPa,40kPa");
-  add_value(command, "--settling-friction", asked.settling_friction, settling_type,
-            "how the sheared sample, or the soil bin's bed, settles: loose, medium, dense, or a share of friction; 1");
-  add_value(command, "--rolling", asked.rolling, "LAW",
-            "law of rolling resistance: elastic_plastic, directional, directional_with_twist; the soil's own");
-  add_value(command, "--across", asked.across, "N", "grains along a side of the board, 16");
-  add_value(command, "--packings", asked.packings, "N", "number of samples of each experiment; shear box 1, board 4");
   add_value(command, "--seed", asked.options.seed, "N", "seed of packings and search; 1")->check(whole_number(1));
-  add_value(command, "--threads", asked.threads, "N", "0, one a core");
   add_file(command, "--store", asked.store, "FILE.json", "where finished experiments are kept; the user's cache");
   add_file(command, "--output", asked.output, "FILE.yaml", "write the soil with the calibrated contact");
   add_value(command, "--beside", asked.beside, "FILE.csv",

@@ -39,7 +39,7 @@ struct Runs {
 Runs read_runs(const CampaignOptions& asked, const Workplace& place) {
   Runs runs;
   for (const std::string& file : asked.records) {
-    runs.records.push_back(read_record_aloud(file));
+    runs.records.push_back(read_record_with_notes(file));
     const compare::Record& record = runs.records.back();
     compare::refuse_other_inputs(record, runs.records.front().inputs, file);
     for (const compare::RecordedRun& run : record.runs) runs.all.push_back(run);

@@ -173,7 +173,7 @@ int compare_models(CompareOptions asked, const Session& session) {
     print_json(compare::comparison_json(comparison, about));
   else
     print_text(comparison, about);
-  forget_runs(*log, outputs);
+  delete_restarts(*log, outputs);
   return outputs.status(done);
 }
 

@@ -9,8 +9,8 @@
 #include "cli/progress.hpp"
 #include "cli/rig_flags.hpp"
 #include "cli/text_output.hpp"
-#include "compare/loop/test_design.hpp"
 #include "compare/sweep/result_json.hpp"
+#include "compare/test_design/test_design.hpp"
 
 namespace soilbin::cli {
 namespace {

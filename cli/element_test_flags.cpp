@@ -50,7 +50,7 @@ dem::WorkOptions ElementTestFlags::work() const {
   dem::WorkOptions how;
   how.threads = threads;
   how.progress = show_dem_progress;
-  how.tell = tell_beside_progress;
+  how.tell = print_beside_progress;
   return how;
 }
 

@@ -1,4 +1,5 @@
-// The files that a command is asked for: tried before the work, written after it.
+// Writes the files that a command was asked for (a page, a drawing, a table) at its end. Whether they can be written is
+// tried before the work, by the flags themselves (add_file in flag_values.hpp, add_plot).
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -30,7 +30,7 @@ struct RecordOptions {
 
 std::vector<compare::NamedRecord> read_all(const std::vector<std::string>& files) {
   std::vector<compare::NamedRecord> records;
-  for (const std::string& file : files) records.push_back({file, read_record_aloud(file)});
+  for (const std::string& file : files) records.push_back({file, read_record_with_notes(file)});
   return records;
 }
 

@@ -117,7 +117,7 @@ std::vector<Recorded> records_of(std::vector<std::string> files, const compare::
   std::vector<Recorded> records;
   if (files.empty()) files = library_records(findings, place);
   for (const std::string& file : files) {
-    compare::Record record = read_record_aloud(file);
+    compare::Record record = read_record_with_notes(file);
     const std::string study = study_of(record, file, place);
     const bool asked =
         std::ranges::any_of(findings.all, [&](const compare::Finding& finding) { return finding.study == study; });

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "compare/loop/effect_shapes.hpp"
-#include "compare/loop/rig_limits.hpp"
+#include "compare/test_design/effect_shapes.hpp"
+#include "compare/test_design/rig_limits.hpp"
 
 namespace soilbin::cli {
 

@@ -36,7 +36,7 @@ struct RunOptions {
 /// Answers by LAMMPS carry its name. It is given spheres alone.
 void name_engine(Case& question, const std::string& engine) {
   if (engine != "lammps") return;
-  if (question.scenario.soil.granular) dem::spheres_alone(*question.scenario.soil.granular);
+  if (question.scenario.soil.granular) dem::require_spheres(*question.scenario.soil.granular);
   for (ModelChoice& choice : question.study.models)
     if (choice.model == ModelKind::dem) choice.label = dem::lammps_model_name;
 }
@@ -46,7 +46,8 @@ void save(Outputs& outputs, const RunOptions& options, const Case& question, con
   const std::vector<compare::ModelAnswers>& study = answered.study;
   const auto csv = [&] { return compare::study_csv(study, compare::remarks_about(question.scenario)); };
   outputs.file(options.csv, csv);
-  outputs.drawing(options.plot, [&] { return compare::study_sheet(question, compare::as_drawn(question, study)); });
+  outputs.drawing(options.plot,
+                  [&] { return compare::study_sheet(question, compare::smoothed_for_plot(question, study)); });
   outputs.write(options.output, [&] {
     const fs::path folder = options.output;
     write_file_atomically(folder / "case.yaml", write_case(question, place.effects));
@@ -79,8 +80,8 @@ void make_runs(const Case& question, const Case& whole, const RunOptions& option
         if (interrupt_asked()) throw Interrupted();
         *at = fmt::format("run {} of {}", place + 1, list.size());
         if (!bin.shard.empty())
-          tell_beside_progress(fmt::format("{}: {}{}", *at, compare::in_words(run),
-                                           compare::missing_runs({run}, before).empty() ? ", recorded before" : ""));
+          print_beside_progress(fmt::format("{}: {}{}", *at, compare::in_words(run),
+                                            compare::missing_runs({run}, before).empty() ? ", recorded before" : ""));
       });
   if (!bin.shard.empty())
     fmt::print("{}: shard {} is done, {} recorded\n", bin.record, bin.shard, compare::counted(list.size(), "run"));
@@ -123,7 +124,7 @@ int converge(const RunOptions& options, const Case& question, const Session& ses
   }
   std::vector<compare::RecordedRun> finished;
   for (const auto& [name, run] : runs) finished.push_back(run);
-  forget_runs(finished, {});
+  delete_restarts(finished, {});
   return finished.front().answer.result ? done : failed;
 }
 
@@ -190,7 +191,7 @@ int run(RunOptions options, const Session& session) {
     if (const std::string notes = compare::notes_on(*log); !notes.empty())
       fmt::print("\n{}{}", notes, compare::relative_density_of(*log, question.scenario.soil, folder_of_beds()));
   }
-  forget_runs(*log, outputs);
+  delete_restarts(*log, outputs);
   if (compare::any_result(answered.study)) return outputs.status(done);
   fmt::print(stderr, "soilbin: no condition of the study has a solution\n");
   return failed;

@@ -37,7 +37,7 @@ void show_progress_of(const std::string& work, const dem::Progress& progress) {
                                  known ? fmt::format(", {:.0f} s left", progress.seconds_left) : ""));
 }
 
-void tell_beside_progress(const std::string& words) {
+void print_beside_progress(const std::string& words) {
   clear_progress_line();
   fmt::print(stderr, "{}\n", words);
 }
@@ -153,9 +153,9 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   settings.beds = folder_of_beds();
   settings.how.threads = flags.threads;
   settings.how.progress = show_dem_progress;
-  settings.how.tell = tell_beside_progress;
+  settings.how.tell = print_beside_progress;
   settings.checkpoints.restart = settings.beds;
-  settings.checkpoints.tell = tell_beside_progress;
+  settings.checkpoints.tell = print_beside_progress;
   settings.lammps = lammps_of(flags);
   settings.settled_by = flags.settled_by == "lammps" ? dem::SettledBy::lammps : dem::SettledBy::soilbin;
   return settings;
@@ -263,14 +263,15 @@ compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, 
     const compare::RunListener listen = [log](const compare::RecordedRun& run) { log->push_back(run); };
     if (kind != ModelKind::dem) return compare::make_model(kind);
     if (!flags.recorded.empty())
-      return compare::recorded_soil_bin(read_record_aloud(flags.recorded), question.scenario, flags.recorded, listen);
+      return compare::recorded_soil_bin(read_record_with_notes(flags.recorded), question.scenario, flags.recorded,
+                                        listen);
     const dem::DemSettings settings = settings_of(flags);
     return compare::soil_bin_model(settings, flags.packings,
                                    compare::run_once(settings, question, effects, keeping_of(flags)), listen);
   };
 }
 
-compare::Record read_record_aloud(const fs::path& file) {
+compare::Record read_record_with_notes(const fs::path& file) {
   compare::Record record = compare::read_record(file);
   if (const std::string note = compare::unsealed_note(record, file); !note.empty())
     fmt::print(stderr, "note: {}\n", note);
@@ -291,14 +292,14 @@ void tell_coarse_grains(const Scenario& scenario) {
     fmt::print(stderr, "note: {}\n", doubt);
 }
 
-void forget_runs(const std::vector<compare::RecordedRun>& runs, const Outputs& outputs) {
+void delete_restarts(const std::vector<compare::RecordedRun>& runs, const Outputs& outputs) {
   if (runs.empty()) return;
   if (!outputs.complete() || std::fflush(stdout) != 0) {
     fmt::print(stderr, "soilbin: {}\n", finished_runs_stay);
     return;
   }
   for (const compare::RecordedRun& run : runs)
-    if (run.when_safe) run.when_safe();
+    if (run.on_saved) run.on_saved();
 }
 
 }  // namespace soilbin::cli

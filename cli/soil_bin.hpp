@@ -28,7 +28,7 @@ void show_dem_progress(const dem::Progress& progress);
 void show_progress_of(const std::string& work, const dem::Progress& progress);
 
 /// A line on standard error that progress doesn't write over.
-void tell_beside_progress(const std::string& words);
+void print_beside_progress(const std::string& words);
 
 /// What --settling-friction says: a name (dem::named_densities) or a share of friction. Throws InputError.
 double read_settling_friction(const std::string& text, double unless_given);
@@ -93,13 +93,13 @@ compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, 
                                const RunLog& log);
 
 /// compare::read_record; says so where no seal vouches for a run.
-compare::Record read_record_aloud(const std::filesystem::path& file);
+compare::Record read_record_with_notes(const std::filesystem::path& file);
 /// Tells the experiments of a store that no seal vouches for, where there are any.
 void tell_unsealed(const compare::ExperimentStore& store, const std::filesystem::path& file);
 
 /// After the answer and all files are written: what the runs could be had again from is removed. Where a file is
 /// missing it stays, and the person is told.
-void forget_runs(const std::vector<compare::RecordedRun>& runs, const Outputs& outputs);
+void delete_restarts(const std::vector<compare::RecordedRun>& runs, const Outputs& outputs);
 inline constexpr const char* finished_runs_stay =
     "finished runs are kept where their restarts could be written: the same command goes on from there";
 

@@ -62,7 +62,7 @@ void print_warnings(const std::vector<std::string>& warnings) {
 }
 
 void print_json(nlohmann::ordered_json document, const std::vector<std::string>& doubts) {
-  compare::tell_doubts(document, doubts);
+  compare::add_warnings(document, doubts);
   fmt::print("{}", compare::json_text(document));
 }
 
@@ -125,7 +125,7 @@ std::string study_text(const std::vector<ModelAnswers>& study) {
     if (!curves.varying.empty()) header.push_back(curves.varying);
     header.push_back("slip [%]");
     for (std::size_t c = 0; c < channel_views.size(); ++c)
-      if (side || channel_views[c].name != "lateral_force")
+      if (side || !channel_views[c].sideways)
         header.push_back(heading(std::string(channel_views[c].title), std::string(channel_views[c].unit)));
     header.push_back("efficiency [%]");
     Table table{"", header};
@@ -136,7 +136,7 @@ std::string study_text(const std::vector<ModelAnswers>& study) {
       if (!curves.varying.empty()) row.push_back(curves.labels[curves.curve_of[i]]);
       row.push_back(fmt::format("{:.4g}", 100 * answer.at.slip));
       for (const ChannelView& channel : channel_views)
-        if (side || channel.name != "lateral_force")
+        if (side || !channel.sideways)
           row.push_back(answer.result ? number((*answer.result).*channel.predicted, channel.per_si) : "-");
       row.push_back(answer.result ? efficiency(*answer.result) : "-");
       table.add(std::move(row));

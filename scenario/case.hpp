@@ -1,5 +1,8 @@
-// A case is a question: this tire, on this soil, at these conditions, answered by these models.
-// The file format soilbin-case/1 is described in docs/reference/case-files.md.
+// A case: the question which tire, on which soil, at which conditions, by which models. Its file format soilbin-case/1
+// is described in docs/reference/case-files.md.
+//
+//   const Case question = read_case("rover.yaml", Library({"cases"}), bekker_wong::CatalogueVocabulary());
+//   for (const OperatingCondition& at : question.study.conditions) model.evaluate(question.scenario, at);
 #pragma once
 
 #include <array>

@@ -1,5 +1,10 @@
-// A wheel driven in time: what turns it, which way it goes, when it ends. The section `drive` of a case
-// (docs/guide/drive.md).
+// A wheel driven in time: its motor, the way with its slopes and soils, and when the drive ends. The section `drive` of
+// a case (docs/guide/drive.md).
+//
+//   Drive drive{.load = 4000, .duration = 20};                                   // [N], [s]
+//   drive.controller.rim_speed = 0.5;                                            // [m/s], held by the motor
+//   drive.profile = {{.at = 2}, {.at = 4, .longitudinal_incline = 0.17}};        // [m], [rad]; level up to 2 m
+//   mass_of(drive)                                                               // 408 kg
 #pragma once
 
 #include <optional>

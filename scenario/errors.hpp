@@ -1,4 +1,13 @@
-// What can go wrong, as types. The command turns InputError into exit status 2 and every other error into 1.
+// The errors of the library as exceptions. The command turns InputError into exit status 2 and every other error
+// into 1.
+//
+//   try {
+//     model.evaluate(scenario, at);
+//   } catch (const InputError& error) {  // the question makes no sense
+//     fmt::print("{} (line {})\n", error.what(), error.position().line);
+//   } catch (const NoSolution& error) {  // the soil does not carry this wheel
+//     fmt::print("{}\n", error.what());
+//   }
 #pragma once
 
 #include <stdexcept>

@@ -1,4 +1,8 @@
-// Where tires, soils and studies lie, and their names.
+// A library of case files: tires, soils, studies and measured campaigns in folders, found by name.
+//
+//   const Library library({"cases"});                 // a folder with tires/, soils/, studies/, measured/
+//   library.names(Shelf::soils)                       // "clayey-soil", "cmu-sand", ...
+//   find_file(library, Shelf::tires, "rover-wheel")   // cases/tires/rover-wheel.yaml
 #pragma once
 
 #include <filesystem>

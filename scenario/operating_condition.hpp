@@ -1,4 +1,7 @@
-// One operating point of a wheel: load, slip, speed, inclines, yaw. What a model is asked, and a run was made at.
+// One operating point of a wheel: load, slip, speed, slopes, yaw, pass. A model is asked for it, and a measured run was
+// made at it.
+//
+//   const OperatingCondition uphill{.load = 4000, .slip = 0.2, .longitudinal_incline = 0.17};  // [N], [-], [rad]
 #pragma once
 
 #include <compare>

@@ -1,4 +1,8 @@
-// Numbers with units, to SI and back. Reading what was written gives the same bits.
+// Numbers with units, to SI and back. What is written reads back to the same bits.
+//
+//   read_quantity("11 mm", {"m", above_zero})                // 0.011 [m]
+//   read_quantity("0.99 kN/m^(n+1)", {"kN/m^(n+1)"}, 1.1)    // 990 [N/m^2.1]; 1.1: the soil's exponent n
+//   write_quantity(0.011, "mm")                              // "11 mm"
 #pragma once
 
 #include <limits>

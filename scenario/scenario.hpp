@@ -1,7 +1,8 @@
-// A question without its operating point (tire, soil, bin, effects), and the interface that every model answers by:
+// A question without its operating point (tire, soil, bin, effects), and the interface through which every model
+// answers it.
 //
 //   const TractionResult result = bekker_wong::BekkerWong().evaluate(scenario, {.load = 4000, .slip = 0.2});
-//   result.drawbar_pull.value  // [N], with result.drawbar_pull.std_error
+//   result.drawbar_pull.value, result.drawbar_pull.std_error  // [N]
 #pragma once
 
 #include <map>

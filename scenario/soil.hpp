@@ -1,4 +1,11 @@
-// A soil, as the analytic model needs it (pressure, sinkage and shear values), as grains, or both.
+// A soil: the values that the analytic model needs (pressure, sinkage, shear), its grains for the discrete element
+// model, or both.
+//
+//   Soil soil{.name = "dry sand"};
+//   soil.semi_empirical = SemiEmpiricalSoil{.exponent = {1.1, 0}, .k_c = {990, 0}, .k_phi = {1.528e6, 0},
+//                                           .cohesion = {1040, 100}, .friction_angle = {0.49, 0.02},  // [Pa], [rad]
+//                                           .shear_modulus = {0.025, 0.003}};  // [m]; value, standard deviation
+//   bulk_density(*soil.semi_empirical)  // 1500 kg/m^3, presumed since none is declared
 #pragma once
 
 #include <map>

@@ -1,5 +1,8 @@
-// The eight parameters of a semi-empirical soil, said once: reader, writer, schema, fits, error propagation, tables and
-// pages all go over this table.
+// The eight parameters of a semi-empirical soil as one table: names, symbols, units, ranges and meanings. Reader,
+// writer, schema, fits, error propagation, tables and pages all go over it.
+//
+//   for (const SoilParameter& p : soil_parameters)
+//     fmt::print("{} = {} {}\n", p.title, (soil.*p.value).value * p.per_si, p.unit);  // "cohesion c = 1.04 kPa"
 #pragma once
 
 #include <array>

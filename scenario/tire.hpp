@@ -1,4 +1,9 @@
-// A tire or rigid wheel: its outside measures, lugs and inflation pressure.
+// A tire or rigid wheel as the soil meets it: outside dimensions, lugs and inflation pressure. Both models and every
+// campaign describe their wheel with it.
+//
+//   const Tire rover{.name = "rover", .radius = 0.09, .width = 0.11,                   // [m], tread base without lugs
+//                    .lugs = {.height = 0.01, .count = 24, .thickness = 0.002}};       // [m]
+//   in_words(rover)  // "rover (r 90 mm, b 110 mm, 24 lugs of 10 mm)"
 #pragma once
 
 #include <map>

@@ -1,4 +1,8 @@
-// The four channels that a wheel test measures and a model predicts, said once.
+// The four channels that a wheel test measures and a model predicts, as one table: drawbar pull, torque, sinkage,
+// lateral force, with names and units.
+//
+//   for (const TractionChannel& c : traction_channels)
+//     fmt::print("{} = {:.4g} {}\n", c.title, (result.*c.predicted).value * c.per_si, c.unit);  // "sinkage = 12 mm"
 #pragma once
 
 #include <array>
@@ -18,6 +22,7 @@ struct TractionChannel {
   double per_si;           ///< units per SI unit: 1000 for mm
   const char* meaning;     ///< with its SI unit
   Estimate TractionResult::*predicted;
+  bool sideways = false;  ///< across the wheel: nothing to tell without yaw and cross slope
 };
 
 /// In the order of every array over channels.
@@ -26,7 +31,8 @@ inline constexpr std::array<TractionChannel, 4> traction_channels = {{
      &TractionResult::drawbar_pull},
     {"torque", "torque", "N m", "N m", 1.0, "M [N m]; positive drives", &TractionResult::torque},
     {"sinkage", "sinkage", "m", "mm", 1000.0, "z [m]", &TractionResult::sinkage},
-    {"lateral_force", "lateral force", "N", "N", 1.0, "F_y [N], to the left of travel", &TractionResult::lateral_force},
+    {"lateral_force", "lateral force", "N", "N", 1.0, "F_y [N], to the left of travel", &TractionResult::lateral_force,
+     true},
 }};
 
 /// The header of a CSV column, whose unit is SI: "torque_Nm"; with `what` between them, "torque_se_Nm".

@@ -1,5 +1,9 @@
-// What a model or a measurement says of a wheel at one operating point: pull, torque, sinkage, side force, each with
-// its standard error, and what they are made of.
+// The answer of a model or of a measurement at one operating point: drawbar pull, torque, sinkage and lateral force,
+// each with its standard error, the parts of the pull and the stresses under the wheel.
+//
+//   const TractionResult result = model.evaluate(scenario, {.load = 4000, .slip = 0.2});
+//   result.drawbar_pull.value, result.drawbar_pull.std_error  // [N]
+//   for (const Contribution& part : result.budget) fmt::print("{}: {:.1f} N\n", part.name, part.force);
 #pragma once
 
 #include <string>

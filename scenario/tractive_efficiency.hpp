@@ -1,5 +1,8 @@
-// Tractive efficiency: which share of the power put into a wheel comes out as pull along its travel. One definition for
-// every model and for measurements.
+// Tractive efficiency: the share of the power put into a wheel that comes out as pull along its travel. The one
+// definition for every model and for measurements.
+//
+//   result.tractive_efficiency = tractive_efficiency(result, tire.radius);
+//   if (!has_efficiency(result)) fmt::print("{}\n", why_no_efficiency(result));  // reported_efficiency gives NaN then
 #pragma once
 
 #include <string>

@@ -4,8 +4,8 @@
 // whole drawbar pull. The leak is proportional to the load and blind to slip. a is counted like the inclines.
 #include <cmath>
 
-#include "bekker_wong/effects/channels.hpp"
 #include "bekker_wong/effects/forms.hpp"
+#include "bekker_wong/effects/instrument_channels.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {

@@ -6,8 +6,8 @@
 // load leaks by the frame's yielding.
 #include <cmath>
 
-#include "bekker_wong/effects/channels.hpp"
 #include "bekker_wong/effects/forms.hpp"
+#include "bekker_wong/effects/instrument_channels.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong {

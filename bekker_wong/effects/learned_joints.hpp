@@ -1,4 +1,5 @@
-// Where a function g of the conditions joins the wheel model, for effects that were learned from runs.
+// Learned effects as Effects: how a function g of the conditions, learned from runs, changes pull, side force, torque,
+// sinkage, stiffness or strength (bekker_wong/learned.hpp).
 #pragma once
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bekker_wong/effects/channels.hpp"
 #include "bekker_wong/effects/forms.hpp"
+#include "bekker_wong/effects/instrument_channels.hpp"
 #include "bekker_wong/effects/scaled_soil.hpp"
 #include "bekker_wong/node_functions.hpp"
 

@@ -5,8 +5,8 @@
 // turn: nothing is added. Drawbar pull and sinkage do not know of it.
 #include <cmath>
 
-#include "bekker_wong/effects/channels.hpp"
 #include "bekker_wong/effects/forms.hpp"
+#include "bekker_wong/effects/instrument_channels.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {

@@ -1,6 +1,6 @@
 // sensor_offset: a channel's zero is off, by the same in every run.
-#include "bekker_wong/effects/channels.hpp"
 #include "bekker_wong/effects/forms.hpp"
+#include "bekker_wong/effects/instrument_channels.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {

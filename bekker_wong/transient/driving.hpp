@@ -1,4 +1,4 @@
-// A wheel driven in time, from rest to where it arrives or gets stuck (docs/theory/driven-wheel.md).
+// A wheel driven in time by the analytic model, from rest until it arrives or gets stuck (docs/theory/driven-wheel.md).
 //
 //   const DriveRecord record = drive_wheel(scenario, drive);
 //   record.end == DriveEnd::stuck, record.samples.back().travelled, record.samples.back().energy.unaccounted()

@@ -141,7 +141,7 @@ Json parameters_json(const bekker_wong::EffectForm& form) {
 }
 
 /// A value of the condition that most questions leave out, and that only some effects hear of.
-struct Heard {
+struct SliderSpec {
   const char* key;
   const char* meaning;
   const char* unit;
@@ -149,12 +149,12 @@ struct Heard {
   double lower, upper, step;
 };
 
-constexpr Heard heard_values[] = {{"pass", "1: undisturbed soil", "", 1, 1, 10, 1},
-                                  {"moisture", "water content by mass", "%", 8, 0, 30, 0.5},
-                                  {"position", "mean distance along the bin", "m", 0, -10, 10, 0.1},
-                                  {"run", "order in which the runs were made", "", 1, 0, 100, 1}};
+constexpr SliderSpec heard_values[] = {{"pass", "1: undisturbed soil", "", 1, 1, 10, 1},
+                                       {"moisture", "water content by mass", "%", 8, 0, 30, 0.5},
+                                       {"position", "mean distance along the bin", "m", 0, -10, 10, 0.1},
+                                       {"run", "order in which the runs were made", "", 1, 0, 100, 1}};
 
-double given_value(const OperatingCondition& at, const Heard& heard) {
+double given_value(const OperatingCondition& at, const SliderSpec& heard) {
   const std::string key = heard.key;
   if (key == "pass") return at.pass;
   if (key == "run") return at.run ? *at.run : heard.start;
@@ -170,7 +170,7 @@ Json hearing_ids(const std::string& key) {
 }
 
 void add_heard_values(Json& numbers, const OperatingCondition& at) {
-  for (const Heard& heard : heard_values)
+  for (const SliderSpec& heard : heard_values)
     numbers.push_back({{"group", "condition"},
                        {"key", heard.key},
                        {"title", compare::capital(heard.key)},

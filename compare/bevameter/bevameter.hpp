@@ -1,4 +1,8 @@
 // The bevameter: from plates and sheared rings, measured or simulated, to the values of the Bekker / Wong-Reece model.
+//
+//   const BevameterFit fit = fit_bevameter(plates, rings);
+//   fit.soil.k_phi.value, fit.soil.friction_angle.std_error  // [SI]
+//   fmt::print("{}", in_words(fit, soil));                   // beside the values of the soil's file
 #pragma once
 
 #include <span>

@@ -1,6 +1,10 @@
-// Calibration of contact parameters by virtual tests, after Zhou et al., section 3.2: an orthogonal design, range
-// analysis, candidates near the target; then, beyond the paper, a surrogate that knows how sure it is, and further runs
+// Calibration of contact parameters by virtual tests, after Zhou et al., section 3.2 (orthogonal design, range
+// analysis, candidates near the target). Beyond the paper, a surrogate that knows its own error chooses further runs
 // until the target is met with a stated probability. docs/theory/calibration.md has the maths.
+//
+//   ExperimentStore store("experiments.json");  // finished runs are not made again
+//   const Calibration found = calibrate(test, {.within = 0.03, .probability = 0.9}, store);
+//   found.reached, found.best.values            // of the test's factors [SI]
 #pragma once
 
 #include <functional>

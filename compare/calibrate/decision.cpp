@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "compare/loop/observations.hpp"
+#include "compare/fit/observations.hpp"
 
 namespace soilbin::compare {
 namespace {

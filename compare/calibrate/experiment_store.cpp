@@ -229,7 +229,7 @@ std::pair<Experiment, bool> experiment_at(const VirtualTest& test, const Eigen::
   if (!experiment.error.empty()) experiment.results.clear();
   experiment.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   store.keep(test, experiment);
-  if (test.when_safe) test.when_safe();
+  if (test.on_saved) test.on_saved();
   return {std::move(experiment), false};
 }
 

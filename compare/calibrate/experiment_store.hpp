@@ -1,4 +1,5 @@
-// Finished experiments, kept in a file, so that work that was stopped goes on where it was.
+// Virtual tests for a calibration (VirtualTest: parameters to vary; Target: measured numbers to reach), and the store
+// that keeps finished experiments in a file, so that work that was stopped goes on where it was.
 #pragma once
 
 #include <Eigen/Dense>
@@ -35,7 +36,7 @@ struct VirtualTest {
   /// Throws NoSolution where the values have no answer (the sample doesn't settle, the plane never slides).
   std::function<std::vector<Estimate>(const Eigen::VectorXd& values, std::uint64_t seed)> run;
   /// Called once what the last run gave is kept, where it is set.
-  std::function<void()> when_safe{};
+  std::function<void()> on_saved{};
 };
 
 /// Throws InputError where a test can't be calibrated: no factor or target, bounds out of order, a target of 0.

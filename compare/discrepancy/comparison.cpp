@@ -7,6 +7,7 @@
 
 #include "bekker_wong/effect.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "compare/doubts/grain_doubts.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 
@@ -151,7 +152,7 @@ Campaign means_of(const Side& side, const Case& question, const std::vector<Effe
     run.at = question.study.conditions[i];
     run.setpoint = fmt::format("C{}", i + 1);
     for (std::size_t c = 0; c < channel_views.size(); ++c)
-      if (point.has[c] && (yawed || channel_views[c].name != "lateral_force"))
+      if (point.has[c] && (yawed || !channel_views[c].sideways))
         run.*channel_views[c].measured = ((*point.result).*channel_views[c].predicted).value;
     campaign.force_frame = run.at.force_frame;
     campaign.slip_by = run.at.slip_by;
@@ -170,19 +171,38 @@ Campaign as_campaign(const Side& side, const Case& question) {
   return campaign;
 }
 
-std::vector<std::string> doubts(const Case& question, const std::vector<ModelChoice>& choices,
-                                const std::vector<Side>& sides) {
-  Case asked = question;
-  asked.study.models.clear();
+namespace {
+
+/// Sides that are models' as their answers.
+std::vector<ModelAnswers> answers_of(const Case& question, const std::vector<ModelChoice>& choices,
+                                     const std::vector<Side>& sides) {
   std::vector<ModelAnswers> study;
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const bool grains = sides[s].kind == SideKind::grains;
     study.push_back({grains ? ModelChoice{ModelKind::dem, {}, sides[s].label} : choices.at(s), {}, sides[s].doubts});
-    asked.study.models.push_back(study.back().choice);
     for (std::size_t i = 0; i < sides[s].points.size(); ++i)
       study.back().answers.push_back(
           {question.study.conditions[i], sides[s].points[i].result, sides[s].points[i].error});
   }
+  return study;
+}
+
+}  // namespace
+
+bool grains_are_coarse(const Comparison& comparison) {
+  std::vector<Side> models = comparison.sides;
+  std::erase_if(models, [](const Side& side) { return side.kind == SideKind::measured; });
+  const bool grains = std::ranges::any_of(models, [](const Side& side) { return side.kind == SideKind::grains; });
+  const Case& question = comparison.question;
+  return grains && grains_are_coarse(question.scenario, answers_of(question, comparison.choices, models));
+}
+
+std::vector<std::string> doubts(const Case& question, const std::vector<ModelChoice>& choices,
+                                const std::vector<Side>& sides) {
+  const std::vector<ModelAnswers> study = answers_of(question, choices, sides);
+  Case asked = question;
+  asked.study.models.clear();
+  for (const ModelAnswers& model : study) asked.study.models.push_back(model.choice);
   return doubts(asked, study);
 }
 

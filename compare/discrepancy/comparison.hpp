@@ -1,8 +1,8 @@
 // A study's models and measurements side by side: how far apart, how sure, and why (docs/theory/comparing.md).
 //
-//   std::vector<Side> sides = {side_of(bekker_wong), side_of("dem", runs)};
-//   const Comparison comparison = compare_sides(question, choices, sides);
-//   for (const Clause& clause : summary(comparison)) fmt::print("{}\n", clause.text);
+//   const std::vector<Side> sides = {side_of(analytic), side_of("dem", runs, question.study.conditions)};
+//   const Comparison comparison = compare_sides(question, {analytic.choice}, sides);
+//   for (const Clause& clause : summary(comparison)) fmt::print("{}\n", clause.text);  // summary.hpp
 #pragma once
 
 #include "compare/discrepancy/difference.hpp"
@@ -48,6 +48,9 @@ void check_soil_for_loop(const Soil& soil);
 /// measurement the runs that count in the comparison, as they were measured (setpoints, order, position, frame, slip);
 /// of grains or a model means_of. Throws as that.
 Campaign as_campaign(const Side& side, const Case& question);
+
+/// Whether the grains of a side are coarse for the wheel (doubts/grain_doubts.hpp).
+bool grains_are_coarse(const Comparison& comparison);
 
 /// What is doubtful in models side by side (compare/doubts/doubts.hpp): the analytic ones by `choices`, then grains
 /// where there are any.

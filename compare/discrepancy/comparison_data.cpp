@@ -109,7 +109,7 @@ Json comparison_json(const Comparison& comparison, const ComparisonAbout& about)
   for (const auto& [name, value] : about.facts) json["facts"][name] = value;
   for (const auto& [name, value] : about.page.versions) json["versions"][name] = value;
   json["command"] = about.page.command;
-  tell_doubts(json, about.page.doubts);
+  add_warnings(json, about.page.doubts);
   return json;
 }
 

@@ -96,10 +96,10 @@ void add_causes(Markdown& md, const Comparison& comparison) {
 
 }  // namespace
 
-void write_markdown(const fs::path& folder, const Comparison& told, const ComparisonAbout& about) {
+void write_markdown(const fs::path& folder, const Comparison& answered, const ComparisonAbout& about) {
   make_folder(folder);
-  Comparison comparison = told;
-  const std::vector<std::string> labels = call_sides_in_words(comparison);
+  Comparison comparison = answered;
+  const std::vector<std::string> labels = label_sides_in_words(comparison);
   Markdown md(folder);
   md.text("# " + plain(about.page.title));
   for (const Clause& clause : summary(comparison, about.loop ? &*about.loop : nullptr))
@@ -129,8 +129,8 @@ void write_markdown(const fs::path& folder, const Comparison& told, const Compar
     for (const auto& [name, value] : *list) facts.add({name, value});
   md.table(facts);
   md.write();
-  write_file_atomically(folder / "differences.csv", differences_csv(told));
-  write_file_atomically(folder / "comparison.json", json_text(comparison_json(told, about)));
+  write_file_atomically(folder / "differences.csv", differences_csv(answered));
+  write_file_atomically(folder / "comparison.json", json_text(comparison_json(answered, about)));
   write_file_atomically(folder / "case.yaml", about.resolved_case);
 }
 

@@ -7,7 +7,6 @@
 #include "compare/discrepancy/causes.hpp"
 #include "compare/discrepancy/comparison_sheets.hpp"
 #include "compare/discrepancy/summary.hpp"
-#include "compare/doubts/grain_doubts.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/report/model_names.hpp"
 #include "compare/report/page.hpp"
@@ -92,8 +91,9 @@ void add_curves(Page& page, const Comparison& comparison, bool coarse_grains) {
                "A colour for each curve, a dash for each side. Bands: one standard error; where many would hide each "
                "other, point at a name in the legend to see its own.");
          }});
-  const Difference* told = widest_difference(comparison);
-  page.choices("Curve", parts, told != nullptr ? comparison.curves.curve_of[told->condition] : (names.size() - 1) / 2);
+  const Difference* widest = widest_difference(comparison);
+  page.choices("Curve", parts,
+               widest != nullptr ? comparison.curves.curve_of[widest->condition] : (names.size() - 1) / 2);
 }
 
 /// The answer in a sentence or two, the curves, and what to bear in mind of both: so the curves are in sight at once.
@@ -234,9 +234,9 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
 
 }  // namespace
 
-std::string comparison_page(const Comparison& told, const ComparisonAbout& about) {
-  Comparison comparison = told;  // with its sides called as people call them
-  const std::vector<std::string> labels = call_sides_in_words(comparison);
+std::string comparison_page(const Comparison& answered, const ComparisonAbout& about) {
+  Comparison comparison = answered;  // with its sides called as people call them
+  const std::vector<std::string> labels = label_sides_in_words(comparison);
   const Scenario& scenario = comparison.question.scenario;
   Page page(about.page.title, fmt::format("{} on {}: {}", scenario.tire.name.empty() ? "A wheel" : scenario.tire.name,
                                           scenario.soil.name, sides_in_words(comparison)));
@@ -245,7 +245,7 @@ std::string comparison_page(const Comparison& told, const ComparisonAbout& about
         fmt::format("<p class=\"warning\" role=\"note\">Made without {}: the figures that need it are plain drawings. "
                     "Install it and make the page again.</p>\n",
                     escaped(fmt::format("{}", fmt::join(page.libraries().missing, ", ")))));
-  add_opening(page, comparison, speak_of_coarse_grains(about.page.doubts));
+  add_opening(page, comparison, grains_are_coarse(comparison));
   add_channels(page, comparison);
   add_causes(page, comparison);
   add_loop(page, about);

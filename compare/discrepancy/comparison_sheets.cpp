@@ -74,15 +74,22 @@ struct Smooth {
   std::vector<std::size_t> members;
 };
 
+/// A number of each condition, to be drawn against slip.
+struct ChannelPanel {
+  std::string title;  ///< with its unit
+  Reader read;        ///< [SI]
+  double per_si = 1.0;
+  const Smooth* smooth = nullptr;  ///< none: the conditions' own points
+};
+
 /// A panel with a series for each side that has a value.
-void add_plot(Sheet& sheet, const Comparison& comparison, const std::string& title,
-              const std::vector<std::size_t>& members, const Reader& read, double per_unit,
-              const Smooth* smooth = nullptr) {
-  Plot plot{title, {"slip [%]"}};
+void add_panel(Sheet& sheet, const Comparison& comparison, const std::vector<std::size_t>& members,
+               const ChannelPanel& panel) {
+  Plot plot{panel.title, {"slip [%]"}};
   for (std::size_t s = 0; s < comparison.sides.size(); ++s) {
-    const bool many = smooth != nullptr && s < smooth->sides.sides.size();
-    Series series = many ? series_of(smooth->sides, s, smooth->members, read, per_unit)
-                         : series_of(comparison, s, members, read, per_unit);
+    const bool many = panel.smooth != nullptr && s < panel.smooth->sides.sides.size();
+    Series series = many ? series_of(panel.smooth->sides, s, panel.smooth->members, panel.read, panel.per_si)
+                         : series_of(comparison, s, members, panel.read, panel.per_si);
     series.label = comparison.sides[s].label;
     if (says_anything(series)) plot.series.push_back(std::move(series));
   }
@@ -172,20 +179,18 @@ Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_g
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const ChannelView& channel = channel_views[c];
     const bool compared = std::ranges::any_of(comparison.tallies, [&](const Tally& t) { return t.channel == c; });
-    if (!compared && channel.name == "lateral_force") continue;
+    if (!compared && channel.sideways) continue;
     const auto read = [&, c](const SidePoint& point, std::size_t) {
       return point.has[c] ? (*point.result).*channel_views[c].predicted : Estimate{not_a_number, 0.0};
     };
-    add_plot(sheet, comparison, heading(channel), members, read, channel.per_si, &lines);
+    add_panel(sheet, comparison, members, {heading(channel), read, channel.per_si, &lines});
     if (!sheet.plots.empty())
       mark_limits(sheet.plots.back(), comparison, members, channel.name == "sinkage", coarse_grains);
   }
-  add_plot(
-      sheet, comparison, "Tractive efficiency [%]", members,
-      [](const SidePoint& point, std::size_t) {
-        return has_efficiency(*point.result) ? efficiency_with_error(*point.result) : Estimate{not_a_number, 0.0};
-      },
-      100, &lines);
+  const auto efficiency = [](const SidePoint& point, std::size_t) {
+    return has_efficiency(*point.result) ? efficiency_with_error(*point.result) : Estimate{not_a_number, 0.0};
+  };
+  add_panel(sheet, comparison, members, {"Tractive efficiency [%]", efficiency, 100, &lines});
   if (!sheet.plots.empty()) mark_limits(sheet.plots.back(), comparison, members, false, coarse_grains);
   return sheet;
 }
@@ -198,12 +203,12 @@ Sheet contact_sheet(const Comparison& comparison, std::size_t curve) {
       {"Exit angle [deg]", &TractionResult::exit_angle},
       {"Angle of the largest stress [deg]", &TractionResult::max_stress_angle}};
   for (const auto& [title, angle] : angles)
-    add_plot(
-        sheet, comparison, title, members,
-        [member = angle](const SidePoint& point, std::size_t) {
-          return Estimate{(*point.result).*member, 0.0};
-        },
-        1 / degree);
+    add_panel(sheet, comparison, members,
+              {title,
+               [member = angle](const SidePoint& point, std::size_t) {
+                 return Estimate{(*point.result).*member, 0.0};
+               },
+               1 / degree});
   std::map<std::pair<std::size_t, std::size_t>, double> by_slip;
   for (const SinkageSplit& split : sinkage_splits(comparison)) by_slip[{split.side, split.condition}] = split.by_slip;
   Plot plot{"Sinkage that slip adds [mm]", {"slip [%]"}};

@@ -26,7 +26,7 @@ double value_of(const SidePoint& point, std::size_t channel) {
 /// Whether an analytic model gives this channel a value other than zero anywhere, or both sides were measured or run.
 /// Grains on a flat bed have a lateral force of nothing but noise, and symmetry says what the model's is.
 bool asked_of(const Side& side, const Side& reference, std::size_t channel) {
-  if (channel_views[channel].name != "lateral_force") return true;
+  if (!channel_views[channel].sideways) return true;
   const auto not_zero = [&](const Side& one) {
     return std::ranges::any_of(
         one.points, [&](const SidePoint& p) { return speaks(p, channel) && std::abs(value_of(p, channel)) > 1e-9; });

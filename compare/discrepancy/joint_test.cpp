@@ -8,7 +8,7 @@
 
 #include "bekker_wong/gsl.hpp"
 #include "compare/discrepancy/comparison.hpp"
-#include "compare/loop/wheel_predictor.hpp"
+#include "compare/fit/wheel_predictor.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {

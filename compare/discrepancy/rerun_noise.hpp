@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "compare/loop/noise_floor.hpp"
+#include "compare/fit/noise_floor.hpp"
 
 namespace soilbin::compare {
 

@@ -1,4 +1,8 @@
 // The sides of a comparison: what each model, and the measurement, says at each condition of a study.
+//
+//   std::vector<Side> sides;
+//   for (const ModelAnswers& answers : run_study(question)) sides.push_back(side_of(answers));
+//   sides.push_back(side_of(campaign, question));  // measured runs near the study's conditions
 #pragma once
 
 #include <array>
@@ -8,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/loop/noise_floor.hpp"
+#include "compare/fit/noise_floor.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/sweep/answers.hpp"

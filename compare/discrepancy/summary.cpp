@@ -237,7 +237,7 @@ const Difference* widest_difference(const Comparison& comparison) {
   return &comparison.differences[widest_first(comparison).front()->worst];
 }
 
-std::vector<std::string> call_sides_in_words(Comparison& comparison) {
+std::vector<std::string> label_sides_in_words(Comparison& comparison) {
   std::vector<std::string> labels = call_in_words(comparison.sides);
   for (std::string& gap : comparison.not_compared) gap = models_in_words(std::move(gap), labels);
   return labels;
@@ -254,14 +254,14 @@ std::optional<Clause> headline(const Comparison& comparison) {
                     slip =
                         fmt::format("{:.4g} % slip", 100 * comparison.question.study.conditions[worst->condition].slip);
   const ChannelView& channel = channel_views[worst->channel];
-  const auto told = [&](const Estimate& value) {
+  const auto with_unit = [&](const Estimate& value) {
     return fmt::format("{} {}", number(value.value * channel.per_si, 3), channel.unit);
   };
   clause.text = judged > 0 ? fmt::format("{} of {} numbers differ by more than errors and scatter. ", differ, judged)
                            : "These models share the soil's values: only a measurement can tell which is right. ";
   clause.text += fmt::format("Widest apart is the {} at {}: {} ({}) against {} ({}).", channel.title,
-                             curve.empty() ? slip : curve + " and " + slip, told(worst->value),
-                             comparison.sides[worst->side].label, told(worst->reference_value),
+                             curve.empty() ? slip : curve + " and " + slip, with_unit(worst->value),
+                             comparison.sides[worst->side].label, with_unit(worst->reference_value),
                              comparison.sides[worst->reference].label);
   return clause;
 }

@@ -19,7 +19,7 @@ struct Clause {
 };
 
 /// Calls the sides in words, in all that speaks of them, for pages and documents; gives the labels that they had.
-std::vector<std::string> call_sides_in_words(Comparison& comparison);
+std::vector<std::string> label_sides_in_words(Comparison& comparison);
 
 /// The lines that a page opens with: how many numbers differ and where the sides are widest apart; how much of that a
 /// better known soil could explain; what the size of the grains does to their answers. The last two are absent where

@@ -2,8 +2,8 @@
 // here; but it is hardly meant, has no influence, or lies beyond what a model can tell.
 //
 // Who answers a question asks `doubts` with the question and its answers and tells all that it gives: as lines
-// "warning: ..." beside the answer, as "warnings" in JSON (tell_doubts), as a list on a page (PageAbout::doubts).
-// What is doubtful is decided here and nowhere else, so that every command tells the same:
+// "warning: ..." beside the answer, as "warnings" in JSON (add_warnings), as a list on a page (PageAbout::doubts).
+// What is doubtful is decided in this folder, so that every command tells the same:
 //
 //   a soil by itself     values out of the usual, no strength, nothing carried     doubts.cpp
 //   a wheel on a soil    proportions, a width for which the soil carries nothing   doubts.cpp
@@ -11,7 +11,11 @@
 //   no influence         lugs, inflation, passes, ... that change no digit         unused_inputs.cpp
 //   a presumption        what an effect takes the wheel to have, and nobody said   doubts.cpp
 //   grains               too coarse for the wheel, a law that hangs on the step    grain_doubts.cpp
-//   measured rows        repeated, flipped, swapped, impossible                    row_doubts.cpp
+//   measured rows        repeated, flipped, impossible                             row_doubts.cpp
+//   measured columns     swapped, in another unit, of another sign                 column_doubts.cpp
+//
+// Two things have theirs with them: recorded runs, whether they hang on the time step (recorded/step_pair.hpp), and a
+// side of a comparison, how many runs are behind a point (discrepancy/side.cpp, measured_side.cpp).
 #pragma once
 
 #include <string>

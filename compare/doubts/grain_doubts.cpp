@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string_view>
 
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/sweep/varying.hpp"
@@ -13,8 +12,6 @@
 
 namespace soilbin::compare {
 namespace {
-
-constexpr std::string_view coarse_grains = "the grains are coarse";  // how the sentence begins
 
 /// Answers of grains, or where there are none those of other models: at which grains would be asked.
 template <class Use>
@@ -46,6 +43,11 @@ std::string by_how_much(const Scenario& scenario, const std::vector<ModelAnswers
   return beyond.empty() ? "" : fmt::format(": by how much that changes the answer is not known, since {}", beyond);
 }
 
+bool are_coarse(const GrainCounts& counts) {
+  const bool few = counts.width < grains_wanted || counts.contact.value_or(grains_wanted) < grains_wanted;
+  return few || counts.lug.value_or(grains_wanted_in_a_lug) < grains_wanted_in_a_lug;
+}
+
 /// The angular speed below which two mean grains that 100 N press together are damped by I*/dt instead of by mu_r.
 std::string depends_on_the_step(const GranularSoil& grains) {
   const bool resisted = grains.grain_grain.rolling_friction > 0.0 || grains.grain_tire.rolling_friction > 0.0;
@@ -66,16 +68,20 @@ std::string depends_on_the_step(const GranularSoil& grains) {
 
 }  // namespace
 
+bool grains_are_coarse(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
+  return scenario.soil.granular && are_coarse(count_grains(scenario, study));
+}
+
 std::string coarse_grain_doubt(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
+  if (!grains_are_coarse(scenario, study)) return "";
   const GrainCounts counts = count_grains(scenario, study);
-  const bool few = counts.width < grains_wanted || counts.contact.value_or(grains_wanted) < grains_wanted;
-  const bool low_lugs = counts.lug.value_or(grains_wanted_in_a_lug) < grains_wanted_in_a_lug;
-  if (!few && !low_lugs) return "";
   std::string lengths = fmt::format("{:.2g} lie across it ({} wanted)", counts.width, grains_wanted);
   if (counts.contact) lengths += fmt::format(", {:.2g} along its contact ({})", *counts.contact, grains_wanted);
   if (counts.lug) lengths += fmt::format(", {:.2g} in a lug's height ({})", *counts.lug, grains_wanted_in_a_lug);
-  return fmt::format("{} for this wheel{}. Of their mean diameter, {:.3g} mm, {}: see docs/lab/grain-size.md",
-                     coarse_grains, by_how_much(scenario, study), 1000 * counts.diameter, lengths);
+  return fmt::format(
+      "the grains are coarse for this wheel{}. Of their mean diameter, {:.3g} mm, {}: see "
+      "docs/lab/grain-size.md",
+      by_how_much(scenario, study), 1000 * counts.diameter, lengths);
 }
 
 GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
@@ -98,12 +104,6 @@ std::vector<std::string> grain_doubts(const Scenario& scenario, const std::vecto
   for (const std::string& doubt : {coarse_grain_doubt(scenario, study), depends_on_the_step(*scenario.soil.granular)})
     if (!doubt.empty()) doubts.push_back(doubt);
   return doubts;
-}
-
-bool speaks_of_coarse_grains(const std::string& doubt) { return doubt.starts_with(coarse_grains); }
-
-bool speak_of_coarse_grains(const std::vector<std::string>& doubts) {
-  return std::any_of(doubts.begin(), doubts.end(), speaks_of_coarse_grains);
 }
 
 }  // namespace soilbin::compare

@@ -28,13 +28,11 @@ GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswer
 
 /// Two sentences on grains that are coarse for the wheel: what that is estimated to do to the answer where that is
 /// most, and how many lie along its lengths. "" where they are fine. Of several studies of one wheel: their answers
-/// together.
+/// together. "" too where the soil has no grains.
 std::string coarse_grain_doubt(const Scenario& scenario, const std::vector<ModelAnswers>& study);
 
-/// Whether it is a doubt that begins as that one.
-bool speaks_of_coarse_grains(const std::string& doubt);
-/// Whether one of them speaks of grains that are coarse for the wheel.
-bool speak_of_coarse_grains(const std::vector<std::string>& doubts);
+/// Whether they are.
+bool grains_are_coarse(const Scenario& scenario, const std::vector<ModelAnswers>& study);
 
 /// Sentences, each kind once: grains that are coarse for the wheel (coarse_grain_doubt); the directional rolling laws,
 /// whose answers depend on the time step, with where they turn into a dashpot. Empty where the soil has no grains.

@@ -18,8 +18,9 @@ bool same_wheel_on_grains(const Scenario& a, const Scenario& b) {
 }  // namespace
 
 void NamedDoubts::add(const std::string& name, const Case& question, const std::vector<ModelAnswers>& study) {
+  const std::string coarse_grains = coarse_grain_doubt(question.scenario, study);
   for (const std::string& doubt : doubts(question, study)) {
-    if (!speaks_of_coarse_grains(doubt)) {
+    if (doubt != coarse_grains) {
       add(name, std::vector{doubt});
       continue;
     }

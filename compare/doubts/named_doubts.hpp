@@ -1,11 +1,11 @@
-// Doubts of several studies and campaigns, each said once under the names of those that it is of.
+// Warnings on several studies and campaigns together: each doubt once, with the names of all that it applies to.
 //
 //   NamedDoubts named;
 //   for (...) named.add(question.study.name, question, study);
 //   print_warnings(named.lines());  // "paper-straight, paper-transverse: the tire's lugs change nothing: ..."
 //
-// Studies that ask the same wheel on the same grains differ in the figures of coarse grains alone: these are told once,
-// where they are worst.
+// Studies of the same wheel on the same grains differ only in the figures of the doubt about coarse grains: it is given
+// once, with the worst figures.
 #pragma once
 
 #include <optional>

@@ -188,8 +188,8 @@ std::string drive_csv(const DriveSides& drive) {
   return text;
 }
 
-std::string drive_page(const DriveSides& told, const PageAbout& about) {
-  DriveSides drive = told;  // with its sides called as people call them
+std::string drive_page(const DriveSides& answered, const PageAbout& about) {
+  DriveSides drive = answered;  // with its sides called as people call them
   const std::vector<std::string> labels = call_in_words(drive.sides);
   Page page(about.title, drive.question.description);
   page.sentences(in_words(drive));

@@ -7,8 +7,8 @@
 #include "compare/bevameter/bevameter.hpp"
 #include "compare/calibrate/calibration.hpp"
 #include "compare/calibrate/contact_values.hpp"
+#include "dem/element_tests/bevameter_tests.hpp"
 #include "dem/element_tests/direct_shear.hpp"
-#include "dem/element_tests/plate_tests.hpp"
 #include "dem/element_tests/tilting_board.hpp"
 #include "scenario/soil.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "compare/report/page.hpp"
 #include "dem/element_tests/angle_of_repose.hpp"
+#include "dem/element_tests/bevameter_tests.hpp"
 #include "dem/element_tests/direct_shear.hpp"
-#include "dem/element_tests/plate_tests.hpp"
 #include "dem/element_tests/tilting_board.hpp"
 #include "dem/element_tests/triaxial.hpp"
 

@@ -30,7 +30,7 @@ RecordedRun SoilBinRuns::operator()(const Scenario& scenario, const OperatingCon
   const auto began = std::chrono::steady_clock::now();
   RecordedRun run;
   run.answer.at = at, run.packing = packing, run.source = source_;
-  run.when_safe = [restart = model(packing).restart_of(scenario, at)] { dem::forget_run(restart); };
+  run.on_saved = [restart = model(packing).restart_of(scenario, at)] { dem::forget_run(restart); };
   *last_ = {};
   try {
     run.answer.result = model(packing).evaluate(scenario, at);

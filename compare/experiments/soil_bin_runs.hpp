@@ -18,7 +18,7 @@ namespace soilbin::compare {
 
 /// Runs conditions, with a model for each packing, so that a bed is taken once. A RunOnce: what grains can't answer
 /// (NoSolution, RunStopped) is a run whose answer carries the error. Where runs are kept (DemSettings::checkpoints) a
-/// finished one can be had again until its when_safe is called.
+/// finished one can be had again until its on_saved is called.
 class SoilBinRuns {
  public:
   /// `source`: state of the sources that the program was built from. The packing, on_run and forget_finished of

@@ -45,7 +45,7 @@ class Trials {
     RunOnce run = [runs = runs_, recorded](const Scenario& scenario, const OperatingCondition& at,
                                            std::uint64_t packing) {
       RecordedRun made = (*runs)(scenario, at, packing);
-      if (!recorded) made.when_safe();  // nobody asked for more than what is in memory
+      if (!recorded) made.on_saved();  // nobody asked for more than what is in memory
       return made;
     };
     if (!recorded) return run;
@@ -135,8 +135,8 @@ VirtualTest map_grains(const InclineMap& map, const Case& question, const dem::D
   test.factors = map.factors;
   test.targets = grain_channels();
   const auto last = std::make_shared<RecordedRun>();
-  test.when_safe = [last] {
-    if (last->when_safe) last->when_safe();
+  test.on_saved = [last] {
+    if (last->on_saved) last->on_saved();
   };
   test.run = [map, last, run = run_once(settings, question, effects, keeping)](const Eigen::VectorXd& values,
                                                                                std::uint64_t seed) {

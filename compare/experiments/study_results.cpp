@@ -40,7 +40,7 @@ Json to_json(const Case& question, const StudyResults& results) {
                    {"tire", question.scenario.tire.name},
                    {"soil", question.scenario.soil.name},
                    {"rows", rows_with_resolution(question, results)}};
-  tell_doubts(document, results.doubts);
+  add_warnings(document, results.doubts);
   if (results.step) document["dem"] = to_json(*results.step);
   return document;
 }

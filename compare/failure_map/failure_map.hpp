@@ -1,8 +1,10 @@
 // Where one model can stand for another: a map of their difference over conditions, learnt from few runs of both, its
 // boundary, and sentences that each rest on a row of the map.
 //
-//   FailureMap map = map_failures(question, options);
-//   if (const auto clause = agreement(question, map, {Role::limited, Role::held})) print(clause->text);
+//   const FailureQuestion question{.name = "straight", .factors = {{"load", 2000, 8000, "N"}, {"slip", 0.05, 0.6}},
+//                                  .difference = difference, .tolerance = 0.1};  // of the load
+//   FailureMap map = map_failures(question, {.first = 24});
+//   if (const auto clause = agreement(question, map, {Role::limited, Role::whole})) fmt::print("{}\n", clause->text);
 #pragma once
 
 #include <functional>

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/loop/evidence_words.hpp"
+#include "compare/attribution/evidence_words.hpp"
 #include "compare/loop/loop.hpp"
 #include "compare/report/page.hpp"
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "compare/attribution/model_discrepancy.hpp"
+#include "compare/fit/thresholds.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/loop/model_discrepancy.hpp"
-#include "compare/loop/thresholds.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -78,18 +78,23 @@ bool explains_better(const Attribution& second, const Attribution& first) {
   return second.candidates.best && (!first.candidates.best || evidence_of_best(second) > evidence_of_best(first));
 }
 
+/// The judgement of the attribution that decides, and the attribution beside it.
+struct Decision {
+  Judgement judgement;
+  std::optional<SecondAttribution> second;
+};
+
 /// An unknown effect may be the base model's own form: then effects can stand out that nothing but a change with load
 /// and slip, taken for another effect, had hidden. The attribution that explains the data better decides; the other is
 /// a note.
-std::optional<SecondAttribution> attribute_again(Judgement& judgement, const AttributionOptions& options) {
-  if (judgement.verdict != Verdict::unknown_effect) return std::nullopt;
-  auto beside = attribute_with_model_discrepancy(judgement.found, options);
-  if (!beside) return std::nullopt;
-  if (!explains_better(beside->found, judgement.found))
-    return SecondAttribution{false, beside->size, std::move(beside->found)};
-  Attribution first = std::move(judgement.found);
-  judgement = judge_with_model_discrepancy(std::move(beside->found), options);
-  return SecondAttribution{true, beside->size, std::move(first)};
+Decision decide(Judgement first, const AttributionOptions& options) {
+  if (first.verdict != Verdict::unknown_effect) return {std::move(first), std::nullopt};
+  auto beside = attribute_with_model_discrepancy(first.found, options);
+  if (!beside) return {std::move(first), std::nullopt};
+  if (!explains_better(beside->found, first.found))
+    return {std::move(first), SecondAttribution{false, beside->size, std::move(beside->found)}};
+  return {judge_with_model_discrepancy(std::move(beside->found), options),
+          SecondAttribution{true, beside->size, std::move(first.found)}};
 }
 
 /// The choice within a fold: fewer simulations, its outliers set aside by the whole.
@@ -127,8 +132,9 @@ std::vector<Dependence> dependences_of(const FittedModel& model, std::uint64_t s
   return dependences(model.data().observations, model.cell_residual(), permutations, seed);
 }
 
-/// What a judgement says by itself: verdict, noise, soil.
-LoopAnswer answer_of(const Campaign& campaign, Judgement judgement) {
+/// What a decision says by itself: verdict, noise, soil.
+LoopAnswer answer_of(const Campaign& campaign, Decision decision) {
+  Judgement& judgement = decision.judgement;
   const Attribution& found = judgement.found;
   const bool takes_best = judgement.takes_best();
   const FittedModel& model = takes_best ? found.best().model : found.base;
@@ -147,6 +153,7 @@ LoopAnswer answer_of(const Campaign& campaign, Judgement judgement) {
   }
   const std::vector<bool>& outlier = found.base.data().outlier;
   answer.outliers = static_cast<int>(std::ranges::count(outlier, true));
+  answer.second = std::move(decision.second);
   answer.judgement = std::move(judgement);
   return answer;
 }
@@ -155,7 +162,8 @@ LoopAnswer answer_of(const Campaign& campaign, Judgement judgement) {
 std::vector<LearnedEffect> learned_beside(const FittedModel& base, const Judgement& judgement,
                                           const AttributionOptions& options) {
   if (judgement.verdict != Verdict::unknown_effect) return {};
-  return learn_effects(beside_exact(base, judgement.takes_best() ? &judgement.found.best().model : nullptr), options);
+  return learn_effects(refitted_as_exact(base, judgement.takes_best() ? &judgement.found.best().model : nullptr),
+                       options);
 }
 
 /// Whether the whole procedure, redone in each fold, predicts better with learned effects than without, and in no
@@ -209,14 +217,12 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   const Observations observations = observe(campaign);
   if (auto reason = too_small(campaign, observations)) return too_small_to_judge(campaign, std::move(*reason));
   const FittedModel base = fit_base(campaign, observations, whole);
-  Judgement judgement = judge(attribute(base, whole), whole);
-  std::vector<std::string> hidden = not_testable(judgement.found);
-  auto second = attribute_again(judgement, whole);
+  Judgement first = judge(attribute(base, whole), whole);
+  std::vector<std::string> hidden = not_testable(first.found);
+  Decision decision = decide(std::move(first), whole);
+  std::vector<LearnedEffect> learned = learned_beside(base, decision.judgement, whole);
 
-  auto learned = learned_beside(base, judgement, whole);
-
-  LoopAnswer answer = answer_of(campaign, std::move(judgement));
-  answer.second = std::move(second);
+  LoopAnswer answer = answer_of(campaign, std::move(decision));
   answer.not_testable = std::move(hidden);
   if (answer.verdict == Verdict::not_enough_data) return answer;
   report(chosen);
@@ -234,7 +240,7 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   whole.pool.pulse = [&] { report(all_steps - 1); };
   if (!answer.learned.empty())
     answer.formula =
-        find_formula(beside_exact(base, answer.judgement->takes_best() ? &answer.found().best().model : nullptr),
+        find_formula(refitted_as_exact(base, answer.judgement->takes_best() ? &answer.found().best().model : nullptr),
                      answer.learned.front(), whole);
   if (answer.verdict == Verdict::effect_found) answer.effects = accepted_effects(answer.found(), whole);
   answer.reason += held_out_clause(answer);

@@ -1,12 +1,19 @@
 // The loop on measured data: residual, cause, effect added, error before and after (docs/guide/loop.md).
 //
+//   const LoopAnswer answer = run_loop(campaign, {});
+//   if (answer.verdict == Verdict::effect_found) answer.effects.front().choice;  // {"slip_sinkage", "linear", ...}
+//
 // Stages, each a value that the next one takes:
-//   1 observe            Campaign -> Observations                       observations.hpp
-//   2 fit_base           -> FittedModel: noise, outliers, base fit      base_fit.hpp, fitted_model.hpp
-//   3 residual_signatures, 4 candidates: attribute -> Attribution       signatures.hpp, candidates.hpp
-//   5 choose, judge      -> ChosenCandidate, Judgement: the verdict     choice.hpp, verdict.hpp
-//   6 cross_validate     -> CrossValidation: honest errors              validation.hpp
-//   7 next_test          -> NextTest                                    next_test.hpp
+//   1 observe            Campaign -> Observations                       fit/observations.hpp
+//   2 fit_base           -> FittedModel: noise, outliers, base fit      attribution/base_fit.hpp, fit/fitted_model.hpp
+//   3 residual_signatures, 4 candidates: attribute -> Attribution       attribution/signatures.hpp, candidates.hpp
+//   5 choose, judge      -> ChosenCandidate, Judgement: the verdict     attribution/choice.hpp, verdict.hpp
+//     and where the residual is more than named effects explain:
+//       attribute_with_model_discrepancy                                attribution/model_discrepancy.hpp
+//       learn_effects    smooth functions of the conditions             attribution/learned_effect.hpp
+//       find_formula     a few terms in the place of one                attribution/learned_formula.hpp
+//   6 cross_validate     -> CrossValidation: honest errors              attribution/validation.hpp
+//   7 next_test          -> NextTest                                    test_design/next_test.hpp
 //   8 LoopAnswer: JSON, sentences, page, saved model                    answer_json.cpp, answer_words.hpp,
 //                                                                       loop_page.cpp
 #pragma once
@@ -19,10 +26,10 @@
 #include <utility>
 #include <vector>
 
-#include "compare/loop/learned_formula.hpp"
-#include "compare/loop/next_test.hpp"
-#include "compare/loop/validation.hpp"
-#include "compare/loop/verdict.hpp"
+#include "compare/attribution/learned_formula.hpp"
+#include "compare/attribution/validation.hpp"
+#include "compare/attribution/verdict.hpp"
+#include "compare/test_design/next_test.hpp"
 #include "scenario/case.hpp"
 
 namespace soilbin::compare {
@@ -128,9 +135,6 @@ std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects);
 
 /// Runs the loop. Throws InputError for a campaign that can't be used; a campaign too small to say anything is a
 /// verdict, not an error.
-///
-///     const LoopAnswer answer = run_loop(campaign, {});
-///     if (answer.verdict == Verdict::effect_found) answer.effects.front().choice;   // {"slip_sinkage", "linear", ...}
 LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options);
 
 /// The answer as JSON, soilbin-loop/1.

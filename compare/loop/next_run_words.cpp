@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/fit/thresholds.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/loop/thresholds.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
@@ -29,7 +29,7 @@ std::string condition_words(const LoopAnswer& answer) {
 /// What to do where no condition shows on which the rest depends.
 std::vector<std::string> without_a_condition(const LoopAnswer& answer) {
   const UnnamedEvidence& unnamed = answer.found().unnamed;
-  if (unnamed.gain > thresholds::unnamed_instead && unnamed.likest == misread_kind)
+  if (unnamed.gain > thresholds::unnamed_instead && unnamed.most_likely == misread_kind)
     return {"Before more runs, check how slip and load are measured, and at which conditions.",
             "The unexplained part looks like a slip or load that was misread."};
   if (answer.judgement->before.serial.p_value <= thresholds::serial_level)

@@ -1,4 +1,10 @@
-// A measured campaign: campaign.yaml and a CSV of runs (format: docs/reference/campaigns.md).
+// A measured campaign: the wheel, what is known of the soil, and the runs. Files: campaign.yaml and a CSV of the runs
+// (docs/reference/campaigns.md).
+//
+//   const Campaign campaign = read_campaign("cases/measured/cmu-smooth", Library({"cases"}),
+//                                           bekker_wong::CatalogueVocabulary());
+//   for (const Run& run : campaign.runs)
+//     if (run.drawbar_pull) fmt::print("slip {:.2f}: {:.1f} N\n", run.at.slip, *run.drawbar_pull);
 #pragma once
 
 #include <array>

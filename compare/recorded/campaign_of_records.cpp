@@ -96,8 +96,7 @@ CampaignOfRecords tell_campaign(const Scenario& scenario, const std::vector<Reco
     row.setpoint = fmt::format("S{:02}", setpoint_of(row.at, setpoints));
     row.at.run = static_cast<int>(made.runs.size()) + 1;
     for (const ChannelView& channel : channel_views)
-      if (sideways || channel.name != "lateral_force")
-        row.*channel.measured = ((*run.answer.result).*channel.predicted).value;
+      if (sideways || !channel.sideways) row.*channel.measured = ((*run.answer.result).*channel.predicted).value;
     made.campaign.runs.push_back(row);
     made.runs.push_back(run);
   }

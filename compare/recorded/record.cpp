@@ -365,7 +365,7 @@ void add_run(const std::filesystem::path& file, const Record& begin, RecordedRun
     put_in_order(record);
     write_file_atomically(file, record_text(record));
   }
-  if (run.when_safe) run.when_safe();
+  if (run.on_saved) run.on_saved();
 }
 
 std::string notes_on(const std::vector<RecordedRun>& runs) {

@@ -1,5 +1,9 @@
 // A study's answers by a model that takes minutes a condition, kept in a file: soilbin-recorded/1,
 // docs/guide/recorded.md. Whoever compares answers gets them from the file as if the model had run.
+//
+//   const Record record = read_record("cases/studies/recorded/paper-straight.json");
+//   if (const RecordedRun* run = find_run(record.runs, at, 1))  // the condition on the bed of seed 1
+//     if (run->answer.result) run->answer.result->drawbar_pull.value;  // [N]
 #pragma once
 
 #include <cstdint>
@@ -35,7 +39,7 @@ struct RecordedRun {
   /// Whether a seal in the file vouches for it: not for runs of files from before there were seals. A new run gets one.
   bool sealed = true;
   /// To be called once the answer is where it stays: removes what the run could be had again from; not in the file.
-  std::function<void()> when_safe{};
+  std::function<void()> on_saved{};
 };
 
 /// What a file holds.
@@ -96,7 +100,7 @@ using RunList = std::vector<RecordedRun> Record::*;
 /// Adds a run, and those of `begin` that it lacks, to the file, which is begun with `begin` where there is none: it is
 /// read again, put in order and replaced as a whole: whoever is stopped meanwhile leaves the old file or the new one,
 /// and whoever reads it sees one of the two. A run takes minutes, the file a fraction of a second. A run that is there
-/// already stays. With the run in the file, it is safe (when_safe).
+/// already stays. With the run in the file, it is safe (on_saved).
 void add_run(const std::filesystem::path& file, const Record& begin, RecordedRun run, RunList list = &Record::runs,
              Writers writers = Writers::several);
 

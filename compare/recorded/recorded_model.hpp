@@ -1,4 +1,8 @@
-// Models that answer by runs on packings of a bed: run now, taken from a record, or both.
+// Models that answer by runs on several packings of a bed: run now, taken from a record, or both.
+//
+//   const RecordedModel grains(read_record("cases/studies/recorded/paper-straight.json"));
+//   const OperatingCondition at = grains.record().runs.front().answer.at;
+//   grains.evaluate(scenario, at).drawbar_pull.value  // [N], mean over packings; NoSolution for another condition
 #pragma once
 
 #include <functional>

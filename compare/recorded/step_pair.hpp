@@ -1,7 +1,8 @@
-// Whether answers of grains hang on the time step: a condition on one bed, at the step and at half of it.
+// Whether the results of a record depend on the time step: the same condition on the same bed, run at the step and at
+// half of it.
 //
 //   for (const StepPair& pair : step_pairs(record))
-//     if (!agrees(pair)) ...  // the record's numbers belong to its step, not to the soil
+//     if (!agrees(pair)) fmt::print("{}\n", in_words(pair));  // the numbers belong to the step, not to the soil
 #pragma once
 
 #include <array>

@@ -35,7 +35,7 @@ inline std::string json_text(const Json& document) {
 }
 
 /// Adds "warnings" where there are doubts (compare/doubts/doubts.hpp).
-inline void tell_doubts(Json& document, const std::vector<std::string>& doubts) {
+inline void add_warnings(Json& document, const std::vector<std::string>& doubts) {
   if (!doubts.empty()) document["warnings"] = doubts;
 }
 

@@ -91,25 +91,6 @@ std::vector<Color> colors(Palette palette) {
           {"#e0654f", "#fba07d"}, {"#e58a1c", "#fcc15c"}, {"#b9a011", "#f2e65a"}};
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (c == '\'')
-      out += "&#39;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 std::vector<double> ticks(double lower, double upper, int count) {
   const double rough = (upper - lower) / std::max(count, 1);
   if (!(rough > 0.0) || !std::isfinite(rough)) return {lower};

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "scenario/markup.hpp"
+
 namespace soilbin::compare {
 
 /// How a series is drawn.
@@ -73,9 +75,6 @@ struct Color {
   const char* dark;
 };
 std::vector<Color> colors(Palette palette);
-
-/// Text fit for HTML and SVG: &, <, > and quotes escaped.
-std::string escaped(const std::string& text);
 
 /// Round values that divide [lower, upper] into about `count` parts.
 std::vector<double> ticks(double lower, double upper, int count);

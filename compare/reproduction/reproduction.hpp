@@ -1,4 +1,5 @@
-// Whether answers show what a publication found.
+// Tests of a publication's findings on a model's answers: each finding's statistic (a slope, a peak, a level) with its
+// interval, and whether that interval lies in what the finding claims.
 #pragma once
 
 #include <cstdint>

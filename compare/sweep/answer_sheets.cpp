@@ -28,7 +28,7 @@ std::vector<Shown> shown_of(const std::vector<ModelAnswers>& study, Panels panel
     for (const Answer& answer : model.answers)
       side = side || (answer.result && answer.result->lateral_force.value != 0.0);
   for (const ChannelView& channel : channel_views)
-    if (side || channel.name != "lateral_force")
+    if (side || !channel.sideways)
       all.push_back({std::string(channel.title), std::string(channel.unit), channel.per_si,
                      [member = channel.predicted](const TractionResult& r) { return r.*member; }});
   all.push_back({"tractive efficiency", "%", 100.0, [](const TractionResult& r) {
@@ -113,7 +113,7 @@ Series predicted_line(const std::vector<const PredictedRun*>& runs, const Channe
 
 }  // namespace
 
-std::vector<ModelAnswers> as_drawn(const Case& question, std::vector<ModelAnswers> study) {
+std::vector<ModelAnswers> smoothed_for_plot(const Case& question, std::vector<ModelAnswers> study) {
   constexpr int points = 41;
   Case smooth = with_smooth_curves(question, points);
   smooth.study.models.clear();

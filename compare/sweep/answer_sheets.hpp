@@ -18,7 +18,7 @@ enum class Panels { telling, all };
 
 /// The answers as a plot for people shows them: the models called in words, and the analytic one, which costs little,
 /// along many slips of each curve.
-std::vector<ModelAnswers> as_drawn(const Case& question, std::vector<ModelAnswers> study);
+std::vector<ModelAnswers> smoothed_for_plot(const Case& question, std::vector<ModelAnswers> study);
 
 /// Drawbar pull, torque, sinkage, tractive efficiency (and the lateral force where there is one) against slip: a colour
 /// for each combination of the other conditions, a dash for each model; with up to five curves also error bands, else

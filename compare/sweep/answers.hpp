@@ -1,4 +1,11 @@
 // Running a study: what each of its models answers at each of its conditions.
+//
+//   for (const ModelAnswers& model : run_study(question))
+//     for (const Answer& answer : model.answers)
+//       if (answer.result)
+//         fmt::print("slip {:.2f}: {:.1f} N\n", answer.at.slip, answer.result->drawbar_pull.value);
+//       else
+//         fmt::print("slip {:.2f}: {}\n", answer.at.slip, answer.error);
 #pragma once
 
 #include <cstddef>

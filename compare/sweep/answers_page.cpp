@@ -339,9 +339,9 @@ std::vector<std::string> name_models(std::vector<StudyPart>& studies) {
 
 }  // namespace
 
-std::string analysis_page(const std::vector<StudyPart>& told, const std::vector<CampaignPart>& campaigns,
+std::string analysis_page(const std::vector<StudyPart>& answered, const std::vector<CampaignPart>& campaigns,
                           const PageAbout& about, const std::vector<PageCard>& links) {
-  std::vector<StudyPart> studies = told;
+  std::vector<StudyPart> studies = answered;
   const std::vector<std::pair<std::string, std::string>> ids = names_and_ids(name_models(studies));
   Page page(
       about.title,

@@ -1,4 +1,8 @@
-// A measured campaign as a model predicts it, row by row, without fitting anything.
+// A measured campaign as a model predicts it, run by run, without fitting anything.
+//
+//   const Prediction prediction = predict(bekker_wong::BekkerWong(), scenario_of(campaign), campaign);
+//   for (const ChannelError& e : prediction.errors)
+//     fmt::print("{}: {:.3g} {}\n", channel_views[e.channel].title, e.rmse, channel_views[e.channel].si_unit);
 #pragma once
 
 #include <vector>

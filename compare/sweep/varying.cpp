@@ -46,17 +46,17 @@ const std::vector<ConditionAxis>& axes() {
 }
 
 /// Level of each condition along an axis, and each level's mean value.
-struct Levels {
+struct AxisLevels {
   std::vector<std::size_t> of;
   std::vector<double> value;
 };
 
-Levels levels(const ConditionAxis& axis, const std::vector<OperatingCondition>& conditions, Spread spread) {
+AxisLevels levels(const ConditionAxis& axis, const std::vector<OperatingCondition>& conditions, Spread spread) {
   std::vector<std::size_t> order(conditions.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   const auto at = [&](std::size_t i) { return axis.get(conditions[i]); };
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return at(a) < at(b); });
-  Levels found{std::vector<std::size_t>(conditions.size()), {}};
+  AxisLevels found{std::vector<std::size_t>(conditions.size()), {}};
   std::vector<double> members;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const double x = at(order[k]), before = k > 0 ? at(order[k - 1]) : x;
@@ -71,7 +71,7 @@ Levels levels(const ConditionAxis& axis, const std::vector<OperatingCondition>& 
 }
 
 /// Whether levels differ between conditions that agree in slip and in their curve so far.
-bool splits_a_slip(const Levels& levels, const std::vector<std::vector<std::size_t>>& keys,
+bool splits_a_slip(const AxisLevels& levels, const std::vector<std::vector<std::size_t>>& keys,
                    const std::vector<OperatingCondition>& conditions) {
   std::map<std::pair<std::vector<std::size_t>, double>, std::size_t> seen;
   for (std::size_t i = 0; i < conditions.size(); ++i) {
@@ -88,7 +88,7 @@ Curves curves_against_slip(const std::vector<OperatingCondition>& conditions, Sp
   std::vector<std::vector<std::size_t>> keys(conditions.size());
   std::vector<std::string> labels(conditions.size());
   for (const ConditionAxis& axis : axes()) {
-    const Levels found = levels(axis, conditions, spread);
+    const AxisLevels found = levels(axis, conditions, spread);
     if (found.value.size() < 2 || (axis.follows_slip && !splits_a_slip(found, keys, conditions))) continue;
     curves.varying += (curves.varying.empty() ? "" : ", ") + axis.name;
     for (std::size_t i = 0; i < conditions.size(); ++i) {

@@ -206,9 +206,9 @@ std::string limits_csv(const std::vector<WheelLimits>& answers, const std::vecto
 
 /// Largest pull against the slope, with its standard error, and the slips: a colour for each model and load. Where the
 /// pull is largest it changes with the soil's values as the pull at that slip does (the envelope theorem).
-Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& told) {
+Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& limits) {
   std::vector<WheelLimits> answers;
-  for (const WheelLimits& one : told)
+  for (const WheelLimits& one : limits)
     answers.push_back(one.error.empty() ? limits_at(question.scenario, one.model, one.at, many_slopes_up_to) : one);
   const std::vector<ModelAnswers> at_limits = answers_at(question, answers, true);
   const Axis slope{"slope [deg]"};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scenario/atomic_file.hpp"
+#include "scenario/markup.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -77,21 +78,6 @@ std::string cells(const char* name, std::size_t count, std::int32_t size, std::v
 }
 
 /// What XML takes as an attribute: no markup, no control characters.
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += static_cast<unsigned char>(c) < 32 ? ' ' : c;
-  }
-  return out;
-}
-
 constexpr std::size_t step_digits = 12;
 
 /// Lines of a .pvd by the step and the name of their file.

@@ -1,5 +1,7 @@
 // Grains and bodies for ParaView: .vtp files (VTK's XML PolyData, numbers in base64) and a .pvd that gives each its
 // time. For the eye: lengths and speeds in single precision. Each file is written whole or not at all.
+//
+//   export_to_paraview("frames", "wheel", simulation.state());  // again after some steps; then open frames/wheel.pvd
 #pragma once
 
 #include <filesystem>

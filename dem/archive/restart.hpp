@@ -1,4 +1,8 @@
-// Stopping and going on: all of a run in one file, to the bit. Layout: docs/reference/dem-archive.md.
+// Stopping and going on: all of a run of grains in one file, to the bit. Layout: docs/reference/dem-archive.md.
+//
+//   write_restart("run.h5", simulation.setup(), simulation.state(), {{"phase", "driving"}});
+//   const LastGood last = read_last_good("run.h5");  // last.warning: why it is not the newest; else empty
+//   Simulation again(last.restart.setup, last.restart.state);
 #pragma once
 
 #include <filesystem>

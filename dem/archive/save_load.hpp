@@ -1,5 +1,6 @@
-// Saver and Loader visit the same descriptions (restart_layout.hpp), so what is written and what is read can't drift
-// apart. A value becomes an attribute, a column of rows a dataset, an element what H5MD calls so.
+// Saver and Loader: values into an HDF5 archive and back. Both visit the same descriptions (restart_layout.hpp), so
+// what is written and what is read cannot differ. A value becomes an attribute, a column of rows a dataset, an element
+// what H5MD calls so.
 #pragma once
 
 #include <array>

@@ -1,4 +1,7 @@
-// Beds settled once and found again by the content of what made them.
+// Settled beds that are kept in a folder and found again by the recipe that made them.
+//
+//   BedStore beds("beds");
+//   const std::shared_ptr<const SettledBed> bed = beds.bed({.soil = grains, .packing = 2});  // settled only once
 #pragma once
 
 #include <filesystem>

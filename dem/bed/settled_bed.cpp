@@ -83,7 +83,7 @@ class BedRun {
 
 }  // namespace
 
-void spheres_alone(const GranularSoil& soil) {
+void require_spheres(const GranularSoil& soil) {
   if (soil.shape != GrainShape::sphere)
     throw InputError(
         "LAMMPS is given spheres alone, not grains of several\n  hint: soilbin's own engine, or shape: sphere");
@@ -113,7 +113,7 @@ void check(const BedRecipe& recipe) {
         fmt::format("a time step of {:.3g} s is too short to get anywhere: these grains usually take {:.3g} s\n"
                     "  hint: {:.3g} s or more",
                     recipe.dt, usual, least_share * usual));
-  if (recipe.settled_by == SettledBy::lammps) spheres_alone(recipe.soil);
+  if (recipe.settled_by == SettledBy::lammps) require_spheres(recipe.soil);
   if (!(recipe.gravity > 0)) throw InputError("a bed settles under gravity: it must be above 0");
   const bool in_lammps = recipe.settled_by == SettledBy::lammps;
   const double count = expected_grains(recipe), most = in_lammps ? most_in_lammps : most_grains;

@@ -1,4 +1,7 @@
-// A bed of grains in a box, come to rest under gravity: what every run starts from.
+// A bed of grains in a box, come to rest under gravity: what every run in the soil bin starts from.
+//
+//   const SettledBed bed = settle_bed({.soil = grains, .size = {.length = 2.5, .width = 0.8, .depth = 0.3}});  // [m]
+//   bed.report.void_ratio, bed.report.bulk_density  // [-], [kg/m^3]
 #pragma once
 
 #include <cstdint>
@@ -6,8 +9,8 @@
 
 #include "dem/bed/bed_report.hpp"
 #include "dem/bed/work_options.hpp"
+#include "dem/engine/rayleigh_time.hpp"
 #include "dem/engine/simulation.hpp"
-#include "dem/engine/time_step.hpp"
 #include "scenario/soil.hpp"
 #include "scenario/tire.hpp"
 
@@ -90,7 +93,7 @@ inline double longest_step(const GranularSoil& soil) {
 }
 
 /// Throws InputError for grains that LAMMPS is not given: those of several spheres.
-void spheres_alone(const GranularSoil& soil);
+void require_spheres(const GranularSoil& soil);
 
 /// How many grains are put into a bed, about.
 double expected_grains(const BedRecipe& recipe);

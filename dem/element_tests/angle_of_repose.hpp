@@ -1,4 +1,7 @@
-// The angle of repose: a cylinder of grains on a floor is lifted, the heap's slope is measured.
+// The angle of repose: a cylinder of grains on a floor is lifted, and the slope of the heap that remains is measured.
+//
+//   const AngleOfReposeResult heap = angle_of_repose(grains, {.radius = 6, .height = 12});  // mean diameters
+//   heap.angle.value, heap.angle.std_error                                                  // [rad]
 #pragma once
 
 #include <vector>

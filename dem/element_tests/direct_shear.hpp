@@ -1,5 +1,8 @@
 // The shear box: a specimen in two halves, one slid over the other under a pressed lid.
 //
+//   const DirectShearResult box = direct_shear(grains, {.packings = 2, .stresses = {10e3, 20e3, 40e3}});  // [Pa]
+//   box.peak.friction_angle.value, box.peak.cohesion.value  // [rad], [Pa]
+//
 // Weightless, so that the normal stress is one number. Walls and flanges of the halves are smooth (no friction), floor
 // and lid as rough as the grains. With smooth walls the vertical balance of the upper half is exact: what crosses the
 // plane of shear is the lid's force less what the upper grains rest on the lower half's flange, T is what lid and upper

@@ -1,6 +1,9 @@
 // The paper's friction test: sand laid on a board of the tire's material, which is tilted until the sand begins to
 // slide (Zhou, Gao, Li, Hu: 200 x 200 x 2 mm on rubber, 31.47 deg).
 //
+//   const TiltingBoardResult board = tilting_board(grains, {.across = 16, .rate = 0.035});  // grains, [rad/s]
+//   board.slid, board.onset                                                                 // angle [rad]
+//
 // A layer of 2 mm is one grain of the real sand (mean 2.16 mm) high and some 93 grains wide. The substitute keeps the
 // first and gives up the second: one layer of scaled grains, `across` of them along each side. Gravity turns, the board
 // does not.

@@ -1,7 +1,7 @@
 // A settled bed with a rough tool put over it.
 #pragma once
 
-#include "dem/element_tests/plate_tests.hpp"
+#include "dem/element_tests/bevameter_tests.hpp"
 
 namespace soilbin::dem {
 

@@ -1,4 +1,8 @@
-// True triaxial compression: six smooth walls, each kept at a stress or moved at a rate. Compression counts positive.
+// True triaxial compression of grains between six smooth walls, each kept at a stress or moved at a rate. Compression
+// counts positive.
+//
+//   const TriaxialResult test = triaxial(grains, {.stresses = {10e3, 20e3, 40e3}, .strain = 0.25});  // confining [Pa]
+//   test.peak.friction_angle.value, test.residual.friction_angle.value                               // [rad]
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// What holds at the present time: contacts, motion at whole steps, energy. Forces are those that the next step will
-// find; nothing is changed.
+// Contacts, energy and the grains' motion at whole steps, worked out from a run's present state, which stays as it is.
+// Forces are those that the next step will apply.
 #pragma once
 
 #include <cstdint>

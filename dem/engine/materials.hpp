@@ -1,5 +1,10 @@
 // What grains and surfaces are made of, and what each pair of materials does at a contact. The laws themselves, with
 // formulas and sources: docs/theory/dem-laws.md.
+//
+//   Materials materials;
+//   const int sand = materials.add({"sand", 2650, 1e7, 0.25}, {.restitution = 0.4, .sliding_friction = 0.5});
+//   const int rubber = materials.add({"rubber", 1200, 5e6, 0.45});  // density [kg/m^3], Young's modulus [Pa], Poisson
+//   materials.set(sand, rubber, {.restitution = 0.3, .sliding_friction = 0.7});
 #pragma once
 
 #include <string>

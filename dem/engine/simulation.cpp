@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "dem/engine/rayleigh_time.hpp"
 #include "dem/engine/step.hpp"
-#include "dem/engine/time_step.hpp"
 #include "dem/surface/mass_properties.hpp"
 #include "dem/surface/positive.hpp"
 #include "dem/surface/seams.hpp"

@@ -1,11 +1,11 @@
-// Grains, bodies and what they do to each other, step by step. The laws: docs/theory/dem-laws.md; a step's stages:
-// step.hpp.
+// A run of the grain engine: grains, bodies and the forces between them, step by step. The laws:
+// docs/theory/dem-laws.md; a step's stages: step.hpp.
 //
-//   Simulation simulation(setup);
+//   Simulation simulation(setup);  // materials, laws, domain, time step: state.hpp
 //   simulation.set_gravity({0, 0, -9.81});
 //   simulation.add_body(bin);
-//   simulation.add_grain({0.1, 0.1, 0.3}, 0.01, 0);
-//   simulation.run(1000);                       // steps of setup.numerics.dt
+//   simulation.add_grain({0.1, 0.1, 0.3}, 0.01, 0);  // position and radius [m], material
+//   simulation.run(1000);                            // steps of setup.numerics.dt
 //   simulation.contacts(), simulation.energy()
 #pragma once
 

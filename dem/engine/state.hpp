@@ -1,4 +1,11 @@
-// What a run is made of: the setup, which stays as it is given, and the state, which changes and which a restart keeps.
+// What a run of grains is made of: the Setup, which stays as it is given, and the State, which changes and which a
+// restart keeps.
+//
+//   Setup setup;
+//   setup.materials.add({"sand", 2650, 1e7, 0.25}, {.restitution = 0.3, .sliding_friction = 0.5});  // kg/m^3, Pa
+//   setup.numerics.dt = 1e-5;                                                                       // [s]
+//   const Simulation simulation(setup);
+//   number_of_grains(simulation.state()), simulation.state().time
 #pragma once
 
 #include <cstdint>

@@ -39,7 +39,7 @@ TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondi
   if (!scenario.effects.empty())
     throw InputError("dem takes no effects, but '" + scenario.effects.front().id + "' is switched on");
   const BedRecipe asked = recipe(scenario);
-  if (settings_.lammps) spheres_alone(asked.soil);
+  if (settings_.lammps) require_spheres(asked.soil);
   wheel_motion(at, scenario.tire.radius);  // these two refuse what can't be run before a bed is settled for it
   way_in_bin(asked.size, scenario.tire, settings_.rig);
   const auto bed = this->bed(asked);

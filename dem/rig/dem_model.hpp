@@ -1,4 +1,7 @@
-// The virtual soil bin as a model: a case's tire on a settled bed of its grains.
+// The virtual soil bin as a Model: a scenario's tire on a settled bed of its soil's grains.
+//
+//   const DemModel bin({.size = {.length = 2.5, .width = 0.8, .depth = 0.3}, .beds = "beds"});  // [m]; folder of beds
+//   const TractionResult result = bin.evaluate(scenario, {.load = 8000, .slip = 0.2});          // takes minutes
 #pragma once
 
 #include <functional>

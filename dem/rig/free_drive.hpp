@@ -1,6 +1,6 @@
 // A wheel driven freely over a settled bed: its motor turns it, and the grains alone say how far it gets.
 //
-//   const GrainDriveRecord record = drive_freely({bed, tire, soil.grain_tire, rig}, drive, 400, how);
+//   const GrainDriveRecord record = drive_freely({bed, tire, grains.grain_tire, rig}, drive);
 //   record.end == DriveEnd::stuck, record.samples.back().travelled, record.samples.back().energy.unaccounted()
 #pragma once
 

@@ -39,7 +39,7 @@ SteadyDrive means_of(std::span<const GrainDriveSample> part) {
 
 }  // namespace
 
-void tell_steady(GrainDriveRecord& record, const Drive& drive, double allowed) {
+void find_steady_part(GrainDriveRecord& record, const Drive& drive, double allowed) {
   if (record.end == DriveEnd::stuck || record.end == DriveEnd::buried || record.end == DriveEnd::rolled_back) {
     record.not_steady = fmt::format("the wheel is {}", word_of(record.end));
     return;

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "dem/bed/grain_shape.hpp"
-#include "dem/engine/time_step.hpp"
+#include "dem/engine/rayleigh_time.hpp"
 #include "dem/surface/mass_properties.hpp"
 
 namespace soilbin::dem {

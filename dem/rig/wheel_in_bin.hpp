@@ -1,5 +1,5 @@
 // A wheel put on a settled bed and loaded: what every way of driving it along the bin begins with. Grains may be those
-// of the engine (WheelInBin) or of whoever else runs in stages and shares its grains (dem/rig/shares.hpp):
+// of the engine (WheelInBin) or of whoever else runs in stages and shares its grains (dem/rig/process_sums.hpp):
 //
 //   WheelInBinOf<Run> bin(on, at, [&] { return Run(...); });
 //   bin.tilt(), bin.put_wheel(), bin.lower(load);
@@ -13,8 +13,8 @@
 #include <type_traits>
 
 #include "dem/bed/settled_bed.hpp"
+#include "dem/rig/process_sums.hpp"
 #include "dem/rig/rut.hpp"
-#include "dem/rig/shares.hpp"
 #include "dem/rig/staged_run.hpp"
 #include "dem/rig/wheel_motion.hpp"
 #include "dem/rig/wheel_run.hpp"

@@ -1,18 +1,18 @@
 #include "dem/rig/wheel_run.hpp"
 
-#include "dem/rig/ride.hpp"
 #include "dem/rig/run_inputs.hpp"
+#include "dem/rig/wheel_run_stages.hpp"
 
 namespace soilbin::dem {
 
 WheelRun run_wheel(const WheelOnBed& on, const OperatingCondition& at, const WorkOptions& how,
                    const Checkpoints& checkpoints) {
-  return Ride<StagedRun>(on, at,
-                         [&] {
-                           const BedRecipe& recipe = on.bed.recipe;
-                           return staged_run(on, how, checkpoints,
-                                             inputs_text(recipe, on.tire, on.contact, on.rig, at));
-                         })
+  return WheelRunStages<StagedRun>(on, at,
+                                   [&] {
+                                     const BedRecipe& recipe = on.bed.recipe;
+                                     return staged_run(on, how, checkpoints,
+                                                       inputs_text(recipe, on.tire, on.contact, on.rig, at));
+                                   })
       .run();
 }
 

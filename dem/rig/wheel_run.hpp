@@ -1,5 +1,8 @@
 // A wheel driven over a settled bed at a given slip or torque: lowered gently, set going, and measured until the bed
 // ends. What the rig does and gives: docs/theory/soil-bin.md.
+//
+//   const WheelRun run = run_wheel({bed, tire, grains.grain_tire}, {.load = 8000, .slip = 0.2});  // [N], [-]
+//   run.result.drawbar_pull.value, run.steady  // mean over the steady part [N]; whether there is one
 #pragma once
 
 #include <functional>

@@ -1,5 +1,12 @@
 // Rigid bodies: tire, plates, boxes, the floor. Each carries surfaces, is driven on some degrees of freedom and free on
 // the others, and feels the grains.
+//
+//   Body plate{.name = "plate"};
+//   plate.surfaces = {{MeshSurface{std::make_shared<TriangleMesh>(box({0.1, 0.1, 0.01})), nullptr}, 0}};  // [m]
+//   plate.position = {0.5, 0.4, 0.35};   // [m]
+//   plate.velocity = {0, 0, -0.01};      // [m/s]: pressed down at 10 mm/s, whatever the grains do
+//   const int index = simulation.add_body(plate);
+//   simulation.body(index).force.z       // [N] of the grains, after a run
 #pragma once
 
 #include <array>

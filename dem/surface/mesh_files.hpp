@@ -1,4 +1,7 @@
 // Triangle meshes in files: STL (text and binary) and Wavefront OBJ in, binary STL out.
+//
+//   const TriangleMesh wheel = read_mesh("wheel.obj", 1e-3, {.closed = true});  // drawn in millimetres
+//   write_stl("wheel.stl", wheel, 1e-3);
 #pragma once
 
 #include <filesystem>

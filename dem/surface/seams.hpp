@@ -1,5 +1,5 @@
-// Surfaces of one body that meet in one plane. Each surface looks for the points where a grain touches it without a
-// look at the others, so a grain on such a seam would be pressed by both: twice as hard as beside it.
+// A check that refuses bodies whose surfaces meet in one plane (a seam). Each surface finds its own contacts with a
+// grain, so a grain on a seam would be pressed by both: twice as hard as beside it.
 #pragma once
 
 #include "dem/surface/body.hpp"

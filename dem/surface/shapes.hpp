@@ -1,5 +1,8 @@
 // Meshes of simple shapes. Lengths in metres. Frame of a wheel: its axle is y, x forward, z up, centre in the origin.
 // Sizes that are not positive and finite are refused with InputError.
+//
+//   const TriangleMesh wheel = tire_surface(tire, {.edge = 0.01});  // with its lugs
+//   const TriangleMesh lid = box({0.2, 0.1, 0.01});
 #pragma once
 
 #include <limits>

@@ -1,6 +1,6 @@
 // A run in stages whose grains are in LAMMPS: what StagedRun is for the engine.
 //
-//   Ride<LammpsRun> ride(job.wheel(), job.at, [&] { return LammpsRun(MPI_COMM_WORLD, job, how, folder); });
+//   WheelRunStages<LammpsRun> ride(job.wheel(), job.at, [&] { return LammpsRun(MPI_COMM_WORLD, job, how, folder); });
 //   const WheelRun run = ride.run();
 //
 //   LammpsRun settles(MPI_COMM_WORLD, recipe, how, folder);

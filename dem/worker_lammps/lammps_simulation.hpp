@@ -182,7 +182,7 @@ class LammpsSimulation {
   std::string stopped_;         ///< why the run can't go on, the same on all
 };
 
-// What dem/rig/shares.hpp asks for.
+// What dem/rig/process_sums.hpp asks for.
 inline Grains own_grains(const LammpsSimulation& simulation) { return simulation.own_grains(); }
 void join_largest(const LammpsSimulation& simulation, std::span<double> numbers);
 void join_sums(const LammpsSimulation& simulation, std::span<double> numbers);

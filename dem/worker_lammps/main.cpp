@@ -19,7 +19,7 @@
 #include <thread>
 
 #include "dem/rig/bed_job.hpp"
-#include "dem/rig/ride.hpp"
+#include "dem/rig/wheel_run_stages.hpp"
 #include "dem/worker_lammps/lammps_bed.hpp"
 #include "dem/worker_lammps/processes.hpp"
 #include "scenario/atomic_file.hpp"
@@ -93,7 +93,8 @@ void drive_wheel(const fs::path& folder, bool writes, const dem::WorkOptions& ho
   const dem::WheelJob job =
       read_by_all([&] { return dem::read_job(folder / "job.h5", takes ? dem::WithGrains::yes : dem::WithGrains::no); });
   const dem::WheelOnBed wheel = job.wheel();
-  dem::Ride<dem::LammpsRun> ride(wheel, job.at, [&] { return dem::LammpsRun(MPI_COMM_WORLD, job, how, folder); });
+  dem::WheelRunStages<dem::LammpsRun> ride(wheel, job.at,
+                                           [&] { return dem::LammpsRun(MPI_COMM_WORLD, job, how, folder); });
   const dem::WheelRun run = ride.run();
   if (writes) dem::write_answer(folder / "answer.txt", run);
 }

@@ -1,4 +1,5 @@
-// What the files of the bindings share. One file a floor; each adds its classes and functions to the module.
+// What the C++ files of the Python package share. Each file binds one topic: its classes and functions are added to the
+// module by the functions below, which module.cpp calls.
 #pragma once
 
 #include <pybind11/functional.h>
@@ -46,15 +47,21 @@ const bekker_wong::CatalogueVocabulary& effect_vocabulary();
 std::string source_state();
 
 /// Long work, watched from Python. Called from the thread that gave up the interpreter's lock; a few times a second it
-/// takes the lock back, lets Python see to signals, and tells `told`, a callable of (share done, stage) or None. What
-/// Python raises (KeyboardInterrupt) goes through the library as an exception and stops the work.
+/// takes the lock back, lets Python see to signals, and calls `progress`, a callable of (share done, stage) or None.
+/// What Python raises (KeyboardInterrupt) goes through the library as an exception and stops the work.
 class Watch {
  public:
-  explicit Watch(py::object told) : told_(std::move(told)) {}
+  explicit Watch(py::object progress) : progress_(std::move(progress)) {}
   void operator()(double share, std::string_view stage = "");
+  /// Of work that counts its steps; refers to this.
+  auto of_steps() {
+    return [this](std::size_t done, std::size_t total) {
+      (*this)(static_cast<double>(done) / static_cast<double>(total));
+    };
+  }
 
  private:
-  py::object told_;
+  py::object progress_;
   std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();
 };
 

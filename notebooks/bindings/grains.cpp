@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "dem/engine/rayleigh_time.hpp"
 #include "dem/engine/simulation.hpp"
-#include "dem/engine/time_step.hpp"
 #include "notebooks/bindings/vectors.hpp"
 #include "scenario/errors.hpp"
 

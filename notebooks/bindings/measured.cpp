@@ -67,10 +67,7 @@ void bind_prediction(py::module_& module) {
       "predictions",
       [](const Model& model, const Scenario& scenario, const Campaign& campaign, const py::object& progress) {
         Watch watch(progress);
-        const auto told = [&watch](std::size_t done, std::size_t total) {
-          watch(static_cast<double>(done) / static_cast<double>(total));
-        };
-        return unlocked([&] { return compare::predict(model, scenario, campaign, told); });
+        return unlocked([&] { return compare::predict(model, scenario, campaign, watch.of_steps()); });
       },
       py::arg("model"), py::arg("scenario"), py::arg("campaign"), py::arg("progress") = py::none(),
       "Predicts every run at its own load, slip, angles, ... with the scenario's soil and effects.");

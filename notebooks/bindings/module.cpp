@@ -12,7 +12,7 @@ void Watch::operator()(double share, std::string_view stage) {
   looked_ = now;
   const py::gil_scoped_acquire lock;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  if (!told_.is_none()) told_(share, py::str(stage.data(), stage.size()));
+  if (!progress_.is_none()) progress_(share, py::str(stage.data(), stage.size()));
 }
 
 py::array view(const std::vector<double>& numbers, py::handle owner) {

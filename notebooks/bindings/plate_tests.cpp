@@ -1,6 +1,5 @@
 // dem/element_tests: the bevameter's plates and ring on grains.
-#include "dem/element_tests/plate_tests.hpp"
-
+#include "dem/element_tests/bevameter_tests.hpp"
 #include "notebooks/bindings/element_tests.hpp"
 
 namespace soilbin::python {

@@ -101,10 +101,7 @@ void bind_models(py::module_& module) {
       [](const Model& model, const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
          const py::object& progress) {
         Watch watch(progress);
-        const auto told = [&watch](std::size_t done, std::size_t total) {
-          watch(static_cast<double>(done) / static_cast<double>(total));
-        };
-        return unlocked([&] { return compare::sweep(model, scenario, conditions, told); });
+        return unlocked([&] { return compare::sweep(model, scenario, conditions, watch.of_steps()); });
       },
       py::arg("model"), py::arg("scenario"), py::arg("conditions"), py::arg("progress") = py::none(),
       "A list of Answers, one for each condition, in their order; one without solution carries its error. progress: "

@@ -25,16 +25,16 @@ class SoilBin {
 
   WheelRun run(const Scenario& scenario, const OperatingCondition& at, const py::object& progress) {
     Watch watch(progress);
-    WheelRun told;
-    watch_ = &watch, told_ = &told;
+    WheelRun result;
+    watch_ = &watch, result_ = &result;
     try {
       unlocked([&] { return model_.evaluate(scenario, at); });
     } catch (...) {
-      watch_ = nullptr, told_ = nullptr;
+      watch_ = nullptr, result_ = nullptr;
       throw;
     }
-    watch_ = nullptr, told_ = nullptr;
-    return told;
+    watch_ = nullptr, result_ = nullptr;
+    return result;
   }
 
   compare::Inputs inputs(const Scenario& scenario) const { return compare::inputs_of(settings_, scenario); }
@@ -67,12 +67,12 @@ class SoilBin {
     settings.how.progress = [this](const dem::Progress& p) {
       if (watch_ != nullptr) (*watch_)(p.done, p.stage);
     };
-    settings.on_run = [this](const WheelRun& run) { *told_ = run; };
+    settings.on_run = [this](const WheelRun& run) { *result_ = run; };
     return settings;
   }
 
   Watch* watch_ = nullptr;
-  WheelRun* told_ = nullptr;
+  WheelRun* result_ = nullptr;
   DemSettings settings_;
   dem::DemModel model_;
 };

@@ -26,9 +26,11 @@ class TheHouse(unittest.TestCase):
         with_sources = {name.parts[0] for name in rules.project_files(ROOT) if name.suffix in rules.CPP}
         self.assertLessEqual(with_sources, set(rules.FLOORS))
 
-    def test_has_every_interface_that_the_rules_name(self):
-        for place in rules.INTERFACES:
-            self.assertTrue((ROOT / place).is_file(), place)
+    def test_finds_the_headers_that_people_include(self):
+        named = rules.interfaces(ROOT)
+        self.assertGreater(len(named), 40)
+        self.assertEqual(len(named), len(set(named)), "a header twice")
+        self.assertIn("compare/loop/loop.hpp", named)
 
     def test_has_every_single_file_that_a_rule_excepts(self):
         for places in rules.LIBRARIES.values():
@@ -122,11 +124,31 @@ class TheRules(unittest.TestCase):
         self.assertEqual(len(self.breaches("opening comments", scenario__a_dot_hpp="#pragma once\n// too late, too late, too late\n")), 1)
         self.assertEqual(len(self.breaches("opening comments", scenario__a_dot_hpp="// The soil.\n#pragma once\n")), 1)
 
-    def test_an_interface_without_an_example(self):
+    def api_breaches(self, opening, table="| draw | `compare/plot.hpp` |\n", before=""):
+        """Of a tree of one header, and a page that tells people what to include."""
+        page = f"# C++\n{before}\n## What to include\n\n| to | headers |\n|---|---|\n{table}\nend\n"
+        files = {"compare__plot_dot_hpp": opening, "docs__reference__cpp-api_dot_md": page}
+        return self.breaches("opening comments", **files)
+
+    def test_a_header_that_people_include_without_an_example(self):
         says = "// Plots as drawings: axes with units, a legend, error bands.\n"
-        example = "//\n//   svg(sheet);\n"
-        self.assertEqual(len(self.breaches("opening comments", compare__report__page_dot_hpp=says)), 1)
-        self.assertEqual(self.breaches("opening comments", compare__report__page_dot_hpp=says + example), [])
+        self.assertEqual(self.api_breaches(says), ["compare/plot.hpp: docs/reference/cpp-api.md names it: "
+                                                   "its opening comment shows an example of a call"])
+        self.assertEqual(self.api_breaches(says + "//\n//   svg(sheet);\n"), [])
+        self.assertEqual(self.api_breaches(says + "//\n//   const Axis x{.title = \"slip\"}\n"), [])
+        table, at_the_margin, below = "//\n//   line      a curve\n", "//\n// svg(sheet);\n", "\n//   svg(sheet);\n"
+        for no_example in (table, at_the_margin, below):
+            self.assertEqual(len(self.api_breaches(says + no_example)), 1, no_example)
+
+    def test_a_header_that_people_do_not_include_needs_no_example(self):
+        says = "// Plots as drawings: axes with units, a legend, error bands.\n"
+        self.assertEqual(self.breaches("opening comments", compare__plot_dot_hpp=says), [])
+        self.assertEqual(self.api_breaches(says, table="", before="The drawings are made by `compare/plot.hpp`.\n"), [])
+
+    def test_a_header_that_the_page_names_and_that_is_not_there(self):
+        found = self.api_breaches("// Plots as drawings: axes with units.\n//\n//   svg(sheet);\n",
+                                  "| draw | `compare/plot.hpp`, `compare/gone.hpp` |\n")
+        self.assertEqual(found, ["docs/reference/cpp-api.md: names compare/gone.hpp, which is not there"])
 
     def test_a_machine_path(self):
         path = "/" + "tmp" + "/x"

@@ -1,13 +1,13 @@
 // The evidence for a set of effects whose equations nature need not share.
-#include "compare/loop/evidence.hpp"
+#include "compare/fit/evidence.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
+#include "compare/attribution/unnamed.hpp"
 #include "compare/loop/loop.hpp"
-#include "compare/loop/unnamed.hpp"
 #include "compare/loop_fixture.hpp"
 
 namespace soilbin::compare {
@@ -137,7 +137,7 @@ TEST(UnnamedFamilies, TellAMisreadSlip) {
   for (compare::Run& run : campaign.runs) run.at.slip += 0.05 * (run.at.load - 1050.0) / 450.0;
   const UnnamedEvidence misread = evidence(campaign);
   EXPECT_GT(misread.gain, std::log(1000.0));
-  EXPECT_EQ(misread.likest, misread_kind);
+  EXPECT_EQ(misread.most_likely, misread_kind);
 }
 
 // Nature's wheel digs by the catalogue's equation times 0.7 .. 1.3, the more the heavier it is: no second effect.

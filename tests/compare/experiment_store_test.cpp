@@ -75,7 +75,7 @@ TEST(ExperimentStores, AnExperimentIsSafeOnlyOnceItIsInTheFile) {
   int safe = 0;
   VirtualTest test = board_test();
   test.run = [](const VectorXd&, std::uint64_t) -> std::vector<Estimate> { return {{1.0, 0.1}}; };
-  test.when_safe = [&] {
+  test.on_saved = [&] {
     ++safe;
     EXPECT_EQ(ExperimentStore(folder / "new" / "store.json").size(), 1U);
   };

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bekker_wong/effect_vocabulary.hpp"
-#include "compare/loop/wheel_predictor.hpp"
+#include "compare/fit/wheel_predictor.hpp"
 #include "compare/loop_fixture.hpp"
 #include "scenario/case.hpp"
 #include "scenario/soil_parameters.hpp"

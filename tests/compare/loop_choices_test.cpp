@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "compare/loop/evidence.hpp"
+#include "compare/fit/evidence.hpp"
 #include "compare/loop/loop.hpp"
 #include "compare/loop_fixture.hpp"
 #include "compare/measured/condition_views.hpp"

@@ -8,9 +8,9 @@
 
 #include "bekker_wong/contact_stages.hpp"
 #include "bekker_wong/effect_vocabulary.hpp"
-#include "compare/loop/base_fit.hpp"
-#include "compare/loop/bounded_fit.hpp"
-#include "compare/loop/descent.hpp"
+#include "compare/attribution/base_fit.hpp"
+#include "compare/fit/bounded_fit.hpp"
+#include "compare/fit/descent.hpp"
 #include "compare/loop_fixture.hpp"
 
 namespace soilbin::compare {

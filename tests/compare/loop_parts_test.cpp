@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "compare/loop/base_fit.hpp"
-#include "compare/loop/detection.hpp"
-#include "compare/loop/setpoint_squares.hpp"
+#include "compare/attribution/base_fit.hpp"
+#include "compare/attribution/detection.hpp"
+#include "compare/fit/setpoint_squares.hpp"
 #include "compare/loop_fixture.hpp"
 #include "compare/measured/condition_views.hpp"
 

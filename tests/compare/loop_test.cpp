@@ -8,8 +8,8 @@
 
 #include "bekker_wong/effect_vocabulary.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
+#include "compare/fit/bounded_fit.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/loop/bounded_fit.hpp"
 #include "compare/loop/next_run_words.hpp"
 #include "compare/loop_fixture.hpp"
 

@@ -1,5 +1,5 @@
 // The loop's second reading: a base model whose form isn't the soil's, and an effect beside that.
-#include "compare/loop/model_discrepancy.hpp"
+#include "compare/attribution/model_discrepancy.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>

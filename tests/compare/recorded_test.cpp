@@ -308,7 +308,7 @@ TEST_F(SlowKeptRuns, ARerunSkipsWhatIsThere) {
 TEST_F(SlowKeptRuns, ARunIsSafeOnlyOnceItIsInTheFile) {
   int safe = 0;
   RecordedRun run = made_run(1, 0.1, 1);
-  run.when_safe = [&] {
+  run.on_saved = [&] {
     ++safe;
     EXPECT_EQ(read_record(file()).runs.size(), 1U);
   };

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "compare/loop/condition_functions.hpp"
+#include "compare/fit/condition_functions.hpp"
 #include "compare/loop_fixture.hpp"
 
 namespace soilbin::compare {

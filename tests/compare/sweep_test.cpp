@@ -105,7 +105,7 @@ TEST(Sweep, PeaksAreThoseOfTheSmoothCurves) {
 
   std::vector<ModelAnswers> both = part.study;
   both.push_back({{ModelKind::dem, {}, "dem"}, part.study.front().answers});
-  const Sheet sheet = study_sheet(part.question, as_drawn(part.question, both));
+  const Sheet sheet = study_sheet(part.question, smoothed_for_plot(part.question, both));
   const std::vector<Series>& pulls = sheet.plots.front().series;
   ASSERT_EQ(pulls.size(), 2U);
   EXPECT_GE(pulls[0].x.size(), 41U);

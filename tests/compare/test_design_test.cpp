@@ -1,5 +1,5 @@
 // A designed test: the shapes' distances by hand, what every plan must vary, what no plan may fall below.
-#include "compare/loop/test_design.hpp"
+#include "compare/test_design/test_design.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // Pieces of work that several threads share.
-#include "compare/loop/thread_pool.hpp"
+#include "compare/fit/thread_pool.hpp"
 
 #include <gtest/gtest.h>
 

@@ -33,8 +33,8 @@ GrainDriveRecord made_record(std::size_t samples) {
 // The ramp ends with sample 8; sample 9 is the first that lies wholly behind it. The sixteenth from there is 24.
 TEST(SteadyDrive, NeedsSixteenSamplesBehindTheRamp) {
   GrainDriveRecord enough = made_record(25), too_few = made_record(24);
-  tell_steady(enough, made_drive(), 3);
-  tell_steady(too_few, made_drive(), 3);
+  find_steady_part(enough, made_drive(), 3);
+  find_steady_part(too_few, made_drive(), 3);
   ASSERT_TRUE(enough.steady);
   EXPECT_TRUE(enough.steady->steady);
   EXPECT_EQ(enough.steady->from, 9 * 0.125);
@@ -47,7 +47,7 @@ TEST(SteadyDrive, NeedsSixteenSamplesBehindTheRamp) {
 TEST(SteadyDrive, TellsTheMeansOfWhatDoesNotChange) {
   GrainDriveRecord record = made_record(40);
   record.samples[0].torque = record.samples[8].speed = 1e6;  // of the ramp, which doesn't count
-  tell_steady(record, made_drive(), 3);
+  find_steady_part(record, made_drive(), 3);
   ASSERT_TRUE(record.steady);
   const SteadyDrive& s = *record.steady;
   EXPECT_EQ(s.speed.value, 1);
@@ -64,7 +64,7 @@ TEST(SteadyDrive, BeginsBehindTheLastChangeOfTheWay) {
   Drive drive = made_drive();
   drive.profile.back().at = 2;
   GrainDriveRecord record = made_record(40);
-  tell_steady(record, drive, 3);
+  find_steady_part(record, drive, 3);
   ASSERT_TRUE(record.steady);
   EXPECT_EQ(record.steady->from, 17 * 0.125);
 }
@@ -74,7 +74,7 @@ TEST(SteadyDrive, ADriftIsTold) {
   GrainDriveRecord record = made_record(49);  // forty behind the ramp
   for (std::size_t k = 0; k < 49; ++k)
     record.samples[k].sinkage = 1e-3 * static_cast<double>(k) + (k % 2 == 0 ? 1e-5 : -1e-5);
-  tell_steady(record, made_drive(), 3);
+  find_steady_part(record, made_drive(), 3);
   ASSERT_TRUE(record.steady);
   EXPECT_GT(record.steady->drift, 3);
   EXPECT_FALSE(record.steady->steady);
@@ -84,7 +84,7 @@ TEST(SteadyDrive, AWheelThatGoesNowhereHasNone) {
   for (const DriveEnd end : {DriveEnd::stuck, DriveEnd::buried, DriveEnd::rolled_back}) {
     GrainDriveRecord record = made_record(40);
     record.end = end;
-    tell_steady(record, made_drive(), 3);
+    find_steady_part(record, made_drive(), 3);
     EXPECT_FALSE(record.steady);
     EXPECT_EQ(record.not_steady, "the wheel is " + std::string(word_of(end)));
   }

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "dem/engine/time_step.hpp"
+#include "dem/engine/rayleigh_time.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 #include "tests/dem/worlds.hpp"

@@ -28,6 +28,9 @@ EQUIVALENT = pathlib.Path(__file__).with_name("equivalent.txt")
 # What is broken, the program that should notice, and those of its tests that look at it within half a minute.
 FLOORS = {
     "bekker_wong": ("bekker_wong_tests", "-Slow*"),
+    "compare/fit": ("compare_tests", "-Slow*"),
+    "compare/attribution": ("compare_tests", "-Slow*"),
+    "compare/test_design": ("compare_tests", "-Slow*"),
     "compare/loop": ("compare_tests", "-Slow*"),
     "dem/rig": ("dem_tests",
                 "WheelResult*:SteadyDrive*:WheelMotion*:TreadForces*:SlowSmallWheel*:Rut*:SoilFlow*:StepCriteria*:"

@@ -4,8 +4,8 @@
 
 #include "dem/archive/restart.hpp"
 #include "dem/element_tests/angle_of_repose.hpp"
+#include "dem/element_tests/bevameter_tests.hpp"
 #include "dem/element_tests/direct_shear.hpp"
-#include "dem/element_tests/plate_tests.hpp"
 #include "dem/element_tests/tilting_board.hpp"
 #include "dem/element_tests/triaxial.hpp"
 #include "tests/dem/archive_scene.hpp"

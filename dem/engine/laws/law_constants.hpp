@@ -1,4 +1,5 @@
-// A pair of materials, boiled down to the factors that the laws multiply by. Symbols: docs/theory/dem-laws.md.
+// The choice of contact laws, and their constants for a pair of materials: the factors by which the laws' formulas
+// multiply, worked out before the steps. Symbols: docs/theory/dem-laws.md.
 #pragma once
 
 #include <cstdint>

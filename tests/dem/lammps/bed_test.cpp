@@ -10,8 +10,8 @@
 #include <stop_token>
 
 #include "dem/rig/lammps_worker.hpp"
-#include "dem/rig/ride.hpp"
 #include "dem/rig/wheel_job.hpp"
+#include "dem/rig/wheel_run_stages.hpp"
 #include "dem/worker_lammps/lammps_run.hpp"
 #include "scenario/file_lock.hpp"
 #include "tests/dem/lammps/shared.hpp"
@@ -128,13 +128,15 @@ TEST_F(LammpsBed, StopsAndGoesOnInTheMiddleOfARun) {
     if (progress.stage == "driving") stop.request_stop();
   };
   const auto run = [&] {
-    return Ride<LammpsRun>(on, job.at, [&] { return LammpsRun(MPI_COMM_WORLD, job, how, folder.path()); }).run();
+    return WheelRunStages<LammpsRun>(on, job.at, [&] { return LammpsRun(MPI_COMM_WORLD, job, how, folder.path()); })
+        .run();
   };
   EXPECT_THROW(run(), Stopped);
   EXPECT_TRUE(fs::exists(folder.path() / "state"));
   how.stop = {};
   const WheelRun rest = run();
-  const WheelRun whole = Ride<LammpsRun>(on, job.at, [&] { return LammpsRun(MPI_COMM_WORLD, job, how); }).run();
+  const WheelRun whole =
+      WheelRunStages<LammpsRun>(on, job.at, [&] { return LammpsRun(MPI_COMM_WORLD, job, how); }).run();
   EXPECT_EQ(rest.samples.size(), whole.samples.size());
   EXPECT_GT(rest.earlier, 0);
   EXPECT_NEAR(rest.surface, whole.surface, 0.02 * bed().recipe.soil.radius_min);
@@ -180,7 +182,8 @@ TEST_F(LammpsBed, CarriesTheWheelAsTheEnginesBedDoes) {
   const WheelOnBed on = job.wheel();
   const WheelRun engine = run_wheel(on, job.at, test::with_threads(1));
   const WorkOptions how = test::with_threads(1);
-  const WheelRun lammps = Ride<LammpsRun>(on, job.at, [&] { return LammpsRun(MPI_COMM_WORLD, job, how); }).run();
+  const WheelRun lammps =
+      WheelRunStages<LammpsRun>(on, job.at, [&] { return LammpsRun(MPI_COMM_WORLD, job, how); }).run();
   const auto alike = [](const Estimate& a, const Estimate& b) {  // within four standard errors of the difference
     EXPECT_NEAR(a.value, b.value, 4 * std::hypot(a.std_error, b.std_error));
   };

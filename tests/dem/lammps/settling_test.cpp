@@ -9,7 +9,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "dem/rig/ride.hpp"
+#include "dem/rig/wheel_run_stages.hpp"
 #include "dem/worker_lammps/lammps_bed.hpp"
 #include "tests/dem/lammps/shared.hpp"
 #include "tests/dem/small_bed.hpp"
@@ -140,7 +140,7 @@ TEST(LammpsSettling, StopsGoesOnAndCarriesAWheel) {
   job.bed.state.bodies = {bin_of(recipe.size)}, job.bed.grains_in = folder.path();
   job.rig.travel = 0.1;
   const WheelOnBed on = job.wheel();
-  const WheelRun run = Ride<LammpsRun>(on, job.at, [&] { return LammpsRun(MPI_COMM_WORLD, job, how); }).run();
+  const WheelRun run = WheelRunStages<LammpsRun>(on, job.at, [&] { return LammpsRun(MPI_COMM_WORLD, job, how); }).run();
   const SettledBed bed = settle_bed(recipe, test::with_threads(1));
   const WheelRun engine = run_wheel({bed, on.tire, on.contact, on.rig}, job.at, test::with_threads(1));
   EXPECT_NEAR(run.surface, engine.surface, 0.5 * recipe.soil.radius_min);

@@ -1,0 +1,118 @@
+#include "cli/contact_test_flags.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "cli/element_test_flags.hpp"
+#include "cli/flag_values.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/nearest_word.hpp"
+
+namespace soilbin::cli {
+namespace {
+
+using compare::ContactKind;
+using compare::Factor;
+using compare::Target;
+
+/// "NAME=REST" of a flag, NAME one of `right`.
+std::pair<std::string, std::string> named(const std::string& flag, const std::string& text,
+                                          const std::vector<std::string>& right) {
+  const std::size_t equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  if (std::ranges::find(right, name) == right.end()) throw InputError(flag + ": " + none_of(name, right));
+  return {name, equals == std::string::npos ? "" : text.substr(equals + 1)};
+}
+
+/// The soil's own phi and c for sand on sand; what --target names, where it names any.
+std::vector<Target> targets_of(const ContactTestFlags& asked, ContactKind kind, const Soil& soil) {
+  std::vector<Target> targets;
+  for (const std::string& text : asked.targets) {
+    const auto [name, value] = named("--target", text, compare::target_names(kind));
+    const std::string unit = compare::unit_of_target(name);
+    const std::vector<std::string> parts = split(value, ",");
+    Target target{name, {read_flag("--target " + name, parts[0], {unit, above_zero}), 0.0}, unit};
+    if (parts.size() > 1) target.measured.std_error = read_flag("--target " + name, parts[1], {unit, zero_or_more});
+    targets.push_back(std::move(target));
+  }
+  return targets.empty() ? compare::targets_of(soil, kind) : targets;
+}
+
+std::vector<Factor> factors_of(const ContactTestFlags& asked, ContactKind kind) {
+  std::vector<Factor> factors = compare::usual_factors(kind);
+  std::vector<std::string> names;
+  for (const Factor& factor : factors) names.push_back(factor.name);
+  for (const std::string& text : asked.bounds) {
+    const auto [name, range] = named("--vary", text, names);
+    for (Factor& factor : factors)
+      if (factor.name == name) {
+        const Measure measure{factor.unit, factor.name == "restitution" ? fractions : zero_or_more};
+        std::tie(factor.lower, factor.upper) = read_range("--vary " + name, range, measure);
+      }
+  }
+  for (const std::string& text : asked.kept) {
+    const std::string name = named("--keep", text, names).first;
+    std::erase_if(factors, [&](const Factor& factor) { return factor.name == name; });
+  }
+  return factors;
+}
+
+}  // namespace
+
+compare::ContactKind ContactTestFlags::kind() const {
+  named("--contact", contact, {"sand", "tire"});
+  return contact == "sand" ? ContactKind::grain_grain : ContactKind::grain_tire;
+}
+
+Soil ContactTestFlags::soil_with_grains(const Workplace& place) const {
+  Soil found = find_soil(soil, place.library);
+  if (!found.granular)
+    throw InputError(fmt::format("soil '{}' has no grains\n  hint: it needs a section 'granular'", found.name));
+  if (rolling.empty()) return found;
+  found.granular->rolling_resistance = rolling_named(rolling);
+  found.granular->grain_grain.rolling_stiffness = found.granular->grain_tire.rolling_stiffness = 0.0;
+  return found;
+}
+
+compare::VirtualTest ContactTestFlags::test(const Soil& of, std::function<void(const dem::Progress&)> progress) const {
+  compare::ContactQuestion question;
+  question.kind = kind(), question.factors = factors_of(*this, kind());
+  question.targets = targets_of(*this, kind(), of);
+  question.packings = packings, question.across = across;
+  question.settling_friction = read_settling_friction(settling_friction, question.settling_friction);
+  question.stresses.clear();
+  for (const std::string& stress : split(stresses, ","))
+    question.stresses.push_back(read_flag("--stresses", stress, {"kPa", above_zero}));
+  named("--strength", strength, {"peak", "residual"});
+  question.strength = strength == "peak" ? compare::Strength::peak : compare::Strength::residual;
+  question.how.threads = threads;
+  question.how.progress = std::move(progress);
+  question.how.tell = print_beside_progress;
+  check_threads(threads);
+  return compare::contact_test(of, question);
+}
+
+void ContactTestFlags::add_to(CLI::App& command) {
+  add_value(command, "soil", soil, "SOIL", "a soil of the library, or a file; with grains")->required();
+  add_value(command, "--contact", contact, "sand|tire",
+            "sand on sand, by direct shear; or tire on sand, by the tilting board");
+  add_value(command, "--target", targets, "NAME=VALUE[,SD]",
+            "what was measured; repeatable; for sand, by default, the soil's own");
+  add_value(command, "--vary", bounds, "NAME=LOW..HIGH",
+            "bounds of a number of the contact, in place of the usual ones; repeatable");
+  add_value(command, "--keep", kept, "NAME", "keep this number as the soil has it; repeatable");
+  add_value(command, "--strength", strength, "peak|residual", "strength that the shear box is read by");
+  add_value(command, "--stresses", stresses, "P,P,...", "normal stresses of the shear box; 10kPa,20kPa,40kPa");
+  add_value(command, "--settling-friction", settling_friction, settling_type,
+            "how the sheared sample, or the soil bin's bed, settles: loose, medium, dense, or a share of friction; 1");
+  add_value(command, "--rolling", rolling, "LAW",
+            "law of rolling resistance: elastic_plastic, directional, directional_with_twist; the soil's own");
+  add_value(command, "--across", across, "N", "grains along a side of the board, 16");
+  add_value(command, "--packings", packings, "N", "number of samples of each experiment; shear box 1, board 4");
+  add_value(command, "--threads", threads, "N", "0, one a core");
+}
+
+}  // namespace soilbin::cli

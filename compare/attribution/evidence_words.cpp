@@ -1,0 +1,63 @@
+#include "compare/attribution/evidence_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bekker_wong/effects/titles.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// "4,000"
+std::string thousands_apart(long long value) {
+  std::string text = std::to_string(value);
+  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
+  return text;
+}
+
+}  // namespace
+
+std::string in_a_row(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  return text;
+}
+
+std::string joined(const std::set<std::string>& ids) {
+  return ids.empty() ? "no effect" : fmt::format("{}", fmt::join(ids, " + "));
+}
+
+std::string named_effects(const std::set<std::string>& ids) {
+  std::vector<std::string> names;
+  for (const std::string& id : ids) names.emplace_back(bekker_wong::effect_title(id).name);
+  return names.empty() ? "no effect" : in_a_row(names);
+}
+
+std::string times_likelier(double log_odds) {
+  constexpr double million = 1e6;
+  const double odds = std::exp(log_odds);
+  if (odds > million) return "more than a million times";
+  if (odds < 10) return fmt::format("{:.2g} times", odds);
+  const double step = std::pow(10.0, std::floor(std::log10(odds)) - 1);
+  return thousands_apart(std::llround(std::round(odds / step) * step)) + " times";
+}
+
+std::string odds_words(double p) {
+  constexpr double often = 0.095;
+  if (p >= often) return fmt::format("{:.0f} of 100 campaigns", 100 * p);
+  const double one_in = 1 / std::max(p, 1e-12), step = std::pow(10.0, std::floor(std::log10(one_in)) - 1);
+  return fmt::format("1 of {} campaigns", thousands_apart(std::llround(std::round(one_in / step) * step)));
+}
+
+std::string odds_and_p(double p) {
+  return fmt::format("noise alone would look like this in {}, p = {:.2g}", odds_words(p), p);
+}
+
+std::string share_words(double weight) {
+  return weight < least_share ? "< 1 %" : fmt::format("{:.0f} %", 100 * weight);
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,94 @@
+#include "compare/attribution/predictive_gain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
+
+#include "compare/fit/thresholds.hpp"
+
+namespace soilbin::compare {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+std::vector<int> deal_folds(int conditions, int folds, std::uint64_t seed) {
+  std::vector<int> fold(conditions);
+  for (int c = 0; c < conditions; ++c) fold[c] = c % folds;
+  std::mt19937_64 random(seed);
+  for (std::size_t i = fold.size(); i > 1; --i) std::swap(fold[i - 1], fold[random() % i]);
+  return fold;
+}
+
+std::pair<double, double> over_conditions(const std::map<int, double>& sums) {
+  const double n = static_cast<double>(sums.size());
+  double mean = 0, square = 0;
+  for (const auto& [condition, sum] : sums) mean += sum / n;
+  for (const auto& [condition, sum] : sums) square += std::pow(sum - mean, 2);
+  return {mean, std::sqrt(square / std::max(1.0, n - 1) / n)};
+}
+
+namespace {
+
+/// The model fitted to other runs of its campaign, from where it ended.
+std::optional<FittedModel> refitted(const FittedModel& model, const Observations& runs) {
+  const Dataset& whole = model.data();
+  VectorXd about;
+  BalanceMemory memory = giving_way();
+  if (!model.predictor().over(runs).predict(model.fit().restart, about, memory)) return std::nullopt;
+  const auto data = std::make_shared<const Dataset>(
+      Dataset{whole.campaign, runs, {}, whole.noise, Whitening(runs, whole.noise, about)});
+  return fitted(data, model.predictor().over(data->observations), model.fit().restart, std::move(memory));
+}
+
+/// ln density of each cell left out under the model fitted to the rest.
+std::optional<VectorXd> density_of(const FittedModel& model, const Observations& training, const Observations& held) {
+  const auto found = refitted(model, training);
+  if (!found) return std::nullopt;
+  const auto forecast = found->forecast(held, giving_way());
+  if (!forecast) return std::nullopt;
+  VectorXd density(forecast->prediction.size());
+  for (Index i = 0; i < density.size(); ++i) {
+    const Cell& cell = held.cells[i];
+    const double sd = model.data().noise.channels[cell.channel].sd(cell.value, cell.spread);
+    const double variance = sd * sd + forecast->variance(i);
+    density[i] = -0.5 * std::log(variance) - 0.5 * std::pow(cell.value - forecast->prediction[i], 2) / variance;
+  }
+  return density;
+}
+
+}  // namespace
+
+std::vector<FoldDensity> fold_densities(const FittedModel& model, std::uint64_t seed, const ThreadPool& pool) {
+  const Observations& all = model.data().observations;
+  const int folds = std::min(thresholds::choice_folds, all.conditions);
+  const std::vector<int> fold = deal_folds(all.conditions, folds, seed);
+  std::vector<FoldDensity> densities(folds);
+  pool.each(folds, [&](int f, const Pulse& pulse) {
+    pulse();
+    std::vector<bool> keep(fold.size()), held(fold.size());
+    std::vector<int> original;
+    for (std::size_t c = 0; c < fold.size(); ++c) {
+      keep[c] = fold[c] != f, held[c] = !keep[c];
+      if (held[c]) original.push_back(static_cast<int>(c));
+    }
+    const Observations rest = of_conditions(all, held);
+    for (const Cell& cell : rest.cells) densities[f].condition.push_back(original[rest.condition[cell.row]]);
+    densities[f].log_density = density_of(model, of_conditions(all, keep), rest);
+  });
+  return densities;
+}
+
+PredictiveGain predictive_gain(const std::vector<FoldDensity>& model, const std::vector<FoldDensity>& over) {
+  std::map<int, double> gain;  // of each condition
+  for (std::size_t f = 0; f < model.size(); ++f) {
+    const auto &better = model[f].log_density, &base = over[f].log_density;
+    if (!better || !base) continue;
+    for (Index i = 0; i < better->size(); ++i) gain[model[f].condition[i]] += (*better)[i] - (*base)[i];
+  }
+  if (gain.size() < 2) return {};
+  const auto [mean, error] = over_conditions(gain);
+  return {mean, error, static_cast<int>(gain.size())};
+}
+
+}  // namespace soilbin::compare

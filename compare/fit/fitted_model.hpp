@@ -1,0 +1,86 @@
+// A campaign ready for fits, and a model fitted to it: predictor, terms, fit and covariance as one value.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "compare/fit/bounded_fit.hpp"
+
+namespace soilbin::compare {
+
+/// What the means of pooled runs do not show of all of them (pooled_runs.hpp).
+struct Hidden {
+  double cells = 0.0, chi2 = 0.0;
+};
+
+/// What every model of a campaign is fitted to. Made by the base fit and never changed after; the models that compete
+/// share one, so that their chi2 can be compared.
+struct Dataset {
+  std::shared_ptr<const Campaign> campaign;
+  Observations observations;  ///< without the outliers
+  std::vector<bool> outlier;  ///< of the cells given: set aside
+  NoiseFloor noise;
+  Whitening whitening;  ///< takes that noise off, at the base model's predictions
+  Hidden hidden{};      ///< where the observations are pooled runs
+  /// The declared model over these observations, where every fit begins; the data set must outlive it.
+  WheelPredictor declared_model() const { return {*campaign, observations}; }
+  Eigen::Index cells() const { return static_cast<Eigen::Index>(observations.cells.size()); }
+};
+
+/// What a model predicts for runs that it was not fitted to, and how well it knows that: var(f) = J C J', with J the
+/// slopes over the free parameters and C their covariance.
+struct Forecast {
+  Eigen::VectorXd prediction;
+  Eigen::MatrixXd slopes;  ///< J, in units of the parameters' scale
+  Eigen::MatrixXd solved;  ///< C J'
+  double variance(Eigen::Index cell) const { return slopes.row(cell).dot(solved.col(cell)); }
+  Eigen::MatrixXd covariance() const { return slopes * solved; }
+};
+
+/// The wheel with some effects (terms), fitted to a data set. A value: cheap to copy beside a fit, never changed.
+///
+///     const FittedModel base = fit_base(campaign, observe(campaign), {});
+///     const Eigen::VectorXd sd = base.standard_errors();             // of the soil's free values [SI]
+///     const auto wider = fitted(base.shared_data(), base.predictor().with({term}), start);
+///     const double gained = base.fit().chi2 - wider->fit().chi2;
+class FittedModel {
+ public:
+  FittedModel(std::shared_ptr<const Dataset> data, WheelPredictor predictor, Fit fit);
+
+  const Dataset& data() const { return *data_; }
+  const std::shared_ptr<const Dataset>& shared_data() const { return data_; }
+  const WheelPredictor& predictor() const { return predictor_; }
+  const std::vector<Term>& terms() const { return predictor_.terms(); }
+  const Fit& fit() const { return fit_; }
+  /// The whitened residual of the cells, without the rows of the priors.
+  Eigen::VectorXd cell_residual() const { return fit_.residual.head(data_->cells()); }
+
+  /// 1 sd of each parameter [SI], from the inverse of the columns' Gram matrix; 0 for those held by a bound.
+  Eigen::VectorXd standard_errors() const;
+  /// 1 sd that a parameter held by a bound would have if it could move, the others free as they are [SI].
+  double held_error(Eigen::Index parameter) const;
+  /// Degrees of freedom of the cells that the parameters take, as far as their priors let them.
+  double absorbed_freedom() const;
+  /// What a term adds to each cell, the other parameters as fitted; zeros where the soil carries nothing without it.
+  Eigen::VectorXd contribution(int term) const;
+  /// The campaign's soil with the fitted values and their standard errors.
+  SemiEmpiricalSoil soil() const;
+
+  /// Predictions of other runs; nothing where one has no balance (memory.gives_way: is carried by less than a fifth).
+  std::optional<Forecast> forecast(const Observations& runs, BalanceMemory memory = {}) const;
+
+ private:
+  /// C^-1 of the free parameters in units of their scale: G'G + ridge.
+  Eigen::LDLT<Eigen::MatrixXd> information(double ridge) const;
+
+  std::shared_ptr<const Dataset> data_;
+  WheelPredictor predictor_;
+  Fit fit_;
+};
+
+/// The least chi2 near `start` (bounded_fit.hpp); nothing where no soil near it carries the wheel in every run.
+std::optional<FittedModel> fitted(const std::shared_ptr<const Dataset>& data, const WheelPredictor& predictor,
+                                  const Eigen::VectorXd& start, BalanceMemory near = {});
+
+}  // namespace soilbin::compare

@@ -1,0 +1,68 @@
+// Which runs to make before any is made: the conditions that are expected to tell the effects apart best.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "compare/report/table.hpp"
+#include "compare/sweep/answers.hpp"
+#include "compare/test_design/effect_shapes.hpp"
+#include "compare/test_design/rig_limits.hpp"
+
+namespace soilbin::compare {
+
+struct DesignOptions {
+  int runs = 24;
+  Limits limits{};                     ///< of the rig, over what the campaign's runs span
+  std::vector<std::string> effects{};  ///< ids to tell apart; empty: all that the conditions can show
+  ExpectedNoise noise{};               ///< of one run; all empty: usual_noise
+  std::uint64_t seed = 1;              ///< of the runs' order
+  int threads = 1;                     ///< changes the time, never the answer
+  Progress progress{};                 ///< may throw to stop
+};
+
+/// Runs and what they are expected to tell.
+struct PlannedTest {
+  std::vector<OperatingCondition> runs;
+  std::vector<CandidatePair> candidate_pairs;
+  double named_right = 0.5;  ///< share_named_right
+};
+
+struct TestDesign {
+  std::string campaign;
+  std::vector<Run> runs;             ///< to make, in a drawn order; no channel is measured yet
+  std::vector<std::string> varied;   ///< names of the conditions that the rig can vary
+  std::vector<std::string> effects;  ///< CandidatePair's places
+  std::vector<std::string> not_shown;
+  ExpectedNoise noise;
+  std::size_t made = 0;  ///< runs that the campaign holds; both plans count on them
+  PlannedTest planned;
+  PlannedTest swept;  ///< as many runs, one condition varied at a time, the others in the middle of their ranges
+};
+
+/// N conditions within the limits that maximise share_named_right, by exchange: from the sweep, and from the conditions
+/// that add most, each run is moved to where it tells most until none moves (after Fedorov; Cook and Nachtsheim 1980,
+/// Technometrics 22:315). No condition more than thresholds::most_repeats times, where there are enough; so a plan is
+/// never below its sweep. Conditions at which the declared soil does not carry thresholds::spare_load times the load
+/// are left out. Throws InputError for effects that are unknown, declared or not shown by what varies, and for limits
+/// that leave nothing to choose.
+///
+///     const TestDesign design = design_test(campaign, {.runs = 24, .limits = {{"load", {60, 140}}}});
+///     write_runs(design.runs);   // runs.csv, to fill in
+TestDesign design_test(const Campaign& campaign, const DesignOptions& options);
+
+/// For people: what the plan is expected to tell, in two or three sentences.
+std::vector<std::string> in_sentences(const TestDesign& design);
+/// The runs; each effect with what it is most easily taken for, by the plan and by the sweep.
+Table runs_table(const TestDesign& design);
+Table pairs_table(const TestDesign& design);
+
+/// The rows as a campaign's CSV, the channels to measure empty.
+std::string rows_to_fill_in(const TestDesign& design);
+
+/// soilbin-design/1.
+nlohmann::ordered_json to_json(const TestDesign& design);
+
+}  // namespace soilbin::compare
