@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using compare::ContactKind;
 
 struct CalibrateOptions {
-  ContactTestFlags contact;
+  ContactTestFlags contact_test;
   std::string store, output, beside, near = "5%", within = "3%", probability = "90%";
   DecisionFlags decision;
   BatchFlags batch;
@@ -74,7 +74,7 @@ fs::path store_of(const CalibrateOptions& asked, const Soil& soil) {
   if (!asked.store.empty()) return asked.store;
   const fs::path cache = user_cache();
   if (cache.empty()) return {};
-  const fs::path file = cache / "experiments" / fmt::format("{}-{}.json", soil.name, asked.contact.contact);
+  const fs::path file = cache / "experiments" / fmt::format("{}-{}.json", soil.name, asked.contact_test.contact);
   const std::string why = why_not_writable(file);
   if (why.empty()) return file;
   fmt::print(stderr, "warning: {}\n  experiments aren't kept\n", why);
@@ -126,8 +126,8 @@ struct Calibrated {
 void add_decision(CalibrateOptions& asked, const Calibrated& what, fs::path records, const Workplace& place,
                   const std::shared_ptr<Shown>& shown) {
   if (!asked.decision.given()) return;
-  asked.decision.bin.texts["--settling-friction"] = asked.contact.settling_friction;
-  asked.decision.bin.threads = asked.contact.threads;
+  asked.decision.bin.texts["--settling-friction"] = asked.contact_test.settling_friction;
+  asked.decision.bin.threads = asked.contact_test.threads;
   compare::TrialQuestion question = asked.decision.question(place);
   question.soil = what.soil, question.kind = what.kind, question.factors = what.test.factors;
   compare::TrialSettings settings = asked.decision.settings(asked.options.seed, std::move(records));
@@ -152,13 +152,13 @@ int tell(const CalibrateOptions& asked, const Soil& soil, ContactKind kind, cons
 }
 
 int calibrate(CalibrateOptions asked, const Session& session) {
-  const Soil soil = asked.contact.soil_with_grains(session.place);
-  const ContactKind kind = asked.contact.kind();
+  const Soil soil = asked.contact_test.soil_with_grains(session.place);
+  const ContactKind kind = asked.contact_test.kind();
   read_shares(asked);
   const auto shown = std::make_shared<Shown>();
   asked.options.progress = [shown](const compare::CalibrationProgress& progress) { shown->next(progress); };
   const compare::VirtualTest test =
-      asked.contact.test(soil, [shown](const dem::Progress& progress) { shown->within_run(progress); });
+      asked.contact_test.test(soil, [shown](const dem::Progress& progress) { shown->within_run(progress); });
   const fs::path file = store_of(asked, soil);
   add_decision(asked, {soil, kind, test}, records_beside(file), session.place, shown);
   asked.batch.check(asked.store);
@@ -184,7 +184,7 @@ int calibrate(CalibrateOptions asked, const Session& session) {
 }
 
 void add_options(CLI::App& command, CalibrateOptions& asked) {
-  asked.contact.add_to(command);
+  asked.contact_test.add_to(command);
   add_value(command, "--design", asked.options.design, "L9|L16|L25", "orthogonal array to begin with, L9");
   add_value(command, "--runs", asked.options.most_runs, "N", "experiments at most, 30");
   add_value(command, "--near", asked.near, "SHARE", "candidates lie within this share of every target; 5 %");

@@ -79,8 +79,8 @@ Soil ContactTestFlags::soil_with_grains(const Workplace& place) const {
 
 compare::VirtualTest ContactTestFlags::test(const Soil& of, std::function<void(const dem::Progress&)> progress) const {
   compare::ContactQuestion question;
-  question.kind = kind(), question.factors = factors_of(*this, kind());
-  question.targets = targets_of(*this, kind(), of);
+  question.kind = kind(), question.factors = factors_of(*this, question.kind);
+  question.targets = targets_of(*this, question.kind, of);
   question.packings = packings, question.across = across;
   question.settling_friction = read_settling_friction(settling_friction, question.settling_friction);
   question.stresses.clear();

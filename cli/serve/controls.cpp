@@ -149,17 +149,17 @@ struct SliderSpec {
   double lower, upper, step;
 };
 
-constexpr SliderSpec heard_values[] = {{"pass", "1: undisturbed soil", "", 1, 1, 10, 1},
-                                       {"moisture", "water content by mass", "%", 8, 0, 30, 0.5},
-                                       {"position", "mean distance along the bin", "m", 0, -10, 10, 0.1},
-                                       {"run", "order in which the runs were made", "", 1, 0, 100, 1}};
+constexpr SliderSpec condition_sliders[] = {{"pass", "1: undisturbed soil", "", 1, 1, 10, 1},
+                                            {"moisture", "water content by mass", "%", 8, 0, 30, 0.5},
+                                            {"position", "mean distance along the bin", "m", 0, -10, 10, 0.1},
+                                            {"run", "order in which the runs were made", "", 1, 0, 100, 1}};
 
-double given_value(const OperatingCondition& at, const SliderSpec& heard) {
-  const std::string key = heard.key;
+double given_value(const OperatingCondition& at, const SliderSpec& slider) {
+  const std::string key = slider.key;
   if (key == "pass") return at.pass;
-  if (key == "run") return at.run ? *at.run : heard.start;
+  if (key == "run") return at.run ? *at.run : slider.start;
   const std::optional<double>& value = key == "moisture" ? at.moisture : at.position;
-  return value ? read_in(*value, heard.unit) : heard.start;
+  return value ? read_in(*value, slider.unit) : slider.start;
 }
 
 Json hearing_ids(const std::string& key) {
@@ -169,18 +169,18 @@ Json hearing_ids(const std::string& key) {
   return ids;
 }
 
-void add_heard_values(Json& numbers, const OperatingCondition& at) {
-  for (const SliderSpec& heard : heard_values)
+void add_condition_sliders(Json& numbers, const OperatingCondition& at) {
+  for (const SliderSpec& slider : condition_sliders)
     numbers.push_back({{"group", "condition"},
-                       {"key", heard.key},
-                       {"title", compare::capital(heard.key)},
-                       {"meaning", heard.meaning},
-                       {"unit", heard.unit},
-                       {"value", given_value(at, heard)},
-                       {"lower", heard.lower},
-                       {"upper", heard.upper},
-                       {"step", heard.step},
-                       {"effects", hearing_ids(heard.key)}});
+                       {"key", slider.key},
+                       {"title", compare::capital(slider.key)},
+                       {"meaning", slider.meaning},
+                       {"unit", slider.unit},
+                       {"value", given_value(at, slider)},
+                       {"lower", slider.lower},
+                       {"upper", slider.upper},
+                       {"step", slider.step},
+                       {"effects", hearing_ids(slider.key)}});
 }
 
 }  // namespace
@@ -245,7 +245,7 @@ Json numbers_json(const Case& question) {
   add_numbers(numbers, tire, "tire", "", usual_of_tire, tire.radius);
   add_numbers(numbers, tire.lugs, "tire", "lug-", usual_lug * tire.radius, tire.radius);
   if (question.scenario.soil.semi_empirical) add_soil_values(numbers, *question.scenario.soil.semi_empirical);
-  add_heard_values(numbers, at);
+  add_condition_sliders(numbers, at);
   return numbers;
 }
 

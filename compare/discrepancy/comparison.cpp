@@ -178,6 +178,7 @@ std::vector<ModelAnswers> answers_of(const Case& question, const std::vector<Mod
                                      const std::vector<Side>& sides) {
   std::vector<ModelAnswers> study;
   for (std::size_t s = 0; s < sides.size(); ++s) {
+    if (sides[s].kind == SideKind::measured) continue;
     const bool grains = sides[s].kind == SideKind::grains;
     study.push_back({grains ? ModelChoice{ModelKind::dem, {}, sides[s].label} : choices.at(s), {}, sides[s].doubts});
     for (std::size_t i = 0; i < sides[s].points.size(); ++i)
@@ -190,11 +191,10 @@ std::vector<ModelAnswers> answers_of(const Case& question, const std::vector<Mod
 }  // namespace
 
 bool grains_are_coarse(const Comparison& comparison) {
-  std::vector<Side> models = comparison.sides;
-  std::erase_if(models, [](const Side& side) { return side.kind == SideKind::measured; });
-  const bool grains = std::ranges::any_of(models, [](const Side& side) { return side.kind == SideKind::grains; });
+  const auto of_grains = [](const Side& side) { return side.kind == SideKind::grains; };
   const Case& question = comparison.question;
-  return grains && grains_are_coarse(question.scenario, answers_of(question, comparison.choices, models));
+  return std::ranges::any_of(comparison.sides, of_grains) &&
+         grains_are_coarse(question.scenario, answers_of(question, comparison.choices, comparison.sides));
 }
 
 std::vector<std::string> doubts(const Case& question, const std::vector<ModelChoice>& choices,

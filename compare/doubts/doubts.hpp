@@ -3,6 +3,9 @@
 //
 // Who answers a question asks `doubts` with the question and its answers and tells all that it gives: as lines
 // "warning: ..." beside the answer, as "warnings" in JSON (add_warnings), as a list on a page (PageAbout::doubts).
+//
+//   for (const std::string& doubt : doubts(question)) std::cerr << "warning: " << doubt << '\n';
+//
 // What is doubtful is decided in this folder, so that every command tells the same:
 //
 //   a soil by itself     values out of the usual, no strength, nothing carried     doubts.cpp

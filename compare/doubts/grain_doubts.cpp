@@ -73,8 +73,9 @@ bool grains_are_coarse(const Scenario& scenario, const std::vector<ModelAnswers>
 }
 
 std::string coarse_grain_doubt(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
-  if (!grains_are_coarse(scenario, study)) return "";
+  if (!scenario.soil.granular) return "";
   const GrainCounts counts = count_grains(scenario, study);
+  if (!are_coarse(counts)) return "";
   std::string lengths = fmt::format("{:.2g} lie across it ({} wanted)", counts.width, grains_wanted);
   if (counts.contact) lengths += fmt::format(", {:.2g} along its contact ({})", *counts.contact, grains_wanted);
   if (counts.lug) lengths += fmt::format(", {:.2g} in a lug's height ({})", *counts.lug, grains_wanted_in_a_lug);
