@@ -1,13 +1,12 @@
 #include "cli/contact_test_flags.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <tuple>
 #include <utility>
 
 #include "cli/element_test_flags.hpp"
 #include "cli/flag_values.hpp"
+#include "cli/soil_bin.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
 
@@ -69,8 +68,7 @@ compare::ContactKind ContactTestFlags::kind() const {
 
 Soil ContactTestFlags::soil_with_grains(const Workplace& place) const {
   Soil found = find_soil(soil, place.library);
-  if (!found.granular)
-    throw InputError(fmt::format("soil '{}' has no grains\n  hint: it needs a section 'granular'", found.name));
+  grains_of(found);
   if (rolling.empty()) return found;
   found.granular->rolling_resistance = rolling_named(rolling);
   found.granular->grain_grain.rolling_stiffness = found.granular->grain_tire.rolling_stiffness = 0.0;

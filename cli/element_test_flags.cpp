@@ -1,7 +1,5 @@
 #include "cli/element_test_flags.hpp"
 
-#include <fmt/core.h>
-
 #include "cli/flag_values.hpp"
 #include "cli/soil_bin.hpp"
 #include "scenario/description.hpp"
@@ -52,14 +50,6 @@ dem::WorkOptions ElementTestFlags::work() const {
   how.progress = show_dem_progress;
   how.tell = print_beside_progress;
   return how;
-}
-
-const GranularSoil& grains_of(const Soil& soil) {
-  if (!soil.granular)
-    throw InputError(
-        fmt::format("soil '{}' has no grains: an element test needs its section 'granular'\n  hint: paper-sand has one",
-                    soil.name));
-  return *soil.granular;
 }
 
 }  // namespace soilbin::cli

@@ -25,7 +25,4 @@ struct ElementTestFlags {
   dem::WorkOptions work() const;
 };
 
-/// The soil's grains; throws InputError where the file has none.
-const GranularSoil& grains_of(const Soil& soil);
-
 }  // namespace soilbin::cli

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin {
@@ -96,6 +97,15 @@ struct Soil {
   std::string source{};                          ///< where the soil as a whole is described
   std::map<std::string, std::string> sources{};  ///< where single numbers beside the two sections come from
 };
+
+/// The soil's grains, for who can't do without them. Throws InputError where it has none.
+inline const GranularSoil& grains_of(const Soil& soil) {
+  if (!soil.granular)
+    throw InputError("soil '" + soil.name +
+                     "' has no grains: the model dem and virtual tests need its section 'granular'\n  hint: 'soilbin "
+                     "list soils' says which have it");
+  return *soil.granular;
+}
 
 /// n [-], which the units of some values hang on; 1 for a soil that has values for grains alone.
 inline double exponent_of(const Soil& soil) { return soil.semi_empirical ? soil.semi_empirical->exponent.value : 1.0; }

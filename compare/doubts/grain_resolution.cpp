@@ -119,9 +119,8 @@ double contact_length(double sinkage, double radius) {
 
 ResolutionError resolution_error(const Scenario& scenario, const OperatingCondition& at, double sinkage,
                                  SinkageOf whose) {
-  if (!scenario.soil.granular) throw InputError("the soil has no grains");
   const Tire& tire = scenario.tire;
-  const double d = mean_diameter(*scenario.soil.granular);
+  const double d = mean_diameter(grains_of(scenario.soil));
   static const std::vector<Slopes> lugged = slopes_of(StudiedWheel::lugged), bare = slopes_of(StudiedWheel::bare);
   const std::vector<Slopes>& studied = is_lugged(tire) ? lugged : bare;
   const double coarsest = with_lugs.front().diameter;

@@ -138,20 +138,19 @@ VirtualTest tilting_board_test(const ElementExperiment& experiment, const dem::T
 }  // namespace
 
 VirtualTest contact_test(const Soil& soil, const ContactQuestion& question) {
-  if (!soil.granular)
-    throw InputError(fmt::format("soil '{}' has no grains\n  hint: it needs a section 'granular'", soil.name));
-  const ElementExperiment experiment{*soil.granular, question.factors, question.targets, question.how};
+  const GranularSoil& granular = grains_of(soil);
+  const ElementExperiment experiment{granular, question.factors, question.targets, question.how};
   if (question.kind == ContactKind::grain_tire) {
     dem::TiltingBoardSettings settings;
     settings.across = question.across;
-    static_cast<dem::LawFlags&>(settings.laws) = dem::laws_of(*soil.granular);
-    settings.dt = board_step(*soil.granular);
+    static_cast<dem::LawFlags&>(settings.laws) = dem::laws_of(granular);
+    settings.dt = board_step(granular);
     return tilting_board_test(experiment, settings, question.packings > 0 ? question.packings : 4);
   }
   dem::DirectShearSettings settings;
   settings.packings = question.packings > 0 ? question.packings : 1;
   settings.specimen.settling_friction = question.settling_friction;
-  static_cast<dem::LawFlags&>(settings.specimen.laws) = dem::laws_of(*soil.granular);
+  static_cast<dem::LawFlags&>(settings.specimen.laws) = dem::laws_of(granular);
   settings.stresses = question.stresses;
   return shear_box_test(experiment, settings, question.strength);
 }

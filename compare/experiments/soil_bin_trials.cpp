@@ -79,8 +79,7 @@ class Trials {
 }  // namespace
 
 void check(const TrialQuestion& question, const TrialSettings& settings) {
-  if (!question.soil.granular)
-    throw InputError(fmt::format("soil '{}' has no grains\n  hint: it needs a section 'granular'", question.soil.name));
+  grains_of(question.soil);
   if (question.setpoints.empty()) throw InputError(fmt::format("{} has no setpoint to run", question.campaign.name));
   if (settings.packings < 1) throw InputError("a candidate runs on one bed or more");
   const std::string& name = question.campaign.name;

@@ -12,12 +12,8 @@ namespace soilbin::dem {
 namespace fs = std::filesystem;
 
 BedRecipe DemModel::recipe(const Scenario& scenario) const {
-  if (!scenario.soil.granular)
-    throw InputError("soil '" + scenario.soil.name +
-                     "' has no values of grains (granular:), which the model dem needs\n  hint: soilbin list soils "
-                     "says which have grains");
   BedRecipe recipe;
-  recipe.soil = *scenario.soil.granular;
+  recipe.soil = grains_of(scenario.soil);
   static_cast<LawFlags&>(recipe.laws) = laws_of(recipe.soil);
   recipe.size = settings_.size;
   if (scenario.bin) recipe.size.depth = scenario.bin->depth, recipe.size.width = scenario.bin->width;

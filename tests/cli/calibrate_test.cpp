@@ -15,7 +15,7 @@ TEST(CalibrateCommand, RefusesWhatMakesNoSenseWithAHint) {
     const char* says;
   } const wrong[] = {
       {"calibrate papr-sand", "did you mean 'paper-sand'"},
-      {"calibrate dry-sand", "it needs a section 'granular'"},
+      {"calibrate dry-sand", "need its section 'granular'"},
       {"calibrate paper-sand --contact tyre", "did you mean 'tire'"},
       {"calibrate paper-sand --contact tire", "--target board_angle=31.47deg"},
       {"calibrate paper-sand --contact tire --target angle=31deg", "board_angle"},

@@ -120,7 +120,7 @@ TEST(Drive, GrainsTakeWhatTheyCanAndSayWhatTheyCannot) {
   EXPECT_THAT(unknown.err, HasSubstr("did you mean 'dem'"));
   const Outcome without = soilbin("drive rover-climb --model dem");
   EXPECT_EQ(without.status, 2);
-  EXPECT_THAT(without.err, HasSubstr("no values of grains"));
+  EXPECT_THAT(without.err, HasSubstr("has no grains"));
   const Scratch scratch;
   const std::string file =
       scratch.write("two.yaml", std::string(small_drive) + "    - {at: 0.2 m, soil: snow}\n").string();

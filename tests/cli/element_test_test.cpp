@@ -19,7 +19,8 @@ TEST(ElementTestCommand, RefusesWhatMakesNoSenseWithAHint) {
   } const wrong[] = {
       {"element-test direct-sheer paper-sand", "did you mean 'direct-shear'"},
       {"element-test direct-shear papr-sand", "did you mean 'paper-sand'"},
-      {"element-test direct-shear dry-sand", "has no grains: an element test needs its section 'granular'"},
+      {"element-test direct-shear dry-sand",
+       "has no grains: the model dem and virtual tests need its section 'granular'"},
       {"element-test direct-shear paper-sand --stress 20", "kPa"},
       {"element-test direct-shear paper-sand --size 0.1", "--size"},
       {"element-test direct-shear paper-sand --settling-friction lose", "did you mean 'loose'"},

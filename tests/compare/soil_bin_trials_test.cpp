@@ -138,7 +138,7 @@ TEST(SoilBinTrials, WhatNoRunCouldAnswerIsRefusedAtOnce) {
   EXPECT_EQ(says_of(unanswered(), settings), "");
   TrialQuestion wrong = unanswered();
   wrong.soil.granular.reset();
-  EXPECT_THAT(says_of(wrong, settings), HasSubstr("it needs a section 'granular'"));
+  EXPECT_THAT(says_of(wrong, settings), HasSubstr("need its section 'granular'"));
   wrong = unanswered(), wrong.setpoints.clear();
   EXPECT_THAT(says_of(wrong, settings), HasSubstr("nature has no setpoint to run"));
   wrong = unanswered(), wrong.campaign.wheel.lugs.height = 0.01;
