@@ -1,6 +1,7 @@
 // Beds: measured as geometry says, at rest, level, the same each time, and found again.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -160,7 +161,8 @@ class SlowBedStore : public ::testing::Test {
  protected:
   void SetUp() override { std::filesystem::remove_all(folder_); }
   void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) / "soilbin-bed-store";
+  std::filesystem::path folder_ =
+      std::filesystem::path(::testing::TempDir()) / ("soilbin-bed-store-" + std::to_string(::getpid()));
 };
 
 TEST_F(SlowBedStore, FindsABedAgainToTheBit) {
@@ -213,7 +215,8 @@ TEST(RelativeDensity, RunsFromTheLoosestToTheDensest) {
 // The limits' own beds lie at 0 and 1, friction that keeps grains from sliding lies between, and what is not made yet
 // is not made by asking whether it is known.
 TEST(SlowRelativeDensity, OfABedByNameLiesBetweenItsLimits) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "relative-density";
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / ("relative-density-" + std::to_string(::getpid()));
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   const GranularSoil soil = test::soft_soil();

@@ -92,7 +92,7 @@ struct Kernels {
 };
 
 /// The instruction sets that the kernels were compiled for and this machine has, widest first: "avx512", "avx2",
-/// "sse4".
+/// "sse4". The first two give the same bits.
 std::span<const std::string_view> instruction_sets();
 
 /// The kernels for one of them. Throws InputError for any other name.

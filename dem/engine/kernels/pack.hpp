@@ -18,20 +18,33 @@ struct PackMask {
   hn::Mask<Lanes> m;
 };
 
+/// a b before anything is added to it: a sum that follows rounds once, where the instruction set can. Which operations
+/// are fused stands here, not with the compiler (-ffp-contract=off), so AVX2 and AVX-512 give the same bits.
+struct Product {
+  Vector a, b;
+};
+
 struct Pack {
   Vector v;
   Pack() = default;
   HWY_INLINE Pack(Vector vector) : v(vector) {}
+  HWY_INLINE Pack(Product product) : v(hn::Mul(product.a, product.b)) {}
   HWY_INLINE explicit Pack(double value) : v(hn::Set(Lanes(), value)) {}
-
-  HWY_INLINE friend Pack operator+(Pack a, Pack b) { return hn::Add(a.v, b.v); }
-  HWY_INLINE friend Pack operator-(Pack a, Pack b) { return hn::Sub(a.v, b.v); }
-  HWY_INLINE friend Pack operator*(Pack a, Pack b) { return hn::Mul(a.v, b.v); }
-  HWY_INLINE friend Pack operator/(Pack a, Pack b) { return hn::Div(a.v, b.v); }
-  HWY_INLINE friend Pack operator-(Pack a) { return hn::Neg(a.v); }
-  HWY_INLINE friend PackMask operator>(Pack a, Pack b) { return {hn::Gt(a.v, b.v)}; }
-  HWY_INLINE friend PackMask operator<(Pack a, Pack b) { return {hn::Lt(a.v, b.v)}; }
 };
+
+HWY_INLINE Product operator*(Pack a, Pack b) { return {a.v, b.v}; }
+HWY_INLINE Pack operator/(Pack a, Pack b) { return hn::Div(a.v, b.v); }
+HWY_INLINE Pack operator-(Pack a) { return hn::Neg(a.v); }
+HWY_INLINE Pack operator+(Pack a, Pack b) { return hn::Add(a.v, b.v); }
+HWY_INLINE Pack operator+(Product a, Pack b) { return hn::MulAdd(a.a, a.b, b.v); }
+HWY_INLINE Pack operator+(Pack a, Product b) { return hn::MulAdd(b.a, b.b, a.v); }
+HWY_INLINE Pack operator+(Product a, Product b) { return a + Pack(b); }
+HWY_INLINE Pack operator-(Pack a, Pack b) { return hn::Sub(a.v, b.v); }
+HWY_INLINE Pack operator-(Product a, Pack b) { return hn::MulSub(a.a, a.b, b.v); }
+HWY_INLINE Pack operator-(Pack a, Product b) { return hn::NegMulAdd(b.a, b.b, a.v); }
+HWY_INLINE Pack operator-(Product a, Product b) { return a - Pack(b); }
+HWY_INLINE PackMask operator>(Pack a, Pack b) { return {hn::Gt(a.v, b.v)}; }
+HWY_INLINE PackMask operator<(Pack a, Pack b) { return {hn::Lt(a.v, b.v)}; }
 
 HWY_INLINE Pack sqrt(Pack a) { return hn::Sqrt(a.v); }
 HWY_INLINE Pack min(Pack a, Pack b) { return hn::Min(a.v, b.v); }
@@ -110,49 +123,66 @@ HWY_INLINE void add_to(Tag d, double* sum, hn::Vec<Tag> what) {
   hn::Store(hn::Add(hn::Load(d, sum), what), d, sum);
 }
 
-/// The way back: adds row after row of six columns to the first six of the eight doubles at row(k), which are aligned
-/// to 64 bytes. The other two stay what they are.
-template <class RowAt, int n = lanes>
-HWY_INLINE void add_rows(const SixPacks& of, const RowAt& row) {
-  const Lanes d;
-  const auto ab_even = hn::InterleaveLower(d, of.a.v, of.b.v), ab_odd = hn::InterleaveUpper(d, of.a.v, of.b.v);
-  const auto cd_even = hn::InterleaveLower(d, of.c.v, of.d.v), cd_odd = hn::InterleaveUpper(d, of.c.v, of.d.v);
-  const auto ef_even = hn::InterleaveLower(d, of.e.v, of.f.v), ef_odd = hn::InterleaveUpper(d, of.e.v, of.f.v);
-  if constexpr (n == 8) {
-    const auto zero = hn::Zero(d);
-    const auto abcd0 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(cd_even), ab_even);  // rows 0 and 4
-    const auto abcd1 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(cd_odd), ab_odd);    // 1 and 5
-    const auto abcd2 = hn::OddEvenBlocks(cd_even, hn::SwapAdjacentBlocks(ab_even));  // 2 and 6
-    const auto abcd3 = hn::OddEvenBlocks(cd_odd, hn::SwapAdjacentBlocks(ab_odd));    // 3 and 7
-    const auto ef0 = hn::OddEvenBlocks(zero, ef_even), ef1 = hn::OddEvenBlocks(zero, ef_odd);
-    const auto ef2 = hn::OddEvenBlocks(zero, hn::SwapAdjacentBlocks(ef_even));
-    const auto ef3 = hn::OddEvenBlocks(zero, hn::SwapAdjacentBlocks(ef_odd));
-    add_to(d, row(0), hn::ConcatLowerLower(d, ef0, abcd0));
-    add_to(d, row(1), hn::ConcatLowerLower(d, ef1, abcd1));
-    add_to(d, row(2), hn::ConcatLowerLower(d, ef2, abcd2));
-    add_to(d, row(3), hn::ConcatLowerLower(d, ef3, abcd3));
-    add_to(d, row(4), hn::ConcatUpperUpper(d, ef0, abcd0));
-    add_to(d, row(5), hn::ConcatUpperUpper(d, ef1, abcd1));
-    add_to(d, row(6), hn::ConcatUpperUpper(d, ef2, abcd2));
-    add_to(d, row(7), hn::ConcatUpperUpper(d, ef3, abcd3));
-  } else if constexpr (n == 4) {
-    const hn::Half<Lanes> half;
-    const auto add = [&](int k, Vector abcd, hn::Vec<hn::Half<Lanes>> ef) HWY_ATTR {
-      add_to(d, row(k), abcd);
-      add_to(half, row(k) + 4, ef);
-    };
-    add(0, hn::ConcatLowerLower(d, cd_even, ab_even), hn::LowerHalf(half, ef_even));
-    add(1, hn::ConcatLowerLower(d, cd_odd, ab_odd), hn::LowerHalf(half, ef_odd));
-    add(2, hn::ConcatUpperUpper(d, cd_even, ab_even), hn::UpperHalf(half, ef_even));
-    add(3, hn::ConcatUpperUpper(d, cd_odd, ab_odd), hn::UpperHalf(half, ef_odd));
-  } else {
-    const auto add = [&](int k, Vector ab, Vector cd, Vector ef) HWY_ATTR {
-      add_to(d, row(k), ab);
-      add_to(d, row(k) + 2, cd);
-      add_to(d, row(k) + 4, ef);
-    };
-    add(0, ab_even, cd_even, ef_even);
-    add(1, ab_odd, cd_odd, ef_odd);
+/// The way back: six columns as rows of six doubles, one a lane.
+template <int n = lanes>  // n: so that only the branch for this width is compiled
+class Rows {
+ public:
+  HWY_INLINE explicit Rows(const SixPacks& of) {
+    const Lanes d;
+    const auto ab_even = hn::InterleaveLower(d, of.a.v, of.b.v), ab_odd = hn::InterleaveUpper(d, of.a.v, of.b.v);
+    const auto cd_even = hn::InterleaveLower(d, of.c.v, of.d.v), cd_odd = hn::InterleaveUpper(d, of.c.v, of.d.v);
+    const auto ef_even = hn::InterleaveLower(d, of.e.v, of.f.v), ef_odd = hn::InterleaveUpper(d, of.e.v, of.f.v);
+    if constexpr (n == 8) {
+      const auto zero = hn::Zero(d);
+      const auto put = [&](int k, Vector abcd, Vector ef) HWY_ATTR {
+        front_[k] = hn::ConcatLowerLower(d, ef, abcd);
+        front_[k + 4] = hn::ConcatUpperUpper(d, ef, abcd);
+      };
+      put(0, hn::OddEvenBlocks(hn::SwapAdjacentBlocks(cd_even), ab_even), hn::OddEvenBlocks(zero, ef_even));
+      put(1, hn::OddEvenBlocks(hn::SwapAdjacentBlocks(cd_odd), ab_odd), hn::OddEvenBlocks(zero, ef_odd));
+      put(2, hn::OddEvenBlocks(cd_even, hn::SwapAdjacentBlocks(ab_even)),
+          hn::OddEvenBlocks(zero, hn::SwapAdjacentBlocks(ef_even)));
+      put(3, hn::OddEvenBlocks(cd_odd, hn::SwapAdjacentBlocks(ab_odd)),
+          hn::OddEvenBlocks(zero, hn::SwapAdjacentBlocks(ef_odd)));
+    } else if constexpr (n == 4) {
+      const auto put = [&](int k, Vector abcd, Vector ef) HWY_ATTR { front_[k] = abcd, back_[k] = ef; };
+      put(0, hn::ConcatLowerLower(d, cd_even, ab_even), ef_even);
+      put(1, hn::ConcatLowerLower(d, cd_odd, ab_odd), ef_odd);
+      put(2, hn::ConcatUpperUpper(d, cd_even, ab_even), hn::ConcatUpperUpper(d, ef_even, ef_even));
+      put(3, hn::ConcatUpperUpper(d, cd_odd, ab_odd), hn::ConcatUpperUpper(d, ef_odd, ef_odd));
+    } else {
+      front_[0] = ab_even, middle_[0] = cd_even, back_[0] = ef_even;
+      front_[1] = ab_odd, middle_[1] = cd_odd, back_[1] = ef_odd;
+    }
+  }
+
+  /// Adds row k to the first six of the eight doubles at `sum`, which are aligned to 64 bytes. The other two stay what
+  /// they are.
+  HWY_INLINE void add(int k, double* sum) const {
+    const Lanes d;
+    add_to(d, sum, front_[k]);
+    if constexpr (n == 4) {
+      const hn::Half<Lanes> half;
+      add_to(half, sum + 4, hn::LowerHalf(half, back_[k]));
+    } else if constexpr (n == 2) {
+      add_to(d, sum + 2, middle_[k]);
+      add_to(d, sum + 4, back_[k]);
+    }
+  }
+
+ private:
+  Vector front_[n], middle_[n == 2 ? n : 1], back_[n == 8 ? 1 : n];
+};
+
+/// Adds what the contacts of a pack do to both of their grains, contact after contact: the same order, so the same
+/// bits, for every width.
+template <class FirstAt, class SecondAt>
+HWY_INLINE void add_rows(const SixPacks& on_first, const FirstAt& first, const SixPacks& on_second,
+                         const SecondAt& second) {
+  const Rows of_first(on_first), of_second(on_second);
+  for (int k = 0; k < lanes; ++k) {
+    of_first.add(k, first(k));
+    of_second.add(k, second(k));
   }
 }
 

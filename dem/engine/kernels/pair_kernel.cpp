@@ -34,10 +34,11 @@ HWY_INLINE Triad where(PackMask yes, const Triad& a) { return {where(yes, a.x), 
 /// Adds what the contacts did to the loads of their grains, contact by contact.
 HWY_INLINE void scatter(const PairSweep& sweep, std::size_t pair, const Triad& force, const Triad& on_first,
                         const Triad& on_second) {
-  add_rows({force.x, force.y, force.z, on_first.x, on_first.y, on_first.z},
-           [&](int k) { return &sweep.load[sweep.first[pair + k]].force.x; });
-  add_rows({-force.x, -force.y, -force.z, on_second.x, on_second.y, on_second.z},
-           [&](int k) { return &sweep.load[sweep.second[pair + k]].force.x; });
+  const auto rows = [&](const std::uint32_t* grain) {
+    return [load = sweep.load, grain = grain + pair](int k) { return &load[grain[k]].force.x; };
+  };
+  add_rows({force.x, force.y, force.z, on_first.x, on_first.y, on_first.z}, rows(sweep.first),
+           {-force.x, -force.y, -force.z, on_second.x, on_second.y, on_second.z}, rows(sweep.second));
 }
 
 /// Places of a pack's contacts in the list.
@@ -93,16 +94,17 @@ HWY_INLINE void count(const PairSweep& sweep, bool rolls, const Meeting& m, cons
   add_up(losses, touching, found.lost);
   const Triad dashpot = where(touching, losses.dashpot * m.touch.normal), slide = where(touching, does.tangential);
   const SixPacks forces{dashpot.x, dashpot.y, dashpot.z, slide.x, slide.y, slide.z};
-  add_rows(forces, [&](int k) { return &sweep.taking[sweep.first[pair + k]].dashpot.x; });
-  add_rows({-forces.a, -forces.b, -forces.c, -forces.d, -forces.e, -forces.f},
-           [&](int k) { return &sweep.taking[sweep.second[pair + k]].dashpot.x; });
+  const std::uint32_t *first = sweep.first + pair, *second = sweep.second + pair;
+  add_rows(
+      forces, [&](int k) { return &sweep.taking[first[k]].dashpot.x; },
+      {-forces.a, -forces.b, -forces.c, -forces.d, -forces.e, -forces.f},
+      [&](int k) { return &sweep.taking[second[k]].dashpot.x; });
   if (!rolls) return;
   const Triad couple = where(touching, does.couple);
   const Pack zero(0.0);
-  add_rows({couple.x, couple.y, couple.z, zero, zero, zero},
-           [&](int k) { return &sweep.taking[sweep.first[pair + k]].couple.x; });
-  add_rows({-couple.x, -couple.y, -couple.z, zero, zero, zero},
-           [&](int k) { return &sweep.taking[sweep.second[pair + k]].couple.x; });
+  add_rows(
+      {couple.x, couple.y, couple.z, zero, zero, zero}, [&](int k) { return &sweep.taking[first[k]].couple.x; },
+      {-couple.x, -couple.y, -couple.z, zero, zero, zero}, [&](int k) { return &sweep.taking[second[k]].couple.x; });
 }
 
 HWY_INLINE Memory<Pack> recall(const double* memory) {
