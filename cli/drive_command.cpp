@@ -39,6 +39,10 @@ bekker_wong::DriveProgress progress_in_time() {
   };
 }
 
+int threads_of(const DriveOptions& options) {
+  return options.soil_bin.threads > 0 ? options.soil_bin.threads : all_cores();
+}
+
 /// So many of the samples, evenly, the first and the last among them.
 template <class Sample>
 std::vector<Sample> picked(const std::vector<Sample>& samples, std::size_t rows) {
@@ -93,7 +97,8 @@ std::string drive_text(const compare::DrivePart& part) {
 }
 
 int drive_analytically(const DriveOptions& options, const Case& question, const Session& session) {
-  const compare::DrivePart part = compare::run_drive(question, options.samples, progress_in_time());
+  const compare::DrivePart part =
+      compare::run_drive(question, options.samples, progress_in_time(), threads_of(options));
   const std::vector<std::string> doubts = compare::doubts(part);
   print_warnings(doubts);
   const Outputs outputs = save(options, part, question.name, doubts, session);
@@ -153,7 +158,8 @@ int drive_with_grains(const DriveOptions& options, const Case& question, const S
                               options.soil_bin.packings, {options.soil_bin.replay, source_state()});
   std::vector<compare::DriveSide> sides;
   if (options.model == "both")
-    sides.push_back(compare::analytic_side(compare::run_drive(question, options.samples, progress_in_time())));
+    sides.push_back(
+        compare::analytic_side(compare::run_drive(question, options.samples, progress_in_time(), threads_of(options))));
   grains.run();
   sides.insert(sides.end(), grains.sides().begin(), grains.sides().end());
   const compare::DriveSides drive = compare::side_by_side(question, std::move(sides), grains.notes());

@@ -70,7 +70,6 @@ void check(int status, const char* what) {
 
 struct Integrator::Body {
   Body(Problem given, double start, std::vector<double> y);
-  void begin_sensitivities();
   /// Runs a callback; an exception is kept for advance and ends the integration.
   template <class Call>
   int guarded(const Call& call) {
@@ -95,11 +94,6 @@ struct Integrator::Body {
     Body& b = *static_cast<Body*>(self);
     return b.guarded([&] { b.problem.summands(t, all_of(y), all_of(out)); });
   }
-  static int sensitivities(int, realtype t, N_Vector y, N_Vector ydot, int i, N_Vector s, N_Vector sdot, void* self,
-                           N_Vector, N_Vector) {
-    Body& b = *static_cast<Body*>(self);
-    return b.guarded([&] { b.problem.sensitivity(i, t, all_of(y), all_of(ydot), all_of(s), all_of(sdot)); });
-  }
   static void note(int code, const char*, const char* function, char* message, void* self) {
     if (code < 0) static_cast<Body*>(self)->message = fmt::format("{}: {}", function, message);
   }
@@ -111,8 +105,6 @@ struct Integrator::Body {
   Vector y, tolerances, sums;
   Matrix jacobian;
   LinearSolver solver;
-  std::vector<Vector> sensitivity_vectors;
-  std::vector<N_Vector> sensitivity_handles;
   Memory memory;
   std::exception_ptr thrown;
   std::string message;
@@ -145,22 +137,6 @@ Integrator::Body::Body(Problem given, double start, std::vector<double> initial)
     check(CVodeQuadSStolerances(m, problem.relative_tolerance, problem.sum_tolerance), "the sums' tolerances");
     check(CVodeSetQuadErrCon(m, 1), "the sums' error control");
   }
-  begin_sensitivities();
-}
-
-void Integrator::Body::begin_sensitivities() {
-  const std::size_t count = problem.parameter_scales.size();
-  if (count == 0) return;
-  for (std::size_t i = 0; i < count; ++i) {
-    sensitivity_vectors.push_back(vector_of(problem.sensitivity_starts.at(i), context.handle));
-    sensitivity_handles.push_back(sensitivity_vectors.back().get());
-  }
-  void* m = memory.handle;
-  check(CVodeSensInit1(m, static_cast<int>(count), CV_STAGGERED1, sensitivities, sensitivity_handles.data()),
-        "the sensitivities");
-  check(CVodeSetSensParams(m, nullptr, problem.parameter_scales.data(), nullptr), "the parameters' scales");
-  check(CVodeSensEEtolerances(m), "the sensitivities' tolerances");
-  check(CVodeSetSensErrCon(m, 1), "the sensitivities' error control");
 }
 
 /// In words, for the statuses that an integration ends with.
@@ -204,10 +180,6 @@ Stop Integrator::advance(double until) {
     const std::span<const double> sums = all_of(b.sums.get());
     b.sum_values.assign(sums.begin(), sums.end());
   }
-  if (!b.sensitivity_handles.empty()) {
-    realtype at = 0.0;
-    check(CVodeGetSens(b.memory.handle, &at, b.sensitivity_handles.data()), "reading the sensitivities");
-  }
   Stop stop{reached, {}};
   if (status == CV_ROOT_RETURN) {
     stop.signs.resize(static_cast<std::size_t>(b.problem.root_count));
@@ -220,18 +192,10 @@ void Integrator::restart() {
   Body& b = *body_;
   check(CVodeReInit(b.memory.handle, b.time, b.y.get()), "the new start");
   if (b.problem.sum_count > 0) check(CVodeQuadReInit(b.memory.handle, b.sums.get()), "the sums' new start");
-  if (!b.sensitivity_handles.empty())
-    check(CVodeSensReInit(b.memory.handle, CV_STAGGERED1, b.sensitivity_handles.data()),
-          "the sensitivities' new start");
 }
 
 const std::vector<double>& Integrator::state() const { return body_->state; }
 const std::vector<double>& Integrator::sums() const { return body_->sum_values; }
-
-std::vector<double> Integrator::sensitivity(int i) const {
-  const std::span<const double> s = all_of(body_->sensitivity_handles.at(static_cast<std::size_t>(i)));
-  return {s.begin(), s.end()};
-}
 
 Effort Integrator::effort() const {
   Effort e;

@@ -12,18 +12,11 @@ namespace soilbin::sundials {
 /// Integrator::advance.
 struct Problem {
   using Function = std::function<void(double t, std::span<const double> y, std::span<double> out)>;
-  /// ds/dt of the i-th sensitivity s = dy/dp_i, from ydot = rate(t, y).
-  using SensitivityFunction =
-      std::function<void(int i, double t, std::span<const double> y, std::span<const double> ydot,
-                         std::span<const double> s, std::span<double> sdot)>;
   Function rate;
   Function roots;  ///< where one of these changes sign, advance stops
   int root_count = 0;
   Function summands;  ///< integrated beside the state, within the same tolerance
   int sum_count = 0;
-  SensitivityFunction sensitivity;
-  std::vector<double> parameter_scales;  ///< one a parameter, for the sensitivities' tolerance; empty: none
-  std::vector<std::vector<double>> sensitivity_starts;  ///< dy/dp_i at the start, one a parameter
   double relative_tolerance = 1e-6;
   std::vector<double> absolute_tolerances;  ///< one a state
   double sum_tolerance = 1e-9;              ///< absolute, of the sums
@@ -43,7 +36,7 @@ struct Effort {
 };
 
 /// Variable-order BDF with Newton's method and a dense difference-quotient Jacobian: CVODES (Hindmarsh et al. 2005, ACM
-/// Trans. Math. Softw. 31:363; Serban and Hindmarsh 2005 for the sensitivities). Not to be copied.
+/// Trans. Math. Softw. 31:363). Not to be copied.
 class Integrator {
  public:
   Integrator(Problem problem, double start, std::vector<double> state);
@@ -55,13 +48,11 @@ class Integrator {
   /// where the step size collapses or the corrector doesn't converge.
   Stop advance(double until);
 
-  /// Begins anew at the present time and state: after the rate's form has changed. Sums and sensitivities go on.
+  /// Begins anew at the present time and state: after the rate's form has changed. Sums go on.
   void restart();
 
   const std::vector<double>& state() const;
   const std::vector<double>& sums() const;
-  /// dy/dp_i at the present time.
-  std::vector<double> sensitivity(int i) const;
   Effort effort() const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <functional>
@@ -15,6 +16,7 @@
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
+#include "scenario/nearest_word.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::compare {
@@ -39,6 +41,120 @@ std::optional<double> steepest_of(const Case& question) {
   } catch (const NoSolution&) {
     return {};
   }
+}
+
+/// "the wheel is stuck"
+std::string in_words(DriveEnd end) {
+  switch (end) {
+    case DriveEnd::time_is_up:
+      return "time is up";
+    case DriveEnd::arrived:
+      return "the wheel arrives";
+    case DriveEnd::rolled_back:
+      return "the wheel has rolled back";
+    case DriveEnd::bed_ends:
+      return "the bed ends";
+    case DriveEnd::stuck:
+    case DriveEnd::buried:
+      break;
+  }
+  return fmt::format("the wheel is {}", word_of(end));
+}
+
+/// "50.49 ± 0.80", or the value alone where it has no error.
+std::string with_error(double value, const std::optional<double>& std_error) {
+  return std_error && *std_error > 0.0 ? number(Estimate{value, *std_error}) : fmt::format("{:.4g}", value);
+}
+
+std::string in_words(const MovedDrive::Side& side) {
+  if (!side.record) return "the soil can't hold the wheel at its start";
+  return fmt::format("{} after {} s and {} m", in_words(side.record->end), number(side.record->end_time),
+                     number(side.record->samples.back().travelled));
+}
+
+/// ", most of it from the friction angle and K": the values that make up four fifths of the variance, where they are
+/// three at most.
+std::string largest_parts(const DrivePart& part) {
+  constexpr double most = 0.8;
+  const bool by_time = part.record.end == DriveEnd::arrived;
+  const auto value = [&](const bekker_wong::DriveRecord& r) {
+    return std::optional(by_time ? r.end_time : r.samples.back().travelled);
+  };
+  std::vector<std::pair<double, std::string>> parts;
+  double sum = 0.0, told = 0.0;
+  for (const MovedDrive& drive : part.errors.moved) {
+    const double by = change(drive, *value(part.record), value).value_or(0.0);
+    parts.emplace_back(by * by, drive.parameter->title);
+    sum += by * by;
+  }
+  std::ranges::sort(parts, std::greater());
+  std::vector<std::string> names;
+  for (const auto& [square, name] : parts) {
+    if (told >= most * sum) break;
+    told += square;
+    names.push_back(name);
+  }
+  return names.empty() || names.size() > 3 ? "" : ", most of it from " + listed(names);
+}
+
+/// Where the errors come from, and the drives that end in another way.
+std::vector<std::string> words_on_errors(const DrivePart& part) {
+  std::vector<std::string> sentences;
+  if (part.errors.travelled)
+    sentences.push_back("± is one standard error, from the standard deviations of the soil's values" +
+                        largest_parts(part) + ".");
+  for (const MovedDrive& drive : part.errors.moved)
+    for (const MovedDrive::Side* side : {&drive.lower, &drive.higher}) {
+      if (!drive.was_moved(*side) || (side->record && side->record->end == part.record.end)) continue;
+      sentences.push_back(fmt::format("With the {} of {} a standard deviation {} ({} {}) {}.", drive.parameter->title,
+                                      drive.soil, side == &drive.lower ? "lower" : "higher",
+                                      number(side->value * drive.parameter->per_si), drive.parameter->unit,
+                                      in_words(*side)));
+    }
+  return sentences;
+}
+
+/// A row for each uncertain value: what a standard deviation of it does to the drive.
+Table errors_table(const DriveErrors& errors) {
+  Table table{"What a standard deviation of each of the soil's values does",
+              {"", "as declared", "a standard deviation lower", "higher"},
+              {true, false, true, true}};
+  const bool one_soil =
+      std::ranges::all_of(errors.moved, [&](const MovedDrive& d) { return d.soil == errors.moved.front().soil; });
+  for (const MovedDrive& drive : errors.moved) {
+    const auto cell = [&](const MovedDrive::Side& side) -> std::string {
+      if (!drive.was_moved(side)) return "lies on its bound";
+      if (!side.record) return in_words(side);
+      return fmt::format("{}, {:.3g} m, {:.3g} s", word_of(side.record->end), side.record->samples.back().travelled,
+                         side.record->end_time);
+    };
+    const SoilParameter& of = *drive.parameter;
+    table.add({one_soil ? of.title : fmt::format("{} of {}", of.title, drive.soil),
+               number(drive.of, of.per_si) + (of.unit == std::string_view("-") ? "" : fmt::format(" {}", of.unit)),
+               cell(drive.lower), cell(drive.higher)});
+  }
+  return table;
+}
+
+Json side_json(const MovedDrive& drive, const MovedDrive::Side& side) {
+  if (!drive.was_moved(side)) return nullptr;
+  Json json = {{"value", side.value}};
+  json["end"] = side.record ? Json(std::string(word_of(side.record->end))) : Json(nullptr);
+  json["end_time"] = side.record ? Json(side.record->end_time) : Json(nullptr);
+  json["travelled"] = side.record ? Json(side.record->samples.back().travelled) : Json(nullptr);
+  return json;
+}
+
+Json errors_json(const DriveErrors& errors) {
+  Json rows = Json::array();
+  for (const MovedDrive& drive : errors.moved)
+    rows.push_back({{"soil", drive.soil},
+                    {"parameter", drive.parameter->name},
+                    {"value", drive.of.value},
+                    {"std_error", drive.of.std_error},
+                    {"lower", side_json(drive, drive.lower)},
+                    {"higher", side_json(drive, drive.higher)}});
+  return rows;
 }
 
 struct Line {
@@ -82,29 +198,37 @@ const DriveColumns<DriveSample>& sample_columns() {
 
 }  // namespace
 
-DrivePart run_drive(const Case& question, int samples, const bekker_wong::DriveProgress& progress) {
+DrivePart run_drive(const Case& question, int samples, const bekker_wong::DriveProgress& progress, int threads) {
   if (!question.drive) throw InputError("case '" + question.name + "' has no section 'drive'");
-  return {question, bekker_wong::drive_wheel(question.scenario, *question.drive, samples, {}, progress),
-          steepest_of(question)};
+  const Drive& drive = *question.drive;
+  DrivePart part{
+      question, bekker_wong::drive_wheel(question.scenario, drive, samples, {}, progress), steepest_of(question), {}};
+  const auto pulse = [&] {
+    if (progress) progress(part.record.end_time, drive.duration);
+  };
+  part.errors = drive_errors(question, part.record, {threads, pulse});
+  return part;
 }
 
 std::vector<std::string> in_words(const DrivePart& part) {
   const bekker_wong::DriveRecord& record = part.record;
   const DriveSample& end = record.samples.back();
   std::vector<std::string> sentences;
-  sentences.push_back(fmt::format("{} after {:.4g} s and {:.4g} m, on a slope of {:.3g} deg.",
-                                  record.end == DriveEnd::time_is_up    ? "Time is up"
-                                  : record.end == DriveEnd::arrived     ? "The wheel arrives"
-                                  : record.end == DriveEnd::stuck       ? "The wheel is stuck"
-                                  : record.end == DriveEnd::rolled_back ? "The wheel has rolled back"
-                                                                        : "The wheel is buried",
-                                  record.end_time, end.travelled, end.longitudinal_incline / degree));
+  const DriveErrors& errors = part.errors;
+  // A time that is given and a place that is reached have no error.
+  sentences.push_back(fmt::format(
+      "{} after {} s and {} m, on a slope of {:.3g} deg.", capital(in_words(record.end)),
+      with_error(record.end_time, record.end == DriveEnd::time_is_up ? std::nullopt : errors.end_time),
+      with_error(end.travelled, record.end == DriveEnd::arrived && errors.end_time ? std::nullopt : errors.travelled),
+      end.longitudinal_incline / degree));
   if (end.slip && record.end != DriveEnd::stuck)
     sentences.push_back(fmt::format("Its slip is then {:.3g} %, its sinkage {:.3g} mm, its torque {:.3g} N m.",
                                     100 * *end.slip, 1000 * end.sinkage, end.torque));
   if (part.steepest)
     sentences.push_back(fmt::format("Steadily it climbs {:.3g} deg of {} at most.", *part.steepest / degree,
                                     in_words(part.question.scenario.soil)));
+  const std::vector<std::string> on_errors = words_on_errors(part);
+  sentences.insert(sentences.end(), on_errors.begin(), on_errors.end());
   return sentences;
 }
 
@@ -149,6 +273,9 @@ Json to_json(const DrivePart& part) {
                    {"end", std::string(word_of(record.end))},
                    {"end_time", record.end_time},
                    {"travelled", end.travelled},
+                   {"end_time_std_error", or_null(part.errors.end_time)},
+                   {"travelled_std_error", or_null(part.errors.travelled)},
+                   {"soil_errors", errors_json(part.errors)},
                    {"steepest_steady_slope", or_null(part.steepest)}};
   document["happenings"] = happenings_json(record.happenings);
   document["energy"] = {{"motor", end.energy.motor},
@@ -178,6 +305,10 @@ std::string drive_page(const DrivePart& part, const PageAbout& about) {
   page.section("Against time");
   page.figure(drive_sheet(part),
               "The soil in contact has seen the slip of the last quarter turn or so: it lags behind the speeds.");
+  if (!part.errors.moved.empty()) {
+    page.section("How sure");
+    page.table(errors_table(part.errors));
+  }
   page.section("Where the motor's work went");
   Table energy{"Of the motor's work in all", {"", "J", "%"}, {true}};
   for (const auto& [name, joules] : energy_rows(end.energy))

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bekker_wong/transient/driving.hpp"
+#include "compare/drives/drive_errors.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/plot.hpp"
 #include "scenario/case.hpp"
@@ -18,10 +19,13 @@ struct DrivePart {
   Case question;
   bekker_wong::DriveRecord record;
   std::optional<double> steepest;  ///< slope that the wheel climbs in a steady state at the soil of the start [rad]
+  DriveErrors errors;
 };
 
-/// Runs the drive of a case. Throws InputError where the case has none, and what drive_wheel throws.
-DrivePart run_drive(const Case& question, int samples, const bekker_wong::DriveProgress& progress = {});
+/// Runs the drive of a case, and again for its errors, on so many threads. Throws InputError where the case has none,
+/// and what drive_wheel throws.
+DrivePart run_drive(const Case& question, int samples, const bekker_wong::DriveProgress& progress = {},
+                    int threads = 1);
 
 /// How it ended and where the work went, in sentences.
 std::vector<std::string> in_words(const DrivePart& part);

@@ -58,41 +58,25 @@ dem::SteadyDrive values_at(const DriveState& end) {
   return steady;
 }
 
-/// The steady values of the drive with one parameter of the soil changed; nothing where it then has no steady state.
-Steady steady_with(const Case& question, const SoilParameter& parameter, double value) try {
-  Scenario scenario = question.scenario;
-  ((*scenario.soil.semi_empirical).*parameter.value).value = value;
-  const DriveRecord record = bekker_wong::drive_wheel(scenario, *question.drive, 40);
-  if (!unsteady(record, *question.drive).empty()) return std::nullopt;
-  return values_at(record.samples.back());
-} catch (const NoSolution&) {
-  return std::nullopt;
-}
-
-/// Adds errors: sd of each parameter of the soil times the difference of the steady values over it, central or, where
-/// one side passes a bound or has no steady state, one-sided. Names the parameters that are left out for want of both.
-std::string add_doubt(dem::SteadyDrive& steady, const Case& question) {
-  constexpr double nudge = 0.1;  // of the standard deviation
-  std::array<double, steady_values.size()> variance{};
+/// Adds the errors of the soil's values, from the drives with one of them moved that have a steady state. Names the
+/// values that are left out where neither side has one.
+std::string add_errors(dem::SteadyDrive& steady, const DrivePart& part) {
   std::string left_out;
-  for (const SoilParameter& parameter : soil_parameters) {
-    const Estimate of = (*question.scenario.soil.semi_empirical).*parameter.value;
-    if (!(of.std_error > 0.0)) continue;
-    const auto [below, above] = neighbours(of.value, nudge * of.std_error, parameter.range);
-    const Steady down = below < of.value ? steady_with(question, parameter, below) : std::nullopt;
-    const Steady up = above > of.value ? steady_with(question, parameter, above) : std::nullopt;
-    if (!down && !up) {
-      left_out += (left_out.empty() ? "" : ", ") + std::string(parameter.symbol);
-      continue;
+  for (const MovedDrive& drive : part.errors.moved) {
+    bool counts = true;
+    for (const SteadyValue& value : steady_values) {
+      Estimate& of = steady.*value.value;
+      const auto by = change(drive, of.value, [&](const DriveRecord& record) -> std::optional<double> {
+        if (!unsteady(record, *part.question.drive).empty()) return std::nullopt;
+        return (values_at(record.samples.back()).*value.value).value;
+      });
+      if (by)
+        of.std_error = std::hypot(of.std_error, *by);
+      else
+        counts = false;
     }
-    const double width = (up ? above : of.value) - (down ? below : of.value);
-    for (std::size_t i = 0; i < variance.size(); ++i) {
-      const auto member = steady_values[i].value;
-      const double change = ((up ? *up : steady).*member).value - ((down ? *down : steady).*member).value;
-      variance[i] += std::pow(of.std_error * change / width, 2);
-    }
+    if (!counts) left_out += (left_out.empty() ? "" : ", ") + std::string(drive.parameter->symbol);
   }
-  for (std::size_t i = 0; i < variance.size(); ++i) (steady.*steady_values[i].value).std_error = std::sqrt(variance[i]);
   if (left_out.empty()) return "";
   return "the standard errors leave out the soil's " + left_out + ": the drive has no steady state beside it";
 }
@@ -200,7 +184,7 @@ DriveSide analytic_side(const DrivePart& part) {
   side.not_steady = unsteady(record, *part.question.drive);
   if (!side.not_steady.empty()) return side;
   side.steady = values_at(record.samples.back());
-  side.not_steady = add_doubt(*side.steady, part.question);
+  side.not_steady = add_errors(*side.steady, part);
   return side;
 }
 

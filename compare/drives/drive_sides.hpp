@@ -67,8 +67,7 @@ struct DriveSides {
   std::vector<std::string> notes;                    ///< what to know of the grains' run: bed, cost
 };
 
-/// The analytic side. Its steady values are those of the end, with the soil's doubt as their errors: the drive is run
-/// again with each soil value a tenth of its standard deviation up and down.
+/// The analytic side. Its steady values are those of the end, with the errors of the soil's values.
 DriveSide analytic_side(const DrivePart& part);
 /// `packing`: where it is one of several.
 DriveSide grain_side(const dem::GrainDriveRecord& record, std::optional<std::uint64_t> packing = {});

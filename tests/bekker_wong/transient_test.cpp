@@ -7,7 +7,6 @@
 
 #include "bekker_wong/drive_fixture.hpp"
 #include "bekker_wong/limits.hpp"
-#include "bekker_wong/transient/sensitivity.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 
@@ -219,42 +218,6 @@ TEST(Transient, ANewSoilUnderTheWheelIsTheStaticWheelThere) {
   EXPECT_NEAR(steady(on_firm, d, end).reading.drawbar_pull, 0.0, 1e-4 * load);
   EXPECT_NEAR(steady(on_firm, d, end).reading.sinkage, end.sinkage, 1e-4 * 0.09);
   EXPECT_LT(std::abs(end.energy.unaccounted()), 1e-6 * end.energy.motor);
-}
-
-// CVODES' forward sensitivities against whole drives with a soil value changed by 1 in 1000 up and down.
-TEST(SlowTransient, SensitivitiesOfTheWayAreThoseOfDifferences) {
-  const Drive d = drive(2 * degree, 0.0, 6.0);
-  const DriveNumerics numerics{.nodes = 24, .relative_tolerance = 1e-8};
-  const TravelSensitivity forward = travel_sensitivity(scenario(), d, numerics);
-  const TravelSensitivity by_hand = travel_differences(scenario(), d, 1e-3, numerics);
-  EXPECT_NEAR(forward.travelled, by_hand.travelled, 1e-6);
-  for (std::size_t i = 0; i < drive_parameters.size(); ++i)
-    EXPECT_NEAR(forward.by_value[i] / by_hand.by_value[i], 1.0, 2e-3) << drive_parameters[i].name;
-}
-
-// Once the drive is steady, what a value of the soil takes from the way of a second is the rim's speed times what it
-// adds to the static wheel's slip.
-TEST(SlowTransient, SensitivitiesGrowAsTheStaticWheelsSlipHasThem) {
-  const DriveNumerics numerics{.nodes = 64, .relative_tolerance = 1e-8};
-  const Drive early = drive(2 * degree, 0.0, 10.0), late = drive(2 * degree, 0.0, 16.0);
-  const TravelSensitivity begin = travel_sensitivity(scenario(), early, numerics);
-  const TravelSensitivity end = travel_sensitivity(scenario(), late, numerics);
-  OperatingCondition at;
-  at.load = load, at.longitudinal_incline = 2 * degree, at.speed = 0.05;
-  const auto slip_with = [&](const SoilParameter& parameter, double factor) {
-    Scenario s = scenario();
-    ((*s.soil.semi_empirical).*parameter.value).value *= factor;
-    return slip_for_pull(RollingWheel(s.tire, values_of(*s.soil.semi_empirical), {}), at).value();
-  };
-  for (std::size_t i = 0; i < drive_parameters.size(); ++i) {
-    const SoilParameter& parameter = drive_parameters[i];
-    const double value = ((*scenario().soil.semi_empirical).*parameter.value).value;
-    const double slip = (slip_with(parameter, 1.01) - slip_with(parameter, 0.99)) / (0.02 * value);
-    const double way = (end.by_value[i] - begin.by_value[i]) / (late.duration - early.duration);
-    // A stiffer soil carries the wheel higher and holds it over a shorter way: what k_phi gives and takes nearly
-    // cancels.
-    EXPECT_NEAR(way * value / -0.05, slip * value, 1e-3) << parameter.name;
-  }
 }
 
 TEST(Transient, RefusesWhatItCannotAnswer) {

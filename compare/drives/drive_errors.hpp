@@ -1,0 +1,50 @@
+// What the standard deviations of the soils' values do to a drive: the same drive again, one value at a time a standard
+// deviation lower and higher. Whole drives, not slopes: a wheel that just climbs may get stuck with a little less
+// friction.
+//
+//   const DriveErrors errors = drive_errors(question, record, {.threads = 2});
+//   errors.travelled, errors.end_time   // standard errors [m], [s]
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bekker_wong/transient/driving.hpp"
+#include "compare/fit/thread_pool.hpp"
+#include "scenario/case.hpp"
+#include "scenario/soil_parameters.hpp"
+
+namespace soilbin::compare {
+
+/// The drive with one value of a soil moved by its standard deviation, or as far as its bound.
+struct MovedDrive {
+  struct Side {
+    double value = 0.0;                                ///< [SI]; the declared one where that lies on its bound
+    std::optional<bekker_wong::DriveRecord> record{};  ///< none: not moved, or the soil can't hold the wheel then
+  };
+  std::string soil;  ///< its name
+  const SoilParameter* parameter = nullptr;
+  Estimate of;  ///< [SI]
+  Side lower, higher;
+
+  bool was_moved(const Side& side) const { return side.value != of.value; }
+};
+
+struct DriveErrors {
+  std::vector<MovedDrive> moved;    ///< each uncertain value of each soil on the way; empty: all values are exact
+  std::optional<double> travelled;  ///< standard error of the way to the end [m]; none: nothing was moved
+  std::optional<double> end_time;   ///< [s]; none too where some of the drives end in another way
+};
+
+/// Drives again. `record`: the drive with the values as declared. question: a case with a drive.
+DriveErrors drive_errors(const Case& question, const bekker_wong::DriveRecord& record, const ThreadPool& pool);
+
+/// What a value of the drive gains by a standard deviation of the soil's: half of what lies between both sides, all of
+/// it where there is one side, in proportion where a bound cuts it. `value` gives nothing for a drive that has it not;
+/// none where neither side has it.
+std::optional<double> change(const MovedDrive& drive, double as_declared,
+                             const std::function<std::optional<double>(const bekker_wong::DriveRecord&)>& value);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,96 @@
+// What the standard deviations of the soil's values do to a drive.
+#include "compare/drives/drive_errors.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "bekker_wong/drive_fixture.hpp"
+#include "bekker_wong/limits.hpp"
+#include "compare/drives/drive.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+namespace rover = bekker_wong::rover;
+
+Estimate& value_of(Soil& soil, const char* name) { return (*soil.semi_empirical).*soil_parameter(name).value; }
+
+/// The rover wheel on level ground or a slope, with the friction angle known to `sd`.
+Case question(double slope, double duration, double sd) {
+  Case asked;
+  asked.name = "rover";
+  asked.scenario = rover::scenario();
+  value_of(asked.scenario.soil, "friction_angle").std_error = sd;
+  asked.drive = rover::drive(slope, 0.0, duration);
+  return asked;
+}
+
+double slip_with(const Soil& soil, double slope) {
+  OperatingCondition at;
+  at.load = rover::load, at.longitudinal_incline = slope, at.speed = 0.05;
+  return slip_for_pull(
+             bekker_wong::RollingWheel(rover::scenario().tire, bekker_wong::values_of(*soil.semi_empirical), {}), at)
+      .value();
+}
+
+// Once the drive is steady, what a degree of friction adds to the way of a second is the rim's speed times what it
+// takes from the static wheel's slip.
+TEST(DriveErrors, GrowAsTheStaticWheelsSlipHasThem) {
+  const double slope = 2 * degree, sd = 1 * degree;
+  const DrivePart early = run_drive(question(slope, 10, sd), 20), late = run_drive(question(slope, 16, sd), 20);
+  ASSERT_EQ(early.errors.moved.size(), 1U);
+  Soil lower = rover::scenario().soil, higher = lower;
+  value_of(lower, "friction_angle").value -= sd, value_of(higher, "friction_angle").value += sd;
+  const double expected = 0.05 * (slip_with(lower, slope) - slip_with(higher, slope)) / 2;
+  EXPECT_NEAR((*late.errors.travelled - *early.errors.travelled) / 6 / expected, 1, 5e-3);
+  EXPECT_EQ(late.errors.end_time, 0.0) << "time is up whatever the soil";
+}
+
+TEST(DriveErrors, SayWhichValueEndsTheDriveInAnotherWay) {
+  Case asked = question(0, 40, 2 * degree);
+  const double steepest = *run_drive(asked, 10).steepest;
+  asked.drive->profile.front().longitudinal_incline = steepest - 0.5 * degree;  // climbs it, not with 2 deg less
+  const DrivePart part = run_drive(asked, 40);
+  ASSERT_EQ(part.record.end, DriveEnd::time_is_up);
+  ASSERT_EQ(part.errors.moved.size(), 1U);
+  EXPECT_NE(part.errors.moved.front().lower.record.value().end, DriveEnd::time_is_up);
+  EXPECT_EQ(part.errors.moved.front().higher.record.value().end, DriveEnd::time_is_up);
+  EXPECT_FALSE(part.errors.end_time.has_value());
+  EXPECT_GT(*part.errors.travelled, 0.1 * part.record.samples.back().travelled);
+  EXPECT_THAT(in_words(part), testing::Contains(testing::HasSubstr("With the friction angle of dry-sand a standard "
+                                                                   "deviation lower")));
+}
+
+TEST(DriveErrors, OfExactValuesThereAreNone) {
+  const DrivePart part = run_drive(question(0, 3, 0), 10);
+  EXPECT_TRUE(part.errors.moved.empty());
+  EXPECT_FALSE(part.errors.travelled.has_value());
+  EXPECT_THAT(in_words(part), testing::Not(testing::Contains(testing::HasSubstr("±"))));
+}
+
+TEST(DriveErrors, AreTheSameForAnyNumberOfThreads) {
+  Case asked = question(0, 4, 1 * degree);
+  value_of(asked.scenario.soil, "cohesion").std_error = 1e5;  // down to its bound, 0
+  const DriveErrors one = run_drive(asked, 10, {}, 1).errors, two = run_drive(asked, 10, {}, 2).errors;
+  EXPECT_EQ(one.travelled, two.travelled);
+  ASSERT_EQ(one.moved.size(), 2U);
+  EXPECT_EQ(one.moved.front().lower.value, 0.0);
+}
+
+TEST(DriveErrors, ChangeTakesTheSideThereIs) {
+  bekker_wong::DriveRecord far;
+  far.end_time = 12;
+  MovedDrive drive{"sand", &soil_parameter("cohesion"), {1.0, 2.0}, {0.0, {}}, {3.0, far}};
+  const auto time = [](const bekker_wong::DriveRecord& r) { return std::optional(r.end_time); };
+  EXPECT_DOUBLE_EQ(*change(drive, 10.0, time), 2.0) << "all of it to the one side";
+  bekker_wong::DriveRecord near;
+  near.end_time = 9;
+  drive.lower.record = near;
+  EXPECT_DOUBLE_EQ(*change(drive, 10.0, time), 2.0) << "2 sd/3 of the 3 s between sides that are 1.5 sd apart";
+  drive.lower.record.reset(), drive.higher.record.reset();
+  EXPECT_FALSE(change(drive, 10.0, time).has_value());
+}
+
+}  // namespace
+}  // namespace soilbin::compare
