@@ -28,7 +28,7 @@ class SoilDrift final : public Effect {
  public:
   explicit SoilDrift(const std::vector<double>& p) : amplitude_(p[0]), reference_(p[1]) {}
   void soil(SoilValues& soil, const Surroundings& around) const override {
-    if (around.at.run) scale(soil, held_positive(1 + amplitude_ * clock(*around.at.run, reference_)));
+    if (around.at.run) scale(soil, at_least_share(1 + amplitude_ * clock(*around.at.run, reference_)));
   }
 
  private:

@@ -29,16 +29,16 @@ class Wetted final : public Effect {
 };
 
 void add_cohesion(SoilValues& soil, double a, double d) { soil.cohesion = std::max(0.0, soil.cohesion + a * d); }
-void grow_cohesion(SoilValues& soil, double a, double d) { soil.cohesion *= grown(a * d); }
-void change_friction(SoilValues& soil, double a, double d) { scale_friction(soil, held_positive(1 + a * d)); }
-void grow_stiffness(SoilValues& soil, double a, double d) { scale_stiffness(soil, grown(a * d)); }
+void grow_cohesion(SoilValues& soil, double a, double d) { soil.cohesion *= bounded_exp(a * d); }
+void change_friction(SoilValues& soil, double a, double d) { scale_friction(soil, at_least_share(1 + a * d)); }
+void grow_stiffness(SoilValues& soil, double a, double d) { scale_stiffness(soil, bounded_exp(a * d)); }
 void grow_all(SoilValues& soil, double a, double d) {
-  scale_stiffness(soil, grown(a * d));
-  scale_strength(soil, grown(a * d));
+  scale_stiffness(soil, bounded_exp(a * d));
+  scale_strength(soil, bounded_exp(a * d));
 }
 
 void fall_from_optimum(SoilValues& soil, double a, double d) {
-  const double left = grown(-a * d * d);
+  const double left = bounded_exp(-a * d * d);
   scale_stiffness(soil, left);
   soil.cohesion *= left;
 }

@@ -89,7 +89,7 @@ class ShearLog final : public Effect {
  public:
   explicit ShearLog(const std::vector<double>& p) : amplitude_(p[0]), v0_(p[1]) {}
   void strength(ContactPatch& patch, const SoilValues&, const Outline&, const Surroundings& around) const override {
-    const double factor = held_positive(1 + amplitude_ * std::log10(std::hypot(around.at.speed / v0_, creep)));
+    const double factor = at_least_share(1 + amplitude_ * std::log10(std::hypot(around.at.speed / v0_, creep)));
     for (double& strength : patch.of(&ContactPatch::strength)) strength *= factor;
   }
 

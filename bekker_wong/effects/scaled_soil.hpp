@@ -12,10 +12,10 @@ namespace soilbin::bekker_wong {
 inline constexpr double least_share = 0.05;
 
 /// A factor, held at least_share where a linear law would make it smaller or negative.
-inline double held_positive(double factor) { return std::max(factor, least_share); }
+inline double at_least_share(double factor) { return std::max(factor, least_share); }
 
 /// exp(x), held between least_share and 150 so that a fit's wild guess still has an answer.
-inline double grown(double x) { return std::exp(std::clamp(x, std::log(least_share), 5.0)); }
+inline double bounded_exp(double x) { return std::exp(std::clamp(x, std::log(least_share), 5.0)); }
 
 /// k_c and k_phi times the factor: sigma at a given depth grows by it.
 inline void scale_stiffness(SoilValues& soil, double factor) {

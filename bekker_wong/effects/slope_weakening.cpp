@@ -30,7 +30,7 @@ class Friction final : public Effect {
   void soil(SoilValues& soil, const Surroundings& around) const override {
     const double lost = amplitude_ * steepest_tangent(around.at), friction = std::tan(soil.friction_angle);
     if (lost == 0.0 || friction == 0.0) return;
-    scale_friction(soil, held_positive(1 - lost / friction));
+    scale_friction(soil, at_least_share(1 - lost / friction));
   }
 
  private:
@@ -42,7 +42,7 @@ class Strength final : public Effect {
  public:
   explicit Strength(const std::vector<double>& p) : amplitude_(p[0]) {}
   void soil(SoilValues& soil, const Surroundings& around) const override {
-    scale_strength(soil, held_positive(1 - amplitude_ * steepest_sine(around.at)));
+    scale_strength(soil, at_least_share(1 - amplitude_ * steepest_sine(around.at)));
   }
 
  private:
@@ -79,7 +79,7 @@ class Bearing final : public Effect {
  public:
   explicit Bearing(const std::vector<double>& p) : amplitude_(p[0]) {}
   void soil(SoilValues& soil, const Surroundings& around) const override {
-    scale_stiffness(soil, held_positive(1 - amplitude_ * steepest_sine(around.at)));
+    scale_stiffness(soil, at_least_share(1 - amplitude_ * steepest_sine(around.at)));
   }
 
  private:

@@ -11,9 +11,9 @@ namespace {
 using Scale = void (*)(SoilValues&, double factor);
 using Shape = double (*)(double amplitude, double d);
 
-double grown_linearly(double a, double d) { return held_positive(1 + a * d); }
-double grown_exponentially(double a, double d) { return grown(a * d); }
-double bay(double a, double d) { return grown(a * d * d); }
+double grown_linearly(double a, double d) { return at_least_share(1 + a * d); }
+double grown_exponentially(double a, double d) { return bounded_exp(a * d); }
+double bay(double a, double d) { return bounded_exp(a * d * d); }
 
 void scale_both(SoilValues& soil, double factor) {
   scale_stiffness(soil, factor);

@@ -46,7 +46,7 @@ void add_broken_on_surfaces(const World& world, double& sum) {
 }  // namespace
 
 void EnergyLedger::begin(const Setup& setup, const State& state) {
-  taking_.assign(setup.numerics.ledger ? state.grains.motion.size() : 0, {});
+  loads_.assign(setup.numerics.ledger ? state.grains.motion.size() : 0, {});
 }
 
 void EnergyLedger::begin_step(const Setup& setup, const State& state) {
@@ -54,16 +54,16 @@ void EnergyLedger::begin_step(const Setup& setup, const State& state) {
 }
 
 void EnergyLedger::count_kick(std::size_t row, const Load& load, const Kick& half, LostPower& lost) {
-  Taking& taking = taking_[row];
-  const double rolled = dot(taking.couple, half.spin);
-  lost.damping -= dot(taking.dashpot, half.velocity);
-  lost.into_slide -= dot(taking.slide, half.velocity) + dot(load.torque, half.spin) - rolled;
+  LedgerLoad& loads = loads_[row];
+  const double rolled = dot(loads.couple, half.spin);
+  lost.damping -= dot(loads.dashpot, half.velocity);
+  lost.into_slide -= dot(loads.slide, half.velocity) + dot(load.torque, half.spin) - rolled;
   lost.into_roll -= rolled;
-  taking = {};
+  loads = {};
 }
 
 void EnergyLedger::clear(std::size_t first, std::size_t last) {
-  if (!taking_.empty()) std::fill(taking_.begin() + first, taking_.begin() + last, Taking{});
+  if (!loads_.empty()) std::fill(loads_.begin() + first, loads_.begin() + last, LedgerLoad{});
 }
 
 void EnergyLedger::end_step(World& world) const {

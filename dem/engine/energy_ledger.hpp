@@ -18,7 +18,7 @@ class EnergyLedger {
   /// Before the contacts of a step: which of them hold.
   void begin_step(const Setup& setup, const State& state);
   /// A row each of grains, where contacts add what they take; nullptr where nothing is counted.
-  Taking* rows() { return taking_.empty() ? nullptr : taking_.data(); }
+  LedgerLoad* rows() { return loads_.empty() ? nullptr : loads_.data(); }
   /// As the grain in this row is kicked; `half` is what its load changes in half a step. Clears its row.
   void count_kick(std::size_t row, const Load& load, const Kick& half, LostPower& lost);
   /// Rows [first, last) of grains that are not moved.
@@ -27,7 +27,7 @@ class EnergyLedger {
   void end_step(World& world) const;
 
  private:
-  std::vector<Taking> taking_;
+  std::vector<LedgerLoad> loads_;
   std::vector<std::uint8_t> bonds_before_;  ///< PairList::touching before the step, with jkr
 };
 

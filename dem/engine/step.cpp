@@ -37,7 +37,7 @@ void aim_sweep(World& world) {
   world.sweep = {.motion = s.grains.motion.data(),
                  .spin = s.grains.spin.data(),
                  .load = s.grains.load.data(),
-                 .taking = world.ledger.rows(),
+                 .ledger_loads = world.ledger.rows(),
                  .first = s.pairs.first.data(),
                  .second = s.pairs.second.data(),
                  .kind = s.pairs.kind.data(),

@@ -44,11 +44,11 @@ void add_touch(World& world, int slab, const TouchWork& work, int k, SurfaceCont
   const Vec3 slide = column_of(batch.memory, k), roll = column_of(batch.memory + 3, k);
   contact.memory = {triple(slide), triple(roll)};
   const NearSurface& who = contact.who;
-  if (world.sweep.taking) {
-    Taking& taking = world.sweep.taking[who.grain];
-    taking.dashpot += column_of(batch.dashpot, k);
-    taking.slide += column_of(batch.slide, k);
-    taking.couple += couple;
+  if (world.sweep.ledger_loads) {
+    LedgerLoad& loads = world.sweep.ledger_loads[who.grain];
+    loads.dashpot += column_of(batch.dashpot, k);
+    loads.slide += column_of(batch.slide, k);
+    loads.couple += couple;
   }
   add_loads(work.touches[k], batch.radius[k], force, couple, s.bodies[who.body].position, s.grains.load[who.grain],
             s.body_loads[slab * s.bodies.size() + who.body]);
@@ -59,8 +59,9 @@ void press_batch(World& world, int slab, TouchWork& work, std::span<SurfaceConta
   TouchBatch& batch = work.batch;
   batch.lost = {};
   std::fill(batch.kind + work.count, batch.kind + batch_size, batch.kind[0]);
-  world.kernels.touches({world.laws.rows(), world.setup.laws, world.setup.numerics.dt, world.sweep.taking != nullptr},
-                        batch, work.count);
+  world.kernels.touches(
+      {world.laws.rows(), world.setup.laws, world.setup.numerics.dt, world.sweep.ledger_loads != nullptr}, batch,
+      work.count);
   SurfaceContact* contact = made.data() + made.size() - work.count;
   for (int k = 0; k < work.count; ++k) add_touch(world, slab, work, k, contact[k]);
   world.found[slab].lost += batch.lost;

@@ -176,10 +176,6 @@ AngleOfRest angle_of_rest(InclineLayer layer, double rests, double flows, double
   return out;
 }
 
-double stopping_thickness(double angle) {
-  return fitted_length * (tan_2 - std::tan(angle)) / (std::tan(angle) - tan_1);
-}
-
 double stopping_angle(double thickness) { return std::atan(tan_1 + (tan_2 - tan_1) / (thickness / fitted_length + 1)); }
 
 std::vector<VerificationRow> incline_rows(std::uint64_t seed, const std::function<void(const Progress&)>& progress) {

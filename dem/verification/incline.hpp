@@ -59,10 +59,8 @@ struct AngleOfRest {
 /// rests and the higher one flows; layer.angle isn't read. Throws InputError where they don't.
 AngleOfRest angle_of_rest(InclineLayer layer, double rests, double flows, double step);
 
-/// h_stop [d]: the thickness of a layer that comes to rest at `angle` [rad], in (17.561, 32.257) deg: A (tan delta_2 -
-/// tan angle)/(tan angle - tan delta_1), delta_1 = 17.561 deg, delta_2 = 32.257 deg, A = 3.836 (Weinhart et al. 2012).
-double stopping_thickness(double angle);
-/// The angle [rad] at which a layer of this thickness [d] comes to rest, by the same fit.
+/// The angle [rad] at which a layer of this thickness h [d] comes to rest, by the fit of Weinhart et al. 2012: h = A
+/// (tan delta_2 - tan angle)/(tan angle - tan delta_1), delta_1 = 17.561 deg, delta_2 = 32.257 deg, A = 3.836.
 double stopping_angle(double thickness);
 
 /// Thin layers against the fit of h_stop, to the step of half a degree in which the publication's driver looked and

@@ -22,13 +22,15 @@ InclineLayer thin_layer(double angle) {
   return layer;
 }
 
-TEST(Incline, FitOfTheStoppingThicknessIsInvertedAndDivergesAtItsEnds) {
-  for (const double angle : {19.0, 22.0, 26.0})
-    EXPECT_NEAR(stopping_angle(stopping_thickness(angle * degree)) / degree, angle, 1e-9);
-  EXPECT_GT(stopping_thickness(17.562 * degree), 1e4);
-  EXPECT_NEAR(stopping_thickness(32.257 * degree), 0, 1e-9);
-  // 3.836 (tan 32.257 deg - tan 24 deg)/(tan 24 deg - tan 17.561 deg).
-  EXPECT_NEAR(stopping_thickness(24 * degree), 3.836 * (0.631124 - 0.445229) / (0.445229 - 0.316470), 1e-3);
+TEST(Incline, AngleOfRestInvertsThePublishedFitOfTheStoppingThickness) {
+  const auto published = [](double angle) {  // h_stop of Weinhart et al. 2012
+    const auto tan = [](double degrees) { return std::tan(degrees * degree); };
+    return 3.836 * (tan(32.257) - tan(angle)) / (tan(angle) - tan(17.561));
+  };
+  for (const double angle : {19.0, 22.0, 24.0, 26.0, 31.0})
+    EXPECT_NEAR(stopping_angle(published(angle)) / degree, angle, 1e-9);
+  EXPECT_NEAR(stopping_angle(0) / degree, 32.257, 1e-9) << "a single grain";
+  EXPECT_NEAR(stopping_angle(1e9) / degree, 17.561, 1e-6) << "a deep layer";
 }
 
 TEST(Incline, RefusesWhatIsNoLayer) {

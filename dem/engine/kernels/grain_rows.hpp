@@ -28,7 +28,7 @@ struct alignas(64) Load {
 
 /// The part of a Load that takes energy out of the motion, or keeps it in tangential and rolling springs; added up
 /// where the ledger is kept. 128 bytes, two rows of eight doubles.
-struct alignas(64) Taking {
+struct alignas(64) LedgerLoad {
   Vec3 dashpot;             ///< of normal dashpots [N]
   Vec3 slide;               ///< tangential [N]
   alignas(64) Vec3 couple;  ///< of rolling resistance [N m]

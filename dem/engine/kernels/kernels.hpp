@@ -16,7 +16,7 @@ struct PairSweep {
   const Motion* motion;
   const Spin* spin;
   Load* load;
-  Taking* taking;  ///< nullptr: losses aren't counted
+  LedgerLoad* ledger_loads;  ///< nullptr: losses aren't counted
   const std::uint32_t *first, *second;
   const std::uint8_t* kind;
   double* memory;

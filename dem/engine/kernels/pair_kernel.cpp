@@ -96,15 +96,16 @@ HWY_INLINE void count(const PairSweep& sweep, bool rolls, const Meeting& m, cons
   const SixPacks forces{dashpot.x, dashpot.y, dashpot.z, slide.x, slide.y, slide.z};
   const std::uint32_t *first = sweep.first + pair, *second = sweep.second + pair;
   add_rows(
-      forces, [&](int k) { return &sweep.taking[first[k]].dashpot.x; },
+      forces, [&](int k) { return &sweep.ledger_loads[first[k]].dashpot.x; },
       {-forces.a, -forces.b, -forces.c, -forces.d, -forces.e, -forces.f},
-      [&](int k) { return &sweep.taking[second[k]].dashpot.x; });
+      [&](int k) { return &sweep.ledger_loads[second[k]].dashpot.x; });
   if (!rolls) return;
   const Triad couple = where(touching, does.couple);
   const Pack zero(0.0);
   add_rows(
-      {couple.x, couple.y, couple.z, zero, zero, zero}, [&](int k) { return &sweep.taking[first[k]].couple.x; },
-      {-couple.x, -couple.y, -couple.z, zero, zero, zero}, [&](int k) { return &sweep.taking[second[k]].couple.x; });
+      {couple.x, couple.y, couple.z, zero, zero, zero}, [&](int k) { return &sweep.ledger_loads[first[k]].couple.x; },
+      {-couple.x, -couple.y, -couple.z, zero, zero, zero},
+      [&](int k) { return &sweep.ledger_loads[second[k]].couple.x; });
 }
 
 HWY_INLINE Memory<Pack> recall(const double* memory) {
@@ -186,9 +187,9 @@ HWY_INLINE void fetch_rows(const PairSweep& sweep, std::uint32_t grain) {
   __builtin_prefetch(sweep.motion + grain);
   __builtin_prefetch(sweep.load + grain, 1);
   __builtin_prefetch(sweep.spin + grain);
-  if (!sweep.taking) return;
-  __builtin_prefetch(&sweep.taking[grain].dashpot, 1);
-  __builtin_prefetch(&sweep.taking[grain].couple, 1);
+  if (!sweep.ledger_loads) return;
+  __builtin_prefetch(&sweep.ledger_loads[grain].dashpot, 1);
+  __builtin_prefetch(&sweep.ledger_loads[grain].couple, 1);
 }
 
 /// All of a batch, whichever of its packs comes.
@@ -221,8 +222,8 @@ void run_plain(const PairSweep& sweep, std::size_t begin, std::size_t end, PairF
 void run_pairs(const PairSweep& sweep, std::size_t begin, std::size_t end, PairFindings& found) {
   const LawFlags& laws = sweep.laws;
   if (laws.normal != NormalLaw::hertz || laws.cohesion != CohesionLaw::none || laws.twisting != TwistingLaw::none ||
-      sweep.taking)
-    return run_asked(sweep, {sweep.laws, sweep.taking != nullptr}, begin, end, found);
+      sweep.ledger_loads)
+    return run_asked(sweep, {sweep.laws, sweep.ledger_loads != nullptr}, begin, end, found);
   switch (sweep.laws.rolling) {
     case RollingLaw::none:
       return run_plain<RollingLaw::none>(sweep, begin, end, found);
