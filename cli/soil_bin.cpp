@@ -96,6 +96,8 @@ constexpr SettingFlag measure_flags[] = {
 constexpr SettingFlag starting_flag{"--starting", "TIME", "time in which speed and rotation come on; 0.2 s",
                                     rig<&R::starting>};
 
+constexpr const char* wheel_mesh_flag = "--wheel-mesh";
+
 void add(CLI::App& command, const SettingFlag& one, std::map<std::string, std::string>& texts) {
   add_value(command, one.flag, texts[one.flag], one.type, one.meaning)->group(grains_heading);
 }
@@ -149,6 +151,8 @@ dem::DemSettings settings_of(const SoilBinFlags& flags) {
   if (flags.packing < 0) throw InputError("--packing: a seed is 0 or more");
   if (flags.packings < 1) throw InputError("--packings: 1 or more");
   check_threads(flags.threads);
+  if (const std::string mesh = flags.text(wheel_mesh_flag); !mesh.empty())
+    settings.rig.meshing.drawn = fs::absolute(mesh).string();
   settings.packing = static_cast<std::uint64_t>(flags.packing);
   settings.beds = folder_of_beds();
   settings.how.threads = flags.threads;
@@ -172,6 +176,10 @@ void SoilBinFlags::add_measures_to(CLI::App& command) {
 
 void SoilBinFlags::add_rig_to(CLI::App& command) {
   add_measures_to(command);
+  add_value(command, "--wheel-mesh", texts[wheel_mesh_flag], "FILE.stl|obj",
+            "the wheel as drawn, a closed mesh as large as the tire with its axle along y, in place of the one that is "
+            "made from the tire's measures")
+      ->group(grains_heading);
   add_value(command, "--packing", packing, "SEED", "seed of the bed; 1")->group(grains_heading);
   add_value(command, "--settling-friction", texts["--settling-friction"], settling_type,
             "how dense the bed settles: loose (the default), medium, dense, or the share of the friction that acts "

@@ -115,7 +115,7 @@ SerialTest serial_test(const FittedModel& model, int permutations, std::uint64_t
     ++tested;
     VectorXd r = Eigen::Map<const VectorXd>(series.values.data(), static_cast<Index>(series.values.size()));
     r.array() -= r.mean();
-    const Index lags = std::max<Index>(1, r.size() / 12);
+    const Index lags = std::max<Index>(1, r.size() / thresholds::serial_runs_a_lag);
     const double seen = serial_correlation(r, lags);
     int reached = 0;
     for (int k = 0; k < permutations; ++k) {

@@ -27,8 +27,7 @@ namespace {
 
 /// Whitened columns by which a form may be wrong (Tolerance); contribution: of its effect to each cell, unwhitened.
 MatrixXd form_columns(const Dataset& data, const VectorXd& contribution, double tolerance) {
-  constexpr int smooth_columns = 6;
-  const MatrixXd basis = with_constant(smooth_basis(data.observations, smooth_columns));
+  const MatrixXd basis = with_constant(smooth_basis(data.observations, thresholds::tolerance_functions));
   const Index cells = contribution.size();
   MatrixXd columns = MatrixXd::Zero(cells, channel_count * basis.cols());
   Index used = 0;

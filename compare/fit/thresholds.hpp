@@ -68,6 +68,8 @@ inline constexpr double amplitude_range = 12.0;
 inline constexpr std::array<double, 3> tolerance_scales = {0.3, 1.0, 2.0};
 /// The same for an instrument's zero or a tilt, which is what it is said to be, and for fits far from the noise.
 inline constexpr std::array<double, 2> narrow_tolerance_scales = {0.3, 1.0};
+/// Smooth functions of the conditions by which a form may differ from nature's equation. Chosen.
+inline constexpr int tolerance_functions = 6;
 /// chi2 a value beyond which what a fit leaves is no noise of a known size [-]. Chosen: synthetic campaigns end near 1,
 /// the CMU wheels beyond 5 with the best pair.
 inline constexpr double far_from_noise = 3.0;
@@ -113,6 +115,8 @@ inline constexpr std::size_t least_serial_runs = 12;
 /// Chosen; on 55 campaigns with nothing missing p never fell below 5 %.
 inline constexpr double serial_level = 0.01;
 inline constexpr int serial_rearrangements = 3999;
+/// Runs for each lag over which the serial correlation is summed. Chosen.
+inline constexpr int serial_runs_a_lag = 12;
 /// Evidence of a term without a name over the base model where no effect is named, and beyond the best named effects
 /// [ln evidence]. Tuned. Both are Bayes factors: by chance with probability e^-2 and e^-1 at the most.
 inline constexpr double unnamed_instead = 2.0, unnamed_beside = 1.0;
@@ -137,6 +141,9 @@ inline constexpr std::array<double, 6> term_sizes = {0.25, 0.5, 1.0, 2.0, 4.0, 8
 /// Smooth functions of load and slip that the base model may be off by: to the third order in slip, the second in load,
 /// and their products. Chosen.
 inline constexpr int discrepancy_functions = 9;
+
+/// False-discovery rate of a condition that the rest is told to depend on, at the most [-]. The usual one.
+inline constexpr double false_discovery_level = 0.05;
 
 // --- a learned effect ---
 
@@ -176,6 +183,9 @@ inline constexpr int most_passes = 12;
 
 // --- the next test ---
 
+/// Odds at which the sets that a next run would separate count as separated, where the verdict is 'unknown' [-].
+/// Chosen.
+inline constexpr double settled_odds = 100.0;
 /// Runs beyond which a condition is not proposed. Chosen.
 inline constexpr double most_runs = 50.0;
 /// ln evidence by which a candidate at the very edge of the set still has to fall [-]; what one counts for, however

@@ -113,18 +113,17 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
 
 bool proposes_next(const LoopAnswer& answer) {
   if (!answer.next || answer.verdict != Verdict::unknown_effect) return answer.next.has_value();
-  constexpr double settled = 100;  // to one
   const std::vector<const Weighted*> sets = sets_shown(answer);
   const auto other =
       std::ranges::find_if(sets, [&](const Weighted* set) { return set->ids == answer.next->separates.back(); });
-  return other == sets.end() || sets.front()->log_evidence - (*other)->log_evidence < std::log(settled);
+  return other == sets.end() ||
+         sets.front()->log_evidence - (*other)->log_evidence < std::log(thresholds::settled_odds);
 }
 
 std::vector<Dependence> sure_dependences(const LoopAnswer& answer) {
-  constexpr double level = 0.05;
   if (answer.verdict != Verdict::unknown_effect) return {};
   std::vector<Dependence> all = answer.dependences_after.empty() ? answer.dependences_before : answer.dependences_after;
-  std::erase_if(all, [](const Dependence& d) { return d.false_discovery_rate > level; });
+  std::erase_if(all, [](const Dependence& d) { return d.false_discovery_rate > thresholds::false_discovery_level; });
   std::ranges::stable_sort(all, [](const Dependence& a, const Dependence& b) {
     return std::pair(a.p_value, -a.share) < std::pair(b.p_value, -b.share);
   });

@@ -12,6 +12,8 @@ namespace soilbin::dem {
 namespace fs = std::filesystem;
 
 BedRecipe DemModel::recipe(const Scenario& scenario) const {
+  if (const TireMeshing& meshing = settings_.rig.meshing; !meshing.drawn.empty())
+    tire_surface(scenario.tire, meshing);  // refused before a bed is settled
   BedRecipe recipe;
   recipe.soil = grains_of(scenario.soil);
   static_cast<LawFlags&>(recipe.laws) = laws_of(recipe.soil);

@@ -7,9 +7,12 @@
 #include "dem/bed/bed_store.hpp"
 #include "dem/rig/step_criteria.hpp"
 #include "scenario/checksum.hpp"
+#include "scenario/file_bytes.hpp"
 
 namespace soilbin::dem {
 namespace {
+
+constexpr std::size_t largest_mesh = 1'000'000'000;  // bytes
 
 using Inputs = std::vector<std::pair<std::string, std::string>>;
 
@@ -39,6 +42,8 @@ void add_rig(Inputs& to, const Rig& rig) {
   add(to, "rig.ahead", rig.ahead), add(to, "rig.travel", rig.travel), add(to, "rig.sampling", rig.sampling);
   add(to, "rig.sectors", rig.sectors), add(to, "rig.inertia", rig.inertia);
   add(to, "rig.mesh_edge", rig.meshing.edge), add(to, "rig.chevron_angle", rig.meshing.chevron_angle);
+  if (!rig.meshing.drawn.empty())
+    to.emplace_back("rig.wheel_mesh", fnv1a_digits(read_bytes(rig.meshing.drawn, largest_mesh)));
   add(to, "rig.young", rig.young), add(to, "rig.poisson", rig.poisson), add(to, "rig.skin", rig.skin);
   add(to, "rig.deepest_overlap", rig.deepest_overlap), add(to, "rig.steady_drift", rig.steady_drift);
   add(to, "rig.sleep_mean_speed", rig.sleep_speed);
@@ -47,7 +52,7 @@ void add_rig(Inputs& to, const Rig& rig) {
 }
 
 /// To be raised when the same inputs give other bits, or a restart keeps something else.
-constexpr int version = 2;
+constexpr int version = 3;
 
 Inputs inputs_with_contact(BedRecipe recipe, const Tire& tire, const ContactPair& tire_contact, const Rig& rig) {
   recipe.soil.grain_tire = tire_contact;

@@ -36,8 +36,8 @@ void parts(Notes& notes, Rig& rig) {
          poisson, dt, skin, deepest_overlap, sleep_speed, sleep_time, ledger, steady_drift, drive_torque, onlooker] =
       rig;  // the onlooker stays with the command
   notes(mass, tilting, lowering, resting, starting, behind, ahead, travel, sampling, sectors, inertia, meshing.edge,
-        meshing.chevron_angle, young, poisson, dt, skin, deepest_overlap, sleep_speed, sleep_time, ledger, steady_drift,
-        drive_torque);
+        meshing.chevron_angle, meshing.drawn, young, poisson, dt, skin, deepest_overlap, sleep_speed, sleep_time,
+        ledger, steady_drift, drive_torque);
 }
 
 template <class Notes>

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <limits>
+#include <string>
 
 #include "dem/surface/triangle_mesh.hpp"
 #include "scenario/tire.hpp"
@@ -29,6 +30,7 @@ TriangleMesh smooth_wheel(double radius, double width, int segments, double edge
 struct TireMeshing {
   double edge = 0.02;          ///< [m] target length of edges: cells round the tread, along the axle and on the sides
   double chevron_angle = 0.5;  ///< [rad] between a chevron's bar and the axle, chosen; from 0 to 1.2
+  std::string drawn{};         ///< file with the wheel as drawn, .stl or .obj, in place of all this; empty: none
 };
 
 /// The tread base is a cylinder of tire.radius and tire.width, its vertices on the radius. On it stand lugs.count bars
@@ -39,6 +41,10 @@ struct TireMeshing {
 /// meshing.edge. Throws InputError where lugs.count or lugs.thickness are not known or the bars leave no gap.
 /// Volume, as the edge goes to zero: width (pi R^2 + count (A(R + h) - A(R))), A(r) = s sqrt(r^2 - s^2) + r^2 asin(s/r)
 /// with s half the thickness.
+///
+/// Where meshing.drawn names a file, the mesh in it: closed, the axle the y axis through the origin, in mm, cm, m or
+/// inches, whichever makes it as large as the tire. Throws InputError where none does: it reaches radius + lugs.height
+/// to 2 %, and is tire.width wide, half on either side, to 5 %.
 TriangleMesh tire_surface(const Tire& tire, const TireMeshing& meshing = {});
 
 }  // namespace soilbin::dem

@@ -129,6 +129,18 @@ TEST(Drive, GrainsTakeWhatTheyCanAndSayWhatTheyCannot) {
   EXPECT_THAT(two.err, AllOf(HasSubstr("one soil from end to end; 'snow' begins at 0.2 m"), HasSubstr("hint: ")));
 }
 
+TEST(Drive, AWheelAsDrawnIsRefusedBeforeABedIsSettled) {
+  const Scratch scratch;
+  const std::string file = scratch.write("small.yaml", small_drive).string();
+  const Outcome missing = soilbin("drive '" + file + "' --model dem --wheel-mesh nowhere.stl");
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_THAT(missing.err, AllOf(HasSubstr("nowhere.stl"), HasSubstr("hint: ")));
+  const std::string step = scratch.write("wheel.step", "ISO-10303-21;").string();
+  const Outcome kind = soilbin("drive '" + file + "' --model dem --wheel-mesh '" + step + "'");
+  EXPECT_EQ(kind.status, 2);
+  EXPECT_THAT(kind.err, HasSubstr("take .stl or .obj"));
+}
+
 /// Motor's work less all that a side says became of it.
 double left_over(const nlohmann::json& side) {
   const nlohmann::json& e = side["energy"];

@@ -88,6 +88,45 @@ TEST_F(MeshFiles, ATireComesBackInSinglePrecision) {
   }
 }
 
+Tire small_rover() {
+  Tire tire;
+  tire.name = "rover", tire.radius = 0.09, tire.width = 0.11;
+  tire.lugs = {.height = 0.01, .count = 12, .thickness = 0.004};
+  return tire;
+}
+
+TEST_F(MeshFiles, AWheelAsDrawnIsTheTiresSurfaceInWhateverUnitItWasDrawn) {
+  const Tire tire = small_rover();
+  const TriangleMesh made = tire_surface(tire, {.edge = 0.01});
+  for (const double unit : {1e-3, 1e-2, 1.0, 0.0254}) {
+    write_stl(folder_ / "wheel.stl", made, unit);
+    const TriangleMesh drawn = tire_surface(tire, {.drawn = (folder_ / "wheel.stl").string()});
+    ASSERT_EQ(drawn.size(), made.size()) << unit;
+    EXPECT_NEAR(mass_properties(drawn).volume / mass_properties(made).volume, 1, 1e-6) << unit;
+  }
+}
+
+TEST_F(MeshFiles, AWheelAsDrawnHasTheTiresSizeAndStandsOnItsAxle) {
+  const fs::path path = folder_ / "wheel.stl";
+  const auto says = [&](const TriangleMesh& mesh) -> std::string {
+    write_stl(path, mesh, 1e-3);
+    try {
+      tire_surface(small_rover(), {.drawn = path.string()});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  Tire other = small_rover();
+  EXPECT_EQ(says(tire_surface(other, {.edge = 0.01})), "");
+  other.radius = 0.12;
+  EXPECT_THAT(says(tire_surface(other, {.edge = 0.01})),
+              testing::AllOf(testing::HasSubstr("it reaches 130"), testing::HasSubstr("100 mm in no unit")));
+  other = small_rover(), other.width = 0.08;
+  EXPECT_THAT(says(tire_surface(other, {.edge = 0.01})), testing::HasSubstr("from -40 to 40 mm along y, 55 mm"));
+  EXPECT_THAT(says(plate(0.18, 0.1, 1, 1)), testing::HasSubstr("closed")) << "an open mesh";
+}
+
 TEST_F(MeshFiles, WritesWhatTheFormatSays) {
   const tests::Soup soup = tests::cube();
   write_stl(folder_ / "cube.stl", TriangleMesh(soup.vertices, soup.triangles), 1);
