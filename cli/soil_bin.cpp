@@ -176,7 +176,7 @@ void SoilBinFlags::add_measures_to(CLI::App& command) {
 
 void SoilBinFlags::add_rig_to(CLI::App& command) {
   add_measures_to(command);
-  add_value(command, "--wheel-mesh", texts[wheel_mesh_flag], "FILE.stl|obj",
+  add_value(command, wheel_mesh_flag, texts[wheel_mesh_flag], "FILE.stl|obj",
             "the wheel as drawn, a closed mesh as large as the tire with its axle along y, in place of the one that is "
             "made from the tire's measures")
       ->group(grains_heading);

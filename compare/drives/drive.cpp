@@ -105,7 +105,7 @@ std::vector<std::string> words_on_errors(const DrivePart& part) {
                         largest_parts(part) + ".");
   for (const MovedDrive& drive : part.errors.moved)
     for (const MovedDrive::Side* side : {&drive.lower, &drive.higher}) {
-      if (!drive.was_moved(*side) || (side->record && side->record->end == part.record.end)) continue;
+      if (!drive.ends_otherwise(*side, part.record.end)) continue;
       sentences.push_back(fmt::format("With the {} of {} a standard deviation {} ({} {}) {}.", drive.parameter->title,
                                       drive.soil, side == &drive.lower ? "lower" : "higher",
                                       number(side->value * drive.parameter->per_si), drive.parameter->unit,

@@ -70,13 +70,6 @@ std::optional<double> root_of_sum(const DriveErrors& errors, double as_declared,
   return errors.moved.empty() ? std::nullopt : std::optional(std::sqrt(variance));
 }
 
-bool ends_alike(const MovedDrive& drive, DriveEnd end) {
-  const auto alike = [&](const MovedDrive::Side& side) {
-    return !drive.was_moved(side) || (side.record && side.record->end == end);
-  };
-  return alike(drive.lower) && alike(drive.higher);
-}
-
 }  // namespace
 
 std::optional<double> change(const MovedDrive& drive, double as_declared,
@@ -98,7 +91,9 @@ DriveErrors drive_errors(const Case& question, const DriveRecord& record, const 
   for (Uncertain& one : values) errors.moved.push_back(std::move(one.drive));
   errors.travelled = root_of_sum(errors, record.samples.back().travelled,
                                  [](const DriveRecord& r) { return std::optional(r.samples.back().travelled); });
-  if (std::ranges::all_of(errors.moved, [&](const MovedDrive& drive) { return ends_alike(drive, record.end); }))
+  if (std::ranges::none_of(errors.moved, [&](const MovedDrive& drive) {
+        return drive.ends_otherwise(drive.lower, record.end) || drive.ends_otherwise(drive.higher, record.end);
+      }))
     errors.end_time =
         root_of_sum(errors, record.end_time, [](const DriveRecord& r) { return std::optional(r.end_time); });
   return errors;

@@ -30,11 +30,16 @@ struct MovedDrive {
   Side lower, higher;
 
   bool was_moved(const Side& side) const { return side.value != of.value; }
+  /// Whether it was moved and the drive then has another end than this, or none.
+  bool ends_otherwise(const Side& side, DriveEnd end) const {
+    return was_moved(side) && !(side.record && side.record->end == end);
+  }
 };
 
 struct DriveErrors {
   std::vector<MovedDrive> moved;    ///< each uncertain value of each soil on the way; empty: all values are exact
-  std::optional<double> travelled;  ///< standard error of the way to the end [m]; none: nothing was moved
+  std::optional<double> travelled;  ///< standard error of the way to the end [m]; none: nothing was moved, or a value
+                                    ///< without a drive on either side
   std::optional<double> end_time;   ///< [s]; none too where some of the drives end in another way
 };
 
