@@ -74,7 +74,7 @@ FittedModel fit_from_several(Dataset made, std::optional<VectorXd> start, std::u
   std::optional<FittedModel> best;
   int ended_there = 0;
   VectorXd from = start ? std::move(*start) : predictor.start();
-  for (int n = 0; n < thresholds::most_starts && ended_there < 2; ++n, from = drawn_soil(predictor, random)) {
+  for (int n = 0; n < thresholds::max_starts && ended_there < 2; ++n, from = drawn_soil(predictor, random)) {
     auto found = fitted(data, predictor, from);
     if (!found) continue;
     const double chi2 = found->fit().chi2, lower = best ? best->fit().chi2 - chi2 : chi2,
@@ -96,7 +96,7 @@ Dataset with_noise(const FittedModel& model, const NoiseEstimate& estimate, bool
   std::vector<bool> drop(data.observations.cells.size());
   for (std::size_t i = 0; i < drop.size(); ++i) drop[i] = estimate.outlier_score[i] > thresholds::outlier_limit;
   const auto count = static_cast<double>(std::ranges::count(drop, true));
-  if (!drop_outliers || count == 0 || count > thresholds::most_outliers * static_cast<double>(drop.size()))
+  if (!drop_outliers || count == 0 || count > thresholds::max_outlier_share * static_cast<double>(drop.size()))
     drop.assign(drop.size(), false);
   std::vector<bool> outlier = data.outlier;
   std::vector<Index> kept;

@@ -41,7 +41,7 @@ std::optional<FittedModel> fit_terms(const FittedModel& base, const std::vector<
   const WheelPredictor predictor = base.predictor().with(terms);
   std::optional<FittedModel> best;
   for (const double share : {1.0, 0.3, 0.0}) {
-    if (best && best->fit().chi2 < known.from->chi2 - (share > 0.0 ? 0.5 * known.promised : 0.0)) break;
+    if (best && best->fit().chi2 < known.from->chi2 - (share > 0.0 ? 0.5 * known.expected_drop : 0.0)) break;
     auto [start, near] = start_of(predictor, known, share);
     auto found = fitted(base.shared_data(), predictor, start, std::move(near));
     if (found && (!best || found->fit().chi2 < best->fit().chi2)) best = std::move(found);

@@ -24,13 +24,13 @@ struct CandidateModel {
 struct CandidateStart {
   const Fit* from;  ///< of the soil, and of the first terms; the others start at their defaults
   std::map<int, std::vector<double>>
-      estimated;          ///< a term's parameters, amplitude first, where its signature puts them [SI]
-  double promised = 0.0;  ///< what the signatures promise to take off its chi2
+      estimated;               ///< a term's parameters, amplitude first, where its signature puts them [SI]
+  double expected_drop = 0.0;  ///< what the signatures promise to take off its chi2
 };
 
 /// Fits the terms in full beside the base model; again from smaller amplitudes where that gained less than half of what
-/// was promised, and from next to none where it gained nothing: an effect that joins others leaves no more than they
-/// did. Nothing where no start balances.
+/// was expected_drop, and from next to none where it gained nothing: an effect that joins others leaves no more than
+/// they did. Nothing where no start balances.
 std::optional<FittedModel> fit_terms(const FittedModel& base, const std::vector<Term>& terms,
                                      const CandidateStart& known);
 

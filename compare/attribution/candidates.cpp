@@ -19,7 +19,7 @@ namespace {
 std::vector<const Signature*> strongest_forms(const std::vector<Signature>& signatures, int most) {
   std::vector<const Signature*> order;
   for (const Signature& s : signatures)
-    if (s.projected_norm > 0 && s.strength() > thresholds::least_strength) order.push_back(&s);
+    if (s.projected_norm > 0 && s.strength() > thresholds::min_strength) order.push_back(&s);
   std::ranges::stable_sort(order, [](auto a, auto b) { return a->strength() > b->strength(); });
   std::vector<const Signature*> chosen;
   std::map<std::string, int> forms;
@@ -60,7 +60,7 @@ std::vector<SignaturePair> strongest_pairs(const std::vector<Signature>& signatu
       const Signature &a = *seen[i], &b = *seen[j];
       if (a.term.form->id == b.term.form->id) continue;
       const double c = a.direction.dot(b.direction), det = 1 - c * c;
-      if (det < 0.02) continue;
+      if (det < thresholds::min_pair_angle) continue;
       const double u = (a.score - c * b.score) / det, v = (b.score - c * a.score) / det;
       if ((a.one_sided && u < 0) || (b.one_sided && v < 0)) continue;
       pairs.push_back({u * a.score + v * b.score, &a, &b});
@@ -117,14 +117,14 @@ class Search {
 
   /// The strongest forms, one by one.
   void fit_singles() {
-    fit_each(strongest_forms(signatures_, thresholds::most_refits), [&](const Signature* s) {
+    fit_each(strongest_forms(signatures_, thresholds::max_refits), [&](const Signature* s) {
       return fit_terms(base_, {free_term(*s->term.form)}, {&base_.fit(), {{0, estimate_of(*s)}}, s->score * s->score});
     });
   }
 
   /// Pairs of forms that together follow the residual best.
   void fit_pairs() {
-    fit_each(strongest_pairs(signatures_, thresholds::most_refits / 2),
+    fit_each(strongest_pairs(signatures_, thresholds::max_refits / 2),
              [&](const SignaturePair& pair) { return fit_pair(pair); });
   }
 
@@ -163,7 +163,7 @@ class Search {
     for (int round = 0; round < (far ? thresholds::rounds_far : 1); ++round) {
       weigh();
       std::vector<CandidateModel> pairs;
-      for (const Weighted& w : found_.sets)
+      for (const WeightedSet& w : found_.sets)
         if (w.ids.size() == 2 && found_.sets.front().log_evidence - w.log_evidence < close && std::ssize(pairs) < most)
           pairs.push_back(found_.models[w.best_candidate]);
       for (const CandidateModel& pair : pairs) fit_other_forms(pair, tried);
@@ -256,7 +256,7 @@ std::optional<FittedModel> Search::fit_pair(const SignaturePair& pair) const {
   if (single && single->terms().front().form == second->term.form) std::swap(first, second);
   CandidateStart start{&base_.fit(), {{1, estimate_of(*second)}}, pair.gain};
   if (single)
-    start.from = &single->fit(), start.promised -= base_.fit().chi2 - single->fit().chi2;
+    start.from = &single->fit(), start.expected_drop -= base_.fit().chi2 - single->fit().chi2;
   else
     start.estimated[0] = estimate_of(*first);
   return fit_terms(base_, {free_term(*first->term.form), free_term(*second->term.form)}, start);
@@ -270,7 +270,7 @@ void Search::extend(std::size_t index) {
                                  options_.simulations / 2, options_.seed + 17 * from.terms().size());
   if (p > thresholds::family_level) return;
   const int added = static_cast<int>(from.terms().size());
-  fit_each(strongest_forms(signatures, thresholds::most_refits / 2), [&](const Signature* s) {
+  fit_each(strongest_forms(signatures, thresholds::max_refits / 2), [&](const Signature* s) {
     std::vector<Term> terms = from.terms();
     terms.push_back(free_term(*s->term.form));
     return fit_terms(base_, terms, {&from.fit(), {{added, estimate_of(*s)}}, s->score * s->score});
@@ -311,7 +311,7 @@ void Search::fit_other_forms(const CandidateModel& from, std::set<FormSet>& trie
 }
 
 void Search::weigh() {
-  std::map<std::set<std::string>, Weighted> by_set;
+  std::map<std::set<std::string>, WeightedSet> by_set;
   const std::vector<CandidateModel>& models = found_.models;
   const auto standing = [&](std::size_t i) { return models[i].log_evidence + log_prior(models[i].terms()); };
   double top = -std::numeric_limits<double>::infinity();
@@ -320,7 +320,8 @@ void Search::weigh() {
   double total = 0.0;
   for (std::size_t i = 0; i < models.size(); ++i) {
     const bool repeated = !seen.insert(forms_of(models[i].terms())).second;
-    Weighted& w = by_set.try_emplace(models[i].ids, Weighted{.ids = models[i].ids, .best_candidate = i}).first->second;
+    WeightedSet& w =
+        by_set.try_emplace(models[i].ids, WeightedSet{.ids = models[i].ids, .best_candidate = i}).first->second;
     const double share = repeated ? 0.0 : std::exp(standing(i) - top);
     w.weight += share;
     total += share;
@@ -328,11 +329,11 @@ void Search::weigh() {
   }
   found_.sets.clear();
   for (const auto& [ids, w] : by_set) found_.sets.push_back(w);
-  for (Weighted& w : found_.sets) {
+  for (WeightedSet& w : found_.sets) {
     w.log_evidence = w.weight > 0 ? top + std::log(w.weight) : -std::numeric_limits<double>::infinity();
     w.weight /= total;
   }
-  std::ranges::stable_sort(found_.sets, [](const Weighted& x, const Weighted& y) { return x.weight > y.weight; });
+  std::ranges::stable_sort(found_.sets, [](const WeightedSet& x, const WeightedSet& y) { return x.weight > y.weight; });
 }
 
 /// From the strongest signatures to sets of up to three effects. further: beyond single effects, and one may stand.
@@ -346,7 +347,7 @@ Candidates search_beside(const FittedModel& base, const Observations& all_runs,
     search.extend_singles();
     search.judge_misfit();
     search.complete_pairs();
-    for (int effects = 2; effects < thresholds::most_effects; ++effects) search.extend_best(effects);
+    for (int effects = 2; effects < thresholds::max_effects; ++effects) search.extend_best(effects);
   }
   return std::move(search).result(stands_out);
 }
@@ -357,7 +358,7 @@ Candidates worth_fitting_again(Candidates found) {
   if (found.models.empty()) return found;
   const std::set<std::string> best = found.models[found.sets.front().best_candidate].ids;
   std::set<std::size_t> kept;
-  const auto keep_set = [&](const Weighted& w) {
+  const auto keep_set = [&](const WeightedSet& w) {
     std::vector<std::size_t> forms;
     for (std::size_t i = 0; i < found.models.size(); ++i)
       if (found.models[i].ids == w.ids) forms.push_back(i);
@@ -367,7 +368,7 @@ Candidates worth_fitting_again(Candidates found) {
     for (std::size_t k = 0; k < forms.size() && k < thresholds::forms_fitted_again; ++k) kept.insert(forms[k]);
   };
   for (std::size_t s = 0; s < found.sets.size(); ++s)
-    if (const Weighted& w = found.sets[s];
+    if (const WeightedSet& w = found.sets[s];
         s < thresholds::sets_fitted_again || std::includes(best.begin(), best.end(), w.ids.begin(), w.ids.end()))
       keep_set(w);
   std::vector<CandidateModel> models;
@@ -380,8 +381,8 @@ Candidates worth_fitting_again(Candidates found) {
 Candidates candidates_of(const FittedModel& base, const std::vector<Signature>& signatures, bool stands_out,
                          const AttributionOptions& options) {
   const Observations& all_runs = base.data().observations;
-  const bool large = std::ssize(all_runs.rows) > thresholds::most_searched_rows;
-  const auto few = large ? pooled(base, thresholds::most_searched_rows) : std::nullopt;
+  const bool large = std::ssize(all_runs.rows) > thresholds::max_searched_rows;
+  const auto few = large ? pooled(base, thresholds::max_searched_rows) : std::nullopt;
   if (!few) return search_beside(base, all_runs, signatures, stands_out, options);
   const Candidates rough = worth_fitting_again(search_beside(*few, all_runs, signatures, stands_out, options));
   Search search(base, all_runs, signatures, options);
@@ -393,8 +394,8 @@ Candidates candidates_of(const FittedModel& base, const std::vector<Signature>& 
 
 }  // namespace
 
-const Weighted& Candidates::weighed(const std::set<std::string>& ids) const {
-  const auto found = std::ranges::find_if(sets, [&](const Weighted& w) { return w.ids == ids; });
+const WeightedSet& Candidates::weighed(const std::set<std::string>& ids) const {
+  const auto found = std::ranges::find_if(sets, [&](const WeightedSet& w) { return w.ids == ids; });
   if (found == sets.end()) throw std::out_of_range("a set of effects that wasn't weighed");
   return *found;
 }

@@ -15,7 +15,7 @@
 namespace soilbin::compare {
 
 /// Sets of effects with their share of the evidence, best first.
-struct Weighted {
+struct WeightedSet {
   std::set<std::string> ids;
   double weight = 0.0;
   double log_evidence = 0.0;       ///< over the set's forms, its price paid; beside Candidates::base_log_evidence
@@ -25,13 +25,13 @@ struct Weighted {
 /// All that were fitted, and how they stand.
 struct Candidates {
   std::vector<CandidateModel> models;  ///< the base model not among them
-  std::vector<Weighted> sets;          ///< over sets of effects, best first
+  std::vector<WeightedSet> sets;       ///< over sets of effects, best first
   double base_log_evidence = 0.0;
   bool none_near_noise = false;     ///< what even the best one leaves is no noise of a known size
   std::optional<std::size_t> best;  ///< of models: of largest weight, where the family-wise test lets any stand
 
   /// A set's weight by its effects; it must have been weighed.
-  const Weighted& weighed(const std::set<std::string>& ids) const;
+  const WeightedSet& weighed(const std::set<std::string>& ids) const;
 };
 
 /// The residual of a base model attributed to effects (detection and attribution, as in optimal fingerprinting:
@@ -50,7 +50,7 @@ struct Attribution {
 };
 
 /// From a base fit to names. Forward: the strongest forms, pairs of forms, then more effects beside the best pair,
-/// thresholds::most_effects in all.
+/// thresholds::max_effects in all.
 Attribution attribute(const FittedModel& base, const AttributionOptions& options);
 
 /// Family-wise p-value of one term of a candidate beside its other terms: the probability that noise alone makes any

@@ -12,17 +12,17 @@ namespace {
 
 /// The best candidate whose effects are one fewer of these; none for a single effect.
 std::optional<std::size_t> best_with_one_fewer(const Candidates& candidates, const std::set<std::string>& all) {
-  for (const Weighted& w : candidates.sets)
+  for (const WeightedSet& w : candidates.sets)
     if (w.ids.size() + 1 == all.size() && std::includes(all.begin(), all.end(), w.ids.begin(), w.ids.end()))
       return w.best_candidate;
   return std::nullopt;
 }
 
-double allowed_behind(const Candidates& candidates, const Weighted& best, const std::set<std::string>& ids) {
+double allowed_behind(const Candidates& candidates, const WeightedSet& best, const std::set<std::string>& ids) {
   if (ids.size() > best.ids.size() && std::includes(ids.begin(), ids.end(), best.ids.begin(), best.ids.end()))
     return thresholds::superset_allowed;
   const double values = static_cast<double>(candidates.models.front().model.data().cells());
-  return std::clamp(std::sqrt(thresholds::few_values / values), 1.0, thresholds::most_growth) *
+  return std::clamp(std::sqrt(thresholds::few_values / values), 1.0, thresholds::max_growth) *
          (thresholds::allowed_behind +
           thresholds::allowed_growth * std::max(0.0, best.log_evidence - candidates.base_log_evidence));
 }
@@ -59,8 +59,8 @@ ChosenCandidate choose(const Attribution& found, const AttributionOptions& optio
 }
 
 std::vector<Competitor> competitors(const Candidates& candidates) {
-  const std::vector<Weighted>& sets = candidates.sets;
-  const Weighted& best = candidates.weighed(candidates.models[*candidates.best].ids);
+  const std::vector<WeightedSet>& sets = candidates.sets;
+  const WeightedSet& best = candidates.weighed(candidates.models[*candidates.best].ids);
   std::vector<Competitor> all = {
       {static_cast<std::size_t>(&best - sets.data()), allowed_behind(candidates, best, best.ids)}};
   for (std::size_t i = 0; i < sets.size(); ++i) {
@@ -71,14 +71,14 @@ std::vector<Competitor> competitors(const Candidates& candidates) {
   return all;
 }
 
-std::vector<Weighted> ambiguity_set(const Candidates& candidates) {
-  std::vector<Weighted> sets;
+std::vector<WeightedSet> ambiguity_set(const Candidates& candidates) {
+  std::vector<WeightedSet> sets;
   double total = 0.0;
   for (const Competitor& c : competitors(candidates)) {
     sets.push_back(candidates.sets[c.set]);
     total += sets.back().weight;
   }
-  for (Weighted& w : sets) w.weight /= total;
+  for (WeightedSet& w : sets) w.weight /= total;
   return sets;
 }
 

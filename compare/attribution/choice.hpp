@@ -52,6 +52,6 @@ struct Competitor {
 std::vector<Competitor> competitors(const Candidates& candidates);
 
 /// The same as an answer lists them, with weights that sum to 1.
-std::vector<Weighted> ambiguity_set(const Candidates& candidates);
+std::vector<WeightedSet> ambiguity_set(const Candidates& candidates);
 
 }  // namespace soilbin::compare

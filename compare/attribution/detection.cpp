@@ -43,7 +43,7 @@ RerunTest rerun_test(const FittedModel& model) {
   double least = 1.0;
   for (const SetpointSquares& s : channels) {
     const double freedom = s.setpoints() * (1 - taken) - 1, reruns = s.reruns();
-    if (reruns < thresholds::least_reruns || freedom < 1.0) continue;
+    if (reruns < thresholds::min_reruns || freedom < 1.0) continue;
     ++tested;
     const double pure = s.within() / reruns, between = s.between() - s.largest();
     test.excess += std::max(0.0, between - freedom * pure);
@@ -111,7 +111,7 @@ SerialTest serial_test(const FittedModel& model, int permutations, std::uint64_t
   int tested = 0;
   double least = 2.0;
   for (const RunSeries& series : run_series(model, order->values)) {
-    if (series.values.size() < thresholds::least_serial_runs) continue;
+    if (series.values.size() < thresholds::min_serial_runs) continue;
     ++tested;
     VectorXd r = Eigen::Map<const VectorXd>(series.values.data(), static_cast<Index>(series.values.size()));
     r.array() -= r.mean();

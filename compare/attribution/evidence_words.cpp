@@ -19,7 +19,7 @@ std::string thousands_apart(long long value) {
 
 }  // namespace
 
-std::string in_a_row(const std::vector<std::string>& words) {
+std::string joined_with_and(const std::vector<std::string>& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i)
     text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
@@ -33,7 +33,7 @@ std::string joined(const std::set<std::string>& ids) {
 std::string named_effects(const std::set<std::string>& ids) {
   std::vector<std::string> names;
   for (const std::string& id : ids) names.emplace_back(bekker_wong::effect_title(id).name);
-  return names.empty() ? "no effect" : in_a_row(names);
+  return names.empty() ? "no effect" : joined_with_and(names);
 }
 
 std::string times_likelier(double log_odds) {

@@ -10,7 +10,7 @@
 namespace soilbin::compare {
 
 /// "a", "a and b", "a, b and c".
-std::string in_a_row(const std::vector<std::string>& words);
+std::string joined_with_and(const std::vector<std::string>& words);
 
 /// Ids: "slip_sinkage", "multipass + sensor_offset"; "no effect" for an empty set.
 std::string joined(const std::set<std::string>& ids);

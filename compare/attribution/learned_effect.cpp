@@ -20,7 +20,7 @@ namespace {
 
 /// How free a weight is against the others: products that bend more are held nearer to 0.
 double freedom_of_weight(const std::vector<int>& degrees) {
-  return 1.0 / std::pow(1.0 + std::accumulate(degrees.begin(), degrees.end(), 0), 2);
+  return 1.0 / std::pow(1.0 + std::accumulate(degrees.begin(), degrees.end(), 0), thresholds::learned_bend_power);
 }
 
 /// A form over the ranges that were run, its weights free with sd of `size` and less; nothing where a variable stays.
@@ -35,7 +35,7 @@ std::optional<Term> learned_term(const EffectForm& form, const Observations& obs
       if (std::isnan(value)) return std::nullopt;
       low = std::min(low, value), high = std::max(high, value), scale = std::max(scale, std::abs(value));
     }
-    if (!(high - low > thresholds::least_learned_range * scale)) return std::nullopt;
+    if (!(high - low > thresholds::min_learned_range * scale)) return std::nullopt;
     term.defaults[LearnedFunction::from(v)] = low, term.defaults[LearnedFunction::to(v)] = high;
   }
   for (std::size_t k = 0; k < function.degrees.size(); ++k) {
@@ -43,7 +43,7 @@ std::optional<Term> learned_term(const EffectForm& form, const Observations& obs
     term.free.push_back(static_cast<int>(i));
     term.spread[i] = size * freedom_of_weight(function.degrees[k]);
   }
-  term.weighs = [&function, ranges = term.defaults](const OperatingCondition& at) {
+  term.basis_values = [&function, ranges = term.defaults](const OperatingCondition& at) {
     return bekker_wong::weighed_products(function, ranges, at);
   };
   return term;
@@ -75,7 +75,7 @@ std::optional<MatrixXd> columns_of_weights(const FittedModel& beside, const Term
     columns.col(k) = (with - without) * (term.spread[term.free[k]] / step);
   }
   const MatrixXd white = beside.data().whitening(columns);
-  return white.norm() > thresholds::least_signature ? std::optional(white) : std::nullopt;
+  return white.norm() > thresholds::min_signature ? std::optional(white) : std::nullopt;
 }
 
 namespace {
@@ -156,10 +156,10 @@ std::optional<LearnedEffect> learn_next(const FittedModel& beside, const std::ve
 }  // namespace
 
 std::vector<LearnedEffect> learn_effects(const FittedModel& beside, const AttributionOptions& options) {
-  const bool few_runs = beside.data().observations.rows.size() <= thresholds::most_searched_rows;
+  const bool few_runs = beside.data().observations.rows.size() <= thresholds::max_searched_rows;
   std::vector<LearnedEffect> learned;
   std::vector<FoldDensity> held_out_baseline;
-  while (learned.size() < thresholds::most_learned) {
+  while (learned.size() < thresholds::max_learned) {
     const bool first = learned.empty();
     const FittedModel& model = first ? beside : learned.back().candidate.model;
     const std::vector<LearnedProspect> prospects = learned_prospects(model, options.pool);

@@ -24,7 +24,7 @@ FittedModel refitted_as_exact(const FittedModel& base, const FittedModel* chosen
 
 /// Looks for learned effects beside a model (the base model, or one with named effects), one after the other, each
 /// beside those before, as long as the next one stands by the rule of a named effect (choice.hpp), at most
-/// thresholds::most_learned. Every form's weights, normal about 0 and the smaller the more the function bends, join the
+/// thresholds::max_learned. Every form's weights, normal about 0 and the smaller the more the function bends, join the
 /// linear problem of the model; the forms of most evidence (thresholds::learned_refits of them, later_refits beside
 /// another learned one) are fitted in full, and the one that predicts conditions left out best is the next one. Empty
 /// where none stands.

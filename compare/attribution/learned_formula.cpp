@@ -36,7 +36,7 @@ Term formula_term(const EffectForm& form, const std::vector<FormulaTerm>& terms,
     term.free.push_back(static_cast<int>(k + 1));
     term.spread.push_back(size / usual_size(terms[k], observations));
   }
-  term.weighs = [terms](const OperatingCondition& at) {
+  term.basis_values = [terms](const OperatingCondition& at) {
     std::vector<double> values;
     for (const FormulaTerm& one : terms) values.push_back(one.value(at));
     return values;
@@ -140,7 +140,7 @@ std::optional<LearnedFormula> find_formula(const FittedModel& beside, const Lear
   if (!columns) return std::nullopt;
   const Library library(*columns, problem_of(beside));
   std::vector<Combination> best = {{}};
-  for (int count = 1; count <= thresholds::most_formula_terms; ++count) {
+  for (int count = 1; count <= thresholds::max_formula_terms; ++count) {
     best = sorted(wider(best, library), library);
     std::vector<FormulaTerm> terms;
     for (const int k : best.front()) terms.push_back(all[k]);

@@ -17,7 +17,7 @@ struct LearnedFormula {
   PredictiveGain over_learned;    ///< mean gain over the learned effect; within a standard error of none, or above
 };
 
-/// The formula of fewest terms (thresholds::most_formula_terms at the most) that predicts conditions left out as well
+/// The formula of fewest terms (thresholds::max_formula_terms at the most) that predicts conditions left out as well
 /// as the learned effect does: no worse by more than a standard error (the rule of Breiman et al. 1984). Of each number
 /// of terms the one of most evidence is tried, over all combinations of formula_terms (of three: those that hold one of
 /// the best pairs). beside: the model that the effect was learned beside. Nothing where none does.

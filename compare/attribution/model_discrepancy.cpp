@@ -33,7 +33,7 @@ double best_size(const Attribution& found, const MatrixXd& columns) {
       if (const double sum = log_evidence + joined.gain(size); sum > most) most = sum, best = size;
   };
   weigh(found.candidates.base_log_evidence, found.base);
-  for (const Weighted& w : found.candidates.sets)
+  for (const WeightedSet& w : found.candidates.sets)
     weigh(w.log_evidence, found.candidates.models[w.best_candidate].model);
   return best;
 }
@@ -41,7 +41,7 @@ double best_size(const Attribution& found, const MatrixXd& columns) {
 Candidates with_lower_evidence(Candidates candidates, double by) {
   candidates.base_log_evidence -= by;
   for (CandidateModel& c : candidates.models) c.log_evidence -= by;
-  for (Weighted& w : candidates.sets) w.log_evidence -= by;
+  for (WeightedSet& w : candidates.sets) w.log_evidence -= by;
   return candidates;
 }
 

@@ -53,7 +53,7 @@ Signature signature_of(const Base& base, const Term& term, double amplitude, con
   s.projected_norm = rest.norm();
   s.share_kept = whole > 0 ? s.projected_norm / whole : 0.0;
   const double reach = std::max(std::abs(p.lower), std::abs(p.upper));
-  if (!(s.projected_norm * reach > thresholds::least_signature) || !(s.share_kept > thresholds::least_share_kept)) {
+  if (!(s.projected_norm * reach > thresholds::min_signature) || !(s.share_kept > thresholds::min_share_kept)) {
     s.projected_norm = 0.0;
     return s;
   }

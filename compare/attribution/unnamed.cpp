@@ -126,9 +126,9 @@ MatrixXd misread(const FittedModel& base, const VectorXd& slope) {
 
 std::vector<UnnamedKind> unnamed_functions(const Dataset& data, const VectorXd& prediction) {
   const Observations& observations = data.observations;
-  const int most = std::clamp(static_cast<int>(observations.rows.size()) / 4, 2, 14);
   UnnamedKind smooth{"a smooth function of the conditions", {}};
-  smooth.families.push_back(in_every_channel(data, prediction, with_constant(smooth_basis(observations, most))));
+  smooth.families.push_back(
+      in_every_channel(data, prediction, with_constant(smooth_basis(observations, unnamed_columns(observations)))));
   UnnamedKind wave{"waves in one of the conditions", {}}, wave_of_one{"waves of one channel", {}};
   UnnamedKind gain{"a gain of all forces that waves", {}};
   for (const Covariate& c : covariates(observations)) {

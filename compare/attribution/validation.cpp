@@ -94,8 +94,8 @@ std::vector<std::optional<FoldResult>> run_folds(const Dataset& whole, const Noi
   return results;
 }
 
-ErrorPair errors_over(const std::vector<HeldOut>& cells, int channel) {
-  ErrorPair e;
+HeldOutErrors errors_over(const std::vector<HeldOut>& cells, int channel) {
+  HeldOutErrors e;
   double before = 0, after = 0, named = 0, smooth = 0, noise = 0;
   for (const HeldOut& h : cells) {
     if (channel >= 0 && h.channel != channel) continue;

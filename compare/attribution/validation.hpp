@@ -21,7 +21,7 @@ struct HeldOut {
   double sd = 0.0;      ///< noise of this cell
 };
 
-struct ErrorPair {
+struct HeldOutErrors {
   int cells = 0;
   double before = 0.0, after = 0.0, named = 0.0, smooth = 0.0, noise_floor = 0.0;  ///< root mean squares
 };
@@ -29,12 +29,12 @@ struct ErrorPair {
 /// The whole procedure redone with each fold of conditions left out.
 struct CrossValidation {
   std::vector<HeldOut> cells;
-  std::vector<std::set<std::string>> chosen;      ///< of each fold
-  std::array<ErrorPair, channel_count> channels;  ///< in the channels' units
-  ErrorPair overall;                              ///< in sigma
-  double gain = 0.0;                              ///< mean fall of the squared error over conditions [sigma^2]
-  double gain_error = 0.0;                        ///< its standard error, over conditions
-  int unpredicted = 0;                            ///< held-out cells for which a fold's model had no balance
+  std::vector<std::set<std::string>> chosen;          ///< of each fold
+  std::array<HeldOutErrors, channel_count> channels;  ///< in the channels' units
+  HeldOutErrors overall;                              ///< in sigma
+  double gain = 0.0;                                  ///< mean fall of the squared error over conditions [sigma^2]
+  double gain_error = 0.0;                            ///< its standard error, over conditions
+  int unpredicted = 0;                                ///< held-out cells for which a fold's model had no balance
 };
 
 /// What is redone in each fold, and how errors are expressed.

@@ -35,7 +35,7 @@ double unexplained(const Attribution& found) {
 
 /// Whether a single effect is the best set, and no other set comes near it.
 bool one_effect_dominates(const Candidates& candidates) {
-  const Weighted best = ambiguity_set(candidates).front();
+  const WeightedSet best = ambiguity_set(candidates).front();
   return best.ids.size() == 1 && best.weight >= thresholds::dominant_share;
 }
 
@@ -92,7 +92,7 @@ std::optional<std::string> more_than_named(const Attribution& found, const Resid
 /// Why the data do not allow to judge any effect; nothing where they do.
 std::optional<std::string> not_judgeable(const Attribution& found) {
   const double freedom = found.base.data().noise.typical_freedom();
-  if (freedom < thresholds::least_noise_freedom)
+  if (freedom < thresholds::min_noise_freedom)
     return fmt::format("the noise of a channel rests on {:.1f} degrees of freedom only, too few to judge by", freedom);
   const std::vector<Signature>& all = found.signatures.all;
   if (std::ranges::none_of(all, [](const Signature& s) { return s.testable; }))
@@ -129,7 +129,7 @@ std::optional<ChosenCandidate> settle(Attribution& found, const AttributionOptio
 std::optional<std::string> too_small(const Campaign& campaign, const Observations& observations) {
   const int values = static_cast<int>(observations.cells.size());
   const int free = free_parameters(campaign.soil);
-  if (values - free >= thresholds::least_spare_values && observations.conditions >= thresholds::least_conditions)
+  if (values - free >= thresholds::min_spare_values && observations.conditions >= thresholds::min_conditions)
     return std::nullopt;
   return fmt::format("{} measured values of {} conditions for {} soil values leave too little to judge by", values,
                      observations.conditions, free);

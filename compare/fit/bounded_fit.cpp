@@ -38,7 +38,7 @@ std::vector<int> free_of_bounds(const WheelPredictor& predictor, const VectorXd&
 bool put_near(Descent& descent, const WheelPredictor& predictor, VectorXd start) {
   const auto k_phi = k_phi_of(predictor.parameters());
   for (int attempt = 0; attempt < 21; ++attempt) {
-    if (descent.put(start, true)) return true;
+    if (descent.move_to(start, true)) return true;
     if (!k_phi) return false;
     const double sd = predictor.parameters()[*k_phi].prior_sd;
     start[*k_phi] = std::max(start[*k_phi] * 1.25, start[*k_phi] + 0.25 * sd);
@@ -54,7 +54,7 @@ VectorXd way_to_firmer(const Descent& descent, const WheelPredictor& predictor) 
     const double length = std::max(std::abs(descent.theta()[*k_phi]), parameters[*k_phi].scale);
     return length * VectorXd::Unit(descent.theta().size(), *k_phi);
   }
-  VectorXd way = descent.firmer();
+  VectorXd way = descent.strengthening_direction();
   double longest = 0.0;
   for (Index i = 0; i < way.size(); ++i) longest = std::max(longest, std::abs(way[i]) / parameters[i].scale);
   return longest > 0.0 ? VectorXd(way / longest) : VectorXd();
@@ -71,7 +71,7 @@ bool stiffen(Descent& descent, const WheelPredictor& predictor) {
   while (enough - least > 0.1 * enough)
     (descent.would_carry(firmer(0.5 * (least + enough))) ? enough : least) = 0.5 * (least + enough);
   for (; enough < farthest; enough *= 1.1)
-    if (descent.put(firmer(enough), false)) return true;
+    if (descent.move_to(firmer(enough), false)) return true;
   return false;
 }
 
@@ -81,7 +81,7 @@ std::optional<Fit> fit(const WheelPredictor& predictor, const VectorXd& values, 
                        const VectorXd& start, BalanceMemory near) {
   Descent descent(predictor, values, whitening, std::move(near));
   if (!put_near(descent, predictor, start)) return std::nullopt;
-  descent.go();
+  descent.minimise();
   Fit end;
   end.restart = descent.theta();
   if (!descent.carries() && !stiffen(descent, predictor)) return std::nullopt;

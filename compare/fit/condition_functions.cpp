@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "compare/fit/thresholds.hpp"
+
 namespace soilbin::compare {
 
 using Eigen::Index;
@@ -67,8 +69,13 @@ MatrixXd smooth_basis(const Observations& observations, int max_columns) {
   return basis.build();
 }
 
+int unnamed_columns(const Observations& observations) {
+  return std::clamp(static_cast<int>(observations.rows.size()) / thresholds::runs_a_smooth_function,
+                    thresholds::min_smooth_functions, thresholds::max_smooth_functions);
+}
+
 MatrixXd waves(const VectorXd& values) {
-  const int most = std::clamp(static_cast<int>(values.size()) / 10, 1, 5);
+  const int most = std::clamp(static_cast<int>(values.size()) / thresholds::runs_a_wave, 1, thresholds::max_waves);
   const double low = values.minCoeff(), high = values.maxCoeff();
   MatrixXd columns(values.size(), 2 * most);
   for (int k = 1; k <= most; ++k)
@@ -104,8 +111,7 @@ VectorXd ridge(const MatrixXd& columns, const VectorXd& residual) {
 
 VectorXd smooth_term(const Observations& all, const std::vector<bool>& kept, const VectorXd& prediction,
                      const NoiseFloor& noise) {
-  const int most = std::clamp(static_cast<int>(all.rows.size()) / 4, 2, 14);
-  const MatrixXd basis = with_constant(smooth_basis(all, most));
+  const MatrixXd basis = with_constant(smooth_basis(all, unnamed_columns(all)));
   VectorXd term = VectorXd::Zero(prediction.size());
   for (int channel = 0; channel < channel_count; ++channel) {
     std::vector<Index> training;

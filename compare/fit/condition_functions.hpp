@@ -1,4 +1,5 @@
-// Smooth functions and waves of a campaign's conditions: how the loop looks for an effect that has no name.
+// Smooth functions and waves of a campaign's conditions: what the noise is estimated beside, and how the
+// loop looks for an effect that has no name.
 #pragma once
 
 #include <Eigen/Dense>
@@ -12,6 +13,9 @@ namespace soilbin::compare {
 /// Smooth functions of the covariates over the rows, each of mean 0 and mean square 1, the plainest first: linear
 /// terms, powers of slip, products with slip and load, squares. At most max_columns.
 Eigen::MatrixXd smooth_basis(const Observations& observations, int max_columns);
+
+/// How many of them a term without a name is made of.
+int unnamed_columns(const Observations& observations);
 
 /// A covariate's values, which differ, taken to -1 .. 1.
 Eigen::VectorXd to_unit_interval(const Eigen::VectorXd& values);

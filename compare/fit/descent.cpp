@@ -146,7 +146,7 @@ bool Descent::stand_at(Point point) {
   return true;
 }
 
-bool Descent::put(VectorXd theta, bool gives_way) {
+bool Descent::move_to(VectorXd theta, bool gives_way) {
   here_.memory.gives_way = gives_way;
   for (Index w = 0; w < limits_.size(); ++w) {
     const double beyond = walls_.row(w).dot(theta.cwiseQuotient(scale_)) - limits_[w];
@@ -176,15 +176,15 @@ AugmentedLine Descent::line() const {
   l.residual = residual(here_);
   l.columns.resize(l.residual.size(), scale_.size());
   l.columns << whitening_(MatrixXd(slopes_.jacobian * scale_.asDiagonal())), prior_columns(predictor_.parameters()),
-      slopes_.short_of * (scale_ / thresholds::load_deficit_sd).asDiagonal();
+      slopes_.shortfall_slopes * (scale_ / thresholds::load_deficit_sd).asDiagonal();
   return l;
 }
 
-VectorXd Descent::firmer() const {
-  const MatrixXd all = line().columns, kept = all.topRows(all.rows() - slopes_.short_of.rows());
+VectorXd Descent::strengthening_direction() const {
+  const MatrixXd all = line().columns, kept = all.topRows(all.rows() - slopes_.shortfall_slopes.rows());
   MatrixXd cost = kept.transpose() * kept;
   cost.diagonal().array() += 1e-10;
-  const VectorXd carries_more = -(slopes_.short_of * scale_.asDiagonal()).colwise().sum().transpose();
+  const VectorXd carries_more = -(slopes_.shortfall_slopes * scale_.asDiagonal()).colwise().sum().transpose();
   return cost.ldlt().solve(carries_more).cwiseProduct(scale_);
 }
 
@@ -213,7 +213,7 @@ double Descent::step_down(const AugmentedLine& l) {
   return 0.0;
 }
 
-void Descent::go() {
+void Descent::minimise() {
   constexpr int most_steps = 60, most_slow_steps = 4;
   constexpr double slow = 3.0;  // times the negligible gain
   damping_ = 1e-3;

@@ -23,15 +23,15 @@ struct AugmentedLine {
 /// smooth where the wheel would sink away, and a step need not stop there.
 class Descent {
  public:
-  /// near: what is known of the balances where it will be put.
+  /// near: what is known of the balances where it will begin.
   Descent(const WheelPredictor& predictor, const Eigen::VectorXd& values, const Whitening& whitening,
           BalanceMemory near = {});
 
   /// Puts it at theta, moved inside the walls; false where that is no soil for all of the rows. gives_way: may the soil
   /// give way, here and on the way from here?
-  bool put(Eigen::VectorXd theta, bool gives_way);
-  /// Goes down until the whole step of the linear model promises next to nothing.
-  void go();
+  bool move_to(Eigen::VectorXd theta, bool gives_way);
+  /// Goes downhill until the whole step of the linear model promises next to nothing.
+  void minimise();
 
   /// Would the soil carry the wheel in every row at theta?
   bool would_carry(const Eigen::VectorXd& theta);
@@ -44,7 +44,7 @@ class Descent {
   BalanceMemory balance() const;
   AugmentedLine line() const;
   /// Where some row falls short: the way that carries more at the least cost in chi2, of any length.
-  Eigen::VectorXd firmer() const;
+  Eigen::VectorXd strengthening_direction() const;
 
  private:
   struct Point {

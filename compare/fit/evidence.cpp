@@ -171,16 +171,16 @@ LinearProblem problem_of(const FittedModel& model) {
 }
 
 bool far_from_noise(const FittedModel& model) {
-  const Hidden& hidden = model.data().hidden;
-  return model.fit().chi2_cells + hidden.chi2 >
-         thresholds::far_from_noise * (static_cast<double>(model.data().cells()) + hidden.cells);
+  const WithinPools& within = model.data().within_pools;
+  return model.fit().chi2_cells + within.chi2 >
+         thresholds::far_from_noise * (static_cast<double>(model.data().cells()) + within.cells);
 }
 
 double log_evidence(const FittedModel& model, bool none_near_noise) {
   if (!none_near_noise)
     return log_evidence(linear_problem(model, MatrixXd(model.data().cells(), 0)), tolerances_of(model));
-  const Hidden& hidden = model.data().hidden;
-  const double n = static_cast<double>(model.data().cells()) + hidden.cells, chi2 = model.fit().chi2 + hidden.chi2;
+  const WithinPools& within = model.data().within_pools;
+  const double n = static_cast<double>(model.data().cells()) + within.cells, chi2 = model.fit().chi2 + within.chi2;
   const double k = static_cast<double>(model.fit().columns.cols());
   return -0.5 * n * std::log(chi2) - 0.5 * k * std::log(n);
 }

@@ -1,6 +1,7 @@
 // A campaign ready for fits, and a model fitted to it: predictor, terms, fit and covariance as one value.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -10,7 +11,7 @@
 namespace soilbin::compare {
 
 /// What the means of pooled runs do not show of all of them (pooled_runs.hpp).
-struct Hidden {
+struct WithinPools {
   double cells = 0.0, chi2 = 0.0;
 };
 
@@ -21,10 +22,11 @@ struct Dataset {
   Observations observations;  ///< without the outliers
   std::vector<bool> outlier;  ///< of the cells given: set aside
   NoiseFloor noise;
-  Whitening whitening;  ///< takes that noise off, at the base model's predictions
-  Hidden hidden{};      ///< where the observations are pooled runs
+  Whitening whitening;         ///< takes that noise off, at the base model's predictions
+  WithinPools within_pools{};  ///< where the observations are pooled runs
   /// The declared model over these observations, where every fit begins; the data set must outlive it.
   WheelPredictor declared_model() const { return {*campaign, observations}; }
+  int outliers() const { return static_cast<int>(std::ranges::count(outlier, true)); }
   Eigen::Index cells() const { return static_cast<Eigen::Index>(observations.cells.size()); }
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include "compare/fit/condition_functions.hpp"
 #include "compare/fit/setpoint_squares.hpp"
@@ -223,7 +224,8 @@ ChannelData channel_data(const Observations& observations, const ChannelCells& c
   const Index n = cells.cell.size();
   VectorXd spread(n);
   for (Index i = 0; i < n; ++i) spread[i] = observations.cells[cells.cell[i]].spread;
-  const MatrixXd functions = basis(cells.row, Eigen::seqN(0, std::clamp<Index>(n / 3 - 1, 0, basis.cols())));
+  const Index columns = std::clamp<Index>(n / thresholds::values_a_noise_function - 1, 0, basis.cols());
+  const MatrixXd functions = basis(cells.row, Eigen::seqN(0, columns));
   return {.e = data.residual(cells.cell),
           .f = data.prediction(cells.cell),
           .spread = spread,
@@ -239,21 +241,24 @@ struct ChannelSizes {
   double deviance = std::numeric_limits<double>::infinity();
 };
 
+constexpr double constant_share = thresholds::min_constant_share, growing_share = 1 - constant_share;
+
 /// Of the noise's variance over the cells, where a share of it grows with the prediction, and of the whole a part with
 /// the scatter in time.
 VectorXd variance_shape(const ChannelData& data, double mean_square, double share, double part) {
-  VectorXd shape = (1 - share) + share * (0.02 + 0.98 * data.f.array().square() / std::max(mean_square, 1e-300));
+  VectorXd shape =
+      (1 - share) + share * (constant_share + growing_share * data.f.array().square() / std::max(mean_square, 1e-300));
   if (part == 0.0) return shape;
   const double scatter = data.spread.squaredNorm() / static_cast<double>(data.spread.size());
-  return (1 - part) * shape.array() + part * (0.02 + 0.98 * data.spread.array().square() / scatter);
+  return (1 - part) * shape.array() + part * (constant_share + growing_share * data.spread.array().square() / scatter);
 }
 
 ChannelSizes likeliest(const ChannelData& data, double mean_square) {
   const double typical = typical_noise(data.e, data.f);
-  const std::vector<double> shares =
-      data.e.size() >= 30 && mean_square > 0 ? std::vector<double>{0.0, 0.5, 1.0} : std::vector<double>{0.0};
-  const bool tells = data.e.size() >= 30 && data.spread.squaredNorm() > 0;
-  const std::vector<double> parts = tells ? std::vector<double>{0.0, 0.3, 0.6, 0.9} : std::vector<double>{0.0};
+  const bool enough = data.e.size() >= thresholds::min_growth_values;
+  std::span<const double> shares = thresholds::growing_shares, parts = thresholds::unsteady_shares;
+  if (!enough || mean_square <= 0) shares = shares.first(1);
+  if (!enough || data.spread.squaredNorm() <= 0) parts = parts.first(1);
   ChannelSizes best{.sigma = typical};
   for (const double part : parts)
     for (const double share : shares) {
@@ -261,7 +266,8 @@ ChannelSizes likeliest(const ChannelData& data, double mean_square) {
       for (int i = -32; i <= 20; ++i)
         for (const double ratio : {0.0, 0.3, 1.0, 3.0, 10.0, 40.0}) {
           const double sigma = typical * std::exp(0.12 * i), tau = ratio * sigma;
-          const double deviance = model.deviance(sigma, tau) + std::pow(0.12 * i, 2) + 1.0 * share + 1.0 * part;
+          const double deviance = model.deviance(sigma, tau) + std::pow(0.12 * i, 2) +
+                                  thresholds::price_of_growth * share + thresholds::price_of_growth * part;
           if (deviance < best.deviance) best = {sigma, tau, share, part, deviance};
         }
     }
@@ -280,13 +286,38 @@ ChannelFit fit_channel(const Observations& observations, const NoiseData& data, 
   double trace = 0.0;
   fit.score = model.studentized(sigma, tau, trace, fit.plain);
   fit.noise = {.measured = true,
-               .floor = sigma * std::sqrt((1 - part) * (1 - 0.98 * share) + 0.02 * part),
-               .growth = share > 0 ? sigma * std::sqrt((1 - part) * (0.98 * share / mean_square)) : 0.0,
-               .unsteady = part > 0 ? sigma * std::sqrt(0.98 * part / scatter) : 0.0,
+               .floor = sigma * std::sqrt((1 - part) * (1 - growing_share * share) + constant_share * part),
+               .growth = share > 0 ? sigma * std::sqrt((1 - part) * (growing_share * share / mean_square)) : 0.0,
+               .unsteady = part > 0 ? sigma * std::sqrt(growing_share * part / scatter) : 0.0,
                .spread = upper_median({channel.spread.begin(), channel.spread.end()}),
                .freedom = std::max(1.0, n - trace),
                .rerun_sd = pooled_rerun_sd(observations, cells, data.residual)};
   return fit;
+}
+
+/// Correlation of the channels' noise. standard: rows x channels, in sd; not finite where a row has no such value.
+Eigen::Matrix4d correlation_of(const MatrixXd& standard) {
+  using namespace thresholds;
+  Eigen::Matrix4d correlation = Eigen::Matrix4d::Identity();
+  for (int a = 0; a < channel_count; ++a)
+    for (int b = 0; b < a; ++b) {
+      double ab = 0, aa = 0, bb = 0, n = 0;
+      for (Index i = 0; i < standard.rows(); ++i) {
+        const double x = standard(i, a), y = standard(i, b);
+        if (!std::isfinite(x) || !std::isfinite(y)) continue;
+        ab += x * y, aa += x * x, bb += y * y, n += 1;
+      }
+      const double shrink = n / (n + correlation_shrinkage);  // toward independence, where few runs tell
+      const double rho = aa > 0 && bb > 0 ? shrink * ab / std::sqrt(aa * bb) : 0.0;
+      correlation(a, b) = correlation(b, a) = std::clamp(rho, -max_correlation, max_correlation);
+    }
+  // Cholesky tells the smallest eigenvalue, at ten seconds less to compile than eigenvalues.
+  const Eigen::Matrix4d above = correlation - min_correlation_eigenvalue * Eigen::Matrix4d::Identity();
+  if (above.llt().info() != Eigen::Success) {
+    correlation *= 0.7;
+    correlation.diagonal().setOnes();
+  }
+  return correlation;
 }
 
 }  // namespace
@@ -295,7 +326,7 @@ NoiseEstimate estimate_noise(const Observations& observations, const NoiseData& 
   NoiseEstimate estimate;
   estimate.floor.rerun_freedom = observations.rerun_freedom();
   estimate.outlier_score.assign(observations.cells.size(), 0.0);
-  const MatrixXd basis = smooth_basis(observations, 40);
+  const MatrixXd basis = smooth_basis(observations, thresholds::noise_functions);
   const Index rows = observations.rows.size();
   MatrixXd standard = MatrixXd::Constant(rows, channel_count, not_a_number);
   for (int channel = 0; channel < channel_count; ++channel) {
@@ -310,25 +341,7 @@ NoiseEstimate estimate_noise(const Observations& observations, const NoiseData& 
           fit.plain[k] / fit.noise.sd(data.prediction[cells.cell[i]], observations.cells[cells.cell[i]].spread);
     }
   }
-  for (int a = 0; a < channel_count; ++a)
-    for (int b = 0; b < a; ++b) {
-      double ab = 0, aa = 0, bb = 0, n = 0;
-      for (Index i = 0; i < rows; ++i) {
-        const double x = standard(i, a), y = standard(i, b);
-        if (!std::isfinite(x) || !std::isfinite(y)) continue;
-        ab += x * y, aa += x * x, bb += y * y, n += 1;
-      }
-      const double shrink = n / (n + thresholds::correlation_shrinkage);  // toward independence, where few runs tell
-      const double rho = aa > 0 && bb > 0 ? std::clamp(shrink * ab / std::sqrt(aa * bb), -0.9, 0.9) : 0.0;
-      estimate.floor.correlation(a, b) = estimate.floor.correlation(b, a) = rho;
-    }
-  // To stay a correlation matrix: no eigenvalue below 0.05. Cholesky tells it, at ten seconds less to compile than
-  // eigenvalues.
-  const MatrixXd above_least = estimate.floor.correlation - 0.05 * Eigen::Matrix4d::Identity();
-  if (above_least.llt().info() != Eigen::Success) {
-    estimate.floor.correlation *= 0.7;
-    estimate.floor.correlation.diagonal().setOnes();
-  }
+  estimate.floor.correlation = correlation_of(standard);
   return estimate;
 }
 

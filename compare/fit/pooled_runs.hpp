@@ -17,10 +17,10 @@ std::vector<std::vector<int>> near_rows(const Observations& observations, int mo
 ///
 /// A group stands at the mean of its conditions, and its value in a channel is what the base model predicts there plus
 /// the mean residual of its k cells, with noise of sd/sqrt(k). So to first order in the spread of a group's conditions
-/// chi2 between two models differs as it does on all runs; what the means hide is kept beside (Dataset::hidden). What
-/// is fitted so is where a fit of all runs starts, never an answer.
+/// chi2 between two models differs as it does on all runs; what the means hide is kept beside (Dataset::within_pools).
+/// What is fitted so is where a fit of all runs starts, never an answer.
 ///
-///     const auto small = pooled(base, thresholds::most_searched_rows);
+///     const auto small = pooled(base, thresholds::max_searched_rows);
 ///     small->data().observations.rows.size();   // that or less, of any number
 std::optional<FittedModel> pooled(const FittedModel& base, int most_rows);
 

@@ -1,6 +1,6 @@
-// Every level on which a verdict of the loop hangs, set by trial or by judgement: its value, its unit, how it was set,
-// and what twice the value does. Steps and bounds of a numerical method stand with it, and how small a share may be
-// before a sentence leaves it out stands with the sentence.
+// The levels on which a verdict of the loop hangs, set by trial or by judgement: value, unit, how it was set, and what
+// twice the value does. Steps, grids, seeds and bounds of a numerical method stand with it, and how small a share may
+// be before a sentence leaves it out stands with the sentence.
 //
 // 'Tuned' means: on synthetic campaigns whose truth is known (bench/loop: set `tune`, and report sets that became
 // tuning sets), never on the set that docs/lab/loop-measured.md reports. 'Chosen' means: by argument, not by trial.
@@ -20,13 +20,26 @@ inline constexpr double typical_noise_share = 0.02;
 inline constexpr double first_noise_share = 0.05;
 /// Rows that shrink a correlation between channels to half, n/(n + this) [rows]. Chosen.
 inline constexpr double correlation_shrinkage = 10.0;
+/// Largest correlation between two channels' noise [-]; smallest eigenvalue of their matrix [-]. Chosen: beyond these a
+/// sum of channels would count as known far better than each.
+inline constexpr double max_correlation = 0.9, min_correlation_eigenvalue = 0.05;
+/// Values of a channel from which its noise may grow with the signal, or with the scatter that runs state. Chosen.
+inline constexpr int min_growth_values = 30;
+/// Shares of the variance that may grow with the signal, and with the stated scatter [-]; the least share that does not
+/// [-]; -2 ln prior of a share of one [chi2]. Chosen.
+inline constexpr std::array<double, 3> growing_shares = {0.0, 0.5, 1.0};
+inline constexpr std::array<double, 4> unsteady_shares = {0.0, 0.3, 0.6, 0.9};
+inline constexpr double min_constant_share = 0.02, price_of_growth = 1.0;
+/// Smooth functions of the conditions beside which the noise is estimated, at most; values of a channel for each.
+/// Chosen: fewer leave an effect in the noise, more take the noise away.
+inline constexpr int noise_functions = 40, values_a_noise_function = 3;
 /// A value farther off than this many standard deviations is set aside [sd]. Chosen: by chance once in two million.
 /// With outliers kept the verdict was the same in all eight campaigns that had any.
 inline constexpr double outlier_limit = 5.0;
 /// Largest share of the values that may be set aside at once [-]; where there are more, none is. Chosen.
-inline constexpr double most_outliers = 0.1;
+inline constexpr double max_outlier_share = 0.1;
 /// Soils that a base fit starts from at the most. Chosen; 30 starts end at one chi2 on 18 synthetic campaigns.
-inline constexpr int most_starts = 8;
+inline constexpr int max_starts = 8;
 /// Two ends of a fit are one where their chi2 differ by less than either: [chi2], share of chi2 [-]. Chosen.
 inline constexpr double same_chi2 = 2e-3, same_chi2_share = 1e-3;
 /// sd of ln(load/most carried) of a run in which the soil gives way [-]. Chosen: well below any instrument's.
@@ -36,7 +49,7 @@ inline constexpr double load_deficit_sd = 0.005;
 
 /// An effect whose whole range moves the cells by less than this leaves no trace [sd]; nor does one of which the soil's
 /// values absorb all but this share [-]. Chosen: far below what any test sees.
-inline constexpr double least_signature = 1e-3, least_share_kept = 1e-4;
+inline constexpr double min_signature = 1e-3, min_share_kept = 1e-4;
 /// The sizes of the two secants: share of the typical amplitude [-], and change of the cells [sd]. Chosen: some effects
 /// have no slope at 0, and all are to be seen where they would be found.
 inline constexpr double small_secant = 0.05, large_secant = 10.0;
@@ -49,13 +62,16 @@ inline constexpr double family_level = 0.05;
 
 /// Forms fitted in full at the first stage, and half as many at each later one. Tuned for time: eight effects beside an
 /// accepted set in place of five changed no name of 320, but better fits of the CMU wheels were found.
-inline constexpr int most_refits = 16;
+inline constexpr int max_refits = 16;
 /// Forms of one effect among them; forms of one pair of effects among the pairs. Chosen.
 inline constexpr int forms_an_effect = 3, forms_a_pair = 2;
+/// 1 - cos^2 between two signatures below which they are not tried as a pair [-]: cos above 0.99. Chosen: no data that
+/// were looked at tell such two apart, and their sizes run off against each other.
+inline constexpr double min_pair_angle = 0.02;
 /// Weakest signature that is fitted in full [sd]. Chosen.
-inline constexpr double least_strength = 1.0;
+inline constexpr double min_strength = 1.0;
 /// Effects in a candidate at the most. Chosen; tuning campaigns hold two.
-inline constexpr int most_effects = 3;
+inline constexpr int max_effects = 3;
 /// ln prior odds against each effect beyond the first [-]: several at once are e^3.5 = 33 times rarer. Tuned: from 1.5
 /// to 5.5 the names of 375 campaigns are the same within two.
 inline constexpr double price_of_another_effect = 3.5;
@@ -81,16 +97,16 @@ inline constexpr double completed_within = 15.0;
 
 /// Runs beside which candidates are searched; a campaign of more is pooled to as many, and what is found is fitted to
 /// all [runs]. Chosen for time: half as many again as the largest campaign that anything here was tuned on.
-inline constexpr int most_searched_rows = 150;
+inline constexpr int max_searched_rows = 150;
 /// Sets of effects that are fitted to all runs then, and forms of each. Chosen.
 inline constexpr std::size_t sets_fitted_again = 10, forms_fitted_again = 2;
 
 // --- stage 5: choice and verdict ---
 
 /// Measured values beyond the soil's free ones, and conditions, that a verdict needs. Chosen.
-inline constexpr int least_spare_values = 6, least_conditions = 6;
+inline constexpr int min_spare_values = 6, min_conditions = 6;
 /// Degrees of freedom behind a channel's noise below which a residual can't be told from noise [-]. Chosen.
-inline constexpr double least_noise_freedom = 5.0;
+inline constexpr double min_noise_freedom = 5.0;
 /// Folds of the conditions by which a candidate must predict better. Chosen.
 inline constexpr int choice_folds = 10;
 /// A candidate that predicts conditions left out better, if by less than a standard error, stands where its odds are
@@ -108,9 +124,9 @@ inline constexpr double first_test_level = 0.02;
 /// Tuned on seeds 93 and 94: unknown flagged 23 -> 27 of 40, no right name lost, no false alarm.
 inline constexpr double rerun_level = 0.005, rerun_share = 0.5;
 /// Values that repeat a setpoint, of a channel, below which re-runs say next to nothing of the noise. Chosen.
-inline constexpr double least_reruns = 4.0;
+inline constexpr double min_reruns = 4.0;
 /// Runs below which their order is not looked at. Chosen.
-inline constexpr std::size_t least_serial_runs = 12;
+inline constexpr std::size_t min_serial_runs = 12;
 /// Serial correlation of the runs that says 'unknown' where no effect is named [p]; rearrangements it is compared with.
 /// Chosen; on 55 campaigns with nothing missing p never fell below 5 %.
 inline constexpr double serial_level = 0.01;
@@ -128,13 +144,17 @@ inline constexpr double dominant_share = 0.9, dominant_test_level = 0.03, domina
 /// [ln evidence]; both grow as sqrt(few_values/values), up to twofold. Tuned: twice the growth adds no truth on rich
 /// designs and 0.2 (rich) to 0.6 (poor) sets; ten times one truth on each kind, sets of 2.4 and more.
 /// Without the growth on small designs poor campaigns held the truth in 70 % of the sets, not 83 %.
-inline constexpr double allowed_behind = 4.0, allowed_growth = 0.03, few_values = 200.0, most_growth = 2.0;
+inline constexpr double allowed_behind = 4.0, allowed_growth = 0.03, few_values = 200.0, max_growth = 2.0;
 /// The same for sets that hold the best one and more [ln evidence]. Tuned: truth in the set 105 -> 106 of 120, rich
 /// sets 1.36 -> 1.45.
 inline constexpr double superset_allowed = 2.0;
 
 // --- a term without a name, the model discrepancy ---
 
+/// Runs for each smooth function of the conditions that an unnamed term is made of; how many at least and most. Chosen.
+inline constexpr int runs_a_smooth_function = 4, min_smooth_functions = 2, max_smooth_functions = 14;
+/// Runs for each wave of an unnamed term along one condition; how many at most. Chosen.
+inline constexpr int runs_a_wave = 10, max_waves = 5;
 /// sd of the weights of an unnamed term's columns that are tried, the price of the choice paid [sd of the noise].
 /// Chosen.
 inline constexpr std::array<double, 6> term_sizes = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0};
@@ -150,7 +170,9 @@ inline constexpr double false_discovery_level = 0.05;
 /// sd of the plainest weight of a learned function that are tried [-]: shares of the load, or of ln of what is scaled.
 /// Chosen; the price of the choice is paid.
 inline constexpr std::array<double, 5> learned_sizes = {0.01, 0.03, 0.1, 0.3, 1.0};
-/// Learned forms that are fitted in full, of most evidence, in campaigns of at most most_searched_rows: with more runs
+/// A weight's sd falls with the degree of its function, (1 + degree)^-this [-]. Chosen: curves before wiggles.
+inline constexpr double learned_bend_power = 2.0;
+/// Learned forms that are fitted in full, of most evidence, in campaigns of at most max_searched_rows: with more runs
 /// the evidence tells the forms apart, and later_refits is enough. Chosen for time.
 inline constexpr std::size_t learned_refits = 3;
 /// The same of those that are learned beside another one. Chosen for time: with three the measured wheels learn the
@@ -158,28 +180,28 @@ inline constexpr std::size_t learned_refits = 3;
 inline constexpr std::size_t later_refits = 1;
 /// Learned effects, one beside the other, at the most. Chosen for time: of the smooth measured wheel the fourth takes
 /// less off the held-out error than the second or the third (docs/lab/loop-measured.md).
-inline constexpr std::size_t most_learned = 4;
+inline constexpr std::size_t max_learned = 4;
 /// A condition that varies by less than this share of its size is no variable to learn from [-]. Chosen.
-inline constexpr double least_learned_range = 0.05;
+inline constexpr double min_learned_range = 0.05;
 /// Share of the held-out error that a learned effect must take away, and share by which it may grow in a channel [-].
 /// Chosen after ten made campaigns had been seen (docs/lab/loop-measured.md), of which they refuse two.
-inline constexpr double least_learned_gain = 0.03, most_learned_loss = 0.05;
+inline constexpr double min_learned_gain = 0.03, max_learned_loss = 0.05;
 
 /// Terms of a formula in place of a learned curve at the most; pairs of terms that three are built on. Chosen.
-inline constexpr int most_formula_terms = 3;
+inline constexpr int max_formula_terms = 3;
 inline constexpr std::size_t best_pairs = 30;
 
 // --- a test that is designed before any run ---
 
 /// Conditions among which a plan is chosen at the most; more are drawn from. Chosen for time.
-inline constexpr std::size_t most_choices = 600;
+inline constexpr std::size_t max_choices = 600;
 /// Loads that the declared soil must carry, over the load of a run [-]. Chosen: near the largest one sinkage is unsure.
 inline constexpr double spare_load = 1.25;
 /// Runs of a plan at one condition, where there are conditions enough. Chosen: noise shows, and shapes that no form has
 /// do so too.
-inline constexpr std::size_t most_repeats = 2;
+inline constexpr std::size_t max_repeats = 2;
 /// Rounds in which every run of a plan may move. Chosen; four or five suffice.
-inline constexpr int most_passes = 12;
+inline constexpr int max_passes = 12;
 
 // --- the next test ---
 
@@ -187,10 +209,10 @@ inline constexpr int most_passes = 12;
 /// Chosen.
 inline constexpr double settled_odds = 100.0;
 /// Runs beyond which a condition is not proposed. Chosen.
-inline constexpr double most_runs = 50.0;
+inline constexpr double max_runs = 50.0;
 /// ln evidence by which a candidate at the very edge of the set still has to fall [-]; what one counts for, however
 /// unlikely [-]. Chosen.
-inline constexpr double least_fall = 0.5, least_weight = 0.1;
+inline constexpr double min_fall = 0.5, min_weight = 0.1;
 /// Where a rig is taken to go: shares of the campaign's loads [-], slips [-]. Tuned: on 24 campaigns with several names
 /// rich ones decided in three times three runs 1 -> 5 of 7 against ranges as run; half as wide again gave no more.
 inline constexpr double lowest_load_share = 0.7, highest_load_share = 1.4, lowest_slip = -0.2, highest_slip = 0.8;

@@ -99,15 +99,15 @@ bekker_wong::NearBalance BalanceMemory::near_of(int row) const {
 void PredictionSlopes::take(Eigen::Index p, double times, Eigen::Index from, int row,
                             std::pair<Eigen::Index, Eigen::Index> cells) {
   for (Eigen::Index i = cells.first; i < cells.second; ++i) jacobian(i, p) = times * jacobian(i, from);
-  short_of(row, p) = times * short_of(row, from);
-  turn(row, p) = times * turn(row, from);
+  shortfall_slopes(row, p) = times * shortfall_slopes(row, from);
+  entry_angle_slopes(row, p) = times * entry_angle_slopes(row, from);
 }
 
 BalanceMemory BalanceMemory::moved_by(const Eigen::VectorXd& step, const PredictionSlopes& slopes) const {
   constexpr double farthest = 0.5;  // in ln(theta_1)
   BalanceMemory moved = *this;
   moved.near.clear();
-  const Eigen::VectorXd turn = slopes.turn * step;
+  const Eigen::VectorXd turn = slopes.entry_angle_slopes * step;
   for (std::size_t r = 0; r < angles.size(); ++r)
     moved.near.push_back(
         {.angle = angles[r] * std::exp(std::clamp(turn[r], -farthest, farthest)), .steepness = slopes.steepness[r]});
@@ -298,8 +298,8 @@ std::optional<PredictionSlopes> WheelPredictor::linearise(const Eigen::VectorXd&
   const Moved moved = moved_from(theta);
   const std::vector<Cell>& cells = observations_->cells;
   PredictionSlopes slopes{.jacobian = Eigen::MatrixXd::Zero(std::ssize(cells), theta.size()),
-                          .short_of = Eigen::MatrixXd::Zero(rows(), theta.size()),
-                          .turn = Eigen::MatrixXd::Zero(rows(), theta.size()),
+                          .shortfall_slopes = Eigen::MatrixXd::Zero(rows(), theta.size()),
+                          .entry_angle_slopes = Eigen::MatrixXd::Zero(rows(), theta.size()),
                           .steepness = Eigen::VectorXd::Zero(rows())};
   std::size_t cell = 0;
   for (int row = 0; row < rows(); ++row) {
@@ -320,8 +320,8 @@ std::optional<PredictionSlopes> WheelPredictor::linearise(const Eigen::VectorXd&
       const RolledWheel there = moved.wheels[q].at_entry_angle(at, theta_1, nodes);
       const double carries_more = there.forces.vertical - here.forces.vertical;
       const double roll_by = gives_way ? 0.0 : -carries_more / stiffness;
-      if (gives_way) slopes.short_of(row, p) = -carries_more / (here.forces.vertical * moved.steps[q]);
-      slopes.turn(row, p) = roll_by / (theta_1 * moved.steps[q]);
+      if (gives_way) slopes.shortfall_slopes(row, p) = -carries_more / (here.forces.vertical * moved.steps[q]);
+      slopes.entry_angle_slopes(row, p) = roll_by / (theta_1 * moved.steps[q]);
       for (std::size_t i = first; i < cell; ++i) {
         const int c = cells[i].channel;
         const double value = channel_of(here.reading, c);
@@ -332,7 +332,7 @@ std::optional<PredictionSlopes> WheelPredictor::linearise(const Eigen::VectorXd&
     for (Eigen::Index p = 0; p < soil_parameters(); ++p) difference(p);
     for (std::size_t t = 0; t < terms_.size(); ++t) {
       const Eigen::Index begin = first_of_term_[t], size = std::ssize(terms_[t].free);
-      const std::vector<double> products = terms_[t].weighs ? terms_[t].weighs(at) : std::vector<double>();
+      const std::vector<double> products = terms_[t].basis_values ? terms_[t].basis_values(at) : std::vector<double>();
       const auto largest =
           std::ranges::max_element(products, [](double a, double b) { return std::abs(a) < std::abs(b); });
       if (largest == products.end() || *largest == 0.0) {

@@ -43,7 +43,7 @@ struct Term {
   std::vector<double> spread;    ///< sd of each parameter's prior about its default [SI]; 0: none stated
   /// Where the free ones are the weights of one function of the condition: what each of them multiplies there. Their
   /// slopes are then one slope, times that.
-  std::function<std::vector<double>(const OperatingCondition&)> weighs = {};
+  std::function<std::vector<double>(const OperatingCondition&)> basis_values = {};
 };
 
 /// A form with its reference values set to the observations' means (moisture, position, run). free_shape: the other
@@ -52,10 +52,10 @@ Term make_term(const bekker_wong::EffectForm& form, const Observations& observat
 
 /// The predictions' first derivatives over theta, at one theta.
 struct PredictionSlopes {
-  Eigen::MatrixXd jacobian;   ///< cells x parameters
-  Eigen::MatrixXd short_of;   ///< of ln(load/most carried), rows x parameters; zero but where the soil gives way
-  Eigen::MatrixXd turn;       ///< of ln(theta_1), rows x parameters; zero where the soil gives way
-  Eigen::VectorXd steepness;  ///< d ln(load carried)/d ln(theta_1) of each row; zero where the soil gives way
+  Eigen::MatrixXd jacobian;          ///< cells x parameters
+  Eigen::MatrixXd shortfall_slopes;  ///< of ln(load/most carried), rows x parameters; zero but where the soil gives way
+  Eigen::MatrixXd entry_angle_slopes;  ///< of ln(theta_1), rows x parameters; zero where the soil gives way
+  Eigen::VectorXd steepness;           ///< d ln(load carried)/d ln(theta_1) of each row; zero where the soil gives way
 
   /// Of one row, whose cells are from .first to before .second: a parameter's slopes as those of another, times that.
   void take(Eigen::Index parameter, double times, Eigen::Index from, int row,
@@ -120,7 +120,7 @@ class WheelPredictor {
   /// The predictions' slopes over theta by implicit differentiation of the balance: at fixed theta_1 the forces and
   /// the carried load are differenced, then dtheta_1 = -dV/(dV/dtheta_1). All on the same nodes, half as many as a
   /// prediction's: slopes to about 1e-4, less well near a fold, where dV/dtheta_1 is small. known: of a prediction at
-  /// this theta; its rows that give way stay at their theta_1, as the theorem of the envelope says of what they carry
+  /// this theta; its rows that give way stay at their theta_1, as the envelope theorem says of what they carry
   /// at most: d ln(load/V) = -dV/V. Nothing where a derivative is not finite.
   std::optional<PredictionSlopes> linearise(const Eigen::VectorXd& theta, const BalanceMemory& known) const;
 

@@ -62,7 +62,7 @@ Json error_json(const LoopAnswer& answer) {
   for (int c = 0; c < channel_count; ++c) {
     const ChannelView& channel = channel_views[c];
     const std::string name(channel.name);
-    const ErrorPair& e = answer.validation.channels[c];
+    const HeldOutErrors& e = answer.validation.channels[c];
     error[name] = Json::object();
     if (e.cells == 0) continue;
     error[name] = {{"unit", channel.si_unit},
@@ -72,7 +72,7 @@ Json error_json(const LoopAnswer& answer) {
                    {"kind", "held_out"}};
     if (!answer.learned.empty()) error[name]["without_learned"] = finite(e.named);
   }
-  const ErrorPair& all = answer.validation.overall;
+  const HeldOutErrors& all = answer.validation.overall;
   error["overall"] = Json::object();
   if (all.cells > 0)
     error["overall"] = {{"unit", "sigma"},
@@ -108,9 +108,9 @@ Json next_json(const LoopAnswer& answer) {
 }
 
 /// Sets of effects with their shares, and what their best forms presume of the wheel.
-Json sets_json(const Attribution& found, const std::vector<Weighted>& sets, const Tire& wheel) {
+Json sets_json(const Attribution& found, const std::vector<WeightedSet>& sets, const Tire& wheel) {
   Json list = Json::array();
-  for (const Weighted& w : sets) {
+  for (const WeightedSet& w : sets) {
     std::vector<const bekker_wong::EffectForm*> forms;
     for (const Term& term : found.candidates.models[w.best_candidate].terms()) forms.push_back(term.form);
     list.push_back({{"effects", w.ids}, {"weight", finite(w.weight)}, {"presumes", presumes_json(forms, wheel)}});
@@ -135,8 +135,8 @@ Json model_discrepancy_json(const LoopAnswer& answer) {
 Json ambiguity_json(const LoopAnswer& answer) {
   if (answer.ambiguity_set.empty()) return Json::array();
   Json all = sets_json(answer.found(), answer.ambiguity_set, answer.wheel);
-  if (answer.noted_sets.empty()) return all;
-  for (Json& set : sets_json(answer.second->note, answer.noted_sets, answer.wheel)) {
+  if (answer.alternative_sets.empty()) return all;
+  for (Json& set : sets_json(answer.second->alternative, answer.alternative_sets, answer.wheel)) {
     set["of_other_reading"] = true;
     all.push_back(std::move(set));
   }
@@ -245,14 +245,14 @@ Json details_json(const LoopAnswer& answer) {
   const Candidates& all = found.candidates;
   const ResidualTests &before = answer.judgement->before, after = answer.choice().after;
   Json sets = Json::array();
-  for (const Weighted& w : all.sets) {
+  for (const WeightedSet& w : all.sets) {
     const CandidateModel& candidate = all.models[w.best_candidate];
     const std::vector<std::string> in_order = forms_in_order(candidate);
     Json forms = Json::array();
     auto form = in_order.begin();
     for (const std::string& effect : candidate.ids) forms.push_back(effect + "/" + *form++);
     const auto listed =
-        std::ranges::find_if(answer.ambiguity_set, [&](const Weighted& one) { return one.ids == w.ids; });
+        std::ranges::find_if(answer.ambiguity_set, [&](const WeightedSet& one) { return one.ids == w.ids; });
     sets.push_back({{"effects", w.ids},
                     {"forms", forms},
                     {"weight", finite(listed == answer.ambiguity_set.end() ? 0.0 : listed->weight)},

@@ -24,12 +24,12 @@ TableCell odds_to_the_first(double behind) {
   return "1 : " + number(odds);
 }
 
-Tone tone_of(const ErrorPair& error) {
+Tone tone_of(const HeldOutErrors& error) {
   constexpr double worth_a_colour = 0.95;
   return rises(error) ? Tone::bad : error.after < worth_a_colour * error.before ? Tone::good : Tone::none;
 }
 
-std::string change_of(const ErrorPair& error) {
+std::string change_of(const HeldOutErrors& error) {
   return error.before > 0 ? fmt::format("{:+.0f} %", 100 * (error.after / error.before - 1)) : "-";
 }
 
@@ -84,7 +84,7 @@ Table error_table(const LoopAnswer& answer) {
       "added",
       {"channel", "values", "before", "after", "change", "noise alone"}};
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
-    const ErrorPair& e = answer.validation.channels[c];
+    const HeldOutErrors& e = answer.validation.channels[c];
     if (e.cells == 0) continue;
     table.add({std::string(channel_views[c].title),
                std::to_string(e.cells),
@@ -93,7 +93,7 @@ Table error_table(const LoopAnswer& answer) {
                change_of(e),
                in_unit(c, e.noise_floor)});
   }
-  const ErrorPair& all = answer.validation.overall;
+  const HeldOutErrors& all = answer.validation.overall;
   if (all.cells > 0)
     table.add({"all, in standard deviations of the noise",
                std::to_string(all.cells),
@@ -115,9 +115,9 @@ Table candidates_table(const LoopAnswer& answer) {
                     {"effects", "form", "share", "odds to the first", "chi2", "values"},
                     {true, true}};
   const std::string values = std::to_string(answer.found().base.data().cells());
-  const std::vector<const Weighted*> sets = sets_shown(answer);
+  const std::vector<const WeightedSet*> sets = sets_shown(answer);
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    const Weighted& w = *sets[i];
+    const WeightedSet& w = *sets[i];
     const CandidateModel& candidate = answer.found().candidates.models[w.best_candidate];
     table.add({{named_effects(w.ids), joined(w.ids) == named_effects(w.ids) ? "" : joined(w.ids)},
                fmt::format("{}", fmt::join(forms_in_order(candidate), " + ")),

@@ -37,7 +37,7 @@ std::string learned_ranges(const std::vector<EffectChoice>& learned) {
           setting(view.per_si * choice.parameters.at(name + "_to")), view.unit.empty() ? "" : " ", view.unit);
       if (std::ranges::find(ranges, range) == ranges.end()) ranges.push_back(std::move(range));
     }
-  return in_a_row(ranges);
+  return joined_with_and(ranges);
 }
 
 /// "slip sinkage, and, learned from these runs (for slip 5 to 70 %), changes of the torque by slip and the pull by
@@ -52,9 +52,10 @@ std::string stand_in_words(const LoopAnswer& answer) {
     } else {
       named.emplace_back(effect_title(effect.choice.id).name);
     }
-  if (learned.empty()) return in_a_row(named);
-  return fmt::format("{}{}learned from these runs (for {}), {} of {}", in_a_row(named), named.empty() ? "" : ", and, ",
-                     learned_ranges(learned), learned.size() > 1 ? "changes" : "a change", in_a_row(changes));
+  if (learned.empty()) return joined_with_and(named);
+  return fmt::format("{}{}learned from these runs (for {}), {} of {}", joined_with_and(named),
+                     named.empty() ? "" : ", and, ", learned_ranges(learned),
+                     learned.size() > 1 ? "changes" : "a change", joined_with_and(changes));
 }
 
 /// "(W_n: the load normal to the ground)": the symbols that a formula has; "" where it has none of its own.
@@ -75,7 +76,7 @@ std::string formula_sentence(const LearnedFormula& formula) {
 }
 
 /// Sets from the first one on, with their shares; those below `least`, of the evidence, are only counted.
-std::string sets_with_shares(const std::vector<Weighted>& sets, std::size_t first, double least) {
+std::string sets_with_shares(const std::vector<WeightedSet>& sets, std::size_t first, double least) {
   std::vector<std::string> said;
   std::size_t unsaid = 0;
   for (std::size_t i = first; i < sets.size(); ++i)
@@ -88,9 +89,9 @@ std::string sets_with_shares(const std::vector<Weighted>& sets, std::size_t firs
 }
 
 /// Why the first set is taken where another one has the larger share; "" where none has.
-std::string why_taken(const std::vector<Weighted>& sets) {
-  const auto lighter = [](const Weighted& a, const Weighted& b) { return a.weight < b.weight; };
-  const Weighted &taken = sets.front(), &heaviest = *std::ranges::max_element(sets, lighter);
+std::string why_taken(const std::vector<WeightedSet>& sets) {
+  const auto lighter = [](const WeightedSet& a, const WeightedSet& b) { return a.weight < b.weight; };
+  const WeightedSet &taken = sets.front(), &heaviest = *std::ranges::max_element(sets, lighter);
   if (heaviest.ids == taken.ids) return "";
   return fmt::format(
       " The model takes {} all the same: what {} has beyond it does not predict conditions left out better.",
@@ -101,7 +102,7 @@ std::string why_taken(const std::vector<Weighted>& sets) {
 /// own equations; how often such a lead is right where nature has others was counted: 88 of 97 synthetic campaigns
 /// (docs/lab/loop-ceiling.md, "Accuracy against the share answered").
 std::string next_candidate(const LoopAnswer& answer) {
-  const std::vector<const Weighted*> sets = sets_shown(answer);
+  const std::vector<const WeightedSet*> sets = sets_shown(answer);
   if (answer.ambiguity_set.size() != 1 || sets.size() < 2) return "";
   const double behind = sets[0]->log_evidence - sets[1]->log_evidence;
   if (!(behind > 0)) return "";
@@ -141,7 +142,7 @@ std::string odds_clause(const LoopAnswer& answer) {
 /// What else to know of the verdict; "" where there is nothing.
 std::string beside_the_verdict(const LoopAnswer& answer) {
   if (!answer.judgement) return "";
-  const std::vector<Weighted>& sets = answer.ambiguity_set;
+  const std::vector<WeightedSet>& sets = answer.ambiguity_set;
   switch (answer.verdict) {
     case Verdict::effect_found:
       return (sets.size() > 1 ? "Other candidates: " + sets_with_shares(sets, 1, least_share) + "." + why_taken(sets)
@@ -164,19 +165,19 @@ std::string beside_the_verdict(const LoopAnswer& answer) {
 constexpr double third_digit = 1.005;
 constexpr double worth_saying = 0.95;  // an error that falls by less hardly changes
 
-bool falls(const ErrorPair& error) { return error.before > third_digit * error.after; }
-bool falls_clearly(const ErrorPair& error) { return error.after < worth_saying * error.before; }
-bool hardly_changes(const ErrorPair& error) { return !falls_clearly(error) && !rises(error); }
+bool falls(const HeldOutErrors& error) { return error.before > third_digit * error.after; }
+bool falls_clearly(const HeldOutErrors& error) { return error.after < worth_saying * error.before; }
+bool hardly_changes(const HeldOutErrors& error) { return !falls_clearly(error) && !rises(error); }
 
 /// "6.30": an error in a sentence.
 std::string error_number(double value) { return number(value, 3); }
 
 /// "sinkage (20.6 to 7.04 mm)" of each channel of which `moves` holds; the noise beside it where that is asked.
-std::vector<std::string> channels_that(bool (*moves)(const ErrorPair&), const CrossValidation& validation,
+std::vector<std::string> channels_that(bool (*moves)(const HeldOutErrors&), const CrossValidation& validation,
                                        bool with_noise = false) {
   std::vector<std::string> said;
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
-    const ErrorPair& e = validation.channels[c];
+    const HeldOutErrors& e = validation.channels[c];
     const ChannelView& view = channel_views[c];
     if (e.cells == 0 || !moves(e)) continue;
     const std::string noise =
@@ -190,7 +191,7 @@ std::vector<std::string> channels_that(bool (*moves)(const ErrorPair&), const Cr
 std::string with_the(const std::vector<std::string>& channels) {
   std::vector<std::string> words;
   for (const std::string& channel : channels) words.push_back("the " + channel);
-  return in_a_row(words);
+  return joined_with_and(words);
 }
 
 std::string error_sentence(const LoopAnswer& answer) {
@@ -198,12 +199,12 @@ std::string error_sentence(const LoopAnswer& answer) {
   std::vector<std::string> parts;
   if (!takes_effects(answer)) {
     for (std::size_t c = 0; c < channel_views.size(); ++c)
-      if (const ErrorPair& e = validation.channels[c]; e.cells > 0)
+      if (const HeldOutErrors& e = validation.channels[c]; e.cells > 0)
         parts.push_back(fmt::format("{0} {1} {3} (noise alone: {2} {3})", channel_views[c].title,
                                     error_number(e.before * channel_views[c].per_si),
                                     error_number(e.noise_floor * channel_views[c].per_si), channel_views[c].unit));
     return fmt::format("With the soil refitted the root mean square error on conditions left out is: {}.",
-                       in_a_row(parts));
+                       joined_with_and(parts));
   }
   const auto add = [&](const char* what, const std::vector<std::string>& channels) {
     if (!channels.empty()) parts.push_back(fmt::format("{} {}", what, with_the(channels)));
@@ -212,7 +213,7 @@ std::string error_sentence(const LoopAnswer& answer) {
   add("falls for", channels_that(falls_clearly, validation, true));
   add("hardly changes for", channels_that(hardly_changes, validation, true));
   return fmt::format("On conditions that neither the choice nor the fit has seen the root mean square error {}.",
-                     in_a_row(parts));
+                     joined_with_and(parts));
 }
 
 // Parameters.
@@ -240,13 +241,13 @@ std::string effect_sentence(const AcceptedEffect& effect) {
 
 /// What the attribution says that does not decide.
 std::string note_on_the_other_attribution(const LoopAnswer& answer) {
-  const Attribution& note = answer.second->note;
+  const Attribution& note = answer.second->alternative;
   std::string names = "no named effect stands out";
   std::vector<std::string> others;
   if (note.candidates.best) {
     const std::set<std::string>& best = note.best().ids;
     names = fmt::format("{} stands out most (p = {:.2g})", named_effects(best), note.signatures.p_value);
-    for (const Weighted& w : answer.noted_sets)
+    for (const WeightedSet& w : answer.alternative_sets)
       if (w.ids != best) others.push_back(joined(w.ids));
   }
   if (!others.empty()) names += fmt::format("; these compete with it: {}", fmt::join(others, ", "));
@@ -261,11 +262,11 @@ std::string note_on_the_other_attribution(const LoopAnswer& answer) {
 std::vector<EffectChoice> forms_named(const LoopAnswer& answer) {
   std::vector<EffectChoice> forms;
   for (const AcceptedEffect& effect : answer.taken()) forms.push_back(effect.choice);
-  for (const Weighted* w : sets_shown(answer))
+  for (const WeightedSet* w : sets_shown(answer))
     for (const Term& term : answer.found().candidates.models[w->best_candidate].terms())
       forms.push_back({term.form->id, term.form->form, {}});
-  for (const Weighted& w : answer.noted_sets)
-    for (const Term& term : answer.second->note.candidates.models[w.best_candidate].terms())
+  for (const WeightedSet& w : answer.alternative_sets)
+    for (const Term& term : answer.second->alternative.candidates.models[w.best_candidate].terms())
       forms.push_back({term.form->id, term.form->form, {}});
   return forms;
 }
@@ -288,15 +289,15 @@ std::string outlier_sentence(const LoopAnswer& answer) {
 
 bool takes_effects(const LoopAnswer& answer) { return !answer.taken().empty(); }
 
-std::vector<const Weighted*> sets_shown(const LoopAnswer& answer) {
+std::vector<const WeightedSet*> sets_shown(const LoopAnswer& answer) {
   constexpr std::size_t most = 8;
-  std::vector<const Weighted*> sets;
-  for (const Weighted& w : answer.ambiguity_set) sets.push_back(&w);
-  const auto listed = [&](const Weighted& w) {
-    return std::ranges::any_of(sets, [&](const Weighted* one) { return one->ids == w.ids; });
+  std::vector<const WeightedSet*> sets;
+  for (const WeightedSet& w : answer.ambiguity_set) sets.push_back(&w);
+  const auto listed = [&](const WeightedSet& w) {
+    return std::ranges::any_of(sets, [&](const WeightedSet* one) { return one->ids == w.ids; });
   };
   if (!answer.has_candidates()) return sets;
-  for (const Weighted& w : answer.found().candidates.sets)
+  for (const WeightedSet& w : answer.found().candidates.sets)
     if (sets.size() < most && !listed(w)) sets.push_back(&w);
   return sets;
 }
@@ -391,7 +392,7 @@ std::vector<std::string> forms_in_order(const CandidateModel& candidate) {
   return forms;
 }
 
-bool rises(const ErrorPair& error) { return error.after > third_digit * error.before; }
+bool rises(const HeldOutErrors& error) { return error.after > third_digit * error.before; }
 
 std::vector<int> worse_channels(const LoopAnswer& answer) {
   std::vector<int> worse;
@@ -411,10 +412,10 @@ std::string held_out_words(const CrossValidation& validation) {
   return text;
 }
 
-std::string held_out_clause(const LoopAnswer& answer) {
-  if (answer.validation.overall.cells == 0) return "";
-  if (!answer.effects.empty()) return "; " + held_out_words(answer.validation);
-  return answer.stand_in.empty() ? "" : "; with the model that is saved, " + held_out_words(answer.validation);
+std::string held_out_clause(const CrossValidation& validation, bool accepted, bool stands_in) {
+  if (validation.overall.cells == 0) return "";
+  if (accepted) return "; " + held_out_words(validation);
+  return stands_in ? "; with the model that is saved, " + held_out_words(validation) : "";
 }
 
 }  // namespace soilbin::compare

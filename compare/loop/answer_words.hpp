@@ -37,7 +37,7 @@ std::vector<std::string> notes(const LoopAnswer& answer);
 std::vector<std::string> explanation(const LoopAnswer& answer);
 
 /// Whether a held-out error is larger with the effects than without, by more than its third digit.
-bool rises(const ErrorPair& error);
+bool rises(const HeldOutErrors& error);
 
 /// The channels whose held-out error rises with the effects that the answer's model takes (Channel); none where it
 /// takes none.
@@ -47,14 +47,15 @@ std::vector<int> worse_channels(const LoopAnswer& answer);
 /// drawbar pull (5.95 to 6.30 N)".
 std::string held_out_words(const CrossValidation& validation);
 
-/// The same as the end of a reason; empty where the model takes no effects or nothing was held out.
-std::string held_out_clause(const LoopAnswer& answer);
+/// The same as the end of a reason, beside effects that are accepted or that stand in; empty where there are none, or
+/// nothing was held out.
+std::string held_out_clause(const CrossValidation& validation, bool accepted, bool stands_in);
 
 /// The forms of a candidate's effects, in the order of its ids.
 std::vector<std::string> forms_in_order(const CandidateModel& candidate);
 
 /// The sets of the table of candidates: those that compete, then those that stand next.
-std::vector<const Weighted*> sets_shown(const LoopAnswer& answer);
+std::vector<const WeightedSet*> sets_shown(const LoopAnswer& answer);
 
 // Tables (answer_tables.cpp).
 

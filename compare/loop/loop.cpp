@@ -57,8 +57,29 @@ std::vector<SoilShift> soil_shifts(const FittedModel& with, const FittedModel& w
   return shifts;
 }
 
-/// Shares of the progress: until the attribution, the choice, and the validation are done.
-constexpr std::size_t all_steps = 100, attributed = 30, chosen = 40, pulses_a_step = 10;
+/// How far the loop is, in hundredths: the attribution counts its pulses, the validation its folds.
+class LoopProgress {
+ public:
+  explicit LoopProgress(const Progress& heard) : heard_(heard) {}
+
+  void pulse() { say(validated_ ? all_steps - 1 : std::min(++pulses_ / pulses_a_step, attributed)); }
+  Progress folds() {
+    return [this](std::size_t done, std::size_t folds) { say(chosen + (all_steps - 1 - chosen) * done / folds); };
+  }
+  void choice_made() { say(chosen); }
+  void validation_made() { validated_ = true; }
+  void end() { say(all_steps); }
+
+ private:
+  static constexpr std::size_t all_steps = 100, attributed = 30, chosen = 40, pulses_a_step = 10;
+  void say(std::size_t step) const {
+    if (heard_) heard_(step, all_steps);
+  }
+
+  const Progress& heard_;
+  std::size_t pulses_ = 0;
+  bool validated_ = false;
+};
 
 /// Effects of the catalogue, but for the declared ones, that no form of theirs would show.
 std::vector<std::string> not_testable(const Attribution& found) {
@@ -82,6 +103,18 @@ bool explains_better(const Attribution& second, const Attribution& first) {
 struct Decision {
   Judgement judgement;
   std::optional<SecondAttribution> second;
+
+  const Attribution& found() const { return judgement.found; }
+  /// The model that the verdict takes: the chosen candidate's, or the base model.
+  const FittedModel& model() const { return judgement.takes_best() ? found().best().model : found().base; }
+  /// That model fitted to the data of the base model taken as exact.
+  FittedModel exact_model(const FittedModel& base) const {
+    return refitted_as_exact(base, judgement.takes_best() ? &model() : nullptr);
+  }
+  /// The noise in whose unit errors are told: beside accepted effects where there are any.
+  NoiseFloor noise() const {
+    return judgement.verdict == Verdict::effect_found ? noise_beside(model()) : found().base.data().noise;
+  }
 };
 
 /// An unknown effect may be the base model's own form: then effects can stand out that nothing but a change with load
@@ -114,16 +147,16 @@ WithOutliers keep_outliers(const Campaign& campaign, const Observations& observa
 
 /// What only the attribution that does not decide leaves. An exact base model's sets always: an effect of load and slip
 /// alone looks like what the other one lets go. The other one's where it explains the data nearly as well.
-std::vector<Weighted> noted_sets(const LoopAnswer& answer) {
-  if (!answer.second || !answer.second->note.candidates.best) return {};
-  const Attribution& note = answer.second->note;
-  const double behind = evidence_of_best(answer.found()) - evidence_of_best(note);
-  if (!answer.second->decides && behind > competitors(note.candidates).front().allowed) return {};
-  std::vector<Weighted> noted = ambiguity_set(note.candidates);
-  std::erase_if(noted, [&](const Weighted& w) {
-    return std::ranges::any_of(answer.ambiguity_set, [&](const Weighted& decided) { return decided.ids == w.ids; });
+std::vector<WeightedSet> alternative_sets(const Decision& decision, const std::vector<WeightedSet>& listed) {
+  const std::optional<SecondAttribution>& second = decision.second;
+  if (!second || !second->alternative.candidates.best) return {};
+  const double behind = evidence_of_best(decision.found()) - evidence_of_best(second->alternative);
+  if (!second->decides && behind > competitors(second->alternative.candidates).front().allowed) return {};
+  std::vector<WeightedSet> noted = ambiguity_set(second->alternative.candidates);
+  std::erase_if(noted, [&](const WeightedSet& w) {
+    return std::ranges::any_of(listed, [&](const WeightedSet& other) { return other.ids == w.ids; });
   });
-  for (Weighted& w : noted) w.weight = 0.0;
+  for (WeightedSet& w : noted) w.weight = 0.0;
   return noted;
 }
 
@@ -132,70 +165,130 @@ std::vector<Dependence> dependences_of(const FittedModel& model, std::uint64_t s
   return dependences(model.data().observations, model.cell_residual(), permutations, seed);
 }
 
-/// What a decision says by itself: verdict, noise, soil.
-LoopAnswer answer_of(const Campaign& campaign, Decision decision) {
-  Judgement& judgement = decision.judgement;
-  const Attribution& found = judgement.found;
-  const bool takes_best = judgement.takes_best();
-  const FittedModel& model = takes_best ? found.best().model : found.base;
-  LoopAnswer answer;
-  answer.campaign = campaign.name;
-  answer.wheel = campaign.wheel;
-  answer.verdict = judgement.verdict;
-  answer.reason = judgement.reason;
-  answer.noise = judgement.verdict == Verdict::effect_found ? noise_beside(model) : found.base.data().noise;
-  answer.soil = model.soil();
-  answer.dependences_before = dependences_of(found.base, 7);
-  if (takes_best) {
-    answer.soil_shifts = soil_shifts(model, found.base);
-    answer.dependences_after = dependences_of(model, 11);
-    if (judgement.verdict == Verdict::unknown_effect) answer.stand_in = effects_of(found.best());
-  }
-  const std::vector<bool>& outlier = found.base.data().outlier;
-  answer.outliers = static_cast<int>(std::ranges::count(outlier, true));
-  answer.second = std::move(decision.second);
-  answer.judgement = std::move(judgement);
-  return answer;
-}
-
 /// Learned effects for what named ones do not explain.
-std::vector<LearnedEffect> learned_beside(const FittedModel& base, const Judgement& judgement,
+std::vector<LearnedEffect> learned_beside(const FittedModel& base, const Decision& decision,
                                           const AttributionOptions& options) {
-  if (judgement.verdict != Verdict::unknown_effect) return {};
-  return learn_effects(refitted_as_exact(base, judgement.takes_best() ? &judgement.found.best().model : nullptr),
-                       options);
+  if (decision.judgement.verdict != Verdict::unknown_effect) return {};
+  return learn_effects(decision.exact_model(base), options);
 }
 
 /// Whether the whole procedure, redone in each fold, predicts better with learned effects than without, and in no
 /// channel clearly worse.
 bool predicts_better(const CrossValidation& with_learned) {
   if (with_learned.overall.cells == 0) return true;  // not asked
-  for (const ErrorPair& channel : with_learned.channels)
-    if (channel.after > channel.named * (1 + thresholds::most_learned_loss)) return false;
-  return with_learned.overall.after < with_learned.overall.named * (1 - thresholds::least_learned_gain);
+  for (const HeldOutErrors& channel : with_learned.channels)
+    if (channel.after > channel.named * (1 + thresholds::max_learned_loss)) return false;
+  return with_learned.overall.after < with_learned.overall.named * (1 - thresholds::min_learned_gain);
 }
 
-/// Learned effects that predict better become a part of the model that is saved. They explain nothing: what is told to
-/// be unexplained, and what that depends on, stays what the named effects leave.
-void take_learned(std::vector<LearnedEffect> learned, const FittedModel& base, LoopAnswer& answer) {
-  if (learned.empty()) return;
-  if (!predicts_better(answer.validation)) {
-    answer.validation = without_learned_effects(std::move(answer.validation), base.data().observations);
-    return;
-  }
-  answer.learned = std::move(learned);
-  answer.stand_in = effects_of(answer.learned.back().candidate);
-  answer.soil = answer.model().soil();
-  answer.soil_shifts = soil_shifts(answer.model(), base);
+/// A decision redone on conditions left out, and the learned effects that predict those better. They become a part of
+/// the model that is saved and explain nothing: what is told to be unexplained, and what that depends on, stays what
+/// the named effects leave.
+struct Validated {
+  CrossValidation errors;
+  std::vector<LearnedEffect> learned;
+};
+
+Validated validate(const FittedModel& base, const Decision& decision, std::vector<LearnedEffect> learned,
+                   const LoopOptions& options, LoopProgress& progress) {
+  CrossValidation errors;
+  if (options.validate)
+    errors = cross_validate(base.data(), decision.noise(),
+                            {.attribution = of_a_fold(options.attribution),
+                             .with_model_discrepancy = decision.second && decision.second->decides,
+                             .learn = !learned.empty(),
+                             .folds = options.folds,
+                             .threads = options.threads,
+                             .progress = progress.folds()});
+  if (learned.empty() || predicts_better(errors)) return {std::move(errors), std::move(learned)};
+  return {without_learned_effects(std::move(errors), base.data().observations), {}};
 }
 
-LoopAnswer too_small_to_judge(const Campaign& campaign, std::string reason) {
+/// The best named effects of an unknown one, and the learned ones beside them: the last candidate holds them all.
+std::vector<AcceptedEffect> stand_ins(const Judgement& judgement, const std::vector<LearnedEffect>& learned) {
+  if (!learned.empty()) return effects_of(learned.back().candidate);
+  if (!judgement.takes_best() || judgement.verdict != Verdict::unknown_effect) return {};
+  return effects_of(judgement.found.best());
+}
+
+/// An answer that says no more than why.
+LoopAnswer not_judged(const Campaign& campaign, std::string reason) {
   LoopAnswer answer;
   answer.campaign = campaign.name;
   answer.wheel = campaign.wheel;
   answer.soil = campaign.soil;
   answer.reason = std::move(reason);
   return answer;
+}
+
+/// The same of a campaign that was fitted.
+LoopAnswer not_judged(const Campaign& campaign, std::vector<std::string> not_testable, Decision decision) {
+  const FittedModel& base = decision.found().base;
+  LoopAnswer answer = not_judged(campaign, decision.judgement.reason);
+  answer.not_testable = std::move(not_testable);
+  answer.dependences_before = dependences_of(base, 7);
+  answer.noise = base.data().noise;
+  answer.soil = base.soil();
+  answer.outliers = base.data().outliers();
+  answer.judgement = std::move(decision.judgement);
+  return answer;
+}
+
+/// What the stages made, from which the answer is put together.
+struct Stages {
+  const Observations& given;
+  const FittedModel& base;
+  std::vector<std::string> not_testable;
+  Decision decision;
+  Validated validated;
+};
+
+LoopAnswer answer_of(Stages made, const AttributionOptions& options, const Limits& limits) {
+  const FittedModel& base = made.base;
+  const Decision& decision = made.decision;
+  const Attribution& found = decision.found();
+  const std::vector<LearnedEffect>& learned = made.validated.learned;
+  const Campaign& campaign = *base.data().campaign;
+  const Verdict verdict = decision.judgement.verdict;
+  const bool takes_best = decision.judgement.takes_best();
+  const bool competing = verdict != Verdict::nothing_missing && found.candidates.best;
+  const FittedModel& saved = learned.empty() ? decision.model() : learned.back().candidate.model;
+
+  auto formula = learned.empty() ? std::nullopt : find_formula(decision.exact_model(base), learned.front(), options);
+  std::vector<AcceptedEffect> effects, stand_in = stand_ins(decision.judgement, learned);
+  if (verdict == Verdict::effect_found) effects = accepted_effects(found, options);
+  std::vector<WeightedSet> listed, noted;
+  if (competing) listed = ambiguity_set(found.candidates), noted = alternative_sets(decision, listed);
+  std::vector<Dependence> left;
+  if (takes_best) left = dependences_of(decision.model(), 11);
+  std::vector<SoilShift> shifts;
+  if (takes_best || !learned.empty()) shifts = soil_shifts(saved, learned.empty() ? found.base : base);
+  const int outliers = found.base.data().outliers();
+
+  return {
+      .campaign = campaign.name,
+      .wheel = campaign.wheel,
+      .verdict = verdict,
+      .reason = decision.judgement.reason + held_out_clause(made.validated.errors, !effects.empty(), !stand_in.empty()),
+      .effects = std::move(effects),
+      .stand_in = std::move(stand_in),
+      .formula = std::move(formula),
+      .ambiguity_set = std::move(listed),
+      .alternative_sets = std::move(noted),
+      .not_testable = std::move(made.not_testable),
+      .next = competing ? next_test(found, limits) : std::nullopt,
+      .dependences_before = dependences_of(found.base, 7),
+      .dependences_after = std::move(left),
+      .noise = decision.noise(),
+      .soil_shifts = std::move(shifts),
+      .soil = saved.soil(),
+      .outliers = outliers,
+      .with_outliers = outliers > 0 ? std::optional(keep_outliers(campaign, made.given, options)) : std::nullopt,
+      .validation = std::move(made.validated.errors),
+      .learned = std::move(made.validated.learned),
+      .second = std::move(made.decision.second),
+      .judgement = std::move(made.decision.judgement),
+  };
 }
 
 }  // namespace
@@ -207,50 +300,25 @@ std::set<std::string> ids_of(const std::vector<AcceptedEffect>& effects) {
 }
 
 LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
-  const auto report = [&](std::size_t step) {
-    if (options.progress) options.progress(step, all_steps);
-  };
+  LoopProgress progress(options.progress);
   AttributionOptions whole = options.attribution;
-  std::size_t pulses = 0;
-  whole.pool = {options.threads, [&] { report(std::min(++pulses / pulses_a_step, attributed)); }};
+  whole.pool = {options.threads, [&] { progress.pulse(); }};
 
   const Observations observations = observe(campaign);
-  if (auto reason = too_small(campaign, observations)) return too_small_to_judge(campaign, std::move(*reason));
+  if (auto reason = too_small(campaign, observations)) return not_judged(campaign, std::move(*reason));
   const FittedModel base = fit_base(campaign, observations, whole);
   Judgement first = judge(attribute(base, whole), whole);
   std::vector<std::string> hidden = not_testable(first.found);
   Decision decision = decide(std::move(first), whole);
-  std::vector<LearnedEffect> learned = learned_beside(base, decision.judgement, whole);
-
-  LoopAnswer answer = answer_of(campaign, std::move(decision));
-  answer.not_testable = std::move(hidden);
-  if (answer.verdict == Verdict::not_enough_data) return answer;
-  report(chosen);
-  if (options.validate)
-    answer.validation = cross_validate(base.data(), answer.noise,
-                                       {.attribution = of_a_fold(options.attribution),
-                                        .with_model_discrepancy = answer.decided_with_model_discrepancy(),
-                                        .learn = !learned.empty(),
-                                        .folds = options.folds,
-                                        .threads = options.threads,
-                                        .progress = [&](std::size_t done, std::size_t folds) {
-                                          report(chosen + (all_steps - 1 - chosen) * done / folds);
-                                        }});
-  take_learned(std::move(learned), base, answer);
-  whole.pool.pulse = [&] { report(all_steps - 1); };
-  if (!answer.learned.empty())
-    answer.formula =
-        find_formula(refitted_as_exact(base, answer.judgement->takes_best() ? &answer.found().best().model : nullptr),
-                     answer.learned.front(), whole);
-  if (answer.verdict == Verdict::effect_found) answer.effects = accepted_effects(answer.found(), whole);
-  answer.reason += held_out_clause(answer);
-  if (answer.verdict != Verdict::nothing_missing && answer.found().candidates.best) {
-    answer.ambiguity_set = ambiguity_set(answer.found().candidates);
-    answer.noted_sets = noted_sets(answer);
-    answer.next = next_test(answer.found(), options.limits);
-  }
-  if (answer.outliers > 0) answer.with_outliers = keep_outliers(campaign, observations, whole);
-  report(all_steps);
+  if (decision.judgement.verdict == Verdict::not_enough_data)
+    return not_judged(campaign, std::move(hidden), std::move(decision));
+  std::vector<LearnedEffect> learned = learned_beside(base, decision, whole);
+  progress.choice_made();
+  Validated validated = validate(base, decision, std::move(learned), options, progress);
+  progress.validation_made();
+  LoopAnswer answer = answer_of({observations, base, std::move(hidden), std::move(decision), std::move(validated)},
+                                whole, options.limits);
+  progress.end();
   return answer;
 }
 

@@ -70,10 +70,9 @@ struct WithOutliers {
 /// Of an unknown effect: the residual attributed twice, with a base model that is exact and with one that may be off by
 /// itself (model_discrepancy.hpp).
 struct SecondAttribution {
-  bool decides =
-      false;          ///< whether the base model that may be off explains the data better; else the exact one decides
-  double size = 0.0;  ///< DiscrepancyAttribution::size
-  Attribution note;   ///< the attribution that does not decide; the one that does is LoopAnswer::judgement
+  bool decides = false;     ///< the base model that may be off explains the data better; else the exact one decides
+  double size = 0.0;        ///< DiscrepancyAttribution::size
+  Attribution alternative;  ///< the attribution that does not decide; the one that does is LoopAnswer::judgement
 };
 
 struct LoopAnswer {
@@ -82,29 +81,29 @@ struct LoopAnswer {
   Verdict verdict = Verdict::not_enough_data;
   std::string reason;  ///< one plain sentence
   std::vector<AcceptedEffect> effects;
-  /// Of an unknown effect: the best named ones, where conditions left out are predicted better with them. They stand in
-  /// for it in the model that is saved, and explain nothing.
+  /// Of an unknown effect: the best named ones, where conditions left out are predicted better with them, then the
+  /// learned ones. They stand in for it in the model that is saved, and explain nothing.
   std::vector<AcceptedEffect> stand_in;
-  /// Of an unknown effect: smooth functions of one condition or two that predict conditions left out better still, each
-  /// learned beside those before. They stand among the stand-ins, at the end, and the soil is fitted with them.
-  std::vector<LearnedEffect> learned;
-  std::optional<LearnedFormula> formula;  ///< of the first one, where a few terms do as well
-  std::vector<Weighted> ambiguity_set;    ///< best first; empty unless effects compete
+  std::optional<LearnedFormula> formula;   ///< of the first learned effect, where a few terms do as well
+  std::vector<WeightedSet> ambiguity_set;  ///< best first; empty unless effects compete
   /// Sets that only the attribution which does not decide leaves: indices are those of its candidates, weights 0.
-  std::vector<Weighted> noted_sets;
-  std::optional<SecondAttribution> second;
+  std::vector<WeightedSet> alternative_sets;
   std::vector<std::string> not_testable;
   std::optional<NextTest> next;  ///< also of an unknown effect: between the named sets that come nearest
-  CrossValidation validation;
-  /// The attribution that decides and what is made of it: verdict, shares, tables, saved model and next test are its.
-  /// Absent where the campaign is too small to fit.
-  std::optional<Judgement> judgement;
   std::vector<Dependence> dependences_before, dependences_after;
   NoiseFloor noise;                    ///< beside the accepted effects where there are any: the unit of errors
-  std::vector<SoilShift> soil_shifts;  ///< of the free values, where effects are accepted
+  std::vector<SoilShift> soil_shifts;  ///< of the free values, where effects are accepted or stand in
   SemiEmpiricalSoil soil;  ///< refitted with the accepted effects or those that stand in, with standard errors
   int outliers = 0;        ///< cells set aside
   std::optional<WithOutliers> with_outliers;  ///< where any were
+  CrossValidation validation;
+  /// Of an unknown effect: smooth functions of one condition or two that predict conditions left out better still, each
+  /// learned beside those before. The soil is fitted with them.
+  std::vector<LearnedEffect> learned;
+  std::optional<SecondAttribution> second;
+  /// The attribution that decides and what is made of it: verdict, shares, tables, saved model and next test are its.
+  /// Absent where the campaign is too small to fit.
+  std::optional<Judgement> judgement;
 
   const Attribution& found() const { return judgement->found; }
   /// Whether any set of effects was fitted.
@@ -126,7 +125,7 @@ struct LoopAnswer {
   /// Whether the attribution with a model discrepancy decides; and that attribution, null where there was none.
   bool decided_with_model_discrepancy() const { return second && second->decides; }
   const Attribution* with_model_discrepancy() const {
-    return !second ? nullptr : second->decides ? &found() : &second->note;
+    return !second ? nullptr : second->decides ? &found() : &second->alternative;
   }
 };
 

@@ -90,7 +90,7 @@ std::vector<std::string> to_set_apart(const LoopAnswer& answer) {
   for (std::string& name : names) name = spaced(name);
   sentences.push_back(
       fmt::format("Its {} lie{} beyond what was run; if your rig cannot go there: --limit {}=LOW..HIGH.",
-                  in_a_row(names), names.size() == 1 ? "s" : "", next.beyond.front()));
+                  joined_with_and(names), names.size() == 1 ? "s" : "", next.beyond.front()));
   return sentences;
 }
 
@@ -113,9 +113,9 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
 
 bool proposes_next(const LoopAnswer& answer) {
   if (!answer.next || answer.verdict != Verdict::unknown_effect) return answer.next.has_value();
-  const std::vector<const Weighted*> sets = sets_shown(answer);
+  const std::vector<const WeightedSet*> sets = sets_shown(answer);
   const auto other =
-      std::ranges::find_if(sets, [&](const Weighted* set) { return set->ids == answer.next->separates.back(); });
+      std::ranges::find_if(sets, [&](const WeightedSet* set) { return set->ids == answer.next->separates.back(); });
   return other == sets.end() ||
          sets.front()->log_evidence - (*other)->log_evidence < std::log(thresholds::settled_odds);
 }

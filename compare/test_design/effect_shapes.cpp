@@ -105,7 +105,7 @@ double chance_named_right(double distance) { return 0.5 * std::erfc(-std::sqrt(d
 }  // namespace
 
 MatrixXd EffectShapes::information_of(std::size_t condition) const {
-  return tells[condition].transpose() * tells[condition];
+  return sensitivities[condition].transpose() * sensitivities[condition];
 }
 
 MatrixXd EffectShapes::off_soil(const MatrixXd& information) const {
@@ -173,9 +173,10 @@ EffectShapes effect_shapes(const Campaign& campaign, const std::vector<Operating
     if (is_among(wanted, id) && !places.contains(id)) found.not_shown.push_back(id);
   // Columns at the size of each shape, so that S_ff is its D beside nothing.
   for (const MatrixXd& part : whole) {
-    MatrixXd tells = part(Eigen::all, kept);
-    for (std::size_t f = 0; f < found.shapes.size(); ++f) tells.col(static_cast<Index>(f)) *= found.shapes[f].amplitude;
-    found.tells.push_back(std::move(tells));
+    MatrixXd sensitivities = part(Eigen::all, kept);
+    for (std::size_t f = 0; f < found.shapes.size(); ++f)
+      sensitivities.col(static_cast<Index>(f)) *= found.shapes[f].amplitude;
+    found.sensitivities.push_back(std::move(sensitivities));
   }
   return found;
 }

@@ -31,19 +31,20 @@ struct EffectShape {
   double amplitude = 1.0;  ///< as large as the noise: 1 sd a run (rms over the conditions), off what the soil absorbs
 };
 
-/// The catalogue's forms at some conditions, and what a run at each tells.
+/// The catalogue's forms at some conditions, and how a run at each responds to them.
 struct EffectShapes {
   std::vector<std::string> ids;        ///< effects that these conditions can show
   std::vector<std::string> not_shown;  ///< those of the wanted ones that they can't
   std::vector<EffectShape> shapes;     ///< of these effects
-  std::vector<Eigen::MatrixXd> tells;  ///< of each condition: whitened, a row a channel, a column a shape, then J
-  NoiseFloor noise;                    ///< of one run
-  Eigen::Index soil = 0;               ///< columns of J, in units of the priors' sd
-  /// What a run at one of the conditions tells: tells' tells.
+  /// Of each condition the slopes of its channels, whitened: a row a channel, a column a shape, then the soil's J.
+  std::vector<Eigen::MatrixXd> sensitivities;
+  NoiseFloor noise;       ///< of one run
+  Eigen::Index soil = 0;  ///< columns of J, in units of the priors' sd
+  /// Fisher information of a run at one of the conditions: sensitivities' times sensitivities.
   Eigen::MatrixXd information_of(std::size_t condition) const;
-  /// S off the soil for so many runs' sum of tells' tells.
+  /// The shapes' block of the information summed over runs, the soil's values fitted (Schur complement).
   Eigen::MatrixXd off_soil(const Eigen::MatrixXd& information) const;
-  /// Columns of `tells`.
+  /// Columns of the sensitivities.
   Eigen::Index columns() const { return static_cast<Eigen::Index>(shapes.size()) + soil; }
 };
 
@@ -69,7 +70,7 @@ struct CandidatePair {
   double right = 0.5;                ///< Phi(sqrt(D)/2), the mean over the same
 };
 
-/// Every effect against every other one and against none. information: the sum over the runs of tells' tells.
+/// Every effect against every other one and against none. information: summed over the runs.
 std::vector<CandidatePair> candidate_pairs(const EffectShapes& shapes, const Eigen::MatrixXd& information);
 
 /// Share of the effects that are expected to be named right: of each form the product of Phi(sqrt(D)/2) over the others

@@ -69,8 +69,8 @@ double squared_distance(const RunForecast& a, const RunForecast& b, const NoiseF
 }
 
 /// The set that stands next behind the best one and doesn't hold it; nullptr where none was fitted.
-const Weighted* next_standing(const Candidates& candidates, const std::set<std::string>& best) {
-  for (const Weighted& w : candidates.sets)
+const WeightedSet* next_standing(const Candidates& candidates, const std::set<std::string>& best) {
+  for (const WeightedSet& w : candidates.sets)
     if (w.weight > 0 && !std::includes(w.ids.begin(), w.ids.end(), best.begin(), best.end())) return &w;
   return nullptr;
 }
@@ -79,13 +79,13 @@ const Weighted* next_standing(const Candidates& candidates, const std::set<std::
 std::vector<Contender> contenders(const Attribution& found) {
   const Candidates& all = found.candidates;
   std::vector<Contender> contenders;
-  const auto add = [&](const Weighted& w, double allowed) {
+  const auto add = [&](const WeightedSet& w, double allowed) {
     contenders.push_back({w.ids, all.models[w.best_candidate].model, w.log_evidence, allowed});
   };
   for (const Competitor& c : competitors(all)) add(all.sets[c.set], c.allowed);
   if (contenders.size() > 1) return contenders;
   const Contender best = contenders.front();
-  if (const Weighted* next = next_standing(all, best.ids))
+  if (const WeightedSet* next = next_standing(all, best.ids))
     add(*next, best.allowed);
   else
     contenders.push_back({{}, found.base, all.base_log_evidence, best.allowed});
@@ -152,7 +152,7 @@ class Contest {
         const double d = squared_distance(forecasts[i], forecasts[j], noise_);
         p.worth += weights_[i] * std::min(1.0, d / needed(i, j)) + weights_[j] * std::min(1.0, d / needed(j, i));
         if (j > 0) continue;
-        const double bears = std::min(1.0, d / needed(0, i)) * (thresholds::least_weight + weights_[i]);
+        const double bears = std::min(1.0, d / needed(0, i)) * (thresholds::min_weight + weights_[i]);
         if (bears > most) most = bears, p.against = i, p.distance = d, p.runs = std::ceil(needed(0, i) / d);
       }
     return p.distance > 0 ? std::optional(p) : std::nullopt;
@@ -164,7 +164,7 @@ class Contest {
   /// Squared distance that puts j out where i is true.
   double needed(std::size_t i, std::size_t j) const {
     const double ahead = contenders_[i].log_evidence - contenders_[j].log_evidence;
-    return 2 * std::max(thresholds::least_fall, contenders_[j].allowed - ahead);
+    return 2 * std::max(thresholds::min_fall, contenders_[j].allowed - ahead);
   }
 
   std::vector<Contender> contenders_;
@@ -210,7 +210,7 @@ std::optional<NextTest> next_test(const Attribution& found, const Limits& given)
   ConditionSearch search(contest);
   for (const OperatingCondition& at : grid(data.observations, limits)) search.ask(at);
   refine(search, limits);
-  if (!search.best() || search.best()->second.runs > thresholds::most_runs) return std::nullopt;
+  if (!search.best() || search.best()->second.runs > thresholds::max_runs) return std::nullopt;
   const auto& [at, prospect] = *search.best();
   NextTest next{.at = at,
                 .quantities = {},

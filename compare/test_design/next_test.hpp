@@ -28,7 +28,7 @@ struct NextTest {
 /// stands further behind than allowed. On a grid, then one condition after the other on a finer one.
 /// The candidates are those that compete with the best one (competitors); where it stands by itself, the set that
 /// stands next behind it (the base model where there is none), to be surer still. limits: where nothing is given,
-/// limits_of the observations. Nothing where no condition within limits sets them apart in thresholds::most_runs.
+/// limits_of the observations. Nothing where no condition within limits sets them apart in thresholds::max_runs.
 std::optional<NextTest> next_test(const Attribution& found, const Limits& limits);
 
 }  // namespace soilbin::compare

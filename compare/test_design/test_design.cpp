@@ -45,7 +45,7 @@ class Rig {
   Rig(const Campaign& campaign, const Observations& made, const Limits& given) : campaign_(campaign), limits_(given) {
     for (const auto& [name, range] : limits_of(made)) {
       const double size = std::max(std::abs(range.first), std::abs(range.second));
-      if (range.second - range.first > thresholds::least_learned_range * size) limits_.emplace(name, range);
+      if (range.second - range.first > thresholds::min_learned_range * size) limits_.emplace(name, range);
     }
     if (!limits_.contains("load"))
       throw InputError(
@@ -82,9 +82,9 @@ class Rig {
       levels.emplace_back(name, settable_levels(view, range, view.whole ? whole : name == "slip" ? 11 : 3));
     }
     Conditions all = combinations(centre_, levels);
-    if (all.size() > thresholds::most_choices) {
+    if (all.size() > thresholds::max_choices) {
       std::vector<std::size_t> order = drawn_order(all.size(), seed);
-      order.resize(thresholds::most_choices);
+      order.resize(thresholds::max_choices);
       std::ranges::sort(order);
       Conditions drawn;
       for (const std::size_t i : order) drawn.push_back(all[i]);
@@ -135,7 +135,7 @@ class Rig {
   std::vector<std::string> varied_;
 };
 
-/// Runs as places in EffectShapes::tells.
+/// Runs as places in EffectShapes::sensitivities.
 using Places = std::vector<std::size_t>;
 
 /// The search for a plan.
@@ -147,7 +147,7 @@ class Exchange {
         choices_(choices),
         made_(information),
         options_(options),
-        most_often_(std::max<std::size_t>(thresholds::most_repeats, (options.runs + choices - 1) / choices)) {}
+        most_often_(std::max<std::size_t>(thresholds::max_repeats, (options.runs + choices - 1) / choices)) {}
 
   double worth(const Places& plan) const { return share_named_right(shapes_, information(plan)); }
   MatrixXd information(const Places& plan) const {
@@ -169,7 +169,7 @@ class Exchange {
   /// Moves one run after the other to where it tells most, until none moves.
   Places improved(Places plan) const {
     double now = worth(plan);
-    for (int pass = 0; pass < thresholds::most_passes; ++pass) {
+    for (int pass = 0; pass < thresholds::max_passes; ++pass) {
       bool moved = false;
       for (std::size_t i = 0; i < plan.size(); ++i) {
         report();
@@ -201,7 +201,7 @@ class Exchange {
 
   void report() const {
     ++steps_;
-    const std::size_t all = static_cast<std::size_t>(options_.runs) * (2 * thresholds::most_passes + 1);
+    const std::size_t all = static_cast<std::size_t>(options_.runs) * (2 * thresholds::max_passes + 1);
     if (options_.progress) options_.progress(std::min(steps_, all), all);
   }
 

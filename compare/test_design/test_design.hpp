@@ -44,7 +44,7 @@ struct TestDesign {
 
 /// N conditions within the limits that maximise share_named_right, by exchange: from the sweep, and from the conditions
 /// that add most, each run is moved to where it tells most until none moves (after Fedorov; Cook and Nachtsheim 1980,
-/// Technometrics 22:315). No condition more than thresholds::most_repeats times, where there are enough; so a plan is
+/// Technometrics 22:315). No condition more than thresholds::max_repeats times, where there are enough; so a plan is
 /// never below its sweep. Conditions at which the declared soil does not carry thresholds::spare_load times the load
 /// are left out. Throws InputError for effects that are unknown, declared or not shown by what varies, and for limits
 /// that leave nothing to choose.

@@ -12,7 +12,7 @@ namespace soilbin::dem {
 /// where spins turn round from step to step, they hold that trembling too and mean no energy, so a wheel's run does not
 /// tell them. The paper's tire, 4 kN, 20 % slip: dashpots 645 W of 810 W put in under directional_with_twist, 0.4 W of
 /// 926 W under elastic_plastic.
-struct Ledger {
+struct EnergyLosses {
   double damping = 0;        ///< lost in normal dashpots
   double shear_damping = 0;  ///< lost in tangential dashpots, by the velocity before
   double sliding = 0;        ///< lost in sliders, by the velocity before
@@ -39,7 +39,7 @@ struct EnergyBalance {
   double tangential = 0;      ///< of tangential springs
   double rolling = 0;         ///< of rolling springs
   double work_of_drives = 0;  ///< done since the start by what drives bodies, and by what is applied to them
-  Ledger ledger;
+  EnergyLosses ledger;
 
   /// Zero but for the error of the time step: what is there, plus what left, less what came. So it stands where
   /// Numerics::ledger was set from the start; else it is constant. The error adds up with the second order in dt, and

@@ -68,7 +68,7 @@ void EnergyLedger::clear(std::size_t first, std::size_t last) {
 
 void EnergyLedger::end_step(World& world) const {
   if (!world.setup.numerics.ledger) return;
-  Ledger& ledger = world.state.ledger;
+  EnergyLosses& ledger = world.state.ledger;
   for (const PairFindings& found : world.found) ledger.add(found.lost, world.setup.numerics.dt);
   if (world.setup.laws.cohesion != CohesionLaw::jkr) return;
   double broken = broken_between_grains(world, bonds_before_);
@@ -76,7 +76,7 @@ void EnergyLedger::end_step(World& world) const {
   ledger.adhesion += broken;
 }
 
-void accounted(World& world, const std::function<void()>& change) {
+void with_energy_counted(World& world, const std::function<void()>& change) {
   const bool counts = world.setup.numerics.ledger;
   const double before = counts ? energy_of(world).total() : 0;
   change();

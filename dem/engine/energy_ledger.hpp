@@ -1,4 +1,4 @@
-// Counts step by step where the energy goes (Ledger), where Numerics::ledger is set.
+// Counts step by step where the energy goes (EnergyLosses), where Numerics::ledger is set.
 //
 // Contacts tell what they take from the motion by velocities of half a step ago. The work of a load on the way from
 // that half step to the next is exactly that at the mean of both velocities; count_kick adds the difference.
@@ -32,6 +32,6 @@ class EnergyLedger {
 };
 
 /// Makes a change between steps, and counts the energy that it brings in.
-void accounted(World& world, const std::function<void()>& change);
+void with_energy_counted(World& world, const std::function<void()>& change);
 
 }  // namespace soilbin::dem

@@ -113,7 +113,7 @@ void half_step_back(World& world) {
 /// Brings in what was added or changed since the last step.
 void settle_changes(World& world) {
   if (world.state.travel < search_is_due_now) return;
-  accounted(world, [&] {
+  with_energy_counted(world, [&] {
     prepare(world);
     search(world);
     half_step_back(world);
@@ -161,7 +161,7 @@ void Simulation::set_numerics(const Numerics& numerics) {
 }
 
 void Simulation::set_interaction(int a, int b, const Interaction& interaction) {
-  accounted(world_, [&] {
+  with_energy_counted(world_, [&] {
     Setup& setup = world_.setup;
     setup.materials.set(a, b, interaction);
     if (!world_.state.slab_rows.empty())
@@ -171,7 +171,7 @@ void Simulation::set_interaction(int a, int b, const Interaction& interaction) {
 }
 
 void Simulation::set_gravity(const Vec3& gravity) {
-  accounted(world_, [&] { world_.state.gravity = gravity; });
+  with_energy_counted(world_, [&] { world_.state.gravity = gravity; });
   wake_all(world_.state);
 }
 
@@ -231,7 +231,7 @@ int Simulation::add_body(Body body) {
   State& state = world_.state;
   check(body, static_cast<int>(world_.setup.materials.all.size()));
   check_seams(body);
-  accounted(world_, [&] { state.bodies.push_back(std::move(body)); });
+  with_energy_counted(world_, [&] { state.bodies.push_back(std::move(body)); });
   note_change(state);
   return static_cast<int>(state.bodies.size()) - 1;
 }
@@ -244,7 +244,7 @@ std::size_t Simulation::remove_grains(const std::function<bool(const GrainNow&)>
   const auto count = static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1));
   if (count == 0) return 0;
   wake_all(world_.state);
-  accounted(world_, [&] { search(world_, marked); });
+  with_energy_counted(world_, [&] { search(world_, marked); });
   return count;
 }
 
@@ -260,7 +260,7 @@ std::size_t Simulation::hold_grains(const std::function<bool(const GrainNow&)>& 
     if (marked[row]) rows.push_back(row);
   if (rows.empty()) return 0;
   wake_all(world_.state);
-  accounted(world_, [&] {
+  with_energy_counted(world_, [&] {
     for (const std::size_t row : rows) {
       all.motion[row].velocity = all.spin[row].rate = {};
       all.motion[row].inverse_mass = all.spin[row].inverse_inertia = 0;

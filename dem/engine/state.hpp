@@ -75,7 +75,7 @@ struct State {
   double travel = 0;                 ///< bound on what any grain or body has moved since [m]; infinite: it is due
   std::uint32_t next_id = 0;
   std::vector<GrainId> new_grains;  ///< whose velocity is still at a whole step
-  Ledger ledger;
+  EnergyLosses ledger;
   Clumps clumps;
 };
 

@@ -17,7 +17,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 void choose_sleepers(World& world) {
   if (!world.sleeping.choose(world.state, world.setup.numerics)) return;
   cut_blocks(world);
-  accounted(world, [&] {
+  with_energy_counted(world, [&] {
     State& s = world.state;
     for (int slab = 0; slab < world.slabs(); ++slab) {
       if (!world.sleeping[slab]) continue;
@@ -30,7 +30,7 @@ void choose_sleepers(World& world) {
 }
 
 /// Where the kernels find what they work on, and where the surfaces are now.
-void aim_sweep(World& world) {
+void set_up_sweep(World& world) {
   State& s = world.state;
   const Setup& setup = world.setup;
   const Periods periods(setup.domain);
@@ -54,7 +54,7 @@ void aim_sweep(World& world) {
 }
 
 /// What neighbours that are awake, and surfaces after a search, press on a slab asleep is let go.
-void drop_loads(World& world, int slab) {
+void clear_sleeping_loads(World& world, int slab) {
   if (world.sleeping.next_sleeps(slab) && world.sleeping.previous_sleeps(slab) && !world.searched_now) return;
   const std::uint32_t first = world.state.slab_rows[slab], last = world.state.slab_rows[slab + 1];
   std::fill(world.state.grains.load.begin() + first, world.state.grains.load.begin() + last, Load{});
@@ -66,7 +66,7 @@ void finish_slab(World& world, int slab) {
   const bool asleep = world.sleeping[slab];
   if (!asleep || world.searched_now) surface_forces(world, slab);
   if (asleep)
-    drop_loads(world, slab);
+    clear_sleeping_loads(world, slab);
   else
     move_grains(world, slab);
 }
@@ -160,7 +160,7 @@ void step(World& world) {
   const double dt = world.setup.numerics.dt;
   if (search_is_due(world)) search(world);
   choose_sleepers(world);
-  aim_sweep(world);
+  set_up_sweep(world);
   work_on_slabs(world);
   double fastest = move_clumps(world);
   load_bodies(s);

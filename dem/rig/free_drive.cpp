@@ -243,7 +243,7 @@ GrainDriveEnergy FreeDrive::energy() const {
   e.soil = wheel.work - first_work_;
   if (!rig_.ledger) return e;
   const EnergyBalance now = bin_.simulation().energy();
-  const Ledger &a = first_.ledger, &b = now.ledger;
+  const EnergyLosses &a = first_.ledger, &b = now.ledger;
   const double slid = now.tangential - first_.tangential, rolled = now.rolling - first_.rolling;
   e.known = true;
   e.sliding = b.into_slide - a.into_slide - slid;

@@ -34,7 +34,7 @@ void parts(Notes& notes, TreadForces& t) {
   notes(t.sectors, t.thrust, t.resistance, t.side);
 }
 template <class Notes>
-void parts(Notes& notes, Ledger& l) {
+void parts(Notes& notes, EnergyLosses& l) {
   auto& [damping, shear_damping, sliding, into_slide, into_roll, adhesion, added] = l;
   notes(damping, shear_damping, sliding, into_slide, into_roll, adhesion, added);
 }

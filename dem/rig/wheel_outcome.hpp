@@ -17,7 +17,7 @@ struct PowerBalance {
   double heave = 0;      ///< lifts the load out of the soil; negative while the wheel sinks
   double into_soil = 0;  ///< given to the grains, counted step by step
   double rest = 0;       ///< drive less all these: what rounding and the products of fluctuations leave
-  Ledger losses;         ///< with Rig::ledger: where grains lost it
+  EnergyLosses losses;   ///< with Rig::ledger: where grains lost it
 };
 
 /// How dense the bed was before the wheel, in its core (BedReport). NaN where nobody told.

@@ -38,7 +38,7 @@ PowerBalance power_of(std::span<const WheelSample> samples, const WheelMotion& m
   power.rest = power.drive - power.pull - power.climb - power.heave - power.into_soil;
   const double time = samples.back().time - samples.front().time;
   if (!ledger || time <= 0) return power;
-  const Ledger &a = samples.front().ledger, &b = samples.back().ledger;
+  const EnergyLosses &a = samples.front().ledger, &b = samples.back().ledger;
   power.losses.damping = (b.damping - a.damping) / time;
   power.losses.shear_damping = (b.shear_damping - a.shear_damping) / time;
   power.losses.sliding = (b.sliding - a.sliding) / time;

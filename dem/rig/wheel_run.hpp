@@ -94,7 +94,7 @@ struct WheelSample {
   double rotation = 0;   ///< about the axle [rad/s]
   double into_soil = 0;  ///< power that the wheel gives the grains [W]
   TreadForces tread;     ///< at its end
-  Ledger ledger;         ///< at its end, since the bed was poured; filled with Rig::ledger
+  EnergyLosses ledger;   ///< at its end, since the bed was poured; filled with Rig::ledger
 };
 
 /// What a run tells.

@@ -199,7 +199,7 @@ WheelRun WheelRunStages<Run>::run() {
   run.rut = rut_behind();
   summarise(run, tire_, at_, rig_);
   if (rig_.ledger && law::is_directional(bin_.simulation().setup().laws.rolling))
-    run.power.losses.shear_damping = run.power.losses.sliding = std::nan("");  // Ledger: trembling, not energy
+    run.power.losses.shear_damping = run.power.losses.sliding = std::nan("");  // EnergyLosses: trembling, not energy
   return run;
 }
 

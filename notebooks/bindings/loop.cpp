@@ -18,7 +18,7 @@ using compare::LackOfFit;
 using compare::LoopAnswer;
 using compare::NextTest;
 using compare::Verdict;
-using compare::Weighted;
+using compare::WeightedSet;
 
 void bind_loop_parts(py::module_& module) {
   py::enum_<Verdict>(module, "Verdict", "What the loop says.")
@@ -40,9 +40,9 @@ void bind_loop_parts(py::module_& module) {
         return fmt::format("AcceptedEffect({}, form={}{}, p_value={:.2g})", e.choice.id, e.choice.form, fitted,
                            e.p_value);
       });
-  py::class_<Weighted>(module, "Weighted", "A set of effects with its share of the evidence.")
-      .def_readonly("ids", &Weighted::ids)
-      .def_readonly("weight", &Weighted::weight);
+  py::class_<WeightedSet>(module, "Weighted", "A set of effects with its share of the evidence.")
+      .def_readonly("ids", &WeightedSet::ids)
+      .def_readonly("weight", &WeightedSet::weight);
   py::class_<LackOfFit>(module, "LackOfFit", "Residual mean square over the noise's, as an F test.")
       .def_readonly("f", &LackOfFit::f)
       .def_readonly("freedom", &LackOfFit::freedom)
@@ -74,7 +74,7 @@ std::map<std::string, std::vector<bekker_wong::Presumed>> presumes(const LoopAns
 
 py::dict held_out(const LoopAnswer& answer) {
   py::dict out;
-  const auto row = [](const compare::ErrorPair& pair) {
+  const auto row = [](const compare::HeldOutErrors& pair) {
     py::dict one;
     one["cells"] = pair.cells, one["before"] = pair.before, one["after"] = pair.after;
     one["noise_floor"] = pair.noise_floor;
@@ -106,7 +106,7 @@ void bind_answer(py::module_& module) {
       .def_readonly("outliers", &LoopAnswer::outliers, "values set aside")
       .def_property_readonly(
           "weights",
-          [](const LoopAnswer& a) { return a.judgement ? a.found().candidates.sets : std::vector<Weighted>(); },
+          [](const LoopAnswer& a) { return a.judgement ? a.found().candidates.sets : std::vector<WeightedSet>(); },
           "over sets of effects, best first")
       .def_property_readonly("held_out", &held_out,
                              "root mean square errors on conditions that neither choice nor fit has seen, by channel "

@@ -34,7 +34,7 @@ TEST(LearnedEffect, WeightsHaveOneSlope) {
       term.free.push_back(static_cast<int>(function.first_weight() + k));
     term.defaults[0] = 1.0, term.defaults[1] = 0.0, term.defaults[2] = 0.8;
     const WheelPredictor one_by_one(campaign, observations, {term});
-    term.weighs = [&](const OperatingCondition& at) {
+    term.basis_values = [&](const OperatingCondition& at) {
       return bekker_wong::weighed_products(function, term.defaults, at);
     };
     const WheelPredictor at_once(campaign, observations, {term});
@@ -45,7 +45,8 @@ TEST(LearnedEffect, WeightsHaveOneSlope) {
     const auto each = one_by_one.linearise(theta, balanced), all = at_once.linearise(theta, balanced);
     ASSERT_TRUE(each && all);
     EXPECT_LT((each->jacobian - all->jacobian).norm(), 1e-5 * each->jacobian.norm()) << name;
-    EXPECT_LT((each->turn - all->turn).norm(), 1e-5 * each->turn.norm()) << name;
+    EXPECT_LT((each->entry_angle_slopes - all->entry_angle_slopes).norm(), 1e-5 * each->entry_angle_slopes.norm())
+        << name;
   }
 }
 

@@ -67,12 +67,12 @@ TEST(WheelPredictor, SlopesOfWhatTheSoilFallsShortOf) {
   ASSERT_TRUE(predictor.predict(theta, prediction, here));
   const auto slopes = predictor.linearise(theta, here);
   ASSERT_TRUE(slopes);
-  const MatrixXd& short_of = slopes->short_of;
+  const MatrixXd& shortfall_slopes = slopes->shortfall_slopes;
   int giving = 0;
   for (int row = 0; row < predictor.rows(); ++row) {
     const std::size_t r = static_cast<std::size_t>(row);
     if (!(here.shortfall[r] > 0.0)) {
-      EXPECT_TRUE(short_of.row(row).isZero());
+      EXPECT_TRUE(shortfall_slopes.row(row).isZero());
       continue;
     }
     ++giving;
@@ -85,7 +85,8 @@ TEST(WheelPredictor, SlopesOfWhatTheSoilFallsShortOf) {
       moved[p] -= 2 * step;
       ASSERT_TRUE(predictor.predict(moved, prediction, down));
       const double slope = (up.shortfall[r] - down.shortfall[r]) / (2 * step);
-      EXPECT_NEAR(short_of(row, p), slope, 1e-3 * short_of.row(row).cwiseAbs().maxCoeff() + 5e-3 * std::abs(slope))
+      EXPECT_NEAR(shortfall_slopes(row, p), slope,
+                  1e-3 * shortfall_slopes.row(row).cwiseAbs().maxCoeff() + 5e-3 * std::abs(slope))
           << predictor.parameters()[static_cast<std::size_t>(p)].name;
     }
   }
@@ -181,7 +182,7 @@ TEST(Fit, StartsInsideItsWalls) {
   Descent descent(predictor, values, whitening);
   VectorXd start = predictor.start();
   start[6] = 0.4, start[7] = -0.9;
-  ASSERT_TRUE(descent.put(start, true));
+  ASSERT_TRUE(descent.move_to(start, true));
   const auto outside = [&] {
     double most = 0.0;
     for (const Wall& w : predictor.walls()) most = std::max(most, w.normal.dot(descent.theta()) - w.limit);
@@ -190,7 +191,7 @@ TEST(Fit, StartsInsideItsWalls) {
   EXPECT_LE(outside(), 1e-9);
   EXPECT_LT(descent.theta()[7], 0.0) << "moved farther than to the wall";
   const double before = descent.line().residual.squaredNorm();
-  descent.go();
+  descent.minimise();
   EXPECT_LT(descent.line().residual.squaredNorm(), before);
   EXPECT_LE(outside(), 1e-9);
 }

@@ -24,7 +24,7 @@ LoopOptions quick() {
 }
 
 bool in_ambiguity_set(const LoopAnswer& answer, const std::set<std::string>& ids) {
-  for (const Weighted& w : answer.ambiguity_set)
+  for (const WeightedSet& w : answer.ambiguity_set)
     if (w.ids == ids) return true;
   return false;
 }
@@ -137,7 +137,7 @@ TEST(SlowLoop, NamesTwoEffects) {
   const LoopAnswer answer = run_loop(campaign, quick());
   ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
   bool multipass = false;
-  for (const Weighted& w : answer.ambiguity_set)
+  for (const WeightedSet& w : answer.ambiguity_set)
     multipass = multipass || (w.ids.count("multipass") && w.ids.size() == 2);
   EXPECT_TRUE(multipass);
 }

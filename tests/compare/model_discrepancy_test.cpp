@@ -118,10 +118,10 @@ void expect_same_shares(const LoopAnswer& answer) {
   const Table table = candidates_table(answer);
   const std::string words = all_words(answer);
   const std::size_t decided = answer.ambiguity_set.size();
-  ASSERT_EQ(sets.size(), decided + answer.noted_sets.size());
+  ASSERT_EQ(sets.size(), decided + answer.alternative_sets.size());
   double sum = 0.0;
   for (std::size_t i = 0; i < decided; ++i) {
-    const Weighted& w = answer.ambiguity_set[i];
+    const WeightedSet& w = answer.ambiguity_set[i];
     SCOPED_TRACE(joined(w.ids));
     sum += w.weight;
     EXPECT_EQ(sets.at(i).at("effects"), nlohmann::ordered_json(w.ids));
@@ -185,10 +185,10 @@ TEST(SlowModelDiscrepancy, ShowsTheEffectBesideAnOddSoil) {
 // What the list puts first need not fit best: then the words say why it is taken.
 TEST(SlowModelDiscrepancy, SaysWhyASetIsTakenThatAnotherOneOutweighs) {
   const LoopAnswer answer = asked(odd_soil({}));
-  const Weighted& taken = answer.ambiguity_set.front();
-  const Weighted& heaviest =
+  const WeightedSet& taken = answer.ambiguity_set.front();
+  const WeightedSet& heaviest =
       *std::max_element(answer.ambiguity_set.begin(), answer.ambiguity_set.end(),
-                        [](const Weighted& a, const Weighted& b) { return a.weight < b.weight; });
+                        [](const WeightedSet& a, const WeightedSet& b) { return a.weight < b.weight; });
   ASSERT_LT(taken.weight, heaviest.weight);
   EXPECT_NE(
       all_words(answer).find(fmt::format("The model takes {} all the same: what {} has beyond it does not predict "
@@ -205,8 +205,8 @@ TEST(SlowModelDiscrepancy, NamesNothingBesideNothingButAnOddSoil) {
   ASSERT_EQ(answer.verdict, Verdict::unknown_effect) << answer.reason;
   ASSERT_TRUE(answer.second);
   EXPECT_FALSE(answer.second->decides);
-  EXPECT_FALSE(answer.second->note.candidates.best);
-  EXPECT_GT(answer.second->note.signatures.p_value, 0.05);
+  EXPECT_FALSE(answer.second->alternative.candidates.best);
+  EXPECT_GT(answer.second->alternative.signatures.p_value, 0.05);
   expect_same_shares(answer);
   expect_the_decided_model(campaign, answer);
   EXPECT_EQ(to_json(answer).at("beside_inadequacy").at("effects").size(), 0u);

@@ -64,15 +64,15 @@ TEST(SlowPooledRuns, RerunsLoseNothing) {
     EXPECT_TRUE(model.predictor().predict(theta, predicted));
     return model.data().whitening(VectorXd(model.data().observations.values() - predicted)).squaredNorm();
   };
-  const Hidden& hidden = few->data().hidden;
-  EXPECT_EQ(hidden.cells, 3 * (210 - 21));
-  EXPECT_NEAR(hidden.chi2 / hidden.cells, 1.0, 4 * std::sqrt(2 / hidden.cells));
+  const WithinPools& within = few->data().within_pools;
+  EXPECT_EQ(within.cells, 3 * (210 - 21));
+  EXPECT_NEAR(within.chi2 / within.cells, 1.0, 4 * std::sqrt(2 / within.cells));
   for (const double moved : {-0.5, 0.0, 0.3, 1.0}) {
     VectorXd theta = base.fit().theta;
     for (int i = 0; i < base.predictor().soil_parameters(); ++i)
       theta[i] += (i % 2 == 0 ? moved : -moved) * base.predictor().parameters()[i].scale;
     const double all = chi2(base, theta);
-    EXPECT_NEAR(all - chi2(*few, theta), hidden.chi2, 1e-7 * all) << moved;
+    EXPECT_NEAR(all - chi2(*few, theta), within.chi2, 1e-7 * all) << moved;
   }
   for (int i = 0; i < base.predictor().soil_parameters(); ++i)
     EXPECT_NEAR(few->fit().theta[i], base.fit().theta[i], 0.02 * base.predictor().parameters()[i].scale);

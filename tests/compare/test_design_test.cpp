@@ -29,13 +29,13 @@ EffectShapes by_hand(std::vector<std::array<double, 3>> runs) {
   shapes.ids = {"first", "second"};
   shapes.shapes = {{0, true, 1.0}, {1, true, 1.0}};
   shapes.soil = 1;
-  for (const auto& run : runs) shapes.tells.push_back(Eigen::RowVector3d(run[0], run[1], run[2]));
+  for (const auto& run : runs) shapes.sensitivities.push_back(Eigen::RowVector3d(run[0], run[1], run[2]));
   return shapes;
 }
 
 MatrixXd information(const EffectShapes& shapes) {
   MatrixXd sum = MatrixXd::Zero(shapes.columns(), shapes.columns());
-  for (const MatrixXd& run : shapes.tells) sum += run.transpose() * run;
+  for (const MatrixXd& run : shapes.sensitivities) sum += run.transpose() * run;
   return sum;
 }
 

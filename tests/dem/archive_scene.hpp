@@ -110,7 +110,7 @@ class Bits {
     add(s.surfaces.size());
     for (const SurfaceContacts& slab : s.surfaces) add_surfaces(slab);
     for (const Body& body : s.bodies) add_body(body);
-    const Ledger& l = s.ledger;
+    const EnergyLosses& l = s.ledger;
     add(l.damping, l.shear_damping, l.sliding, l.into_slide, l.into_roll, l.adhesion, l.added);
   }
   bool operator==(const Bits&) const = default;

@@ -49,7 +49,7 @@ double open_after_impact(const ContactLaws& laws, double dt, double offset, doub
   return open_after(simulation, 6e-3);
 }
 
-TEST(Ledger, IsZeroAtTheStart) {
+TEST(EnergyLosses, IsZeroAtTheStart) {
   Simulation simulation(counted({}, 1e-5));
   test::add(simulation, test::cloud(27, 3, 1));
   EXPECT_EQ(simulation.energy().total(), 0);
@@ -63,7 +63,7 @@ TEST(Ledger, IsZeroAtTheStart) {
   EXPECT_NEAR(simulation.energy().ledger.added, kinetic, 1e-12 * kinetic);
 }
 
-TEST(Ledger, OfAnElasticImpactClosesToSecondOrder) {
+TEST(EnergyLosses, OfAnElasticImpactClosesToSecondOrder) {
   // Nothing is lost, so nothing is counted half a step early.
   const double coarse = open_after_impact({}, 1e-5, 0, 0, 1), fine = open_after_impact({}, 5e-6, 0, 0, 1);
   EXPECT_LT(coarse, 1e-3);
@@ -91,7 +91,7 @@ double open_when_over(const ContactLaws& laws, double dt) {
   return std::abs(simulation.energy().total()) / simulation.energy().ledger.added;
 }
 
-TEST(Ledger, ClosesToSecondOrderOnceAnImpactIsOver) {
+TEST(EnergyLosses, ClosesToSecondOrderOnceAnImpactIsOver) {
   for (const ContactLaws& laws : test::all_laws()) {
     const double coarse = open_when_over(laws, 4e-6);
     EXPECT_LT(coarse, 5e-6) << test::name_of(laws);
@@ -103,7 +103,7 @@ TEST(Ledger, ClosesToSecondOrderOnceAnImpactIsOver) {
 
 // Three walls press on a grain that comes to rest. Each couple may stop its whole spin in a step, so all three together
 // turn it round again and again.
-TEST(Ledger, ClosesWhereCouplesTurnASpinRound) {
+TEST(EnergyLosses, ClosesWhereCouplesTurnASpinRound) {
   Interaction contact = test::every_law();
   contact.rolling_friction = 0.3;
   Simulation simulation(counted({{NormalLaw::hertz, RollingLaw::directional, CohesionLaw::none}, -1}, 2e-5, contact));
@@ -124,7 +124,7 @@ TEST(Ledger, ClosesWhereCouplesTurnASpinRound) {
   EXPECT_NEAR(simulation.energy().total(), before, 1e-6 * came);
 }
 
-TEST(Ledger, TellsWhatAnAdhesiveContactKeepsWhenItBreaks) {
+TEST(EnergyLosses, TellsWhatAnAdhesiveContactKeepsWhenItBreaks) {
   // 7.09 (w^5 R^4/E*^2)^(1/3), Thornton and Ning 1998, Powder Technology 99:154, of an else elastic impact.
   Interaction contact = test::every_law();
   contact.restitution = 1;
@@ -141,7 +141,7 @@ TEST(Ledger, TellsWhatAnAdhesiveContactKeepsWhenItBreaks) {
   EXPECT_NEAR(now.kinetic, stone_mass * 0.04 - expected, 1e-3 * stone_mass * 0.04);
 }
 
-TEST(Ledger, TellsWhatAHeadOnImpactLoses) {
+TEST(EnergyLosses, TellsWhatAHeadOnImpactLoses) {
   Simulation simulation(counted({}, 1e-6));
   simulation.add_grain({0, 0, 0}, r, 0, {1, 0, 0});
   simulation.add_grain({2 * r + 1e-4, 0, 0}, r, 0, {-1, 0, 0});
@@ -170,8 +170,8 @@ TEST(SlowLedger, ClosesInABoxUnderEachLaw) {
   }
 }
 
-TEST(Ledger, IsTheSameByEveryInstructionSet) {
-  std::vector<Ledger> told;
+TEST(EnergyLosses, IsTheSameByEveryInstructionSet) {
+  std::vector<EnergyLosses> told;
   for (const std::string_view set : instruction_sets()) {
     auto setup = counted({{NormalLaw::hertz, RollingLaw::directional, CohesionLaw::none}, -1}, 1e-5);
     setup.numerics.instruction_set = set;
@@ -181,7 +181,7 @@ TEST(Ledger, IsTheSameByEveryInstructionSet) {
     simulation.run(600);
     told.push_back(simulation.energy().ledger);
     EXPECT_GT(told.back().into_roll, 1e-4 * told.back().added) << set;
-    for (double Ledger::*row : {&Ledger::damping, &Ledger::into_slide, &Ledger::into_roll})
+    for (double EnergyLosses::*row : {&EnergyLosses::damping, &EnergyLosses::into_slide, &EnergyLosses::into_roll})
       EXPECT_NEAR(told.back().*row, told.front().*row, 1e-8 * told.front().added) << set;
   }
 }
@@ -284,7 +284,7 @@ TEST(SlowLedger, ClosesWithAFreeBody) {
   EXPECT_LT(fine, 0.6 * coarse);
 }
 
-TEST(Ledger, CountsWhatIsChangedBetweenSteps) {
+TEST(EnergyLosses, CountsWhatIsChangedBetweenSteps) {
   Simulation simulation(counted({{NormalLaw::hertz, RollingLaw::elastic_plastic, CohesionLaw::none}, -1}, 1e-5));
   simulation.set_gravity({0, 0, -9.81});
   simulation.add_body(test::box_of_planes({-0.015, -0.015, -0.015}, {0.06, 0.06, 1}));
@@ -315,7 +315,7 @@ TEST(Ledger, CountsWhatIsChangedBetweenSteps) {
   EXPECT_TRUE(unchanged()) << "body";
 }
 
-TEST(Ledger, CountsTheFallThroughAPeriodicBox) {
+TEST(EnergyLosses, CountsTheFallThroughAPeriodicBox) {
   // It falls n boxes deep; each time it comes in again at the top, with the potential energy of one box more.
   auto setup = counted({}, 1e-4);
   setup.domain = {{0, 0, 0}, {0.2, 0.2, 0.2}, {true, true, true}};

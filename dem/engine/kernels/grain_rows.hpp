@@ -34,7 +34,7 @@ struct alignas(64) LedgerLoad {
   alignas(64) Vec3 couple;  ///< of rolling resistance [N m]
 };
 
-/// Powers that contacts take from the motion, summed [W]; parts as in Losses of the law and in Ledger.
+/// Powers that contacts take from the motion, summed [W]; parts as in Losses of the law and in EnergyLosses.
 struct LostPower {
   double damping = 0, shear_damping = 0, sliding = 0, into_slide = 0, into_roll = 0;
   LostPower& operator+=(const LostPower& other) {
