@@ -311,9 +311,13 @@ Eigen::Matrix4d correlation_of(const MatrixXd& standard) {
       const double rho = aa > 0 && bb > 0 ? shrink * ab / std::sqrt(aa * bb) : 0.0;
       correlation(a, b) = correlation(b, a) = std::clamp(rho, -max_correlation, max_correlation);
     }
+  // Pairs of channels that were never measured together with a third one need not go together: shrunk until they do.
   // Cholesky tells the smallest eigenvalue, at ten seconds less to compile than eigenvalues.
-  const Eigen::Matrix4d above = correlation - min_correlation_eigenvalue * Eigen::Matrix4d::Identity();
-  if (above.llt().info() != Eigen::Success) {
+  const auto possible = [&] {
+    const Eigen::Matrix4d above = correlation - min_correlation_eigenvalue * Eigen::Matrix4d::Identity();
+    return above.llt().info() == Eigen::Success;
+  };
+  while (!possible()) {
     correlation *= 0.7;
     correlation.diagonal().setOnes();
   }

@@ -1,6 +1,7 @@
 // The loop's parts, each against what it must be: noise, signatures, p-values.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,6 +37,36 @@ TEST(ConditionViews, ReadWhatTheySet) {
       }
   }
   EXPECT_THROW(condition_view("weather"), std::out_of_range);
+}
+
+// Three pairs of channels, each measured in runs of its own, that go together as no three channels can (two alike, a
+// third with the one and against the other): the noise of a run that holds them all is a covariance even so.
+TEST(NoiseFloor, IsOneOfAllChannelsWhereEachPairWasMeasuredApart) {
+  Observations runs;
+  NoiseData data;
+  std::vector<double> residual;
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  const std::array<std::array<int, 2>, 3> pairs = {{{0, 1}, {0, 2}, {1, 2}}};
+  for (int run = 0; run < 300; ++run) {
+    const auto [one, other] = pairs[run % 3];
+    runs.rows.emplace_back();
+    runs.condition.push_back(0);
+    runs.source_row.push_back(run);
+    const double value = normal(random);
+    for (const int channel : {one, other}) runs.cells.push_back({.row = run, .channel = channel});
+    residual.push_back(value);
+    residual.push_back(run % 3 == 2 ? -value : value);
+  }
+  runs.conditions = 1;
+  data.residual = Eigen::Map<VectorXd>(residual.data(), static_cast<Eigen::Index>(residual.size()));
+  data.prediction = VectorXd::Constant(data.residual.size(), 10.0);
+  data.soil_columns = Eigen::MatrixXd::Zero(data.residual.size(), 0);
+  const Eigen::Matrix4d correlation = estimate_noise(runs, data).floor.correlation;
+  EXPECT_GT(correlation(0, 1), 0.3);
+  EXPECT_LT(correlation(1, 2), -0.3);
+  EXPECT_EQ(correlation.llt().info(), Eigen::Success);
+  EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(correlation).eigenvalues()[0], 0.05);
 }
 
 // The floor that is found is the floor that was put in, to the precision that 40 freedoms give (11 %; 3 sd allowed).
