@@ -3,10 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenario/unit.hpp"
+
 namespace soilbin::bekker_wong {
 
 double specific_weight(const SoilValues& soil) {
-  constexpr double standard_gravity = 9.80665;  // [m/s^2]
   return soil.density * standard_gravity;
 }
 

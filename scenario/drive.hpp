@@ -14,6 +14,7 @@
 
 #include "scenario/description.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin {
 
@@ -56,8 +57,7 @@ struct Drive {
 
 /// The mass that travels with the wheel [kg].
 inline double mass_of(const Drive& drive) {
-  constexpr double gravity = 9.80665;
-  return drive.mass.value_or(drive.load / gravity);
+  return drive.mass.value_or(drive.load / standard_gravity);
 }
 
 /// The inertia of what spins on a wheel of this radius, about the axle [kg m^2].

@@ -53,7 +53,7 @@ constexpr std::array symbols = {
     Symbol{"kN", 1, 1, -2, 0, 3, 1},
     Symbol{"MN", 1, 1, -2, 0, 6, 1},
     Symbol{"lbf", 1, 1, -2, 0, 0, 4.4482216152605},
-    Symbol{"kgf", 1, 1, -2, 0, 0, 9.80665},
+    Symbol{"kgf", 1, 1, -2, 0, 0, standard_gravity},
     Symbol{"Nm", 2, 1, -2, 0, 0, 1},
     Symbol{"kNm", 2, 1, -2, 0, 3, 1},
     Symbol{"J", 2, 1, -2, 0, 0, 1},

@@ -9,6 +9,7 @@
 namespace soilbin {
 
 inline constexpr double degree = std::numbers::pi / 180;  ///< [rad]
+inline constexpr double standard_gravity = 9.80665;       ///< g_n of the SI brochure [m/s^2]
 
 /// An exponent that may depend on the soil's exponent n: constant + per_n n. (k_c is in kN/m^(n+1).)
 struct Exponent {

@@ -6,6 +6,7 @@
 
 #include "bekker_wong/learned.hpp"
 #include "compare/attribution/choice.hpp"
+#include "compare/fit/pooled_runs.hpp"
 #include "compare/fit/thresholds.hpp"
 
 namespace soilbin::compare {
@@ -81,8 +82,7 @@ std::optional<MatrixXd> columns_of_weights(const FittedModel& beside, const Term
 namespace {
 
 std::optional<LearnedProspect> learned_prospect(const FittedModel& beside, const LinearProblem& problem,
-                                                const EffectForm& form) {
-  const Observations& observations = beside.data().observations;
+                                                const EffectForm& form, const Observations& observations) {
   const auto term = learned_term(form, observations, 1.0);
   if (!term) return std::nullopt;
   const auto columns = columns_of_weights(beside, *term);
@@ -94,15 +94,18 @@ std::optional<LearnedProspect> learned_prospect(const FittedModel& beside, const
   return LearnedProspect{*learned_term(form, observations, thresholds::learned_sizes.at(best)), log_mean_exp(gains)};
 }
 
-/// Of the forms that leave a trace and are not there yet those with evidence, of most first.
-std::vector<LearnedProspect> learned_prospects(const FittedModel& beside, const ThreadPool& pool) {
+/// Of the forms that leave a trace and are not there yet those with evidence, of most first, over the ranges of these
+/// observations. beside: fitted to them, or to them pooled.
+std::vector<LearnedProspect> learned_prospects(const FittedModel& beside, const Observations& observations,
+                                               const ThreadPool& pool) {
   const std::vector<EffectForm>& forms = bekker_wong::learned_forms();
   const LinearProblem problem = problem_of(beside);
   std::vector<std::optional<LearnedProspect>> found(forms.size());
   pool.each(static_cast<int>(forms.size()), [&](int i, const Pulse& pulse) {
     pulse();
     const auto is_this = [&](const Term& term) { return term.form == &forms[i]; };
-    if (std::ranges::none_of(beside.terms(), is_this)) found[i] = learned_prospect(beside, problem, forms[i]);
+    if (std::ranges::none_of(beside.terms(), is_this))
+      found[i] = learned_prospect(beside, problem, forms[i], observations);
   });
   std::vector<LearnedProspect> prospects;
   for (std::optional<LearnedProspect>& one : found)
@@ -156,13 +159,15 @@ std::optional<LearnedEffect> learn_next(const FittedModel& beside, const std::ve
 }  // namespace
 
 std::vector<LearnedEffect> learn_effects(const FittedModel& beside, const AttributionOptions& options) {
-  const bool few_runs = beside.data().observations.rows.size() <= thresholds::max_searched_rows;
+  const Observations& runs = beside.data().observations;
+  const bool few_runs = runs.rows.size() <= thresholds::max_searched_rows;
   std::vector<LearnedEffect> learned;
   std::vector<FoldDensity> held_out_baseline;
   while (learned.size() < thresholds::max_learned) {
     const bool first = learned.empty();
     const FittedModel& model = first ? beside : learned.back().candidate.model;
-    const std::vector<LearnedProspect> prospects = learned_prospects(model, options.pool);
+    const auto small = few_runs ? std::nullopt : pooled(model, thresholds::max_searched_rows);
+    const std::vector<LearnedProspect> prospects = learned_prospects(small ? *small : model, runs, options.pool);
     if (prospects.empty()) break;
     if (first) held_out_baseline = fold_densities(beside, options.seed, options.pool);
     auto next = learn_next(model, first ? held_out_baseline : learned.back().held_out, prospects,

@@ -5,19 +5,16 @@
 
 namespace soilbin::dem {
 
-/// Energy that left the motion since the start [J], summed step by step where Numerics::ledger is set. The work of a
-/// force is counted at the mean of the velocities half a step before and after it, which is exactly what the motion got
-/// from it. Two of the rows, of which no sum is made, are counted by the velocity before alone. Under the default law
-/// of rolling they and the tangential springs add up to into_slide; under `directional` and `directional_with_twist`,
-/// where spins turn round from step to step, they hold that trembling too and mean no energy, so a wheel's run does not
-/// tell them. The paper's tire, 4 kN, 20 % slip: dashpots 645 W of 810 W put in under directional_with_twist, 0.4 W of
-/// 926 W under elastic_plastic.
+/// Energy that left the motion since the start [J], summed step by step where Numerics::ledger is set. Exact: counted at
+/// the mean of the velocities half a step before and after, which is what the motion got. By the velocity before alone:
+/// good to the first order in the step, and only where spins don't turn round from step to step, so not under the
+/// rolling laws `directional` and `directional_with_twist` (docs/lab/soil-bin.md).
 struct EnergyLosses {
-  double damping = 0;        ///< lost in normal dashpots
-  double shear_damping = 0;  ///< lost in tangential dashpots, by the velocity before
-  double sliding = 0;        ///< lost in sliders, by the velocity before
-  double into_slide = 0;     ///< taken by tangential springs, dashpots and sliders together
-  double into_roll = 0;      ///< taken by rolling resistance, its springs included
+  double damping = 0;        ///< lost in normal dashpots; exact
+  double shear_damping = 0;  ///< part of into_slide: lost in tangential dashpots; by the velocity before alone
+  double sliding = 0;        ///< part of into_slide: lost in sliders; by the velocity before alone
+  double into_slide = 0;     ///< taken by tangential springs, dashpots and sliders together; exact
+  double into_roll = 0;      ///< taken by rolling resistance, its springs included; exact
   double adhesion = 0;       ///< left in contacts of jkr when they broke
   double added = 0;          ///< brought by what was added, removed or changed between steps, and at the start
 

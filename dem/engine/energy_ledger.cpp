@@ -32,7 +32,7 @@ void add_broken_on_surfaces(const World& world, double& sum) {
   const State& s = world.state;
   for (std::size_t slab = 0; slab < s.surfaces.size(); ++slab) {
     if (world.sleeping[static_cast<int>(slab)]) continue;
-    const std::vector<SurfaceContact>&old = world.made[slab], &now = s.surfaces[slab].made;
+    const std::vector<SurfaceContact>&old = world.surfaces_before[slab], &now = s.surfaces[slab].made;
     std::size_t in_old = 0, in_now = 0;
     for (const NearSurface& near : s.surfaces[slab].near) {
       int gone = 0;

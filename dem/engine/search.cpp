@@ -169,7 +169,7 @@ void make_room(World& world) {
   const int slabs = world.slabs();
   world.found.assign(slabs, {});
   world.speeds.assign(slabs, {});
-  world.made.resize(slabs);
+  world.surfaces_before.resize(slabs);
   world.ledger.begin(world.setup, world.state);
   world.sleeping.begin(world.state);
   cut_blocks(world);

@@ -73,7 +73,7 @@ void press_batch(World& world, int slab, TouchWork& work, std::span<SurfaceConta
 void surface_forces(World& world, int slab) {
   State& s = world.state;
   SurfaceContacts& here = s.surfaces[slab];
-  std::vector<SurfaceContact>& made = world.made[slab];
+  std::vector<SurfaceContact>& made = world.surfaces_before[slab];
   made.clear();
   BodyLoad* loads = s.body_loads.data() + slab * s.bodies.size();
   std::fill(loads, loads + s.bodies.size(), BodyLoad{});

@@ -64,9 +64,9 @@ struct World {
   // Of a step.
   Placed placed;
   PairSweep sweep{};
-  std::vector<PairFindings> found;                ///< of each slab
-  std::vector<SlabSpeed> speeds;                  ///< of the grains of each slab
-  std::vector<std::vector<SurfaceContact>> made;  ///< contacts with surfaces of the step before, a slab each
+  std::vector<PairFindings> found;                           ///< of each slab
+  std::vector<SlabSpeed> speeds;                             ///< of the grains of each slab
+  std::vector<std::vector<SurfaceContact>> surfaces_before;  ///< contacts with surfaces of the step before, a slab each
 
   int slabs() const { return static_cast<int>(state.slab_rows.size()) - 1; }
   /// Kind of a grain's contact with another, or with a surface.

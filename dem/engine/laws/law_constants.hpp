@@ -46,6 +46,5 @@ struct LawConstants {
 };
 
 /// How many numbers a LawConstants holds; they lie one after the other.
-inline constexpr int law_constant_count = 13;
 
 }  // namespace soilbin::dem
