@@ -265,18 +265,10 @@ compare::RunKeeping keeping_of(const SoilBinFlags& flags) {
           flags.shard.empty() ? Writers::several : Writers::one};
 }
 
-compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, const EffectVocabulary& effects,
-                               const RunLog& log) {
-  return [=, &effects](ModelKind kind) -> std::unique_ptr<const Model> {
-    const compare::RunListener listen = [log](const compare::RecordedRun& run) { log->push_back(run); };
-    if (kind != ModelKind::dem) return compare::make_model(kind);
-    if (!flags.recorded.empty())
-      return compare::recorded_soil_bin(read_record_with_notes(flags.recorded), question.scenario, flags.recorded,
-                                        listen);
-    const dem::DemSettings settings = settings_of(flags);
-    return compare::soil_bin_model(settings, flags.packings,
-                                   compare::run_once(settings, question, effects, keeping_of(flags)), listen);
-  };
+compare::StudyGrains grains_of(const SoilBinFlags& flags) {
+  compare::StudyGrains grains{settings_of(flags), flags.packings, keeping_of(flags)};
+  if (!flags.recorded.empty()) grains.recorded = {flags.recorded, read_record_with_notes(flags.recorded)};
+  return grains;
 }
 
 compare::Record read_record_with_notes(const fs::path& file) {

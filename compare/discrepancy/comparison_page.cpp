@@ -234,6 +234,11 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
 
 }  // namespace
 
+void ask_loop(const Comparison& comparison, const LoopOptions& options, ComparisonAbout& about) {
+  const Side& reference = comparison.sides.back();
+  if (reference.kind != SideKind::analytic) about.loop = run_loop(as_campaign(reference, comparison.question), options);
+}
+
 std::string comparison_page(const Comparison& answered, const ComparisonAbout& about) {
   Comparison comparison = answered;  // with its sides called as people call them
   const std::vector<std::string> labels = label_sides_in_words(comparison);
