@@ -16,6 +16,7 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/experiments/jobs.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/report/shell_words.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {
