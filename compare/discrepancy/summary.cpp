@@ -201,8 +201,8 @@ std::vector<Clause> doubt_clauses(const Comparison& comparison) {
 }  // namespace
 
 std::string measure_of(const Tally& t) {
-  if (channel_views[t.channel].name == "torque") return "load x radius";
-  return channel_views[t.channel].name == "sinkage" ? "the radius" : "the load";
+  const ChannelView& channel = channel_views[t.channel];
+  return (channel.scale == ChannelScale::load_times_radius ? "" : "the ") + std::string(scale_in_words(channel));
 }
 
 /// Where the widest gap in pull comes from.
