@@ -14,7 +14,7 @@
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
 #include "compare/discrepancy/comparison_page.hpp"
-#include "compare/discrepancy/comparison_sheets.hpp"
+#include "compare/discrepancy/comparison_tables.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"

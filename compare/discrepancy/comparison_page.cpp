@@ -6,6 +6,7 @@
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/discrepancy/comparison_sheets.hpp"
+#include "compare/discrepancy/comparison_tables.hpp"
 #include "compare/discrepancy/summary.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/report/model_names.hpp"
@@ -160,7 +161,7 @@ void add_causes(Page& page, const Comparison& comparison) {
                                      "shears it: each model at this condition.");
                      }});
   }
-  const std::string telling = in_words(conditions[telling_condition(comparison)]);
+  const std::string telling = in_words(conditions[condition_of_largest_difference(comparison)]);
   const auto first = std::ranges::find_if(parts, [&](const Choice& c) { return c.name == telling; });
   page.choices("Condition", parts, first == parts.end() ? 0 : static_cast<std::size_t>(first - parts.begin()));
   page.subsection("Contact and sinkage");
