@@ -12,7 +12,7 @@
 #include "compare/discrepancy/comparison_tables.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/report/json_fields.hpp"
-#include "compare/report/model_names.hpp"
+#include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
 

@@ -9,8 +9,8 @@
 #include "compare/discrepancy/comparison_tables.hpp"
 #include "compare/discrepancy/summary.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/report/model_names.hpp"
 #include "compare/report/page.hpp"
+#include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
 
 namespace soilbin::compare {

@@ -11,8 +11,8 @@
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/estimate.hpp"
 

@@ -6,8 +6,8 @@
 #include "compare/drives/drive_columns.hpp"
 #include "compare/drives/drive_sides.hpp"
 #include "compare/report/json_fields.hpp"
-#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/sweep/model_names.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
