@@ -7,8 +7,8 @@
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "compare/recorded/run_list.hpp"
-#include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/report/sealed_json.hpp"
 #include "scenario/atomic_file.hpp"
 
 namespace soilbin::cli {

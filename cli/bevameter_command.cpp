@@ -10,7 +10,7 @@
 #include "cli/progress.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
-#include "compare/experiments/element_experiments.hpp"
+#include "compare/experiments/virtual_bevameter.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {

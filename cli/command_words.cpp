@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "compare/report/number_text.hpp"
+#include "compare/report/shell_words.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/source_text.hpp"
 

@@ -5,7 +5,6 @@
 #include <cctype>
 #include <filesystem>
 #include <memory>
-#include <tuple>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
@@ -15,7 +14,7 @@
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
 #include "compare/discrepancy/comparison_page.hpp"
-#include "compare/discrepancy/comparison_sheets.hpp"
+#include "compare/discrepancy/comparison_tables.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
@@ -50,50 +49,27 @@ std::vector<EffectChoice> effects_together(const std::string& text, const Sessio
   return effects;
 }
 
-/// The base model first; then the study's own analytic models, then those with the effects asked for.
-std::vector<ModelChoice> analytic_choices(const Case& question, const CompareOptions& asked, const Session& session) {
-  std::vector<ModelChoice> choices = {{ModelKind::bekker_wong, {}, "bekker_wong"}};
-  for (const ModelChoice& choice : question.study.models)
-    if (choice.model == ModelKind::bekker_wong && !choice.effects.empty()) choices.push_back(choice);
-  for (const std::string& text : asked.effects) {
-    ModelChoice choice{ModelKind::bekker_wong, effects_together(text, session, question.scenario.soil), ""};
-    const auto same_effect = [](const EffectChoice& a, const EffectChoice& b) {
-      return std::tie(a.id, a.form, a.parameters) == std::tie(b.id, b.form, b.parameters);
-    };
-    const auto same = [&](const ModelChoice& other) {
-      return std::ranges::is_permutation(other.effects, choice.effects, same_effect);
-    };
-    if (std::ranges::any_of(choices, same))
+std::vector<ModelChoice> choices_of(const Case& question, const CompareOptions& asked, const Session& session) {
+  std::vector<ModelChoice> choices = compare::analytic_choices(question.study);
+  for (const std::string& text : asked.effects)
+    if (!compare::add_choice(choices, effects_together(text, session, question.scenario.soil)))
       fmt::print(stderr, "soilbin: --effect {}: is compared already\n", clipped(text));
-    else
-      choices.push_back(std::move(choice));
-  }
   label_models(choices);
   return choices;
 }
 
-/// Runs the grains, or takes them from the record, and tells what they rest on.
-compare::Side answer_of_grains(const Case& question, const CompareOptions& asked, const Session& session,
-                               const RunLog& log, compare::ComparisonAbout& about) {
-  const auto model = models_with(asked.soil_bin, question, session.place.effects, log)(ModelKind::dem);
-  compare::sweep(*model, question.scenario, question.study.conditions, shown_progress());
-  const std::string& record = !asked.soil_bin.recorded.empty() ? asked.soil_bin.recorded : asked.soil_bin.record;
-  compare::GrainSide grains = compare::grain_side(*log, question.study.conditions, record);
-  about.facts.insert(about.facts.end(), grains.facts.begin(), grains.facts.end());
-  return std::move(grains.side);
+bool asks_grains(Study study, const CompareOptions& asked) {
+  compare::choose_models(study, value_named<ModelKind>(asked.model), !asked.soil_bin.recorded.empty());
+  return asks(study, ModelKind::dem);
 }
 
-/// What the loop makes of the best reference there is: measurements before grains.
-void run_loop_on(const compare::Comparison& comparison, const CompareOptions& asked, compare::ComparisonAbout& about) {
-  const compare::Side& reference = comparison.sides.back();
-  if (asked.no_loop || reference.kind == compare::SideKind::analytic) return;
-  about.looped = compare::as_campaign(reference, comparison.question);
+void ask_loop(const compare::Comparison& comparison, unsigned seed, compare::ComparisonAbout& about) {
   compare::LoopOptions options;
-  options.attribution.seed = asked.seed;
+  options.attribution.seed = seed;
   options.threads = all_cores();
   options.progress = shown_progress();
   try {
-    about.loop = compare::run_loop(*about.looped, options);
+    compare::ask_loop(comparison, options, about);
   } catch (const NoSolution& none) {
     fmt::print(stderr, "soilbin: the loop has no answer: {}\n", none.what());
   }
@@ -147,24 +123,21 @@ int compare_models(CompareOptions asked, const Session& session) {
   }
   if (!asked.no_loop) compare::check_soil_for_loop(question.scenario.soil);  // refused before anything is run
   if (!asked.replay.empty()) about.replay = compare::read_replay(asked.replay);
-  const std::vector<ModelChoice> choices = analytic_choices(question, asked, session);
-  const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
-  std::vector<compare::Side> sides;
-  if (question.scenario.soil.semi_empirical) {
-    Case analytic = question;
-    analytic.study.models = choices;
-    const std::vector<compare::ModelAnswers> study = compare::run_study(analytic, shown_progress());
-    for (const compare::ModelAnswers& answers : study) sides.push_back(compare::side_of(answers));
+  const std::vector<ModelChoice> choices = choices_of(question, asked, session);
+  std::vector<compare::Side> sides = compare::analytic_sides(question, choices, shown_progress());
+  std::vector<compare::RecordedRun> runs;
+  if (asks_grains(question.study, asked)) {
+    compare::GrainSideRuns of =
+        compare::run_grain_side(question, grains_of(asked.soil_bin), session.place.effects, shown_progress());
+    about.facts.insert(about.facts.end(), of.grains.facts.begin(), of.grains.facts.end());
+    sides.push_back(std::move(of.grains.side)), runs = std::move(of.runs);
   }
-  if (asked.model == "dem" || !asked.soil_bin.recorded.empty() ||
-      (asked.model.empty() && asks(question.study, ModelKind::dem)))
-    sides.push_back(answer_of_grains(question, asked, session, log, about));
   about.page.doubts = compare::doubts(question, choices, sides);
   print_warnings(about.page.doubts);
   if (!asked.measured.empty())
     sides.push_back(compare::side_of(find_campaign(session.place, asked.measured), question));
   const compare::Comparison comparison = compare::compare_sides(question, choices, std::move(sides));
-  run_loop_on(comparison, asked, about);
+  if (!asked.no_loop) ask_loop(comparison, asked.seed, about);
   about.page.title = asked.title.empty() ? "Comparison: " + question.study.name : asked.title;
   about.page.command = session.command, about.page.versions = versions();
   about.resolved_case = write_case(question, session.place.effects);
@@ -173,7 +146,7 @@ int compare_models(CompareOptions asked, const Session& session) {
     print_json(compare::comparison_json(comparison, about));
   else
     print_text(comparison, about);
-  delete_restarts(*log, outputs);
+  delete_restarts(runs, outputs);
   return outputs.status(done);
 }
 

@@ -43,16 +43,6 @@ int threads_of(const DriveOptions& options) {
   return options.soil_bin.threads > 0 ? options.soil_bin.threads : all_cores();
 }
 
-/// So many of the samples, evenly, the first and the last among them.
-template <class Sample>
-std::vector<Sample> picked(const std::vector<Sample>& samples, std::size_t rows) {
-  std::vector<Sample> some;
-  rows = std::min(rows, samples.size());
-  for (std::size_t row = 0; row < rows; ++row)
-    some.push_back(samples[rows == 1 ? 0 : row * (samples.size() - 1) / (rows - 1)]);
-  return some;
-}
-
 /// Writes what is asked for as files.
 template <class Answer>
 Outputs save(const DriveOptions& options, const Answer& answer, const std::string& title,
@@ -66,38 +56,18 @@ Outputs save(const DriveOptions& options, const Answer& answer, const std::strin
   return outputs;
 }
 
-std::string slip_text(const DriveState& s) { return s.slip ? number(100 * *s.slip) : "-"; }
-
-/// A dozen of the samples, the last among them.
-std::string samples_text(const bekker_wong::DriveRecord& record) {
-  Table table{"",
-              {"time [s]", "travelled [m]", "slope [deg]", "speed [cm/s]", "rim [cm/s]", "slip [%]", "sinkage [mm]",
-               "torque [N m]", "soil force [N]"}};
-  for (const bekker_wong::DriveSample& s : picked(record.samples, shown_rows))
-    table.add({number(s.time), number(s.travelled), number(s.longitudinal_incline / degree), number(100 * s.speed),
-               number(100 * s.rim_speed), slip_text(s), number(1000 * s.sinkage), number(s.torque), number(s.forward)});
-  return as_text(table);
-}
-
-std::string energy_text(const bekker_wong::EnergyLedger& energy) {
-  Table table{"", {"of the motor's work", "J", "%"}};
-  for (const auto& [name, joules] : compare::energy_rows(energy))
-    table.add({name, number(joules), energy.motor != 0.0 ? number(100 * joules / energy.motor) : "-"});
-  table.add({"in all", number(energy.motor), "100"});
-  return as_text(table);
-}
-
-std::string drive_text(const compare::DrivePart& part) {
+std::string drive_text(const compare::AnalyticDrive& part) {
   std::string text = fmt::format("{}: {} on {}\n\n{}\n", part.question.name, in_words(part.question.scenario.tire),
-                                 compare::in_words(part.question.scenario.soil), samples_text(part.record));
+                                 compare::in_words(part.question.scenario.soil),
+                                 as_text(compare::samples_table(part.record, shown_rows)));
   for (const DriveHappening& h : part.record.happenings)
     text += fmt::format("At {} s and {} m {}.\n", number(h.time), number(h.travelled), word_of(h.what));
   for (const std::string& sentence : compare::in_words(part)) text += sentence + "\n";
-  return text + "\n" + energy_text(part.record.samples.back().energy);
+  return text + "\n" + as_text(compare::energy_table(part.record.samples.back().energy, compare::WorkTable::in_text));
 }
 
 int drive_analytically(const DriveOptions& options, const Case& question, const Session& session) {
-  const compare::DrivePart part =
+  const compare::AnalyticDrive part =
       compare::run_drive(question, options.samples, progress_in_time(), threads_of(options));
   const std::vector<std::string> doubts = compare::doubts(part);
   print_warnings(doubts);
@@ -119,26 +89,15 @@ dem::DemSettings settings_for(const DriveOptions& options, const Drive& drive) {
   return settings;
 }
 
-std::string sides_samples_text(const compare::DriveSides& drive) {
-  const std::size_t rows_of_each = std::max<std::size_t>(3, shown_rows / std::max<std::size_t>(2, drive.sides.size()));
-  Table table{"",
-              {"model", "time [s]", "travelled [m]", "slope [deg]", "speed [cm/s]", "slip [%]", "sinkage [mm]",
-               "torque [N m]", "soil force [N]"}};
-  for (const compare::DriveSide& side : drive.sides)
-    for (const compare::DriveSideSample& s : picked(side.samples, rows_of_each))
-      table.add({side.label, number(s.time), number(s.travelled), number(s.longitudinal_incline / degree),
-                 number(100 * s.speed), slip_text(s), number(1000 * s.sinkage), number(s.torque), number(s.forward)});
-  return as_text(table);
-}
-
 std::string without_caption(compare::Table table) {
   table.caption.clear();
   return "\n" + as_text(table);
 }
 
 std::string sides_text(const compare::DriveSides& drive) {
-  std::string text = fmt::format("{}: {} on {}\n\n{}\n", drive.question.name, in_words(drive.question.scenario.tire),
-                                 compare::in_words(drive.question.scenario.soil), sides_samples_text(drive));
+  std::string text =
+      fmt::format("{}: {} on {}\n\n{}\n", drive.question.name, in_words(drive.question.scenario.tire),
+                  compare::in_words(drive.question.scenario.soil), as_text(compare::samples_table(drive, shown_rows)));
   for (const compare::DriveSide& side : drive.sides)
     for (const DriveHappening& h : side.happenings)
       text +=
@@ -146,9 +105,7 @@ std::string sides_text(const compare::DriveSides& drive) {
   for (const std::string& sentence : compare::in_words(drive)) text += sentence + "\n";
   if (drive.over_packings) text += without_caption(compare::packings_table(drive));
   if (!drive.differences.empty()) text += without_caption(compare::differences_table(drive));
-  compare::Table work = compare::work_table(drive);
-  work.header.front() = "of the motor's work [J]", work.rows.back().front() = "in all";
-  text += without_caption(std::move(work)) + "\n";
+  text += "\n" + as_text(compare::work_table(drive, compare::WorkTable::in_text)) + "\n";
   for (const std::string& note : drive.notes) text += note + "\n";
   return text;
 }

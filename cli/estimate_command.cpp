@@ -8,6 +8,7 @@
 #include "cli/question.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "compare/sweep/answer_tables.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 
@@ -18,9 +19,10 @@ void print_text(const Case& question, const std::vector<compare::ModelAnswers>& 
   fmt::print("{} on {}\n{}\n\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil),
              compare::errors_in_words(question.scenario.soil));
   if (question.study.conditions.size() > 1) {
-    fmt::print("{}", study_text(study));
+    fmt::print("{}", compare::study_text(study));
   } else {
-    for (const compare::ModelAnswers& model : study) fmt::print("{}\n", answer_text(model, model.answers.front()));
+    for (const compare::ModelAnswers& model : study)
+      fmt::print("{}\n", compare::answer_text(model, model.answers.front()));
   }
 }
 

@@ -1,15 +1,14 @@
 // soilbin explain: the budget of forces, the equations with the values put in, closed forms to check by, sources.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/question.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "compare/sweep/answer_tables.hpp"
 #include "compare/sweep/explanation.hpp"
-#include "compare/sweep/result_json.hpp"
 #include "compare/sweep/sources.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
@@ -33,70 +32,14 @@ void print_steps(const char* heading, const std::vector<Step>& steps) {
   }
 }
 
-void print_budget(const TractionResult& result) {
-  fmt::print("\nBudget of forces along the drawbar pull\n");
-  Table table{"", {"part", "force [N]"}};
-  double sum = 0.0;
-  for (const Contribution& part : result.budget) {
-    table.add({"  " + compare::spaced(part.name), fmt::format("{:.4f}", part.force)});
-    sum += part.force;
-  }
-  table.add({"  sum", fmt::format("{:.4f}", sum)});
-  table.add({"  drawbar pull", fmt::format("{:.4f}", result.drawbar_pull.value)});
-  fmt::print("{}", as_text(table));
-}
-
-nlohmann::ordered_json steps_json(const std::vector<Step>& steps) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  for (const Step& step : steps) {
-    nlohmann::ordered_json one = {{"name", step.name},
-                                  {"equation", step.equation},
-                                  {"numbers", step.numbers},
-                                  {"value", step.value},
-                                  {"unit", step.unit}};
-    if (!step.remark.empty()) one["remark"] = step.remark;
-    all.push_back(std::move(one));
-  }
-  return all;
-}
-
-nlohmann::ordered_json explanation_json(const ModelChoice& choice, const Explanation& explanation,
-                                        const OperatingCondition& at) {
-  nlohmann::ordered_json row = {{"model", "bekker_wong"}, {"label", choice.label}};
-  row.update(compare::to_json(compare::Answer{at, explanation.result, ""}));
-  row["steps"] = steps_json(explanation.steps);
-  row["effects"] = steps_json(explanation.effects);
-  row["cross_checks"] = steps_json(explanation.cross_checks);
-  return row;
-}
-
 void print_text(const ModelChoice& choice, const Explanation& explanation, const OperatingCondition& at) {
-  fmt::print("{}", answer_text({choice, {}}, {at, explanation.result, ""}));
-  print_budget(explanation.result);
+  fmt::print("{}", compare::answer_text({choice, {}}, {at, explanation.result, ""}));
+  fmt::print("\nBudget of forces along the drawbar pull\n{}", as_text(compare::forces_table(explanation.result)));
   print_steps(choice.effects.empty() ? "Equations with their values"
                                      : "Equations of the base model at this contact (the effects below change them)",
               explanation.steps);
   print_steps("Effects", explanation.effects);
   print_steps("Closed forms to check by (no balance, no effects)", explanation.cross_checks);
-}
-
-void print_sources(const Scenario& scenario) {
-  Table table{"", {"", "value", "source"}, {true, true, true}};
-  for (const compare::SourcedValue& value : compare::sourced_values(scenario))
-    table.add({fmt::format("  {}: {}", value.of, value.name), compare::in_words(value), value.source});
-  fmt::print("\nWhere the values come from\n{}", as_text(table));
-}
-
-nlohmann::ordered_json sources_json(const Scenario& scenario) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  for (const compare::SourcedValue& value : compare::sourced_values(scenario))
-    all.push_back({{"of", value.of},
-                   {"name", value.key},
-                   {"value", value.value.value},
-                   {"std_error", value.value.std_error},
-                   {"assumed_sd", value.assumed_sd},
-                   {"source", value.source}});
-  return all;
 }
 
 int explain(const Question& inputs, bool json, const Session& session) {
@@ -116,19 +59,19 @@ int explain(const Question& inputs, bool json, const Session& session) {
     for (const OperatingCondition& at : question.study.conditions) {
       const Explanation explanation = compare::explain(scenario, at);
       if (json)
-        rows.push_back(explanation_json(choice, explanation, at));
+        rows.push_back(to_json(explanation, choice, at));
       else
         fmt::print("{}", first ? "" : "\n"), print_text(choice, explanation, at);
       first = false;
       answered.push_back({choice, {{at, explanation.result, ""}}});
     }
   }
-  if (!json) print_sources(question.scenario);
+  if (!json) fmt::print("\nWhere the values come from\n{}", as_text(compare::sources_table(question.scenario)));
   const std::vector<std::string> doubts = compare::doubts(question, answered);
   print_warnings(doubts);
   if (!json) return done;
   nlohmann::ordered_json document = document_of("soilbin-explain/1", question, rows);
-  document["sources"] = sources_json(question.scenario);
+  document["sources"] = compare::sources_json(question.scenario);
   print_json(document, doubts);
   return done;
 }

@@ -12,7 +12,7 @@
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
-#include "compare/experiments/soil_bin_trials.hpp"
+#include "compare/experiments/failure_map_grains.hpp"
 #include "compare/failure_map/map_report.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
@@ -67,12 +67,12 @@ void show_run(int done, int total) {
   show_progress_line(fmt::format("condition {} of {}", done + 1, total));
 }
 
-void print_story(const compare::MapStory& story, bool rows) {
-  for (const auto& [name, text] : compare::opening(story)) fmt::print("{}: {}\n", name, text);
-  for (const std::string& sentence : compare::details(story)) fmt::print("{}\n", sentence);
-  if (rows) fmt::print("\n{}", as_text(compare::rows_table(story)));
-  fmt::print("\n{}", as_text(compare::coordinates_table(story)));
-  if (!story.checks.empty()) fmt::print("\n{}", as_text(compare::checks_table(story)));
+void print_map(const compare::FailureMapResult& result, bool rows) {
+  for (const auto& [name, text] : compare::opening(result)) fmt::print("{}: {}\n", name, text);
+  for (const std::string& sentence : compare::details(result)) fmt::print("{}\n", sentence);
+  if (rows) fmt::print("\n{}", as_text(compare::rows_table(result)));
+  fmt::print("\n{}", as_text(compare::coordinates_table(result)));
+  if (!result.checks.empty()) fmt::print("\n{}", as_text(compare::checks_table(result)));
 }
 
 int failure_map(const FailureMapOptions& asked, const Session& session) {
@@ -104,17 +104,17 @@ int failure_map(const FailureMapOptions& asked, const Session& session) {
                                  .packing = static_cast<std::uint64_t>(asked.soil_bin.packing)};
   Outputs outputs;
   try {
-    const compare::MapStory story = compare::learn_map(map, grains, store, how);
+    const compare::FailureMapResult result = compare::learn_map(map, grains, store, how);
     clear_progress_line();
-    const compare::PageAbout about{"Failure map: " + name_of(story.map.incline), session.command, versions(),
-                                   doubts_of(story, grains, store)};
+    const compare::PageAbout about{"Failure map: " + name_of(result.map.incline), session.command, versions(),
+                                   doubts_of(result, grains, store)};
     print_warnings(about.doubts);
     outputs.file(asked.report,
-                 [&] { return compare::failure_map_page(story, about, write_case(question, session.place.effects)); });
+                 [&] { return compare::failure_map_page(result, about, write_case(question, session.place.effects)); });
     if (asked.json)
-      print_json(compare::failure_map_json(story), about.doubts);
+      print_json(compare::failure_map_json(result), about.doubts);
     else
-      print_story(story, asked.rows);
+      print_map(result, asked.rows);
   } catch (const compare::ExperimentsAsked& more) {
     return asked.batch.write(grains, more.experiments);
   } catch (const Interrupted&) {

@@ -8,7 +8,7 @@
 #include "cli/flag_values.hpp"
 #include "cli/outputs.hpp"
 #include "cli/text_output.hpp"
-#include "compare/bevameter/measured_plates.hpp"
+#include "compare/doubts/plate_doubts.hpp"
 #include "compare/measured/csv.hpp"
 #include "scenario/errors.hpp"
 

@@ -10,6 +10,7 @@
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/sweep/answer_sheets.hpp"
+#include "compare/sweep/answer_tables.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "scenario/errors.hpp"
@@ -51,7 +52,7 @@ int predict(const PredictOptions& options, const Session& session) {
   else
     fmt::print("{}: {} runs of {}, predicted with {} and not fitted\n\n{}", campaign.name, prediction.runs.size(),
                in_words(campaign.wheel), options.model.empty() ? "the declared soil" : options.model,
-               prediction_text(prediction));
+               compare::prediction_text(prediction));
   if (prediction.unsolved < prediction.runs.size()) return outputs.status(done);
   fmt::print(stderr, "soilbin: no run of the campaign has a solution\n");
   return failed;

@@ -1,19 +1,15 @@
 // soilbin record: what records of runs hold, what they lack, and several made one.
 #include <fmt/core.h>
 
-#include <map>
 #include <memory>
-#include <set>
 
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
-#include "compare/recorded/merge.hpp"
+#include "compare/recorded/record_words.hpp"
 #include "compare/recorded/run_list.hpp"
 #include "compare/recorded/step_pair.hpp"
-#include "compare/report/json_fields.hpp"
-#include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/nearest_word.hpp"
 
@@ -50,33 +46,11 @@ int merge(const RecordOptions& asked) {
   return done;
 }
 
-/// Runs, results, seconds of a packing.
-struct PackingLine {
-  std::size_t runs = 0, answers = 0, steady = 0;
-  double seconds = 0;
-};
-
 int show(const RecordOptions& asked) {
   if (asked.names.empty()) throw InputError(names_expected(asked, "RECORD.json..."));
-  for (const auto& [file, record] : read_all(asked.names)) {
-    std::map<std::uint64_t, PackingLine> packings;
-    std::set<std::string> sources;
-    for (const compare::RecordedRun& run : record.runs) {
-      PackingLine& line = packings[run.packing];
-      ++line.runs, line.seconds += run.seconds;
-      line.answers += run.answer.result.has_value(), line.steady += run.answer.result && run.steady;
-      sources.insert(run.source);
-    }
-    Table table{"", {"packing", "runs", "with a result", "steady", "seconds"}};
-    for (const auto& [packing, line] : packings)
-      table.add({std::to_string(packing), std::to_string(line.runs), std::to_string(line.answers),
-                 std::to_string(line.steady), fmt::format("{:.0f}", line.seconds)});
-    fmt::print("{}: {} by {}, {} at half the time step\nmade by   {} of soilbin {}\ninputs    {}\n{}", file.string(),
-               compare::counted(record.runs.size(), "run"), record.model, record.half_step.size(),
-               listed({sources.begin(), sources.end()}), record.soilbin, compare::inputs_key(record.inputs),
-               as_text(table));
-    for (const compare::StepPair& pair : compare::step_pairs(record)) fmt::print("{}\n", compare::in_words(pair));
-    print_warnings(compare::step_doubts(record));
+  for (const compare::NamedRecord& record : read_all(asked.names)) {
+    fmt::print("{}", compare::in_words(record));
+    print_warnings(compare::step_doubts(record.record));
   }
   return done;
 }
@@ -86,12 +60,11 @@ int missing(const RecordOptions& asked, const Session& session) {
   const Case question = find_study(session.place, asked.names.front());
   std::vector<compare::Record> records;
   for (const auto& [file, record] : read_all({asked.names.begin() + 1, asked.names.end()})) {
-    compare::recorded_soil_bin(record, question.scenario, file, {});  // refuses another tire or other grains
+    compare::refuse_other_grains(record, question.scenario, file);
     records.push_back(record);
   }
-  const auto list = compare::run_list(
-      question.study.conditions, compare::packings_from(settings_of(asked.expected), asked.expected.packings),
-      compare::test_of_step(question, asked.expected.packings, asked.expected.tests_step()));
+  const auto list =
+      compare::list_of(question, settings_of(asked.expected), asked.expected.packings, asked.expected.tests_step());
   const auto left = compare::missing_runs(list, records);
   for (const compare::AskedRun& run : left) fmt::print("{}\n", compare::in_words(run));
   fmt::print("{} of {} missing\n", left.size(), compare::counted(list.size(), "run"));

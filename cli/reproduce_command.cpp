@@ -1,7 +1,6 @@
 // soilbin reproduce: whether the models show what a publication found.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -13,12 +12,9 @@
 #include "cli/soil_bin.hpp"
 #include "cli/text_output.hpp"
 #include "cli/versions.hpp"
-#include "compare/doubts/named_doubts.hpp"
-#include "compare/recorded/recorded_model.hpp"
 #include "compare/reproduction/reproduction_report.hpp"
-#include "compare/sweep/result_json.hpp"
+#include "compare/reproduction/study_answers.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/mapping_writer.hpp"
 #include "scenario/nearest_word.hpp"
 
 namespace soilbin::cli {
@@ -46,87 +42,22 @@ fs::path findings_file(const Workplace& place, const std::string& name) {
                    listed(names));
 }
 
-/// Which study a record answers: its case's name.
-std::string study_of(const compare::Record& record, const std::string& file, const Workplace& place) {
-  return parse_case(make_source_text(record.question, file + " (case)"), place.library, place.effects).study.name;
-}
-
-struct Recorded {
-  std::string study, file;
-  compare::Record record;
-};
-
-/// What is to be known of the answers beside them.
-struct Notes {
-  std::vector<std::string> remarks;  ///< on errors
-  compare::NamedDoubts doubts;       ///< each with the studies that it is of
-};
-
-/// Those of the analytic models and of grains that a record answers by.
-void add_doubts(Notes& notes, Case question, std::vector<compare::ModelAnswers> study,
-                const std::vector<compare::Answer>& grains) {
-  if (!grains.empty()) {
-    question.study.models.push_back({ModelKind::dem, {}, "dem"});
-    study.push_back({question.study.models.back(), grains});
-  }
-  notes.doubts.add(question.study.name, question, study);
-}
-
-/// Answers of every model to every study that the findings speak of.
-std::vector<compare::StudyAnswers> answers_of(const compare::Findings& findings, const std::vector<Recorded>& records,
-                                              const Workplace& place, Notes& notes) {
-  std::set<std::string> names;
-  for (const compare::Finding& finding : findings.all) names.insert(finding.study);
-  std::vector<compare::StudyAnswers> all;
-  for (const std::string& name : names) {
-    Case question = find_case(place, name);
-    std::erase_if(question.study.models, [](const ModelChoice& c) { return c.model == ModelKind::dem; });
-    const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
-    for (const compare::ModelAnswers& model : study)
-      all.push_back({name, model.choice.label, compare::taken_as_exact(model.answers)});
-    std::string remark;
-    compare::StudyAnswers dem{name, "dem", {}};
-    for (const Recorded& one : records) {
-      if (one.study != name) continue;
-      dem.answers = compare::recorded_answers(one.record, question.study.conditions, remark);
-      const std::string file = fs::path(one.file).filename().string() + ": ";
-      notes.remarks.push_back(file + remark);
-      for (const std::string& doubt : compare::step_doubts(one.record)) notes.remarks.push_back(file + doubt);
-    }
-    add_doubts(notes, question, study, dem.answers);
-    if (dem.answers.empty())
-      for (const OperatingCondition& at : question.study.conditions)
-        dem.answers.push_back({at, std::nullopt, "not run"});
-    all.push_back(std::move(dem));
-  }
-  return all;
-}
-
 /// Records of the library that answer a study of the findings.
 std::vector<std::string> library_records(const compare::Findings& findings, const Workplace& place) {
   std::set<std::string> files;
-  for (const compare::Finding& finding : findings.all) {
-    const fs::path file = place_of_record(place, finding.study);
-    if (fs::exists(file)) files.insert(file.string());
-  }
+  for (const std::string& study : compare::studies_of(findings))
+    if (const fs::path file = place_of_record(place, study); fs::exists(file)) files.insert(file.string());
   return {files.begin(), files.end()};
 }
 
-std::vector<Recorded> records_of(std::vector<std::string> files, const compare::Findings& findings,
-                                 const Workplace& place) {
-  std::vector<Recorded> records;
+std::vector<compare::StudyRecord> records_of(std::vector<std::string> files, const compare::Findings& findings,
+                                             const Workplace& place) {
+  std::vector<compare::StudyRecord> records;
   if (files.empty()) files = library_records(findings, place);
   for (const std::string& file : files) {
     compare::Record record = read_record_with_notes(file);
-    const std::string study = study_of(record, file, place);
-    const bool asked =
-        std::ranges::any_of(findings.all, [&](const compare::Finding& finding) { return finding.study == study; });
-    if (!asked) throw InputError(fmt::format("{}: no finding speaks of its study '{}'", file, study));
-    for (const Recorded& other : records)
-      if (other.study == study)
-        throw InputError(
-            fmt::format("{} and {} answer the same study '{}'\n  hint: one record a study", other.file, file, study));
-    records.push_back({study, file, std::move(record)});
+    const Case asked = parse_case(make_source_text(record.question, file + " (case)"), place.library, place.effects);
+    compare::add_record(records, {asked.study.name, file, std::move(record)}, findings);
   }
   return records;
 }
@@ -140,12 +71,12 @@ void print_text(const compare::Reproduction& reproduction) {
 
 int reproduce(const ReproduceOptions& options, const Session& session) {
   const compare::Findings findings = compare::read_findings(findings_file(session.place, options.findings));
-  const std::vector<Recorded> records = records_of(options.recorded, findings, session.place);
-  Notes notes;
-  compare::Reproduction reproduction =
-      compare::reproduce(findings, answers_of(findings, records, session.place, notes));
-  reproduction.remarks = notes.remarks;
-  const std::vector<std::string> doubts = notes.doubts.lines();
+  const compare::AnsweredStudies answered = compare::answer_studies(
+      findings, records_of(options.recorded, findings, session.place),
+      [&](const std::string& study) { return find_case(session.place, study); }, shown_progress);
+  compare::Reproduction reproduction = compare::reproduce(findings, answered.answers);
+  reproduction.remarks = answered.remarks;
+  const std::vector<std::string> doubts = answered.doubts.lines();
   print_warnings(doubts);
   Outputs outputs;
   outputs.file(options.report, [&] {

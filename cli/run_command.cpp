@@ -16,7 +16,7 @@
 #include "compare/experiments/run_plan.hpp"
 #include "compare/experiments/study_results.hpp"
 #include "compare/sweep/answer_sheets.hpp"
-#include "compare/sweep/result_json.hpp"
+#include "compare/sweep/answer_tables.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
 
@@ -32,14 +32,6 @@ struct RunOptions {
   ErrorFlag errors;
   SoilBinFlags soil_bin;
 };
-
-/// Answers by LAMMPS carry its name. It is given spheres alone.
-void name_engine(Case& question, const std::string& engine) {
-  if (engine != "lammps") return;
-  if (question.scenario.soil.granular) dem::require_spheres(*question.scenario.soil.granular);
-  for (ModelChoice& choice : question.study.models)
-    if (choice.model == ModelKind::dem) choice.label = dem::lammps_model_name;
-}
 
 void save(Outputs& outputs, const RunOptions& options, const Case& question, const compare::StudyResults& answered,
           const Workplace& place) {
@@ -65,26 +57,19 @@ void check_flags(const RunOptions& options, const Case& question) {
     throw InputError("--shard needs a record of its own for what it makes\n  hint: --record FILE.json");
 }
 
-/// Makes the runs that the record lacks: all, or those of a shard. Says where each is on standard error.
-void make_runs(const Case& question, const Case& whole, const RunOptions& options, const Session& session) {
-  const SoilBinFlags& bin = options.soil_bin;
-  dem::DemSettings settings = settings_of(bin);
-  const std::vector<compare::AskedRun> list = bin.runs(question);
+/// Says where each run of the list is on standard error, those of a shard by a line each.
+compare::BeforeRun shown_runs(const SoilBinFlags& bin, compare::StudyGrains& grains) {
   std::vector<compare::Record> before;  // what the record holds already is not made again
   if (fs::exists(bin.record)) before.push_back(compare::read_record(bin.record));
   const auto at = std::make_shared<std::string>();
-  settings.how.progress = [at](const dem::Progress& progress) { show_progress_of(*at, progress); };
-  compare::make_runs(
-      list, settings, whole, session.place.effects, keeping_of(bin),
-      [&](std::size_t place, const compare::AskedRun& run) {
-        if (interrupt_asked()) throw Interrupted();
-        *at = fmt::format("run {} of {}", place + 1, list.size());
-        if (!bin.shard.empty())
-          print_beside_progress(fmt::format("{}: {}{}", *at, compare::in_words(run),
-                                            compare::missing_runs({run}, before).empty() ? ", recorded before" : ""));
-      });
-  if (!bin.shard.empty())
-    fmt::print("{}: shard {} is done, {} recorded\n", bin.record, bin.shard, compare::counted(list.size(), "run"));
+  grains.settings.how.progress = [at](const dem::Progress& progress) { show_progress_of(*at, progress); };
+  return [=, shard = !bin.shard.empty(), of = grains.list.size()](std::size_t place, const compare::AskedRun& run) {
+    if (interrupt_asked()) throw Interrupted();
+    *at = fmt::format("run {} of {}", place + 1, of);
+    if (shard)
+      print_beside_progress(fmt::format("{}: {}{}", *at, compare::in_words(run),
+                                        compare::missing_runs({run}, before).empty() ? ", recorded before" : ""));
+  };
 }
 
 /// Calls `work`; what an interrupted one has recorded stays, and the command says how to go on.
@@ -128,73 +113,93 @@ int converge(const RunOptions& options, const Case& question, const Session& ses
   return finished.front().answer.result ? done : failed;
 }
 
-int run(RunOptions options, const Session& session) {
-  if (!options.soil_bin.recorded.empty())
-    options.soil_bin.recorded = find_record(session.place, options.study, options.soil_bin.recorded);
-  Case question = find_study(session.place, options.study);
-  options.errors.apply(question.scenario.soil);
-  if (!options.model.empty()) {
-    check_model(options.model, all_words<ModelKind>());
-    compare::keep_models(question.study, *value_named<ModelKind>(options.model));
-  }
-  if (!options.soil_bin.recorded.empty() && options.model.empty() && !asks(question.study, ModelKind::dem))
-    question.study.models.push_back({ModelKind::dem, {}, "dem"});  // a record answers beside the study's own models
-  if (options.soil_bin.recorded.empty()) require_grains(question, session.place.library);
-  name_engine(question, options.soil_bin.engine);
-  if (options.converge) {
-    options.conditions.pick(question.study, question.scenario.tire);
-    return converge(options, question, session);
-  }
-  const Case whole = question;  // a record that is begun holds all conditions
-  options.conditions.pick(question.study, question.scenario.tire);
-  check_flags(options, question);
-  if (options.dry_run) {
-    const SoilBinFlags& bin = options.soil_bin;
-    const compare::RunPlan plan = compare::plan_of(question, settings_of(bin), bin.runs(question), keeping_of(bin));
-    const std::vector<std::string> doubts = compare::doubts(question);
-    print_warnings(doubts);
-    if (options.json)
-      print_json(compare::plan_json(plan), doubts);
-    else
-      fmt::print("{}", compare::plan_text(plan));
+/// Makes nothing: the list of runs, which are recorded, and what the others will cost.
+int plan(const RunOptions& options, const Case& question) {
+  const SoilBinFlags& bin = options.soil_bin;
+  const compare::RunPlan plan = compare::plan_of(question, settings_of(bin), bin.runs(question), keeping_of(bin));
+  const std::vector<std::string> doubts = compare::doubts(question);
+  print_warnings(doubts);
+  if (options.json)
+    print_json(compare::plan_json(plan), doubts);
+  else
+    fmt::print("{}", compare::plan_text(plan));
+  return done;
+}
+
+/// Makes the runs of a shard that the record lacks, and asks nothing.
+int make_shard(const RunOptions& options, const Case& question, const Case& whole, const Session& session) {
+  const SoilBinFlags& bin = options.soil_bin;
+  try {
+    recording(options, [&] {
+      compare::StudyGrains grains = grains_of(bin);
+      grains.list = bin.runs(question);
+      const compare::BeforeRun before = shown_runs(bin, grains);
+      compare::make_runs(grains.list, grains.settings, whole, session.place.effects, grains.keeping, before);
+      fmt::print("{}: shard {} is done, {} recorded\n", bin.record, bin.shard,
+                 compare::counted(grains.list.size(), "run"));
+    });
     return done;
+  } catch (const Interrupted&) {
+    return unfinished;
   }
-  const std::optional<dem::StepCriteria> step =
-      compare::step_of(settings_of(options.soil_bin), question, options.soil_bin.recorded);
-  const bool asks_grains = asks(question.study, ModelKind::dem);
-  if (asks_grains && options.soil_bin.recorded.empty()) tell_coarse_grains(question.scenario);
-  if (!options.soil_bin.shard.empty()) try {
-      recording(options, [&] { make_runs(question, whole, options, session); });
-      return done;
-    } catch (const Interrupted&) {
-      return unfinished;
-    }
-  const RunLog log = std::make_shared<std::vector<compare::RecordedRun>>();
-  const compare::MakeModel make = models_with(options.soil_bin, whole, session.place.effects, log);
-  if (asks_grains && !options.soil_bin.record.empty())
-    recording(options, [&] { make_runs(question, whole, options, session); });
-  compare::StudyResults answered{.study = {}, .doubts = {}, .step = step};
-  answered.study = recording(options, [&] { return compare::run_study(question, shown_progress(), make); });
-  answered.doubts = compare::doubts_of(question, answered, options.soil_bin.record);
+}
+
+void print_text(const Case& question, const compare::StudyResults& answered) {
+  fmt::print("{}: {} on {}\n{}{}\n{}", question.study.name, in_words(question.scenario.tire),
+             compare::in_words(question.scenario.soil),
+             asks(question.study, ModelKind::bekker_wong)
+                 ? compare::errors_in_words(question.scenario.soil) + "\n"
+                 : "",  // grains say beside their answer where their errors come from
+             answered.step ? compare::in_words(*answered.step) : "", compare::study_text(answered.study));
+  if (const std::string notes = compare::notes_on(answered.runs); !notes.empty())
+    fmt::print("\n{}{}", notes, compare::relative_density_of(answered.runs, question.scenario.soil, folder_of_beds()));
+}
+
+/// Asks every model, and says what it answers.
+int answer(const RunOptions& options, const Case& question, const Case& whole,
+           const std::optional<dem::StepCriteria>& step, const Session& session) {
+  compare::StudyResults answered = recording(options, [&] {
+    const SoilBinFlags& bin = options.soil_bin;
+    const bool asks_grains = asks(question.study, ModelKind::dem);
+    compare::StudyGrains grains;
+    compare::BeforeRun before;
+    grains.keeping = keeping_of(bin);
+    if (asks_grains) grains = grains_of(bin);
+    if (asks_grains && !bin.record.empty()) grains.list = bin.runs(question), before = shown_runs(bin, grains);
+    return compare::answer_study(question, whole, grains, session.place.effects, before, shown_progress());
+  });
+  answered.step = step;
   Outputs outputs;
   save(outputs, options, question, answered, session.place);
   print_warnings(answered.doubts);
-  if (options.json) {
+  if (options.json)
     print_json(to_json(question, answered));
-  } else {
-    fmt::print("{}: {} on {}\n{}{}\n{}", question.study.name, in_words(question.scenario.tire),
-               compare::in_words(question.scenario.soil),
-               asks(question.study, ModelKind::bekker_wong)
-                   ? compare::errors_in_words(question.scenario.soil) + "\n"
-                   : "",  // grains say beside their answer where their errors come from
-               answered.step ? compare::in_words(*answered.step) : "", study_text(answered.study));
-    if (const std::string notes = compare::notes_on(*log); !notes.empty())
-      fmt::print("\n{}{}", notes, compare::relative_density_of(*log, question.scenario.soil, folder_of_beds()));
-  }
-  delete_restarts(*log, outputs);
+  else
+    print_text(question, answered);
+  delete_restarts(answered.runs, outputs);
   if (compare::any_result(answered.study)) return outputs.status(done);
   fmt::print(stderr, "soilbin: no condition of the study has a solution\n");
   return failed;
+}
+
+int run(RunOptions options, const Session& session) {
+  SoilBinFlags& bin = options.soil_bin;
+  if (!bin.recorded.empty()) bin.recorded = find_record(session.place, options.study, bin.recorded);
+  Case question = find_study(session.place, options.study);
+  options.errors.apply(question.scenario.soil);
+  if (!options.model.empty()) check_model(options.model, all_words<ModelKind>());
+  compare::choose_models(question.study, value_named<ModelKind>(options.model), !bin.recorded.empty());
+  if (bin.recorded.empty()) require_grains(question, session.place.library);
+  if (bin.engine == "lammps") compare::name_lammps(question);
+  const Case whole = question;  // a record that is begun holds all conditions
+  options.conditions.pick(question.study, question.scenario.tire);
+  if (options.converge) return converge(options, question, session);
+  check_flags(options, question);
+  if (options.dry_run) return plan(options, question);
+  const std::optional<dem::StepCriteria> step = compare::step_of(settings_of(bin), question, bin.recorded);
+  if (asks(question.study, ModelKind::dem) && bin.recorded.empty()) tell_coarse_grains(question.scenario);
+  return bin.shard.empty() ? answer(options, question, whole, step, session)
+                           : make_shard(options, question, whole, session);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ double& rig(dem::DemSettings& settings) {
   return settings.rig.*number;
 }
 
-/// A number of bed or rig that a flag sets.
+/// A number of bed or rig that a flag sets. In `meaning` "{}" stands for its default.
 struct SettingFlag {
   const char *flag, *type, *meaning;
   double& (*of)(dem::DemSettings&);
@@ -67,39 +67,41 @@ struct SettingFlag {
 
 using R = dem::Rig;
 constexpr SettingFlag measure_flags[] = {
-    {"--bed-length", "LENGTH", "length of the bed; 2.5 m", bed<&dem::BedSize::length>},
-    {"--bed-width", "LENGTH", "width of the bed; 0.8 m", bed<&dem::BedSize::width>},
-    {"--bed-depth", "LENGTH", "depth of the bed; 0.3 m", bed<&dem::BedSize::depth>},
+    {"--bed-length", "LENGTH", "length of the bed; {} m", bed<&dem::BedSize::length>},
+    {"--bed-width", "LENGTH", "width of the bed; {} m", bed<&dem::BedSize::width>},
+    {"--bed-depth", "LENGTH", "depth of the bed; {} m", bed<&dem::BedSize::depth>},
     {"--graded",
      "FACTOR",
      "grains below and beside the track up to so many times larger than the soil's, which stay under the wheel; 1 .. "
-     "4; 1: the soil's grains everywhere",
+     "4; {}: the soil's grains everywhere",
      setting<&dem::DemSettings::graded>,
      {.lower = 1, .upper = 4}},
-    {"--behind", "LENGTH", "distance from the axle to the bin's rear end at the start; 0.35 m", rig<&R::behind>},
-    {"--ahead", "LENGTH", "distance from the axle to the bin's front end when the run ends; 0.5 m", rig<&R::ahead>},
+    {"--behind", "LENGTH", "distance from the axle to the bin's rear end at the start; {} m", rig<&R::behind>},
+    {"--ahead", "LENGTH", "distance from the axle to the bin's front end when the run ends; {} m", rig<&R::ahead>},
     {"--travel", "LENGTH", "distance that the axle travels; as far as the bin allows", rig<&R::travel>},
-    {"--lowering", "TIME", "time in which the load comes on; 0.5 s", rig<&R::lowering>},
-    {"--resting", "TIME", "time under the whole load before the start; 0.2 s", rig<&R::resting>, zero_or_more},
-    {"--tilting", "TIME", "time in which gravity turns to an incline; 0.3 s", rig<&R::tilting>},
+    {"--lowering", "TIME", "time in which the load comes on; {} s", rig<&R::lowering>},
+    {"--resting", "TIME", "time under the whole load before the start; {} s", rig<&R::resting>, zero_or_more},
+    {"--tilting", "TIME", "time in which gravity turns to an incline; {} s", rig<&R::tilting>},
     {"--time-step", "TIME", "time step of bed and run; a fifth of the Rayleigh time", rig<&R::dt>},
     {"--sleep",
      "SHARE",
-     "far from the wheel, grains slower than this share of sqrt(g d) are not computed; 0.003; 0: all are",
+     "far from the wheel, grains slower than this share of sqrt(g d) are not computed; {}; 0: all are",
      rig<&R::sleep_speed>,
      {.lower = 0, .upper = 0.1}},
     {"--deepest-overlap",
      "SHARE",
-     "share of the smaller radius by which grains may overlap before the run stops; 0.5",
+     "share of the smaller radius by which grains may overlap before the run stops; {}",
      rig<&R::deepest_overlap>,
      {.lower = 0.05, .upper = 2}}};
-constexpr SettingFlag starting_flag{"--starting", "TIME", "time in which speed and rotation come on; 0.2 s",
+constexpr SettingFlag starting_flag{"--starting", "TIME", "time in which speed and rotation come on; {} s",
                                     rig<&R::starting>};
 
 constexpr const char* wheel_mesh_flag = "--wheel-mesh";
 
 void add(CLI::App& command, const SettingFlag& one, std::map<std::string, std::string>& texts) {
-  add_value(command, one.flag, texts[one.flag], one.type, one.meaning)->group(grains_heading);
+  dem::DemSettings defaults;
+  const std::string meaning = fmt::format(fmt::runtime(one.meaning), one.of(defaults));
+  add_value(command, one.flag, texts[one.flag], one.type, meaning)->group(grains_heading);
 }
 
 }  // namespace
@@ -265,18 +267,10 @@ compare::RunKeeping keeping_of(const SoilBinFlags& flags) {
           flags.shard.empty() ? Writers::several : Writers::one};
 }
 
-compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, const EffectVocabulary& effects,
-                               const RunLog& log) {
-  return [=, &effects](ModelKind kind) -> std::unique_ptr<const Model> {
-    const compare::RunListener listen = [log](const compare::RecordedRun& run) { log->push_back(run); };
-    if (kind != ModelKind::dem) return compare::make_model(kind);
-    if (!flags.recorded.empty())
-      return compare::recorded_soil_bin(read_record_with_notes(flags.recorded), question.scenario, flags.recorded,
-                                        listen);
-    const dem::DemSettings settings = settings_of(flags);
-    return compare::soil_bin_model(settings, flags.packings,
-                                   compare::run_once(settings, question, effects, keeping_of(flags)), listen);
-  };
+compare::StudyGrains grains_of(const SoilBinFlags& flags) {
+  compare::StudyGrains grains{settings_of(flags), flags.packings, keeping_of(flags)};
+  if (!flags.recorded.empty()) grains.recorded = {flags.recorded, read_record_with_notes(flags.recorded)};
+  return grains;
 }
 
 compare::Record read_record_with_notes(const fs::path& file) {

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +11,7 @@
 #include "cli/outputs.hpp"
 #include "cli/workplace.hpp"
 #include "compare/calibrate/experiment_store.hpp"
-#include "compare/experiments/soil_bin_runs.hpp"
+#include "compare/experiments/study_results.hpp"
 
 namespace soilbin::cli {
 
@@ -83,14 +82,8 @@ compare::RunKeeping keeping_of(const SoilBinFlags& flags);
 /// does to it.
 void tell_coarse_grains(const Scenario& scenario);
 
-/// The runs behind a model's answers, in the order in which they came.
-using RunLog = std::shared_ptr<std::vector<compare::RecordedRun>>;
-
-/// Makes dem with these flags, running it or taking it from a record, and every other model as compare::make_model
-/// does. A run that the engine had to stop is an answer without solution, with what it said. Every run goes to `log`; a
-/// record that is begun keeps `question` whole.
-compare::MakeModel models_with(const SoilBinFlags& flags, const Case& question, const EffectVocabulary& effects,
-                               const RunLog& log);
+/// Who answers for grains with these flags; reads the record that is to answer (read_record_with_notes).
+compare::StudyGrains grains_of(const SoilBinFlags& flags);
 
 /// compare::read_record; says so where no seal vouches for a run.
 compare::Record read_record_with_notes(const std::filesystem::path& file);

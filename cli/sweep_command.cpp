@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 #include <sys/wait.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -17,6 +16,7 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/experiments/jobs.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/report/shell_words.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {
@@ -51,10 +51,10 @@ compare::Jobs jobs_of(const SweepOptions& asked, const Case& question, const CLI
   SoilBinFlags flags = asked.soil_bin;
   if (flags.threads == 0) flags.threads = 1;  // many processes, a core each
   jobs.plan = compare::plan_of(question, settings_of(flags), flags.runs(question), keeping_of(flags));
-  const double at_least = asked.at_least.empty() ? (jobs.on == compare::JobsOn::slurm ? 1800 : 60)
+  const double at_least = asked.at_least.empty() ? compare::usual_seconds(jobs.on)
                                                  : read_flag("--at-least", asked.at_least, {"s", zero_or_more});
   jobs.shards = asked.shards > 0 ? asked.shards : compare::shards_for(jobs.plan, at_least);
-  jobs.at_once = asked.at_once > 0 ? asked.at_once : std::max(1, all_cores() / flags.threads);
+  jobs.at_once = asked.at_once > 0 ? asked.at_once : compare::side_by_side(all_cores(), flags.threads);
   jobs.program = this_program(), jobs.here = fs::current_path();
   jobs.folder = fs::absolute(asked.output.empty() ? "sweep-" + question.study.name : asked.output).lexically_normal();
   jobs.beds = fs::absolute(folder_of_beds()).lexically_normal();
@@ -111,7 +111,9 @@ void add_sweep(CLI::App& app, Session& session) {
   add_value(*command, "--on", asked->on, "slurm|local", "who runs the jobs")->check(CLI::IsMember({"slurm", "local"}));
   add_folder(*command, "--output", asked->output, "folder for script, records and logs; sweep-NAME");
   add_value(*command, "--at-least", asked->at_least, "TIME",
-            "time that a job should take; 30 min on Slurm, 1 min here");
+            fmt::format("time that a job should take; {:.0f} min on Slurm, {:.0f} min here",
+                        compare::usual_seconds(compare::JobsOn::slurm) / 60,
+                        compare::usual_seconds(compare::JobsOn::local) / 60));
   add_value(*command, "--shards", asked->shards, "N", "number of jobs, in place of --at-least")->check(whole_number(1));
   add_value(*command, "--at-once", asked->at_once, "N", "local: processes side by side; as many as cores")
       ->check(whole_number(1));

@@ -4,6 +4,16 @@
 
 namespace soilbin {
 
+double channel_scale(const TractionChannel& channel, double load, double radius) {
+  if (channel.scale == ChannelScale::load_times_radius) return load * radius;
+  return channel.scale == ChannelScale::radius ? radius : load;
+}
+
+std::string_view scale_in_words(const TractionChannel& channel) {
+  if (channel.scale == ChannelScale::load_times_radius) return "load x radius";
+  return channel.scale == ChannelScale::radius ? "radius" : "load";
+}
+
 std::string column_of(const TractionChannel& channel, std::string_view what) {
   std::string unit = channel.si_unit;
   std::erase(unit, ' ');

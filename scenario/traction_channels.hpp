@@ -6,12 +6,16 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 #include "scenario/traction_result.hpp"
 
 namespace soilbin {
+
+/// What a channel is told in shares of: forces of the load, the torque of load times radius, the sinkage of the radius.
+enum class ChannelScale { load, load_times_radius, radius };
 
 /// One channel: its names, its units, and where it stands in a result.
 struct TractionChannel {
@@ -23,17 +27,27 @@ struct TractionChannel {
   const char* meaning;     ///< with its SI unit
   Estimate TractionResult::*predicted;
   bool sideways = false;  ///< across the wheel: nothing to tell without yaw and cross slope
+  ChannelScale scale = ChannelScale::load;
 };
 
 /// In the order of every array over channels.
 inline constexpr std::array<TractionChannel, 4> traction_channels = {{
     {"drawbar_pull", "drawbar pull", "N", "N", 1.0, "F_DP [N] along travel, less the slope's share of the load",
      &TractionResult::drawbar_pull},
-    {"torque", "torque", "N m", "N m", 1.0, "M [N m]; positive drives", &TractionResult::torque},
-    {"sinkage", "sinkage", "m", "mm", 1000.0, "z [m]", &TractionResult::sinkage},
+    {"torque", "torque", "N m", "N m", 1.0, "M [N m]; positive drives", &TractionResult::torque, false,
+     ChannelScale::load_times_radius},
+    {"sinkage", "sinkage", "m", "mm", 1000.0, "z [m]", &TractionResult::sinkage, false, ChannelScale::radius},
     {"lateral_force", "lateral force", "N", "N", 1.0, "F_y [N], to the left of travel", &TractionResult::lateral_force,
      true},
 }};
+
+/// Those in the wheel's plane, which every run tells: drawbar pull, torque, sinkage.
+inline constexpr std::array<std::size_t, 3> channels_in_plane = {0, 1, 2};
+
+/// W, W r or r, of a load W and a radius r.
+double channel_scale(const TractionChannel& channel, double load, double radius);
+/// "load", "load x radius", "radius".
+std::string_view scale_in_words(const TractionChannel& channel);
 
 /// The header of a CSV column, whose unit is SI: "torque_Nm"; with `what` between them, "torque_se_Nm".
 std::string column_of(const TractionChannel& channel, std::string_view what = "");

@@ -43,9 +43,6 @@ struct MeasuredPlatesFit {
 /// size, and for a test with fewer than six readings in the window.
 MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, const PressureWindow& window = {});
 
-/// What is doubtful in the fit: a modulus below 0, plates that disagree, a form that misses the pressures.
-std::vector<std::string> doubts(const MeasuredPlatesFit& fit);
-
 /// Pressure over sinkage: every reading in the window, and Bekker's form for each plate.
 Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFit& fit, const std::string& title);
 

@@ -55,49 +55,36 @@ double rerun_sd(const std::vector<Gathered>& gathered, std::size_t channel) {
   return freedom > 0 ? std::sqrt(squares / freedom) : 0.0;
 }
 
-/// What a channel is told in shares of.
-double whole_of(std::size_t channel, double load, double radius) {
-  switch (static_cast<Channel>(channel)) {
-    case Channel::torque:
-      return load * radius;
-    case Channel::sinkage:
-      return radius;
-    case Channel::drawbar_pull:
-    case Channel::lateral_force:
-      break;
-  }
-  return load;
-}
-
 /// simulated - measured as a share of the load, with both errors and its weight in E^2.
-struct Miss {
+struct ScaledResidual {
   double off = 0.0, simulated_sd = 0.0, measured_sd = 0.0, weight = 0.0;
 };
 /// Of a candidate: a setpoint each, a channel each; without weight where there is nothing to compare.
-using Misses = std::vector<OfChannels<Miss>>;
+using ScaledResiduals = std::vector<OfChannels<ScaledResidual>>;
 
-Misses misses_of(const std::vector<Setpoint>& setpoints, const std::vector<Answer>& answers, double radius) {
+ScaledResiduals scaled_residuals_of(const std::vector<Setpoint>& setpoints, const std::vector<Answer>& answers,
+                                    double radius) {
   OfChannels<int> count{};
   for (const Setpoint& setpoint : setpoints)
     for (std::size_t c = 0; c < count.size(); ++c) count[c] += setpoint.measured[c].has_value();
   const auto channels = std::ranges::count_if(count, [](int n) { return n > 0; });
-  Misses misses(setpoints.size());
+  ScaledResiduals residuals(setpoints.size());
   for (std::size_t s = 0; s < setpoints.size(); ++s)
     for (std::size_t c = 0; c < count.size(); ++c) {
       if (!setpoints[s].measured[c]) continue;
       const Estimate measured = *setpoints[s].measured[c];
       const Estimate simulated = (*answers[s].result).*channel_views[c].predicted;
-      const double whole = whole_of(c, setpoints[s].at.load, radius);
-      misses[s][c] = {(simulated.value - measured.value) / whole, simulated.std_error / whole,
-                      measured.std_error / whole, 1.0 / static_cast<double>(channels * count[c])};
+      const double scale = channel_scale(channel_views[c], setpoints[s].at.load, radius);
+      residuals[s][c] = {(simulated.value - measured.value) / scale, simulated.std_error / scale,
+                         measured.std_error / scale, 1.0 / static_cast<double>(channels * count[c])};
     }
-  return misses;
+  return residuals;
 }
 
-double squares_of(const Misses& misses) {
+double squares_of(const ScaledResiduals& residuals) {
   double sum = 0.0;
-  for (const auto& setpoint : misses)
-    for (const Miss& miss : setpoint) sum += miss.weight * miss.off * miss.off;
+  for (const auto& setpoint : residuals)
+    for (const ScaledResidual& residual : setpoint) sum += residual.weight * residual.off * residual.off;
   return sum;
 }
 
@@ -119,44 +106,44 @@ Estimate root_of(double squares, double variance) {
   return {root, root > 0 ? std::sqrt(variance) / (2 * root) : 0.0};
 }
 
-double weight_in(const Misses& misses, std::size_t channel) {
+double weight_in(const ScaledResiduals& residuals, std::size_t channel) {
   double sum = 0.0;
-  for (const auto& setpoint : misses) sum += setpoint[channel].weight;
+  for (const auto& setpoint : residuals) sum += setpoint[channel].weight;
   return sum;
 }
 
-void tell_errors(const Misses& misses, Trial& trial) {
+void tell_errors(const ScaledResiduals& residuals, Trial& trial) {
   const auto own = [&](std::size_t s, std::size_t c) {
-    const Miss& miss = misses[s][c];
-    return miss.weight * std::abs(miss.off) * std::hypot(miss.simulated_sd, miss.measured_sd);
+    const ScaledResidual& residual = residuals[s][c];
+    return residual.weight * std::abs(residual.off) * std::hypot(residual.simulated_sd, residual.measured_sd);
   };
-  trial.error = root_of(squares_of(misses), variance_of(misses.size(), own));
+  trial.error = root_of(squares_of(residuals), variance_of(residuals.size(), own));
   for (std::size_t channel = 0; channel < channel_views.size(); ++channel) {
-    const double weight = weight_in(misses, channel);
+    const double weight = weight_in(residuals, channel);
     if (!(weight > 0)) continue;
     double squares = 0.0;
-    for (const auto& setpoint : misses)
+    for (const auto& setpoint : residuals)
       squares += setpoint[channel].weight / weight * setpoint[channel].off * setpoint[channel].off;
-    trial.errors[channel] = root_of(squares, variance_of(misses.size(), [&](std::size_t s, std::size_t c) {
+    trial.errors[channel] = root_of(squares, variance_of(residuals.size(), [&](std::size_t s, std::size_t c) {
                                       return c == channel ? own(s, c) / weight : 0.0;
                                     }));
   }
 }
 
-bool clearly_farther(const Misses& farther, const Misses& nearest) {
+bool clearly_farther(const ScaledResiduals& farther, const ScaledResiduals& nearest) {
   const std::size_t n = farther.size();
   const double variance = variance_of(n,
                                       [&](std::size_t s, std::size_t c) {
-                                        const Miss& k = farther[s][c];
+                                        const ScaledResidual& k = farther[s][c];
                                         return k.weight * std::abs(k.off) * k.simulated_sd;
                                       }) +
                           variance_of(n,
                                       [&](std::size_t s, std::size_t c) {
-                                        const Miss& b = nearest[s][c];
+                                        const ScaledResidual& b = nearest[s][c];
                                         return b.weight * std::abs(b.off) * b.simulated_sd;
                                       }) +
                           variance_of(n, [&](std::size_t s, std::size_t c) {
-                            const Miss& k = farther[s][c];
+                            const ScaledResidual& k = farther[s][c];
                             return k.weight * std::abs(k.off - nearest[s][c].off) * k.measured_sd;
                           });
   return squares_of(farther) - squares_of(nearest) > apart_by * std::sqrt(variance);
@@ -204,25 +191,25 @@ int Decision::tied() const {
 Decision decide(std::string campaign, std::vector<Setpoint> setpoints, std::vector<std::vector<Answer>> answers,
                 double radius) {
   Decision decision{std::move(campaign), std::move(setpoints), {}};
-  std::vector<Misses> misses;
+  std::vector<ScaledResiduals> residuals;
   for (std::vector<Answer>& row : answers) {
     if (row.size() != decision.setpoints.size())
       throw std::invalid_argument("whoever decides between candidates gives an answer for each setpoint");
     Trial& trial = decision.trials.emplace_back(Trial{std::move(row), {}, {}});
-    misses.emplace_back();
+    residuals.emplace_back();
     if (!all_answered(trial.answers)) continue;
-    misses.back() = misses_of(decision.setpoints, trial.answers, radius);
-    tell_errors(misses.back(), trial);
+    residuals.back() = scaled_residuals_of(decision.setpoints, trial.answers, radius);
+    tell_errors(residuals.back(), trial);
   }
   if (!decision.decided()) return decision;
   const auto error = [&](std::size_t k) { return decision.trials[k].error; };
-  for (std::size_t k = 0; k < misses.size(); ++k)
+  for (std::size_t k = 0; k < residuals.size(); ++k)
     if (error(k) && (!error(decision.nearest) || error(k)->value < error(decision.nearest)->value))
       decision.nearest = k;
-  for (std::size_t k = 0; k < misses.size(); ++k)
-    if (error(k)) decision.trials[k].apart = clearly_farther(misses[k], misses[decision.nearest]);
+  for (std::size_t k = 0; k < residuals.size(); ++k)
+    if (error(k)) decision.trials[k].apart = clearly_farther(residuals[k], residuals[decision.nearest]);
   decision.chosen = decision.nearest;
-  for (std::size_t k = misses.size(); k-- > 0;)
+  for (std::size_t k = residuals.size(); k-- > 0;)
     if (error(k) && !decision.trials[k].apart) decision.chosen = k;
   return decision;
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/report/json_fields.hpp"
+#include "compare/report/sealed_json.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"

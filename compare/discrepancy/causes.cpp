@@ -90,7 +90,7 @@ std::vector<SinkageSplit> sinkage_splits(const Comparison& comparison) {
   return splits;
 }
 
-std::size_t telling_condition(const Comparison& comparison) {
+std::size_t condition_of_largest_difference(const Comparison& comparison) {
   std::size_t condition = comparison.question.study.conditions.size() / 2;
   double most = 0.0;
   for (const Difference& d : comparison.differences)

@@ -44,6 +44,6 @@ struct SinkageSplit {
 std::vector<SinkageSplit> sinkage_splits(const Comparison& comparison);
 
 /// The condition that is shown first: of the worst difference in pull, else the middle one.
-std::size_t telling_condition(const Comparison& comparison);
+std::size_t condition_of_largest_difference(const Comparison& comparison);
 
 }  // namespace soilbin::compare

@@ -9,9 +9,10 @@
 #include "compare/discrepancy/causes.hpp"
 #include "compare/discrepancy/comparison_page.hpp"
 #include "compare/discrepancy/comparison_sheets.hpp"
+#include "compare/discrepancy/comparison_tables.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/report/json_fields.hpp"
-#include "compare/report/model_names.hpp"
+#include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
 
@@ -81,7 +82,7 @@ void add_differences(Markdown& md, const Comparison& comparison) {
 
 void add_causes(Markdown& md, const Comparison& comparison) {
   md.text("## Why");
-  const std::size_t condition = telling_condition(comparison);
+  const std::size_t condition = condition_of_largest_difference(comparison);
   const auto [bars, side_colors] = budget_bars(comparison, condition);
   if (!bars.groups.empty()) {
     md.text(fmt::format("At {}:", in_words(comparison.question.study.conditions[condition])));

@@ -6,10 +6,11 @@
 
 #include "compare/discrepancy/causes.hpp"
 #include "compare/discrepancy/comparison_sheets.hpp"
+#include "compare/discrepancy/comparison_tables.hpp"
 #include "compare/discrepancy/summary.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/report/model_names.hpp"
 #include "compare/report/page.hpp"
+#include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
 
 namespace soilbin::compare {
@@ -160,7 +161,7 @@ void add_causes(Page& page, const Comparison& comparison) {
                                      "shears it: each model at this condition.");
                      }});
   }
-  const std::string telling = in_words(conditions[telling_condition(comparison)]);
+  const std::string telling = in_words(conditions[condition_of_largest_difference(comparison)]);
   const auto first = std::ranges::find_if(parts, [&](const Choice& c) { return c.name == telling; });
   page.choices("Condition", parts, first == parts.end() ? 0 : static_cast<std::size_t>(first - parts.begin()));
   page.subsection("Contact and sinkage");
@@ -233,6 +234,11 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
 }
 
 }  // namespace
+
+void ask_loop(const Comparison& comparison, const LoopOptions& options, ComparisonAbout& about) {
+  const Side& reference = comparison.sides.back();
+  if (reference.kind != SideKind::analytic) about.loop = run_loop(as_campaign(reference, comparison.question), options);
+}
 
 std::string comparison_page(const Comparison& answered, const ComparisonAbout& about) {
   Comparison comparison = answered;  // with its sides called as people call them

@@ -15,10 +15,13 @@ struct ComparisonAbout {
   PageAbout page;                                          ///< title, command, versions
   std::vector<std::pair<std::string, std::string>> facts;  ///< seeds, hashes of inputs, grain runs
   std::string resolved_case;                               ///< as YAML
-  std::optional<Campaign> looped;                          ///< what the loop looked at
   std::optional<LoopAnswer> loop;
   std::optional<ReplayFile> replay;
 };
+
+/// What the loop makes of the best reference that there is, measurements before grains; nothing where all sides are
+/// analytic. Throws NoSolution where the loop has no answer.
+void ask_loop(const Comparison& comparison, const LoopOptions& options, ComparisonAbout& about);
 
 /// Summary first, each clause with its rows; curves, heat maps, causes, the loop, the replay, all rows, provenance.
 std::string comparison_page(const Comparison& comparison, const ComparisonAbout& about);

@@ -1,7 +1,6 @@
 #include "compare/discrepancy/comparison_sheets.hpp"
 
 #include <fmt/core.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +9,6 @@
 #include <utility>
 
 #include "compare/discrepancy/causes.hpp"
-#include "compare/discrepancy/summary.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/varying.hpp"
@@ -241,9 +239,7 @@ HeatMap heat_map_of(const Comparison& comparison, const Tally& tally) {
   std::ranges::sort(slips);
   HeatMap map;
   map.title = fmt::format("{} [% of {}]", capital(std::string(channel_views[tally.channel].title)),
-                          channel_views[tally.channel].name == "torque"    ? "load x radius"
-                          : channel_views[tally.channel].name == "sinkage" ? "radius"
-                                                                           : "load");
+                          scale_in_words(channel_views[tally.channel]));
   map.subtitle = fmt::format("{} less {}", comparison.sides[tally.side].label, comparison.sides[tally.reference].label);
   map.x_title = "slip [%]";
   map.y_title = curves.varying.empty() ? "curve" : curves.varying;
@@ -281,141 +277,6 @@ std::pair<Bars, std::vector<int>> budget_bars(const Comparison& comparison, std:
     whole.values.push_back(comparison.sides[s].points[condition].result->drawbar_pull.value);
   if (!table.rows.empty()) bars.groups.push_back(std::move(whole));
   return {bars, colors_of_sides};
-}
-
-namespace {
-
-std::string signed_number(double value, int places) {
-  return std::isfinite(value) ? fmt::format("{:+.{}f}", value, places) : "-";
-}
-
-/// "0.76 (1.2)": what the parts leave, and how much that may be; "-" where nobody counted.
-std::string rest_cell(const BudgetRest& rest) {
-  constexpr double nothing = 1e-3;  // [N] below it is rounding alone
-  if (!std::isfinite(rest.force)) return "-";
-  if (std::abs(rest.force) < nothing && std::abs(rest.bound) < nothing) return "0";
-  return fmt::format("{} ({})", number(rest.force), std::isfinite(rest.bound) ? number(rest.bound) : "not known");
-}
-
-}  // namespace
-
-std::string rows_anchor(const Tally& t) { return fmt::format("rows-{}-{}-{}", t.side, t.reference, t.channel); }
-
-Table tally_table(const Comparison& comparison) {
-  constexpr std::size_t more_than_a_channel = 2;
-  const bool several = comparison.sides.size() > more_than_a_channel;
-  MarkedTable table{
-      "Channel by channel, the widest apart first. Green: no more than the stated errors alone would give",
-      {"channel", "root mean square", "errors alone", "mean difference", "differ", "widest at"},
-      {true, false, false, false, true, true}};
-  for (const Tally* t : widest_first(comparison)) {
-    const Difference& worst = comparison.differences[t->worst];
-    const std::string pair =
-        fmt::format("{} less {}", comparison.sides[t->side].label, comparison.sides[t->reference].label);
-    if (!several) table.header[3] = "mean of " + pair;
-    const Tone tone = t->unknown == t->values     ? Tone::none
-                      : t->rms <= t->expected_rms ? Tone::good
-                      : t->differ > 0             ? Tone::bad
-                                                  : Tone::none;
-    table.add(
-        {{std::string(channel_views[t->channel].title), several ? pair : "", Tone::none, rows_anchor(*t)},
-         {in_unit(t->channel, t->rms), fmt::format("{} of {}", percent(t->rms_share), measure_of(*t)), tone},
-         t->expected_rms > 0 ? in_unit(t->channel, t->expected_rms) : "-",
-         in_unit(t->channel, t->bias),
-         {t->unknown == t->values ? "not judged" : fmt::format("{} of {}", t->differ, t->values),
-          t->unknown == t->values ? ""
-                                  : fmt::format("{} within scatter, {} within errors", t->in_scatter, t->in_errors)},
-         {in_words(comparison.question.study.conditions[worst.condition]),
-          fmt::format("{} against {}", in_unit(t->channel, worst.value.value),
-                      in_unit(t->channel, worst.reference_value.value))}});
-  }
-  return table;
-}
-
-Table rows_table(const Comparison& comparison, const Tally& tally) {
-  const ChannelView& channel = channel_views[tally.channel];
-  Table table{fmt::format("{} [{}]: {} against {}; ± is one standard error", channel.title, channel.unit,
-                          comparison.sides[tally.side].label, comparison.sides[tally.reference].label),
-              {"condition", comparison.sides[tally.side].label, comparison.sides[tally.reference].label, "difference",
-               "scatter of a run", "share [%]", "in sigma", "finding"},
-              {true, false, false, false, false, false, false, true}};
-  for (const Difference& d : comparison.differences) {
-    if (d.side != tally.side || d.reference != tally.reference || d.channel != tally.channel) continue;
-    table.add({in_words(comparison.question.study.conditions[d.condition]), number(d.value, channel.per_si),
-               number(d.reference_value, channel.per_si), number(Estimate{d.difference, d.std_error}, channel.per_si),
-               number(d.scatter * channel.per_si), signed_number(100 * d.share, 2), signed_number(d.sigma, 1),
-               std::string(words(d.finding))});
-  }
-  return table;
-}
-
-Table points_table(const Comparison& comparison, const Side& side) {
-  Table table{side.label,
-              {"condition", "drawbar pull [N]", "torque [N m]", "sinkage [mm]", "lateral force [N]", "runs",
-               "scatter of the pull [N]", "doubts"},
-              {true, false, false, false, false, false, false, true}};
-  for (std::size_t i = 0; i < side.points.size(); ++i) {
-    const SidePoint& point = side.points[i];
-    std::vector<TableCell> row = {in_words(comparison.question.study.conditions[i])};
-    for (std::size_t c = 0; c < channel_views.size(); ++c)
-      row.push_back(point.result && point.has[c]
-                        ? number((*point.result).*channel_views[c].predicted, channel_views[c].per_si)
-                        : "-");
-    row.push_back(side.kind == SideKind::analytic ? "-" : std::to_string(point.runs));
-    row.push_back(point.scatter[0] > 0.0 ? number(point.scatter[0]) : "-");
-    row.push_back(point.result ? fmt::format("{}", fmt::join(point.doubts, "; ")) : point.error);
-    table.add(std::move(row));
-  }
-  return table;
-}
-
-Table budget_table(const Comparison& comparison, std::size_t condition) {
-  const BudgetTable budget = budget_at(comparison, condition);
-  Table table{"Parts of the drawbar pull [N]; '-': not a part of this side", {"part"}, {true}};
-  for (const std::size_t s : budget.sides) table.header.push_back(comparison.sides[s].label);
-  for (const BudgetRow& row : budget.rows) {
-    std::vector<TableCell> cells = {part_in_words(row.name)};
-    for (const double force : row.force) cells.push_back(number(force));
-    table.add(std::move(cells));
-  }
-  std::vector<TableCell> rest = {"left unexplained (largest that chance leaves)"}, pull = {"drawbar pull"};
-  for (const std::size_t s : budget.sides) {
-    const TractionResult& result = *comparison.sides[s].points[condition].result;
-    rest.push_back(rest_cell(result.budget_rest));
-    pull.push_back(number(result.drawbar_pull.value));
-  }
-  if (!budget.rows.empty()) table.rows.insert(table.rows.end(), {std::move(rest), std::move(pull)});
-  return table;
-}
-
-Table sinkage_table(const Comparison& comparison) {
-  Table table{"Sinkage [mm]: what the load presses in at slip 0, and what slip adds at the largest slip",
-              {"curve", "side", "at slip 0", "slip [%]", "added by slip"},
-              {true, true}};
-  const auto& conditions = comparison.question.study.conditions;
-  const Curves& curves = comparison.curves;
-  std::map<std::pair<std::size_t, std::size_t>, SinkageSplit> last;  // by curve, side
-  for (const SinkageSplit& split : sinkage_splits(comparison)) {
-    const auto [place, fresh] = last.insert({{curves.curve_of[split.condition], split.side}, split});
-    if (!fresh && conditions[split.condition].slip > conditions[place->second.condition].slip) place->second = split;
-  }
-  for (const auto& [key, split] : last)
-    table.add({curves.labels[key.first].empty() ? "all" : curves.labels[key.first], comparison.sides[key.second].label,
-               number(1000 * split.at_rest), number(100 * conditions[split.condition].slip),
-               number(1000 * split.by_slip)});
-  return table;
-}
-
-Table joint_table(const Comparison& comparison) {
-  Table table{"All values at once, with the soil's doubt that conditions share",
-              {"side", "against", "values", "chi2, soil exact", "chi2", "freedom of the noise", "p-value"},
-              {true, true}};
-  for (const JointTest& test : comparison.joint)
-    table.add({comparison.sides[test.side].label, comparison.sides[test.reference].label, std::to_string(test.values),
-               number(test.chi2_soil_exact), number(test.chi2),
-               std::isinf(test.freedom) ? "known" : fmt::format("{:.0f}", test.freedom),
-               test.p_value < 1e-300 ? "< 1e-300" : fmt::format("{:.2g}", test.p_value)});
-  return table;
 }
 
 }  // namespace soilbin::compare

@@ -6,7 +6,6 @@
 #include "compare/report/bars.hpp"
 #include "compare/report/heat_map.hpp"
 #include "compare/report/plot.hpp"
-#include "compare/report/table.hpp"
 
 namespace soilbin::compare {
 
@@ -35,24 +34,5 @@ HeatMap heat_map_of(const Comparison& comparison, const Tally& tally);
 
 /// Parts of the pull at one condition, and the colours of their sides.
 std::pair<Bars, std::vector<int>> budget_bars(const Comparison& comparison, std::size_t condition);
-
-// The tables of a comparison, for its page and its Markdown.
-
-/// A pair and channel a row, the widest apart first: how many differ, root mean square, mean, the widest condition.
-/// Good where the root mean square is no larger than the stated errors make it, bad where it is and any row differs.
-Table tally_table(const Comparison& comparison);
-/// The rows of one pair and channel.
-Table rows_table(const Comparison& comparison, const Tally& tally);
-/// Each side at each condition with its errors, scatter, runs and doubts.
-Table points_table(const Comparison& comparison, const Side& side);
-/// Parts of the pull at one condition.
-Table budget_table(const Comparison& comparison, std::size_t condition);
-/// Sinkage at slip 0 and what slip adds, at the largest slip of each curve.
-Table sinkage_table(const Comparison& comparison);
-/// The tests of all differences at once.
-Table joint_table(const Comparison& comparison);
-
-/// The anchor of a page's rows of one pair and channel.
-std::string rows_anchor(const Tally& tally);
 
 }  // namespace soilbin::compare

@@ -85,11 +85,6 @@ DifferenceFinding finding_of(double difference, double std_error, double scatter
                                                       : DifferenceFinding::difference;
 }
 
-double scale_of(std::size_t channel, double load, double radius) {
-  if (channel_views[channel].name == "torque") return load * radius;
-  return channel_views[channel].name == "sinkage" ? radius : load;
-}
-
 std::vector<Difference> differences(const std::vector<Side>& sides, std::size_t side, std::size_t reference,
                                     const std::vector<OperatingCondition>& conditions, const Tire& tire) {
   std::vector<Difference> all;
@@ -98,7 +93,7 @@ std::vector<Difference> differences(const std::vector<Side>& sides, std::size_t 
     for (std::size_t i = 0; i < conditions.size(); ++i) {
       const SidePoint &a = sides[side].points[i], &b = sides[reference].points[i];
       if (!speaks(a, c) || !speaks(b, c)) continue;
-      all.push_back(difference_at(a, b, c, scale_of(c, conditions[i].load, tire.radius)));
+      all.push_back(difference_at(a, b, c, channel_scale(channel_views[c], conditions[i].load, tire.radius)));
       all.back().side = side, all.back().reference = reference, all.back().condition = i;
       if (sides[side].kind == SideKind::analytic && sides[reference].kind == SideKind::analytic)
         share_the_soil(all.back());

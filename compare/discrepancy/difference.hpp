@@ -52,7 +52,4 @@ DifferenceFinding finding_of(double difference, double std_error, double scatter
 std::vector<Difference> differences(const std::vector<Side>& sides, std::size_t side, std::size_t reference,
                                     const std::vector<OperatingCondition>& conditions, const Tire& tire);
 
-/// What a channel is put in relation to: W, W r, r.
-double scale_of(std::size_t channel, double load, double radius);
-
 }  // namespace soilbin::compare

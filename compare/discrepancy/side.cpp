@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "compare/recorded/step_pair.hpp"
 #include "compare/sweep/varying.hpp"
@@ -25,6 +26,33 @@ void doubt_budget(SidePoint& point) {
 }
 
 }  // namespace
+
+std::vector<ModelChoice> analytic_choices(const Study& study) {
+  std::vector<ModelChoice> choices = {{ModelKind::bekker_wong, {}, "bekker_wong"}};
+  for (const ModelChoice& choice : study.models)
+    if (choice.model == ModelKind::bekker_wong && !choice.effects.empty()) choices.push_back(choice);
+  return choices;
+}
+
+bool add_choice(std::vector<ModelChoice>& choices, std::vector<EffectChoice> effects) {
+  const auto same_effect = [](const EffectChoice& a, const EffectChoice& b) {
+    return std::tie(a.id, a.form, a.parameters) == std::tie(b.id, b.form, b.parameters);
+  };
+  const auto same = [&](const ModelChoice& other) {
+    return std::ranges::is_permutation(other.effects, effects, same_effect);
+  };
+  if (std::ranges::any_of(choices, same)) return false;
+  choices.push_back({ModelKind::bekker_wong, std::move(effects), ""});
+  return true;
+}
+
+std::vector<Side> analytic_sides(Case question, const std::vector<ModelChoice>& choices, const Progress& progress) {
+  std::vector<Side> sides;
+  if (!question.scenario.soil.semi_empirical) return sides;
+  question.study.models = choices;
+  for (const ModelAnswers& answers : run_study(question, progress)) sides.push_back(side_of(answers));
+  return sides;
+}
 
 Side side_of(const ModelAnswers& answers) {
   Side side{answers.choice.label, answers.choice.model == ModelKind::dem ? SideKind::grains : SideKind::analytic, {}};

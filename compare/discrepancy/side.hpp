@@ -61,6 +61,15 @@ struct Side {
 /// A model's answers as a side. Of grains, scatter is the answers' standard error.
 Side side_of(const ModelAnswers& answers);
 
+/// The analytic models that a comparison sets side by side: that without effects, then the study's own with effects.
+std::vector<ModelChoice> analytic_choices(const Study& study);
+
+/// Adds the analytic model with these effects, unless one of the choices has them already; says whether it did.
+bool add_choice(std::vector<ModelChoice>& choices, std::vector<EffectChoice> effects);
+
+/// A side for each choice, with its answers; none where the soil has no values for the analytic model.
+std::vector<Side> analytic_sides(Case question, const std::vector<ModelChoice>& choices, const Progress& progress = {});
+
 /// Runs of grains at one condition as a point: mean_of_packings of those with a result. Scatter is the spread between
 /// the runs or, where that is larger, the runs' own errors. One packing says nothing of the scatter between packings: a
 /// doubt tells so, and others tell of runs that were not steady or had no result.

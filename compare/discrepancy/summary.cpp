@@ -11,8 +11,8 @@
 #include "compare/discrepancy/causes.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/loop/answer_words.hpp"
-#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/estimate.hpp"
 
@@ -201,8 +201,8 @@ std::vector<Clause> doubt_clauses(const Comparison& comparison) {
 }  // namespace
 
 std::string measure_of(const Tally& t) {
-  if (channel_views[t.channel].name == "torque") return "load x radius";
-  return channel_views[t.channel].name == "sinkage" ? "the radius" : "the load";
+  const ChannelView& channel = channel_views[t.channel];
+  return (channel.scale == ChannelScale::load_times_radius ? "" : "the ") + std::string(scale_in_words(channel));
 }
 
 /// Where the widest gap in pull comes from.

@@ -16,9 +16,11 @@
 //   grains               too coarse for the wheel, a law that hangs on the step    grain_doubts.cpp
 //   measured rows        repeated, flipped, impossible                             row_doubts.cpp
 //   measured columns     swapped, in another unit, of another sign                 column_doubts.cpp
+//   measured plates      a modulus below 0, no repeats, a form that misses         plate_doubts.cpp
 //
-// Two things have theirs with them: recorded runs, whether they hang on the time step (recorded/step_pair.hpp), and a
-// side of a comparison, how many runs are behind a point (discrepancy/side.cpp, measured_side.cpp).
+// Three things have theirs with them: recorded runs, whether they hang on the time step (recorded/step_pair.hpp); a
+// side of a comparison, how many runs are behind a point (discrepancy/side.cpp, measured_side.cpp); a failure map,
+// experiments of an earlier engine (failure_map/learned_map.cpp).
 #pragma once
 
 #include <string>

@@ -74,7 +74,7 @@ std::string in_words(const MovedDrive::Side& side) {
 
 /// ", most of it from the friction angle and K": the values that make up four fifths of the variance, where they are
 /// three at most.
-std::string largest_parts(const DrivePart& part) {
+std::string largest_parts(const AnalyticDrive& part) {
   constexpr double most = 0.8;
   const bool by_time = part.record.end == DriveEnd::arrived;
   const auto value = [&](const bekker_wong::DriveRecord& r) {
@@ -98,7 +98,7 @@ std::string largest_parts(const DrivePart& part) {
 }
 
 /// Where the errors come from, and the drives that end in another way.
-std::vector<std::string> words_on_errors(const DrivePart& part) {
+std::vector<std::string> words_on_errors(const AnalyticDrive& part) {
   std::vector<std::string> sentences;
   if (part.errors.travelled)
     sentences.push_back("± is one standard error, from the standard deviations of the soil's values" +
@@ -164,7 +164,7 @@ struct Line {
 
 /// A label tells its panel ("speed: rim"), since the sheet's panels share one legend: in it each has a colour, or
 /// colour and dash, of its own. `named`: how many there are so far.
-Plot plot_of(const DrivePart& part, const std::string& title, const std::vector<Line>& lines, int& named) {
+Plot plot_of(const AnalyticDrive& part, const std::string& title, const std::vector<Line>& lines, int& named) {
   const int available = static_cast<int>(colors(Palette::named).size());
   std::string panel = title.substr(0, title.find(" ["));
   panel.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(panel.front())));
@@ -198,10 +198,10 @@ const DriveColumns<DriveSample>& sample_columns() {
 
 }  // namespace
 
-DrivePart run_drive(const Case& question, int samples, const bekker_wong::DriveProgress& progress, int threads) {
+AnalyticDrive run_drive(const Case& question, int samples, const bekker_wong::DriveProgress& progress, int threads) {
   if (!question.drive) throw InputError("case '" + question.name + "' has no section 'drive'");
   const Drive& drive = *question.drive;
-  DrivePart part{
+  AnalyticDrive part{
       question, bekker_wong::drive_wheel(question.scenario, drive, samples, {}, progress), steepest_of(question), {}};
   const auto pulse = [&] {
     if (progress) progress(part.record.end_time, drive.duration);
@@ -210,7 +210,7 @@ DrivePart run_drive(const Case& question, int samples, const bekker_wong::DriveP
   return part;
 }
 
-std::vector<std::string> in_words(const DrivePart& part) {
+std::vector<std::string> in_words(const AnalyticDrive& part) {
   const bekker_wong::DriveRecord& record = part.record;
   const DriveSample& end = record.samples.back();
   std::vector<std::string> sentences;
@@ -232,13 +232,30 @@ std::vector<std::string> in_words(const DrivePart& part) {
   return sentences;
 }
 
-std::vector<std::pair<std::string, double>> energy_rows(const EnergyLedger& e) {
-  return {{"shears the soil", e.shear},   {"presses the soil", e.compaction},  {"added forces of effects", e.added},
-          {"lifts the load", e.height},   {"pulls the drawbar", e.drawbar},    {"is in motion", e.kinetic},
-          {"damps the heave", e.damping}, {"unaccounted for", e.unaccounted()}};
+Table energy_table(const EnergyLedger& e, WorkTable where) {
+  const bool page = where == WorkTable::on_page;
+  Table table{page ? "Of the motor's work in all" : "", {page ? "" : "of the motor's work", "J", "%"}, {true}};
+  const auto add = [&](const char* name, double joules) {
+    table.add({name, number(joules), e.motor != 0.0 ? number(100 * joules / e.motor) : "-"});
+  };
+  add("shears the soil", e.shear), add("presses the soil", e.compaction), add("added forces of effects", e.added);
+  add("lifts the load", e.height), add("pulls the drawbar", e.drawbar), add("is in motion", e.kinetic);
+  add("damps the heave", e.damping), add("unaccounted for", e.unaccounted());
+  table.add({page ? "motor's work" : "in all", number(e.motor), "100"});
+  return table;
 }
 
-Sheet drive_sheet(const DrivePart& part) {
+Table samples_table(const bekker_wong::DriveRecord& record, std::size_t rows) {
+  Table table{"",
+              {"time [s]", "travelled [m]", "slope [deg]", "speed [cm/s]", "rim [cm/s]", "slip [%]", "sinkage [mm]",
+               "torque [N m]", "soil force [N]"}};
+  for (const DriveSample& s : picked_samples(record.samples, rows))
+    table.add({number(s.time), number(s.travelled), number(s.longitudinal_incline / degree), number(100 * s.speed),
+               number(100 * s.rim_speed), slip_text(s), number(1000 * s.sinkage), number(s.torque), number(s.forward)});
+  return table;
+}
+
+Sheet drive_sheet(const AnalyticDrive& part) {
   Sheet sheet{part.question.name};
   int named = 0;
   const auto add = [&](const std::string& title, const std::vector<Line>& lines) {
@@ -263,7 +280,7 @@ Sheet drive_sheet(const DrivePart& part) {
   return sheet;
 }
 
-Json to_json(const DrivePart& part) {
+Json to_json(const AnalyticDrive& part) {
   const bekker_wong::DriveRecord& record = part.record;
   const DriveSample& end = record.samples.back();
   Json document = {{"format", "soilbin-drive/1"},
@@ -291,13 +308,13 @@ Json to_json(const DrivePart& part) {
   return document;
 }
 
-std::string drive_csv(const DrivePart& part) {
+std::string drive_csv(const AnalyticDrive& part) {
   std::string text = columns_csv(sample_columns()) + "\n";
   for (const DriveSample& sample : part.record.samples) text += columns_csv(sample_columns(), sample) + "\n";
   return text;
 }
 
-std::string drive_page(const DrivePart& part, const PageAbout& about) {
+std::string drive_page(const AnalyticDrive& part, const PageAbout& about) {
   const DriveSample& end = part.record.samples.back();
   Page page(about.title, part.question.description);
   page.sentences(in_words(part));
@@ -310,11 +327,7 @@ std::string drive_page(const DrivePart& part, const PageAbout& about) {
     page.table(errors_table(part.errors));
   }
   page.section("Where the motor's work went");
-  Table energy{"Of the motor's work in all", {"", "J", "%"}, {true}};
-  for (const auto& [name, joules] : energy_rows(end.energy))
-    energy.add({name, number(joules), end.energy.motor != 0.0 ? number(100 * joules / end.energy.motor) : "-"});
-  energy.add({"motor's work", number(end.energy.motor), "100"});
-  page.table(energy);
+  page.table(energy_table(end.energy, WorkTable::on_page));
   if (!part.record.happenings.empty()) {
     page.section("On the way");
     Table events{"", {"time [s]", "travelled [m]", "what happened"}, {false, false, true}};

@@ -1,14 +1,17 @@
-// Samples of a drive as columns of a file, for any kind of sample: those of the analytic wheel, those of its grains.
+// Samples of a drive as columns of a file and as rows of a table, for any kind of sample: those of the analytic wheel,
+// those of its grains.
 #pragma once
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "compare/report/json_fields.hpp"
+#include "compare/report/number_text.hpp"
 #include "scenario/drive_record.hpp"
 #include "scenario/unit.hpp"
 
@@ -84,6 +87,19 @@ std::string columns_csv(const DriveColumns<Sample>& columns, const Sample& sampl
   }
   return text;
 }
+
+/// So many of the samples, evenly, the first and the last among them.
+template <class Sample>
+std::vector<Sample> picked_samples(const std::vector<Sample>& samples, std::size_t rows) {
+  std::vector<Sample> some;
+  rows = std::min(rows, samples.size());
+  for (std::size_t row = 0; row < rows; ++row)
+    some.push_back(samples[rows == 1 ? 0 : row * (samples.size() - 1) / (rows - 1)]);
+  return some;
+}
+
+/// In percent; "-" for a wheel that stands.
+inline std::string slip_text(const DriveState& s) { return s.slip ? number(100 * *s.slip) : "-"; }
 
 inline Json happenings_json(const std::vector<DriveHappening>& happenings) {
   Json rows = Json::array();

@@ -60,7 +60,7 @@ dem::SteadyDrive values_at(const DriveState& end) {
 
 /// Adds the errors of the soil's values, from the drives with one of them moved that have a steady state. Names the
 /// values that are left out where neither side has one.
-std::string add_errors(dem::SteadyDrive& steady, const DrivePart& part) {
+std::string add_errors(dem::SteadyDrive& steady, const AnalyticDrive& part) {
   std::string left_out;
   for (const MovedDrive& drive : part.errors.moved) {
     bool counts = true;
@@ -171,7 +171,7 @@ std::string sentence_of(const DriveSide& side) {
 
 }  // namespace
 
-DriveSide analytic_side(const DrivePart& part) {
+DriveSide analytic_side(const AnalyticDrive& part) {
   const DriveRecord& record = part.record;
   DriveSide side{SideKind::analytic, "bekker_wong", {}, record.end, record.end_time, {}, record.happenings, {}, {}, {}};
   for (const bekker_wong::DriveSample& s : record.samples)
@@ -322,7 +322,7 @@ std::vector<std::string> doubts_of(Case question, const std::vector<ModelAnswers
 
 }  // namespace
 
-std::vector<std::string> doubts(const DrivePart& part) {
+std::vector<std::string> doubts(const AnalyticDrive& part) {
   const ModelChoice wheel{ModelKind::bekker_wong, part.question.drive->effects, ""};
   return doubts_of(part.question, {answers_of(wheel, *part.question.drive, part.record.samples)});
 }

@@ -68,7 +68,7 @@ struct DriveSides {
 };
 
 /// The analytic side. Its steady values are those of the end, with the errors of the soil's values.
-DriveSide analytic_side(const DrivePart& part);
+DriveSide analytic_side(const AnalyticDrive& part);
 /// `packing`: where it is one of several.
 DriveSide grain_side(const dem::GrainDriveRecord& record, std::optional<std::uint64_t> packing = {});
 
@@ -97,7 +97,9 @@ Table differences_table(const DriveSides& drive);
 /// What the summary tells, a column each packing and their mean; no rows where there is one packing.
 Table packings_table(const DriveSides& drive);
 /// work_rows, the whole of it last [J].
-Table work_table(const DriveSides& drive);
+Table work_table(const DriveSides& drive, WorkTable where);
+/// So many of all sides' samples, but three of each at least.
+Table samples_table(const DriveSides& drive, std::size_t rows);
 
 /// Travelled way, speed, slip, sinkage, torque and work against time, a colour for each side; steady means of grains
 /// with their errors as bands; of several packings the mean's.

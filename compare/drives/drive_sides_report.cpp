@@ -6,8 +6,8 @@
 #include "compare/drives/drive_columns.hpp"
 #include "compare/drives/drive_sides.hpp"
 #include "compare/report/json_fields.hpp"
-#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/sweep/model_names.hpp"
 #include "scenario/estimate.hpp"
 
 namespace soilbin::compare {
@@ -129,17 +129,30 @@ Table differences_table(const DriveSides& drive) {
   return table;
 }
 
-Table work_table(const DriveSides& drive) {
-  Table table{"Of the motor's work in all", {"J"}, {true}};
+Table work_table(const DriveSides& drive, WorkTable where) {
+  const bool page = where == WorkTable::on_page;
+  Table table{page ? "Of the motor's work in all" : "", {page ? "J" : "of the motor's work [J]"}, {true}};
   for (const DriveSide& side : drive.sides) table.header.push_back(side.label), table.text_columns.push_back(false);
   for (const DriveWorkRow& work : work_rows(drive)) {
     std::vector<TableCell> row{work.name};
     for (const std::optional<double>& joules : work.joules) row.push_back(joules ? number(*joules) : "");
     table.add(std::move(row));
   }
-  std::vector<TableCell> all{"motor's work"};
+  std::vector<TableCell> all{page ? "motor's work" : "in all"};
   for (const DriveSide& side : drive.sides) all.push_back(number(side.samples.back().energy.motor));
   table.add(std::move(all));
+  return table;
+}
+
+Table samples_table(const DriveSides& drive, std::size_t rows) {
+  const std::size_t rows_of_each = std::max<std::size_t>(3, rows / std::max<std::size_t>(2, drive.sides.size()));
+  Table table{"",
+              {"model", "time [s]", "travelled [m]", "slope [deg]", "speed [cm/s]", "slip [%]", "sinkage [mm]",
+               "torque [N m]", "soil force [N]"}};
+  for (const DriveSide& side : drive.sides)
+    for (const DriveSideSample& s : picked_samples(side.samples, rows_of_each))
+      table.add({side.label, number(s.time), number(s.travelled), number(s.longitudinal_incline / degree),
+                 number(100 * s.speed), slip_text(s), number(1000 * s.sinkage), number(s.torque), number(s.forward)});
   return table;
 }
 
@@ -209,7 +222,7 @@ std::string drive_page(const DriveSides& answered, const PageAbout& about) {
     page.table(packings_table(drive));
   }
   page.section("Where the motor's work went");
-  page.table(work_table(drive));
+  page.table(work_table(drive, WorkTable::on_page));
   page.section("On the way");
   page.table(happenings_table(drive));
   page.section("Made by");

@@ -22,8 +22,6 @@ struct Variant {
   Scenario scenario;
 };
 
-constexpr std::array<std::size_t, 3> shown_channels = {0, 1, 2};  // pull, torque, sinkage
-
 fs::path file_of(const fs::path& record, std::string variant) {
   if (record.empty()) return {};
   std::ranges::replace(variant, ' ', '-');
@@ -99,13 +97,13 @@ std::vector<VariantRun> run_variants(const dem::DemSettings& settings, const Cas
 
 Table convergence_table(const std::vector<VariantRun>& runs) {
   Table table{"", {"choice"}};
-  for (const std::size_t c : shown_channels)
+  for (const std::size_t c : channels_in_plane)
     table.header.insert(table.header.end(),
                         {fmt::format("{} [{}]", channel_views[c].title, channel_views[c].unit), "differs [errors]"});
   table.header.emplace_back("time [s]");
   for (const auto& [name, run] : runs) {
     std::vector<TableCell> row = {name};
-    for (const std::size_t c : shown_channels) {
+    for (const std::size_t c : channels_in_plane) {
       const ChannelView& channel = channel_views[c];
       const auto& result = run.answer.result;
       const std::optional<double> differs = in_errors(runs.front().run, run, channel);
@@ -123,7 +121,7 @@ nlohmann::ordered_json convergence_json(const std::vector<VariantRun>& runs) {
   for (const auto& [name, run] : runs) {
     Json row = {{"choice", name}, {"seconds", run.seconds}};
     row.update(to_json(run.answer));
-    for (const std::size_t c : shown_channels)
+    for (const std::size_t c : channels_in_plane)
       if (const auto differs = in_errors(runs.front().run, run, channel_views[c]))
         row["differs"][std::string(channel_views[c].name)] = finite(*differs);
     rows.push_back(std::move(row));

@@ -8,6 +8,7 @@
 #include "compare/experiments/jobs.hpp"
 #include "compare/report/javascript.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/report/shell_words.hpp"
 #include "scenario/atomic_file.hpp"
 
 namespace soilbin::compare {

@@ -10,6 +10,8 @@
 #include "compare/experiments/jobs.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/report/sealed_json.hpp"
+#include "compare/report/shell_words.hpp"
 #include "compare/report/table.hpp"
 #include "compare/sweep/result_json.hpp"
 

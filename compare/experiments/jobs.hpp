@@ -4,7 +4,7 @@
 // from their records, their logs and what Slurm says.
 //
 //   Jobs jobs{.on = JobsOn::slurm, .plan = plan};
-//   jobs.shards = shards_for(plan, 1800);   // half an hour each
+//   jobs.shards = shards_for(plan, usual_seconds(jobs.on));
 //   write_jobs(jobs);                       // then: bash FOLDER/sweep.sh
 //   fmt::print("{}", in_words(job_status(jobs.folder)));
 #pragma once
@@ -32,6 +32,12 @@ struct Jobs {
 
 /// Of sweep.json.
 inline constexpr const char* jobs_format = "soilbin-sweep/1";
+
+/// Seconds that a job should take, unless somebody asks otherwise: Slurm's jobs wait for their turn.
+constexpr double usual_seconds(JobsOn on) { return on == JobsOn::slurm ? 1800 : 60; }
+
+/// Processes side by side on a machine of so many cores, of so many threads each.
+constexpr int side_by_side(int cores, int threads) { return cores > threads ? cores / threads : 1; }
 
 /// So many shards that each makes runs for at least `at_least` seconds, as far as one can say; 1 at least, and no more
 /// than there are runs.

@@ -163,12 +163,17 @@ TestStep test_of_step(const Case& question, int packings, std::optional<bool> as
   return asked.value_or(runs >= runs_that_pay_a_test) ? TestStep::yes : TestStep::no;
 }
 
+std::vector<AskedRun> list_of(const Case& question, const dem::DemSettings& settings, int packings,
+                              std::optional<bool> test) {
+  return run_list(question.study.conditions, packings_from(settings, packings), test_of_step(question, packings, test));
+}
+
 std::vector<AskedRun> runs_of(const Case& question, const dem::DemSettings& settings, int packings,
                               std::optional<bool> test) {
   const Tire& tire = question.scenario.tire;
   dem::way_in_bin(dem::DemModel(settings).recipe(question.scenario).size, tire, settings.rig);
   for (const OperatingCondition& at : question.study.conditions) dem::wheel_motion(at, tire.radius);
-  return run_list(question.study.conditions, packings_from(settings, packings), test_of_step(question, packings, test));
+  return list_of(question, settings, packings, test);
 }
 
 void make_runs(const std::vector<AskedRun>& list, const dem::DemSettings& settings, const Case& question,
@@ -198,11 +203,15 @@ std::unique_ptr<const Model> soil_bin_model(const dem::DemSettings& settings, in
                                                std::move(run), std::move(on_run));
 }
 
-std::unique_ptr<const Model> recorded_soil_bin(Record record, const Scenario& scenario,
-                                               const std::filesystem::path& file, RunListener on_run) {
+void refuse_other_grains(const Record& record, const Scenario& scenario, const std::filesystem::path& file) {
   refuse_other_inputs(record, inputs_of({}, scenario), file,
                       {"tire.", "soil.", "bed.radius", "bed.density", "bed.young", "bed.poisson", "bed.restitution",
                        "bed.sliding", "bed.rolling", "bed.laws", "bed.twisting"});
+}
+
+std::unique_ptr<const Model> recorded_soil_bin(Record record, const Scenario& scenario,
+                                               const std::filesystem::path& file, RunListener on_run) {
+  refuse_other_grains(record, scenario, file);
   return std::make_unique<const RecordedModel>(std::move(record), std::move(on_run));
 }
 

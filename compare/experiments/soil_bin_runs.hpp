@@ -66,6 +66,10 @@ inline constexpr std::size_t runs_that_pay_a_test = 12;
 TestStep test_of_step(const Case& question, int packings, std::optional<bool> asked);
 
 /// The runs of a question's conditions on so many packings (run_list), with a test of the step as test_of_step says.
+std::vector<AskedRun> list_of(const Case& question, const dem::DemSettings& settings, int packings,
+                              std::optional<bool> test = {});
+
+/// list_of, for runs that are to be made.
 /// Throws InputError for a condition that no wheel in the bin can be run at, and for a bin that leaves it no way.
 std::vector<AskedRun> runs_of(const Case& question, const dem::DemSettings& settings, int packings,
                               std::optional<bool> test = {});
@@ -83,8 +87,10 @@ void make_runs(const std::vector<AskedRun>& list, const dem::DemSettings& settin
 std::unique_ptr<const Model> soil_bin_model(const dem::DemSettings& settings, int packings, RunOnce run,
                                             RunListener on_run);
 
-/// The model dem as a record has it, which was read from `file`. Throws InputError where its tire or its grains are not
-/// the scenario's; bed and rig are the record's.
+/// Throws InputError where the tire or the grains of a record, which was read from `file`, are not the scenario's.
+void refuse_other_grains(const Record& record, const Scenario& scenario, const std::filesystem::path& file);
+
+/// The model dem as a record has it; bed and rig are the record's. Throws as refuse_other_grains.
 std::unique_ptr<const Model> recorded_soil_bin(Record record, const Scenario& scenario,
                                                const std::filesystem::path& file, RunListener on_run);
 

@@ -10,7 +10,6 @@
 #include "compare/calibrate/contact_values.hpp"
 #include "compare/calibrate/decision.hpp"
 #include "compare/experiments/soil_bin_runs.hpp"
-#include "compare/failure_map/incline_map.hpp"
 #include "dem/rig/dem_model.hpp"
 #include "scenario/case.hpp"
 
@@ -53,15 +52,5 @@ Case trial_case(const TrialQuestion& question, const Eigen::VectorXd& values);
 /// throws.
 Decision decide_in_soil_bin(const TrialQuestion& question, const TrialSettings& settings,
                             const std::vector<Candidate>& candidates, const EffectVocabulary& effects);
-
-// The grains' side of a failure map: runs in the soil bin as the experiments that a map is learnt from.
-//
-//   const VirtualTest grains = map_grains(map, question, settings, effects, keeping);
-//   const MapStory story = learn_map(map, grains, store, {});
-
-/// The map's wheel and conditions on grains, without the analytic model's effects. All that a run follows from beside
-/// factors and packing is the experiment's identity. `question` is what a record holds that is begun.
-VirtualTest map_grains(const InclineMap& map, const Case& question, const dem::DemSettings& settings,
-                       const EffectVocabulary& effects, const RunKeeping& keeping);
 
 }  // namespace soilbin::compare

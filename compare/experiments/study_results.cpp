@@ -24,14 +24,58 @@ Json rows_with_resolution(const Case& question, const StudyResults& results) {
   return rows;
 }
 
-}  // namespace
-
-std::vector<std::string> doubts_of(const Case& question, const StudyResults& results,
-                                   const std::filesystem::path& record) {
-  std::vector<std::string> all = doubts(question, results.study);
+/// Of the answers, and of the record that the runs are kept in, where it is there.
+std::vector<std::string> doubts_of_study(const Case& question, const std::vector<ModelAnswers>& study,
+                                         const std::filesystem::path& record) {
+  std::vector<std::string> all = doubts(question, study);
   if (std::filesystem::exists(record))
     for (std::string& doubt : step_doubts(read_record(record))) all.push_back(std::move(doubt));
   return all;
+}
+
+}  // namespace
+
+void choose_models(Study& study, std::optional<ModelKind> only, bool recorded) {
+  if (only)
+    keep_models(study, *only);
+  else if (recorded && !asks(study, ModelKind::dem))
+    study.models.push_back({ModelKind::dem, {}, "dem"});
+}
+
+void name_lammps(Case& question) {
+  if (question.scenario.soil.granular) dem::require_spheres(*question.scenario.soil.granular);
+  for (ModelChoice& choice : question.study.models)
+    if (choice.model == ModelKind::dem) choice.label = dem::lammps_model_name;
+}
+
+std::unique_ptr<const Model> grain_model(const StudyGrains& grains, const Case& whole, const EffectVocabulary& effects,
+                                         const RunListener& on_run) {
+  if (grains.recorded) return recorded_soil_bin(grains.recorded->record, whole.scenario, grains.recorded->file, on_run);
+  return soil_bin_model(grains.settings, grains.packings, run_once(grains.settings, whole, effects, grains.keeping),
+                        on_run);
+}
+
+StudyResults answer_study(const Case& question, const Case& whole, const StudyGrains& grains,
+                          const EffectVocabulary& effects, const BeforeRun& before, const Progress& progress) {
+  StudyResults results;
+  if (asks(question.study, ModelKind::dem) && !grains.keeping.record.empty())
+    make_runs(grains.list, grains.settings, whole, effects, grains.keeping, before);
+  results.study = run_study(question, progress, [&](ModelKind kind) {
+    const RunListener listen = [&](const RecordedRun& run) { results.runs.push_back(run); };
+    return kind == ModelKind::dem ? grain_model(grains, whole, effects, listen) : make_model(kind);
+  });
+  results.doubts = doubts_of_study(question, results.study, grains.keeping.record);
+  return results;
+}
+
+GrainSideRuns run_grain_side(const Case& question, const StudyGrains& grains, const EffectVocabulary& effects,
+                             const Progress& progress) {
+  GrainSideRuns of;
+  const auto model = grain_model(grains, question, effects, [&](const RecordedRun& run) { of.runs.push_back(run); });
+  sweep(*model, question.scenario, question.study.conditions, progress);
+  of.grains =
+      grain_side(of.runs, question.study.conditions, grains.recorded ? grains.recorded->file : grains.keeping.record);
+  return of;
 }
 
 Json to_json(const Case& question, const StudyResults& results) {

@@ -1,28 +1,63 @@
-// The results of a study: each model's answers, by grains too, what is doubtful in them, and the grains' time step.
+// A study answered: which of its models are asked, each one's answers, by grains too, what is doubtful in them, and the
+// grains' time step.
 //
-//   results.doubts = doubts_of(question, results, "runs.json");
+//   choose_models(question.study, ModelKind::dem, false);
+//   const StudyResults results = answer_study(question, question, {.settings = settings, .packings = 3}, effects);
 //   fmt::print("{}", json_text(to_json(question, results)));
 #pragma once
 
-#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "compare/discrepancy/side.hpp"
 #include "compare/experiments/soil_bin_runs.hpp"
+#include "compare/recorded/merge.hpp"
 #include "compare/report/json_fields.hpp"
 
 namespace soilbin::compare {
 
-struct StudyResults {
-  std::vector<ModelAnswers> study;
-  std::vector<std::string> doubts;
-  std::optional<dem::StepCriteria> step;  ///< of grains
+/// Which models a study asks: `only` those of that kind, where it is given; else its own, and with a record grains too.
+void choose_models(Study& study, std::optional<ModelKind> only, bool recorded);
+
+/// The grains of a question are moved by LAMMPS: answers carry its name. Throws InputError for grains that aren't
+/// spheres.
+void name_lammps(Case& question);
+
+/// Who answers for grains: runs in the soil bin or, in their place, a record.
+struct StudyGrains {
+  dem::DemSettings settings{};
+  int packings = 1;
+  RunKeeping keeping{};
+  std::vector<AskedRun> list{};           ///< of a record that is kept: its runs, made in this order (make_runs)
+  std::optional<NamedRecord> recorded{};  ///< answers without a run
 };
 
-/// Of the question and its answers, and of the record that the runs are kept in, where it is there.
-std::vector<std::string> doubts_of(const Case& question, const StudyResults& results,
-                                   const std::filesystem::path& record);
+/// The model dem. A run that the engine had to stop is an answer without solution, with what it said. Every run goes to
+/// `on_run`; a record that is begun keeps `whole`. `effects` must outlive the model.
+std::unique_ptr<const Model> grain_model(const StudyGrains& grains, const Case& whole, const EffectVocabulary& effects,
+                                         const RunListener& on_run);
+
+struct StudyResults {
+  std::vector<ModelAnswers> study{};
+  std::vector<std::string> doubts{};
+  std::optional<dem::StepCriteria> step{};  ///< of grains (step_of)
+  std::vector<RecordedRun> runs{};          ///< behind the grains' answers, in the order in which they came
+};
+
+/// Every model of the question at every condition, and what is doubtful in the answers; the step is left to step_of.
+/// `before`: each run of the list. A record that is begun keeps `whole`: the question with all its conditions.
+StudyResults answer_study(const Case& question, const Case& whole, const StudyGrains& grains,
+                          const EffectVocabulary& effects, const BeforeRun& before = {}, const Progress& progress = {});
+
+/// The grains of a question as a side of a comparison, and the runs behind it.
+struct GrainSideRuns {
+  GrainSide grains;
+  std::vector<RecordedRun> runs{};
+};
+GrainSideRuns run_grain_side(const Case& question, const StudyGrains& grains, const EffectVocabulary& effects,
+                             const Progress& progress = {});
 
 /// soilbin-run/1; answers of grains with what the size of their grains does to them.
 Json to_json(const Case& question, const StudyResults& results);

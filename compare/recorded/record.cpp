@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "compare/report/json_fields.hpp"
+#include "compare/report/sealed_json.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"

@@ -14,13 +14,11 @@
 namespace soilbin::compare {
 namespace {
 
-constexpr std::array<std::size_t, 3> tested_channels = {0, 1, 2};  // pull, torque, sinkage
-
 std::optional<std::array<Estimate, 3>> difference_of(const Answer& whole, const Answer& half,
                                                      const std::array<double, 3>& factors) {
   if (!whole.result || !half.result) return std::nullopt;
   std::array<Estimate, 3> difference;
-  for (const std::size_t c : tested_channels) {
+  for (const std::size_t c : channels_in_plane) {
     const Estimate &a = (*whole.result).*channel_views[c].predicted, &b = (*half.result).*channel_views[c].predicted;
     difference[c] = {b.value - a.value, factors[c] * std::hypot(a.std_error, b.std_error)};
   }
@@ -36,7 +34,7 @@ double in_errors(const Estimate& difference) {
 std::vector<StepPair> step_pairs(const Record& record) {
   std::array<double, 3> factors{};
   bool widened = false;
-  for (const std::size_t c : tested_channels) {
+  for (const std::size_t c : channels_in_plane) {
     factors[c] = std::max(1.0, packing_factor(record, channel_views[c].predicted).value_or(1.0));
     widened |= factors[c] > 1;
   }
@@ -59,7 +57,7 @@ std::string in_words(const StepPair& pair) {
     return words + fmt::format("has no answer to compare: {}",
                                pair.half->answer.result ? pair.whole->answer.error : pair.half->answer.error);
   words += "changes ";
-  for (const std::size_t c : tested_channels) {
+  for (const std::size_t c : channels_in_plane) {
     const ChannelView& channel = channel_views[c];
     const Estimate& of = (*pair.difference)[c];
     words += fmt::format("{}{} by {:.3g} ± {:.2g} {} ({:.1f} errors)", c == 0 ? "" : ", ", channel.title,

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "compare/report/json_fields.hpp"
+#include "compare/report/sealed_json.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
 #include "scenario/source_text.hpp"

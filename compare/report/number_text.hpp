@@ -3,7 +3,6 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "scenario/estimate.hpp"
 #include "scenario/traction_channels.hpp"
@@ -47,10 +46,5 @@ std::string heading(const TractionChannel& channel);
 
 /// "12.3 N", "4.1 mm" of a number in SI of one of traction_channels.
 std::string in_unit(std::size_t channel, double si);
-
-// Words of a command line as a shell reads them back: shell_words({"run", "my case"}) is "run 'my case'".
-
-/// The words with a blank between them; those that a shell would take apart are quoted.
-std::string shell_words(const std::vector<std::string>& words);
 
 }  // namespace soilbin::compare

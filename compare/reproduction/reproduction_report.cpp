@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "compare/report/json_fields.hpp"
-#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
+#include "compare/sweep/model_names.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/mapping_writer.hpp"

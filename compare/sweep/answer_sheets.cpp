@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
+#include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/estimate.hpp"
 #include "scenario/unit.hpp"

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
+#include "compare/report/shell_words.hpp"
 #include "compare/sweep/answer_sheets.hpp"
+#include "compare/sweep/model_names.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/soil_parameters.hpp"
 

@@ -6,6 +6,8 @@
 
 #include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/model.hpp"
+#include "compare/report/number_text.hpp"
+#include "compare/sweep/result_json.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/quantity.hpp"
 #include "scenario/soil_parameters.hpp"
@@ -187,6 +189,45 @@ Explanation explain(const Scenario& scenario, const OperatingCondition& at) {
   explanation.effects = effect_steps(scenario);
   explanation.cross_checks = closed_forms(facts, explanation.result);
   return explanation;
+}
+
+namespace {
+
+Json steps_json(const std::vector<Step>& steps) {
+  Json all = Json::array();
+  for (const Step& step : steps) {
+    Json one = {{"name", step.name},
+                {"equation", step.equation},
+                {"numbers", step.numbers},
+                {"value", step.value},
+                {"unit", step.unit}};
+    if (!step.remark.empty()) one["remark"] = step.remark;
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+}  // namespace
+
+Json to_json(const Explanation& explanation, const ModelChoice& choice, const OperatingCondition& at) {
+  Json row = {{"model", "bekker_wong"}, {"label", choice.label}};
+  row.update(to_json(Answer{at, explanation.result, ""}));
+  row["steps"] = steps_json(explanation.steps);
+  row["effects"] = steps_json(explanation.effects);
+  row["cross_checks"] = steps_json(explanation.cross_checks);
+  return row;
+}
+
+Table forces_table(const TractionResult& result) {
+  Table table{"", {"part", "force [N]"}};
+  double sum = 0.0;
+  for (const Contribution& part : result.budget) {
+    table.add({"  " + spaced(part.name), fmt::format("{:.4f}", part.force)});
+    sum += part.force;
+  }
+  table.add({"  sum", fmt::format("{:.4f}", sum)});
+  table.add({"  drawbar pull", fmt::format("{:.4f}", result.drawbar_pull.value)});
+  return table;
 }
 
 }  // namespace soilbin::compare

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "compare/report/json_fields.hpp"
+#include "compare/report/table.hpp"
 #include "compare/sweep/answers.hpp"
 
 namespace soilbin::compare {
@@ -27,5 +29,11 @@ struct Explanation {
 
 /// Explains one condition. Throws InputError and NoSolution as the model does.
 Explanation explain(const Scenario& scenario, const OperatingCondition& at);
+
+/// A row of soilbin-explain/1: the answer, then its equations, effects and closed forms.
+Json to_json(const Explanation& explanation, const ModelChoice& choice, const OperatingCondition& at);
+
+/// The parts of the drawbar pull, their sum and the pull [N].
+Table forces_table(const TractionResult& result);
 
 }  // namespace soilbin::compare

@@ -67,4 +67,23 @@ std::string in_words(const SourcedValue& value) {
          (value.unit == "-" ? "" : " " + value.unit) + (value.assumed_sd ? " (± assumed)" : "");
 }
 
+Json sources_json(const Scenario& scenario) {
+  Json all = Json::array();
+  for (const SourcedValue& value : sourced_values(scenario))
+    all.push_back({{"of", value.of},
+                   {"name", value.key},
+                   {"value", value.value.value},
+                   {"std_error", value.value.std_error},
+                   {"assumed_sd", value.assumed_sd},
+                   {"source", value.source}});
+  return all;
+}
+
+Table sources_table(const Scenario& scenario) {
+  Table table{"", {"", "value", "source"}, {true, true, true}};
+  for (const SourcedValue& value : sourced_values(scenario))
+    table.add({fmt::format("  {}: {}", value.of, value.name), in_words(value), value.source});
+  return table;
+}
+
 }  // namespace soilbin::compare

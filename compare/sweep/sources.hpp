@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "compare/report/json_fields.hpp"
+#include "compare/report/table.hpp"
 #include "scenario/scenario.hpp"
 
 namespace soilbin::compare {
@@ -24,5 +26,9 @@ std::vector<SourcedValue> sourced_values(const Scenario& scenario);
 
 /// "1.04 ± 0.10 kPa (± assumed)".
 std::string in_words(const SourcedValue& value);
+
+/// "sources" of soilbin-explain/1, in SI; and the same for people.
+Json sources_json(const Scenario& scenario);
+Table sources_table(const Scenario& scenario);
 
 }  // namespace soilbin::compare

@@ -8,9 +8,9 @@
 
 #include "bekker_wong/model.hpp"
 #include "compare/measured/csv.hpp"
-#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/table.hpp"
+#include "compare/sweep/model_names.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"

@@ -8,6 +8,7 @@
 #include "compare/comparison_fixture.hpp"
 #include "compare/discrepancy/causes.hpp"
 #include "compare/discrepancy/comparison_sheets.hpp"
+#include "compare/discrepancy/comparison_tables.hpp"
 #include "compare/discrepancy/summary.hpp"
 #include "scenario/errors.hpp"
 

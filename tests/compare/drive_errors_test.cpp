@@ -38,7 +38,7 @@ double slip_with(const Soil& soil, double slope) {
 // takes from the static wheel's slip.
 TEST(DriveErrors, GrowAsTheStaticWheelsSlipHasThem) {
   const double slope = 2 * degree, sd = 1 * degree;
-  const DrivePart early = run_drive(question(slope, 10, sd), 20), late = run_drive(question(slope, 16, sd), 20);
+  const AnalyticDrive early = run_drive(question(slope, 10, sd), 20), late = run_drive(question(slope, 16, sd), 20);
   ASSERT_EQ(early.errors.moved.size(), 1U);
   Soil lower = rover::scenario().soil, higher = lower;
   value_of(lower, "friction_angle").value -= sd, value_of(higher, "friction_angle").value += sd;
@@ -51,7 +51,7 @@ TEST(DriveErrors, SayWhichValueEndsTheDriveInAnotherWay) {
   Case asked = question(0, 40, 2 * degree);
   const double steepest = *run_drive(asked, 10).steepest;
   asked.drive->profile.front().longitudinal_incline = steepest - 0.5 * degree;  // climbs it, not with 2 deg less
-  const DrivePart part = run_drive(asked, 40);
+  const AnalyticDrive part = run_drive(asked, 40);
   ASSERT_EQ(part.record.end, DriveEnd::time_is_up);
   ASSERT_EQ(part.errors.moved.size(), 1U);
   EXPECT_NE(part.errors.moved.front().lower.record.value().end, DriveEnd::time_is_up);
@@ -63,7 +63,7 @@ TEST(DriveErrors, SayWhichValueEndsTheDriveInAnotherWay) {
 }
 
 TEST(DriveErrors, OfExactValuesThereAreNone) {
-  const DrivePart part = run_drive(question(0, 3, 0), 10);
+  const AnalyticDrive part = run_drive(question(0, 3, 0), 10);
   EXPECT_TRUE(part.errors.moved.empty());
   EXPECT_FALSE(part.errors.travelled.has_value());
   EXPECT_THAT(in_words(part), testing::Not(testing::Contains(testing::HasSubstr("±"))));

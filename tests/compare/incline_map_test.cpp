@@ -104,22 +104,22 @@ TEST(InclineMap, ACheckCountsBothErrors) {
   EXPECT_NEAR(rms_of(checks), std::sqrt((0.03 * 0.03 + 0.04 * 0.04) / 2), 1e-12);
 }
 
-/// A map of the stand-in, its story, and the file that keeps its runs; several tests look at it.
+/// A map of the stand-in, its result, and the file that keeps its runs; several tests look at it.
 class SlowInclineMap : public testing::Test {
  protected:
   struct Learnt {
     std::filesystem::path file;
     int runs = 0, again = 0;
-    MapStory story;
+    FailureMapResult result;
   };
-  static MapStory learn(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store) {
-    MapStory story;
-    story.map = map;
-    story.question = failure_question(map, grains, store, 1, 0.1);
-    story.rows = map_failures(story.question, {.first = 16, .at_boundary = 6});
-    story.coordinates = compare_coordinates(map, story.rows);
-    story.checks = check_fresh(story.question, story.rows, 4, 1);
-    return story;
+  static FailureMapResult learn(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store) {
+    FailureMapResult result;
+    result.map = map;
+    result.question = failure_question(map, grains, store, 1, 0.1);
+    result.rows = map_failures(result.question, {.first = 16, .at_boundary = 6});
+    result.coordinates = compare_coordinates(map, result.rows);
+    result.checks = check_fresh(result.question, result.rows, 4, 1);
+    return result;
   }
   static const Learnt& learnt() {
     static const Learnt once = [] {
@@ -130,7 +130,7 @@ class SlowInclineMap : public testing::Test {
       {
         const VirtualTest grains = stand_in(map, l.runs);
         ExperimentStore store(l.file);
-        l.story = learn(map, grains, store);
+        l.result = learn(map, grains, store);
       }
       const VirtualTest grains = stand_in(map, l.again);
       ExperimentStore kept(l.file);
@@ -143,16 +143,16 @@ class SlowInclineMap : public testing::Test {
 };
 
 TEST_F(SlowInclineMap, LearnsTheFormulaAndPredictsFreshConditions) {
-  const MapStory& story = learnt().story;
-  EXPECT_LT(story.rows.held_out.rms(), 0.01);
-  ASSERT_EQ(story.checks.size(), 4U);
-  EXPECT_LT(rms_of(story.checks), 0.01);
-  for (const FreshCheck& check : story.checks)
+  const FailureMapResult& result = learnt().result;
+  EXPECT_LT(result.rows.held_out.rms(), 0.01);
+  ASSERT_EQ(result.checks.size(), 4U);
+  EXPECT_LT(rms_of(result.checks), 0.01);
+  for (const FreshCheck& check : result.checks)
     if (check.found) {
       EXPECT_NEAR(check.found->value, -missing(check.values), 1e-9);
     }
   // Lugs above 12.5 of 20 mm are beyond 10 %: 3 of 9 nodes (15, 17.5, 20), the map errs by a node at most.
-  EXPECT_NEAR(share_beyond(story), 3.0 / 9, 1.0 / 9);
+  EXPECT_NEAR(share_beyond(result), 3.0 / 9, 1.0 / 9);
 }
 
 TEST_F(SlowInclineMap, GoesOnFromTheStoreWithoutARun) {
@@ -163,18 +163,18 @@ TEST_F(SlowInclineMap, GoesOnFromTheStoreWithoutARun) {
 // What the lugs add follows from their height alone: neither sinkage nor load number helps, and to hide the height
 // hurts.
 TEST_F(SlowInclineMap, SaysWhichCoordinatesCollapseTheData) {
-  const std::vector<Coordinates>& c = learnt().story.coordinates;
+  const std::vector<Coordinates>& c = learnt().result.coordinates;
   ASSERT_EQ(c.size(), 4U);
   EXPECT_GT(c[3].held_out, 4 * c[0].held_out) << "without the lugs' height";
   EXPECT_GE(c[2].held_out, 0.9 * c[0].held_out) << "lug height over sinkage alone";
 }
 
 TEST_F(SlowInclineMap, TellsItInWordsAsAPageAndAsJson) {
-  const MapStory& story = learnt().story;
-  const std::vector<std::string> words = map_summary(story);
+  const FailureMapResult& result = learnt().result;
+  const std::vector<std::string> words = map_summary(result);
   EXPECT_THAT(words.front(), HasSubstr("longitudinal incline: of "));
   EXPECT_THAT(words.front(), HasSubstr("too low at all of them"));
-  const std::string page = failure_map_page(story, {"Map", "soilbin failure-map made", {}}, "format: ...");
+  const std::string page = failure_map_page(result, {"Map", "soilbin failure-map made", {}}, "format: ...");
   const std::size_t answer = page.find("id=\"answer\"");  // the words stand after the map
   ASSERT_NE(answer, std::string::npos);
   for (const char* part : {"it is off by more in", "has not seen to", "Fresh conditions:"})
@@ -184,12 +184,12 @@ TEST_F(SlowInclineMap, TellsItInWordsAsAPageAndAsJson) {
   EXPECT_THAT(words[1], HasSubstr("of the box asked for is beyond"));
   EXPECT_THAT(page, HasSubstr("class=\"plot heat\""));
   EXPECT_THAT(page, HasSubstr("soilbin failure-map made"));
-  const auto json = failure_map_json(story);
+  const auto json = failure_map_json(result);
   EXPECT_EQ(json["format"], "soilbin-failure-map/1");
-  EXPECT_EQ(json["rows"].size(), story.rows.rows.size());
-  EXPECT_NEAR(json["cross_validated_error"].get<double>(), story.rows.held_out.rms(), 1e-15);
-  EXPECT_EQ(rows_table(story).rows.size(), story.rows.rows.size());
-  EXPECT_EQ(checks_table(story).rows.size(), 4U);
+  EXPECT_EQ(json["rows"].size(), result.rows.rows.size());
+  EXPECT_NEAR(json["cross_validated_error"].get<double>(), result.rows.held_out.rms(), 1e-15);
+  EXPECT_EQ(rows_table(result).rows.size(), result.rows.rows.size());
+  EXPECT_EQ(checks_table(result).rows.size(), 4U);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compare/doubts/plate_doubts.hpp"
 #include "compare/measured/csv.hpp"
 #include "tests/scenario/refusal.hpp"
 

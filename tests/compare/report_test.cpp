@@ -5,11 +5,11 @@
 #include <filesystem>
 
 #include "compare/report/heat_map.hpp"
-#include "compare/report/model_names.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/page.hpp"
 #include "compare/report/plot.hpp"
 #include "compare/report/plot_panel.hpp"
+#include "compare/sweep/model_names.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
@@ -161,6 +161,8 @@ TEST(ModelNames, AreThoseOfPeople) {
   EXPECT_EQ(model_in_words("bekker_wong + slip_sinkage"), "analytic wheel with slip sinkage");
   EXPECT_EQ(model_in_words("bekker_wong + slip_sinkage:ding + exit_angle + yaw"),
             "analytic wheel with slip sinkage (ding), exit angle and yaw");
+  EXPECT_EQ(model_in_words("bekker_wong + sidewall_bulldozing:passive_wedge + cross_talk"),
+            "analytic wheel with side-wall bulldozing (passive wedge) and cross-talk");
   EXPECT_EQ(model_in_words("dem"), "grains");
   EXPECT_EQ(model_in_words("dem packing 2"), "grains, packing 2");
   for (const char* own : {"my bekker_wong", "grains", "analytic wheel", "cmu-smooth (measured)", ""})

@@ -1,13 +1,13 @@
-#include "cli/serve/answered.hpp"
+#include "cli/serve/served_answer.hpp"
 
 #include <cmath>
 #include <memory>
 
 #include "bekker_wong/model.hpp"
-#include "cli/text_output.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/plot.hpp"
 #include "compare/sweep/answer_sheets.hpp"
+#include "compare/sweep/answer_tables.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -115,7 +115,7 @@ Json wheel_json(const ServedAnswer& one) {
 Json readings_json(const ServedAnswer& one) {
   Json all = Json::array();
   if (const auto& result = one.point.front().answers.front().result)
-    for (const Reading& reading : readings(*result))
+    for (const compare::PrintedValue& reading : compare::printed_values(*result))
       all.push_back({{"name", reading.name}, {"value", reading.value}, {"unit", reading.unit}});
   return all;
 }

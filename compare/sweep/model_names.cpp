@@ -1,18 +1,29 @@
-#include "compare/report/model_names.hpp"
+#include "compare/sweep/model_names.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <functional>
+#include <stdexcept>
 
+#include "bekker_wong/effects/titles.hpp"
 #include "compare/report/number_text.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-/// "slip_sinkage:ding" as "slip sinkage (ding)".
+std::string name_of_effect(const std::string& id) {
+  try {
+    return std::string(bekker_wong::effect_title(id).name);
+  } catch (const std::out_of_range&) {
+    return spaced(id);  // of a label that somebody chose
+  }
+}
+
+/// "sidewall_bulldozing:passive_wedge" as "side-wall bulldozing (passive wedge)".
 std::string effect_in_words(const std::string& id) {
   const std::size_t colon = id.find(':');
-  return spaced(id.substr(0, colon)) + (colon == std::string::npos ? "" : " (" + spaced(id.substr(colon + 1)) + ")");
+  return name_of_effect(id.substr(0, colon)) +
+         (colon == std::string::npos ? "" : " (" + spaced(id.substr(colon + 1)) + ")");
 }
 
 std::vector<std::string> parts_of(const std::string& label) {

@@ -1,9 +1,10 @@
-#include "compare/report/json_fields.hpp"
+#include "compare/report/sealed_json.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 
+#include "compare/report/json_fields.hpp"
 #include "scenario/checksum.hpp"
 #include "scenario/errors.hpp"
 

@@ -1,0 +1,14 @@
+// What is doubtful in a fit to measured plates: a part of the list of doubts (doubts.hpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/bevameter/measured_plates.hpp"
+
+namespace soilbin::compare {
+
+/// A modulus below 0, no test that was repeated, a form that misses the pressures.
+std::vector<std::string> doubts(const MeasuredPlatesFit& fit);
+
+}  // namespace soilbin::compare

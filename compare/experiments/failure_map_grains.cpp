@@ -1,0 +1,38 @@
+#include "compare/experiments/failure_map_grains.hpp"
+
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "scenario/errors.hpp"
+#include "scenario/traction_channels.hpp"
+
+namespace soilbin::compare {
+
+VirtualTest map_grains(const InclineMap& map, const Case& question, const dem::DemSettings& settings,
+                       const EffectVocabulary& effects, const RunKeeping& keeping) {
+  VirtualTest test;
+  test.identity = fmt::format("soil bin, {}, speed {}", name_of(map.incline), map.base.speed);
+  for (const auto& [name, value] : inputs_of(settings, map.scenario))
+    if (name != "tire.lug_height") test.identity += fmt::format("\n{} {}", name, value);
+  test.factors = map.factors;
+  test.targets = grain_channels();
+  const auto last = std::make_shared<RecordedRun>();
+  test.on_saved = [last] {
+    if (last->on_saved) last->on_saved();
+  };
+  test.run = [map, last, run = run_once(settings, question, effects, keeping)](const Eigen::VectorXd& values,
+                                                                               std::uint64_t seed) {
+    Scenario grains = scenario_at(map, values);
+    grains.effects.clear();
+    *last = run(grains, condition_at(map, values), seed);
+    if (!last->answer.result) throw NoSolution(last->answer.error);
+    std::vector<Estimate> measured;
+    for (const TractionChannel& channel : traction_channels)
+      measured.push_back((*last->answer.result).*channel.predicted);
+    return measured;
+  };
+  return test;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,56 @@
+#include "compare/experiments/virtual_bevameter.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// A plate's curve from where it seats itself, as in the field: the surface is rough, and its mean as seen from above
+/// lies below the tops that the plate comes to rest on.
+bekker_wong::PlateCurve curve_of(const dem::PlateRun& run, double grain) {
+  constexpr double seated = 1e3;  // [Pa]
+  bekker_wong::PlateCurve out{.radius = run.diameter / 2, .pressure = {}, .sinkage = {}};
+  double contact = 0;
+  bool found = false;
+  for (const dem::PlateSample& sample : run.curve) {
+    if (!found && sample.pressure > seated) contact = sample.sinkage, found = true;
+    if (!found || sample.sinkage < contact + 0.1 * grain || sample.pressure <= 0) continue;
+    out.pressure.push_back(sample.pressure);
+    out.sinkage.push_back(sample.sinkage - contact);
+  }
+  return out;
+}
+
+ShearCurve curve_of(const dem::AnnulusRun& run) {
+  ShearCurve out;
+  for (const dem::AnnulusSample& sample : run.curve) {
+    out.displacement.push_back(sample.displacement);
+    out.shear_stress.push_back(sample.shear_stress);
+    out.normal_stress += sample.normal_stress / static_cast<double>(run.curve.size());
+  }
+  return out;
+}
+
+}  // namespace
+
+BevameterReadings virtual_bevameter(const GranularSoil& grains, const VirtualBevameter& asked, dem::BedStore& beds) {
+  BevameterReadings out;
+  dem::PlateSettings plates;
+  dem::AnnulusSettings ring;
+  for (dem::TestBed* bed : {&plates.bed, &ring.bed}) {
+    bed->specimen = asked.specimen;
+    bed->width *= asked.size, bed->depth *= asked.size;
+  }
+  for (int k = 0; k < asked.packings; ++k) {
+    PlateSet set;
+    for (const dem::PlateRun& run : dem::plate_sinkage(grains, plates, asked.how, &beds)) {
+      set.push_back(curve_of(run, mean_diameter(grains)));
+      out.density = run.density;
+    }
+    out.plates.push_back(std::move(set));
+    for (const dem::AnnulusRun& run : dem::annular_shear(grains, ring, asked.how, &beds))
+      out.shear.push_back(curve_of(run));
+    ++plates.bed.specimen.packing, ++ring.bed.specimen.packing;
+  }
+  return out;
+}
+
+}  // namespace soilbin::compare

@@ -1,0 +1,85 @@
+#include "compare/failure_map/learned_map.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/doubts/doubts.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+/// Where the models agree: without lugs at any slip, else also up to a slip; with any lugs; and the largest box of all.
+std::vector<AgreementClause> agreements(const FailureQuestion& question, FailureMap& rows, int rounds) {
+  std::vector<AgreementClause> clauses;
+  const auto add = [&](const std::vector<Role>& roles) {
+    if (const auto clause = agreement(question, rows, roles, 9, rounds)) clauses.push_back(*clause);
+    return !clauses.empty();
+  };
+  if (!add({Role::limited, Role::held, Role::limited, Role::whole}))
+    add({Role::limited, Role::held, Role::limited, Role::limited});
+  add({Role::limited, Role::limited, Role::limited, Role::whole});
+  add({Role::bounded, Role::bounded, Role::bounded, Role::bounded});
+  return clauses;
+}
+
+/// Of the analytic model and the grains at the conditions that were run, with the highest lugs.
+std::vector<std::string> doubts_at_rows(const FailureMapResult& result) {
+  Case question;
+  std::vector<Eigen::VectorXd> rows;
+  for (const FailureRow& row : result.rows.rows) {
+    rows.push_back(row.values);
+    question.study.conditions.push_back(condition_at(result.map, row.values));
+  }
+  if (rows.empty()) return {};
+  const auto height = [](const Eigen::VectorXd& values) { return values[map_lug_height]; };
+  question.scenario = scenario_at(result.map, *std::ranges::max_element(rows, {}, height));
+  question.study.models = {{ModelKind::bekker_wong, question.scenario.effects, ""}};
+  question.scenario.effects.clear();
+  const std::vector<ModelAnswers> study = run_study(question);
+  question.study.models.push_back({ModelKind::dem, {}, ""});
+  return doubts(question, study);
+}
+
+}  // namespace
+
+FailureMapResult learn_map(const InclineMap& map, const VirtualTest& grains, ExperimentStore& store,
+                           const MapLearning& how) {
+  FailureMapResult result;
+  result.map = map;
+  result.question = failure_question(result.map, grains, store, how.packing, how.tolerance);
+  result.rows = map_failures(result.question, how.runs);
+  result.clauses = agreements(result.question, result.rows, how.rounds);
+  result.coordinates = compare_coordinates(result.map, result.rows);
+  result.checks = check_fresh(result.question, result.rows, how.fresh, how.runs.seed);
+  return result;
+}
+
+std::vector<std::string> doubts_of(const FailureMapResult& result, const VirtualTest& grains,
+                                   const ExperimentStore& store) {
+  std::vector<std::string> all = doubts_at_rows(result);
+  if (const std::size_t older = store.of_other_engines(grains); older > 0)
+    all.push_back(
+        fmt::format("{} of the experiments were made by an earlier engine, whose shear springs did not turn with the "
+                    "spin of a pair: this one's answers differ",
+                    older));
+  return all;
+}
+
+double share_beyond(const FailureMapResult& result) {
+  constexpr int nodes = 9;
+  const std::vector<Factor>& factors = result.question.factors;
+  std::size_t all = 1, beyond = 0;
+  for (std::size_t j = 0; j < factors.size(); ++j) all *= nodes;
+  for (std::size_t i = 0; i < all; ++i) {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(factors.size()));
+    std::size_t rest = i;
+    for (std::size_t j = 0; j < factors.size(); ++j, rest /= nodes)
+      values[j] = level_value(factors[j], static_cast<int>(rest % nodes), nodes);
+    beyond += std::abs(result.rows.at(result.question, values).value) > result.question.tolerance;
+  }
+  return static_cast<double>(beyond) / static_cast<double>(all);
+}
+
+}  // namespace soilbin::compare

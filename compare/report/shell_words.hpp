@@ -1,0 +1,12 @@
+// Words of a command line as a shell reads them back: shell_words({"run", "my case"}) is "run 'my case'".
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace soilbin::compare {
+
+/// The words with a blank between them; those that a shell would take apart are quoted.
+std::string shell_words(const std::vector<std::string>& words);
+
+}  // namespace soilbin::compare

@@ -1,0 +1,165 @@
+#include "compare/sweep/answer_tables.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/measured/channels.hpp"
+#include "compare/report/number_text.hpp"
+#include "compare/report/table.hpp"
+#include "compare/sweep/varying.hpp"
+#include "scenario/nearest_word.hpp"
+#include "scenario/unit.hpp"
+
+namespace soilbin::compare {
+namespace {
+
+std::vector<OperatingCondition> conditions_answered(const std::vector<Answer>& answers) {
+  std::vector<OperatingCondition> all;
+  for (const Answer& answer : answers) all.push_back(answer.at);
+  return all;
+}
+
+bool any_side_force(const std::vector<ModelAnswers>& study) {
+  for (const ModelAnswers& model : study)
+    for (const Answer& answer : model.answers)
+      if (answer.result && answer.result->lateral_force.value != 0.0) return true;
+  return false;
+}
+
+/// In percent; "-" where there is none (has_efficiency).
+std::string efficiency_in_percent(const TractionResult& result) {
+  return has_efficiency(result) ? number(100 * result.tractive_efficiency) : "-";
+}
+
+std::string channel_errors_text(const Prediction& prediction) {
+  Table table{"", {"channel", "runs", "rms error", "bias (predicted - measured)", "measured range", "rms/range [%]"}};
+  for (const ChannelError& error : prediction.errors) {
+    const auto in_unit = [&](double si) { return compare::in_unit(error.channel, si); };
+    table.add({std::string(channel_views[error.channel].title), std::to_string(error.runs), in_unit(error.rmse),
+               in_unit(error.bias), in_unit(error.range), number(100 * error.share_of_range)});
+  }
+  return as_text(table);
+}
+
+/// Why a pull of the analytic model at 0 % slip on the level is not 0, which readers expect; "" where there is none.
+std::string pull_without_slip(const ModelAnswers& model) {
+  const bool there =
+      model.choice.model == ModelKind::bekker_wong && std::ranges::any_of(model.answers, [](const Answer& answer) {
+        return answer.result && std::abs(answer.at.slip) < 1e-9 && answer.at.longitudinal_incline == 0.0;
+      });
+  return there ? "At 0 % slip (v = r ω) the soil is still compacted and sheared along the contact, so the pull is not "
+                 "0.\n"
+               : "";
+}
+
+}  // namespace
+
+std::vector<PrintedValue> printed_values(const TractionResult& r) {
+  std::vector<PrintedValue> all;
+  for (const ChannelView& channel : channel_views)
+    all.push_back(
+        {capital(std::string(channel.title)), number(r.*channel.predicted, channel.per_si), std::string(channel.unit)});
+  const std::string none = why_no_efficiency(r);
+  all.push_back(
+      {"Tractive efficiency", none.empty() ? efficiency_in_percent(r) : "none: " + none, none.empty() ? "%" : ""});
+  all.push_back(
+      {"Contact",
+       fmt::format("soil meets the wheel {:.1f}° before the axle, presses most at {:.1f}°, lets go at {:.1f}°",
+                   r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree + 0.0),
+       ""});
+  std::string sum;
+  for (const Contribution& part : r.budget) {
+    const std::string sign = sum.empty() ? (part.force < 0 ? "-" : "") : (part.force < 0 ? " - " : " + ");
+    sum += fmt::format("{}{} N ({})", sign, number(std::abs(part.force)), spaced(part.name));
+  }
+  if (const BudgetRest& rest = r.budget_rest; std::abs(rest.force) > 1e-9 * r.at.load)
+    sum +=
+        fmt::format("; {} N of it is in none of these{}", number(rest.force),
+                    std::isfinite(rest.bound) ? fmt::format(" (sampling leaves up to {} N)", number(rest.bound)) : "");
+  all.push_back({"Drawbar pull is", sum, ""});
+  if (!r.without_error_of.empty())
+    all.push_back(
+        {"Standard errors",
+         fmt::format("leave out the soil's {}: the results have no derivative by it here", listed(r.without_error_of)),
+         ""});
+  return all;
+}
+
+std::string answer_text(const ModelAnswers& model, const Answer& answer) {
+  std::string text = fmt::format("{}: {}\n", model.choice.label, in_words(answer.at));
+  if (!answer.result) return text + "  no solution: " + answer.error + "\n";
+  text += "\n";
+  for (const PrintedValue& one : printed_values(*answer.result))
+    text += fmt::format("  {:<21}{}{}{}\n", one.name, one.value, one.unit.empty() ? "" : " ", one.unit);
+  return text + pull_without_slip({model.choice, {answer}, {}});
+}
+
+std::string study_text(const std::vector<ModelAnswers>& study) {
+  const bool side = any_side_force(study);
+  std::string text;
+  for (const ModelAnswers& model : study) {
+    const Curves curves = curves_against_slip(conditions_answered(model.answers), Spread::exact);
+    std::vector<std::string> header;
+    if (!curves.varying.empty()) header.push_back(curves.varying);
+    header.push_back("slip [%]");
+    for (std::size_t c = 0; c < channel_views.size(); ++c)
+      if (side || !channel_views[c].sideways)
+        header.push_back(heading(std::string(channel_views[c].title), std::string(channel_views[c].unit)));
+    header.push_back("efficiency [%]");
+    Table table{"", header};
+    std::string notes;
+    for (std::size_t i = 0; i < model.answers.size(); ++i) {
+      const Answer& answer = model.answers[i];
+      std::vector<TableCell> row;
+      if (!curves.varying.empty()) row.push_back(curves.labels[curves.curve_of[i]]);
+      row.push_back(fmt::format("{:.4g}", 100 * answer.at.slip));
+      for (const ChannelView& channel : channel_views)
+        if (side || !channel.sideways)
+          row.push_back(answer.result ? number((*answer.result).*channel.predicted, channel.per_si) : "-");
+      row.push_back(answer.result ? efficiency_in_percent(*answer.result) : "-");
+      table.add(std::move(row));
+      if (!answer.result) notes += fmt::format("no solution at {}: {}\n", in_words(answer.at), answer.error);
+    }
+    text += (text.empty() ? "" : "\n") + model.choice.label + "\n" + as_text(table) + notes;
+  }
+  return study.empty() ? text : text + pull_without_slip(study.front());
+}
+
+std::string prediction_text(const Prediction& prediction) {
+  std::vector<OperatingCondition> conditions;
+  for (const PredictedRun& run : prediction.runs) conditions.push_back(run.measured.at);
+  const Curves curves = curves_against_slip(conditions, Spread::measured);
+  std::vector<std::string> header = {"run"};
+  if (!curves.varying.empty()) header.push_back("nominal " + curves.varying);
+  header.insert(header.end(), {"load [N]", "slip [%]"});
+  for (const ChannelError& error : prediction.errors) {
+    const ChannelView& channel = channel_views[error.channel];
+    header.push_back(heading(std::string(channel.title), std::string(channel.unit)));
+    header.insert(header.end(), {"predicted", "residual"});
+  }
+  Table table{"", header};
+  std::string notes;
+  for (std::size_t i = 0; i < prediction.runs.size(); ++i) {
+    const PredictedRun& run = prediction.runs[i];
+    std::vector<TableCell> row = {std::to_string(run.run)};
+    if (!curves.varying.empty()) row.push_back(curves.labels[curves.curve_of[i]]);
+    row.push_back(number(run.measured.at.load));
+    row.push_back(fmt::format("{:.4g}", 100 * run.measured.at.slip));
+    for (const ChannelError& error : prediction.errors) {
+      const ChannelView& channel = channel_views[error.channel];
+      const auto measured = run.measured.*channel.measured;
+      const auto rest = residual(run, channel);
+      row.push_back(measured ? number(*measured * channel.per_si) : "-");
+      row.push_back(run.predicted.result ? number(((*run.predicted.result).*channel.predicted).value * channel.per_si)
+                                         : "-");
+      row.push_back(rest ? number(*rest * channel.per_si) : "-");
+    }
+    if (!run.predicted.result) notes += fmt::format("run {}: no solution: {}\n", run.run, run.predicted.error);
+    table.add(std::move(row));
+  }
+  return as_text(table) + notes + "\n" + channel_errors_text(prediction);
+}
+
+}  // namespace soilbin::compare
