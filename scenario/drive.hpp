@@ -56,9 +56,7 @@ struct Drive {
 };
 
 /// The mass that travels with the wheel [kg].
-inline double mass_of(const Drive& drive) {
-  return drive.mass.value_or(drive.load / standard_gravity);
-}
+inline double mass_of(const Drive& drive) { return drive.mass.value_or(drive.load / standard_gravity); }
 
 /// The inertia of what spins on a wheel of this radius, about the axle [kg m^2].
 inline double inertia_of(const Drive& drive, double radius) {

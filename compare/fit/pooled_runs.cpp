@@ -138,7 +138,7 @@ std::optional<FittedModel> pooled(const FittedModel& base, int most_rows) {
   Dataset few{all.campaign, std::move(runs), {}, all.noise, std::move(whitening), {}};
   const VectorXd left = few.whitening(VectorXd(values - predicted));
   few.within_pools = {.cells = static_cast<double>(all.cells() - few.cells()),
-                .chi2 = std::max(0.0, base.fit().chi2_cells - left.squaredNorm())};
+                      .chi2 = std::max(0.0, base.fit().chi2_cells - left.squaredNorm())};
   const auto shared = std::make_shared<const Dataset>(std::move(few));
   return fitted(shared, base.predictor().over(shared->observations), base.fit().restart);
 }
