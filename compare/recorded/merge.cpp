@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include "bekker_wong/effect_vocabulary.hpp"
 #include "compare/recorded/run_list.hpp"
+#include "scenario/case.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -49,13 +51,22 @@ std::vector<RecordedRun> all_of(const std::vector<NamedRecord>& shards, RunList 
   return runs;
 }
 
+/// The case of a record as it is written today: with the defaults of keys that came since. As it stands where it can't
+/// be read.
+std::string case_today(const NamedRecord& shard) try {
+  const bekker_wong::CatalogueVocabulary effects;
+  return write_case(parse_case({shard.file.string(), shard.record.question}, Library{}, effects), effects);
+} catch (const InputError&) {
+  return shard.record.question;
+}
+
 /// Throws InputError that names both files where they do not answer the same question.
 void refuse_another_question(const NamedRecord& first, const NamedRecord& other) {
   refuse_other_inputs(other.record, first.record.inputs, other.file);
   if (other.record.model != first.record.model)
     throw InputError(fmt::format("{} holds answers of the model '{}', {} of '{}'", other.file.string(),
                                  other.record.model, first.file.string(), first.record.model));
-  if (other.record.question != first.record.question)
+  if (other.record.question != first.record.question && case_today(other) != case_today(first))
     throw InputError(
         fmt::format("{} and {} were begun with different cases\n  hint: all shards take the same study; 'soilbin "
                     "record show' tells which a record was begun with",
@@ -69,6 +80,7 @@ Record merged(const std::vector<NamedRecord>& shards) {
   Record whole = shards.front().record;
   for (const NamedRecord& other : shards) {
     refuse_another_question(shards.front(), other);
+    if (other.record.question != whole.question) whole.question = case_today(other);
     whole.soilbin = std::min(whole.soilbin, other.record.soilbin);
     whole.sealed = whole.sealed && other.record.sealed;
   }

@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <ctime>
 
+#include "bekker_wong/effect_vocabulary.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/recorded/run_list.hpp"
+#include "scenario/case.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
@@ -112,6 +114,27 @@ TEST(Merge, AnotherAnswerToTheSameRunNamesBothSources) {
   RecordedRun& run = shards[1].record.runs[3];
   run.source = "def-dirty", run.answer.result->torque.value *= 1 + 1e-15;  // its last bit
   expect_merge_refused(shards, {"load 70 N, slip 10 %, packing 1", "a.json (made by abc", "b.json (made by def-dirty"});
+}
+
+// A key that came to case files after a shard was made stands in the others' cases with its default: the same question.
+TEST(Merge, TakesShardsOfBeforeACaseHadAKey) {
+  const bekker_wong::CatalogueVocabulary effects;
+  const std::filesystem::path cases = SOILBIN_SOURCE_DIR "/cases";
+  const std::string now =
+      write_case(read_case(cases / "studies/paper-longitudinal.yaml", Library({cases}), effects), effects);
+  const auto with = [&](const std::string& text, const std::string& other) {
+    std::string changed = now;
+    const std::size_t at = changed.find(text);
+    if (at == std::string::npos) throw std::logic_error(text);
+    return changed.replace(at, text.size(), other);
+  };
+  std::vector<NamedRecord> shards = in_shards(2);
+  shards[0].record.question = with("    shape: sphere\n", ""), shards[1].record.question = now;
+  EXPECT_EQ(merged(shards).question, now);
+  std::swap(shards[0], shards[1]);
+  EXPECT_EQ(merged(shards).question, now);
+  shards[1].record.question = with("value: 305 mm", "value: 306 mm");
+  expect_merge_refused(shards, {"shard-1.json", "shard-2.json", "different cases"});
 }
 
 TEST(Merge, OtherInputsOtherCasesAndNothingAreRefusedByName) {
