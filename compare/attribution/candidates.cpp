@@ -60,7 +60,7 @@ std::vector<SignaturePair> strongest_pairs(const std::vector<Signature>& signatu
       const Signature &a = *seen[i], &b = *seen[j];
       if (a.term.form->id == b.term.form->id) continue;
       const double c = a.direction.dot(b.direction), det = 1 - c * c;
-      if (det < thresholds::min_pair_angle) continue;
+      if (det < thresholds::min_pair_determinant) continue;
       const double u = (a.score - c * b.score) / det, v = (b.score - c * a.score) / det;
       if ((a.one_sided && u < 0) || (b.one_sided && v < 0)) continue;
       pairs.push_back({u * a.score + v * b.score, &a, &b});

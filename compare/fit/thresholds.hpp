@@ -1,5 +1,5 @@
 // The levels on which a verdict of the loop hangs, set by trial or by judgement: value, unit, how it was set, and what
-// twice the value does. Steps, grids, seeds and bounds of a numerical method stand with it, and how small a share may
+// twice the value does. Steps, seeds and bounds of a numerical method stand with it, and how small a share may
 // be before a sentence leaves it out stands with the sentence.
 //
 // 'Tuned' means: on synthetic campaigns whose truth is known (bench/loop: set `tune`, and report sets that became
@@ -65,9 +65,9 @@ inline constexpr double family_level = 0.05;
 inline constexpr int max_refits = 16;
 /// Forms of one effect among them; forms of one pair of effects among the pairs. Chosen.
 inline constexpr int forms_an_effect = 3, forms_a_pair = 2;
-/// 1 - cos^2 between two signatures below which they are not tried as a pair [-]: cos above 0.99. Chosen: no data that
-/// were looked at tell such two apart, and their sizes run off against each other.
-inline constexpr double min_pair_angle = 0.02;
+/// 1 - cos^2 between two signatures below which they are not tried as a pair [-]: cos above 0.99. Chosen: the sizes of
+/// two so alike run off against each other.
+inline constexpr double min_pair_determinant = 0.02;
 /// Weakest signature that is fitted in full [sd]. Chosen.
 inline constexpr double min_strength = 1.0;
 /// Effects in a candidate at the most. Chosen; tuning campaigns hold two.

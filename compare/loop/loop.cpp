@@ -185,23 +185,25 @@ bool predicts_better(const CrossValidation& with_learned) {
 /// the model that is saved and explain nothing: what is told to be unexplained, and what that depends on, stays what
 /// the named effects leave.
 struct Validated {
+  NoiseFloor noise;  ///< in whose unit errors are told
   CrossValidation errors;
   std::vector<LearnedEffect> learned;
 };
 
 Validated validate(const FittedModel& base, const Decision& decision, std::vector<LearnedEffect> learned,
                    const LoopOptions& options, LoopProgress& progress) {
+  NoiseFloor noise = decision.noise();
   CrossValidation errors;
   if (options.validate)
-    errors = cross_validate(base.data(), decision.noise(),
+    errors = cross_validate(base.data(), noise,
                             {.attribution = of_a_fold(options.attribution),
                              .with_model_discrepancy = decision.second && decision.second->decides,
                              .learn = !learned.empty(),
                              .folds = options.folds,
                              .threads = options.threads,
                              .progress = progress.folds()});
-  if (learned.empty() || predicts_better(errors)) return {std::move(errors), std::move(learned)};
-  return {without_learned_effects(std::move(errors), base.data().observations), {}};
+  if (learned.empty() || predicts_better(errors)) return {std::move(noise), std::move(errors), std::move(learned)};
+  return {std::move(noise), without_learned_effects(std::move(errors), base.data().observations), {}};
 }
 
 /// The best named effects of an unknown one, and the learned ones beside them: the last candidate holds them all.
@@ -279,7 +281,7 @@ LoopAnswer answer_of(Stages made, const AttributionOptions& options, const Limit
       .next = competing ? next_test(found, limits) : std::nullopt,
       .dependences_before = dependences_of(found.base, 7),
       .dependences_after = std::move(left),
-      .noise = decision.noise(),
+      .noise = made.validated.noise,
       .soil_shifts = std::move(shifts),
       .soil = saved.soil(),
       .outliers = outliers,

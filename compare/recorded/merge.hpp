@@ -17,8 +17,8 @@ struct NamedRecord {
 
 /// All their runs in one record, in_order; any order of the shards gives the same one. A run that several hold with the
 /// same answer is kept once (of seconds and sources those that compare first), so merging twice changes nothing. Throws
-/// InputError for none, for records of other inputs, model or case, and where two hold the same run with different
-/// answers; it names both files, the run, and what made each.
+/// InputError for none, for records of other inputs, model or case (as each is written today), and where two hold the
+/// same run with different answers; it names both files, the run, and what made each.
 Record merged(const std::vector<NamedRecord>& shards);
 
 }  // namespace soilbin::compare
