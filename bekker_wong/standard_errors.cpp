@@ -4,8 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "bekker_wong/effect.hpp"
 #include "bekker_wong/model.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/fitted_errors.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin::bekker_wong {
@@ -33,13 +35,14 @@ BalanceDerivatives::BalanceDerivatives(const Tire& tire, const SoilValues& soil,
       at_(at),
       theta_1_(balance_angle),
       nodes_(RollingWheel(tire, soil, effects, bin).nodes(at, balance_angle)),
-      here_(point(soil, theta_1_, 0.0)) {
-  const auto turned = [&](double by) { return point(soil_, theta_1_ + by, by); };
+      here_(point(soil, effects, theta_1_, 0.0)) {
+  const auto turned = [&](double by) { return point(soil_, effects_, theta_1_ + by, by); };
   by_angle_ = slopes(turned(-angle_step * theta_1_), turned(angle_step * theta_1_));
 }
 
-BalanceDerivatives::OnePoint BalanceDerivatives::point(const SoilValues& soil, double theta_1, double x) const try {
-  const RolledWheel wheel = RollingWheel(tire_, soil, effects_, bin_).at_entry_angle(at_, theta_1, nodes_);
+BalanceDerivatives::OnePoint BalanceDerivatives::point(const SoilValues& soil, const EffectList& effects,
+                                                       double theta_1, double x) const try {
+  const RolledWheel wheel = RollingWheel(tire_, soil, effects, bin_).at_entry_angle(at_, theta_1, nodes_);
   Point point{.x = x, .carried = wheel.forces.vertical};
   for (std::size_t i = 0; i < point.channels.size(); ++i) point.channels[i] = wheel.reading.*reading_members[i];
   return point;
@@ -61,6 +64,14 @@ BalanceDerivatives::Point BalanceDerivatives::slopes(const OnePoint& below, cons
   return slopes;
 }
 
+BalanceDerivatives::Channels BalanceDerivatives::balanced(const OnePoint& below, const OnePoint& above) const {
+  const Point direct = slopes(below, above);
+  const double turn = -direct.carried / by_angle_.carried;  // d theta_1/dp
+  Channels all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = direct.channels[i] + by_angle_.channels[i] * turn;
+  return all;
+}
+
 BalanceDerivatives::Channels BalanceDerivatives::by(std::size_t parameter, double sd) const {
   const auto member = soil_members[parameter];
   const double x = soil_.*member;
@@ -68,36 +79,95 @@ BalanceDerivatives::Channels BalanceDerivatives::by(std::size_t parameter, doubl
   const auto with = [&](double value) {
     SoilValues soil = soil_;
     soil.*member = value;
-    return point(soil, theta_1_, value - x);
+    return point(soil, effects_, theta_1_, value - x);
   };
-  const Point direct = slopes(with(beside.below), with(beside.above));
-  const double turn = -direct.carried / by_angle_.carried;  // d theta_1/dp
-  Channels all{};
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = direct.channels[i] + by_angle_.channels[i] * turn;
-  return all;
+  return balanced(with(beside.below), with(beside.above));
 }
+
+BalanceDerivatives::Channels BalanceDerivatives::by(const std::vector<EffectChoice>& choices, std::size_t effect,
+                                                    const std::string& parameter, double sd) const {
+  const auto& all = find_form(choices[effect]).parameters;
+  const auto described = std::ranges::find(all, parameter, &EffectParameter::name);
+  if (described == all.end())
+    throw InputError("effect '" + choices[effect].id + "' has no parameter '" + parameter + "'");
+  const auto given = choices[effect].parameters.find(parameter);
+  const double x = given == choices[effect].parameters.end() ? described->fallback : given->second;
+  const Neighbours beside = neighbours(x, step_of(x, sd), {.lower = described->lower, .upper = described->upper});
+  const auto with = [&](double value) {
+    EffectChoice moved = choices[effect];
+    moved.parameters[parameter] = value;
+    EffectList effects = effects_;
+    effects[effect] = make_effect(moved);
+    return point(soil_, effects, theta_1_, value - x);
+  };
+  return balanced(with(beside.below), with(beside.above));
+}
+
+namespace {
+
+using Channels = BalanceDerivatives::Channels;
+
+/// What a parameter's standard deviation does to the channels.
+struct Shift {
+  std::string parameter;
+  Channels channels;  ///< sd dr/dp
+};
+
+Channels times(double sd, Channels slope) {
+  for (double& s : slope) s *= sd;
+  return slope;
+}
+
+std::vector<Shift> shifts_of(const BalanceDerivatives& derivatives, const Scenario& scenario) {
+  std::vector<Shift> shifts;
+  for (std::size_t p = 0; p < soil_parameters.size(); ++p)
+    if (const double sd = ((*scenario.soil.semi_empirical).*soil_parameters[p].value).std_error; sd > 0.0)
+      shifts.push_back({soil_parameters[p].name, times(sd, derivatives.by(p, sd))});
+  for (const FittedError& error : scenario.errors)
+    if (const auto place = find_effect_parameter(error.parameter, scenario.effects); place && error.std_error > 0.0)
+      shifts.push_back({error.parameter, times(*error.std_error, derivatives.by(scenario.effects, place->effect,
+                                                                                place->parameter, *error.std_error))});
+  return shifts;
+}
+
+/// Place of each shift's parameter in the list; nothing where it errs by itself.
+std::vector<std::optional<std::size_t>> places_in(const std::vector<FittedError>& errors,
+                                                  const std::vector<Shift>& shifts) {
+  std::vector<std::optional<std::size_t>> places;
+  for (const Shift& shift : shifts) {
+    const auto found = std::ranges::find(errors, shift.parameter, &FittedError::parameter);
+    places.push_back(found == errors.end() ? std::nullopt : std::optional<std::size_t>(found - errors.begin()));
+  }
+  return places;
+}
+
+}  // namespace
 
 void add_standard_errors(TractionResult& result, const RolledWheel& balanced, const Scenario& scenario,
                          const EffectList& effects) {
   const SemiEmpiricalSoil& declared = *scenario.soil.semi_empirical;
-  const auto sd_of = [&](const SoilParameter& p) { return (declared.*p.value).std_error; };
-  if (std::none_of(soil_parameters.begin(), soil_parameters.end(), [&](const auto& p) { return sd_of(p) > 0.0; }))
-    return;
+  const bool exact_soil =
+      std::ranges::none_of(soil_parameters, [&](const auto& p) { return (declared.*p.value).std_error > 0.0; });
+  if (exact_soil && scenario.errors.empty()) return;
   const SoilValues soil = values_of(declared);
   const BalanceDerivatives derivatives(scenario.tire, soil, effects, scenario.bin, balanced.at, balanced.balance_angle);
-  std::array<double, traction_channels.size()> variance{};
-  for (std::size_t p = 0; p < soil_parameters.size(); ++p) {
-    const double sd = sd_of(soil_parameters[p]);
-    if (!(sd > 0.0)) continue;
-    const auto slope = derivatives.by(p, sd);
-    if (!std::all_of(slope.begin(), slope.end(), [&](double s) { return std::isfinite(sd * s * sd * s); })) {
-      result.without_error_of.emplace_back(soil_parameters[p].name);
-      continue;
-    }
-    for (std::size_t i = 0; i < variance.size(); ++i) variance[i] += sd * slope[i] * sd * slope[i];
+  std::vector<Shift> shifts = shifts_of(derivatives, scenario);
+  std::erase_if(shifts, [&](const Shift& shift) {
+    const bool exists = std::ranges::all_of(shift.channels, [](double s) { return std::isfinite(s * s); });
+    if (!exists) result.without_error_of.push_back(shift.parameter);
+    return !exists;
+  });
+  const auto places = places_in(scenario.errors, shifts);
+  Channels variance{};
+  for (std::size_t i = 0; i < variance.size(); ++i) {
+    for (const Shift& shift : shifts) variance[i] += shift.channels[i] * shift.channels[i];
+    for (std::size_t a = 0; a < shifts.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (places[a] && places[b])
+          variance[i] +=
+              2 * correlation(scenario.errors, *places[a], *places[b]) * shifts[a].channels[i] * shifts[b].channels[i];
+    (result.*traction_channels[i].predicted).std_error = std::sqrt(std::max(0.0, variance[i]));
   }
-  for (std::size_t i = 0; i < variance.size(); ++i)
-    (result.*traction_channels[i].predicted).std_error = std::sqrt(variance[i]);
 }
 
 }  // namespace soilbin::bekker_wong

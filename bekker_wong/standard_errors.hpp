@@ -1,9 +1,12 @@
-// Standard errors of a balanced wheel's channels, from the standard deviations of the soil's parameters.
+// Standard errors of a balanced wheel's channels, from the standard deviations of the soil's parameters, and of the
+// effects' where a fit found both.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "bekker_wong/contact_stages.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
@@ -29,6 +32,9 @@ class BalanceDerivatives {
 
   /// By soil_parameters[parameter]; `sd`, its standard deviation, sets the step [SI]. Not finite where there is none.
   Channels by(std::size_t parameter, double sd) const;
+  /// The same by a parameter of choices[effect], the effects of which `effects` was made.
+  Channels by(const std::vector<EffectChoice>& choices, std::size_t effect, const std::string& parameter,
+              double sd) const;
 
  private:
   /// What a wheel carries and shows at one value of what is varied.
@@ -39,7 +45,9 @@ class BalanceDerivatives {
   };
   using OnePoint = std::optional<Point>;
 
-  OnePoint point(const SoilValues& soil, double theta_1, double x) const;
+  OnePoint point(const SoilValues& soil, const EffectList& effects, double theta_1, double x) const;
+  /// Of the balanced channels, from points at the balanced theta_1 on both sides.
+  Channels balanced(const OnePoint& below, const OnePoint& above) const;
   /// Slopes over x, in place of values; one-sided where a point is missing, not a number without both.
   Point slopes(const OnePoint& below, const OnePoint& above) const;
 
@@ -54,8 +62,9 @@ class BalanceDerivatives {
   Point by_angle_;
 };
 
-/// Sets the channels' standard errors, the root of the sum of (sd dr/dp)^2 over the soil's parameters, and names in
-/// without_error_of each parameter whose derivative does not exist.
+/// Sets the channels' standard errors, to first order: the root of g'C g, with g the slopes over the parameters that
+/// have a standard deviation and C their covariance; that is diagonal but for what scenario.errors says of a fit.
+/// Names in without_error_of each parameter whose derivative does not exist.
 void add_standard_errors(TractionResult& result, const RolledWheel& balanced, const Scenario& scenario,
                          const EffectList& effects);
 

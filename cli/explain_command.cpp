@@ -54,8 +54,7 @@ int explain(const Question& inputs, bool json, const Session& session) {
   std::vector<compare::ModelAnswers> answered;
   for (const ModelChoice& choice : question.study.models) {
     if (choice.model != ModelKind::bekker_wong) compare::make_model(choice.model);
-    Scenario scenario = question.scenario;
-    scenario.effects = choice.effects;
+    const Scenario scenario = seen_by(choice, question.scenario);
     for (const OperatingCondition& at : question.study.conditions) {
       const Explanation explanation = compare::explain(scenario, at);
       if (json)

@@ -31,8 +31,7 @@ Scenario scenario_for(const PredictOptions& options, const compare::Campaign& ca
   if (fitted.study.models.size() != 1 || fitted.study.models.front().model != ModelKind::bekker_wong)
     throw InputError(options.model + ": a model file for predict holds one model, bekker_wong");
   scenario.soil = fitted.scenario.soil;
-  scenario.effects = fitted.study.models.front().effects;
-  return scenario;
+  return seen_by(fitted.study.models.front(), std::move(scenario));
 }
 
 int predict(const PredictOptions& options, const Session& session) {

@@ -256,7 +256,10 @@ Case Question::ask(const Workplace& place) const {
   Case question = case_name_.empty() ? from_flags(place) : find_study(place, case_name_);
   if (!case_name_.empty()) {
     override_tire(question.scenario.tire, place);
-    if (!soil_.empty()) question.scenario.soil = find_soil(soil_, place.library);
+    if (!soil_.empty()) {
+      question.scenario.soil = find_soil(soil_, place.library);
+      for (ModelChoice& choice : question.study.models) choice.errors.clear();  // of the soil that was fitted
+    }
     condition_.pick(question.study, question.scenario.tire);
   }
   errors_.apply(question.scenario.soil);

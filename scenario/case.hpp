@@ -31,9 +31,13 @@ constexpr std::array<Word<ModelKind>, 2> words_of(std::type_identity<ModelKind>)
 /// A model and the effects that it is to show.
 struct ModelChoice {
   ModelKind model = ModelKind::bekker_wong;
-  std::vector<EffectChoice> effects;  ///< forms and parameters resolved; none for the discrete element model
-  std::string label;                  ///< for tables and plots; by default made of the model and the effects' ids
+  std::vector<EffectChoice> effects;     ///< forms and parameters resolved; none for the discrete element model
+  std::string label;                     ///< for tables and plots; by default made of the model and the effects' ids
+  std::vector<FittedError> errors = {};  ///< where soil and effects come from a fit: how they err together
 };
+
+/// The scenario as one of the models is to see it.
+Scenario seen_by(const ModelChoice& choice, Scenario scenario);
 
 /// What is asked of the models.
 struct Study {

@@ -6,6 +6,7 @@
 #include "scenario/case.hpp"
 #include "scenario/condition_axes.hpp"
 #include "scenario/effect_choices.hpp"
+#include "scenario/fitted_errors.hpp"
 #include "scenario/mapping_reader.hpp"
 #include "scenario/named_parts.hpp"
 
@@ -38,13 +39,15 @@ ModelChoice read_model(const YamlNode& node, const Soil& soil, const EffectVocab
   if (!node.is_mapping()) {
     choice.model = read_choice<ModelKind>(node, reading);
   } else {
-    expect_keys(node, {"model", "effects", "label"}, reading);
+    expect_keys(node, {"model", "effects", "label", "errors"}, reading);
     choice.model =
         read_choice<ModelKind>(*value_of(node, "model", Need::required, "bekker_wong or dem", reading), reading);
     if (const YamlNode* list = value_of(node, "effects", Need::optional, "list of effects; [] for none", reading))
       choice.effects = read_effects(*list, effects, reading);
     if (const YamlNode* label = value_of(node, "label", Need::optional, "for tables and plots", reading))
       choice.label = read_text(*label, reading);
+    if (const YamlNode* list = value_of(node, "errors", Need::optional, "how fitted parameters err together", reading))
+      choice.errors = read_fitted_errors(*list, choice.effects, effects, reading);
   }
   check_soil_for(choice, soil, node, reading);
   return choice;
@@ -108,6 +111,12 @@ Drive read_drive(const YamlNode& node, const Soil& soil, const Library& library,
 bool asks(const Study& study, ModelKind kind) {
   return std::any_of(study.models.begin(), study.models.end(),
                      [&](const ModelChoice& choice) { return choice.model == kind; });
+}
+
+Scenario seen_by(const ModelChoice& choice, Scenario scenario) {
+  scenario.effects = choice.effects;
+  scenario.errors = choice.errors;
+  return scenario;
 }
 
 void label_models(std::vector<ModelChoice>& models) {

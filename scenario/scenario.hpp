@@ -30,12 +30,20 @@ struct EffectChoice {
   std::map<std::string, double> parameters;  ///< SI units
 };
 
+/// How well a fit knows a parameter, and how its error hangs together with those of others (fitted_errors.hpp).
+struct FittedError {
+  std::string parameter;             ///< of the soil, "k_phi", or of an effect, "slip_sinkage.a"
+  std::optional<double> std_error;   ///< of an effect's [SI]; a soil value's stands with the soil
+  std::vector<double> correlations;  ///< with each of those before it in the list; empty: with none
+};
+
 /// Everything but the operating condition: which tire, on which soil, seen through which effects.
 struct Scenario {
   Tire tire;
   Soil soil;
   std::optional<Bin> bin;
   std::vector<EffectChoice> effects;
+  std::vector<FittedError> errors = {};  ///< of soil and effects where a fit found them; others err independently
 };
 
 /// One way of answering: semi-empirical, discrete elements, or measurements.

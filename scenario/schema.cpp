@@ -88,11 +88,24 @@ ordered_json conditions_schema() {
   return {{"anyOf", ordered_json::array({grid, {{"type", "array"}, {"minItems", 1}, {"items", grid}}})}};
 }
 
+ordered_json fitted_error_schema() {
+  ordered_json error = empty_object_schema();
+  const ordered_json correlation = {{"type", "number"}, {"minimum", -1}, {"maximum", 1}};
+  error["properties"] = {{"parameter", text_schema("of the soil, or of an effect: slip_sinkage.a")},
+                         {"sd", text_schema("standard deviation, of an effect's parameter")},
+                         {"correlations", {{"type", "array"}, {"items", correlation}}}};
+  error["required"] = {"parameter"};
+  return error;
+}
+
 ordered_json models_schema(const EffectVocabulary& effects) {
   const ordered_json name = words_schema({"bekker_wong", "dem"}, "which model");
   ordered_json object = empty_object_schema();
   object["properties"] = {
-      {"model", name}, {"effects", effects_schema(effects)}, {"label", text_schema("for tables and plots")}};
+      {"model", name},
+      {"effects", effects_schema(effects)},
+      {"label", text_schema("for tables and plots")},
+      {"errors", {{"type", "array"}, {"items", fitted_error_schema()}, {"description", "of a fit"}}}};
   object["required"] = {"model"};
   return {{"type", "array"}, {"minItems", 1}, {"items", {{"anyOf", ordered_json::array({name, object})}}}};
 }

@@ -51,7 +51,7 @@ class ZeroDrift final : public Effect {
 
 /// When the instruments were zeroed and the soil was tested is seldom known: before the first run, or in between.
 EffectParameter reference_run() {
-  return {"run_ref", "-", 1.0, -1e6, 1e6, "run in which all is as declared", "run", 1.0};
+  return {"run_ref", "-", 1.0, -1e9, 1e9, "run in which all is as declared", "run", 1.0};
 }
 
 template <Scale scale, Clock clock>

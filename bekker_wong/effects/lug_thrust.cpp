@@ -184,7 +184,7 @@ std::vector<EffectForm> lug_thrust_forms() {
        .form = "level_blade",
        .equation =
            "F = b (gamma h^2 N_phi/2 + gamma d h N_phi + 2 c h sqrt(N_phi)) a lug at the depth d, straight back, "
-           "times 1 - exp(-|s| x/K), x = r (theta_1 - theta), h = a h_lug",
+           "times 1 - exp(-|s_t| x/K), s_t = s, braked s/(1 + s), x = r (theta_1 - theta), h = a h_lug",
        .source = "after Wong, Theory of Ground Vehicles, ch. 2 (passive earth pressure on a grouser), taken level",
        .parameters = {{"a", "-", 0.5, 0.0, 10.0, meaning}},
        .presumes = of_faces,

@@ -177,7 +177,8 @@ std::vector<EffectForm> sidewall_bulldozing_forms() {
        .make = maker<SideWall<GroundPressure>>()},
       {.id = id,
        .form = "side_area",
-       .equation = "F = a A_side (W/A) sin(psi_s), tan(psi_s) = v_y/(r w)",
+       .equation = "F = a A_side (W/A) (sin(psi_s) + 1 - exp(-D/R)), tan(psi_s) = v_y/(r w), D = W cos(alpha) "
+                   "sin(beta_t), R = A_side W/A",
        .source = "stated: a share of the mean ground pressure on the wall's buried area",
        .parameters = {{"a", "-", 0.5, 0.0, 10.0, "side pressure over mean ground pressure"}},
        .make = maker<SideArea>()},

@@ -1,7 +1,9 @@
 #include "compare/attribution/detection.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -25,15 +27,38 @@ LackOfFit lack_of_fit(const FittedModel& model) {
   return test;
 }
 
+namespace {
+
+/// h^2/12 of each channel, the variance of what is read to steps of h, with h the smallest step between two of its
+/// values; 0 where all are alike. Re-runs that read alike are no re-runs without noise.
+std::array<double, channel_count> reading_variance(const Observations& observations) {
+  std::array<std::vector<double>, channel_count> values;
+  for (const Cell& cell : observations.cells) values[cell.channel].push_back(cell.value);
+  std::array<double, channel_count> variance{};
+  for (int c = 0; c < channel_count; ++c) {
+    std::ranges::sort(values[c]);
+    double step = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < values[c].size(); ++i)
+      if (const double gap = values[c][i] - values[c][i - 1]; gap > 0.0) step = std::min(step, gap);
+    if (std::isfinite(step)) variance[c] = step * step / 12;
+  }
+  return variance;
+}
+
+}  // namespace
+
 RerunTest rerun_test(const FittedModel& model) {
   const Observations& observations = model.data().observations;
   std::vector<SetpointSquares> channels(channel_count, SetpointSquares(observations.conditions));
+  const std::array<double, channel_count> read_to = reading_variance(observations);
+  std::array<double, channel_count> rounding{};  // summed over the values, in the noise's unit
   for (std::size_t i = 0; i < observations.cells.size(); ++i) {
     const Cell& cell = observations.cells[i];
     const double f = model.fit().prediction[i];
     const auto c = cell.channel;
-    channels[c].add(observations.condition[cell.row],
-                    (cell.value - f) / model.data().noise.channels[c].sd(f, cell.spread));
+    const double sd = model.data().noise.channels[c].sd(f, cell.spread);
+    channels[c].add(observations.condition[cell.row], (cell.value - f) / sd);
+    rounding[c] += read_to[c] / (sd * sd);
   }
   double setpoints = 0.0;
   for (const SetpointSquares& s : channels) setpoints += s.setpoints();
@@ -41,11 +66,13 @@ RerunTest rerun_test(const FittedModel& model) {
   RerunTest test;
   int tested = 0;
   double least = 1.0;
-  for (const SetpointSquares& s : channels) {
+  for (int c = 0; c < channel_count; ++c) {
+    const SetpointSquares& s = channels[c];
     const double freedom = s.setpoints() * (1 - taken) - 1, reruns = s.reruns();
-    if (reruns < thresholds::min_reruns || freedom < 1.0) continue;
+    const double pure = s.within() / reruns + rounding[c] / (s.setpoints() + reruns);
+    if (reruns < thresholds::min_reruns || freedom < 1.0 || !(pure > 0.0)) continue;
     ++tested;
-    const double pure = s.within() / reruns, between = s.between() - s.largest();
+    const double between = s.between() - s.largest();
     test.excess += std::max(0.0, between - freedom * pure);
     least = std::min(least, gsl::f_tail(between / freedom / pure, freedom, reruns));
   }

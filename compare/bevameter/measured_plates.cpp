@@ -29,7 +29,8 @@ PlateCurve within(const PlateCurve& curve, const PressureWindow& window) {
 std::vector<PlateCurve> half_of(const std::vector<PlateCurve>& curves, bool lower) {
   std::vector<PlateCurve> halves;
   for (const PlateCurve& curve : curves) {
-    const double middle = 0.5 * *std::ranges::max_element(curve.pressure);
+    const auto [least, most] = std::ranges::minmax(curve.pressure);
+    const double middle = 0.5 * (least + most);
     PlateCurve half = within(
         curve, lower ? PressureWindow{0.0, middle} : PressureWindow{middle, std::numeric_limits<double>::infinity()});
     if (half.pressure.size() >= 2) halves.push_back(std::move(half));

@@ -66,6 +66,24 @@ SemiEmpiricalSoil FittedModel::soil() const {
   return soil;
 }
 
+std::vector<FittedError> FittedModel::errors() const {
+  const Index free = fit_.columns.cols();
+  const MatrixXd covariance = information(ridge_of_errors).solve(MatrixXd::Identity(free, free));
+  const VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const std::vector<EffectChoice> effects = predictor_.choices(fit_.theta);
+  std::vector<FittedError> errors;
+  for (Index i = 0; i < free; ++i) {
+    const int p = fit_.column_parameter[i];
+    FittedError error;
+    error.parameter = predictor_.name_among(effects, p);
+    if (p >= predictor_.soil_parameters()) error.std_error = sd[i] * predictor_.parameters()[p].scale;
+    for (Index k = 0; k < i; ++k)
+      error.correlations.push_back(sd[i] > 0 && sd[k] > 0 ? covariance(i, k) / (sd[i] * sd[k]) : 0.0);
+    errors.push_back(std::move(error));
+  }
+  return errors;
+}
+
 std::optional<Forecast> FittedModel::forecast(const Observations& runs, BalanceMemory memory) const {
   const WheelPredictor predictor = predictor_.over(runs);
   Forecast forecast;

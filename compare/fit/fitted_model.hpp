@@ -68,6 +68,9 @@ class FittedModel {
   Eigen::VectorXd contribution(int term) const;
   /// The campaign's soil with the fitted values and their standard errors.
   SemiEmpiricalSoil soil() const;
+  /// The parameters that no bound holds, and how they err together; effects named as among the campaign's and the
+  /// terms', in this order.
+  std::vector<FittedError> errors() const;
 
   /// Predictions of other runs; nothing where one has no balance (memory.gives_way: is carried by less than a fifth).
   std::optional<Forecast> forecast(const Observations& runs, BalanceMemory memory = {}) const;

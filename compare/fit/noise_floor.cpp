@@ -212,6 +212,13 @@ double typical_noise(const VectorXd& residual, const VectorXd& prediction) {
   return std::max(spread > range ? spread : thresholds::typical_noise_share * range, 1e-12);
 }
 
+/// Of a channel whose one or two values estimate nothing, on no degree of freedom.
+ChannelNoise guessed_noise(const VectorXd& residual, const VectorXd& prediction) {
+  if (residual.size() == 0) return {};
+  const double size = thresholds::first_noise_share * prediction.cwiseAbs().maxCoeff();
+  return {.measured = true, .floor = std::max({residual.cwiseAbs().maxCoeff(), size, 1e-12})};
+}
+
 /// What the cells of one channel are made of, and the columns that may explain them.
 struct ChannelData {
   VectorXd e, f;    ///< residuals about the declared soil's prediction, and the predictions
@@ -335,7 +342,10 @@ NoiseEstimate estimate_noise(const Observations& observations, const NoiseData& 
   MatrixXd standard = MatrixXd::Constant(rows, channel_count, not_a_number);
   for (int channel = 0; channel < channel_count; ++channel) {
     const ChannelCells cells = gather(observations, channel);
-    if (cells.cell.size() < 3) continue;
+    if (cells.cell.size() < 3) {
+      estimate.floor.channels[channel] = guessed_noise(data.residual(cells.cell), data.prediction(cells.cell));
+      continue;
+    }
     const ChannelFit fit = fit_channel(observations, data, cells, basis);
     estimate.floor.channels[channel] = fit.noise;
     for (std::size_t i = 0; i < cells.cell.size(); ++i) {

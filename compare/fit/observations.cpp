@@ -82,7 +82,8 @@ std::vector<Covariate> covariates(const Observations& observations) {
     for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = view.get(observations.rows[i]);
     if (values.size() == 0 || !values.allFinite()) continue;
     const double spread = values.maxCoeff() - values.minCoeff();
-    const double scale = values.cwiseAbs().maxCoeff();
+    const bool counted = view.name == "run" || view.name == "position";  // from an origin that says nothing
+    const double scale = counted ? 0.0 : values.cwiseAbs().maxCoeff();
     if (spread > 1e-3 * scale) varying.push_back({std::string(view.name), std::move(values)});
   }
   return varying;

@@ -9,6 +9,7 @@
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/fitted_errors.hpp"
 #include "scenario/soil_parameters.hpp"
 #include "scenario/unit.hpp"
 
@@ -212,6 +213,14 @@ std::vector<EffectChoice> WheelPredictor::choices(const Eigen::VectorXd& theta) 
     list.push_back(choice);
   }
   return list;
+}
+
+std::string WheelPredictor::name_among(const std::vector<EffectChoice>& choices, int parameter) const {
+  if (parameter < soil_parameters()) return parameters_[parameter].name;
+  const auto after = std::ranges::upper_bound(first_of_term_, parameter);
+  const std::size_t t = after - first_of_term_.begin() - 1;
+  const int i = terms_[t].free[parameter - first_of_term_[t]];
+  return effect_parameter_name(choices, campaign_->effects.size() + t, terms_[t].form->parameters[i].name);
 }
 
 RollingWheel WheelPredictor::wheel_at(const Eigen::VectorXd& theta) const {

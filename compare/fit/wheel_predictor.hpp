@@ -127,8 +127,10 @@ class WheelPredictor {
   /// One condition's four channels at theta. Throws NoSolution.
   bekker_wong::Reading reading(const Eigen::VectorXd& theta, const OperatingCondition& at) const;
 
-  /// The choices that theta stands for, for a resolved model.
+  /// The choices that theta stands for, for a resolved model: the campaign's effects, then the terms.
   std::vector<EffectChoice> choices(const Eigen::VectorXd& theta) const;
+  /// What a file calls a parameter where these choices stand (scenario/fitted_errors.hpp).
+  std::string name_among(const std::vector<EffectChoice>& choices, int parameter) const;
   bekker_wong::SoilValues soil(const Eigen::VectorXd& theta) const;
 
  private:

@@ -45,6 +45,8 @@ Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
   model.scenario.tire.name = campaign.name + "-wheel";
   model.scenario.soil.name = campaign.name + "-soil";
   model.scenario.soil.semi_empirical = answer.soil;
+  std::erase_if(model.scenario.soil.semi_empirical->sources,  // a value that was fitted is no usual one any more
+                [&](const auto& from) { return answer.judgement && from.second == usual_stress_angle_source; });
   model.study.name = model.name;
   ModelChoice choice;
   choice.effects = campaign.effects;
@@ -54,6 +56,7 @@ Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
   for (const std::string& sentence : bekker_wong::presumptions(choice.effects, campaign.wheel))
     model.description += " " + sentence;
   choice.label = "fitted";
+  if (answer.judgement) choice.errors = answer.model().errors();
   model.study.models = {choice};
   model.study.conditions = asked_of(campaign, choice.effects);
   return model;

@@ -48,8 +48,7 @@ std::vector<ModelAnswers> run_study(const Case& question, const Progress& progre
   for (const ModelChoice& choice : question.study.models) models.push_back(make(choice.model));
   std::vector<ModelAnswers> study;
   for (std::size_t i = 0; i < models.size(); ++i) {
-    Scenario scenario = question.scenario;
-    scenario.effects = question.study.models[i].effects;
+    const Scenario scenario = seen_by(question.study.models[i], question.scenario);
     const auto part = [&](std::size_t done, std::size_t) {
       if (progress) progress(i * conditions + done, models.size() * conditions);
     };

@@ -276,5 +276,37 @@ TEST(StandardErrors, TellWhichOneIsMissing) {
   EXPECT_TRUE(std::isfinite(result.drawbar_pull.std_error));
 }
 
+// (k_c/b + k_phi) z^n: what k_c puts on, a k_phi that errs the other way takes off.
+TEST(StandardErrors, OfAFitCancelWhereTheirParametersDo) {
+  Scenario scenario = sand_scenario();
+  for (const SoilParameter& p : soil_parameters) (soil_of(scenario).*p.value).std_error = 0;
+  const double sd = 100e3;
+  soil_of(scenario).k_phi.std_error = sd, soil_of(scenario).k_c.std_error = sd * scenario.tire.width;
+  const TractionResult apart = BekkerWong().evaluate(scenario, bed::driven());
+  scenario.errors = {{"k_c", {}, {}}, {"k_phi", {}, {-1.0}}};
+  const TractionResult together = BekkerWong().evaluate(scenario, bed::driven());
+  EXPECT_GT(apart.sinkage.std_error, 1e-4);
+  EXPECT_LT(together.sinkage.std_error, 1e-5 * apart.sinkage.std_error);
+  EXPECT_LT(together.drawbar_pull.std_error, 1e-5 * apart.drawbar_pull.std_error);
+  scenario.errors.back().correlations = {1.0};  // k_c/b and k_phi move the pressure alike: the sum in place of the root
+  const TractionResult alike = BekkerWong().evaluate(scenario, bed::driven());
+  EXPECT_NEAR(alike.sinkage.std_error, std::sqrt(2.0) * apart.sinkage.std_error, 1e-6 * alike.sinkage.std_error);
+}
+
+TEST(StandardErrors, OfAFitHoldTheEffectsParametersToo) {
+  Scenario scenario = sand_scenario();
+  for (const SoilParameter& p : soil_parameters) (soil_of(scenario).*p.value).std_error = 0;
+  const OperatingCondition at = bed::driven(800, 0.3);
+  const double sd = 0.05, a = 0.6;
+  const auto sinkage = [&](double amplitude) {
+    scenario.effects = {{"slip_sinkage", "lyasko", {{"a", amplitude}}}};
+    return BekkerWong().evaluate(scenario, at);
+  };
+  const double h = 1e-3, slope = (sinkage(a + h).sinkage.value - sinkage(a - h).sinkage.value) / (2 * h);
+  EXPECT_EQ(sinkage(a).sinkage.std_error, 0.0);
+  scenario.errors = {{"slip_sinkage.a", sd, {}}};
+  EXPECT_NEAR(sinkage(a).sinkage.std_error, std::abs(slope) * sd, 1e-4 * std::abs(slope) * sd);
+}
+
 }  // namespace
 }  // namespace soilbin::bekker_wong

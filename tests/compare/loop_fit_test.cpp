@@ -12,6 +12,8 @@
 #include "compare/fit/bounded_fit.hpp"
 #include "compare/fit/descent.hpp"
 #include "compare/loop_fixture.hpp"
+#include "scenario/case.hpp"
+#include "scenario/traction_channels.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -262,6 +264,49 @@ TEST(Fit, TellsTheErrorOfWhatABoundHolds) {
   all << fit.columns, column, Eigen::RowVectorXd::Zero(fit.columns.cols()), 1.0 / 300;
   const double variance = (all.transpose() * all).inverse().diagonal().tail(1)[0];
   EXPECT_NEAR(base->held_error(cohesion), std::sqrt(variance), 1e-6 * std::sqrt(variance));
+}
+
+// var(f) = J C J': what the fit says of its prediction, the file that it writes says too. Taken one by one the values'
+// standard deviations would say far more, for n, k_c and k_phi err together.
+TEST(FittedErrors, AreThoseOfTheFitWhenReadFromItsFile) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {{"slip_sinkage", "lyasko", {{"a", 0.8}}}}, fine_noise, 11);
+  const FittedModel base = fit_base(campaign, observe(campaign), {});
+  const Term term = make_term(bekker_wong::find_form({"slip_sinkage", "lyasko", {}}), base.data().observations, false);
+  const WheelPredictor wider = base.predictor().with({term});
+  VectorXd start = wider.start();
+  start.head(base.fit().theta.size()) = base.fit().theta;
+  const auto model = fitted(base.shared_data(), wider, start);
+  ASSERT_TRUE(model);
+  Case written;
+  written.name = "fitted";
+  written.scenario = scenario_of(campaign);
+  written.scenario.effects.clear();
+  written.scenario.soil.semi_empirical = model->soil();
+  written.study.models = {
+      {ModelKind::bekker_wong, model->predictor().choices(model->fit().theta), "fitted", model->errors()}};
+  written.study.conditions = {campaign.runs[3].at, campaign.runs.back().at};
+  const bekker_wong::CatalogueVocabulary words;
+  const Case read = parse_case(make_source_text(write_case(written, words), "fitted.yaml"), Library(), words);
+  const Scenario scenario = seen_by(read.study.models.front(), read.scenario);
+  ASSERT_EQ(scenario.errors.back().parameter, "slip_sinkage.a");
+  const Observations& runs = base.data().observations;
+  const auto forecast = model->forecast(runs);
+  ASSERT_TRUE(forecast);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < runs.cells.size(); ++i) {
+    const Cell& cell = runs.cells[i];
+    const OperatingCondition& at = runs.rows[static_cast<std::size_t>(cell.row)];
+    const TractionResult result = bekker_wong::BekkerWong().evaluate(scenario, at);
+    const double error = (result.*traction_channels[static_cast<std::size_t>(cell.channel)].predicted).std_error;
+    const double expected = std::sqrt(forecast->variance(static_cast<Eigen::Index>(i)));
+    EXPECT_NEAR(error, expected, 0.01 * expected) << "slip " << at.slip << ", channel " << cell.channel;
+    Scenario apart = scenario;
+    apart.errors.clear();
+    const TractionResult independent = bekker_wong::BekkerWong().evaluate(apart, at);
+    if (cell.channel == sinkage) largest = std::max(largest, independent.sinkage.std_error / error);
+  }
+  EXPECT_GT(largest, 3.0);
 }
 
 }  // namespace

@@ -332,8 +332,7 @@ TEST(SlowLoop, ResolvedModelReproducesTheFit) {
   ASSERT_EQ(answer.verdict, Verdict::effect_found) << answer.reason;
   const bekker_wong::CatalogueVocabulary words;
   const Case model = parse_case({"model.yaml", write_case(resolved_model(campaign, answer), words)}, Library{}, words);
-  Scenario scenario = model.scenario;
-  scenario.effects = model.study.models.front().effects;
+  const Scenario scenario = seen_by(model.study.models.front(), model.scenario);
   const Observations& observations = answer.found().base.data().observations;
   const CandidateModel& best = answer.found().best();
   for (std::size_t i = 0; i < observations.cells.size(); i += 7) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "scenario/case.hpp"
+#include "scenario/fitted_errors.hpp"
 #include "scenario/unit.hpp"
 #include "tests/scenario/fake_vocabulary.hpp"
 #include "tests/scenario/refusal.hpp"
@@ -191,6 +192,38 @@ TEST(CaseReader, EffectsAreCheckedAgainstTheVocabulary) {
   EXPECT_THAT(refused(with("form: blade", "form: blades")), HasSubstr("did you mean 'blade'?"));
   EXPECT_THAT(refused(with("{angle:", "{angel:")), HasSubstr("unknown key 'angel', did you mean 'angle'?"));
   EXPECT_THAT(refused(with("- slip_sinkage", "- lug_thrust")), HasSubstr("effect 'lug_thrust' is listed twice"));
+}
+
+/// The good case with errors of a fit under its second model.
+std::string fitted(const std::string& errors) {
+  return with("      label: dug in\n", "      label: dug in\n      errors:\n" + errors);
+}
+
+TEST(CaseReader, ErrorsOfAFitNameWhatErrsTogether) {
+  const std::string text = fitted(
+      "        - parameter: k_phi\n"
+      "        - {parameter: lug_thrust.angle, sd: 3 deg, correlations: [-0.9]}\n");
+  const Case c = parse(text);
+  const std::vector<FittedError>& errors = c.study.models[1].errors;
+  ASSERT_EQ(errors.size(), 2U);
+  EXPECT_FALSE(errors[0].std_error) << "it stands with the soil";
+  EXPECT_DOUBLE_EQ(*errors[1].std_error, 3 * degree);
+  EXPECT_EQ(correlation(errors, 0, 1), -0.9);
+  const std::string written = write_case(c, FakeVocabulary());
+  EXPECT_EQ(write_case(parse(written), FakeVocabulary()), written);
+  EXPECT_THAT(written, HasSubstr("correlations: [-0.9]"));
+}
+
+TEST(CaseReader, ErrorsOfAFitAreChecked) {
+  EXPECT_THAT(refused(fitted("        - parameter: k_pi\n")), HasSubstr("did you mean 'k_phi'"));
+  EXPECT_THAT(refused(fitted("        - parameter: lug_thrust.angle\n")), HasSubstr("has no sd"));
+  EXPECT_THAT(refused(fitted("        - {parameter: k_phi, sd: 1}\n")), HasSubstr("stands with the soil"));
+  EXPECT_THAT(refused(fitted("        - parameter: k_phi\n        - parameter: k_phi\n")), HasSubstr("listed twice"));
+  const std::string two = "        - parameter: k_phi\n        - {parameter: k_c, correlations: ";
+  EXPECT_THAT(refused(fitted(two + "[]}\n")), HasSubstr("expected a list of 1 correlations"));
+  EXPECT_THAT(refused(fitted(two + "[1.2]}\n")), HasSubstr("1.2"));
+  EXPECT_THAT(refused(fitted(two + "[0.9]}\n        - {parameter: exponent, correlations: [0.9, -0.9]}\n")),
+              HasSubstr("contradict each other"));
 }
 
 TEST(CaseReader, AModelNeedsItsSectionOfTheSoil) {
