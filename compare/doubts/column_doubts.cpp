@@ -4,70 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <set>
 #include <utility>
 
 #include "compare/measured/channels.hpp"
-#include "compare/sweep/varying.hpp"
 #include "scenario/quantity.hpp"
 
 namespace soilbin::compare {
 namespace {
-
-using Warnings = std::vector<std::string>;
-
-/// Correlation within groups of two columns; 0 where one of them doesn't vary.
-double correlation(const std::vector<double>& x, const std::vector<double>& y, const std::vector<std::size_t>& group) {
-  const std::size_t groups = group.empty() ? 0 : *std::max_element(group.begin(), group.end()) + 1;
-  std::vector<double> n(groups), sum_x(groups), sum_y(groups);
-  for (std::size_t i = 0; i < x.size(); ++i) n[group[i]] += 1, sum_x[group[i]] += x[i], sum_y[group[i]] += y[i];
-  double xx = 0, xy = 0, yy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const std::size_t g = group[i];
-    const double dx = x[i] - sum_x[g] / n[g], dy = y[i] - sum_y[g] / n[g];
-    xx += dx * dx, xy += dx * dy, yy += dy * dy;
-  }
-  return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0.0;
-}
-
-/// A pull whose sign is flipped falls along each curve against slip while the torque rises, and lies nearer to what the
-/// model says once it is turned round.
-void add_flipped_pull(const Campaign& campaign, const std::vector<Answer>& answers, Warnings& warnings) {
-  constexpr std::size_t fewest = 6;
-  constexpr double clearly = 0.7;
-  std::vector<OperatingCondition> conditions;
-  for (const Run& run : campaign.runs) conditions.push_back(run.at);
-  const std::vector<std::size_t> curve_of = curves_against_slip(conditions, Spread::measured).curve_of;
-  std::vector<double> slip, pull, torque;
-  std::vector<std::size_t> curve;
-  for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
-    const Run& run = campaign.runs[i];
-    if (!run.drawbar_pull || !run.torque) continue;
-    slip.push_back(run.at.slip), pull.push_back(*run.drawbar_pull), torque.push_back(*run.torque);
-    curve.push_back(curve_of[i]);
-  }
-  if (slip.size() < fewest ||
-      !(correlation(slip, pull, curve) < -clearly && correlation(slip, torque, curve) > clearly))
-    return;
-  double as_given = 0, turned_round = 0;
-  for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
-    const auto& measured = campaign.runs[i].drawbar_pull;
-    const auto& predicted = answers[i].result;
-    if (!measured || !predicted) continue;
-    as_given += std::pow(*measured - predicted->drawbar_pull.value, 2);
-    turned_round += std::pow(*measured + predicted->drawbar_pull.value, 2);
-  }
-  if (turned_round < as_given)
-    warnings.emplace_back(
-        "the drawbar pull falls as slip rises while the torque rises: is its sign flipped? Positive pulls forward");
-}
-
-double root_mean_square(const std::vector<double>& values) {
-  const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
-  return std::sqrt(squares / static_cast<double>(values.size()));
-}
-
-constexpr std::size_t fewest_to_compare = 3;
 
 /// The column of a quantity; where there is no file, named as the quantity.
 DataColumn column_of(const Campaign& campaign, std::string_view quantity) {
@@ -81,6 +25,92 @@ std::string place_of(const DataColumn& column) {
   return at.line > 0 ? fmt::format("{}:{}:{}: ", at.file, at.line, at.column) : "";
 }
 
+/// The SI value of a 1 in a column.
+double si_of_one(const DataColumn& column) {
+  const Unit unit = parse_unit(column.unit);
+  return unit.numerator / unit.denominator * std::pow(10.0, unit.decimal);
+}
+
+/// What may have been done to one column or two, undone.
+struct Correction {
+  std::vector<std::string_view> columns;  ///< the quantities
+  std::function<void(Run&)> undo;
+  std::string warning;
+  bool by_power_of_ten = false;
+};
+
+/// "runs.csv:1:5: column 'My' looks 10 times too large: with its values divided by 10 the prediction fits far better;
+/// HINT", at the header.
+std::string looks(const DataColumn& column, const std::string& what, const std::string& with, const std::string& hint) {
+  return fmt::format("{}column '{}' looks {}: with {} the prediction fits far better; {}", place_of(column),
+                     clipped(column.header), what, with, hint);
+}
+
+/// "look at its unit, 'kN m', in its header or under 'columns:' in campaign.yaml"
+std::string look_at_unit(const DataColumn& column) {
+  const bool in_a_file = column.at.line > 0, has_unit = !column.unit.empty() && column.unit != "-";
+  return "look at its unit" + (has_unit ? fmt::format(", '{}'", column.unit) : "") +
+         (in_a_file ? ", in its header or under 'columns:' in campaign.yaml" : "");
+}
+
+/// Signs as docs/reference/conventions.md has them. That of the sinkage shows by itself (row_doubts.cpp).
+void add_flipped_signs(const Campaign& campaign, std::vector<Correction>& all) {
+  const auto add = [&](std::string_view quantity, const char* positive, std::function<void(Run&)> undo) {
+    all.push_back({{quantity},
+                   std::move(undo),
+                   looks(column_of(campaign, quantity), "as if its sign were flipped", "the other sign",
+                         fmt::format("change the sign in the file if so: positive {}", positive))});
+  };
+  const auto channel = [&](std::string_view quantity, std::optional<double> Run::*measured, const char* positive) {
+    add(quantity, positive, [measured](Run& run) {
+      if (run.*measured) *(run.*measured) *= -1;
+    });
+  };
+  channel("drawbar_pull", &Run::drawbar_pull, "pulls forward");
+  channel("torque", &Run::torque, "drives the wheel");
+  channel("lateral_force", &Run::lateral_force, "points to the left of travel");
+  add("slip", "is a driven wheel's slip", [](Run& run) { run.at.slip *= -1; });
+}
+
+void add_powers_of_ten(const Campaign& campaign, std::vector<Correction>& all) {
+  for (const ChannelView& view : channel_views) {
+    const DataColumn column = column_of(campaign, view.name);
+    for (const double power : {10.0, 100.0, 1000.0})
+      for (const bool large : {true, false})
+        all.push_back(
+            {{view.name},
+             [measured = view.measured, times = large ? 1 / power : power](Run& run) {
+               if (run.*measured) *(run.*measured) *= times;
+             },
+             looks(column, fmt::format("{:g} times too {}", power, large ? "large" : "small"),
+                   fmt::format("its values {} by {:g}", large ? "divided" : "multiplied", power), look_at_unit(column)),
+             true});
+  }
+}
+
+/// Shares under a heading that says %, and the other way round.
+void add_slips_in_another_unit(const Campaign& campaign, std::vector<Correction>& all) {
+  const DataColumn column = column_of(campaign, "slip");
+  for (const auto& [times, what, with] :
+       {std::tuple{100.0, "as if it held shares where % are declared", "slips 100 times as large"},
+        std::tuple{0.01, "as if it held % where shares are declared", "slips a hundredth as large"}})
+    all.push_back({{"slip"},
+                   [factor = times](Run& run) { run.at.slip *= factor; },
+                   looks(column, what, with, look_at_unit(column))});
+}
+
+/// Loads in kilograms, pounds or kilonewtons under a heading that says newtons, and the like.
+void add_loads_in_another_unit(const Campaign& campaign, std::vector<Correction>& all) {
+  const DataColumn column = column_of(campaign, "load");
+  for (const auto& [unit, one] : {std::pair{"kg", "1 kgf"}, {"lbf", "1 lbf"}, {"kN", "1 kN"}}) {
+    const double newtons = read_quantity(one, {"N", above_zero});
+    all.push_back({{"load"},
+                   [newtons](Run& run) { run.at.load *= newtons; },
+                   looks(column, fmt::format("as if it were in {}", unit),
+                         fmt::format("loads {:.4g} times as large", newtons), look_at_unit(column))});
+  }
+}
+
 /// "runs.csv:1:34: the columns 'drawbar_pull_N' and 'torque_Nm' look swapped: ...", at the second of them.
 std::string swapped(const Campaign& campaign, std::string_view one, std::string_view other, const char* why) {
   DataColumn first = column_of(campaign, one), second = column_of(campaign, other);
@@ -90,134 +120,183 @@ std::string swapped(const Campaign& campaign, std::string_view one, std::string_
                      campaign.columns.empty() ? "" : ", and at 'columns:' in campaign.yaml");
 }
 
-/// How much nearer two channels lie to what the model says of the other: the product of their two errors that way over
-/// the product as it is given; 1 where few rows say anything.
-double error_if_swapped(const Campaign& campaign, const std::vector<Answer>& answers, const ChannelView& one,
-                        const ChannelView& other) {
-  std::vector<double> as_given[2], exchanged[2];
-  for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
-    const auto &a = campaign.runs[i].*one.measured, &b = campaign.runs[i].*other.measured;
-    const auto& predicted = answers[i].result;
-    if (!a || !b || !predicted) continue;
-    const double says_a = ((*predicted).*one.predicted).value, says_b = ((*predicted).*other.predicted).value;
-    as_given[0].push_back(*a - says_a), as_given[1].push_back(*b - says_b);
-    exchanged[0].push_back(*a - says_b), exchanged[1].push_back(*b - says_a);
-  }
-  if (as_given[0].size() < fewest_to_compare) return 1.0;
-  const auto product = [](const std::vector<double>(&errors)[2]) {
-    return root_mean_square(errors[0]) * root_mean_square(errors[1]);
-  };
-  return product(as_given) > 0.0 ? product(exchanged) / product(as_given) : 1.0;
-}
-
-/// The two channels that look most like each other's. Their error if swapped is below this in no campaign known to be
-/// in order (0.89 and above in 242); exchanged, nine of ten fall below it. Where three are mixed up, one pair at a
-/// time.
-void add_swapped_channels(const Campaign& campaign, const std::vector<Answer>& answers, Warnings& warnings) {
-  constexpr double clearly = 0.25;
-  const auto& [pull, torque, sinkage, side_force] = channel_views;
-  const std::pair<const ChannelView*, const ChannelView*> pairs[] = {
-      {&pull, &torque}, {&pull, &side_force}, {&torque, &side_force}};
-  double least = clearly;
-  const std::pair<const ChannelView*, const ChannelView*>* worst = nullptr;
-  for (const auto& pair : pairs)
-    if (const double error = error_if_swapped(campaign, answers, *pair.first, *pair.second); error < least)
-      least = error, worst = &pair;
-  if (worst)
-    warnings.push_back(
-        swapped(campaign, worst->first->name, worst->second->name, "each fits the prediction of the other far better"));
-}
-
-/// Load and pull exchanged, the model says the pull of each run far better. No load is negative, so only a campaign in
-/// which every pull is positive can be meant. 0.56 and above in campaigns known to be in order.
-void add_swapped_load(const Campaign& campaign, const std::vector<Answer>& answers, const AskAgain& ask,
-                      Warnings& warnings) {
-  constexpr double clearly = 1.0 / 3;
-  std::vector<double> load, as_given, exchanged, pull_given, load_given;
-  std::vector<OperatingCondition> other_way;
-  for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
-    const Run& run = campaign.runs[i];
-    if (!run.drawbar_pull) continue;
-    if (!(*run.drawbar_pull > 0.0)) return;
-    load.push_back(run.at.load);
-    other_way.push_back(run.at);
-    other_way.back().load = *run.drawbar_pull;
-    if (!answers[i].result) continue;
-    as_given.push_back(*run.drawbar_pull - answers[i].result->drawbar_pull.value);
-    pull_given.push_back(*run.drawbar_pull);
-  }
-  if (as_given.size() < fewest_to_compare) return;
-  const std::vector<Answer> again = ask(other_way);
-  for (std::size_t i = 0; i < again.size(); ++i)
-    if (again[i].result)
-      exchanged.push_back(load[i] - again[i].result->drawbar_pull.value), load_given.push_back(load[i]);
-  if (exchanged.size() < fewest_to_compare || 2 * exchanged.size() < again.size()) return;
-  if (root_mean_square(exchanged) / root_mean_square(load_given) <
-      clearly * root_mean_square(as_given) / root_mean_square(pull_given))
-    warnings.push_back(swapped(campaign, "load", "drawbar_pull", "exchanged, they fit the prediction far better"));
-}
-
-/// How much smaller the model's errors are where each load is this many times what the campaign says: the ratio of the
-/// root mean square errors, the geometric mean over the channels that are measured. 1 where few rows say anything. Of a
-/// long campaign only so many rows, evenly, are asked.
-double error_with_loads(double times, const Campaign& campaign, const std::vector<Answer>& answers,
-                        const AskAgain& ask) {
-  constexpr std::size_t most = 100;
-  const std::size_t every = 1 + (campaign.runs.size() - 1) / most;
-  std::vector<OperatingCondition> heavier;
-  for (std::size_t i = 0; i < campaign.runs.size(); i += every) {
-    heavier.push_back(campaign.runs[i].at);
-    heavier.back().load *= times;
-  }
-  const std::vector<Answer> again = ask(heavier);
-  double log_ratio = 0;
-  int channels = 0;
-  for (const ChannelView& view : channel_views) {
-    std::vector<double> as_given, otherwise;
-    for (std::size_t i = 0; i < campaign.runs.size(); i += every) {
-      const auto& measured = campaign.runs[i].*view.measured;
-      const std::optional<TractionResult>&answer = answers[i].result, &heavy = again[i / every].result;
-      if (!measured || !answer) continue;
-      as_given.push_back(*measured - ((*answer).*view.predicted).value);
-      if (heavy) otherwise.push_back(*measured - ((*heavy).*view.predicted).value);
+/// A heading over the numbers of another: its unit goes with it.
+void add_swapped_columns(const Campaign& campaign, std::vector<Correction>& all) {
+  for (auto one = channel_views.begin(); one != channel_views.end(); ++one)
+    for (auto other = one + 1; other != channel_views.end(); ++other) {
+      const double ratio = si_of_one(column_of(campaign, one->name)) / si_of_one(column_of(campaign, other->name));
+      all.push_back({{one->name, other->name},
+                     [a = one->measured, b = other->measured, ratio](Run& run) {
+                       std::swap(run.*a, run.*b);
+                       if (run.*a) *(run.*a) *= ratio;
+                       if (run.*b) *(run.*b) /= ratio;
+                     },
+                     swapped(campaign, one->name, other->name, "each fits the prediction of the other far better")});
     }
-    if (as_given.size() < fewest_to_compare || 2 * otherwise.size() < as_given.size()) continue;
-    log_ratio += std::log(root_mean_square(otherwise) / root_mean_square(as_given)), ++channels;
-  }
-  return channels > 0 ? std::exp(log_ratio / channels) : 1.0;
+  const auto positive = [](const Run& run) { return run.drawbar_pull.value_or(1.0) > 0.0; };
+  if (!std::ranges::all_of(campaign.runs, positive)) return;  // no load is negative
+  const double ratio = si_of_one(column_of(campaign, "load")) / si_of_one(column_of(campaign, "drawbar_pull"));
+  all.push_back({{"load", "drawbar_pull"},
+                 [ratio](Run& run) {
+                   if (run.drawbar_pull)
+                     run.at.load = ratio * std::exchange(run.drawbar_pull, run.at.load / ratio).value();
+                 },
+                 swapped(campaign, "load", "drawbar_pull", "exchanged, they fit the prediction far better")});
 }
 
-/// Loads in kilograms, pounds or kilonewtons under a heading that says newtons, and the like.
-void add_loads_in_another_unit(const Campaign& campaign, const std::vector<Answer>& answers, const AskAgain& ask,
-                               Warnings& warnings) {
+/// All that is looked for.
+std::vector<Correction> corrections(const Campaign& campaign) {
+  std::vector<Correction> all;
+  add_flipped_signs(campaign, all);
+  add_powers_of_ten(campaign, all);
+  add_slips_in_another_unit(campaign, all);
+  add_loads_in_another_unit(campaign, all);
+  add_swapped_columns(campaign, all);
+  return all;
+}
+
+/// Rows and what the model says of each.
+struct Compared {
+  std::vector<Run> runs;
+  std::vector<Answer> answers;
+};
+
+/// The rows with a column corrected; the model is asked anew where their conditions change.
+Compared corrected(const Compared& rows, const Correction& correction, const AskAgain& ask) {
+  Compared other = rows;
+  std::vector<OperatingCondition> conditions;
+  bool elsewhere = false;
+  for (std::size_t i = 0; i < rows.runs.size(); ++i) {
+    correction.undo(other.runs[i]);
+    const OperatingCondition &was = rows.runs[i].at, &is = conditions.emplace_back(other.runs[i].at);
+    elsewhere = elsewhere || was.slip != is.slip || was.load != is.load;
+  }
+  if (elsewhere) other.answers = ask(conditions);
+  return other;
+}
+
+/// A channel's measured and predicted values, in rows that have both.
+struct Pairs {
+  std::vector<double> measured, predicted;
+};
+
+double root_mean_square(const std::vector<double>& values) {
+  double squares = 0;
+  for (const double value : values) squares += value * value;
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+/// How far a channel is from its prediction, as a share of the sizes of both: 0 as predicted, 1/2 where it is three
+/// times as large or a third, 1 where its sign is the other one or it is of quite another size. None is trusted to less
+/// than 5 %.
+double misfit(const Pairs& pairs) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < pairs.measured.size(); ++i) errors.push_back(pairs.measured[i] - pairs.predicted[i]);
+  const double sizes = root_mean_square(pairs.measured) + root_mean_square(pairs.predicted);
+  return std::max(0.05, sizes > 0.0 ? root_mean_square(errors) / sizes : 0.0);
+}
+
+/// How many times too large or too small.
+double size_ratio(const Pairs& pairs) {
+  const double ratio = root_mean_square(pairs.measured) / root_mean_square(pairs.predicted);
+  return std::max(ratio, 1 / ratio);
+}
+
+/// Whether the measured values rise and fall as predicted; true of a prediction that is the same everywhere.
+bool follows(const Pairs& pairs) {
   constexpr double clearly = 0.5;
-  constexpr std::pair<const char*, const char*> units[] = {{"kg", "1 kgf"}, {"lbf", "1 lbf"}, {"kN", "1 kN"}};
-  double least = clearly;
-  std::string words;
-  const DataColumn column = column_of(campaign, "load");
-  for (const auto& [unit, one] : units) {
-    const double newtons = read_quantity(one, {"N", above_zero});
-    if (const double error = error_with_loads(newtons, campaign, answers, ask); error < least) {
-      least = error;
-      words = fmt::format(
-          "{}column '{}' looks as if it were in {}: with loads {:.4g} times as large the prediction "
-          "fits far better; look at its unit",
-          place_of(column), clipped(column.header), unit, newtons);
-    }
+  const auto n = static_cast<double>(pairs.measured.size());
+  double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  for (std::size_t i = 0; i < pairs.measured.size(); ++i) x += pairs.measured[i] / n, y += pairs.predicted[i] / n;
+  for (std::size_t i = 0; i < pairs.measured.size(); ++i) {
+    const double dx = pairs.measured[i] - x, dy = pairs.predicted[i] - y;
+    xx += dx * dx, xy += dx * dy, yy += dy * dy;
   }
-  if (!words.empty()) warnings.push_back(words);
+  return yy <= 1e-12 * n * y * y || xy > clearly * std::sqrt(xx * yy);
+}
+
+/// Whether a channel reads or is predicted otherwise by more than a tenth: others say nothing of a correction.
+bool moved(const Pairs& before, const Pairs& after) {
+  std::vector<double> by;
+  for (std::size_t i = 0; i < before.measured.size(); ++i)
+    by.push_back(std::abs(after.measured[i] - before.measured[i]) + std::abs(after.predicted[i] - before.predicted[i]));
+  return root_mean_square(by) > 0.1 * (root_mean_square(before.measured) + root_mean_square(before.predicted));
+}
+
+/// The misfits with a correction over those without, of the channels that it changes: their geometric mean, and the
+/// logarithm of their product, which tells corrections that explain much from those that explain a part.
+struct MisfitLeft {
+  double mean = 1.0, log_product = 0.0;
+};
+
+/// None where the correction is not to be thought of.
+std::optional<MisfitLeft> misfit_left(const Correction& correction, const Compared& rows, const Compared& other) {
+  constexpr std::size_t fewest_to_compare = 3;
+  // Of a prediction that may itself be wrong by a factor of 2 or 3.
+  constexpr double least_size_ratio = 6.0, most_size_ratio_left = 3.0;
+  double log_ratio = 0;
+  std::size_t channels = 0;
+  for (const ChannelView& view : channel_views) {
+    Pairs before, after;
+    std::size_t comparable = 0;
+    for (std::size_t i = 0; i < rows.runs.size(); ++i) {
+      const auto &was = rows.runs[i].*view.measured, &is = other.runs[i].*view.measured;
+      const auto &said = rows.answers[i].result, &says = other.answers[i].result;
+      if (!was || !said) continue;
+      ++comparable;
+      if (!is || !says) continue;
+      before.measured.push_back(*was), before.predicted.push_back(((*said).*view.predicted).value);
+      after.measured.push_back(*is), after.predicted.push_back(((*says).*view.predicted).value);
+    }
+    const std::size_t n = after.measured.size();
+    if (n < fewest_to_compare || 2 * n < comparable) continue;
+    if (!moved(before, after)) continue;
+    const bool named = std::ranges::find(correction.columns, view.name) != correction.columns.end();
+    if (named && !follows(after)) return std::nullopt;
+    if (correction.by_power_of_ten &&
+        !(size_ratio(before) > least_size_ratio && size_ratio(after) < most_size_ratio_left))
+      return std::nullopt;
+    log_ratio += std::log(misfit(after) / misfit(before)), ++channels;
+  }
+  if (channels == 0) return std::nullopt;
+  return MisfitLeft{std::exp(log_ratio / static_cast<double>(channels)), log_ratio};
+}
+
+/// Of a long campaign only so many rows, evenly.
+Compared some_rows(const Campaign& campaign, const std::vector<Answer>& answers) {
+  constexpr std::size_t most = 200;
+  const std::size_t every = campaign.runs.empty() ? 1 : 1 + (campaign.runs.size() - 1) / most;
+  Compared some;
+  for (std::size_t i = 0; i < campaign.runs.size(); i += every)
+    some.runs.push_back(campaign.runs[i]), some.answers.push_back(answers[i]);
+  return some;
 }
 
 }  // namespace
 
 std::vector<std::string> column_doubts(const Campaign& campaign, const std::vector<Answer>& answers,
                                        const AskAgain& ask) {
-  Warnings warnings;
-  add_flipped_pull(campaign, answers, warnings);
-  add_swapped_channels(campaign, answers, warnings);
-  add_swapped_load(campaign, answers, ask, warnings);
-  add_loads_in_another_unit(campaign, answers, ask, warnings);
-  return warnings;
+  constexpr double clearly = 0.5;
+  std::vector<std::string> warnings;
+  std::set<std::string_view> told;
+  Compared rows = some_rows(campaign, answers);
+  const std::vector<Correction> all = corrections(campaign);
+  for (;;) {
+    double least = 0.0;
+    const Correction* best = nullptr;
+    Compared best_rows;
+    for (const Correction& correction : all) {
+      if (std::ranges::any_of(correction.columns, [&](std::string_view one) { return told.contains(one); })) continue;
+      Compared other = corrected(rows, correction, ask);
+      const std::optional<MisfitLeft> left = misfit_left(correction, rows, other);
+      if (!left || !(left->mean < clearly && left->log_product < least)) continue;
+      least = left->log_product, best = &correction, best_rows = std::move(other);
+    }
+    if (!best) return warnings;
+    warnings.push_back(best->warning);
+    told.insert(best->columns.begin(), best->columns.end());
+    rows = std::move(best_rows);  // what is left of the others, with this one put right
+  }
 }
 
 }  // namespace soilbin::compare

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"
@@ -144,12 +145,107 @@ TEST(Doubts, LoadsInAnotherUnitAreToldAtTheirHeader) {
   EXPECT_THAT(doubts(halved), Not(Contains(HasSubstr("looks as if"))));
 }
 
+/// How far a rig's channels are from the declared model's.
+struct Off {
+  double pull_of_load = -0.03, torque_times = 1.2, side_force_times = 0.8;
+};
+
+/// Loads of 60 and 100 N, yawed to either side, over slip from -10 % on.
+Campaign rig_campaign(const Off& off = {}) {
+  Campaign campaign;
+  const Scenario scenario = wheel_on_sand();
+  campaign.wheel = scenario.tire;
+  campaign.soil = *scenario.soil.semi_empirical;
+  campaign.columns = {
+      {"load", {"W", "N", {"runs.csv", 1, 1}}},          {"slip", {"Slip", "%", {"runs.csv", 1, 3}}},
+      {"drawbar_pull", {"Fx", "N", {"runs.csv", 1, 8}}}, {"torque", {"My", "N m", {"runs.csv", 1, 11}}},
+      {"sinkage", {"z", "mm", {"runs.csv", 1, 14}}},     {"lateral_force", {"Fy", "N", {"runs.csv", 1, 16}}}};
+  for (const double load : {60.0, 100.0})
+    for (const double yaw : {0.0, 10 * degree, -10 * degree})
+      for (int i = -1; i < 5; ++i) {
+        Run run;
+        run.at = condition(load, 0.1 * i);
+        run.at.yaw = yaw;
+        run.csv_line = static_cast<int>(campaign.runs.size()) + 2;
+        const TractionResult told = *ask(*make_model(ModelKind::bekker_wong), scenario, run.at).result;
+        run.drawbar_pull = told.drawbar_pull.value + off.pull_of_load * load,
+        run.torque = off.torque_times * told.torque.value;
+        run.sinkage = told.sinkage.value, run.lateral_force = off.side_force_times * told.lateral_force.value;
+        campaign.runs.push_back(run);
+      }
+  return campaign;
+}
+
+/// What is told with each row changed.
+std::vector<std::string> doubts_with(const std::function<void(compare::Run&)>& change) {
+  Campaign campaign = rig_campaign();
+  for (compare::Run& run : campaign.runs) change(run);
+  return doubts(campaign);
+}
+
+TEST(DoubtsOfColumns, NoneWhereTheModelIsOffByAnOffsetOrAFactor) {
+  EXPECT_THAT(doubts(rig_campaign()), IsEmpty());
+  EXPECT_THAT(doubts(rig_campaign({.pull_of_load = -0.3, .torque_times = 1.5, .side_force_times = 0.5})), IsEmpty());
+  EXPECT_THAT(doubts(rig_campaign({.pull_of_load = 0.2, .torque_times = 3, .side_force_times = 3})), IsEmpty());
+}
+
+TEST(DoubtsOfColumns, AFlippedSignIsToldWithTheSignThatIsMeant) {
+  const auto flipped = [](const char* place, const char* positive) {
+    return ElementsAre(AllOf(StartsWith(fmt::format("runs.csv:1:{}' looks as if its sign were flipped", place)),
+                             HasSubstr(fmt::format("change the sign in the file if so: positive {}", positive))));
+  };
+  EXPECT_THAT(doubts_with([](compare::Run& run) { *run.torque *= -1; }), flipped("11: column 'My", "drives"));
+  EXPECT_THAT(doubts_with([](compare::Run& run) { *run.lateral_force *= -1; }),
+              flipped("16: column 'Fy", "points to the left"));
+  EXPECT_THAT(doubts_with([](compare::Run& run) { run.at.slip *= -1; }), flipped("3: column 'Slip", "is a driven"));
+}
+
+TEST(DoubtsOfColumns, APowerOfTenIsToldWithTheDeclaredUnit) {
+  EXPECT_THAT(doubts_with([](compare::Run& run) { *run.torque *= 1000; }),
+              ElementsAre("runs.csv:1:11: column 'My' looks 1000 times too large: with its values divided by 1000 the "
+                          "prediction fits far better; look at its unit, 'N m', in its header or under 'columns:' in "
+                          "campaign.yaml"));
+  EXPECT_THAT(doubts_with([](compare::Run& run) { *run.torque *= 100; }),
+              ElementsAre(HasSubstr("'My' looks 100 times")));
+  EXPECT_THAT(doubts_with([](compare::Run& run) { *run.lateral_force /= 1000; }),
+              ElementsAre(HasSubstr("'Fy' looks 1000 times too small")));
+  EXPECT_THAT(doubts_with([](compare::Run& run) { *run.sinkage /= 10; }),
+              ElementsAre(HasSubstr("'z' looks 10 times too small")));
+  EXPECT_THAT(doubts_with([](compare::Run& run) { *run.sinkage /= 3; }), IsEmpty())
+      << "a model may be wrong by as much";
+}
+
+TEST(DoubtsOfColumns, SlipsAsSharesInAColumnOfPercentAreTold) {
+  EXPECT_THAT(
+      doubts_with([](compare::Run& run) { run.at.slip /= 100; }),
+      ElementsAre(AllOf(StartsWith("runs.csv:1:3: column 'Slip' looks as if it held shares where % are declared"),
+                        HasSubstr("look at its unit, '%'"))));
+}
+
+// The numbers change places, the headings and their units don't: 3 N m stand as 3 mm.
+TEST(DoubtsOfColumns, EveryTwoChannelsMayBeSwapped) {
+  EXPECT_THAT(doubts_with([](compare::Run& run) {
+                std::swap(run.torque, run.sinkage);
+                *run.torque *= 1000, *run.sinkage /= 1000;
+              }),
+              Contains(StartsWith("runs.csv:1:14: the columns 'My' and 'z' look swapped: each fits the prediction")));
+  EXPECT_THAT(doubts_with([](compare::Run& run) { std::swap(run.torque, run.lateral_force); }),
+              ElementsAre(StartsWith("runs.csv:1:16: the columns 'My' and 'Fy' look swapped")));
+}
+
+// No third column is told to explain the two.
+TEST(DoubtsOfColumns, EachColumnIsToldOnceWithTheOthersPutRight) {
+  EXPECT_THAT(doubts_with([](compare::Run& run) { *run.torque *= -1, *run.sinkage /= 100; }),
+              testing::UnorderedElementsAre(HasSubstr("'My' looks as if its sign"),
+                                            HasSubstr("'z' looks 100 times too small")));
+}
+
 TEST(Doubts, ACampaignsRepeatedRowsAndFlippedPullAreTold) {
   const Campaign good = modelled_campaign();
   EXPECT_THAT(doubts(good), IsEmpty());
   Campaign flipped = good;
   for (auto& run : flipped.runs) *run.drawbar_pull *= -1;
-  EXPECT_THAT(doubts(flipped), ElementsAre(HasSubstr("is its sign flipped?")));
+  EXPECT_THAT(doubts(flipped), ElementsAre(HasSubstr("'drawbar_pull' looks as if its sign were flipped")));
   Campaign copied = good;
   copied.runs.push_back(copied.runs[1]);
   copied.runs.back().csv_line = 10;
@@ -166,7 +262,7 @@ TEST(Doubts, WarningsOfOneKindOfManyRowsAreOneLine) {
   Campaign campaign = modelled_campaign();
   for (auto& run : campaign.runs) *run.sinkage += 1.0;
   EXPECT_THAT(doubts(campaign),
-              ElementsAre(AllOf(HasSubstr("more than the wheel's diameter"), HasSubstr("(and at 7 other lines)"))));
+              Contains(AllOf(HasSubstr("more than the wheel's diameter"), HasSubstr("(and at 7 other lines)"))));
 }
 
 TEST(Doubts, ASoilThatCarriesNothingIsTold) {
