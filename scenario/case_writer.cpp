@@ -13,7 +13,7 @@ void write_models(const Study& study, const EffectVocabulary& effects, std::opti
     lines.value("model", word_of(choice.model));
     write_effects(choice.effects, effects, n, lines);
     if (!choice.label.empty()) lines.value("label", yaml_scalar(choice.label));
-    write_fitted_errors(choice.errors, choice.effects, effects, lines);
+    write_fitted_errors(choice.errors, choice.effects, effects, n, lines);
     lines.close();
   }
   lines.close();

@@ -48,13 +48,13 @@ EffectChoice read_effect(const YamlNode& node, const EffectVocabulary& vocabular
   return choice;
 }
 
-const EffectFormWords& form_of(const EffectChoice& choice, const std::vector<EffectFormWords>& forms) {
-  for (const EffectFormWords& form : forms)
-    if (choice.form.empty() || form.form == choice.form) return form;
+}  // namespace
+
+EffectFormWords form_of(const EffectChoice& choice, const EffectVocabulary& vocabulary) {
+  for (EffectFormWords& form : vocabulary.forms(choice.id))
+    if (choice.form.empty() || form.form == choice.form) return std::move(form);
   throw InputError(fmt::format("effect '{}' has no form '{}'", choice.id, choice.form));
 }
-
-}  // namespace
 
 std::vector<EffectChoice> read_effects(const YamlNode& list, const EffectVocabulary& vocabulary,
                                        const Reading& reading) {
@@ -77,8 +77,7 @@ void write_effects(const std::vector<EffectChoice>& effects, const EffectVocabul
   if (effects.empty()) return lines.value("effects", "[]");
   lines.open("effects");
   for (const EffectChoice& choice : effects) {
-    const std::vector<EffectFormWords> forms = vocabulary.forms(choice.id);
-    const EffectFormWords& form = form_of(choice, forms);
+    const EffectFormWords form = form_of(choice, vocabulary);
     lines.open_item();
     lines.value("id", choice.id);
     lines.value("form", form.form);

@@ -9,6 +9,10 @@
 
 namespace soilbin {
 
+/// The words of a choice's form, the default one where it names none. Throws InputError for one that the vocabulary
+/// lacks.
+EffectFormWords form_of(const EffectChoice& choice, const EffectVocabulary& vocabulary);
+
 /// Reads a list of effects: plain ids, or {id, form, parameters}. Form and parameters left out are filled in from the
 /// vocabulary, so that what was assumed can be written out. `reading.n` is the soil's exponent.
 /// Refused, with the nearest right word: unknown ids, forms and parameters; values without their unit or out of

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "scenario/effect_choices.hpp"
 #include "scenario/soil_parameters.hpp"
 
 namespace soilbin {
@@ -22,12 +23,9 @@ std::vector<std::string> parameters_of(const std::vector<EffectChoice>& effects)
 /// The unit of an effect's parameter and no bound: an sd may be larger than what it stands beside.
 Measure measure_of(const EffectParameterPlace& place, const std::vector<EffectChoice>& effects,
                    const EffectVocabulary& vocabulary) {
-  const EffectChoice& choice = effects[place.effect];
-  for (const EffectFormWords& form : vocabulary.forms(choice.id))
-    if (form.form == choice.form)
-      for (const EffectParameterWords& parameter : form.parameters)
-        if (parameter.name == place.parameter) return {parameter.unit, zero_or_more};
-  return {"-", zero_or_more};
+  const EffectFormWords form = form_of(effects[place.effect], vocabulary);
+  const auto parameter = std::ranges::find(form.parameters, place.parameter, &EffectParameterWords::name);
+  return {parameter == form.parameters.end() ? "-" : parameter->unit, zero_or_more};
 }
 
 FittedError read_error(const YamlNode& node, const std::vector<FittedError>& above,
@@ -110,14 +108,14 @@ std::vector<FittedError> read_fitted_errors(const YamlNode& list, const std::vec
 }
 
 void write_fitted_errors(const std::vector<FittedError>& errors, const std::vector<EffectChoice>& effects,
-                         const EffectVocabulary& vocabulary, YamlLines& lines) {
+                         const EffectVocabulary& vocabulary, std::optional<double> n, YamlLines& lines) {
   if (errors.empty()) return;
   lines.open("errors");
   for (const FittedError& error : errors) {
     lines.open_item();
     lines.value("parameter", yaml_scalar(error.parameter));
     if (const auto place = find_effect_parameter(error.parameter, effects); place && error.std_error)
-      lines.value("sd", write_quantity(*error.std_error, measure_of(*place, effects, vocabulary).unit));
+      lines.value("sd", write_quantity(*error.std_error, measure_of(*place, effects, vocabulary).unit, n));
     std::string row;
     for (const double r : error.correlations) row += (row.empty() ? "" : ", ") + write_quantity(r, "-");
     if (!row.empty()) lines.value("correlations", "[" + row + "]");

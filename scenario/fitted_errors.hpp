@@ -38,12 +38,12 @@ double correlation(const std::vector<FittedError>& errors, std::size_t i, std::s
 bool are_correlations(const std::vector<FittedError>& errors);
 
 /// Refuses a parameter that neither the soil nor the effects have, one that is listed twice, an effect's without sd,
-/// and correlations that no numbers have. n: the soil's exponent.
+/// and correlations that no numbers have. `reading.n` is the soil's exponent.
 std::vector<FittedError> read_fitted_errors(const YamlNode& list, const std::vector<EffectChoice>& effects,
                                             const EffectVocabulary& vocabulary, const Reading& reading);
 
-/// Writes them so that read_fitted_errors gives the same to the bit; nothing for an empty list.
+/// Writes them so that read_fitted_errors gives the same to the bit; nothing for an empty list. n: the soil's exponent.
 void write_fitted_errors(const std::vector<FittedError>& errors, const std::vector<EffectChoice>& effects,
-                         const EffectVocabulary& vocabulary, YamlLines& lines);
+                         const EffectVocabulary& vocabulary, std::optional<double> n, YamlLines& lines);
 
 }  // namespace soilbin

@@ -88,13 +88,9 @@ struct RunSeries {
   std::vector<double> values;
 };
 
-std::vector<RunSeries> run_series(const FittedModel& model, const VectorXd& order) {
+std::vector<RunSeries> run_series(const FittedModel& model) {
   const Observations& observations = model.data().observations;
-  std::vector<std::size_t> by_run(observations.cells.size());
-  std::iota(by_run.begin(), by_run.end(), 0u);
-  std::ranges::stable_sort(by_run, [&](std::size_t a, std::size_t b) {
-    return order[observations.cells[a].row] < order[observations.cells[b].row];
-  });
+  const std::vector<Index> by_run = cells_in_order_of_runs(observations);
   std::vector<RunSeries> all(channel_count + 1);
   for (int c = 0; c < channel_count; ++c) all[c].name = traction_channels[c].title;
   RunSeries& gain = all.back();
@@ -102,7 +98,7 @@ std::vector<RunSeries> run_series(const FittedModel& model, const VectorXd& orde
   double score = 0.0, weight = 0.0;
   for (std::size_t k = 0; k < by_run.size(); ++k) {
     const Cell& cell = observations.cells[by_run[k]];
-    const double f = model.fit().prediction[static_cast<Index>(by_run[k])];
+    const double f = model.fit().prediction[by_run[k]];
     const double sd = model.data().noise.channels[cell.channel].sd(f, cell.spread);
     all[cell.channel].values.push_back((cell.value - f) / sd);
     if (cell.channel != sinkage) score += (cell.value - f) * f / (sd * sd), weight += f * f / (sd * sd);
@@ -132,12 +128,11 @@ double serial_correlation(const VectorXd& r, Index lags) {
 SerialTest serial_test(const FittedModel& model, int permutations, std::uint64_t seed) {
   SerialTest test;
   const std::vector<Covariate> variables = covariates(model.data().observations);
-  const auto order = std::ranges::find(variables, "run", &Covariate::name);
-  if (order == variables.end()) return test;
+  if (std::ranges::find(variables, "run", &Covariate::name) == variables.end()) return test;
   std::mt19937_64 random(seed);
   int tested = 0;
   double least = 2.0;
-  for (const RunSeries& series : run_series(model, order->values)) {
+  for (const RunSeries& series : run_series(model)) {
     if (series.values.size() < thresholds::min_serial_runs) continue;
     ++tested;
     VectorXd r = Eigen::Map<const VectorXd>(series.values.data(), static_cast<Index>(series.values.size()));

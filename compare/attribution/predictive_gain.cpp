@@ -12,12 +12,13 @@ namespace soilbin::compare {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-std::vector<int> deal_folds(int conditions, int folds, std::uint64_t seed) {
-  std::vector<int> fold(conditions);
-  for (int c = 0; c < conditions; ++c) fold[c] = c % folds;
+Folds deal_folds(int conditions, int folds, std::uint64_t seed) {
+  Folds dealt{std::min(folds, conditions), std::vector<int>(conditions)};
+  std::vector<int>& fold = dealt.of_condition;
+  for (int c = 0; c < conditions; ++c) fold[c] = c % dealt.count;
   std::mt19937_64 random(seed);
   for (std::size_t i = fold.size(); i > 1; --i) std::swap(fold[i - 1], fold[random() % i]);
-  return fold;
+  return dealt;
 }
 
 std::pair<double, double> over_conditions(const std::map<int, double>& sums) {
@@ -61,10 +62,10 @@ std::optional<VectorXd> density_of(const FittedModel& model, const Observations&
 
 std::vector<FoldDensity> fold_densities(const FittedModel& model, std::uint64_t seed, const ThreadPool& pool) {
   const Observations& all = model.data().observations;
-  const int folds = std::min(thresholds::choice_folds, all.conditions);
-  const std::vector<int> fold = deal_folds(all.conditions, folds, seed);
-  std::vector<FoldDensity> densities(folds);
-  pool.each(folds, [&](int f, const Pulse& pulse) {
+  const Folds folds = deal_folds(all.conditions, thresholds::choice_folds, seed);
+  const std::vector<int>& fold = folds.of_condition;
+  std::vector<FoldDensity> densities(folds.count);
+  pool.each(folds.count, [&](int f, const Pulse& pulse) {
     pulse();
     std::vector<bool> keep(fold.size()), held(fold.size());
     std::vector<int> original;

@@ -12,8 +12,14 @@
 
 namespace soilbin::compare {
 
-/// The fold of each condition: dealt in turn, then shuffled.
-std::vector<int> deal_folds(int conditions, int folds, std::uint64_t seed);
+struct Folds {
+  int count = 0;
+  std::vector<int> of_condition;
+};
+
+/// Conditions dealt to folds in turn, then shuffled; no more folds than conditions, for one that leaves none out tests
+/// nothing.
+Folds deal_folds(int conditions, int folds, std::uint64_t seed);
 
 /// Mean and standard error over conditions of what the cells of each add up to.
 std::pair<double, double> over_conditions(const std::map<int, double>& sums);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -39,22 +38,13 @@ bool may_wave(const Covariate& c) {
   return c.name == "slip" || c.name == "load" || c.name == "position" || c.name == "run";
 }
 
-/// The cells in the order in which the runs were made, where every row tells its own; else as the file has them.
-std::vector<Index> in_order_of_runs(const Observations& observations) {
-  std::vector<Index> order(observations.cells.size());
-  std::iota(order.begin(), order.end(), Index{0});
-  if (std::ranges::all_of(observations.rows, [](const OperatingCondition& at) { return at.run.has_value(); }))
-    std::ranges::stable_sort(order, {}, [&](Index i) { return *observations.rows[observations.cells[i].row].run; });
-  return order;
-}
-
 /// Each channel's prediction in the run before, less that of the run: what a lagging instrument or bed would carry
 /// over. Two sd of the channel's noise, at the mean size of its predictions, where it is largest.
 MatrixXd carried_over(const Dataset& data, const VectorXd& prediction) {
   const Index cells = prediction.size();
   MatrixXd columns = MatrixXd::Zero(cells, channel_count);
   std::array<double, channel_count> before{}, sizes{}, counts{};
-  for (const Index i : in_order_of_runs(data.observations)) {
+  for (const Index i : cells_in_order_of_runs(data.observations)) {
     const std::size_t c = (data.observations.cells[i].channel);
     if (counts[c] > 0) columns(i, c) = before[c] - prediction[i];
     before[c] = prediction[i];

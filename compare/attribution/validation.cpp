@@ -76,18 +76,17 @@ FoldResult run_fold(const Dataset& whole, const NoiseFloor& noise, const Validat
 /// Every fold, some at once. The first exception of any stops them all and is thrown.
 std::vector<std::optional<FoldResult>> run_folds(const Dataset& whole, const NoiseFloor& noise,
                                                  const ValidationOptions& options) {
-  const int folds = std::min(options.folds, whole.observations.conditions);  // more would leave nothing out
-  const std::vector<int> fold = deal_folds(whole.observations.conditions, folds, options.attribution.seed);
-  std::vector<std::optional<FoldResult>> results(folds);
+  const Folds folds = deal_folds(whole.observations.conditions, options.folds, options.attribution.seed);
+  std::vector<std::optional<FoldResult>> results(folds.count);
   std::atomic<std::size_t> done{0};
   const ThreadPool pool{options.threads, [&] {
-                          if (options.progress) options.progress(done, folds);
+                          if (options.progress) options.progress(done, folds.count);
                         }};
-  pool.each(folds, [&](int f, const Pulse& pulse) {
+  pool.each(folds.count, [&](int f, const Pulse& pulse) {
     ValidationOptions own = options;
-    own.attribution.pool = {pool.share_of(f, folds), pulse};
+    own.attribution.pool = {pool.share_of(f, folds.count), pulse};
     try {
-      results[f] = run_fold(whole, noise, own, fold, f);
+      results[f] = run_fold(whole, noise, own, folds.of_condition, f);
     } catch (const NoSolution&) {  // this fold's conditions can't be fitted by themselves: its cells stay unpredicted
     }
     ++done;

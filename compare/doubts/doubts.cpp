@@ -143,8 +143,7 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings&
 Warnings doubts_of_answers(const Scenario& scenario, const std::vector<ModelAnswers>& study, bool unsolved) {
   Warnings warnings;
   for (const ModelAnswers& model : study) {
-    Scenario asked = scenario;
-    asked.effects = model.choice.effects;
+    const Scenario asked = seen_by(model.choice, scenario);
     for (const Answer& answer : model.answers) {
       if (!answer.result) {
         if (unsolved) warnings.push_back("no solution at " + in_words(answer.at) + ": " + answer.error);

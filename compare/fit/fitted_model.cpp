@@ -26,11 +26,15 @@ FittedModel::FittedModel(std::shared_ptr<const Dataset> data, WheelPredictor pre
 
 Eigen::LDLT<MatrixXd> FittedModel::information(double ridge) const { return gram_matrix(fit_.columns, ridge).ldlt(); }
 
+MatrixXd FittedModel::covariance() const {
+  const Index free = fit_.columns.cols();
+  return information(ridge_of_errors).solve(MatrixXd::Identity(free, free));
+}
+
 VectorXd FittedModel::standard_errors() const {
   VectorXd errors = VectorXd::Zero(fit_.theta.size());
-  const Index free = fit_.columns.cols();
-  const MatrixXd covariance = information(ridge_of_errors).solve(MatrixXd::Identity(free, free));
-  for (Index i = 0; i < free; ++i) {
+  const MatrixXd covariance = this->covariance();
+  for (Index i = 0; i < covariance.cols(); ++i) {
     const int p = fit_.column_parameter[i];
     errors[p] = std::sqrt(std::max(0.0, covariance(i, i))) * predictor_.parameters()[p].scale;
   }
@@ -67,12 +71,11 @@ SemiEmpiricalSoil FittedModel::soil() const {
 }
 
 std::vector<FittedError> FittedModel::errors() const {
-  const Index free = fit_.columns.cols();
-  const MatrixXd covariance = information(ridge_of_errors).solve(MatrixXd::Identity(free, free));
+  const MatrixXd covariance = this->covariance();
   const VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   const std::vector<EffectChoice> effects = predictor_.choices(fit_.theta);
   std::vector<FittedError> errors;
-  for (Index i = 0; i < free; ++i) {
+  for (Index i = 0; i < covariance.cols(); ++i) {
     const int p = fit_.column_parameter[i];
     FittedError error;
     error.parameter = predictor_.name_among(effects, p);

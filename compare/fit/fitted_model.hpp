@@ -78,6 +78,7 @@ class FittedModel {
  private:
   /// C^-1 of the free parameters in units of their scale: G'G + ridge.
   Eigen::LDLT<Eigen::MatrixXd> information(double ridge) const;
+  Eigen::MatrixXd covariance() const;  ///< C, in units of the parameters' scale
 
   std::shared_ptr<const Dataset> data_;
   WheelPredictor predictor_;

@@ -1,6 +1,8 @@
 #include "compare/fit/observations.hpp"
 
+#include <algorithm>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "compare/measured/condition_views.hpp"
@@ -87,6 +89,15 @@ std::vector<Covariate> covariates(const Observations& observations) {
     if (spread > 1e-3 * scale) varying.push_back({std::string(view.name), std::move(values)});
   }
   return varying;
+}
+
+std::vector<Eigen::Index> cells_in_order_of_runs(const Observations& observations) {
+  std::vector<Eigen::Index> order(observations.cells.size());
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  if (std::ranges::all_of(observations.rows, [](const OperatingCondition& at) { return at.run.has_value(); }))
+    std::ranges::stable_sort(order, {},
+                             [&](Eigen::Index i) { return *observations.rows[observations.cells[i].row].run; });
+  return order;
 }
 
 }  // namespace soilbin::compare

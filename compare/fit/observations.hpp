@@ -56,6 +56,9 @@ Observations of_conditions(const Observations& all, const std::vector<bool>& kee
 /// Without the cells for which drop holds.
 Observations without_cells(const Observations& all, const std::vector<bool>& drop);
 
+/// The cells in the order in which the runs were made, where every row tells its own; else as the file has them.
+std::vector<Eigen::Index> cells_in_order_of_runs(const Observations& observations);
+
 /// Every covariate that takes at least two values: slip, load, speed, pass, position, moisture, run, inclines, yaw.
 std::vector<Covariate> covariates(const Observations& observations);
 

@@ -121,8 +121,7 @@ std::vector<ModelAnswers> answers_at(const Case& question, const std::vector<Whe
   const bekker_wong::BekkerWong model({.errors = errors, .patch = false});
   std::vector<ModelAnswers> study;
   for (const WheelLimits& answer : answers) {
-    Scenario scenario = question.scenario;
-    scenario.effects = answer.model.effects;
+    const Scenario scenario = seen_by(answer.model, question.scenario);
     study.push_back({answer.model, {}});
     for (const SlopeRow& row : answer.slopes) {
       OperatingCondition at = answer.at;
