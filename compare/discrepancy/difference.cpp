@@ -34,12 +34,6 @@ bool asked_of(const Side& side, const Side& reference, std::size_t channel) {
   return not_zero(side) && not_zero(reference);
 }
 
-/// Degrees of freedom of the root of two errors' squares (Welch 1947, Satterthwaite 1946).
-double joined_freedom(double a, double freedom_a, double b, double freedom_b) {
-  const double scattering = std::pow(a, 4) / freedom_a + std::pow(b, 4) / freedom_b;
-  return scattering > 0.0 ? std::pow(a * a + b * b, 2) / scattering : std::numeric_limits<double>::infinity();
-}
-
 Difference difference_at(const SidePoint& a, const SidePoint& b, std::size_t channel, double scale) {
   Difference d;
   d.channel = channel;
@@ -67,6 +61,11 @@ void share_the_soil(Difference& d) {
 std::string_view word(DifferenceFinding finding) { return finding_words[static_cast<std::size_t>(finding)].first; }
 
 std::string_view words(DifferenceFinding finding) { return finding_words[static_cast<std::size_t>(finding)].second; }
+
+double joined_freedom(double a, double freedom_a, double b, double freedom_b) {
+  const double scattering = std::pow(a, 4) / freedom_a + std::pow(b, 4) / freedom_b;
+  return scattering > 0.0 ? std::pow(a * a + b * b, 2) / scattering : std::numeric_limits<double>::infinity();
+}
 
 double counting_errors(double freedom) {
   constexpr double known = 2.0, most = 15.0;  // Student's t asks for 13.97 at one degree of freedom

@@ -26,6 +26,10 @@ std::string_view words(DifferenceFinding finding);
 /// at 4, 14 at 1).
 double counting_errors(double freedom);
 
+/// Degrees of freedom of the root of two errors' squares, after Welch (1947) and Satterthwaite (1946); infinite where
+/// both are known.
+double joined_freedom(double a, double freedom_a, double b, double freedom_b);
+
 /// One side against another, one channel, one condition [SI].
 struct Difference {
   std::size_t side = 0, reference = 0;  ///< of Comparison::sides

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "bekker_wong/gsl.hpp"
 #include "compare/discrepancy/comparison.hpp"
@@ -19,34 +20,27 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Standard error of each cell of the reference's campaign; a value that is not above zero where one states none.
-VectorXd errors_of(const Observations& observations, const Side& reference) {
-  VectorXd errors(static_cast<Index>(observations.cells.size()));
-  std::vector<const SidePoint*> solved;  // in the order of as_campaign's runs
-  for (const SidePoint& point : reference.points)
-    if (point.result) solved.push_back(&point);
-  for (std::size_t k = 0; k < observations.cells.size(); ++k) {
-    const Cell& cell = observations.cells[k];
-    const auto run = static_cast<std::size_t>(observations.source_row[cell.row]);
-    const auto channel = static_cast<std::size_t>(cell.channel);
-    errors[k] = ((*solved[run]->result).*channel_views[channel].predicted).std_error;
-  }
-  return errors;
-}
-
-/// How many channels the cells speak of, and the fewest degrees of freedom behind any of them.
+/// What the cells of the reference's campaign rest on.
 struct Estimated {
-  double channels = 0.0, freedom = std::numeric_limits<double>::infinity();
+  VectorXd errors;        ///< of each cell; a value that is not above zero where none is stated
+  double channels = 0.0;  ///< whose correlation is estimated with them; 1 where each stands by itself
+  double freedom = std::numeric_limits<double>::infinity();  ///< the fewest behind any of their errors
 };
 
 Estimated estimated_of(const Observations& observations, const Side& reference) {
-  Estimated all;
-  for (int channel = 0; channel < channel_count; ++channel) {
-    const bool asked =
-        std::ranges::any_of(observations.cells, [&](const Cell& cell) { return cell.channel == channel; });
-    all.channels += asked;
-    if (asked && reference.noise) all.freedom = std::min(all.freedom, reference.noise->channels[channel].freedom);
+  std::vector<const SidePoint*> solved;  // in the order of as_campaign's runs
+  for (const SidePoint& point : reference.points)
+    if (point.result) solved.push_back(&point);
+  Estimated all{.errors = VectorXd(static_cast<Index>(observations.cells.size()))};
+  std::set<int> channels;
+  for (std::size_t k = 0; k < observations.cells.size(); ++k) {
+    const Cell& cell = observations.cells[k];
+    const SidePoint& point = *solved[static_cast<std::size_t>(observations.source_row[cell.row])];
+    all.errors[static_cast<Index>(k)] = ((*point.result).*channel_views[cell.channel].predicted).std_error;
+    all.freedom = std::min(all.freedom, point.freedom[cell.channel]);
+    channels.insert(cell.channel);
   }
+  all.channels = reference.noise ? static_cast<double>(channels.size()) : 1.0;
   return all;
 }
 
@@ -72,12 +66,12 @@ class InErrors {
   Whitening correlation_;
 };
 
-std::string why_not_tested(const VectorXd& errors, const Estimated& estimated) {
-  if (errors.size() == 0) return "no value to test";
-  if (!(errors.minCoeff() > 0.0)) return "a value has no standard error";
+std::string why_not_tested(const Estimated& estimated) {
+  if (estimated.errors.size() == 0) return "no value to test";
+  if (!(estimated.errors.minCoeff() > 0.0)) return "a value has no standard error";
   const double needed = estimated.channels > 1 ? estimated.channels + 4 : 1;
   if (estimated.freedom < needed)
-    return fmt::format("{:.0f} runs beyond the first of a setpoint; {:.0f} are needed for {:.0f} channels",
+    return fmt::format("{:.0f} runs beyond the first of a condition; {:.0f} are needed for {:.0f} channels",
                        estimated.freedom, needed, estimated.channels);
   return "";
 }
@@ -98,9 +92,8 @@ JointOutcome joint_test(const Side& reference, const Case& question, const std::
   const Campaign campaign = means_of(reference, question, effects);
   const Observations observations = observe(campaign);
   const WheelPredictor predictor(campaign, observations);
-  const VectorXd errors = errors_of(observations, reference);
   const Estimated estimated = estimated_of(observations, reference);
-  if (std::string why = why_not_tested(errors, estimated); !why.empty()) return {std::nullopt, why};
+  if (std::string why = why_not_tested(estimated); !why.empty()) return {std::nullopt, why};
   VectorXd predicted;
   BalanceMemory balanced;
   const bool balances = predictor.predict(predictor.start(), predicted, balanced);
@@ -113,7 +106,7 @@ JointOutcome joint_test(const Side& reference, const Case& question, const std::
     sd[i] = parameter.prior_sd;
     test.soil.push_back(parameter.name);
   }
-  const InErrors in_errors(observations, reference, errors);
+  const InErrors in_errors(observations, reference, estimated.errors);
   const VectorXd white = in_errors(predicted - observations.values());
   const MatrixXd columns = in_errors(slopes->jacobian.leftCols(predictor.soil_parameters()) * sd.asDiagonal());
   // d' (1 + A A')^-1 d = d' d - (A' d)' (1 + A' A)^-1 (A' d): Woodbury's identity.

@@ -71,7 +71,29 @@ Side side_of(const ModelAnswers& answers) {
   return side;
 }
 
-SidePoint combine(const std::vector<const RecordedRun*>& runs) {
+namespace {
+
+/// Of each channel, over all runs of a side.
+using PackingScatters = std::array<std::optional<PackingScatter>, channel_views.size()>;
+
+/// Scatter of one run, error of the mean, and the freedom behind both.
+void add_scatter(const std::vector<const RecordedRun*>& solved, const PackingScatters& all, SidePoint& point) {
+  const double n = static_cast<double>(solved.size());
+  for (std::size_t c = 0; c < channel_views.size(); ++c) {
+    const auto channel = channel_views[c].predicted;
+    double own = 0.0;  // mean variance of a single run's mean
+    for (const RecordedRun* run : solved) own += std::pow(((*run->answer.result).*channel).std_error, 2) / n;
+    point.scatter[c] = std::sqrt(own);
+    if (all[c] && all[c]->factor > 1.0)
+      point.scatter[c] *= all[c]->factor, point.freedom[c] = all[c]->freedom;
+    else if (own == 0.0 && n > 1)
+      point.scatter[c] = scatter_between(solved, channel), point.freedom[c] = n - 1;
+    ((*point.result).*channel).std_error = point.scatter[c] / std::sqrt(n);
+  }
+}
+
+/// Runs of one condition as a point.
+SidePoint combine(const std::vector<const RecordedRun*>& runs, const PackingScatters& all) {
   SidePoint point;
   std::vector<const RecordedRun*> solved;
   for (const RecordedRun* run : runs)
@@ -82,13 +104,7 @@ SidePoint combine(const std::vector<const RecordedRun*>& runs) {
     return point;
   }
   point.result = mean_of_packings(solved);
-  for (std::size_t c = 0; c < channel_views.size(); ++c) {
-    double own = 0.0;  // mean variance of a single run's mean
-    for (const RecordedRun* run : solved)
-      own += std::pow(((*run->answer.result).*channel_views[c].predicted).std_error, 2);
-    point.scatter[c] = std::max(std::sqrt(own / static_cast<double>(solved.size())),
-                                scatter_between(solved, channel_views[c].predicted));
-  }
+  add_scatter(solved, all, point);
   if (solved.size() < runs.size())
     point.doubts.push_back(fmt::format("{} of {} runs without a result", runs.size() - solved.size(), runs.size()));
   const auto drifting = std::ranges::count_if(solved, [](const auto* run) { return !run->steady; });
@@ -98,20 +114,24 @@ SidePoint combine(const std::vector<const RecordedRun*>& runs) {
   if (drifting > 0)
     point.doubts.push_back(fmt::format("{} of {} run{} not steady: halves differ by up to {:.1f} standard errors",
                                        drifting, solved.size(), solved.size() == 1 ? "" : "s", most));
-  if (std::ranges::all_of(solved, [&](const auto* run) { return run->packing == solved.front()->packing; }))
+  if (solved.size() == 1 && std::ranges::none_of(all, &std::optional<PackingScatter>::has_value))
     point.doubts.push_back("one packing: the scatter between packings is not known");
   doubt_budget(point);
   return point;
 }
 
+}  // namespace
+
 Side side_of(const std::string& label, const std::vector<RecordedRun>& runs,
              const std::vector<OperatingCondition>& conditions) {
   Side side{label, SideKind::grains, {}};
+  PackingScatters scatters;
+  for (std::size_t c = 0; c < scatters.size(); ++c) scatters[c] = packing_scatter(runs, channel_views[c].predicted);
   for (const OperatingCondition& at : conditions) {
     std::vector<const RecordedRun*> members;
     for (const RecordedRun& run : runs)
       if (alike(run.answer.at, at)) members.push_back(&run);
-    side.points.push_back(combine(members));
+    side.points.push_back(combine(members, scatters));
   }
   return side;
 }

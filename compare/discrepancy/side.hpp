@@ -70,12 +70,10 @@ bool add_choice(std::vector<ModelChoice>& choices, std::vector<EffectChoice> eff
 /// A side for each choice, with its answers; none where the soil has no values for the analytic model.
 std::vector<Side> analytic_sides(Case question, const std::vector<ModelChoice>& choices, const Progress& progress = {});
 
-/// Runs of grains at one condition as a point: mean_of_packings of those with a result. Scatter is the spread between
-/// the runs or, where that is larger, the runs' own errors. One packing says nothing of the scatter between packings: a
-/// doubt tells so, and others tell of runs that were not steady or had no result.
-SidePoint combine(const std::vector<const RecordedRun*>& runs);
-
-/// Runs as a side: each counts at the condition that it is alike.
+/// Runs as a side: each counts at the condition that it is alike, with mean_of_packings of those with a result. Scatter
+/// is what packing_scatter of all runs makes of their own errors, or these where they are larger: two packings at a
+/// condition say little of its scatter, all conditions together more. Doubts tell of runs that were not steady or had
+/// no result, and where no condition has several packings.
 Side side_of(const std::string& label, const std::vector<RecordedRun>& runs,
              const std::vector<OperatingCondition>& conditions);
 

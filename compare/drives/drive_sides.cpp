@@ -88,19 +88,6 @@ DriveSideSample side_sample(const Sample& sample, double soil) {
   return out;
 }
 
-std::vector<DriveDifference> differences_of(const Steady& analytic, const Steady& grains) {
-  std::vector<DriveDifference> rows;
-  if (!analytic || !grains) return rows;
-  for (const SteadyValue& value : steady_values) {
-    DriveDifference row{value.name, value.unit, value.per_si, (*analytic).*value.value, (*grains).*value.value};
-    row.difference = row.analytic.value - row.grains.value;
-    row.std_error = std::hypot(row.analytic.std_error, row.grains.std_error);
-    row.finding = finding_of(row.difference, row.std_error, row.grains.std_error);
-    rows.push_back(row);
-  }
-  return rows;
-}
-
 std::vector<const DriveSide*> grain_sides(const DriveSides& drive) {
   std::vector<const DriveSide*> grains;
   for (const DriveSide& side : drive.sides)
@@ -109,10 +96,34 @@ std::vector<const DriveSide*> grain_sides(const DriveSides& drive) {
 }
 
 template <class Value>
-Estimate over_packings_of(const std::vector<const DriveSide*>& grains, const Value& value) {
+std::vector<Estimate> on_each_packing(const std::vector<const DriveSide*>& grains, const Value& value) {
   std::vector<Estimate> values;
   for (const DriveSide* side : grains) values.push_back(value(*side));
-  return mean_over_packings(values);
+  return values;
+}
+
+std::vector<DriveDifference> differences_of(const Steady& analytic, const DriveSides& drive) {
+  constexpr double known = std::numeric_limits<double>::infinity();
+  std::vector<DriveDifference> rows;
+  const Steady grains = steady_of_grains(drive);
+  if (!analytic || !grains) return rows;
+  const auto packings = grain_sides(drive);
+  for (const SteadyValue& value : steady_values) {
+    DriveDifference row{value.name, value.unit, value.per_si, (*analytic).*value.value, (*grains).*value.value};
+    row.difference = row.analytic.value - row.grains.value;
+    row.std_error = std::hypot(row.analytic.std_error, row.grains.std_error);
+    const auto values = on_each_packing(packings, [&](const DriveSide& side) { return (*side.steady).*value.value; });
+    row.finding =
+        finding_of(row.difference, row.std_error, row.grains.std_error,
+                   joined_freedom(row.analytic.std_error, known, row.grains.std_error, freedom_over_packings(values)));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+template <class Value>
+Estimate over_packings_of(const std::vector<const DriveSide*>& grains, const Value& value) {
+  return mean_over_packings(on_each_packing(grains, value));
 }
 
 Steady steady_over_packings(const std::vector<const DriveSide*>& grains) {
@@ -209,7 +220,7 @@ DriveSides side_by_side(const Case& question, std::vector<DriveSide> sides, std:
   const std::vector<const DriveSide*> grains = grain_sides(drive);
   if (grains.size() > 1) drive.over_packings = as_one(grains);
   for (const DriveSide& side : drive.sides)
-    if (side.kind == SideKind::analytic) drive.differences = differences_of(side.steady, steady_of_grains(drive));
+    if (side.kind == SideKind::analytic) drive.differences = differences_of(side.steady, drive);
   return drive;
 }
 

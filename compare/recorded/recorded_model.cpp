@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -72,9 +73,9 @@ BudgetRest mean_rest(const Runs& runs) {
   return {force / n, std::sqrt(squared_bounds) / n};
 }
 
-std::vector<Runs> by_condition(const Record& record) {
+std::vector<Runs> by_condition(const std::vector<RecordedRun>& runs) {
   std::vector<Runs> groups;
-  for (const RecordedRun& run : record.runs) {
+  for (const RecordedRun& run : runs) {
     if (!run.answer.result) continue;
     const auto same = [&](const Runs& group) { return alike(group.front()->answer.at, run.answer.at); };
     const auto group = std::ranges::find_if(groups, same);
@@ -113,6 +114,14 @@ Estimate mean_over_packings(const std::vector<Estimate>& packings) {
   return {sum / n, std::max(spread_of(values) / std::sqrt(n), std::sqrt(own) / n)};
 }
 
+double freedom_over_packings(const std::vector<Estimate>& packings) {
+  const double n = static_cast<double>(packings.size());
+  std::vector<double> values;
+  double own = 0;
+  for (const Estimate& one : packings) values.push_back(one.value), own += one.std_error * one.std_error;
+  return std::pow(spread_of(values), 2) > own / n ? n - 1 : std::numeric_limits<double>::infinity();
+}
+
 double scatter_between(const Runs& runs, Estimate TractionResult::*channel) {
   std::vector<double> values;
   for (const RecordedRun* run : runs)
@@ -120,9 +129,9 @@ double scatter_between(const Runs& runs, Estimate TractionResult::*channel) {
   return spread_of(values);
 }
 
-std::optional<double> packing_factor(const Record& record, Estimate TractionResult::*channel) {
+std::optional<PackingScatter> packing_scatter(const std::vector<RecordedRun>& all, Estimate TractionResult::*channel) {
   double between = 0, own = 0, freedom = 0;
-  for (const Runs& runs : by_condition(record)) {
+  for (const Runs& runs : by_condition(all)) {
     if (runs.size() < 2) continue;
     const double degrees = static_cast<double>(runs.size() - 1);
     const double scatter = scatter_between(runs, channel);
@@ -131,8 +140,14 @@ std::optional<double> packing_factor(const Record& record, Estimate TractionResu
       mean_own += std::pow(((*run->answer.result).*channel).std_error, 2) / static_cast<double>(runs.size());
     between += degrees * scatter * scatter, own += degrees * mean_own, freedom += degrees;
   }
-  if (freedom < least_freedom || !(own > 0)) return std::nullopt;
-  return std::sqrt(between / own);
+  if (freedom == 0 || !(own > 0)) return std::nullopt;
+  return PackingScatter{std::sqrt(between / own), freedom};
+}
+
+std::optional<double> packing_factor(const Record& record, Estimate TractionResult::*channel) {
+  const std::optional<PackingScatter> scatter = packing_scatter(record.runs, channel);
+  if (!scatter || scatter->freedom < least_freedom) return std::nullopt;
+  return scatter->factor;
 }
 
 TractionResult mean_of_packings(const Runs& runs) {

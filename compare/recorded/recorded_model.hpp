@@ -30,6 +30,9 @@ RunOnce kept_in(const std::filesystem::path& file, Record empty, RunOnce run, Ru
 /// known.
 Estimate mean_over_packings(const std::vector<Estimate>& packings);
 
+/// Degrees of freedom of that standard error: packings beyond the first where it is their scatter, else infinite.
+double freedom_over_packings(const std::vector<Estimate>& packings);
+
 /// Several packings' answers to one condition as one: mean_over_packings of the four results; mean_efficiency; means
 /// of stresses and budget.
 /// Throws NoSolution where a run has no result, and InputError for no runs.
@@ -39,7 +42,16 @@ TractionResult mean_of_packings(const std::vector<const RecordedRun*>& runs);
 double scatter_between(const std::vector<const RecordedRun*>& runs, Estimate TractionResult::*channel);
 
 /// How much further packings scatter than the errors of single runs tell, for a channel: the root of their pooled
-/// variance ratio over all conditions that have several packings; no value with less than four degrees of freedom.
+/// variance ratio over all conditions that have several packings.
+struct PackingScatter {
+  double factor = 1.0;
+  double freedom = 0.0;  ///< packings beyond the first of each condition
+};
+
+/// Of runs at any conditions; nothing where none has several packings or the runs state no error.
+std::optional<PackingScatter> packing_scatter(const std::vector<RecordedRun>& runs, Estimate TractionResult::*channel);
+
+/// Its factor, of a record; no value with less than four degrees of freedom.
 std::optional<double> packing_factor(const Record& record, Estimate TractionResult::*channel);
 
 /// Runs each condition on every packing.

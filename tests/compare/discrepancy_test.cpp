@@ -61,11 +61,28 @@ TEST(GrainRuns, LuckyAgreementDoesNotMakeThemSurer) {
   EXPECT_NEAR(point.scatter[0], 4.0, 1e-12);
 }
 
+// One packing here, two there: the scatter that those show is that of the one as well, and Student's t pays for how few
+// they are.
+TEST(GrainRuns, TheScatterIsThatOfAllConditionsTogether) {
+  const ModelAnswers base = base_answers(sand_study({0.2, 0.4}));
+  std::vector<RecordedRun> runs = grain_runs(base, {-10, 10}, 2.0);
+  runs.pop_back();
+  const Side side = side_of("dem", runs, {base.answers[0].at, base.answers[1].at});
+  const double spread = std::sqrt(200.0);
+  EXPECT_NEAR(side.points[0].scatter[0], spread, 1e-9);
+  EXPECT_NEAR(side.points[1].scatter[0], spread, 1e-9) << "errors of 2 N each there too";
+  EXPECT_NEAR(side.points[0].result->drawbar_pull.std_error, spread / std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(side.points[1].result->drawbar_pull.std_error, spread, 1e-9);
+  EXPECT_EQ(side.points[1].freedom[0], 1.0);
+  EXPECT_THAT(side.points[1].doubts, IsEmpty());
+  EXPECT_TRUE(std::isinf(side.points[1].freedom[1])) << "torques agree better than their own errors";
+}
+
 TEST(GrainRuns, OnePackingAndDriftAreToldAsDoubts) {
   auto runs = grain_runs(base_answers(sand_study({0.2})), {0}, 4.0);
   runs[0].steady = false;
   runs[0].drift = 3.7;
-  const SidePoint point = combine({&runs[0]});
+  const SidePoint point = side_of("dem", runs, {runs[0].answer.at}).points[0];
   EXPECT_THAT(point.doubts, Contains(HasSubstr("scatter between packings is not known")));
   EXPECT_THAT(point.doubts, Contains(HasSubstr("1 of 1 run not steady: halves differ by up to 3.7")));
 }

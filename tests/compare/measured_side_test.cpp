@@ -317,7 +317,8 @@ TEST_F(Rig, TooFewReRunsHaveNoJointTestAndTheSummarySaysWhy) {
   run_twice(0, 6), run_twice(1, 8);
   for (const std::size_t i : {4, 5}) *campaign.runs[i].torque += 3, *campaign.runs[i].sinkage += 1e-4;
   const Side side = side_of(campaign, question);
-  EXPECT_THAT(joint_test(side, question, {}).why_not, HasSubstr("2 runs beyond the first of a setpoint; 7 are needed"));
+  EXPECT_THAT(joint_test(side, question, {}).why_not,
+              HasSubstr("2 runs beyond the first of a condition; 7 are needed"));
   for (auto& run : campaign.runs) run.torque.reset(), run.sinkage.reset();
   EXPECT_TRUE(joint_test(side_of(campaign, question), question, {}).test);
 }
