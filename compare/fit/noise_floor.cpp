@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "bekker_wong/gsl.hpp"
 #include "compare/fit/condition_functions.hpp"
 #include "compare/fit/setpoint_squares.hpp"
 #include "compare/fit/thresholds.hpp"
@@ -145,8 +146,10 @@ class VarianceComponents {
     return 2 * static_cast<double>(n_) * std::log(sigma) + log_shape_ + log_det + fit;
   }
 
-  /// Residual of the smooth fit in units of its own leave-one-out sd, and the trace of the smoother.
-  VectorXd studentized(double sigma, double tau, double& trace, VectorXd& plain) const {
+  /// Of each value, the chance of one farther off the smooth fit of the others: its residual in sd of its own, with the
+  /// noise of the others, is Student's t (externally studentised; Cook and Weisberg 1982, ch. 2). Also the trace of the
+  /// smoother, and the residuals themselves.
+  VectorXd chances(double sigma, double tau, double& trace, VectorXd& plain) const {
     const VectorXd d = weights(tau);
     MatrixXd m = d.asDiagonal() * gram_ * d.asDiagonal() / (sigma * sigma);
     m.diagonal().array() += 1.0;
@@ -156,11 +159,16 @@ class VarianceComponents {
     plain = e_ - half.transpose() * (half * e_);
     const VectorXd leverage = half.colwise().squaredNorm();
     trace = leverage.sum();
-    const VectorXd room = (1 - leverage.array()).max(0.02);
-    VectorXd score = plain.array() / (sigma * room.array());  // leave-one-out residual times sqrt(1 - h)
-    score.array() *= room.array().sqrt();
+    const VectorXd squares = plain.array().square() / (sigma * sigma * (1 - leverage.array()).max(0.02));
+    const double freedom = std::max(2.0, static_cast<double>(n_) - trace);
+    const double all = std::max(freedom, e_.dot(plain) / (sigma * sigma));  // squares of the fit and of its columns
+    VectorXd chance(n_);
+    for (Index i = 0; i < n_; ++i) {
+      const double others = all - squares[i];  // what they come to without the value
+      chance[i] = others > 0 ? gsl::f_tail(squares[i] * (freedom - 1) / others, 1, freedom - 1) : 0.0;
+    }
     plain = plain.cwiseProduct(root_shape_);
-    return score;
+    return chance;
   }
 
  private:
@@ -178,7 +186,7 @@ class VarianceComponents {
 
 struct ChannelFit {
   ChannelNoise noise;
-  VectorXd score, plain;
+  VectorXd chance, plain;
 };
 
 /// Cells of one channel, gathered.
@@ -291,7 +299,7 @@ ChannelFit fit_channel(const Observations& observations, const NoiseData& data, 
   const double scatter = channel.spread.squaredNorm() / n;
   ChannelFit fit;
   double trace = 0.0;
-  fit.score = model.studentized(sigma, tau, trace, fit.plain);
+  fit.chance = model.chances(sigma, tau, trace, fit.plain);
   fit.noise = {.measured = true,
                .floor = sigma * std::sqrt((1 - part) * (1 - growing_share * share) + constant_share * part),
                .growth = share > 0 ? sigma * std::sqrt((1 - part) * (growing_share * share / mean_square)) : 0.0,
@@ -336,7 +344,7 @@ Eigen::Matrix4d correlation_of(const MatrixXd& standard) {
 NoiseEstimate estimate_noise(const Observations& observations, const NoiseData& data) {
   NoiseEstimate estimate;
   estimate.floor.rerun_freedom = observations.rerun_freedom();
-  estimate.outlier_score.assign(observations.cells.size(), 0.0);
+  estimate.chance.assign(observations.cells.size(), 1.0);
   const MatrixXd basis = smooth_basis(observations, thresholds::noise_functions);
   const Index rows = observations.rows.size();
   MatrixXd standard = MatrixXd::Constant(rows, channel_count, not_a_number);
@@ -350,7 +358,7 @@ NoiseEstimate estimate_noise(const Observations& observations, const NoiseData& 
     estimate.floor.channels[channel] = fit.noise;
     for (std::size_t i = 0; i < cells.cell.size(); ++i) {
       const Index k = i;
-      estimate.outlier_score[cells.cell[i]] = std::abs(fit.score[k]);
+      estimate.chance[cells.cell[i]] = fit.chance[k];
       standard(cells.row[i], channel) =
           fit.plain[k] / fit.noise.sd(data.prediction[cells.cell[i]], observations.cells[cells.cell[i]].spread);
     }

@@ -87,7 +87,7 @@ struct NoiseData {
 
 struct NoiseEstimate {
   NoiseFloor floor;
-  std::vector<double> outlier_score;  ///< of each cell: |residual| of the smooth fit in sd of its own, leave-one-out
+  std::vector<double> chance;  ///< of each cell: that noise alone would set it farther off the smooth fit of the others
 };
 
 /// Maximum likelihood of noise + soil values within their priors + a smooth function of the conditions of unknown size

@@ -33,9 +33,10 @@ inline constexpr double min_constant_share = 0.02, price_of_growth = 1.0;
 /// Smooth functions of the conditions beside which the noise is estimated, at most; values of a channel for each.
 /// Chosen: fewer leave an effect in the noise, more take the noise away.
 inline constexpr int noise_functions = 40, values_a_noise_function = 3;
-/// A value farther off than this many standard deviations is set aside [sd]. Chosen: by chance once in two million.
+/// A value that chance alone would set farther off more seldom than this is set aside [-]. Chosen: that of five known
+/// standard deviations.
 /// With outliers kept the verdict was the same in all eight campaigns that had any.
-inline constexpr double outlier_limit = 5.0;
+inline constexpr double outlier_chance = 5.7e-7;
 /// Largest share of the values that may be set aside at once [-]; where there are more, none is. Chosen.
 inline constexpr double max_outlier_share = 0.1;
 /// Soils that a base fit starts from at the most. Chosen; 30 starts end at one chi2 on 18 synthetic campaigns.

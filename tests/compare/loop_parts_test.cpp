@@ -14,7 +14,9 @@
 
 #include "compare/attribution/base_fit.hpp"
 #include "compare/attribution/detection.hpp"
+#include "compare/attribution/predictive_gain.hpp"
 #include "compare/fit/setpoint_squares.hpp"
+#include "compare/fit/thresholds.hpp"
 #include "compare/loop_fixture.hpp"
 #include "compare/measured/condition_views.hpp"
 
@@ -83,6 +85,77 @@ TEST(NoiseFloor, IsTheNoisePutIn) {
   }
 }
 
+/// The estimate of a channel of 12 runs of its own, with unit noise about a prediction that needs no soil.
+NoiseEstimate twelve_of_one(const std::vector<double>& residual) {
+  Observations runs;
+  for (int run = 0; run < 12; ++run) {
+    runs.rows.emplace_back().slip = 0.05 * run;
+    runs.condition.push_back(run);
+    runs.source_row.push_back(run);
+    runs.cells.push_back({.row = run, .channel = torque});
+  }
+  runs.conditions = 12;
+  return estimate_noise(runs, {.residual = Eigen::Map<const VectorXd>(residual.data(), 12),
+                               .prediction = VectorXd::LinSpaced(12, 20, 60),
+                               .soil_columns = Eigen::MatrixXd::Zero(12, 0)});
+}
+
+// A value 5 sd off can't be among twelve, if its own size is in the sd: at the most it is 11/sqrt(12) = 3.2. Held
+// against the others it is as far off as it is.
+TEST(NoiseFloor, AMistypedValueIsHeldAgainstTheOthers) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  int below = 0, values = 0, found = 0;
+  for (int campaign = 0; campaign < 60; ++campaign) {
+    std::vector<double> residual(12);
+    for (double& r : residual) r = normal(random);
+    for (const double chance : twelve_of_one(residual).chance)
+      if (chance < 1) ++values, below += chance < 0.05;
+    residual[static_cast<std::size_t>(campaign) % 12] += 40;
+    const std::vector<double> chances = twelve_of_one(residual).chance;
+    const auto least = std::ranges::min_element(chances);
+    EXPECT_EQ(least - chances.begin(), campaign % 12);
+    found += *least < thresholds::outlier_chance;
+  }
+  EXPECT_LT(below, 0.07 * values) << "of noise alone, one in twenty at the most";
+  EXPECT_GT(below, 0.01 * values);
+  EXPECT_GE(found, 54);
+}
+
+// A channel that was measured twice in all the campaign is heard, and neither makes the noise impossible nor the fit.
+TEST(NoiseFloor, StandsAChannelOfTwoValues) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 7);
+  for (std::size_t i = 2; i < campaign.runs.size(); ++i) campaign.runs[i].torque.reset();
+  const FittedModel base = fit_base(campaign, observe(campaign), {});
+  EXPECT_TRUE(base.data().noise.channels[torque].measured);
+  EXPECT_GT(base.data().noise.channels[torque].floor, 0.0);
+  EXPECT_TRUE(base.fit().residual.allFinite());
+}
+
+// Runs may stand in a file in any order.
+TEST(Observations, CellsStandInTheOrderOfTheRuns) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 7);
+  const auto pulls = [](const Campaign& asked) {
+    const Observations observations = observe(asked);
+    std::vector<double> values;
+    for (const Eigen::Index i : cells_in_order_of_runs(observations)) values.push_back(observations.cells[i].value);
+    return values;
+  };
+  const std::vector<double> in_order = pulls(campaign);
+  std::ranges::reverse(campaign.runs);
+  EXPECT_EQ(pulls(campaign), in_order);
+  campaign.runs.front().at.run.reset();
+  EXPECT_EQ(pulls(campaign).front(), *campaign.runs.front().drawbar_pull) << "the order is not known: as in the file";
+}
+
+TEST(Folds, AreNoMoreThanConditionsAndLeaveSomeOut) {
+  const Folds folds = deal_folds(4, 9, 1);
+  EXPECT_EQ(folds.count, 4);
+  EXPECT_EQ(std::set<int>(folds.of_condition.begin(), folds.of_condition.end()), (std::set<int>{0, 1, 2, 3}));
+}
+
 FittedModel settled(const Campaign& campaign) { return fit_base(campaign, observe(campaign), {}); }
 
 /// The base model's signatures, and what they are taken off.
@@ -141,6 +214,8 @@ TEST(SerialTest, SeesWarmAndColdDays) {
   const SerialTest test = serial_test(warm_and_cold, 3999, 1);
   EXPECT_LT(test.p_value, 0.005);
   EXPECT_EQ(test.p_value, serial_test(warm_and_cold, 3999, 1).p_value);
+  for (compare::Run& run : campaign.runs) *run.at.run += 20261101;  // numbered from a date
+  EXPECT_EQ(test.p_value, serial_test(settled(campaign), 3999, 1).p_value);
   for (compare::Run& run : campaign.runs) run.at.run.reset();
   EXPECT_EQ(serial_test(settled(campaign), 399, 1).p_value, 1.0);
 }
@@ -159,6 +234,14 @@ TEST(RerunTest, SeesWhatNoSmoothFunctionFollows) {
   EXPECT_LT(rerun_test(scattered).p_value, 1e-4);
   EXPECT_GT(lack_of_fit(scattered).p_value, 10 * rerun_test(scattered).p_value);
   EXPECT_GT(rerun_test(one_off).p_value, 0.05);
+}
+
+// An instrument that reads to 10 N m: re-runs agree to the digit, and are not without noise for that.
+TEST(RerunTest, KnowsThatValuesAreRead) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, {0.5, 0.2, 1e-4, 0.5}, 8);
+  for (compare::Run& run : campaign.runs) *run.torque = 10 * std::round(*run.torque / 10);
+  EXPECT_GT(rerun_test(settled(campaign)).p_value, 0.01);
 }
 
 // A signature's direction has nothing left that the soil could do, and unit length.

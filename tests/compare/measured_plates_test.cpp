@@ -70,20 +70,27 @@ TEST(MeasuredPlates, ScatterOfRepeatsIsTheirError) {
 
 // A soil that is no power law: n is 1 below half of the largest pressure (there z = 14 mm) and, by the p^2-weighted fit
 // to the rest, 0.5656; half of the difference is the error.
-TEST(MeasuredPlates, AnotherExponentAtHighPressuresIsAnError) {
-  const auto bent = [](double diameter, const std::string& test) {
-    std::string text;
+std::vector<MeasuredPlate> bent_plates() {
+  std::string text = plate_columns;
+  for (const char* test : {"a,0.06", "b,0.1"})
     for (int i = 1; i <= 40; ++i) {
       const double z = 0.001 * i, p = z < 0.02 ? 2e6 * z : 2e6 * std::sqrt(0.02 * z);  // n = 1, then 1/2
-      text += fmt::format("{},{},{},{}\n", test, diameter, z, p / 1e3);
+      text += fmt::format("{},{},{}\n", test, z, p / 1e3);
     }
-    return text;
-  };
-  const MeasuredPlatesFit fit =
-      fit_measured_plates(read_csv_of_plates(plate_columns + bent(0.06, "a") + bent(0.1, "b")));
+  return read_csv_of_plates(text);
+}
+
+TEST(MeasuredPlates, AnotherExponentAtHighPressuresIsAnError) {
+  const MeasuredPlatesFit fit = fit_measured_plates(bent_plates());
   EXPECT_NEAR(fit.exponent.between_pressures, (1.0 - 0.5656) / 2, 1e-4);
   EXPECT_GT(fit.exponent.estimate.value, 0.5);
   EXPECT_LT(fit.exponent.estimate.value, 1.0);
+}
+
+// The window's middle, 40.3 kPa, lies where the law changes: one half is all of n = 1, the other all of n = 1/2.
+TEST(MeasuredPlates, AWindowIsHalvedAtItsOwnMiddle) {
+  const MeasuredPlatesFit fit = fit_measured_plates(bent_plates(), {24e3, 57e3});
+  EXPECT_NEAR(fit.exponent.between_pressures, 0.25, 1e-6);
 }
 
 TEST(MeasuredPlates, OnlyTheReadingsOfAWindowCount) {
