@@ -46,7 +46,7 @@ LikelyPoints::LikelyPoints(const VirtualTest& test, const std::vector<Calibratio
     if (run.experiment.results.size() == test.targets.size())
       good.push_back(&run.experiment);
     else
-      failure = run.experiment.error;
+      failure = run.experiment.error, failed_.push_back(run.experiment.values);
   if (good.size() < test.factors.size() + 2)
     throw NoSolution(fmt::format("{} of {} experiments gave a result, too few to learn from; the last failure: {}",
                                  good.size(), runs.size(), failure));
@@ -88,15 +88,28 @@ bool LikelyPoints::is_near(const Candidate& candidate, double near) const {
 
 Candidate LikelyPoints::likeliest_tried() const { return *std::ranges::min_element(tried_, likelier); }
 
+bool LikelyPoints::is_nearest_to_a_failure(const Candidate& candidate) const {
+  const VectorXd at = to_unit(test_.factors, candidate.values);
+  const auto distance = [&](const VectorXd& values) { return (to_unit(test_.factors, values) - at).norm(); };
+  double failure = std::numeric_limits<double>::infinity(), result = failure;
+  for (const VectorXd& values : failed_) failure = std::min(failure, distance(values));
+  if (std::isinf(failure)) return false;
+  for (const Candidate& one : tried_) result = std::min(result, distance(one.values));
+  return failure < result;
+}
+
 Candidate LikelyPoints::likeliest() const {
-  const Candidate fresh = *std::ranges::min_element(cloud_, likelier), tried = likeliest_tried();
-  return likelier(tried, fresh) ? tried : fresh;
+  const Candidate* fresh = nullptr;
+  for (const Candidate& one : cloud_)
+    if ((fresh == nullptr || likelier(one, *fresh)) && !is_nearest_to_a_failure(one)) fresh = &one;
+  const Candidate tried = likeliest_tried();
+  return fresh == nullptr || likelier(tried, *fresh) ? tried : *fresh;
 }
 
 std::vector<Candidate> LikelyPoints::spread_out(double near, int count) const {
   std::vector<Candidate> left, taken;
   for (const Candidate& candidate : cloud_)
-    if (is_near(candidate, near)) left.push_back(candidate);
+    if (is_near(candidate, near) && !is_nearest_to_a_failure(candidate)) left.push_back(candidate);
   std::ranges::sort(left, likelier);
   std::vector<double> distance(left.size(), std::numeric_limits<double>::infinity());
   while (static_cast<int>(taken.size()) < count && taken.size() < left.size()) {

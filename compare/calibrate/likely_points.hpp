@@ -20,7 +20,7 @@ class LikelyPoints {
   LikelyPoints(const VirtualTest& test, const std::vector<CalibrationRun>& runs, const Settings& settings);
 
   /// Of cloud and tried points, the one with the largest chance; where no chance is above 1e-9, the one nearest to the
-  /// targets by chi square.
+  /// targets by chi square. A point whose nearest run gave no result is not proposed.
   Candidate likeliest() const;
   /// The same of points that were run with a result.
   Candidate likeliest_tried() const;
@@ -40,11 +40,13 @@ class LikelyPoints {
  private:
   Candidate look_at(const Eigen::VectorXd& values) const;
   bool is_near(const Candidate& candidate, double near) const;
+  bool is_nearest_to_a_failure(const Candidate& candidate) const;
 
   const VirtualTest& test_;
   Settings settings_;
   std::vector<Surrogate> surrogates_;
   std::vector<Candidate> cloud_, tried_;
+  std::vector<Eigen::VectorXd> failed_;  ///< values of runs without a result
 };
 
 }  // namespace soilbin::compare

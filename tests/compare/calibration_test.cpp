@@ -177,6 +177,28 @@ TEST(Calibration, FailedExperimentsAreLeftOutAndKept) {
   EXPECT_THROW(calibrate(test, {}, store), NoSolution);
 }
 
+// A board that falls over wherever it has the right angle by more than a little friction: no point is asked twice
+// without an answer.
+TEST(Calibration, APointThatFailsIsNotAskedAgain) {
+  VirtualTest test = board();
+  const auto angle = test.run;
+  test.run = [=](const VectorXd& v, std::uint64_t seed) {
+    if (v[1] > 0.45 && std::abs(board_angle(v) - 31.47 * degree) < 2 * degree) throw NoSolution("the board fell over");
+    return angle(v, seed);
+  };
+  ExperimentStore store;
+  CalibrationOptions options;
+  options.probability = 0.9999;  // until the budget's end
+  const Calibration found = calibrate(test, options, store);
+  std::vector<VectorXd> failed;
+  for (const CalibrationRun& run : found.runs) {
+    if (!run.experiment.results.empty()) continue;
+    EXPECT_EQ(std::ranges::count(failed, run.experiment.values), 0);
+    failed.push_back(run.experiment.values);
+  }
+  EXPECT_GE(failed.size(), 2U);
+}
+
 TEST(Calibration, AnotherExperimentDecides) {
   ExperimentStore store;
   std::size_t asked = 0;
