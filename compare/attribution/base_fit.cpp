@@ -94,7 +94,8 @@ FittedModel fit_from_several(Dataset made, std::optional<VectorXd> start, std::u
 Dataset with_noise(const FittedModel& model, const NoiseEstimate& estimate, bool drop_outliers) {
   const Dataset& data = model.data();
   std::vector<bool> drop(data.observations.cells.size());
-  for (std::size_t i = 0; i < drop.size(); ++i) drop[i] = estimate.chance[i] < thresholds::outlier_chance;
+  const double seldom = thresholds::outlier_level / static_cast<double>(drop.size());
+  for (std::size_t i = 0; i < drop.size(); ++i) drop[i] = estimate.chance[i] < seldom;
   const auto count = static_cast<double>(std::ranges::count(drop, true));
   if (!drop_outliers || count == 0 || count > thresholds::max_outlier_share * static_cast<double>(drop.size()))
     drop.assign(drop.size(), false);

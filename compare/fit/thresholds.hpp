@@ -33,10 +33,10 @@ inline constexpr double min_constant_share = 0.02, price_of_growth = 1.0;
 /// Smooth functions of the conditions beside which the noise is estimated, at most; values of a channel for each.
 /// Chosen: fewer leave an effect in the noise, more take the noise away.
 inline constexpr int noise_functions = 40, values_a_noise_function = 3;
-/// A value that chance alone would set farther off more seldom than this is set aside [-]. Chosen: that of five known
-/// standard deviations.
+/// Chance that a campaign of noise alone loses any of its values as an outlier [-]: each is set aside where its own
+/// chance is below this over their number (Bonferroni). Chosen: of 64 campaigns without an outlier none lost one.
 /// With outliers kept the verdict was the same in all eight campaigns that had any.
-inline constexpr double outlier_chance = 5.7e-7;
+inline constexpr double outlier_level = 0.01;
 /// Largest share of the values that may be set aside at once [-]; where there are more, none is. Chosen.
 inline constexpr double max_outlier_share = 0.1;
 /// Soils that a base fit starts from at the most. Chosen; 30 starts end at one chi2 on 18 synthetic campaigns.

@@ -115,7 +115,7 @@ TEST(NoiseFloor, AMistypedValueIsHeldAgainstTheOthers) {
     const std::vector<double> chances = twelve_of_one(residual).chance;
     const auto least = std::ranges::min_element(chances);
     EXPECT_EQ(least - chances.begin(), campaign % 12);
-    found += *least < thresholds::outlier_chance;
+    found += *least < thresholds::outlier_level / 12;
   }
   EXPECT_LT(below, 0.07 * values) << "of noise alone, one in twenty at the most";
   EXPECT_GT(below, 0.01 * values);
