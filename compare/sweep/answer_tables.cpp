@@ -66,8 +66,10 @@ std::vector<PrintedValue> printed_values(const TractionResult& r) {
       {"Tractive efficiency", none.empty() ? efficiency_in_percent(r) : "none: " + none, none.empty() ? "%" : ""});
   all.push_back(
       {"Contact",
-       fmt::format("soil meets the wheel {:.1f}° before the axle, presses most at {:.1f}°, lets go at {:.1f}°",
-                   r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree + 0.0),
+       fmt::format(
+           "soil meets the wheel {:.1f}° before the axle (theta_1), presses most at {:.1f}° (theta_m), lets go at "
+           "{:.1f}° (theta_2)",
+           r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree + 0.0),
        ""});
   std::string sum;
   for (const Contribution& part : r.budget) {
