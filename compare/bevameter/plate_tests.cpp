@@ -6,6 +6,7 @@
 #include <cctype>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "compare/measured/csv.hpp"
 #include "compare/report/number_text.hpp"
@@ -21,7 +22,7 @@ enum class Holds { diameter, radius, width, plate_label, sinkage, pressure, forc
 
 struct PlateColumn {
   Holds holds = Holds::nothing;
-  std::string unit;
+  std::string unit{}, name{};
 };
 
 constexpr const char* columns_hint =
@@ -59,7 +60,8 @@ std::vector<PlateColumn> columns_of(const CsvTable& table) {
     if (const auto measured = measured_column(header.text))
       columns.push_back(*measured);
     else
-      columns.push_back({header.text == "plate" || header.text == "tool" ? Holds::plate_label : Holds::label, ""});
+      columns.push_back({header.text == "plate" || header.text == "tool" ? Holds::plate_label : Holds::label});
+    columns.back().name = header.text;
   }
   const auto has = [&](Holds what) {
     return std::ranges::any_of(columns, [&](const PlateColumn& c) { return c.holds == what; });
@@ -89,10 +91,8 @@ void need_columns(const std::vector<PlateColumn>& columns, const CsvTable& table
     csv.refuse(at, "a force on a strip gives no pressure: its length is not told", columns_hint);
 }
 
-double value_in(const CsvCell& cell, const std::string& unit, const SourceText& csv) {
-  const std::optional<double> value = read_number(cell.text);
-  if (!value) csv.refuse(cell.offset, fmt::format("expected a number, not '{}'", clipped(cell.text)));
-  return *value / per_unit(unit);
+double value_in(const CsvCell& cell, const PlateColumn& column, const SourceText& csv) {
+  return number_in(cell, column.name, column.unit, csv) / per_unit(column.unit);
 }
 
 /// "plate_d60mm": the diameter behind the last 'd' that a length follows.
@@ -112,7 +112,7 @@ double diameter_in(const CsvCell& cell, const SourceText& csv) {
 }
 
 double radius_in(const CsvCell& cell, const PlateColumn& column, const SourceText& csv) {
-  const double size = column.holds == Holds::plate_label ? diameter_in(cell, csv) : value_in(cell, column.unit, csv);
+  const double size = column.holds == Holds::plate_label ? diameter_in(cell, csv) : value_in(cell, column, csv);
   if (!(size > 0.0)) csv.refuse(cell.offset, "a plate's size must be above 0");
   return column.holds == Holds::radius ? size : size / 2;
 }
@@ -135,13 +135,13 @@ PlateReading reading_of(const CsvRow& row, const std::vector<PlateColumn>& colum
         reading.radius = radius_in(cell, columns[i], csv);
         break;
       case Holds::sinkage:
-        reading.sinkage = value_in(cell, columns[i].unit, csv);
+        reading.sinkage = value_in(cell, columns[i], csv);
         break;
       case Holds::force:
         by_force = true;
         [[fallthrough]];
       case Holds::pressure:
-        reading.pressure = value_in(cell, columns[i].unit, csv);
+        reading.pressure = value_in(cell, columns[i], csv);
         break;
       case Holds::label:
         reading.test += (reading.test.empty() ? "" : ", ") + cell.text;
@@ -177,6 +177,22 @@ std::vector<std::pair<std::size_t, std::string>> wanted(const CsvTable& table, c
   return all;
 }
 
+/// A label that changes from row to row, such as a note or a measured number without a unit, would make a test of each
+/// reading.
+void need_labels_of_tests(const std::vector<const CsvRow*>& rows, const std::vector<PlateColumn>& columns,
+                          const CsvTable& table, const SourceText& csv) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].holds != Holds::label) continue;
+    std::set<std::string> values;
+    for (const CsvRow* row : rows) values.insert(row->cells[i].text);
+    if (2 * values.size() > std::max<std::size_t>(rows.size(), 6))
+      csv.refuse(table.header.cells[i].offset,
+                 fmt::format("column '{}' has no unit, so it tells tests apart, and it has {} values in {} rows",
+                             clipped(columns[i].name), values.size(), rows.size()),
+                 "take it out of the file, or let its name end in its unit (time_s): then it is left aside");
+  }
+}
+
 }  // namespace
 
 std::vector<MeasuredPlate> read_plates(const SourceText& csv,
@@ -185,11 +201,14 @@ std::vector<MeasuredPlate> read_plates(const SourceText& csv,
   const std::vector<PlateColumn> columns = columns_of(table);
   need_columns(columns, table, csv);
   const auto kept = wanted(table, csv, only);
+  std::vector<const CsvRow*> rows;
+  for (const CsvRow& row : table.rows)
+    if (std::ranges::all_of(kept, [&](const auto& want) { return row.cells[want.first].text == want.second; }))
+      rows.push_back(&row);
+  need_labels_of_tests(rows, columns, table, csv);
   std::vector<MeasuredPlate> plates;
-  for (const CsvRow& row : table.rows) {
-    if (std::ranges::any_of(kept, [&](const auto& want) { return row.cells[want.first].text != want.second; }))
-      continue;
-    const PlateReading reading = reading_of(row, columns, csv);
+  for (const CsvRow* row : rows) {
+    const PlateReading reading = reading_of(*row, columns, csv);
     auto plate = std::ranges::find_if(plates, [&](const MeasuredPlate& known) {
       return known.test == reading.test && known.curve.radius == reading.radius;
     });

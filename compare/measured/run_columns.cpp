@@ -73,14 +73,7 @@ double read_cell(const CsvCell& cell, const std::string& header, const ColumnCho
   const auto refuse = [&](const std::string& why, const std::string& hint = "") {
     source.refuse(cell.offset, fmt::format("column '{}': {}", clipped(header), why), hint);
   };
-  if (!read_number(cell.text)) {
-    const bool comma = cell.text.find(',') != std::string::npos;
-    const bool digit = cell.text.find_first_of("0123456789") != std::string::npos;
-    refuse(fmt::format("expected a finite number, not '{}'", clipped(cell.text)),
-           comma   ? "a decimal point is '.'"
-           : digit ? "the unit stands in the column's name, not in the cell"
-                   : "where nothing was measured leave the cell empty; take out a second line of headings");
-  }
+  number_in(cell, header, choice.unit, source);
   const Measure& measure = choice.column->measure;
   const std::string text = choice.unit == "-" ? cell.text : cell.text + " " + choice.unit;
   double value = 0.0;

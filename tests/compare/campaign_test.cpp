@@ -152,6 +152,7 @@ TEST(CampaignRefuses, UnknownColumns) {
 // The line to write holds the header's own unit: pasted as it is, it must not read millimetres as metres.
 TEST(CampaignRefuses, UnknownColumnsWithTheLineToWrite) {
   const std::vector<std::pair<std::string, std::string>> hints = {
+      {"R2", "columns: {R2: {quantity: QUANTITY, unit: UNIT}}"},
       {"my own", "columns: {my own: {quantity: QUANTITY, unit: UNIT}}"},
       {"torque_kNm", "{torque_kNm: {quantity: torque, unit: kNm}}"},
       {"sinkage_mm", "{sinkage_mm: {quantity: sinkage, unit: mm}}"},
@@ -177,7 +178,12 @@ TEST(CampaignRefuses, SemicolonsWithDecimalCommas) {
 TEST(CampaignRefuses, TextInANumber) {
   EXPECT_THAT(refused_csv("122,", "abc,"),
               StartsWith("runs.csv:3:19: column 'drawbar_pull_N': expected a finite number, not 'abc'"));
-  EXPECT_THAT(refused_csv("122,", "122 N,"), HasSubstr("the unit stands in the column's name"));
+  EXPECT_THAT(refused_csv("122,", "122 N,"),
+              HasSubstr("hint: write 122: the unit of the whole column (N) stands in its name or in campaign.yaml"));
+  for (const char* broken : {"#DIV/0!", "#REF!", "#N/A"})
+    EXPECT_THAT(refused_csv("122,", std::string(broken) + ","),
+                AllOf(StartsWith("runs.csv:3:19: column 'drawbar_pull_N': expected a finite number, not '#"),
+                      HasSubstr("hint: the spreadsheet could not compute this cell: mend its formula, or leave")));
   EXPECT_THAT(refused_csv("122,", "\"1,5\","), HasSubstr("a decimal point is '.'"));
   EXPECT_THAT(refused_csv("2,a,1000", "two,a,1000"), StartsWith("runs.csv:3:1: column 'run'"));
   EXPECT_THAT(refused_csv("0.1,2,", "0.1,1.5,"), HasSubstr("column 'pass': expected a whole number, not '1.5'"));
