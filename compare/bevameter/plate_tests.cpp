@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <numbers>
 #include <optional>
@@ -193,6 +194,45 @@ void need_labels_of_tests(const std::vector<const CsvRow*>& rows, const std::vec
   }
 }
 
+/// What a plate test can be, far beyond what any was: numbers outside stand under a wrong unit.
+struct PlateLimits {
+  std::initializer_list<Holds> columns;
+  double least, most;  ///< of the largest number in the file [SI]
+  const char* most_of;
+  std::initializer_list<const char*> units;
+};
+const std::array<PlateLimits, 4> plate_limits = {{
+    {{Holds::sinkage}, 0.5e-3, 2.0, "plates sink in by", {"m", "mm", "cm"}},
+    {{Holds::pressure}, 200.0, 5e6, "plates press on soil with", {"Pa", "kPa", "MPa"}},
+    {{Holds::diameter, Holds::width}, 4e-3, 2.0, "plates measure", {"m", "mm", "cm"}},
+    {{Holds::radius}, 2e-3, 1.0, "plates have a radius of", {"m", "mm", "cm"}},
+}};
+
+void need_possible_numbers(const std::vector<const CsvRow*>& rows, const std::vector<PlateColumn>& columns,
+                           const CsvTable& table, const SourceText& csv) {
+  for (const PlateLimits& limits : plate_limits)
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (std::ranges::find(limits.columns, columns[i].holds) == limits.columns.end()) continue;
+      double largest = 0.0;
+      for (const CsvRow* row : rows) largest = std::max(largest, value_in(row->cells[i], columns[i], csv));
+      if (largest == 0.0 || (largest >= limits.least && largest <= limits.most)) continue;
+      const double written = largest * per_unit(columns[i].unit);
+      std::string hint = "the end of a column's name is the unit of its numbers";
+      for (const char* unit : limits.units)
+        if (const double so = written / per_unit(unit); so >= limits.least && so <= limits.most) {
+          hint += fmt::format(": if they are in {}, call it {}_{}", unit,
+                              columns[i].name.substr(0, columns[i].name.rfind('_')), unit);
+          break;
+        }
+      csv.refuse(
+          table.header.cells[i].offset,
+          fmt::format("column '{}': the largest number is {:.4g} {}; {} {:g} to {:g} {}", clipped(columns[i].name),
+                      written, columns[i].unit, limits.most_of, limits.least * per_unit(columns[i].unit),
+                      limits.most * per_unit(columns[i].unit), columns[i].unit),
+          hint);
+    }
+}
+
 }  // namespace
 
 std::vector<MeasuredPlate> read_plates(const SourceText& csv,
@@ -206,6 +246,7 @@ std::vector<MeasuredPlate> read_plates(const SourceText& csv,
     if (std::ranges::all_of(kept, [&](const auto& want) { return row.cells[want.first].text == want.second; }))
       rows.push_back(&row);
   need_labels_of_tests(rows, columns, table, csv);
+  need_possible_numbers(rows, columns, table, csv);
   std::vector<MeasuredPlate> plates;
   for (const CsvRow* row : rows) {
     const PlateReading reading = reading_of(*row, columns, csv);

@@ -136,6 +136,22 @@ TEST(MeasuredPlates, BadFilesAreRefused) {
               HasSubstr("test 'a' of the plate of 60 mm has 1 reading"));
 }
 
+// Numbers a thousand times too large or too small are of another unit than the column's name says, and the error names
+// the one that they can be in.
+TEST(MeasuredPlates, NumbersUnderAWrongUnitAreRefused) {
+  const std::string rows = rows_of_a_plate(0.06, "a") + rows_of_a_plate(0.1, "b");  // m, m, kPa
+  const auto under = [&](const std::string& header) { return refusal([&] { read_csv_of_plates(header + rows); }); };
+  EXPECT_THAT(
+      under("test,plate_diameter_m,sinkage_mm,pressure_kPa\n"),
+      AllOf(StartsWith("plates.csv:1:23: column 'sinkage_mm': the largest number is 0.024 mm; plates sink in by "
+                       "0.5 to 2000 mm"),
+            HasSubstr("if they are in m, call it sinkage_m")));
+  EXPECT_THAT(under("test,plate_diameter_m,sinkage_m,pressure_MPa\n"),
+              AllOf(HasSubstr("plates press on soil with 0.0002 to 5 MPa"), HasSubstr("call it pressure_kPa")));
+  EXPECT_THAT(under("test,plate_diameter_mm,sinkage_m,pressure_kPa\n"), HasSubstr("plates measure 4 to 2000 mm"));
+  EXPECT_NO_THROW(read_csv_of_plates(plate_columns + rows));
+}
+
 // A number without a unit in its name would make each reading a test of its own.
 TEST(MeasuredPlates, AColumnThatChangesInEachRowTellsNoTests) {
   std::string csv = "R2," + plate_columns;
