@@ -110,6 +110,9 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings&
   const std::string at = " at " + in_words(answer.at);
   const Tire& tire = scenario.tire;
   const TractionResult& r = *answer.result;
+  if (answer.at.speed == 0.0 && std::abs(answer.at.slip) < 1.0)
+    warnings.push_back(
+        "at a speed of 0 a wheel stands still or slips by 100 %; the answer is that of a very slow wheel" + at);
   const double length = tire.radius * (r.entry_angle - r.exit_angle);
   const double pressure = answer.at.load / (tire.width * tire.radius * std::sin(r.entry_angle));
   if (pressure < 500.0 || pressure > 2e6)
