@@ -63,6 +63,11 @@ std::vector<RunColumn> make_columns() {
   for (const char* name :
        {"speed", "pass", "position", "moisture", "longitudinal_incline", "transverse_incline", "yaw"})
     all.push_back(condition(name));
+  all.push_back({.quantity = "rotation",
+                 .canonical = "rotation_rpm",
+                 .measure = {"rpm", zero_or_more},
+                 .set = [](Run& run, double x) { run.rotation = x; },
+                 .get = [](const Run&) { return std::nullopt; }});  // its speed is written
   for (const ChannelView& view : channel_views) all.push_back(channel(view));
   for (std::size_t place = 0; place < channel_views.size(); ++place) all.push_back(scatter(place));
   return all;

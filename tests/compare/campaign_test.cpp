@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <numbers>
+
 #include "bekker_wong/effect_vocabulary.hpp"
 #include "compare/measured/csv.hpp"
 #include "scenario/case.hpp"
@@ -116,6 +118,29 @@ TEST(Campaign, ColumnsMayHaveOtherNamesAndUnits) {
   EXPECT_EQ(c.columns.at("drawbar_pull").unit, "kN");
   EXPECT_EQ(c.columns.at("drawbar_pull").at.column, 10);
   EXPECT_EQ(c.columns.at("load").unit, "N");
+}
+
+// What an operator keeps beside the numbers: neither read nor refused, whatever its cells hold.
+TEST(Campaign, ColumnsMayBeIgnored) {
+  const std::string csv = "Operator,load_N,slip,sinkage_m,Date\nEva,80,0.1,0.01,3 May\n,80,0.2,0.02,#N/A\n";
+  const auto ignoring = [](const std::string& list) { return replaced(good_yaml, "columns: {}", "ignored: " + list); };
+  const Campaign c = parse(ignoring("[Operator, Date]"), csv);
+  ASSERT_EQ(c.runs.size(), 2U);
+  EXPECT_EQ(c.runs[1].sinkage, 0.02);
+  EXPECT_FALSE(c.columns.contains("Date"));
+  EXPECT_THAT(refused(ignoring("[Operator]"), csv), HasSubstr("or leave it aside: ignored: [Date]"));
+  EXPECT_THAT(refused(ignoring("[Operatr, Date]"), csv), HasSubstr("no column 'Operatr', did you mean 'Operator'?"));
+  EXPECT_THAT(refused(ignoring("Date"), csv), HasSubstr("expected a list of column names"));
+}
+
+// v = r w (1 - s) of a driven wheel: at 30 rpm and 20 % slip on a level bed.
+TEST(Campaign, TheRotationTellsTheSpeed) {
+  const std::string csv = "load_N,slip,rotation_rpm,sinkage_m\n80,0.2,30,0.01\n80,0.4,,0.02\n";
+  const Campaign c = parse(good_yaml, csv);
+  EXPECT_NEAR(c.runs[0].at.speed, c.wheel.radius * 30 * 2 * std::numbers::pi / 60 * 0.8, 1e-12);
+  EXPECT_EQ(c.runs[1].at.speed, OperatingCondition().speed) << "an empty cell: the usual speed";
+  EXPECT_THAT(refused(good_yaml, "load_N,slip,speed_m_s,rotation_rpm,sinkage_m\n80,0.2,0.1,30,0.01\n"),
+              StartsWith("runs.csv:1:23: columns 'speed_m_s' and 'rotation_rpm' both tell the speed"));
 }
 
 TEST(Campaign, RealFilesHaveQuotesCarriageReturnsMarksAndBlankLines) {
