@@ -71,22 +71,17 @@ Renames read_renames(const YamlNode* columns, const Reading& reading) {
 }
 
 /// Takes the columns that `ignored:` names out of the table.
-void leave_out(CsvTable& table, const YamlNode* ignored, const Renames& renames, const SourceText& csv,
-               const Reading& reading) {
+void leave_out(CsvTable& table, const YamlNode* ignored, const Renames& renames, const Reading& reading) {
   if (ignored == nullptr) return;
   if (!ignored->is_sequence()) reading.refuse(*ignored, "expected a list of column names, not " + ignored->kind_name());
   for (const YamlNode& item : ignored->items) {
     const std::string name = read_text(item, reading);
     if (renames.contains(name))
       reading.refuse(item, fmt::format("'{}' stands under 'columns' and under 'ignored'", clipped(name)));
-    std::vector<std::string> headers;
-    for (const CsvCell& header : table.header.cells) headers.push_back(header.text);
-    const auto found = std::ranges::find(headers, name);
-    if (found == headers.end())
-      reading.refuse(item,
-                     fmt::format("'{}' has no column '{}'{}", csv.file, clipped(name), did_you_mean(name, headers)),
-                     "its columns: " + listed(headers));
-    const auto erase = [&](CsvRow& row) { row.cells.erase(row.cells.begin() + (found - headers.begin())); };
+    const auto& cells = table.header.cells;
+    const auto place = std::ranges::find(cells, name, &CsvCell::text) - cells.begin();
+    if (place == std::ssize(cells)) continue;  // a misspelt name leaves its column unknown, and that is refused
+    const auto erase = [&](CsvRow& row) { row.cells.erase(row.cells.begin() + place); };
     erase(table.header);
     std::ranges::for_each(table.rows, erase);
   }
@@ -287,10 +282,13 @@ Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(c
   Renames renames =
       read_renames(value_of(document, "columns", Need::optional, "names and units; {} for none", reading), reading);
   const SourceText csv = open(campaign.data);
-  if (use == CampaignUse::design && csv.text.empty()) return campaign;
+  if (use == CampaignUse::design && csv.text.empty()) {
+    for (const auto& [name, renamed] : renames)
+      campaign.columns[renamed.choice.column->quantity] = {name, renamed.choice.unit, {}};
+    return campaign;
+  }
   CsvTable table = parse_csv(csv);
-  leave_out(table, value_of(document, "ignored", Need::optional, "list of column names", reading), renames, csv,
-            reading);
+  leave_out(table, value_of(document, "ignored", Need::optional, "list of column names", reading), renames, reading);
   const std::vector<ColumnChoice> columns = choose_columns(table, renames, csv);
   std::vector<std::string> headers;
   for (const CsvCell& header : table.header.cells) headers.push_back(header.text);

@@ -59,7 +59,8 @@ struct Campaign {
   std::string data = "runs.csv";
   ForceFrame force_frame = ForceFrame::travel;
   SlipBy slip_by = SlipBy::wheel_plane_speed;
-  std::map<std::string, DataColumn> columns;  ///< of the data file, by quantity; none where there is no file
+  std::map<std::string, DataColumn>
+      columns;  ///< of the data file, by quantity; without a file, those that campaign.yaml names
   std::vector<Run> runs;
 };
 

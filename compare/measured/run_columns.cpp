@@ -152,19 +152,21 @@ std::vector<Run> read_runs(const CsvTable& table, std::span<const ColumnChoice> 
   return runs;
 }
 
-std::string write_runs(const std::vector<Run>& runs, const std::set<std::string_view>& to_fill_in) {
-  std::vector<const RunColumn*> columns;
-  for (const RunColumn& column : run_columns())
-    if (worth_writing(column, runs) || to_fill_in.contains(column.quantity)) columns.push_back(&column);
+std::string write_runs(const std::vector<Run>& runs, const std::set<std::string_view>& to_fill_in,
+                       const std::map<std::string, DataColumn>& named) {
+  std::vector<RunColumn> columns;
+  for (const RunColumn& column : run_columns()) {
+    if (!worth_writing(column, runs) && !to_fill_in.contains(column.quantity)) continue;
+    columns.push_back(column);
+    if (const auto own = named.find(column.quantity); own != named.end())
+      columns.back().canonical = own->second.header, columns.back().measure.unit = own->second.unit;
+  }
   std::string text;
   const auto line = [&](const auto& cell_of) {
-    for (const RunColumn* column : columns) {
-      if (column != columns.front()) text += ',';
-      text += cell_of(*column);
-    }
+    for (std::size_t i = 0; i < columns.size(); ++i) text += (i == 0 ? "" : ",") + cell_of(columns[i]);
     text += '\n';
   };
-  line([](const RunColumn& column) { return column.canonical; });
+  line([](const RunColumn& column) { return csv_cell(column.canonical); });
   for (const Run& run : runs) line([&](const RunColumn& column) { return cell_text(column, run); });
   return text;
 }
