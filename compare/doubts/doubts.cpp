@@ -110,9 +110,6 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings&
   const std::string at = " at " + in_words(answer.at);
   const Tire& tire = scenario.tire;
   const TractionResult& r = *answer.result;
-  if (answer.at.speed == 0.0 && std::abs(answer.at.slip) < 1.0)
-    warnings.push_back(
-        "at a speed of 0 a wheel stands still or slips by 100 %; the answer is that of a very slow wheel" + at);
   const double length = tire.radius * (r.entry_angle - r.exit_angle);
   const double pressure = answer.at.load / (tire.width * tire.radius * std::sin(r.entry_angle));
   if (pressure < 500.0 || pressure > 2e6)
@@ -227,6 +224,19 @@ Warnings doubts_of_declarations(const Case& question) {
   return words;
 }
 
+/// Conditions that no motion has; a drive begins at rest.
+Warnings doubts_of_speeds(const Case& question) {
+  Warnings words;
+  if (question.drive) return words;
+  for (const OperatingCondition& at : question.study.conditions)
+    if (at.speed == 0.0 && std::abs(at.slip) < 1.0)
+      words.push_back(
+          "at a speed of 0 a wheel stands still or slips by 100 %; the answer is that of a very slow wheel "
+          "at " +
+          in_words(at));
+  return once_each(words);
+}
+
 /// Whether answers stand beside the doubts: then what has none is told there, and grains that weren't asked are left
 /// aside.
 enum class Answered { no, yes };
@@ -239,6 +249,7 @@ Warnings doubts_but_unused_inputs(const Case& question, const std::vector<ModelA
   if (scenario.soil.semi_empirical && (open || asks(question.study, ModelKind::bekker_wong)))
     append(warnings, doubts(*scenario.soil.semi_empirical));
   add_wheel_doubts(scenario.tire, scenario.soil.semi_empirical, warnings);
+  append(warnings, doubts_of_speeds(question));
   append(warnings, doubts_of_answers(scenario, study, open));
   if (open || asks(question.study, ModelKind::dem)) append(warnings, grain_doubts(scenario, study));
   for (const ModelAnswers& model : study) append(warnings, model.doubts);

@@ -180,6 +180,7 @@ TEST(DoubtsOfCommands, ASlipAtASpeedOfZeroIsDoubted) {
   const auto told = HasSubstr("at a speed of 0 a wheel stands still or slips by 100 %");
   EXPECT_THAT(soilbin(at + "20%").err, told);
   EXPECT_THAT(soilbin(at + "100%").err, Not(told));
+  EXPECT_THAT(soilbin("drive rover-climb").err, Not(told)) << "a drive begins at rest";
 }
 
 /// n of 0.15 is out of the usual, with a standard deviation that a fit would free.
