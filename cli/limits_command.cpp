@@ -44,7 +44,8 @@ int limits(const Question& inputs, const LimitsOptions& options, const Session& 
     for (const compare::WheelLimits& answer : answers) rows.push_back(to_json(answer));
     print_json(document_of("soilbin-limits/1", question, rows), doubts);
   } else {
-    fmt::print("{} on {}\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil));
+    fmt::print("{} on {}\n{}\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil),
+               compare::errors_in_words(question.scenario.soil));
     for (const compare::WheelLimits& answer : answers) fmt::print("\n{}", in_words(answer));
   }
   for (const compare::WheelLimits& answer : answers)

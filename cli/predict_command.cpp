@@ -13,6 +13,7 @@
 #include "compare/sweep/answer_tables.hpp"
 #include "compare/sweep/prediction.hpp"
 #include "compare/sweep/result_json.hpp"
+#include "compare/sweep/varying.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::cli {
@@ -49,9 +50,9 @@ int predict(const PredictOptions& options, const Session& session) {
   if (options.json)
     print_json(compare::to_json(prediction, campaign.name), doubts);
   else
-    fmt::print("{}: {} runs of {}, predicted with {} and not fitted\n\n{}", campaign.name, prediction.runs.size(),
+    fmt::print("{}: {} runs of {}, predicted with {} and not fitted\n{}\n\n{}", campaign.name, prediction.runs.size(),
                in_words(campaign.wheel), options.model.empty() ? "the declared soil" : options.model,
-               compare::prediction_text(prediction));
+               compare::errors_in_words(scenario.soil), compare::prediction_text(prediction));
   if (prediction.unsolved < prediction.runs.size()) return outputs.status(done);
   fmt::print(stderr, "soilbin: no run of the campaign has a solution\n");
   return failed;

@@ -221,6 +221,8 @@ void Question::override_tire(Tire& tire, const Workplace& place) const {
   if (!tire_.empty()) tire = find_tire(tire_, place.library);
   wheel_.apply(tire);
   lugs_.apply(tire.lugs);
+  if (const std::string why = why_no_gaps(tire); !why.empty())
+    throw InputError(why + "\n  hint: fewer or thinner lugs");
   const std::vector<std::string> of_wheel = wheel_.given_keys(), of_lugs = lugs_.given_keys();
   for (const std::string& key : of_wheel) tire.sources[key] = on_command_line;
   for (const std::string& key : of_lugs) tire.sources["lugs." + key] = on_command_line;

@@ -29,12 +29,24 @@ struct Kind<Soil> {
   static constexpr const char* format = soil_format;
 };
 
+void check_parts(const Tire& tire, const YamlNode& node, const Reading& reading) {
+  if (const std::string why = why_no_gaps(tire); !why.empty()) reading.refuse(node, why, "fewer or thinner lugs");
+}
+void check_parts(const Soil&, const YamlNode&, const Reading&) {}
+
+template <class T>
+T read_checked(const YamlNode& node, const Reading& reading, const std::vector<std::string>& beside = {}) {
+  T value = read_mapping<T>(node, reading, beside);
+  check_parts(value, node, reading);
+  return value;
+}
+
 template <class T>
 T parse_file(const SourceText& source) {
   const YamlNode document = parse_yaml(source);
   const Reading reading{&source, std::nullopt, nullptr, ""};
   expect_format(document, Kind<T>::format, reading);
-  T value = read_mapping<T>(document, reading, {"format"});
+  T value = read_checked<T>(document, reading, {"format"});
   if (value.name.empty()) value.name = fs::path(source.file).stem().string();
   return value;
 }
@@ -68,7 +80,7 @@ T find_by_name(const std::string& name, const Library& library) {
 /// A tire or soil of a case: a mapping, a name of the library, or a path relative to the case file.
 template <class T>
 T read_part(const YamlNode& node, const Library& library, const Reading& reading) {
-  if (node.is_mapping()) return read_mapping<T>(node, reading);
+  if (node.is_mapping()) return read_checked<T>(node, reading);
   if (!node.is_scalar())
     reading.refuse(node, fmt::format("expected a {}: a mapping, a name of the library, or a path; not {}",
                                      Kind<T>::word, node.kind_name()));

@@ -36,7 +36,7 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   constexpr std::size_t longest = 200;  // a word beyond this is no misspelling, and the table is quadratic
   if (word.size() > longest) return "";
   std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  std::size_t best_distance = std::min(word.size(), std::max<std::size_t>(2, word.size() / 3) + 1);
   for (const std::string& candidate : right) {
     if (candidate.size() > longest) continue;
     const std::size_t d = distance(lower(word), lower(candidate));

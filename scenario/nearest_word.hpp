@@ -7,7 +7,7 @@
 namespace soilbin {
 
 /// The right word nearest to a misspelt one (Damerau-Levenshtein distance, case ignored), or "" where none is near
-/// enough to be meant (distance above a third of the word's length, at least 2).
+/// enough to be meant (distance above a third of the word's length, at least 2, or as many as it has letters).
 std::string nearest_word(const std::string& word, const std::vector<std::string>& right);
 
 /// ", did you mean 'radius'?" for the end of a message, or "" where no word is near enough.

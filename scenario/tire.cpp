@@ -2,7 +2,21 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace soilbin {
+
+std::string why_no_gaps(const Tire& tire) {
+  if (!is_lugged(tire) || !tire.lugs.count || !tire.lugs.thickness) return "";
+  constexpr double pi = std::numbers::pi;
+  const int count = *tire.lugs.count;
+  const double thickness = *tire.lugs.thickness, share = thickness / 2 / tire.radius;
+  if (share < 1 && std::asin(share) < 0.999 * pi / count) return "";
+  return fmt::format(
+      "{} lugs of {:.4g} mm leave no gap round a radius of {:.4g} mm: from one lug to the next are {:.4g} mm", count,
+      1000 * thickness, 1000 * tire.radius, 2000 * pi * tire.radius / count);
+}
 
 std::string in_words(const Tire& tire) {
   std::string words = fmt::format("{} (r {:.4g} mm, b {:.4g} mm, ", tire.name.empty() ? "a wheel" : tire.name,

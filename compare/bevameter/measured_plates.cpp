@@ -133,7 +133,7 @@ MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, con
     if (curves.back().pressure.size() < fewest)
       throw InputError(fmt::format(
           "test '{}' of the plate of {:g} mm has {} with a pressure and a sinkage above 0; {} are needed\n  hint: "
-          "widen --pressure; a column without a unit in its name tells tests apart: call a time time_s",
+          "widen --pressure",
           plate.test, 2000 * plate.curve.radius, counted(curves.back().pressure.size(), "reading"), fewest));
   }
   if (curves.empty()) throw InputError("no plate tests to fit");

@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "compare/measured/csv.hpp"
 #include "compare/report/number_text.hpp"
@@ -21,7 +23,7 @@ enum class Holds { diameter, radius, width, plate_label, sinkage, pressure, forc
 
 struct PlateColumn {
   Holds holds = Holds::nothing;
-  std::string unit;
+  std::string unit{}, name{};
 };
 
 constexpr const char* columns_hint =
@@ -59,7 +61,8 @@ std::vector<PlateColumn> columns_of(const CsvTable& table) {
     if (const auto measured = measured_column(header.text))
       columns.push_back(*measured);
     else
-      columns.push_back({header.text == "plate" || header.text == "tool" ? Holds::plate_label : Holds::label, ""});
+      columns.push_back({header.text == "plate" || header.text == "tool" ? Holds::plate_label : Holds::label});
+    columns.back().name = header.text;
   }
   const auto has = [&](Holds what) {
     return std::ranges::any_of(columns, [&](const PlateColumn& c) { return c.holds == what; });
@@ -89,10 +92,8 @@ void need_columns(const std::vector<PlateColumn>& columns, const CsvTable& table
     csv.refuse(at, "a force on a strip gives no pressure: its length is not told", columns_hint);
 }
 
-double value_in(const CsvCell& cell, const std::string& unit, const SourceText& csv) {
-  const std::optional<double> value = read_number(cell.text);
-  if (!value) csv.refuse(cell.offset, fmt::format("expected a number, not '{}'", clipped(cell.text)));
-  return *value / per_unit(unit);
+double value_in(const CsvCell& cell, const PlateColumn& column, const SourceText& csv) {
+  return number_in(cell, column.name, column.unit, csv) / per_unit(column.unit);
 }
 
 /// "plate_d60mm": the diameter behind the last 'd' that a length follows.
@@ -112,7 +113,7 @@ double diameter_in(const CsvCell& cell, const SourceText& csv) {
 }
 
 double radius_in(const CsvCell& cell, const PlateColumn& column, const SourceText& csv) {
-  const double size = column.holds == Holds::plate_label ? diameter_in(cell, csv) : value_in(cell, column.unit, csv);
+  const double size = column.holds == Holds::plate_label ? diameter_in(cell, csv) : value_in(cell, column, csv);
   if (!(size > 0.0)) csv.refuse(cell.offset, "a plate's size must be above 0");
   return column.holds == Holds::radius ? size : size / 2;
 }
@@ -135,13 +136,13 @@ PlateReading reading_of(const CsvRow& row, const std::vector<PlateColumn>& colum
         reading.radius = radius_in(cell, columns[i], csv);
         break;
       case Holds::sinkage:
-        reading.sinkage = value_in(cell, columns[i].unit, csv);
+        reading.sinkage = value_in(cell, columns[i], csv);
         break;
       case Holds::force:
         by_force = true;
         [[fallthrough]];
       case Holds::pressure:
-        reading.pressure = value_in(cell, columns[i].unit, csv);
+        reading.pressure = value_in(cell, columns[i], csv);
         break;
       case Holds::label:
         reading.test += (reading.test.empty() ? "" : ", ") + cell.text;
@@ -177,6 +178,61 @@ std::vector<std::pair<std::size_t, std::string>> wanted(const CsvTable& table, c
   return all;
 }
 
+/// A label that changes from row to row, such as a note or a measured number without a unit, would make a test of each
+/// reading.
+void need_labels_of_tests(const std::vector<const CsvRow*>& rows, const std::vector<PlateColumn>& columns,
+                          const CsvTable& table, const SourceText& csv) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].holds != Holds::label) continue;
+    std::set<std::string> values;
+    for (const CsvRow* row : rows) values.insert(row->cells[i].text);
+    if (2 * values.size() > std::max<std::size_t>(rows.size(), 6))
+      csv.refuse(table.header.cells[i].offset,
+                 fmt::format("column '{}' has no unit, so it tells tests apart, and it has {} values in {} rows",
+                             clipped(columns[i].name), values.size(), rows.size()),
+                 "take it out of the file, or let its name end in its unit (time_s): then it is left aside");
+  }
+}
+
+/// What a plate test can be, far beyond what any was: numbers outside stand under a wrong unit.
+struct PlateLimits {
+  std::initializer_list<Holds> columns;
+  double least, most;  ///< of the largest number in the file [SI]
+  const char* most_of;
+  std::initializer_list<const char*> units;
+};
+const std::array<PlateLimits, 4> plate_limits = {{
+    {{Holds::sinkage}, 0.5e-3, 2.0, "plates sink in by", {"m", "mm", "cm"}},
+    {{Holds::pressure}, 200.0, 5e6, "plates press on soil with", {"Pa", "kPa", "MPa"}},
+    {{Holds::diameter, Holds::width}, 4e-3, 2.0, "plates measure", {"m", "mm", "cm"}},
+    {{Holds::radius}, 2e-3, 1.0, "plates have a radius of", {"m", "mm", "cm"}},
+}};
+
+void need_possible_numbers(const std::vector<const CsvRow*>& rows, const std::vector<PlateColumn>& columns,
+                           const CsvTable& table, const SourceText& csv) {
+  for (const PlateLimits& limits : plate_limits)
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (std::ranges::find(limits.columns, columns[i].holds) == limits.columns.end()) continue;
+      double largest = 0.0;
+      for (const CsvRow* row : rows) largest = std::max(largest, value_in(row->cells[i], columns[i], csv));
+      if (largest == 0.0 || (largest >= limits.least && largest <= limits.most)) continue;
+      const double written = largest * per_unit(columns[i].unit);
+      std::string hint = "the end of a column's name is the unit of its numbers";
+      for (const char* unit : limits.units)
+        if (const double so = written / per_unit(unit); so >= limits.least && so <= limits.most) {
+          hint += fmt::format(": if they are in {}, call it {}_{}", unit,
+                              columns[i].name.substr(0, columns[i].name.rfind('_')), unit);
+          break;
+        }
+      csv.refuse(
+          table.header.cells[i].offset,
+          fmt::format("column '{}': the largest number is {:.4g} {}; {} {:g} to {:g} {}", clipped(columns[i].name),
+                      written, columns[i].unit, limits.most_of, limits.least * per_unit(columns[i].unit),
+                      limits.most * per_unit(columns[i].unit), columns[i].unit),
+          hint);
+    }
+}
+
 }  // namespace
 
 std::vector<MeasuredPlate> read_plates(const SourceText& csv,
@@ -185,11 +241,15 @@ std::vector<MeasuredPlate> read_plates(const SourceText& csv,
   const std::vector<PlateColumn> columns = columns_of(table);
   need_columns(columns, table, csv);
   const auto kept = wanted(table, csv, only);
+  std::vector<const CsvRow*> rows;
+  for (const CsvRow& row : table.rows)
+    if (std::ranges::all_of(kept, [&](const auto& want) { return row.cells[want.first].text == want.second; }))
+      rows.push_back(&row);
+  need_labels_of_tests(rows, columns, table, csv);
+  need_possible_numbers(rows, columns, table, csv);
   std::vector<MeasuredPlate> plates;
-  for (const CsvRow& row : table.rows) {
-    if (std::ranges::any_of(kept, [&](const auto& want) { return row.cells[want.first].text != want.second; }))
-      continue;
-    const PlateReading reading = reading_of(row, columns, csv);
+  for (const CsvRow* row : rows) {
+    const PlateReading reading = reading_of(*row, columns, csv);
     auto plate = std::ranges::find_if(plates, [&](const MeasuredPlate& known) {
       return known.test == reading.test && known.curve.radius == reading.radius;
     });

@@ -21,6 +21,7 @@ struct MeasuredPlate {
 /// Reads a CSV with one row a reading. A column's name ends in its unit: sinkage_m or sinkage_mm; pressure_kPa, or
 /// force_N; plate_diameter_mm, plate_radius_mm or plate_width_mm (of a strip), or a label such as 'plate_d60mm' under
 /// 'plate' or 'tool'. Columns without a unit (box, test_id) tell one test from another; others are left aside.
+/// The largest sinkage, pressure and size must be such as plates can have: others stand under a wrong unit.
 /// `only`: column and value; rows in which they differ are left out. Throws InputError with file, line and hint.
 std::vector<MeasuredPlate> read_plates(const SourceText& csv,
                                        const std::vector<std::pair<std::string, std::string>>& only = {});

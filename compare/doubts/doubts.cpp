@@ -223,6 +223,19 @@ Warnings doubts_of_declarations(const Case& question) {
   return words;
 }
 
+/// Conditions that no motion has; a drive begins at rest.
+Warnings doubts_of_speeds(const Case& question) {
+  Warnings words;
+  if (question.drive) return words;
+  for (const OperatingCondition& at : question.study.conditions)
+    if (at.speed == 0.0 && std::abs(at.slip) < 1.0)
+      words.push_back(
+          "at a speed of 0 a wheel stands still or slips by 100 %; the answer is that of a very slow wheel "
+          "at " +
+          in_words(at));
+  return once_each(words);
+}
+
 /// Whether answers stand beside the doubts: then what has none is told there, and grains that weren't asked are left
 /// aside.
 enum class Answered { no, yes };
@@ -235,6 +248,7 @@ Warnings doubts_but_unused_inputs(const Case& question, const std::vector<ModelA
   if (scenario.soil.semi_empirical && (open || asks(question.study, ModelKind::bekker_wong)))
     append(warnings, doubts(*scenario.soil.semi_empirical));
   add_wheel_doubts(scenario.tire, scenario.soil.semi_empirical, warnings);
+  append(warnings, doubts_of_speeds(question));
   append(warnings, doubts_of_answers(scenario, study, open));
   if (open || asks(question.study, ModelKind::dem)) append(warnings, grain_doubts(scenario, study));
   for (const ModelAnswers& model : study) append(warnings, model.doubts);

@@ -86,12 +86,14 @@ Json error_json(const LoopAnswer& answer) {
 }
 
 /// A condition by the names and units of the campaign's columns.
-Json condition_json(const NextTest& next) {
+/// As the text says it: in numbers that a rig can be set to.
+Json condition_json(const LoopAnswer& answer) {
   Json at = Json::object();
-  for (const std::string& name : next.quantities) {
+  for (const std::string& name : answer.next->quantities) {
     const ConditionView& view = condition_view(name);
-    const double value = view.get(next.at) * per_unit(std::string(view.column_unit));
-    if (std::isfinite(value)) at[view.column] = view.whole ? Json(std::lround(value)) : Json(value);
+    const double value = rig_setting_of(answer, answer.next->at, name) * per_unit(std::string(view.column_unit));
+    if (std::isfinite(value))
+      at[view.column] = view.whole ? Json(std::lround(value)) : Json(std::stod(fmt::format("{:.6g}", value)));
   }
   return at;
 }
@@ -101,7 +103,7 @@ Json next_json(const LoopAnswer& answer) {
   Json separates = Json::array();
   for (const auto& ids : answer.next->separates)
     separates.push_back(ids.empty() ? "base" : fmt::format("{}", fmt::join(ids, "+")));
-  return {{"condition", condition_json(*answer.next)},
+  return {{"condition", condition_json(answer)},
           {"separates", separates},
           {"runs", answer.next->runs},
           {"beyond", answer.next->beyond}};

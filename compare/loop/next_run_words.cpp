@@ -145,23 +145,23 @@ std::string setting(double value) {
   return fmt::format("{:.10g}", three_digits(value));
 }
 
-std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const OperatingCondition& at,
-                                                 const std::string& condition) {
+double rig_setting_of(const LoopAnswer& answer, const OperatingCondition& at, const std::string& condition) {
   const ConditionView& view = condition_view(condition);
   const Dataset& data = answer.found().base.data();
-  std::string unit(view.unit);
-  double per_si = view.per_si;
-  if (const auto own = data.campaign->columns.find(condition);
-      own != data.campaign->columns.end() && own->second.unit != view.column_unit)
-    unit = own->second.unit, per_si = per_unit(unit);
   const double value = view.get(at);
-  if (!std::isfinite(value)) return {"", unit};
+  if (!std::isfinite(value)) return value;
   constexpr double anywhere = std::numeric_limits<double>::infinity();
   const Limits limits = answer.next ? answer.next->given : Limits{};
   const auto given = limits.find(condition);
   const std::pair<double, double> within = given != limits.end() ? given->second : std::pair(-anywhere, anywhere);
-  const double set = rig_setting(view, value, data.observations, within, per_si);
-  return {fmt::format("{:.6g}", per_si * set), unit};
+  return rig_setting(view, value, data.observations, within, own_unit(data.campaign->columns, view).second);
+}
+
+std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const OperatingCondition& at,
+                                                 const std::string& condition) {
+  const auto [unit, per_si] = own_unit(answer.found().base.data().campaign->columns, condition_view(condition));
+  const double set = rig_setting_of(answer, at, condition);
+  return {std::isfinite(set) ? fmt::format("{:.6g}", per_si * set) : "", unit};
 }
 
 }  // namespace soilbin::compare

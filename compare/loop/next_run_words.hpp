@@ -32,6 +32,10 @@ std::vector<OperatingCondition> shape_series(const LoopAnswer& answer);
 /// A number in three digits.
 std::string setting(double value);
 
+/// A condition of a run to be made as the rig would be set to it (rig_setting) [SI]; not a number where it is not
+/// known.
+double rig_setting_of(const LoopAnswer& answer, const OperatingCondition& at, const std::string& condition);
+
 /// A condition of a run to be made as the rig would be set to it (rig_setting), in the unit of the campaign's own
 /// column, and that unit: ("10", "mm/s"). An empty value where the condition is not known.
 std::pair<std::string, std::string> next_setting(const LoopAnswer& answer, const OperatingCondition& at,

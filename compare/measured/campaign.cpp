@@ -8,6 +8,7 @@
 #include "compare/measured/csv.hpp"
 #include "compare/measured/run_columns.hpp"
 #include "scenario/atomic_file.hpp"
+#include "scenario/condition_axes.hpp"
 #include "scenario/effect_choices.hpp"
 #include "scenario/mapping_reader.hpp"
 #include "scenario/mapping_writer.hpp"
@@ -67,6 +68,23 @@ Renames read_renames(const YamlNode* columns, const Reading& reading) {
   for (std::size_t i = 0; i + 1 < columns->items.size(); i += 2)
     renames[columns->items[i].scalar] = read_rename(columns->items[i + 1], reading);
   return renames;
+}
+
+/// Takes the columns that `ignored:` names out of the table.
+void leave_out(CsvTable& table, const YamlNode* ignored, const Renames& renames, const Reading& reading) {
+  if (ignored == nullptr) return;
+  if (!ignored->is_sequence()) reading.refuse(*ignored, "expected a list of column names, not " + ignored->kind_name());
+  for (const YamlNode& item : ignored->items) {
+    const std::string name = read_text(item, reading);
+    if (renames.contains(name))
+      reading.refuse(item, fmt::format("'{}' stands under 'columns' and under 'ignored'", clipped(name)));
+    const auto& cells = table.header.cells;
+    const auto place = std::ranges::find(cells, name, &CsvCell::text) - cells.begin();
+    if (place == std::ssize(cells)) continue;  // a misspelt name leaves its column unknown, and that is refused
+    const auto erase = [&](CsvRow& row) { row.cells.erase(row.cells.begin() + place); };
+    erase(table.header);
+    std::ranges::for_each(table.rows, erase);
+  }
 }
 
 /// The column that a header most likely names: by the quantity that it begins with, else the nearest word.
@@ -130,9 +148,10 @@ ColumnChoice choose_column(const CsvCell& header, Renames& renames, const Source
   for (const auto& [name, renamed] : renames) right.push_back(name);
   csv.refuse(header.offset,
              fmt::format("unknown column '{}'{}", clipped(header.text), did_you_mean(header.text, right)),
-             fmt::format("say what it holds in campaign.yaml, such as columns: {{{}: {}}}, or take it out of the file; "
-                         "known without that: {}",
-                         yaml_scalar(clipped(header.text)), renaming_for(header.text, right), listed(right)));
+             fmt::format("say what it holds in campaign.yaml, such as columns: {{{}: {}}}, or leave it aside: ignored: "
+                         "[{}]; known without that: {}",
+                         yaml_scalar(clipped(header.text)), renaming_for(header.text, right),
+                         yaml_scalar(clipped(header.text)), listed(right)));
 }
 
 std::vector<ColumnChoice> choose_columns(const CsvTable& table, Renames& renames, const SourceText& csv) {
@@ -164,6 +183,25 @@ std::vector<ColumnChoice> choose_columns(const CsvTable& table, Renames& renames
     csv.refuse(first.offset, "no measured channel",
                "one of drawbar_pull_N, torque_Nm, sinkage_m, lateral_force_N is needed");
   return choices;
+}
+
+/// The speed of a run that gives the wheel's rotation in its place.
+void add_speeds(Campaign& campaign, const CsvTable& table, const SourceText& csv) {
+  const auto rotation = campaign.columns.find("rotation"), speed = campaign.columns.find("speed");
+  if (rotation == campaign.columns.end()) return;
+  const auto refuse = [&](std::size_t row, const std::string& why) {
+    for (std::size_t i = 0; i < table.header.cells.size(); ++i)
+      if (table.header.cells[i].text == rotation->second.header)
+        csv.refuse((row == 0 ? table.header : table.rows[row - 1]).cells[i].offset, why);
+  };
+  if (speed != campaign.columns.end())
+    refuse(0, fmt::format("columns '{}' and '{}' both tell the speed", speed->second.header, rotation->second.header));
+  for (std::size_t i = 0; i < campaign.runs.size(); ++i) try {
+      Run& run = campaign.runs[i];
+      if (run.rotation) run.at.speed = speed_at_rotation(run.at, *run.rotation, campaign.wheel);
+    } catch (const InputError& error) {
+      refuse(i + 1, error.what());
+    }
 }
 
 void check_amount(const Campaign& campaign, const SourceText& csv, CampaignUse use) {
@@ -235,7 +273,8 @@ Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(c
   const YamlNode document = parse_yaml(yaml);
   const Reading reading{&yaml, std::nullopt, nullptr, ""};
   expect_format(document, campaign_format, reading);
-  Campaign campaign = read_mapping<Campaign>(document, reading, {"format", "wheel", "soil", "model", "columns"});
+  Campaign campaign =
+      read_mapping<Campaign>(document, reading, {"format", "wheel", "soil", "model", "columns", "ignored"});
   const Library near = library.beside(yaml.file);
   campaign.wheel = read_tire_part(*value_of(document, "wheel", Need::required, wheel_meaning, reading), near, reading);
   campaign.soil = read_values(*value_of(document, "soil", Need::required, soil_meaning, reading), near, reading);
@@ -243,8 +282,13 @@ Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(c
   Renames renames =
       read_renames(value_of(document, "columns", Need::optional, "names and units; {} for none", reading), reading);
   const SourceText csv = open(campaign.data);
-  if (use == CampaignUse::design && csv.text.empty()) return campaign;
-  const CsvTable table = parse_csv(csv);
+  if (use == CampaignUse::design && csv.text.empty()) {
+    for (const auto& [name, renamed] : renames)
+      campaign.columns[renamed.choice.column->quantity] = {name, renamed.choice.unit, {}};
+    return campaign;
+  }
+  CsvTable table = parse_csv(csv);
+  leave_out(table, value_of(document, "ignored", Need::optional, "list of column names", reading), renames, reading);
   const std::vector<ColumnChoice> columns = choose_columns(table, renames, csv);
   std::vector<std::string> headers;
   for (const CsvCell& header : table.header.cells) headers.push_back(header.text);
@@ -262,6 +306,7 @@ Campaign parse_campaign(const SourceText& yaml, const std::function<SourceText(c
     run.at.slip_by = campaign.slip_by;
     run.at.force_frame = campaign.force_frame;
   }
+  add_speeds(campaign, table, csv);
   check_amount(campaign, csv, use);
   return campaign;
 }

@@ -36,6 +36,7 @@ struct Run {
   /// Standard deviation in time of each traction channel over the run that its mean was taken of [SI], in the order of
   /// traction_channels. Samples follow each other, so it is no error of the mean; it tells which runs were unsteady.
   std::array<std::optional<double>, 4> within_run_sd{};
+  std::optional<double> rotation{};  ///< of the wheel, where the file gives it [rad/s]; at.speed then follows from it
 };
 
 inline bool has_channel(const Run& run) { return run.drawbar_pull || run.torque || run.sinkage || run.lateral_force; }
@@ -58,13 +59,14 @@ struct Campaign {
   std::string data = "runs.csv";
   ForceFrame force_frame = ForceFrame::travel;
   SlipBy slip_by = SlipBy::wheel_plane_speed;
-  std::map<std::string, DataColumn> columns;  ///< of the data file, by quantity; none where there is no file
+  std::map<std::string, DataColumn>
+      columns;  ///< of the data file, by quantity; without a file, those that campaign.yaml names
   std::vector<Run> runs;
 };
 
 inline constexpr const char* campaign_format = "soilbin-campaign/1";
 
-/// What stands beside these: format, wheel and soil (written out or named), model, columns.
+/// What stands beside these: format, wheel and soil (written out or named), model, columns, ignored.
 template <class Visitor>
 void describe(Visitor& v, std::type_identity<Campaign>) {
   v.text("name", &Campaign::name, Need::required, "what to call the campaign");

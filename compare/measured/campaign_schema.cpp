@@ -33,6 +33,9 @@ ordered_json campaign_schema(const EffectVocabulary& effects) {
   model["properties"]["effects"] = effects_schema(effects);
   campaign["properties"]["model"] = model;
   campaign["properties"]["columns"] = columns_schema();
+  campaign["properties"]["ignored"] = {{"type", "array"},
+                                       {"items", {{"type", "string"}}},
+                                       {"description", "columns of the data file that are left aside"}};
   campaign["properties"]["format"] = {{"const", campaign_format}};
   campaign["required"].push_back("format");
   ordered_json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "A soilbin campaign"}};

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "scenario/quantity.hpp"
+
 namespace soilbin::compare {
 namespace {
 
@@ -128,6 +130,25 @@ CsvTable parse_csv(const SourceText& source) {
     if (!blank) table.rows.push_back(std::move(row));
   }
   return table;
+}
+
+double number_in(const CsvCell& cell, const std::string& column, const std::string& unit, const SourceText& source) {
+  if (const auto value = read_number(cell.text)) return *value;
+  const std::string first = cell.text.substr(0, cell.text.find(' '));
+  std::string hint = "where nothing was measured leave the cell empty; take out a second line of headings";
+  if (cell.text.starts_with('#'))
+    hint = "the spreadsheet could not compute this cell: mend its formula, or leave the cell empty";
+  else if (cell.text.find(',') != std::string::npos)
+    hint = "a decimal point is '.'";
+  else if (first != cell.text && read_number(first))
+    hint =
+        fmt::format("write {}: the unit of the whole column ({}) stands in its name or in campaign.yaml, not in a cell",
+                    first, unit == "-" ? "none" : unit);
+  else if (cell.text.find_first_of("0123456789") != std::string::npos)
+    hint = "a cell holds digits and a decimal point alone, such as 12.5";
+  source.refuse(cell.offset,
+                fmt::format("column '{}': expected a finite number, not '{}'", clipped(column), clipped(cell.text)),
+                hint);
 }
 
 std::string csv_cell(const std::string& text) {

@@ -34,6 +34,10 @@ inline constexpr std::size_t most_csv_columns = 200;
 /// or columns.
 CsvTable parse_csv(const SourceText& source);
 
+/// The finite number that a cell of a column must hold; `unit`: that of the column ("-": none), for the hint. Throws
+/// InputError at the cell, with what to write in its place.
+double number_in(const CsvCell& cell, const std::string& column, const std::string& unit, const SourceText& source);
+
 /// A text as a cell: quoted where it must be.
 std::string csv_cell(const std::string& text);
 

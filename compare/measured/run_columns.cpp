@@ -63,6 +63,11 @@ std::vector<RunColumn> make_columns() {
   for (const char* name :
        {"speed", "pass", "position", "moisture", "longitudinal_incline", "transverse_incline", "yaw"})
     all.push_back(condition(name));
+  all.push_back({.quantity = "rotation",
+                 .canonical = "rotation_rpm",
+                 .measure = {"rpm", zero_or_more},
+                 .set = [](Run& run, double x) { run.rotation = x; },
+                 .get = [](const Run&) { return std::nullopt; }});  // its speed is written
   for (const ChannelView& view : channel_views) all.push_back(channel(view));
   for (std::size_t place = 0; place < channel_views.size(); ++place) all.push_back(scatter(place));
   return all;
@@ -73,14 +78,7 @@ double read_cell(const CsvCell& cell, const std::string& header, const ColumnCho
   const auto refuse = [&](const std::string& why, const std::string& hint = "") {
     source.refuse(cell.offset, fmt::format("column '{}': {}", clipped(header), why), hint);
   };
-  if (!read_number(cell.text)) {
-    const bool comma = cell.text.find(',') != std::string::npos;
-    const bool digit = cell.text.find_first_of("0123456789") != std::string::npos;
-    refuse(fmt::format("expected a finite number, not '{}'", clipped(cell.text)),
-           comma   ? "a decimal point is '.'"
-           : digit ? "the unit stands in the column's name, not in the cell"
-                   : "where nothing was measured leave the cell empty; take out a second line of headings");
-  }
+  number_in(cell, header, choice.unit, source);
   const Measure& measure = choice.column->measure;
   const std::string text = choice.unit == "-" ? cell.text : cell.text + " " + choice.unit;
   double value = 0.0;
@@ -154,19 +152,21 @@ std::vector<Run> read_runs(const CsvTable& table, std::span<const ColumnChoice> 
   return runs;
 }
 
-std::string write_runs(const std::vector<Run>& runs, const std::set<std::string_view>& to_fill_in) {
-  std::vector<const RunColumn*> columns;
-  for (const RunColumn& column : run_columns())
-    if (worth_writing(column, runs) || to_fill_in.contains(column.quantity)) columns.push_back(&column);
+std::string write_runs(const std::vector<Run>& runs, const std::set<std::string_view>& to_fill_in,
+                       const std::map<std::string, DataColumn>& named) {
+  std::vector<RunColumn> columns;
+  for (const RunColumn& column : run_columns()) {
+    if (!worth_writing(column, runs) && !to_fill_in.contains(column.quantity)) continue;
+    columns.push_back(column);
+    if (const auto own = named.find(column.quantity); own != named.end())
+      columns.back().canonical = own->second.header, columns.back().measure.unit = own->second.unit;
+  }
   std::string text;
   const auto line = [&](const auto& cell_of) {
-    for (const RunColumn* column : columns) {
-      if (column != columns.front()) text += ',';
-      text += cell_of(*column);
-    }
+    for (std::size_t i = 0; i < columns.size(); ++i) text += (i == 0 ? "" : ",") + cell_of(columns[i]);
     text += '\n';
   };
-  line([](const RunColumn& column) { return column.canonical; });
+  line([](const RunColumn& column) { return csv_cell(column.canonical); });
   for (const Run& run : runs) line([&](const RunColumn& column) { return cell_text(column, run); });
   return text;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -41,7 +42,9 @@ struct ColumnChoice {
 /// Turns the table's rows into runs. Throws InputError at the cell for whatever can't be one.
 std::vector<Run> read_runs(const CsvTable& table, std::span<const ColumnChoice> columns, const SourceText& source);
 
-/// The CSV of a campaign, canonical columns, those that hold anything and those of the quantities `to_fill_in`.
-std::string write_runs(const std::vector<Run>& runs, const std::set<std::string_view>& to_fill_in = {});
+/// The CSV of a campaign: the columns that hold anything and those of the quantities `to_fill_in`, under the names and
+/// in the units of `named`, canonical where it has none.
+std::string write_runs(const std::vector<Run>& runs, const std::set<std::string_view>& to_fill_in = {},
+                       const std::map<std::string, DataColumn>& named = {});
 
 }  // namespace soilbin::compare

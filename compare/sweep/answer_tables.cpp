@@ -66,8 +66,10 @@ std::vector<PrintedValue> printed_values(const TractionResult& r) {
       {"Tractive efficiency", none.empty() ? efficiency_in_percent(r) : "none: " + none, none.empty() ? "%" : ""});
   all.push_back(
       {"Contact",
-       fmt::format("soil meets the wheel {:.1f}° before the axle, presses most at {:.1f}°, lets go at {:.1f}°",
-                   r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree + 0.0),
+       fmt::format(
+           "soil meets the wheel {:.1f}° before the axle (theta_1), presses most at {:.1f}° (theta_m), lets go at "
+           "{:.1f}° (theta_2)",
+           r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree + 0.0),
        ""});
   std::string sum;
   for (const Contribution& part : r.budget) {
@@ -131,7 +133,10 @@ std::string prediction_text(const Prediction& prediction) {
   std::vector<OperatingCondition> conditions;
   for (const PredictedRun& run : prediction.runs) conditions.push_back(run.measured.at);
   const Curves curves = curves_against_slip(conditions, Spread::measured);
+  const bool labelled =
+      std::ranges::any_of(prediction.runs, [](const PredictedRun& run) { return run.measured.setpoint.has_value(); });
   std::vector<std::string> header = {"run"};
+  if (labelled) header.push_back("setpoint");
   if (!curves.varying.empty()) header.push_back("nominal " + curves.varying);
   header.insert(header.end(), {"load [N]", "slip [%]"});
   for (const ChannelError& error : prediction.errors) {
@@ -144,6 +149,7 @@ std::string prediction_text(const Prediction& prediction) {
   for (std::size_t i = 0; i < prediction.runs.size(); ++i) {
     const PredictedRun& run = prediction.runs[i];
     std::vector<TableCell> row = {std::to_string(run.run)};
+    if (labelled) row.push_back(run.measured.setpoint.value_or("-"));
     if (!curves.varying.empty()) row.push_back(curves.labels[curves.curve_of[i]]);
     row.push_back(number(run.measured.at.load));
     row.push_back(fmt::format("{:.4g}", 100 * run.measured.at.slip));
@@ -152,8 +158,7 @@ std::string prediction_text(const Prediction& prediction) {
       const auto measured = run.measured.*channel.measured;
       const auto rest = residual(run, channel);
       row.push_back(measured ? number(*measured * channel.per_si) : "-");
-      row.push_back(run.predicted.result ? number(((*run.predicted.result).*channel.predicted).value * channel.per_si)
-                                         : "-");
+      row.push_back(run.predicted.result ? number((*run.predicted.result).*channel.predicted, channel.per_si) : "-");
       row.push_back(rest ? number(*rest * channel.per_si) : "-");
     }
     if (!run.predicted.result) notes += fmt::format("run {}: no solution: {}\n", run.run, run.predicted.error);

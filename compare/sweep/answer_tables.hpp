@@ -22,7 +22,7 @@ std::vector<PrintedValue> printed_values(const TractionResult& result);
 std::string answer_text(const ModelAnswers& model, const Answer& answer);
 /// One line an answer, the conditions that vary in the first columns.
 std::string study_text(const std::vector<ModelAnswers>& study);
-/// The runs of a campaign, measured and predicted, then the error table.
+/// The runs of a campaign under their own labels, measured and predicted (± one standard error), then the error table.
 std::string prediction_text(const Prediction& prediction);
 
 }  // namespace soilbin::compare

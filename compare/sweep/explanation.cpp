@@ -64,11 +64,18 @@ std::vector<Step> contact_steps(const Facts& f) {
                                f.at.longitudinal_incline / degree, f.at.transverse_incline / degree),
                    f.normal_load, "N"});
   steps.push_back({"entry angle", "W_n = r b Int (sigma cos + tau sin) d theta", "solved for theta_1",
-                   f.theta_1 / degree, "deg",
+                   f.wheel.balance_angle / degree, "deg",
                    fmt::format("the stresses then carry {:.6g} N", f.wheel.forces.vertical)});
-  steps.push_back({"sinkage", "z = r (1 - cos theta_1)",
-                   fmt::format("{:.4g} m (1 - cos {:.4g} deg)", f.r, f.theta_1 / degree), 1000 * f.wheel.sinkage,
-                   "mm"});
+  const double yields = f.wheel.patch.deflection;
+  if (std::abs(f.theta_1 - f.wheel.balance_angle) > 1e-9)
+    steps.push_back({"entry angle after settling",
+                     yields == 0.0 ? "theta_1 = arccos(1 - z/r)" : "theta_1 = arccos(1 - (z + deflection)/r)",
+                     "where the effects below move the wheel", f.theta_1 / degree, "deg",
+                     "what follows is at this angle, the stresses scaled to carry the load"});
+  steps.push_back({"sinkage", yields == 0.0 ? "z = r (1 - cos theta_1)" : "z = r (1 - cos theta_1) - deflection",
+                   fmt::format("{:.4g} m (1 - cos {:.4g} deg)", f.r, f.theta_1 / degree) +
+                       (yields == 0.0 ? "" : fmt::format(" - {:.4g} mm", 1000 * yields)),
+                   1000 * f.wheel.sinkage, "mm"});
   steps.push_back({"angle of largest stress", "theta_m = (c1 + c2 |s|) theta_1",
                    fmt::format("({:.4g} + {:.4g} * {:.4g}) {:.4g} deg", s.c1, s.c2, std::abs(f.wheel.motion.slip),
                                f.theta_1 / degree),
@@ -80,20 +87,36 @@ std::vector<Step> stress_steps(const Facts& f) {
   const SoilValues& s = f.soil;
   const double drop = std::cos(f.theta_m) - std::cos(f.theta_1);
   const double sigma = f.k * std::pow(f.r * drop, s.exponent);
-  const double j =
-      f.r * ((f.theta_1 - f.theta_m) - f.wheel.motion.forward * (std::sin(f.theta_1) - std::sin(f.theta_m)));
-  const double mobilised = f.wheel.motion.locked ? 1.0 : 1 - std::exp(-std::abs(j) / s.shear_modulus);
+  const auto& motion = f.wheel.motion;
+  const double turned = f.theta_1 - f.theta_m, rim = motion.locked ? 0.0 : 1.0;
+  const double j_x = f.r * (rim * turned - motion.forward * (std::sin(f.theta_1) - std::sin(f.theta_m)));
+  const double j_y = f.r * motion.lateral * turned, j = motion.lateral == 0.0 ? j_x : std::hypot(j_x, j_y);
+  const double mobilised = motion.locked ? 1.0 : 1 - std::exp(-std::abs(j) / s.shear_modulus);
   const double tau = std::copysign((s.cohesion + sigma * std::tan(s.friction_angle)) * mobilised, j);
-  return {{"normal stress there", "sigma_m = k r^n (cos theta_m - cos theta_1)^n",
-           fmt::format("k ({:.4g} m * {:.4g})^{:.4g}", f.r, drop, s.exponent), sigma / 1000, "kPa"},
-          {"shear displacement there", "j = r [(theta_1 - theta_m) - v_x/(r w) (sin theta_1 - sin theta_m)]",
-           f.wheel.motion.locked ? "a locked wheel: shear is saturated"
-                                 : fmt::format("v_x/(r w) = {:.4g}", f.wheel.motion.forward),
-           1000 * j, "mm"},
-          {"shear stress there", "tau = (c + sigma tan phi) (1 - exp(-|j|/K)) sign(j)",
-           fmt::format("({:.4g} kPa + {:.4g} kPa tan {:.4g} deg) * {:.4g}", s.cohesion / 1000, sigma / 1000,
-                       s.friction_angle / degree, mobilised),
-           tau / 1000, "kPa"}};
+  const std::string strength = fmt::format("({:.4g} kPa + {:.4g} kPa tan {:.4g} deg) * {:.4g}", s.cohesion / 1000,
+                                           sigma / 1000, s.friction_angle / degree, mobilised);
+  std::vector<Step> steps = {{"normal stress there", "sigma_m = k r^n (cos theta_m - cos theta_1)^n",
+                              fmt::format("k ({:.4g} m * {:.4g})^{:.4g}", f.r, drop, s.exponent), sigma / 1000, "kPa"}};
+  const char* along = motion.locked ? " = -r cos(psi) (sin theta_1 - sin theta_m)"
+                                    : " = r [(theta_1 - theta_m) - v_x/(r w) (sin theta_1 - sin theta_m)]";
+  const std::string by = motion.locked ? "the wheel is locked: only the direction of j counts, shear is saturated"
+                                       : fmt::format("v_x/(r w) = {:.4g}", motion.forward);
+  if (motion.lateral == 0.0) {
+    steps.push_back({"shear displacement there", std::string("j") + along, by, 1000 * j, "mm"});
+    steps.push_back(
+        {"shear stress there", "tau = (c + sigma_m tan phi) (1 - exp(-|j|/K)) sign(j)", strength, tau / 1000, "kPa"});
+    return steps;
+  }
+  steps.push_back({"shear displacement in the wheel's plane", std::string("j_x") + along, by, 1000 * j_x, "mm"});
+  steps.push_back({"shear displacement across it",
+                   motion.locked ? "j_y = r sin(psi) (theta_1 - theta_m)" : "j_y = r (theta_1 - theta_m) v_y/(r w)",
+                   motion.locked ? by : fmt::format("v_y/(r w) = {:.4g}", motion.lateral), 1000 * j_y, "mm"});
+  steps.push_back({"shear displacement there", "j = sqrt(j_x^2 + j_y^2)",
+                   fmt::format("sqrt(({:.4g} mm)^2 + ({:.4g} mm)^2)", 1000 * j_x, 1000 * j_y), 1000 * j, "mm"});
+  steps.push_back({"shear stress there", "tau = (c + sigma_m tan phi) (1 - exp(-j/K))", strength, tau / 1000, "kPa",
+                   fmt::format("of it tau j_x/j = {:.4g} kPa in the wheel's plane, tau j_y/j = {:.4g} kPa across",
+                               tau * j_x / j / 1000, tau * j_y / j / 1000)});
+  return steps;
 }
 
 std::vector<Step> result_steps(const Facts& f, const TractionResult& result) {
@@ -107,6 +130,23 @@ std::vector<Step> result_steps(const Facts& f, const TractionResult& result) {
   std::vector<Step> steps;
   steps.push_back({"drawbar pull", "F_DP = the sum of the budget", parts + " N", result.drawbar_pull.value, "N"});
   steps.push_back({"torque", "M = r^2 b Int tau d theta", "over the contact", result.torque.value, "N m"});
+  if (result.lateral_force.value != 0.0) {
+    const bool travel = f.at.force_frame == ForceFrame::travel;
+    double in_plane = f.wheel.forces.thrust + f.wheel.forces.compaction, across = f.wheel.forces.side;
+    for (const auto& added : f.wheel.forces.added.rows()) in_plane += added.forward, across += added.lateral;
+    const double slope = f.at.load * std::sin(f.at.longitudinal_incline);
+    const double cross = f.at.load * std::cos(f.at.longitudinal_incline) * std::sin(f.at.transverse_incline);
+    const double sine = std::sin(f.at.yaw), cosine = std::cos(f.at.yaw);
+    steps.push_back(
+        {"lateral force",
+         travel ? "F_y = F_x sin(psi) + S cos(psi) - W cos(alpha) sin(beta_t)"
+                : "F_y = S + W sin(alpha) sin(psi) - W cos(alpha) sin(beta_t) cos(psi)",
+         travel ? fmt::format("{:.4g} N * {:.4g} + {:.4g} N * {:.4g} - {:.4g} N", in_plane, sine, across, cosine, cross)
+                : fmt::format("{:.4g} N + {:.4g} N - {:.4g} N", across, slope * sine, cross * cosine),
+         result.lateral_force.value, "N",
+         travel ? "F_x: the soil's force in the wheel's plane; S: across it, b Int tau_y ds"
+                : "S: the soil's force across the wheel's plane, b Int tau_y ds"});
+  }
   if (has_efficiency(result)) {
     const double advance = f.r * f.wheel.motion.travel_ratio;
     const bool downhill = f.at.longitudinal_incline < 0.0;

@@ -46,16 +46,21 @@ Json errors_json(const std::vector<ChannelError>& errors) {
   return all;
 }
 
+/// What to_json says of an answer beside its condition.
+void write_result(Json& row, const Answer& answer) {
+  if (!answer.result) {
+    row["error"] = answer.error;
+    return;
+  }
+  WriteJson visitor(row);
+  result_fields(visitor, *answer.result);
+  row["tractive_efficiency"] = finite(reported_efficiency(*answer.result));
+  if (!answer.result->without_error_of.empty()) row["std_error_without"] = answer.result->without_error_of;
+}
+
 Json run_json(const PredictedRun& run) {
   Json row = {{"run", run.run}};
-  if (run.predicted.result) {
-    const TractionResult& result = *run.predicted.result;
-    for (const ChannelView& channel : channel_views)
-      row[std::string(channel.name)] = finite((result.*channel.predicted).value);
-    row["theta_1"] = finite(result.entry_angle);
-  } else {
-    row["error"] = run.predicted.error;
-  }
+  write_result(row, run.predicted);
   if (run.measured.setpoint) row["setpoint"] = *run.measured.setpoint;
   row["at"] = to_json(run.measured.at);
   for (const ChannelView& channel : channel_views) {
@@ -113,14 +118,7 @@ Json to_json(const OperatingCondition& at) {
 
 Json to_json(const Answer& answer) {
   Json row = to_json(answer.at);
-  if (answer.result) {
-    WriteJson visitor(row);
-    result_fields(visitor, *answer.result);
-    row["tractive_efficiency"] = finite(reported_efficiency(*answer.result));
-    if (!answer.result->without_error_of.empty()) row["std_error_without"] = answer.result->without_error_of;
-  } else {
-    row["error"] = answer.error;
-  }
+  write_result(row, answer);
   return row;
 }
 

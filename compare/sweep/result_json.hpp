@@ -29,7 +29,8 @@ Json condition_schema();
 /// Every answer of every model as a flat list; each row names its model.
 Json rows_json(const std::vector<ModelAnswers>& study);
 
-/// soilbin-predict/1.
+/// soilbin-predict/1: of each run the number, what was predicted as of any answer, its condition, what was measured and
+/// the residual; then the errors.
 Json to_json(const Prediction& prediction, const std::string& campaign);
 
 /// What to remark on an answer of a model; "" nothing (compare/doubts/doubts.hpp: remark_on).

@@ -48,9 +48,36 @@ std::vector<double> many_slopes_up_to(double steepest) {
   return slopes;
 }
 
+/// To first order. The largest pull changes with the soil as the pull at its slip does (the envelope theorem); a slip
+/// or slope x of no pull, F(x) = 0, has the error of F there over |dF/dx|.
+void add_errors(const Scenario& scenario, WheelLimits& answer) {
+  const bekker_wong::BekkerWong model({.errors = true, .patch = false}), values({.errors = false, .patch = false});
+  OperatingCondition at = answer.at;
+  const auto error_of_root = [&](double OperatingCondition::*x, double most) {
+    constexpr double step = 1e-4;
+    const Answer here = ask(model, scenario, at);
+    OperatingCondition below = at, above = at;
+    below.*x -= step, above.*x = std::min(at.*x + step, most);
+    const Answer less = ask(values, scenario, below), more = ask(values, scenario, above);
+    if (!here.result || !less.result || !more.result) return not_a_number;
+    const double rise = more.result->drawbar_pull.value - less.result->drawbar_pull.value;
+    return here.result->drawbar_pull.std_error * (above.*x - below.*x) / std::abs(rise);
+  };
+  for (SlopeRow& row : answer.slopes) {
+    at.longitudinal_incline = row.slope, at.slip = row.best.slip;
+    if (const Answer best = ask(model, scenario, at); best.result) row.pull_error = best.result->drawbar_pull.std_error;
+    if (row.slope == answer.steepest) {
+      answer.steepest_error = error_of_root(&OperatingCondition::longitudinal_incline, row.slope + 1.0);
+    } else if (row.slip) {
+      at.slip = *row.slip;
+      row.slip_error = error_of_root(&OperatingCondition::slip, 1.0);
+    }
+  }
+}
+
 WheelLimits limits_at(const Scenario& scenario, const ModelChoice& model, const OperatingCondition& at,
                       std::vector<double> (*slopes)(double steepest)) {
-  WheelLimits answer{model, at, {}, {}, "", false};
+  WheelLimits answer{model, at, {}, 0.0, {}, "", false};
   if (model.model != ModelKind::bekker_wong) throw InputError("limits asks the model bekker_wong alone");
   const bekker_wong::RollingWheel wheel = wheel_of(scenario, model);
   try {
@@ -65,6 +92,7 @@ WheelLimits limits_at(const Scenario& scenario, const ModelChoice& model, const 
         row.slip = row.best.slip, row.best.drawbar_pull = 0.0;  // that is what steepest means
       answer.slopes.push_back(row);
     }
+    add_errors(seen_by(model, scenario), answer);
   } catch (const NoSolution& error) {
     answer.error = error.what();
   }
@@ -91,11 +119,12 @@ std::vector<OperatingCondition> without_slip(const std::vector<OperatingConditio
   return kept;
 }
 
-std::string steepest_in_words(double steepest) {
-  if (steepest >= 0.0) return fmt::format("The steepest slope that it climbs is {} deg.", number(steepest / degree));
+std::string steepest_in_words(const Estimate& steepest) {
+  if (steepest.value >= 0.0)
+    return fmt::format("The steepest slope that it climbs is {} deg.", number(steepest, 1 / degree));
   return fmt::format(
       "It climbs no slope and doesn't move on level ground: it needs a downhill slope of {} deg or more.",
-      number(-steepest / degree));
+      number({-steepest.value, steepest.std_error}, 1 / degree));
 }
 
 }  // namespace
@@ -115,10 +144,9 @@ std::vector<WheelLimits> limits_of(const Case& question) {
   return answers;
 }
 
-namespace {
-
-std::vector<ModelAnswers> answers_at(const Case& question, const std::vector<WheelLimits>& answers, bool errors) {
-  const bekker_wong::BekkerWong model({.errors = errors, .patch = false});
+/// The wheel where it pulls most on each slope: what there is to doubt in the answer.
+std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vector<WheelLimits>& answers) {
+  const bekker_wong::BekkerWong model({.errors = false, .patch = false});
   std::vector<ModelAnswers> study;
   for (const WheelLimits& answer : answers) {
     const Scenario scenario = seen_by(answer.model, question.scenario);
@@ -130,13 +158,6 @@ std::vector<ModelAnswers> answers_at(const Case& question, const std::vector<Whe
     }
   }
   return study;
-}
-
-}  // namespace
-
-/// The wheel where it pulls most on each slope: what there is to doubt in the answer.
-std::vector<ModelAnswers> answers_at_limits(const Case& question, const std::vector<WheelLimits>& answers) {
-  return answers_at(question, answers, false);
 }
 
 std::optional<double> carried_load(const Case& question) {
@@ -152,13 +173,13 @@ std::optional<double> carried_load(const Case& question) {
 std::string in_words(const WheelLimits& answer) {
   std::string text = fmt::format("{}, load {:.6g} N\n", answer.model.label, answer.at.load);
   if (!answer.error.empty()) return text + "no solution: " + answer.error + "\n";
-  Table table{"", {"slope [deg]", "slip [%]", "largest pull [N]", "at slip [%]"}};
+  Table table{"", {"slope [deg]", "slip at which it climbs [%]", "largest pull [N]", "slip of the largest pull [%]"}};
   for (const SlopeRow& row : answer.slopes)
-    table.add({number(row.slope / degree), row.slip ? number(100 * *row.slip) : "-", number(row.best.drawbar_pull),
-               number(100 * row.best.slip)});
+    table.add({number(row.slope / degree), row.slip ? number({*row.slip, row.slip_error}, 100) : "-",
+               number({row.best.drawbar_pull, row.pull_error}), number(100 * row.best.slip)});
   text += as_text(table);
   if (!answer.steepest) return text + "The steepest slope lies beyond -60 .. 80 deg.\n";
-  return text + steepest_in_words(*answer.steepest) + "\n";
+  return text + steepest_in_words({*answer.steepest, answer.steepest_error}) + "\n";
 }
 
 Json to_json(const WheelLimits& answer) {
@@ -172,44 +193,44 @@ Json to_json(const WheelLimits& answer) {
     return row;
   }
   row["steepest_slope"] = or_null(answer.steepest);
+  row["std_error"]["steepest_slope"] = finite(answer.steepest_error);
   row["slopes"] = Json::array();
   for (const SlopeRow& slope : answer.slopes)
-    row["slopes"].push_back({{"longitudinal_incline", slope.slope},
-                             {"slip", or_null(slope.slip)},
-                             {"largest_pull", slope.best.drawbar_pull},
-                             {"slip_of_largest_pull", slope.best.slip}});
+    row["slopes"].push_back(
+        {{"longitudinal_incline", slope.slope},
+         {"slip", or_null(slope.slip)},
+         {"largest_pull", slope.best.drawbar_pull},
+         {"slip_of_largest_pull", slope.best.slip},
+         {"std_error", {{"slip", finite(slope.slip_error)}, {"largest_pull", finite(slope.pull_error)}}}});
   return row;
 }
 
 std::string limits_csv(const std::vector<WheelLimits>& answers, const std::vector<ModelAnswers>& at_limits,
                        const Remark& remark) {
   std::string text =
-      "model,load_N,speed_m_s,transverse_incline_deg,yaw_deg,pass,slope_deg,slip,largest_pull_N,slip_of_largest_pull,"
-      "error,remark\n";
+      "model,load_N,speed_m_s,transverse_incline_deg,yaw_deg,pass,slope_deg,slip,slip_se,largest_pull_N,"
+      "largest_pull_se_N,slip_of_largest_pull,error,remark\n";
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const WheelLimits& answer = answers[i];
     const OperatingCondition& at = answer.at;
     const std::string asked = fmt::format("{},{},{},{},{},{}", csv_cell(answer.model.label), at.load,
                                           answer.at_every_speed ? "" : fmt::format("{}", at.speed),
                                           at.transverse_incline / degree, at.yaw / degree, at.pass);
-    if (!answer.error.empty()) text += asked + ",,,,," + csv_cell(answer.error) + ",\n";
+    if (!answer.error.empty()) text += asked + ",,,,,,," + csv_cell(answer.error) + ",\n";
     for (std::size_t k = 0; k < answer.slopes.size(); ++k) {
       const SlopeRow& row = answer.slopes[k];
-      text +=
-          fmt::format("{},{},{},{},{},,{}\n", asked, row.slope / degree, row.slip ? fmt::format("{}", *row.slip) : "",
-                      row.best.drawbar_pull, row.best.slip, csv_cell(remark(answer.model, at_limits[i].answers[k])));
+      text += fmt::format("{},{},{},{},{},{},,{}\n", asked, row.slope / degree,
+                          row.slip ? fmt::format("{},{}", *row.slip, row.slip_error) : ",", row.best.drawbar_pull,
+                          row.pull_error, row.best.slip, csv_cell(remark(answer.model, at_limits[i].answers[k])));
     }
   }
   return text;
 }
 
-/// Largest pull against the slope, with its standard error, and the slips: a colour for each model and load. Where the
-/// pull is largest it changes with the soil's values as the pull at that slip does (the envelope theorem).
 Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& limits) {
   std::vector<WheelLimits> answers;
   for (const WheelLimits& one : limits)
     answers.push_back(one.error.empty() ? limits_at(question.scenario, one.model, one.at, many_slopes_up_to) : one);
-  const std::vector<ModelAnswers> at_limits = answers_at(question, answers, true);
   const Axis slope{"slope [deg]"};
   const bool one_load = std::ranges::all_of(
       answers, [&](const WheelLimits& answer) { return answer.at.load == answers.front().at.load; });
@@ -228,8 +249,7 @@ Sheet limits_sheet(const Case& question, const std::vector<WheelLimits>& limits)
       sheet.plots[plot].series.push_back(std::move(series));
     };
     add(0, "largest pull", 0, [](const SlopeRow& row) { return row.best.drawbar_pull; });
-    for (const Answer& there : at_limits[i].answers)
-      sheet.plots[0].series.back().error.push_back(there.result ? there.result->drawbar_pull.std_error : 0.0);
+    for (const SlopeRow& row : answer.slopes) sheet.plots[0].series.back().error.push_back(row.pull_error);
     add(1, "slip at which it climbs the slope", 2,
         [](const SlopeRow& row) { return row.slip ? 100 * *row.slip : not_a_number; });
     add(1, "slip of the largest pull", 1, [](const SlopeRow& row) { return 100 * row.best.slip; });

@@ -21,6 +21,8 @@ struct SlopeRow {
   double slope = 0.0;          ///< [rad]
   std::optional<double> slip;  ///< at which it travels without a load behind it
   bekker_wong::PullPeak best;
+  double slip_error = 0.0;  ///< standard error of `slip`; 0 on the steepest slope, where that slip is best.slip
+  double pull_error = 0.0;  ///< standard error of best.drawbar_pull [N]
 
   bool operator==(const SlopeRow& other) const {
     return slope == other.slope && slip == other.slip && best.slip == other.best.slip &&
@@ -33,14 +35,15 @@ struct WheelLimits {
   ModelChoice model;
   OperatingCondition at;
   std::optional<double> steepest;  ///< [rad]
+  double steepest_error = 0.0;     ///< its standard error [rad]
   std::vector<SlopeRow> slopes;
   std::string error;            ///< why there is no answer; empty where there is one
   bool at_every_speed = false;  ///< of the question's: the same answer
 };
 
 /// Of each analytic model at each condition of the question, slip and longitudinal incline left aside; conditions that
-/// differ in nothing else count once, and those that differ in a speed that changes nothing too. Throws InputError for
-/// another model.
+/// differ in nothing else count once, and those that differ in a speed that changes nothing too. With standard errors
+/// to first order, from those of soil and effects. Throws InputError for another model.
 std::vector<WheelLimits> limits_of(const Case& question);
 
 /// The wheel where it pulls most on each slope: what there may be doubts about.

@@ -9,6 +9,7 @@
 
 #include "compare/fit/thresholds.hpp"
 #include "compare/measured/condition_views.hpp"
+#include "compare/report/number_text.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -69,6 +70,12 @@ double three_digits(double value) {
   if (value == 0.0) return 0.0;
   const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
   return step * std::round(value / step);
+}
+
+std::pair<std::string, double> own_unit(const std::map<std::string, DataColumn>& columns, const ConditionView& view) {
+  const auto own = columns.find(std::string(view.name));
+  if (own == columns.end() || own->second.unit == view.column_unit) return {std::string(view.unit), view.per_si};
+  return {own->second.unit, per_unit(own->second.unit)};
 }
 
 double rig_setting(const ConditionView& view, double value, const Observations& observations,

@@ -22,6 +22,10 @@ Limits ranges_of(const Observations& observations);
 /// little beyond them.
 Limits limits_of(const Observations& observations);
 
+/// The unit of the campaign's own column of a condition, where it has one, else the one in which people read it; and
+/// how many of it are one in SI.
+std::pair<std::string, double> own_unit(const std::map<std::string, DataColumn>& columns, const ConditionView& view);
+
 /// What a rig would be set to for a condition's value [SI]: the roundest number in a unit (units per SI unit: per_si),
 /// 1, 2 or 5 with noughts, that differs from it by no more than re-runs of one setpoint scatter or 1 % of what was run,
 /// and by a tenth and a fiftieth of itself where every run's value is positive. Where the value lies so near to a run

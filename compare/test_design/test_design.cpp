@@ -281,6 +281,7 @@ TestDesign design_test(const Campaign& campaign, const DesignOptions& options) {
         "load=LOW..HIGH; what it carries: soilbin limits");
   TestDesign design;
   design.campaign = campaign.name;
+  design.columns = campaign.columns;
   design.varied = rig.varied();
   design.noise = noise_of(campaign, conditions, options.noise);
   const Conditions swept = rig.sweep(options.runs, conditions.front());

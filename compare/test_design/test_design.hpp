@@ -37,7 +37,8 @@ struct TestDesign {
   std::vector<std::string> effects;  ///< CandidatePair's places
   std::vector<std::string> not_shown;
   ExpectedNoise noise;
-  std::size_t made = 0;  ///< runs that the campaign holds; both plans count on them
+  std::map<std::string, DataColumn> columns;  ///< of the campaign, by quantity: names and units of its own
+  std::size_t made = 0;                       ///< runs that the campaign holds; both plans count on them
   PlannedTest planned;
   PlannedTest swept;  ///< as many runs, one condition varied at a time, the others in the middle of their ranges
 };
@@ -59,7 +60,7 @@ std::vector<std::string> in_sentences(const TestDesign& design);
 Table runs_table(const TestDesign& design);
 Table pairs_table(const TestDesign& design);
 
-/// The rows as a campaign's CSV, the channels to measure empty.
+/// The rows as a CSV in the campaign's own columns and units, the channels to measure empty.
 std::string rows_to_fill_in(const TestDesign& design);
 
 /// soilbin-design/1.

@@ -75,14 +75,16 @@ Table runs_table(const TestDesign& design) {
                     {"run", "setpoint"},
                     {false, true}};
   for (const std::string& name : design.varied) {
-    table.header.push_back(heading(condition_view(name)));
+    const ConditionView& view = condition_view(name);
+    const std::string unit = own_unit(design.columns, view).first;
+    table.header.push_back(heading(std::string(view.title), unit.empty() ? "-" : unit));
     table.text_columns.push_back(false);
   }
   for (const Run& run : design.runs) {
     std::vector<TableCell> row = {std::to_string(*run.at.run), *run.setpoint};
     for (const std::string& name : design.varied) {
       const ConditionView& view = condition_view(name);
-      row.push_back(fmt::format("{:.6g}", view.get(run.at) * view.per_si));
+      row.push_back(fmt::format("{:.6g}", view.get(run.at) * own_unit(design.columns, view).second));
     }
     table.add(std::move(row));
   }
@@ -106,7 +108,9 @@ std::string rows_to_fill_in(const TestDesign& design) {
   std::set<std::string_view> measured;
   for (int c = 0; c < channel_count; ++c)
     if (design.noise[c]) measured.insert(channel_views[c].name);
-  return write_runs(design.runs, measured);
+  for (const auto& [quantity, column] : design.columns)
+    if (quantity != "rotation") measured.insert(quantity);  // the speed is written
+  return write_runs(design.runs, measured, design.columns);
 }
 
 Json to_json(const TestDesign& design) {

@@ -196,9 +196,7 @@ Section lugged_section(const std::string& name, const Tire& tire, double edge) {
   section.radius = tire.radius, section.height = tire.lugs.height;
   section.half_thickness = *tire.lugs.thickness / 2;
   const double share = section.half_thickness / tire.radius;
-  require(name, share < 1 && std::asin(share) < 0.999 * pi / count,
-          fmt::format("{} lugs of {} m leave no gap round a radius of {} m", count, *tire.lugs.thickness, tire.radius),
-          "fewer or thinner lugs");
+  require(name, why_no_gaps(tire).empty(), why_no_gaps(tire), "fewer or thinner lugs");
   const double half = std::asin(share), pitch = 2 * pi / count;
   section.layers = parts_of(name, section.height, edge);
   const int bar = parts_of(name, *tire.lugs.thickness, edge);

@@ -45,7 +45,8 @@ class SlipsOfThePen(Attack):
         self.expect_of_campaign("in quotes, \"Run #\"", yaml=("  Load:", "  Load #:"))
         self.expect_of_campaign("put the percent sign in quotes", yaml=('"%"', "%"))
         self.expect_of_campaign("its columns: Load, Slip, Pull", yaml=("  Pull:", "  Depth: {quantity: sinkage, unit: mm}\n  Pull:"))
-        self.expect_of_campaign("or take it out of the file", rows=("Pull\n", "Remarks\n"), yaml=("  Pull:", "  Slip2:"))
+        self.expect_of_campaign("or leave it aside: ignored: [Remarks]", rows=("Pull\n", "Remarks\n"),
+                                yaml=("  Pull:", "  Slip2:"))
         self.expect_of_campaign("a decimal point is '.': 4.4, not 4,4", rows=("-1.4", "-1,4"))
         self.expect_of_campaign("leave the cell empty", rows=("-1.4", "n.a."))
 

@@ -140,6 +140,27 @@ TEST(Predict, TextShowsMeasuredPredictedAndTheErrorTable) {
   EXPECT_THAT(text_of(plot), HasSubstr("<circle"));
 }
 
+// To first order a prediction's standard error is as large as that of the one uncertain value: twice K's, twice the
+// pull's. Beside it stands the label that the campaign gave the row.
+TEST(Predict, ShowsStandardErrorsAndTheCampaignsLabels) {
+  const Scratch scratch;
+  const auto predict = [&](const std::string& yaml, const std::string& flags) {
+    scratch.write("c/campaign.yaml", yaml);
+    scratch.write("c/runs.csv", "setpoint,load_N,slip,drawbar_pull_N\nsoft start,80,0.2,1.0\n,80,0.4,3.0\n");
+    return soilbin("predict '" + (scratch / "c").string() + "' " + flags);
+  };
+  std::string doubled = campaign;
+  doubled.replace(doubled.find("sd: 6 mm"), 8, "sd: 12 mm");
+  const auto pull_error = [&](const std::string& yaml) {
+    return predict(yaml, "--json").json()["rows"][0]["std_error"]["drawbar_pull"].get<double>();
+  };
+  EXPECT_GT(pull_error(campaign), 0.1);
+  EXPECT_NEAR(pull_error(doubled), 2 * pull_error(campaign), 1e-3 * pull_error(campaign));
+  const std::string text = predict(campaign, "").out;
+  EXPECT_THAT(text, testing::ContainsRegex("soft start .* 1.000  +-?[0-9.]+ ± [0-9.]+ "));
+  EXPECT_THAT(text, HasSubstr("± is one standard error from the standard deviations of K; "));
+}
+
 TEST(Predict, RefusesABadCampaignWithFileAndLine) {
   const Scratch scratch;
   scratch.write("c/campaign.yaml", campaign);

@@ -34,6 +34,29 @@ TEST(DesignCommand, WritesRowsThatTheCampaignTakesOnceTheyAreFilledIn) {
   EXPECT_THAT(checked.out, HasSubstr("12 runs"));
 }
 
+// The rows stand in the campaign's own columns and units, so that they are read as they are once filled in.
+TEST(DesignCommand, SpeaksInTheCampaignsUnits) {
+  const Scratch scratch;
+  scratch.write("campaign.yaml",
+                std::string(planned_campaign) +
+                    "columns:\n  Weight kN: {quantity: load, unit: kN}\n  Slip: {quantity: slip, unit: "
+                    "'%'}\n  Pull lbf: {quantity: drawbar_pull, unit: lbf}\n");
+  const std::string folder = (scratch / "").string(), rows = (scratch / "runs.csv").string();
+  const Outcome outcome = soilbin("design '" + folder + "' --runs 12 --limit load=60N..140N --csv '" + rows + "'");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("load [kN]"));
+  std::string text = text_of(rows);
+  EXPECT_THAT(text, StartsWith("run,setpoint,Weight kN,Slip,Pull lbf,torque_Nm,sinkage_m\n1,"));
+  for (std::size_t at; (at = text.find(",,,")) != std::string::npos;) text.replace(at, 3, ",5,3,0.02");
+  scratch.write("runs.csv", text);
+  const nlohmann::json runs = soilbin("predict '" + folder + "' --json").json()["rows"];
+  ASSERT_EQ(runs.size(), 12U);
+  for (const nlohmann::json& run : runs) {
+    EXPECT_GE(run["at"]["load"].get<double>(), 60.0 - 1e-9);
+    EXPECT_LE(run["at"]["load"].get<double>(), 140.0 + 1e-9);
+  }
+}
+
 TEST(DesignCommand, AnswersAsJson) {
   const Scratch scratch;
   scratch.write("campaign.yaml", planned_campaign);

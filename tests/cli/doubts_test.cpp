@@ -149,6 +149,40 @@ TEST(DoubtsOfCommands, ALawOfRollingThatHangsOnTheStepSaysSo) {
   EXPECT_THAT(soilbin("check paper-straight").out, Not(step));
 }
 
+// 24 lugs round a radius of 110 mm stand every 28.8 mm: none of them is 600 mm thick, from whichever side it comes.
+TEST(DoubtsOfCommands, LugsThatLeaveNoGapAreRefused) {
+  const Scratch scratch;
+  const auto told =
+      HasSubstr("24 lugs of 600 mm leave no gap round a radius of 110 mm: from one lug to the next are 28.8 mm\n");
+  const std::string lugs = "{height: 10 mm, count: 24, thickness: 600 mm}";
+  scratch.write("case.yaml", R"(format: soilbin-case/1
+name: lugs
+tire: {radius: 110 mm, width: 100 mm, lugs: )" +
+                                 lugs + R"(}
+soil: dry-sand
+study: {conditions: {load: 80 N, slip: 20 %}}
+)");
+  const Outcome file = soilbin("check '" + (scratch / "case.yaml").string() + "'");
+  EXPECT_EQ(file.status, 2);
+  EXPECT_THAT(file.err, AllOf(HasSubstr("case.yaml:3:7: 24 lugs"), HasSubstr("hint: fewer or thinner lugs")));
+  const std::string flags =
+      "estimate --soil dry-sand --radius 110mm --width 100mm --load 80N --slip 20% "
+      "--lug-height 10mm --lug-count 24 --lug-thickness ";
+  const Outcome by_flags = soilbin(flags + "600mm");
+  EXPECT_EQ(by_flags.status, 2);
+  EXPECT_THAT(by_flags.err, told);
+  EXPECT_EQ(soilbin(flags + "20mm").status, 0);
+}
+
+// s = 1 - v/(r w): at v = 0 a turning wheel slips by 100 %, and one that does not turn has no slip.
+TEST(DoubtsOfCommands, ASlipAtASpeedOfZeroIsDoubted) {
+  const std::string at = "estimate --soil dry-sand --radius 110mm --width 100mm --load 80N --speed 0m/s --slip ";
+  const auto told = HasSubstr("at a speed of 0 a wheel stands still or slips by 100 %");
+  EXPECT_THAT(soilbin(at + "20%").err, told);
+  EXPECT_THAT(soilbin(at + "100%").err, Not(told));
+  EXPECT_THAT(soilbin("drive rover-climb").err, Not(told)) << "a drive begins at rest";
+}
+
 /// n of 0.15 is out of the usual, with a standard deviation that a fit would free.
 constexpr const char* odd_campaign = R"(format: soilbin-campaign/1
 name: odd

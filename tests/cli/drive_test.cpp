@@ -279,7 +279,9 @@ TEST(LimitsCommand, TheSlipOnASlopeIsTheSlipOfNoPullThere) {
   EXPECT_NEAR(there.json()["rows"].at(0)["drawbar_pull"].get<double>(), 0.0, 1e-3);
   EXPECT_NEAR(row["slopes"].back()["largest_pull"].get<double>(), 0.0, 1e-5);
   EXPECT_THAT(text_of(csv),
-              HasSubstr(fmt::format(",{},{},{},,\n", second["slip"].get<double>(), second["largest_pull"].get<double>(),
+              HasSubstr(fmt::format(",{},{},{},{},{},,\n", second["slip"].get<double>(),
+                                    second["std_error"]["slip"].get<double>(), second["largest_pull"].get<double>(),
+                                    second["std_error"]["largest_pull"].get<double>(),
                                     second["slip_of_largest_pull"].get<double>())));
   const std::string table = text_of(csv);
   EXPECT_EQ(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')), 1 + row["slopes"].size());
@@ -292,6 +294,38 @@ TEST(LimitsCommand, TheSlipOnASlopeIsTheSlipOfNoPullThere) {
     EXPECT_THAT(text_of(drawing), HasSubstr(named));
   const std::string svg = text_of(drawing), path = svg.substr(svg.find(" d=\"M", svg.find("class=\"s c0\"")), 2000);
   EXPECT_GT(std::count(path.begin(), path.begin() + static_cast<long>(path.find("/>")), 'L'), 30) << "a smooth line";
+}
+
+// One uncertain value, the friction angle: the standard error of a limit is half of what the limit changes by from one
+// standard deviation below to one above.
+TEST(LimitsCommand, AStandardErrorIsTheChangeByOneStandardDeviation) {
+  const auto limits = [](const std::string& friction) {
+    return soilbin(
+               "limits --tire rover-wheel --soil dry-sand --no-assumed-sd --shear-modulus 20+-0mm "
+               "--stress-angle-c1 0.18+-0 --stress-angle-c2 0.32+-0 --load 64.68N --json --friction-angle " +
+               friction)
+        .json()["rows"]
+        .at(0);
+  };
+  const nlohmann::json low = limits("27.9+-0deg"), high = limits("28.1+-0deg"), row = limits("28+-0.1deg");
+  const auto half_change = [&](const auto& value) {
+    return std::abs(value(high).template get<double>() - value(low).template get<double>()) / 2;
+  };
+  const auto second = [](const char* key) { return [key](const auto& of) { return of["slopes"][1][key]; }; };
+  const nlohmann::json& errors = row["slopes"][1]["std_error"];
+  EXPECT_NEAR(errors["largest_pull"].get<double>() / half_change(second("largest_pull")), 1.0, 0.01);
+  EXPECT_NEAR(errors["slip"].get<double>() / half_change(second("slip")), 1.0, 0.01);
+  EXPECT_NEAR(row["std_error"]["steepest_slope"].get<double>() /
+                  half_change([](const auto& of) { return of["steepest_slope"]; }),
+              1.0, 0.01);
+}
+
+TEST(LimitsCommand, HeadingsSayWhatEachColumnIs) {
+  const std::string text = soilbin("limits --tire rover-wheel --soil dry-sand --load 64.68N").out;
+  for (const char* told : {"slope [deg]", "slip at which it climbs [%]", "largest pull [N]",
+                           "slip of the largest pull [%]", "± is one standard error from"})
+    EXPECT_THAT(text, HasSubstr(told));
+  EXPECT_THAT(text, testing::ContainsRegex("The steepest slope that it climbs is [0-9.]+ ± [0-9.]+ deg"));
 }
 
 TEST(LimitsCommand, AsksForTheLoadAndNoMore) {

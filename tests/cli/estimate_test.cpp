@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <sstream>
 
 #include "cli/command.hpp"
 
@@ -262,6 +264,56 @@ TEST(Explain, TheBudgetAddsUpAndTheFaultOfEquationFiveIsNamed) {
   for (const auto& part : row["budget"]) sum += part["force"].get<double>();
   EXPECT_NEAR(sum, row["drawbar_pull"].get<double>(), 1e-9);
   EXPECT_EQ(row["effects"].size(), 1U);
+}
+
+const nlohmann::json& step_named(const nlohmann::json& row, const std::string& name) {
+  for (const nlohmann::json& step : row["steps"])
+    if (step["name"] == name) return step;
+  throw std::runtime_error("no step " + name);
+}
+
+// An effect that settles the wheel moves it after the balance: the angle of the balance is that of the wheel without
+// the effect, and the settled one fits the sinkage that is reported.
+TEST(Explain, ASettledWheelHasTheAngleOfItsBalanceAndTheOneWhereItStands) {
+  const std::string question = "explain --json --tire rover-wheel --soil dry-sand --load 65N --slip 60% ";
+  const nlohmann::json plain = soilbin(question).json()["rows"].at(0);
+  const nlohmann::json settled = soilbin(question + "--effect slip_sinkage:reece").json()["rows"].at(0);
+  EXPECT_NEAR(step_named(settled, "entry angle")["value"].get<double>(),
+              step_named(plain, "entry angle")["value"].get<double>(), 1e-9);
+  const double angle = step_named(settled, "entry angle after settling")["value"].get<double>();
+  EXPECT_NEAR(0.09 * (1 - std::cos(angle * std::numbers::pi / 180)), settled["sinkage"].get<double>(), 1e-9);
+  EXPECT_THROW(step_named(plain, "entry angle after settling"), std::runtime_error);
+}
+
+// Shear brakes a locked wheel, as its torque does; a wheel at yaw is sheared along both axes, and its side force stands
+// among the equations.
+TEST(Explain, ShearHasTheSignOfTheTorqueAndAtYawBothItsParts) {
+  const std::string question = "explain --json --tire rover-wheel --soil dry-sand --load 65N ";
+  const nlohmann::json locked = soilbin(question + "--slip -100%").json()["rows"].at(0);
+  EXPECT_LT(locked["torque"].get<double>(), 0.0);
+  EXPECT_LT(step_named(locked, "shear stress there")["value"].get<double>(), 0.0);
+  for (const char* frame : {"travel", "wheel"}) {
+    const nlohmann::json yawed =
+        soilbin(question + "--slip 20% --yaw 10deg --longitudinal-incline 4deg --transverse-incline 3deg " +
+                "--force-frame " + frame)
+            .json()["rows"]
+            .at(0);
+    const double along = step_named(yawed, "shear displacement in the wheel's plane")["value"];
+    const double across = step_named(yawed, "shear displacement across it")["value"];
+    EXPECT_NEAR(step_named(yawed, "shear displacement there")["value"].get<double>(), std::hypot(along, across), 1e-9);
+    const nlohmann::json side = step_named(yawed, "lateral force");
+    EXPECT_EQ(side["value"], yawed["lateral_force"]);
+    double sum = 0.0, factor = 1.0, sign = 1.0;  // "1.2 N * 0.17 + 3.4 N * 0.98 - 5.6 N"
+    std::istringstream words(side["numbers"].get<std::string>());
+    for (std::string word; words >> word;) {
+      if (word == "+" || word == "-") {
+        sum += sign * factor, factor = 1.0, sign = word == "+" ? 1.0 : -1.0;
+      } else if (word != "N" && word != "*") {
+        factor *= std::stod(word);
+      }
+    }
+    EXPECT_NEAR(sum + sign * factor, yawed["lateral_force"].get<double>(), 0.01) << side["numbers"];
+  }
 }
 
 TEST(Explain, EndsWithTheSourceOfEachValue) {

@@ -1,4 +1,5 @@
 // soilbin loop, run as a person runs it.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include "cli/command.hpp"
@@ -123,6 +124,13 @@ TEST(SlowLoopCommand, AsksForARunWithinTheLimits) {
   EXPECT_THAT(condition.at("yaw_deg").get<double>(), AllOf(Ge(-2.0), Le(3.0)));
   EXPECT_THAT(condition.at("load_N").get<double>(), AllOf(Ge(300.0), Le(400.0)));
   EXPECT_TRUE(condition.contains("speed_m_s"));
+  // The numbers are those of the text.
+  const std::string said =
+      soilbin(
+          "loop made-lesson --folds 2 --next --limit slip=0.1..0.2 --limit yaw=-2deg..3deg --limit load=0.3kN..400N")
+          .out;
+  EXPECT_THAT(said, HasSubstr(fmt::format("load {:g} N", condition.at("load_N").get<double>())));
+  EXPECT_THAT(said, HasSubstr(fmt::format("slip {:g} %", 100 * condition.at("slip").get<double>())));
 }
 
 // What can't be written is refused before minutes of work, not after them.

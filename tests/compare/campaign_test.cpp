@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <numbers>
+
 #include "bekker_wong/effect_vocabulary.hpp"
 #include "compare/measured/csv.hpp"
 #include "scenario/case.hpp"
@@ -118,6 +120,29 @@ TEST(Campaign, ColumnsMayHaveOtherNamesAndUnits) {
   EXPECT_EQ(c.columns.at("load").unit, "N");
 }
 
+// What an operator keeps beside the numbers: neither read nor refused, whatever its cells hold.
+TEST(Campaign, ColumnsMayBeIgnored) {
+  const std::string csv = "Operator,load_N,slip,sinkage_m,Date\nEva,80,0.1,0.01,3 May\n,80,0.2,0.02,#N/A\n";
+  const auto ignoring = [](const std::string& list) { return replaced(good_yaml, "columns: {}", "ignored: " + list); };
+  const Campaign c = parse(ignoring("[Operator, Date]"), csv);
+  ASSERT_EQ(c.runs.size(), 2U);
+  EXPECT_EQ(c.runs[1].sinkage, 0.02);
+  EXPECT_FALSE(c.columns.contains("Date"));
+  EXPECT_THAT(refused(ignoring("[Operator]"), csv), HasSubstr("or leave it aside: ignored: [Date]"));
+  EXPECT_THAT(refused(ignoring("[Operatr, Date]"), csv), HasSubstr("unknown column 'Operator'"));
+  EXPECT_THAT(refused(ignoring("Date"), csv), HasSubstr("expected a list of column names"));
+}
+
+// v = r w (1 - s) of a driven wheel: at 30 rpm and 20 % slip on a level bed.
+TEST(Campaign, TheRotationTellsTheSpeed) {
+  const std::string csv = "load_N,slip,rotation_rpm,sinkage_m\n80,0.2,30,0.01\n80,0.4,,0.02\n";
+  const Campaign c = parse(good_yaml, csv);
+  EXPECT_NEAR(c.runs[0].at.speed, c.wheel.radius * 30 * 2 * std::numbers::pi / 60 * 0.8, 1e-12);
+  EXPECT_EQ(c.runs[1].at.speed, OperatingCondition().speed) << "an empty cell: the usual speed";
+  EXPECT_THAT(refused(good_yaml, "load_N,slip,speed_m_s,rotation_rpm,sinkage_m\n80,0.2,0.1,30,0.01\n"),
+              StartsWith("runs.csv:1:23: columns 'speed_m_s' and 'rotation_rpm' both tell the speed"));
+}
+
 TEST(Campaign, RealFilesHaveQuotesCarriageReturnsMarksAndBlankLines) {
   const Campaign c = parse(good_yaml,
                            "\xEF\xBB\xBF\"load_N\",slip, torque_Nm ,setpoint\r\n"
@@ -152,6 +177,7 @@ TEST(CampaignRefuses, UnknownColumns) {
 // The line to write holds the header's own unit: pasted as it is, it must not read millimetres as metres.
 TEST(CampaignRefuses, UnknownColumnsWithTheLineToWrite) {
   const std::vector<std::pair<std::string, std::string>> hints = {
+      {"R2", "columns: {R2: {quantity: QUANTITY, unit: UNIT}}"},
       {"my own", "columns: {my own: {quantity: QUANTITY, unit: UNIT}}"},
       {"torque_kNm", "{torque_kNm: {quantity: torque, unit: kNm}}"},
       {"sinkage_mm", "{sinkage_mm: {quantity: sinkage, unit: mm}}"},
@@ -177,7 +203,12 @@ TEST(CampaignRefuses, SemicolonsWithDecimalCommas) {
 TEST(CampaignRefuses, TextInANumber) {
   EXPECT_THAT(refused_csv("122,", "abc,"),
               StartsWith("runs.csv:3:19: column 'drawbar_pull_N': expected a finite number, not 'abc'"));
-  EXPECT_THAT(refused_csv("122,", "122 N,"), HasSubstr("the unit stands in the column's name"));
+  EXPECT_THAT(refused_csv("122,", "122 N,"),
+              HasSubstr("hint: write 122: the unit of the whole column (N) stands in its name or in campaign.yaml"));
+  for (const char* broken : {"#DIV/0!", "#REF!", "#N/A"})
+    EXPECT_THAT(refused_csv("122,", std::string(broken) + ","),
+                AllOf(StartsWith("runs.csv:3:19: column 'drawbar_pull_N': expected a finite number, not '#"),
+                      HasSubstr("hint: the spreadsheet could not compute this cell: mend its formula, or leave")));
   EXPECT_THAT(refused_csv("122,", "\"1,5\","), HasSubstr("a decimal point is '.'"));
   EXPECT_THAT(refused_csv("2,a,1000", "two,a,1000"), StartsWith("runs.csv:3:1: column 'run'"));
   EXPECT_THAT(refused_csv("0.1,2,", "0.1,1.5,"), HasSubstr("column 'pass': expected a whole number, not '1.5'"));

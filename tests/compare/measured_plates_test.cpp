@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "compare/doubts/plate_doubts.hpp"
 #include "compare/measured/csv.hpp"
@@ -124,7 +125,9 @@ TEST(MeasuredPlates, BadFilesAreRefused) {
   EXPECT_THAT(refusal([] { read_csv_of_plates("tool,sinkage_m,pressure_kPa\nround,0.1,1\n"); }),
               StartsWith("plates.csv:2:1: 'round' tells no size of a plate"));
   EXPECT_THAT(refusal([] { read_csv_of_plates("tool,sinkage_m,pressure_kPa\nd60mm,deep,1\n"); }),
-              StartsWith("plates.csv:2:7: expected a number, not 'deep'"));
+              StartsWith("plates.csv:2:7: column 'sinkage_m': expected a finite number, not 'deep'"));
+  EXPECT_THAT(refusal([] { read_csv_of_plates("tool,sinkage_m,pressure_kPa\nd60mm,12 mm,1\n"); }),
+              HasSubstr("hint: write 12: the unit of the whole column (m) stands in its name"));
   EXPECT_THAT(refusal([] {
                 read_csv_of_plates(plate_columns + rows_of_a_plate(0.06, "a"), {{"tset", "a"}});
               }),
@@ -138,6 +141,34 @@ TEST(MeasuredPlates, BadFilesAreRefused) {
                 fit_measured_plates(read_csv_of_plates(plate_columns + "a,0.06,0.01,1\n" + rows_of_a_plate(0.1, "b")));
               }),
               HasSubstr("test 'a' of the plate of 60 mm has 1 reading"));
+}
+
+// Numbers a thousand times too large or too small are of another unit than the column's name says, and the error names
+// the one that they can be in.
+TEST(MeasuredPlates, NumbersUnderAWrongUnitAreRefused) {
+  const std::string rows = rows_of_a_plate(0.06, "a") + rows_of_a_plate(0.1, "b");  // m, m, kPa
+  const auto under = [&](const std::string& header) { return refusal([&] { read_csv_of_plates(header + rows); }); };
+  EXPECT_THAT(
+      under("test,plate_diameter_m,sinkage_mm,pressure_kPa\n"),
+      AllOf(StartsWith("plates.csv:1:23: column 'sinkage_mm': the largest number is 0.024 mm; plates sink in by "
+                       "0.5 to 2000 mm"),
+            HasSubstr("if they are in m, call it sinkage_m")));
+  EXPECT_THAT(under("test,plate_diameter_m,sinkage_m,pressure_MPa\n"),
+              AllOf(HasSubstr("plates press on soil with 0.0002 to 5 MPa"), HasSubstr("call it pressure_kPa")));
+  EXPECT_THAT(under("test,plate_diameter_mm,sinkage_m,pressure_kPa\n"), HasSubstr("plates measure 4 to 2000 mm"));
+  EXPECT_NO_THROW(read_csv_of_plates(plate_columns + rows));
+}
+
+// A number without a unit in its name would make each reading a test of its own.
+TEST(MeasuredPlates, AColumnThatChangesInEachRowTellsNoTests) {
+  std::string csv = "R2," + plate_columns;
+  std::istringstream rows(rows_of_a_plate(0.06, "a") + rows_of_a_plate(0.1, "b"));
+  int i = 0;
+  for (std::string row; std::getline(rows, row);) csv += fmt::format("0.9{},{}\n", i++, row);
+  EXPECT_THAT(refusal([&] { read_csv_of_plates(csv); }),
+              AllOf(StartsWith("plates.csv:1:1: column 'R2' has no unit, so it tells tests apart, and it has 24 values "
+                               "in 24 rows"),
+                    HasSubstr("hint: take it out of the file")));
 }
 
 // The tests on GRC-1 up to 50 kPa: Oravec (2009) published n = 1.232 and a negative k_phi from averaged repeats.

@@ -16,6 +16,7 @@ TEST(NearestWord, FindsWhatWasMeant) {
 
 TEST(NearestWord, SaysNothingWhereNothingIsNear) {
   EXPECT_EQ(nearest_word("temperature", keys), "");
+  EXPECT_EQ(nearest_word("R2", {"run"}), "") << "two changes leave nothing of two letters";
   EXPECT_EQ(nearest_word("radius", {}), "");
   EXPECT_EQ(nearest_word(std::string(100'000, 'x'), keys), "");
 }
