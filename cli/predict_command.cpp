@@ -52,7 +52,7 @@ int predict(const PredictOptions& options, const Session& session) {
   else
     fmt::print("{}: {} runs of {}, predicted with {} and not fitted\n{}\n\n{}", campaign.name, prediction.runs.size(),
                in_words(campaign.wheel), options.model.empty() ? "the declared soil" : options.model,
-               compare::errors_in_words(scenario.soil), compare::prediction_text(prediction));
+               compare::errors_in_words(scenario), compare::prediction_text(prediction));
   if (prediction.unsolved < prediction.runs.size()) return outputs.status(done);
   fmt::print(stderr, "soilbin: no run of the campaign has a solution\n");
   return failed;

@@ -62,7 +62,9 @@ std::optional<VectorXd> density_of(const FittedModel& model, const Observations&
 
 std::vector<FoldDensity> fold_densities(const FittedModel& model, std::uint64_t seed, const ThreadPool& pool) {
   const Observations& all = model.data().observations;
-  const Folds folds = deal_folds(all.conditions, thresholds::choice_folds, seed);
+  const bool many = std::ssize(all.rows) > thresholds::max_searched_rows;
+  const Folds folds =
+      deal_folds(all.conditions, many ? thresholds::choice_folds_of_many_runs : thresholds::choice_folds, seed);
   const std::vector<int>& fold = folds.of_condition;
   std::vector<FoldDensity> densities(folds.count);
   pool.each(folds.count, [&](int f, const Pulse& pulse) {

@@ -108,8 +108,9 @@ inline constexpr std::size_t sets_fitted_again = 10, forms_fitted_again = 2;
 inline constexpr int min_spare_values = 6, min_conditions = 6;
 /// Degrees of freedom behind a channel's noise below which a residual can't be told from noise [-]. Chosen.
 inline constexpr double min_noise_freedom = 5.0;
-/// Folds of the conditions by which a candidate must predict better. Chosen.
-inline constexpr int choice_folds = 10;
+/// Folds of the conditions by which a candidate must predict better; beyond max_searched_rows runs, where four fifths
+/// of them say as much. Chosen.
+inline constexpr int choice_folds = 10, choice_folds_of_many_runs = 5;
 /// A candidate that predicts conditions left out better, if by less than a standard error, stands where its odds are
 /// 20 to 1 all the same: ln 20 [ln evidence]. Tuned: poor campaigns detected 83 -> 93 % of 60, false alarms the same
 /// two of 60.

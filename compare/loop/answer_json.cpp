@@ -85,8 +85,7 @@ Json error_json(const LoopAnswer& answer) {
   return error;
 }
 
-/// A condition by the names and units of the campaign's columns.
-/// As the text says it: in numbers that a rig can be set to.
+/// A condition by the names and units of a campaign's columns, in the numbers that the text says: those of a rig.
 Json condition_json(const LoopAnswer& answer) {
   Json at = Json::object();
   for (const std::string& name : answer.next->quantities) {

@@ -142,9 +142,9 @@ Case with_smooth_curves(Case question, int points) {
 
 std::string in_words(const Soil& soil) { return soil.name.empty() ? "a soil of its own (unnamed)" : soil.name; }
 
-std::string errors_in_words(const Soil& soil) {
-  if (!soil.semi_empirical) return "";
-  const SemiEmpiricalSoil& s = *soil.semi_empirical;
+std::string errors_in_words(const Scenario& asked) {
+  if (!asked.soil.semi_empirical) return "";
+  const SemiEmpiricalSoil& s = *asked.soil.semi_empirical;
   std::string declared, assumed, exact;
   const auto add = [](std::string& list, const char* symbol) {
     list += (list.empty() ? "" : ", ") + std::string(symbol);
@@ -153,13 +153,18 @@ std::string errors_in_words(const Soil& soil) {
     const Estimate& value = s.*p.value;
     add(has_assumed_sd(s, value) ? assumed : value.std_error > 0.0 ? declared : exact, p.symbol);
   }
-  if (declared.empty() && assumed.empty()) return "No ±: all values of the soil count as exact.";
+  const std::string together =
+      asked.errors.empty() ? "" : " The model's fit says how values of the soil and of its effects err together.";
+  if (declared.empty() && assumed.empty())
+    return asked.errors.empty() ? "No ±: all values of the soil count as exact."
+                                : "± is one standard error." + together;
   std::string text = "± is one standard error from the standard deviations of ";
   if (!declared.empty()) text += declared + (assumed.empty() ? "" : " (declared) and ");
   if (!assumed.empty()) text += fmt::format("{} (assumed: {:g} %, no source)", assumed, 100 * *s.assumed_sd);
-  return text + (exact.empty()
-                     ? "."
-                     : "; " + exact + (exact.find(',') == std::string::npos ? " counts" : " count") + " as exact.");
+  return text +
+         (exact.empty() ? "."
+                        : "; " + exact + (exact.find(',') == std::string::npos ? " counts" : " count") + " as exact.") +
+         together;
 }
 
 std::string in_words(const OperatingCondition& at) {

@@ -29,9 +29,10 @@ Case with_smooth_curves(Case question, int points);
 /// The soil's name, or what to call one that a case describes and doesn't name.
 std::string in_words(const Soil& soil);
 
-/// What the ± of an answer on this soil holds: which values have standard deviations of their own, which assumed ones,
-/// and which count as exact. For the first lines of an answer; "" for a soil of grains alone.
-std::string errors_in_words(const Soil& soil);
+/// What the ± of an answer holds: which values of the soil have standard deviations of their own, which assumed ones,
+/// which count as exact, and whether a fit says how they err together. For the first lines of an answer; "" for a soil
+/// of grains alone.
+std::string errors_in_words(const Scenario& asked);
 
 /// The condition in words, with what is not at its default: "load 80 N, slip 20 %, yaw 5 deg".
 std::string in_words(const OperatingCondition& at);
