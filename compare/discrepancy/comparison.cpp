@@ -124,7 +124,7 @@ Comparison compare_sides(const Case& question, const std::vector<ModelChoice>& c
     if (side >= choices.size() || comparison.sides[side].kind != SideKind::analytic ||
         comparison.sides[reference].kind == SideKind::analytic)
       continue;
-    JointOutcome outcome = joint_test(comparison.sides[reference], question, choices[side].effects);
+    JointOutcome outcome = joint_test(comparison.sides[reference], question, choices[side]);
     if (outcome.test) {
       outcome.test->side = side, outcome.test->reference = reference;
       comparison.joint.push_back(std::move(*outcome.test));

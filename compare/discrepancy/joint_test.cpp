@@ -11,6 +11,7 @@
 #include "compare/discrepancy/comparison.hpp"
 #include "compare/fit/wheel_predictor.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/fitted_errors.hpp"
 
 namespace soilbin::compare {
 
@@ -66,6 +67,20 @@ class InErrors {
   Whitening correlation_;
 };
 
+/// R^(1/2) of the parameters' correlation matrix R; what a fit left out of its errors stands by itself.
+MatrixXd root_of_correlation(const std::vector<std::string>& parameters, const std::vector<FittedError>& errors) {
+  const Index n = std::ssize(parameters);
+  MatrixXd together = MatrixXd::Identity(n, n);
+  const auto place = [&](Index i) { return std::ranges::find(errors, parameters[i], &FittedError::parameter); };
+  for (Index i = 0; i < n; ++i)
+    for (Index k = 0; k < i; ++k)
+      if (const auto a = place(i), b = place(k); a != errors.end() && b != errors.end())
+        together(i, k) = together(k, i) = correlation(errors, a - errors.begin(), b - errors.begin());
+  const Eigen::LDLT<MatrixXd> parts(together);
+  const VectorXd sizes = parts.vectorD().cwiseMax(0.0).cwiseSqrt();
+  return parts.transpositionsP().transpose() * MatrixXd(MatrixXd(parts.matrixL()) * sizes.asDiagonal());
+}
+
 std::string why_not_tested(const Estimated& estimated) {
   if (estimated.errors.size() == 0) return "no value to test";
   if (!(estimated.errors.minCoeff() > 0.0)) return "a value has no standard error";
@@ -87,9 +102,9 @@ double trace_tail(double trace, double values, double channels, double freedom) 
   return gsl::f_tail(trace / (freedom * size), values, denominator);
 }
 
-JointOutcome joint_test(const Side& reference, const Case& question, const std::vector<EffectChoice>& effects) {
+JointOutcome joint_test(const Side& reference, const Case& question, const ModelChoice& model) {
   if (!question.scenario.soil.semi_empirical) return {std::nullopt, "the soil has no semi_empirical values"};
-  const Campaign campaign = means_of(reference, question, effects);
+  const Campaign campaign = means_of(reference, question, model.effects);
   const Observations observations = observe(campaign);
   const WheelPredictor predictor(campaign, observations);
   const Estimated estimated = estimated_of(observations, reference);
@@ -108,7 +123,8 @@ JointOutcome joint_test(const Side& reference, const Case& question, const std::
   }
   const InErrors in_errors(observations, reference, estimated.errors);
   const VectorXd white = in_errors(predicted - observations.values());
-  const MatrixXd columns = in_errors(slopes->jacobian.leftCols(predictor.soil_parameters()) * sd.asDiagonal());
+  const MatrixXd columns = in_errors(slopes->jacobian.leftCols(predictor.soil_parameters()) * sd.asDiagonal() *
+                                     root_of_correlation(test.soil, model.errors));
   // d' (1 + A A')^-1 d = d' d - (A' d)' (1 + A' A)^-1 (A' d): Woodbury's identity.
   const VectorXd along = columns.transpose() * white;
   MatrixXd inner = columns.transpose() * columns;

@@ -9,9 +9,9 @@
 namespace soilbin::compare {
 
 /// chi2 = d' (D + J S J')^-1 d over all channels and conditions: D, the reference's variances, with the correlation of
-/// a measured run's channels; S, the declared variances of the soil's values; J, the model's derivatives by them. The
-/// uncertainty of the soil moves all conditions together, which rows taken one by one can't show. First order in the
-/// soil's values.
+/// a measured run's channels; S, the covariance of the soil's values, independent but where the model comes from a fit;
+/// J, the model's derivatives by them. The uncertainty of the soil moves all conditions together, which rows taken one
+/// by one can't show. First order in the soil's values.
 struct JointTest {
   std::size_t side = 0, reference = 0;
   std::size_t values = 0;
@@ -34,7 +34,7 @@ struct JointOutcome {
 
 /// No test where a value of the reference has no standard error, where its re-runs are too few for its channels, where
 /// the model has no balance at some condition, or where there is no semi-empirical soil.
-JointOutcome joint_test(const Side& reference, const Case& question, const std::vector<EffectChoice>& effects);
+JointOutcome joint_test(const Side& reference, const Case& question, const ModelChoice& model);
 
 /// Chance of a larger sum of squares over `values` numbers in `channels` channels whose covariance was estimated with
 /// `freedom` degrees of freedom (Lawley and Hotelling's trace): by F, exactly for one channel, else by McKeon's

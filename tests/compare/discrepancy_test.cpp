@@ -234,6 +234,28 @@ TEST_F(Pair, TheSoilsDoubtExplainsWhatASoilValueCouldHaveDone) {
   EXPECT_GT(test->p_value, 0.9);
 }
 
+// Two values of the soil that err as one, against each other: what one of them does to the pull the other undoes, and
+// their doubt explains nothing that they would explain apart.
+TEST_F(Pair, TheJointTestHeedsHowAFitsValuesErrTogether) {
+  SemiEmpiricalSoil& soil = *question.scenario.soil.semi_empirical;
+  for (const SoilParameter& p : soil_parameters) (soil.*p.value).std_error = 0;
+  const double b = question.scenario.tire.width;
+  soil.k_phi.std_error = 0.2 * soil.k_phi.value;
+  soil.k_c.std_error = b * soil.k_phi.std_error;  // k_c/b + k_phi is all that the wheel knows
+  Case softer = question;
+  softer.scenario.soil.semi_empirical->k_phi.value -= soil.k_phi.std_error;
+  const Side other = grain_side(base_answers(softer), {0}, 5.0);
+  const auto test_of = [&](double r) {
+    ModelChoice model = base.choice;
+    model.errors = {{.parameter = "k_c", .std_error = {}, .correlations = {}},
+                    {.parameter = "k_phi", .std_error = {}, .correlations = {r}}};
+    return joint_test(other, question, model).test.value();
+  };
+  EXPECT_LT(test_of(0).chi2, 0.1 * test_of(0).chi2_soil_exact);
+  EXPECT_NEAR(test_of(-1).chi2 / test_of(-1).chi2_soil_exact, 1, 1e-6);
+  EXPECT_EQ(test_of(0).chi2, joint_test(other, question, base.choice).test->chi2);
+}
+
 TEST_F(Pair, WithoutAStatedErrorThereIsNoJointTestAndTheSummarySaysWhy) {
   Side dem = grain_side(base, {10}, 5.0);
   dem.points[2].result->torque.std_error = 0.0;
