@@ -57,10 +57,10 @@ def predict(campaign: Union[Campaign, str], scenario: Optional[Scenario] = None,
     """A campaign as the analytic model predicts it, a row a run, nothing fitted.
 
     scenario: soil and effects in place of the declared ones. Columns: conditions, for each channel NAME_measured,
-    NAME_predicted and NAME_residual (predicted less measured), error. SI and radians.
+    NAME_predicted, its NAME_std_error and NAME_residual (predicted less measured), error. SI and radians.
     """
     known = find_campaign(campaign) if isinstance(campaign, str) else campaign
-    model = BekkerWong(errors=False, patch=False)
+    model = BekkerWong(patch=False)
     predicted = _soilbin.predictions(model, scenario or known.scenario(), known, told_to(progress))
     rows = []
     for run in predicted.runs:
@@ -69,7 +69,7 @@ def predict(campaign: Union[Campaign, str], scenario: Optional[Scenario] = None,
         for name in CHANNELS:
             measured = getattr(run.measured, name)
             row[name + "_measured"] = np.nan if measured is None else measured
-            row[name + "_predicted"] = said[name]
+            row[name + "_predicted"], row[name + "_std_error"] = said[name], said[name + "_std_error"]
             row[name + "_residual"] = said[name] - row[name + "_measured"]
         rows.append({**row, "error": run.predicted.error})
     return without_empty(pd.DataFrame(rows))
