@@ -31,7 +31,7 @@ study: {models: [{model: dem}], conditions: {load: 20 N, slip: 30 %, speed: 0.3 
 """
 BIN = ("--bed-length 0.4m --bed-width 0.16m --bed-depth 0.08m --behind 0.12m --ahead 0.12m --lowering 0.1s "
        "--starting 0.05s").split()
-LONG = ["--load", "25N", "--resting", "3s"]  # some five seconds, so that a signal finds it at work
+LONG = ["--load", "25N", "--resting", "1.5s"]  # some seconds, so that a signal finds it at work
 PATIENCE = 240  # seconds that anything may take
 
 
@@ -42,7 +42,7 @@ class Lammps(unittest.TestCase):
         cls.folder = Path(cls.scratch.name)
         (cls.folder / "small.yaml").write_text(CASE, encoding="utf-8")
         cls.environment = {**os.environ, "SOILBIN_BEDS": str(cls.folder / "beds"),
-                           "SOILBIN_MPIRUN": "mpirun --allow-run-as-root --oversubscribe --mca mpi_yield_when_idle 1"}
+                           "SOILBIN_MPIRUN": "mpirun --allow-run-as-root --oversubscribe"}
 
     @classmethod
     def tearDownClass(cls):
@@ -176,7 +176,7 @@ class Lammps(unittest.TestCase):
 
     def test_stopped_it_goes_on_from_there_and_says_what_is_damaged(self):
         child = self.start(*LONG, "--record", "stopped.json")
-        time.sleep(1)
+        time.sleep(0.3)
         child.send_signal(signal.SIGINT)
         _, errors = child.communicate(timeout=PATIENCE)
         self.assertNotEqual(child.returncode, 0)
