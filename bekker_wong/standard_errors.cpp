@@ -110,26 +110,23 @@ using Channels = BalanceDerivatives::Channels;
 /// What a parameter's standard deviation does to the channels.
 struct Shift {
   std::string parameter;
-  std::optional<std::size_t> place;  ///< in the list of errors; none where it errs by itself
-  Channels channels;                 ///< sd dr/dp
+  Channels channels;  ///< sd dr/dp
 };
+
+Channels times(double sd, Channels slope) {
+  for (double& s : slope) s *= sd;
+  return slope;
+}
 
 std::vector<Shift> shifts_of(const BalanceDerivatives& derivatives, const Scenario& scenario) {
   std::vector<Shift> shifts;
-  const std::vector<FittedError>& errors = scenario.errors;
-  const auto add = [&](const std::string& parameter, double sd, Channels slope) {
-    for (double& s : slope) s *= sd;
-    const auto found = std::ranges::find(errors, parameter, &FittedError::parameter);
-    const auto place = found == errors.end() ? std::nullopt : std::optional<std::size_t>(found - errors.begin());
-    shifts.push_back({parameter, place, slope});
-  };
   for (std::size_t p = 0; p < soil_parameters.size(); ++p)
     if (const double sd = ((*scenario.soil.semi_empirical).*soil_parameters[p].value).std_error; sd > 0.0)
-      add(soil_parameters[p].name, sd, derivatives.by(p, sd));
-  for (const FittedError& error : errors)
+      shifts.push_back({soil_parameters[p].name, times(sd, derivatives.by(p, sd))});
+  for (const FittedError& error : scenario.errors)
     if (const auto place = find_effect_parameter(error.parameter, scenario.effects); place && error.std_error > 0.0)
-      add(error.parameter, *error.std_error,
-          derivatives.by(scenario.effects, place->effect, place->parameter, *error.std_error));
+      shifts.push_back({error.parameter, times(*error.std_error, derivatives.by(scenario.effects, place->effect,
+                                                                                place->parameter, *error.std_error))});
   return shifts;
 }
 
@@ -150,15 +147,16 @@ void add_standard_errors(TractionResult& result, const RolledWheel& balanced, co
     return !exists;
   });
   Channels variance{};
-  for (std::size_t i = 0; i < variance.size(); ++i) {
-    for (const Shift& shift : shifts) variance[i] += shift.channels[i] * shift.channels[i];
-    for (std::size_t a = 0; a < shifts.size(); ++a)
-      for (std::size_t b = 0; b < a; ++b)
-        if (shifts[a].place && shifts[b].place)
-          variance[i] += 2 * correlation(scenario.errors, *shifts[a].place, *shifts[b].place) * shifts[a].channels[i] *
-                         shifts[b].channels[i];
+  for (const Shift& shift : shifts)
+    for (std::size_t i = 0; i < variance.size(); ++i) variance[i] += shift.channels[i] * shift.channels[i];
+  for (std::size_t a = 0; a < shifts.size() && !scenario.errors.empty(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const double r = correlation(scenario.errors, shifts[a].parameter, shifts[b].parameter);
+      for (std::size_t i = 0; i < variance.size(); ++i)
+        variance[i] += 2 * r * shifts[a].channels[i] * shifts[b].channels[i];
+    }
+  for (std::size_t i = 0; i < variance.size(); ++i)
     (result.*traction_channels[i].predicted).std_error = std::sqrt(std::max(0.0, variance[i]));
-  }
 }
 
 }  // namespace soilbin::bekker_wong

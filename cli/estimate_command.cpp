@@ -17,7 +17,7 @@ namespace {
 
 void print_text(const Case& question, const std::vector<compare::ModelAnswers>& study) {
   fmt::print("{} on {}\n{}\n\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil),
-             compare::errors_in_words(seen_by(question.study.models.front(), question.scenario)));
+             compare::errors_in_words(question));
   if (question.study.conditions.size() > 1) {
     fmt::print("{}", compare::study_text(study));
   } else {

@@ -45,7 +45,7 @@ int limits(const Question& inputs, const LimitsOptions& options, const Session& 
     print_json(document_of("soilbin-limits/1", question, rows), doubts);
   } else {
     fmt::print("{} on {}\n{}\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil),
-               compare::errors_in_words(seen_by(question.study.models.front(), question.scenario)));
+               compare::errors_in_words(question));
     for (const compare::WheelLimits& answer : answers) fmt::print("\n{}", in_words(answer));
   }
   for (const compare::WheelLimits& answer : answers)

@@ -148,7 +148,7 @@ void print_text(const Case& question, const compare::StudyResults& answered) {
   fmt::print("{}: {} on {}\n{}{}\n{}", question.study.name, in_words(question.scenario.tire),
              compare::in_words(question.scenario.soil),
              asks(question.study, ModelKind::bekker_wong)
-                 ? compare::errors_in_words(seen_by(question.study.models.front(), question.scenario)) + "\n"
+                 ? compare::errors_in_words(question) + "\n"
                  : "",  // grains say beside their answer where their errors come from
              answered.step ? compare::in_words(*answered.step) : "", compare::study_text(answered.study));
   if (const std::string notes = compare::notes_on(answered.runs); !notes.empty())

@@ -77,6 +77,12 @@ double correlation(const std::vector<FittedError>& errors, std::size_t i, std::s
   return row.empty() ? 0.0 : row[std::min(i, k)];
 }
 
+double correlation(const std::vector<FittedError>& errors, const std::string& one, const std::string& other) {
+  const auto a = std::ranges::find(errors, one, &FittedError::parameter),
+             b = std::ranges::find(errors, other, &FittedError::parameter);
+  return a == errors.end() || b == errors.end() ? 0.0 : correlation(errors, a - errors.begin(), b - errors.begin());
+}
+
 bool are_correlations(const std::vector<FittedError>& errors) {
   constexpr double rounding = 1e-9;                        // of digits left out in a file
   std::vector<std::vector<double>> factor(errors.size());  // Cholesky's, where a pivot may be 0

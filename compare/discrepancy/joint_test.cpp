@@ -67,15 +67,12 @@ class InErrors {
   Whitening correlation_;
 };
 
-/// R^(1/2) of the parameters' correlation matrix R; what a fit left out of its errors stands by itself.
+/// R^(1/2) of the parameters' correlation matrix R.
 MatrixXd root_of_correlation(const std::vector<std::string>& parameters, const std::vector<FittedError>& errors) {
   const Index n = std::ssize(parameters);
   MatrixXd together = MatrixXd::Identity(n, n);
-  const auto place = [&](Index i) { return std::ranges::find(errors, parameters[i], &FittedError::parameter); };
   for (Index i = 0; i < n; ++i)
-    for (Index k = 0; k < i; ++k)
-      if (const auto a = place(i), b = place(k); a != errors.end() && b != errors.end())
-        together(i, k) = together(k, i) = correlation(errors, a - errors.begin(), b - errors.begin());
+    for (Index k = 0; k < i; ++k) together(i, k) = together(k, i) = correlation(errors, parameters[i], parameters[k]);
   const Eigen::LDLT<MatrixXd> parts(together);
   const VectorXd sizes = parts.vectorD().cwiseMax(0.0).cwiseSqrt();
   return parts.transpositionsP().transpose() * MatrixXd(MatrixXd(parts.matrixL()) * sizes.asDiagonal());

@@ -81,8 +81,7 @@ void add_scatter(const std::vector<const RecordedRun*>& solved, const PackingSca
   const double n = static_cast<double>(solved.size());
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const auto channel = channel_views[c].predicted;
-    double own = 0.0;  // mean variance of a single run's mean
-    for (const RecordedRun* run : solved) own += std::pow(((*run->answer.result).*channel).std_error, 2) / n;
+    const double own = own_variance(solved, channel);
     point.scatter[c] = std::sqrt(own);
     if (all[c] && all[c]->factor > 1.0)
       point.scatter[c] *= all[c]->factor, point.freedom[c] = all[c]->freedom;

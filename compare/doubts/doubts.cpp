@@ -230,8 +230,7 @@ Warnings doubts_of_speeds(const Case& question) {
   for (const OperatingCondition& at : question.study.conditions)
     if (at.speed == 0.0 && std::abs(at.slip) < 1.0)
       words.push_back(
-          "at a speed of 0 a wheel stands still or slips by 100 %; the answer is that of a very slow wheel "
-          "at " +
+          "at a speed of 0 a wheel stands still or slips by 100 %; the answer is that of a very slow wheel at " +
           in_words(at));
   return once_each(words);
 }

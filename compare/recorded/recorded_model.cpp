@@ -103,7 +103,14 @@ std::string in_a_line(const RecordedRun& run) {
 
 }  // namespace
 
-Estimate mean_over_packings(const std::vector<Estimate>& packings) {
+namespace {
+
+/// What packings say of their mean: it, and its standard error by their scatter and by their own errors.
+struct OverPackings {
+  double n, mean, by_scatter, by_own;
+};
+
+OverPackings over_packings(const std::vector<Estimate>& packings) {
   const double n = static_cast<double>(packings.size());
   double sum = 0, own = 0;
   std::vector<double> values;
@@ -111,15 +118,26 @@ Estimate mean_over_packings(const std::vector<Estimate>& packings) {
     sum += one.value, own += one.std_error * one.std_error;
     values.push_back(one.value);
   }
-  return {sum / n, std::max(spread_of(values) / std::sqrt(n), std::sqrt(own) / n)};
+  return {n, sum / n, spread_of(values) / std::sqrt(n), std::sqrt(own) / n};
+}
+
+}  // namespace
+
+Estimate mean_over_packings(const std::vector<Estimate>& packings) {
+  const OverPackings over = over_packings(packings);
+  return {over.mean, std::max(over.by_scatter, over.by_own)};
 }
 
 double freedom_over_packings(const std::vector<Estimate>& packings) {
-  const double n = static_cast<double>(packings.size());
-  std::vector<double> values;
-  double own = 0;
-  for (const Estimate& one : packings) values.push_back(one.value), own += one.std_error * one.std_error;
-  return std::pow(spread_of(values), 2) > own / n ? n - 1 : std::numeric_limits<double>::infinity();
+  const OverPackings over = over_packings(packings);
+  return over.by_scatter > over.by_own ? over.n - 1 : std::numeric_limits<double>::infinity();
+}
+
+double own_variance(const Runs& runs, Estimate TractionResult::*channel) {
+  double variance = 0;
+  for (const RecordedRun* run : runs)
+    variance += std::pow(((*run->answer.result).*channel).std_error, 2) / static_cast<double>(runs.size());
+  return variance;
 }
 
 double scatter_between(const Runs& runs, Estimate TractionResult::*channel) {
@@ -135,10 +153,7 @@ std::optional<PackingScatter> packing_scatter(const std::vector<RecordedRun>& al
     if (runs.size() < 2) continue;
     const double degrees = static_cast<double>(runs.size() - 1);
     const double scatter = scatter_between(runs, channel);
-    double mean_own = 0;
-    for (const RecordedRun* run : runs)
-      mean_own += std::pow(((*run->answer.result).*channel).std_error, 2) / static_cast<double>(runs.size());
-    between += degrees * scatter * scatter, own += degrees * mean_own, freedom += degrees;
+    between += degrees * scatter * scatter, own += degrees * own_variance(runs, channel), freedom += degrees;
   }
   if (freedom == 0 || !(own > 0)) return std::nullopt;
   return PackingScatter{std::sqrt(between / own), freedom};

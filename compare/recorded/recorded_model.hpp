@@ -38,6 +38,9 @@ double freedom_over_packings(const std::vector<Estimate>& packings);
 /// Throws NoSolution where a run has no result, and InputError for no runs.
 TractionResult mean_of_packings(const std::vector<const RecordedRun*>& runs);
 
+/// Mean variance of a single run's mean by its own error, of a channel; all runs have results.
+double own_variance(const std::vector<const RecordedRun*>& runs, Estimate TractionResult::*channel);
+
 /// Standard deviation between packings, of a channel of TractionResult; 0 for less than two runs with results.
 double scatter_between(const std::vector<const RecordedRun*>& runs, Estimate TractionResult::*channel);
 

@@ -272,11 +272,9 @@ std::vector<Answer> recorded_answers(const Record& record, const std::vector<Ope
     if (!answers.back().result) continue;
     const Runs runs = model.runs(at);
     for (std::size_t c = 0; c < channel_views.size(); ++c) {
-      double own = 0;
-      for (const RecordedRun* run : runs)
-        own += std::pow(((*run->answer.result).*channel_views[c].predicted).std_error, 2);
-      ((*answers.back().result).*channel_views[c].predicted).std_error =
-          factors[c] * std::sqrt(own) / static_cast<double>(runs.size());
+      const auto channel = channel_views[c].predicted;
+      ((*answers.back().result).*channel).std_error =
+          factors[c] * std::sqrt(own_variance(runs, channel) / static_cast<double>(runs.size()));
     }
   }
   return answers;

@@ -167,6 +167,10 @@ std::string errors_in_words(const Scenario& asked) {
          together;
 }
 
+std::string errors_in_words(const Case& question) {
+  return errors_in_words(seen_by(question.study.models.front(), question.scenario));
+}
+
 std::string in_words(const OperatingCondition& at) {
   std::string words = fmt::format("load {}, slip {:.4g} %", newtons(at.load), 100 * at.slip);
   const OperatingCondition plain;
