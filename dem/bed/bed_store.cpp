@@ -15,6 +15,7 @@ namespace {
 
 /// To be raised when the same recipe gives another bed than before.
 constexpr int version = 2;
+constexpr int graded_version = 2;  // 1: small grains were put in more often than large ones
 
 constexpr const char* recipe_note = "bed_recipe";
 constexpr const char* time_note = "settling_time";
@@ -64,8 +65,8 @@ std::string recipe_text(const BedRecipe& recipe) {
   add("length", recipe.size.length), add("width", recipe.size.width), add("depth", recipe.size.depth);
   text += fmt::format("packing {}\n", recipe.packing);
   if (const Grading& graded = recipe.grading; graded.factor > 1) {
-    add("graded", graded.factor), add("fine_half_width", graded.half_width), add("fine_depth", graded.depth);
-    add("transition", graded.transition);
+    add("graded", graded.factor), add("graded_version", graded_version);
+    add("fine_half_width", graded.half_width), add("fine_depth", graded.depth), add("transition", graded.transition);
   }
   add("settling_friction", recipe.settling_friction), add("gravity", recipe.gravity), add("dt", recipe.dt);
   text += fmt::format("laws {} {} {}\n", static_cast<int>(recipe.laws.normal), static_cast<int>(recipe.laws.rolling),

@@ -74,12 +74,15 @@ void insert_graded(const GrainSink& put, const Region& region, const GradedGrain
   double placed = 0;
   int refused = 0;
   constexpr int most_refused = 100000;  // in a row
+  const auto drawn = [&] { return random.uniform(grains.radii.smallest, grains.radii.largest); };
+  // Kept until it has found its place: drawn anew at each try, small ones would find more places than large ones.
+  double unscaled = drawn();
   while (placed < grains.volume) {
     if (++refused > most_refused) throw InputError("grains of this volume don't fit into the region");
     const double x = random.uniform(0, side.x), y = random.uniform(0, side.y);
     const Vec3 at{x, y, random.uniform(0, side.z)};
     const double larger = grains.scale(region.lower + at), keep = random.uniform(0, 1);
-    const double radius = larger * random.uniform(grains.radii.smallest, grains.radii.largest);
+    const double radius = larger * unscaled;
     // As many tries a volume of a grain everywhere: then all sizes come to the same share.
     if (keep > 1 / (larger * larger * larger)) continue;
     if (x < radius || y < radius || at.z < radius || x > side.x - radius || y > side.y - radius) continue;
@@ -96,7 +99,7 @@ void insert_graded(const GrainSink& put, const Region& region, const GradedGrain
     in_cell(cx, cy, cz).push_back({at, radius});
     put(region.lower + at, radius);
     placed += sphere_volume(radius);
-    refused = 0;
+    refused = 0, unscaled = drawn();
   }
 }
 

@@ -40,8 +40,8 @@ struct GradedGrains {
   double volume = 0;  ///< of all grains [m^3]
 };
 
-/// Fills a region at random with graded grains, equally loose everywhere, whatever their sizes. For a share of a
-/// quarter of the region and less. Clears no grains that are there already. Throws InputError where they don't find
+/// Fills a region at random with graded grains, equally loose everywhere, whatever their sizes; radii over scale are
+/// uniform as without grading. For a share of a quarter of the region and less. Clears no grains that are there already. Throws InputError where they don't find
 /// room.
 void insert_graded(const GrainSink& put, const Region& region, const GradedGrains& grains, std::uint64_t seed);
 

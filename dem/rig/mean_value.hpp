@@ -22,9 +22,10 @@ std::vector<double> series_of(std::span<const Sample> samples, const Read& read)
 /// 1 where samples are independent, and for less than four samples.
 double autocorrelation_time(std::span<const double> series);
 
-/// Mean and its standard error by block averaging: blocks of two
-/// autocorrelation times, at least eight blocks; error = sqrt(variance of block
-/// means/blocks). Less than eight samples: the plain error of the mean; one: 0.
+/// Mean and its standard error by block averaging: blocks of four autocorrelation times, error = sqrt(variance of block
+/// means/blocks). Where fewer than eight such blocks fit: the error of eight, or that by the autocorrelation time,
+/// sqrt(variance tau/n) with the bias of short series put right to first order, where it is larger. Less than eight
+/// samples: the plain error of the mean; one: 0.
 Estimate mean_with_error(std::span<const double> series);
 
 /// The sample at which the start-up is best cut off: of all cuts in the first

@@ -1,7 +1,11 @@
 // Beds with the soil's grains along the middle and coarser ones below and beside them.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "dem/bed/bed_store.hpp"
+#include "dem/bed/insertion.hpp"
 #include "scenario/errors.hpp"
 #include "tests/dem/small_bed.hpp"
 #include "tests/dem/worlds.hpp"
@@ -47,6 +51,20 @@ TEST(GradedBed, IsAnotherBedThanAUniformOneWhoseKeyStays) {
   EXPECT_THROW(settle_bed(recipe), InputError);
   recipe.grading.factor = 0.5;
   EXPECT_THROW(settle_bed(recipe), InputError);
+}
+
+TEST(GradedBed, IsFilledWithTheSoilsRadiiWhateverTheirScale) {
+  constexpr RadiusRange radii{0.8, 1.2};
+  const auto scale = [](const Vec3& at) { return at.z < 15 ? 2.0 : 1.0; };
+  std::array<int, 4> quarter{};
+  const auto put = [&](const Vec3& at, double radius) {
+    const double share = (radius / scale(at) - radii.smallest) / (radii.largest - radii.smallest);
+    ++quarter.at(static_cast<std::size_t>(4 * share));
+  };
+  insert_graded(put, {{0, 0, 0}, {40, 40, 40}}, {radii, scale, 2, 0.25 * 64000}, 7);
+  const double grains = quarter[0] + quarter[1] + quarter[2] + quarter[3];
+  ASSERT_GT(grains, 1500);
+  for (const int count : quarter) EXPECT_NEAR(count / grains, 0.25, 4 * std::sqrt(0.25 * 0.75 / grains));
 }
 
 TEST(SlowGradedBed, HoldsFineGrainsUnderTheTrackAndCoarseOnesElsewhere) {

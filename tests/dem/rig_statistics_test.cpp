@@ -44,6 +44,20 @@ TEST(MeanWithError, CoversTheTrueMeanAsOftenAsItShould) {
   EXPECT_NEAR(within, 0.68 * runs, 25);
 }
 
+// A run of 10 or 5 autocorrelation times holds no eight blocks of four. The error of eight shorter ones was 0.8 and 0.6
+// of the means' scatter.
+TEST(MeanWithError, OfFewAutocorrelationTimesIsNotTooSmall) {
+  constexpr int runs = 400;
+  for (const std::size_t count : {200, 100}) {
+    double means = 0, errors = 0;
+    for (unsigned seed = 0; seed < runs; ++seed) {
+      const Estimate mean = mean_with_error(autoregressive(0.905, count, seed));  // tau = 20
+      means += mean.value * mean.value / runs, errors += mean.std_error * mean.std_error / runs;
+    }
+    EXPECT_NEAR(std::sqrt(errors / means), 1, 0.2) << count;
+  }
+}
+
 TEST(MeanWithError, OfFewSamples) {
   EXPECT_EQ(mean_with_error({}).value, 0);
   EXPECT_EQ(mean_with_error(std::vector<double>{3}).value, 3);
