@@ -56,8 +56,11 @@ std::optional<double> slip_for_pull(const RollingWheel& wheel, const OperatingCo
   const auto spare = [&](double slip) { return pull_at(wheel, at, slip) - drawbar; };
   constexpr double lowest = -0.5;
   double before = lowest, at_before = spare(lowest);
-  if (at_before >= 0.0) return lowest;
-  for (double slip = lowest + slip_step; slip < 1.0 + 0.5 * slip_step; slip += slip_step) {
+  while (at_before >= 0.0) {  // steep downhill: braked further
+    if (before <= -1.0) return {};
+    before = std::max(before - slip_step, -1.0), at_before = spare(before);
+  }
+  for (double slip = before + slip_step; slip < 1.0 + 0.5 * slip_step; slip += slip_step) {
     const double here = std::min(slip, 1.0), value = spare(here);
     if (value >= 0.0) {
       if (!std::isfinite(at_before)) return here;

@@ -22,7 +22,8 @@ struct PullPeak {
 /// throws NoSolution where there is no other.
 PullPeak largest_pull(const RollingWheel& wheel, const OperatingCondition& at);
 
-/// Smallest slip above -0.5 at which the wheel pulls `drawbar` [N] on the slope that `at` gives; none where it can't.
+/// Smallest slip above -0.5 at which the wheel pulls `drawbar` [N] on the slope that `at` gives; one below where it
+/// pulls more at -0.5, as steep downhill. None where it can't, or where it pulls more even when locked.
 std::optional<double> slip_for_pull(const RollingWheel& wheel, const OperatingCondition& at, double drawbar = 0.0);
 
 /// The largest load [N] up to `beyond` that the soil carries under the wheel at the slip and on the slope of `at`, to

@@ -1,4 +1,4 @@
-// Bekker's n, k_c and k_phi from plates pressed into the soil: p = (k_c/b + k_phi) z^n, b: the plate's radius or half
+// Bekker's n, k_c and k_phi from plates pressed into the soil: p = (k_c/b + k_phi) z^n, b: the plate's radius or
 // the width of a strip. Wong's method: logarithms weighted by p^2, so that the fit is close in pressure (Wong 1980,
 // J. Terramechanics 17:5; as Oravec 2009, Case Western Reserve University, applied it).
 //

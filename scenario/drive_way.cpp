@@ -1,6 +1,7 @@
 #include "scenario/drive_way.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace soilbin {
 
@@ -8,7 +9,7 @@ Way::Way(const std::vector<Waypoint>& points, double blend) : points_(points), b
   for (const Waypoint& point : points_) {
     if (!point.soil) continue;
     soils_.push_back(*point.soil);
-    soil_from_.push_back(point.at);
+    soil_from_.push_back(point.at > 0.0 ? point.at : -std::numeric_limits<double>::infinity());
   }
 }
 
@@ -16,16 +17,15 @@ bool Way::turns() const {
   return std::any_of(points_.begin(), points_.end(), [](const Waypoint& point) { return point.yaw != 0.0; });
 }
 
+double Way::share(std::size_t i, double x) const {
+  return std::clamp((x - soil_from_[i - 1]) / blend_ + 0.5, 0.0, 1.0);
+}
+
 Place Way::at(double x) const {
   Place place;
-  for (std::size_t i = 0; i < soils_.size(); ++i) {
-    const double share = std::clamp((x - soil_from_[i]) / blend_ + 0.5, 0.0, 1.0);
-    if (share >= 1.0) {
-      place.soil = i + 1;
-    } else if (share > 0.0) {
-      place.next_share = share;
-      break;
-    }
+  for (std::size_t i = 1; i <= soils_.size() && share(i, x) > 0.0; ++i) {
+    place.last_soil = i;
+    if (share(i, x) >= 1.0) place.soil = i;
   }
   if (points_.empty()) return place;
   const auto next = std::upper_bound(points_.begin(), points_.end(), x,

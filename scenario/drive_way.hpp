@@ -15,15 +15,18 @@ struct Place {
   double drawbar = 0.0;               ///< [N]
   double curvature = 0.0;             ///< of the way, hollow positive: d(incline)/dx [rad/m]
   std::size_t soil = 0;               ///< 0: the case's own, i: the i-th that the waypoints bring
-  double next_share = 0.0;            ///< share of the contact that lies on soil + 1
+  std::size_t last_soil = 0;          ///< the farthest that the contact touches; `soil` where that is the only one
 };
 
 /// The way of a drive: angles and drawbar load linear between the waypoints, soils from theirs on.
 class Way {
  public:
-  /// `blend`: distance over which the contact passes from one soil to the next [m].
+  /// `blend`: distance over which the contact passes from one soil to the next [m]. A soil that begins at 0 is under
+  /// the whole contact from the start.
   Way(const std::vector<Waypoint>& points, double blend);
   Place at(double x) const;
+  /// Share of the contact around x that the waypoints' i-th soil takes from those before it, 0 .. 1; i from 1.
+  double share(std::size_t i, double x) const;
   /// The soils that the waypoints bring, in their order.
   const std::vector<Soil>& soils() const { return soils_; }
   /// Whether the wheel is yawed anywhere.

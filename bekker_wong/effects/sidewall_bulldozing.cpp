@@ -131,7 +131,8 @@ class SideArea final : public Effect {
     }
     const double whole = area * mean_ground_pressure(r);
     if (!(whole > 0.0)) return;
-    const double sine = motion.locked ? motion.lateral : motion.lateral / std::hypot(1.0, motion.lateral);
+    const double rolls = motion.locked ? 0.0 : 1.0;
+    const double sine = motion.lateral == 0.0 ? 0.0 : motion.lateral / std::hypot(rolls, motion.lateral);
     const double leaning = std::copysign(-std::expm1(-std::abs(downhill) / whole), downhill);
     ledger.add({.name = "sidewall_bulldozing", .lateral = amplitude_ * whole * (sine + leaning)});
   }

@@ -56,7 +56,8 @@ class Directional final : public Effect {
   explicit Directional(const std::vector<double>& p) : amplitude_(p[0]) {}
   void strength(ContactPatch& patch, const SoilValues&, const Outline&, const Surroundings& around) const override {
     const OperatingCondition& at = around.at;
-    const double along = amplitude_ * std::tan(at.longitudinal_incline);
+    // the slope's shear over its pressure, by the load's direction; its length is tan(i)
+    const double along = amplitude_ * std::tan(at.longitudinal_incline) / std::cos(at.transverse_incline);
     const double across = amplitude_ * std::tan(at.transverse_incline);
     if (along == 0.0 && across == 0.0) return;
     // uphill (along travel, and to its left) in the wheel's axes
@@ -105,7 +106,8 @@ std::vector<EffectForm> slope_weakening_forms() {
        .make = maker<Strength>()},
       {.id = id,
        .form = "directional",
-       .equation = "strength - a sigma (tan(alpha), tan(beta_t)).(j/|j|): weaker where the wheel pushes soil downhill",
+       .equation = "strength - a sigma (tan(alpha)/cos(beta_t), tan(beta_t)).(j/|j|): weaker where the wheel pushes "
+                   "soil downhill",
        .source = "stated here: the slope's shear adds to the wheel's as a vector",
        .parameters = {{"a", "-", 0.5, 0.0, 1.5, "share of the slope's shear that adds to the wheel's"}},
        .make = maker<Directional>()},

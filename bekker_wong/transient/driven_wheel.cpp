@@ -75,7 +75,7 @@ DrivenWheel::DrivenWheel(const Scenario& scenario, const Drive& drive, const Dri
   const double z = held_depth(state), entry = entry_angle(z, tire_.radius);
   floor_ = floor_share * z;
   rolling_in_ = rolling_in_share * tire_.radius * entry;
-  const SoilValues& soil = soils.front();
+  const SoilValues& soil = soils[way_.at(0.0).soil];
   const double strength =
       drive_.load * std::tan(soil.friction_angle) + soil.cohesion * tire_.width * tire_.radius * entry;
   if (strength > 0.0) shear_time_ = 2 * drive_.damping * std::sqrt(mass_ * soil.shear_modulus / strength);
@@ -87,7 +87,7 @@ std::size_t DrivenWheel::state_size() const { return first_node + static_cast<st
 
 std::vector<double> DrivenWheel::tolerances(double relative) const {
   const double r = tire_.radius, rim = drive_.controller.rim_speed.value_or(0.1);
-  std::vector<double> scale(state_size(), soils_.front().wheel.soil().shear_modulus);
+  std::vector<double> scale(state_size(), soils_[way_.at(0.0).soil].wheel.soil().shear_modulus);
   scale[travelled] = r, scale[speed] = rim, scale[depth] = 0.1 * r, scale[sinking] = rim, scale[turned] = 1.0;
   scale[spin] = rim / r, scale[rolled] = 1.0, scale[mean_speed] = rim, scale[speed_error] = 0.1;
   for (double& s : scale) s *= relative;
@@ -192,6 +192,17 @@ DrivenWheel::Push DrivenWheel::push(const OnSoil& on, const Span& span, const Op
   return p;
 }
 
+DrivenWheel::Push DrivenWheel::push(const Place& place, const OperatingCondition& at, std::span<const double> state,
+                                    std::span<const double> effective_j) const {
+  const auto on = [&](std::size_t soil) {
+    return push(soils_[soil], contact_span(soils_[soil], state[depth], state[sinking]), at, state, effective_j);
+  };
+  Push p = on(place.soil);
+  for (std::size_t next = place.soil + 1; next <= place.last_soil; ++next)
+    p.blend(on(next), way_.share(next, at.position.value_or(0.0)));
+  return p;
+}
+
 Instant DrivenWheel::assemble(double time, std::span<const double> state, const Motor& motor,
                               std::span<double> node_rate) const {
   Instant now;
@@ -204,11 +215,7 @@ Instant DrivenWheel::assemble(double time, std::span<const double> state, const 
   // Shear is damped by looking ahead along dj/dt, which is 0 where the wheel's motion is steady.
   std::vector<double> ahead(node_rate.size());
   for (std::size_t k = 0; k < ahead.size(); ++k) ahead[k] = state[first_node + k] + shear_time_ * node_rate[k];
-  Push p = push(on, span, at, state, ahead);
-  if (now.place.next_share > 0.0) {
-    const OnSoil& next = soils_[now.place.soil + 1];
-    p.blend(push(next, contact_span(next, state[depth], state[sinking]), at, state, ahead), now.place.next_share);
-  }
+  const Push p = push(now.place, at, state, ahead);
   const double g = span.grip;
   const double damping = std::max(g * heave_damping_ * state[sinking], -g * p.upward);  // soil doesn't pull
   now.motor_torque = motor.torque(time, state[spin], state[speed_error]);
@@ -240,18 +247,20 @@ void DrivenWheel::rate(double time, std::span<const double> state, const Motor& 
   out[speed_error] = motor.integral_rate(time, state[spin], state[speed_error]);
 }
 
+/// Of a wheel that does not move, at the start.
+DrivenWheel::Push DrivenWheel::push_at_rest(const Place& start, std::span<const double> state) const {
+  const OnSoil& on = soils_[start.soil];
+  const double slip = slip_in_contact(on, contact_span(on, state[depth], 0.0), state);
+  return push(start, condition(start, slip, 0.0, 0.0), state, state.subspan(first_node));
+}
+
 /// Depth at which the soil carries the load with the shear that the state holds; the state gets it.
 double DrivenWheel::held_depth(std::vector<double>& state) const {
   const Place start = way_.at(0.0);
   const double load = drive_.load * std::cos(start.longitudinal_incline) * std::cos(start.transverse_incline);
   const auto carried = [&](double z) {
     state[depth] = z;
-    const Span span = contact_span(soils_.front(), z, 0.0);
-    const double slip = slip_in_contact(soils_.front(), span, state);
-    return push(soils_.front(), span, condition(start, slip, 0.0, 0.0), state,
-                std::span<const double>(state).subspan(first_node))
-               .upward -
-           load;
+    return push_at_rest(start, state).upward - load;
   };
   const double low = 1e-9 * tire_.radius, high = max_sinkage_share * tire_.radius;
   if (carried(high) < 0.0)
@@ -279,17 +288,14 @@ Held DrivenWheel::hold() const {
   const auto spare = [&](double displacement) {
     lay_held_shear(state, displacement);
     held_depth(state);
-    const Span span = contact_span(soils_.front(), state[depth], 0.0);
-    const double slip = slip_in_contact(soils_.front(), span, state);
-    p = push(soils_.front(), span, condition(start, slip, 0.0, 0.0), state,
-             std::span<const double>(state).subspan(first_node));
+    p = push_at_rest(start, state);
     return p.forward - pull;
   };
   if (pull == 0.0) {
     spare(0.0);
     return held;
   }
-  const double modulus = std::copysign(soils_.front().wheel.soil().shear_modulus, pull);
+  const double modulus = std::copysign(soils_[start.soil].wheel.soil().shear_modulus, pull);
   constexpr double most = 32.0;
   double share = 0.25;
   while (spare(share * modulus) * pull < 0.0)

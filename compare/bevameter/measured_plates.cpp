@@ -132,9 +132,9 @@ MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, con
     curves.push_back(within(plate.curve, window));
     if (curves.back().pressure.size() < fewest)
       throw InputError(fmt::format(
-          "test '{}' of the plate of {:g} mm has {} with a pressure and a sinkage above 0; {} are needed\n  hint: "
+          "test '{}' of the plate of b = {:g} mm has {} with a pressure and a sinkage above 0; {} are needed\n  hint: "
           "widen --pressure",
-          plate.test, 2000 * plate.curve.radius, counted(curves.back().pressure.size(), "reading"), fewest));
+          plate.test, 1000 * plate.curve.radius, counted(curves.back().pressure.size(), "reading"), fewest));
   }
   if (curves.empty()) throw InputError("no plate tests to fit");
   MeasuredPlatesFit fit;
@@ -153,7 +153,7 @@ MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, con
 Sheet plates_sheet(std::span<const MeasuredPlate> plates, const MeasuredPlatesFit& fit, const std::string& title) {
   Plot plot{"Pressure [kPa]", {"sinkage [mm]", 0.0}, {"", 0.0}};
   for (std::size_t k = 0; k < fit.radii.size(); ++k) {
-    const std::string plate = fmt::format("{:g} mm", 2000 * fit.radii[k]);
+    const std::string plate = fmt::format("b = {:g} mm", 1000 * fit.radii[k]);
     double deepest = 0.0;
     for (const MeasuredPlate& measured : plates) {
       if (measured.curve.radius != fit.radii[k]) continue;
@@ -211,14 +211,15 @@ std::string in_words(const MeasuredPlatesFit& fit, std::size_t tests, const std:
   for (const auto& [p, value] : plate_values(fit))
     values.add({heading(p.symbol, p.unit), number(value.estimate, p.per_si), number(value.between_tests * p.per_si),
                 number(value.between_pressures * p.per_si)});
-  Table plates{"", {"plate [mm]", "tests", "n of its own", "k at the common n [kN/m^(n+2)]"}};
+  Table plates{"", {"b [mm]", "tests", "n of its own", "k at the common n [kN/m^(n+2)]"}};
   for (std::size_t k = 0; k < fit.radii.size(); ++k)
-    plates.add({fmt::format("{:g}", 2000 * fit.radii[k]), std::to_string(fit.tests[k]), number(fit.plate_exponents[k]),
+    plates.add({fmt::format("{:g}", 1000 * fit.radii[k]), std::to_string(fit.tests[k]), number(fit.plate_exponents[k]),
                 number(fit.plate_moduli[k] / 1e3)});
   return fmt::format(
       "{} with plates of {} sizes, {:.2g} to {:.3g} kPa\n\n{}\n± is one standard error: the two columns beside it, "
       "squared and added. Those of k_c and k_phi hold at this n.\nA file takes the three as independent, which makes "
-      "pressures less sure than these tests are.\n\n{}\nBekker's form misses the pressures by {} (root mean square, of "
+      "pressures less sure than these tests are.\n\n{}\nb is a round plate's radius, a strip's width. Bekker's form "
+      "misses the pressures by {} (root mean square, of "
       "the mean pressure).\n\nFor campaign.yaml or a soil file:\n\n{}",
       counted(tests, "test"), fit.radii.size(), fit.lowest / 1e3, fit.highest / 1e3, as_text(values), as_text(plates),
       percent(fit.pressure_error), yaml_lines(fit, source));

@@ -1,5 +1,5 @@
 // The n, k_c and k_phi of Bekker's form p = (k_c/b + k_phi) z^n that measured plate tests give, with errors. b is a
-// round plate's radius, or half the width of a strip.
+// round plate's radius, or the width of a strip.
 //
 //   const std::vector<MeasuredPlate> plates = read_plates(read_source_text("plates.csv", largest_csv));
 //   const MeasuredPlatesFit fit = fit_measured_plates(plates);   // fit.k_phi.value +- fit.k_phi.std_error [N/m^(n+2)]

@@ -112,10 +112,11 @@ double diameter_in(const CsvCell& cell, const SourceText& csv) {
              "a label such as 'plate_d60mm' does, or a column plate_diameter_mm");
 }
 
+/// Bekker's b: a round plate's radius, a strip's whole width.
 double radius_in(const CsvCell& cell, const PlateColumn& column, const SourceText& csv) {
   const double size = column.holds == Holds::plate_label ? diameter_in(cell, csv) : value_in(cell, column, csv);
   if (!(size > 0.0)) csv.refuse(cell.offset, "a plate's size must be above 0");
-  return column.holds == Holds::radius ? size : size / 2;
+  return column.holds == Holds::diameter || column.holds == Holds::plate_label ? size / 2 : size;
 }
 
 struct PlateReading {

@@ -41,8 +41,8 @@ struct GradedGrains {
 };
 
 /// Fills a region at random with graded grains, equally loose everywhere, whatever their sizes; radii over scale are
-/// uniform as without grading. For a share of a quarter of the region and less. Clears no grains that are there already. Throws InputError where they don't find
-/// room.
+/// uniform as without grading. For a share of a quarter of the region and less. Clears no grains that are there
+/// already. Throws InputError where they don't find room.
 void insert_graded(const GrainSink& put, const Region& region, const GradedGrains& grains, std::uint64_t seed);
 
 /// How many grains insert_loosely can put into a region.

@@ -34,7 +34,7 @@ void bind_plate(py::module_& module, const char* name, const char* doc) {
            }),
            py::arg("radius"), py::arg("pressure"), py::arg("sinkage"),
            "radius [m]; pressure [Pa] and sinkage [m]: arrays of one shape (readings,).")
-      .def_readonly("radius", &Plate::radius, "b [m]; of a strip half the width")
+      .def_readonly("radius", &Plate::radius, "b [m]; of a strip its width")
       .def_property_readonly(
           "pressure", [](const py::object& self) { return view(self.cast<const Plate&>().pressure, self); },
           "[Pa], shape (readings,)")

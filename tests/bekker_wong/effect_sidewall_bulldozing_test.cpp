@@ -138,6 +138,15 @@ TEST(SidewallBulldozing, ARoughAreaInClosedForm) {
 
 // Closed form: sideways and locked all of the wall's resistance is called up. In weightless clay (phi = 0, gamma = 0)
 // Rankine's pressure is 2 c, on the wall's buried half segment r^2 (theta_1 - sin theta_1 cos theta_1)/2.
+// tan(psi_s) = v_y/(r w): the rim that stops slides sideways alone.
+TEST(SidewallBulldozing, SideAreaHasNoStepAtTheLockedWheel) {
+  const auto side = [&](double slip) {
+    const RolledWheel w = wheel_on(sand(), make_effects({{bulldozed, "side_area", {}}})).roll(yawed(17, 300, slip));
+    return w.forces.added.rows()[0].lateral;
+  };
+  EXPECT_NEAR(side(-0.999999) / side(-1.0), 1.0, 1e-4);
+}
+
 TEST(SidewallBulldozing, LockedSidewaysInClosedForm) {
   SoilValues clay = sand();
   clay.friction_angle = 0, clay.density = 0, clay.cohesion = 3000;

@@ -97,6 +97,12 @@ TEST(SlipSinkage, SlidesSidewaysByTheTangentOfYaw) {
   EXPECT_NEAR(dug(slipping_at_yaw(40, 0.5)), std::hypot(along, across), 1e-12);
 }
 
+// A wheel that hardly turns digs as deep as one that is locked, straight ahead and at yaw.
+TEST(SlipSinkage, SlidingHasNoCliffAtTheLockedWheel) {
+  for (const double yaw : {0.0, 17.0})
+    EXPECT_NEAR(dug(slipping_at_yaw(yaw, -0.999999)), dug(slipping_at_yaw(yaw, -1.0)), 1e-6) << yaw;
+}
+
 // Sideways it digs deeper the more yaw, and never past the end.
 TEST(SlipSinkage, DeeperWithYaw) {
   double before = dug(slipping_at_yaw(0, 0.2));

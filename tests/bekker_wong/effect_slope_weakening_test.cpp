@@ -52,6 +52,24 @@ TEST(SlopeWeakening, DirectionalHelpsAWheelThatDrivesDownhill) {
   expect_same_bits(with(effect, on(0, 10 * degree)), base(on(0, 10 * degree)));
 }
 
+// The slope's shear over its pressure is tan(i), wherever the steepest way leads: a wheel that pushes soil straight
+// downhill loses what `friction` takes from all directions.
+TEST(SlopeWeakening, DirectionalTakesTheTangentOfTheSteepestAngle) {
+  const OperatingCondition at = on(30 * degree, 30 * degree);
+  const double along = std::tan(at.longitudinal_incline) / std::cos(at.transverse_incline),
+               across = std::tan(at.transverse_incline), steepest = std::hypot(along, across);
+  const EffectList effects = make_effects({{"slope_weakening", "directional", {{"a", 1.0}}}});
+  ContactPatch patch;
+  patch.count = 1;
+  patch.sigma[0] = 100, patch.strength[0] = 1000, patch.j_x[0] = along, patch.j_y[0] = across;
+  const Tire tire{};
+  const std::optional<Bin> no_bin;
+  effects.front()->strength(patch, {}, {}, {tire, {}, at, {}, no_bin});
+  const double cosine = std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
+  EXPECT_NEAR(steepest, std::tan(std::acos(cosine)), 1e-12);
+  EXPECT_NEAR(1000 - patch.strength[0], 100 * std::tan(std::acos(cosine)), 1e-9);
+}
+
 // Along a cross slope with the left side up, a wheel that points left slides to its own right: the soil holds it to the
 // left and is itself pushed right, which is downhill, and is weaker. With the slope the other way it is stronger.
 TEST(SlopeWeakening, DirectionalTellsTheSidesApart) {

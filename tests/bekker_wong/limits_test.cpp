@@ -40,6 +40,29 @@ TEST(Limits, TheSlipFoundGivesThePullAskedFor) {
   }
 }
 
+// Steep downhill even half braked wheels are pulled along: the slip lies below -0.5, or there is none.
+TEST(Limits, ASteepDescentIsBrakedFurtherOrNotHeld) {
+  const RollingWheel wheel = wheel_on(bed::sand());
+  OperatingCondition at = bed::driven(400);
+  const auto pull = [&](double slip) {
+    at.slip = slip;
+    return wheel.roll(at).reading.drawbar_pull;
+  };
+  bool further = false, not_held = false;
+  for (double slope = -5; slope > -60; slope -= 1) {
+    at.longitudinal_incline = slope * degree;
+    const auto slip = slip_for_pull(wheel, at);
+    if (slip) {
+      EXPECT_NEAR(pull(*slip), 0.0, 1e-6) << slope;
+      further |= *slip < -0.5;
+    } else {
+      EXPECT_GT(pull(-1.0), 0.0) << slope;
+      not_held = true;
+    }
+  }
+  EXPECT_TRUE(further || not_held);
+}
+
 TEST(Limits, OnTheSteepestSlopeTheLargestPullIsNone) {
   const RollingWheel wheel = wheel_on(bed::sand());
   OperatingCondition at = bed::driven(400);

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bekker_wong/drive_fixture.hpp"
 #include "bekker_wong/limits.hpp"
+#include "scenario/drive_way.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 
@@ -218,6 +220,44 @@ TEST(Transient, ANewSoilUnderTheWheelIsTheStaticWheelThere) {
   EXPECT_NEAR(steady(on_firm, d, end).reading.drawbar_pull, 0.0, 1e-4 * load);
   EXPECT_NEAR(steady(on_firm, d, end).reading.sinkage, end.sinkage, 1e-4 * 0.09);
   EXPECT_LT(std::abs(end.energy.unaccounted()), 1e-6 * end.energy.motor);
+}
+
+TEST(Transient, ASoilThatBeginsAtZeroIsUnderTheWholeWheel) {
+  Scenario firmer = scenario();
+  firmer.soil.semi_empirical->k_phi.value *= 5;
+  Drive d = drive(0.0, 0.0, 3.0);
+  const DriveRecord on_sand = drive_wheel(scenario(), d, 20);
+  d.profile.front().soil = dry_sand();
+  const DriveRecord from_zero = drive_wheel(firmer, d, 20);
+  for (std::size_t k = 0; k < on_sand.samples.size(); ++k) {
+    EXPECT_EQ(from_zero.samples[k].sinkage, on_sand.samples[k].sinkage) << k;
+    EXPECT_EQ(from_zero.samples[k].travelled, on_sand.samples[k].travelled) << k;
+  }
+}
+
+// A strip of soil that is shorter than the contact's passage from one soil to the next, a radius: what each soil bears
+// changes evenly all the same.
+TEST(Transient, SoilsCloserThanARadiusTakeOverWithoutAJump) {
+  std::vector<Waypoint> points(2);
+  points[0].at = 1.0, points[0].soil = dry_sand(), points[1].at = 1.1, points[1].soil = dry_sand();
+  constexpr double radius = 0.25, step = 1e-3;
+  const Way way(points, radius);
+  const auto weights = [&](double x) {
+    const Place place = way.at(x);
+    std::array<double, 3> all{};
+    all[place.soil] = 1.0;
+    for (std::size_t next = place.soil + 1; next <= place.last_soil; ++next) {
+      const double share = way.share(next, x);
+      for (double& weight : all) weight *= 1 - share;
+      all[next] += share;
+    }
+    return all;
+  };
+  for (double x = 0.8; x < 1.3; x += step)
+    for (std::size_t soil = 0; soil < 3; ++soil)
+      EXPECT_NEAR(weights(x)[soil], weights(x - step)[soil], 2.01 * step / radius) << x;
+  EXPECT_EQ(weights(0.8)[0], 1.0);
+  EXPECT_EQ(weights(1.3)[2], 1.0);
 }
 
 TEST(Transient, RefusesWhatItCannotAnswer) {

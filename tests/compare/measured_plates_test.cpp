@@ -103,6 +103,14 @@ TEST(MeasuredPlates, OnlyTheReadingsOfAWindowCount) {
 }
 
 // The same readings in other columns and units.
+// Bekker's b is a round plate's radius and a strip's whole width, as it is a wheel's.
+TEST(MeasuredPlates, AStripCountsByItsWidth) {
+  const std::vector<MeasuredPlate> strips =
+      read_csv_of_plates("test,plate_width_m,sinkage_m,pressure_kPa\na,0.05,0.01,9\na,0.05,0.02,18\n");
+  ASSERT_EQ(strips.size(), 1u);
+  EXPECT_DOUBLE_EQ(strips[0].curve.radius, 0.05);
+}
+
 TEST(MeasuredPlates, ColumnsTellTheirUnits) {
   std::string csv = "box,nr,tool,depth_mm,force_N,time_s\n";
   for (const auto& [tool, diameter] : {std::pair{"plate_d60mm", 0.06}, {"d100mm", 0.1}})
@@ -140,7 +148,7 @@ TEST(MeasuredPlates, BadFilesAreRefused) {
   EXPECT_THAT(refusal([] {
                 fit_measured_plates(read_csv_of_plates(plate_columns + "a,0.06,0.01,1\n" + rows_of_a_plate(0.1, "b")));
               }),
-              HasSubstr("test 'a' of the plate of 60 mm has 1 reading"));
+              HasSubstr("test 'a' of the plate of b = 30 mm has 1 reading"));
 }
 
 // Numbers a thousand times too large or too small are of another unit than the column's name says, and the error names
