@@ -90,7 +90,12 @@ double autocorrelation_time(std::span<const double> series) {
   return summed(correlations, as_found);
 }
 
-Estimate mean_with_error(std::span<const double> series) {
+namespace {
+
+/// What a run too short for eight blocks of four autocorrelation times is given.
+enum class Short { error_of_eight_blocks, larger_error };
+
+Estimate mean_with_error(std::span<const double> series, Short where_short) {
   constexpr std::size_t fewest_blocks = 8;
   const std::size_t n = series.size();
   if (n == 0) return {};
@@ -103,9 +108,13 @@ Estimate mean_with_error(std::span<const double> series) {
   Autocorrelations correlations(series);
   const auto wanted = static_cast<std::size_t>(std::llround(4 * summed(correlations, as_found)));
   const double of_blocks = error_of(block_means(series, std::min(wanted, n / fewest_blocks)));
-  if (wanted <= n / fewest_blocks) return {mean(series), of_blocks};
+  if (wanted <= n / fewest_blocks || where_short == Short::error_of_eight_blocks) return {mean(series), of_blocks};
   return {mean(series), std::max(of_blocks, error_of_few(series, correlations))};
 }
+
+}  // namespace
+
+Estimate mean_with_error(std::span<const double> series) { return mean_with_error(series, Short::larger_error); }
 
 std::size_t end_of_start_up(std::span<const double> series) {
   constexpr std::size_t five = 5;
@@ -124,7 +133,9 @@ std::size_t end_of_start_up(std::span<const double> series) {
 double drift_over_error(std::span<const double> series) {
   const std::size_t half = series.size() / 2;
   if (half < 8) return 0;
-  const Estimate first = mean_with_error(series.first(half)), last = mean_with_error(series.last(half));
+  // A trend within a half is no few times of correlation: it is what is asked for.
+  const Estimate first = mean_with_error(series.first(half), Short::error_of_eight_blocks),
+                 last = mean_with_error(series.last(half), Short::error_of_eight_blocks);
   const double error = std::hypot(first.std_error, last.std_error);
   const double difference = std::abs(last.value - first.value);
   return error > 0 ? difference / error : (difference > 0 ? 1e300 : 0);

@@ -34,7 +34,7 @@ Estimate mean_with_error(std::span<const double> series);
 std::size_t end_of_start_up(std::span<const double> series);
 
 /// Difference of the means of the two halves over its standard error, from the
-/// halves' own errors; around 1 where the series is steady. 0 for less than
+/// halves' own errors by blocks alone; around 1 where the series is steady. 0 for less than
 /// sixteen samples.
 double drift_over_error(std::span<const double> series);
 

@@ -1045,7 +1045,7 @@ class PlateTest:
     """One plate pressed in once: pressure [Pa] strictly increasing, sinkage [m]."""
     @property
     def radius(self) -> float:
-        """b [m]; of a strip half the width"""
+        """b [m]; of a strip its width"""
     @property
     def pressure(self) -> Array:
         """[Pa], shape (readings,)"""
@@ -1059,7 +1059,7 @@ class PlateCurve:
     """Sinkage [m] against pressure [Pa] of one plate; no zeros."""
     @property
     def radius(self) -> float:
-        """b [m]; of a strip half the width"""
+        """b [m]; of a strip its width"""
     @property
     def pressure(self) -> Array:
         """[Pa], shape (readings,)"""
