@@ -12,6 +12,8 @@ struct Kinematics {
   double lateral = 0.0;       ///< v sin(yaw)/(r w); for a locked wheel sin(yaw)
   bool locked = false;        ///< w = 0 (s = -1): shear is saturated, forward and lateral give only its direction
   double travel_ratio = 1.0;  ///< v/(r w); meaningless where locked
+  /// Speed of the rim in the measure of forward and lateral: 1, and 0 where locked.
+  double rim() const { return locked ? 0.0 : 1.0; }
 };
 
 /// Kinematics of an operating condition. Throws InputError for |slip| > 1, |yaw| > 90 deg, and for 90 deg of yaw

@@ -23,9 +23,11 @@ double Way::share(std::size_t i, double x) const {
 
 Place Way::at(double x) const {
   Place place;
-  for (std::size_t i = 1; i <= soils_.size() && share(i, x) > 0.0; ++i) {
+  for (std::size_t i = 1; i <= soils_.size(); ++i) {
+    const double taken = share(i, x);
+    if (taken <= 0.0) break;
     place.last_soil = i;
-    if (share(i, x) >= 1.0) place.soil = i;
+    if (taken >= 1.0) place.soil = i;
   }
   if (points_.empty()) return place;
   const auto next = std::upper_bound(points_.begin(), points_.end(), x,

@@ -115,7 +115,7 @@ class LevelBlade final : public Effect {
   bool lifts() const override { return false; }
   void added_forces(ForceLedger& ledger, const Rolling& r) const override {
     const Kinematics& motion = r.around.motion;
-    const double slide = motion.locked ? -motion.forward : 1 - motion.forward;  // of the tread, over its way rolled
+    const double slide = motion.rim() - motion.forward;  // of the tread, over its way rolled
     if (share_ == 0.0 || slide == 0.0) return;
     const double h = share_ * lug_height(r.around.tire), radius = r.outline.radius;
     const double lugs_per_metre = r.outline.width / spacing(r.around.tire), weight = specific_weight(r.soil);

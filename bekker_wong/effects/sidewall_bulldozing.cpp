@@ -67,7 +67,7 @@ double sideways_travel(const Rolling& r, std::size_t i) {
 /// coefficient of friction mu; adds to `sum`. acts_at: how far above the rim, as a share of the depth.
 void rub(AddedForce& sum, double mu, double pressing, double acts_at, const Edge& e, const Rolling& r) {
   const double arm = r.outline.radius - acts_at * e.depth;
-  const double turns = r.around.motion.locked ? 0.0 : arm / r.outline.radius;
+  const double turns = r.around.motion.rim() * arm / r.outline.radius;
   const double back = turns * e.cosine - r.around.motion.forward, down = turns * e.sine;  // of the wall over the soil
   const double speed = std::sqrt(back * back + down * down);
   if (!(speed > 1e-12)) return;
@@ -131,8 +131,7 @@ class SideArea final : public Effect {
     }
     const double whole = area * mean_ground_pressure(r);
     if (!(whole > 0.0)) return;
-    const double rolls = motion.locked ? 0.0 : 1.0;
-    const double sine = motion.lateral == 0.0 ? 0.0 : motion.lateral / std::hypot(rolls, motion.lateral);
+    const double sine = motion.lateral == 0.0 ? 0.0 : motion.lateral / std::hypot(motion.rim(), motion.lateral);
     const double leaning = std::copysign(-std::expm1(-std::abs(downhill) / whole), downhill);
     ledger.add({.name = "sidewall_bulldozing", .lateral = amplitude_ * whole * (sine + leaning)});
   }

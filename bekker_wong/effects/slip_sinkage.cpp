@@ -79,7 +79,7 @@ class Sliding final : public Effect {
   explicit Sliding(const std::vector<double>& p) : length_(p[0]), driven_end_(p[1]), braked_end_(p[2]) {}
   double settle(double sinkage, const Rolling& rolling) const override {
     const Kinematics& motion = rolling.around.motion;
-    const double radius = rolling.outline.radius, rim = motion.locked ? 0.0 : 1.0;
+    const double radius = rolling.outline.radius, rim = motion.rim();
     const double least = least_rolled * std::max(rim, motion.forward);
     const double rolls = std::max(std::min(rim, motion.forward), least), slides = rim - motion.forward;
     const double along = dug(std::abs(slides) / rolls, (slides > 0.0 ? driven_end_ : braked_end_) * radius);

@@ -192,14 +192,14 @@ DrivenWheel::Push DrivenWheel::push(const OnSoil& on, const Span& span, const Op
   return p;
 }
 
-DrivenWheel::Push DrivenWheel::push(const Place& place, const OperatingCondition& at, std::span<const double> state,
-                                    std::span<const double> effective_j) const {
-  const auto on = [&](std::size_t soil) {
-    return push(soils_[soil], contact_span(soils_[soil], state[depth], state[sinking]), at, state, effective_j);
-  };
-  Push p = on(place.soil);
-  for (std::size_t next = place.soil + 1; next <= place.last_soil; ++next)
-    p.blend(on(next), way_.share(next, at.position.value_or(0.0)));
+DrivenWheel::Push DrivenWheel::push(const Place& place, const Span& span, const OperatingCondition& at,
+                                    std::span<const double> state, std::span<const double> effective_j) const {
+  Push p = push(soils_[place.soil], span, at, state, effective_j);
+  for (std::size_t i = place.soil + 1; i <= place.last_soil; ++i) {
+    const OnSoil& next = soils_[i];
+    p.blend(push(next, contact_span(next, state[depth], state[sinking]), at, state, effective_j),
+            way_.share(i, state[travelled]));
+  }
   return p;
 }
 
@@ -215,7 +215,7 @@ Instant DrivenWheel::assemble(double time, std::span<const double> state, const 
   // Shear is damped by looking ahead along dj/dt, which is 0 where the wheel's motion is steady.
   std::vector<double> ahead(node_rate.size());
   for (std::size_t k = 0; k < ahead.size(); ++k) ahead[k] = state[first_node + k] + shear_time_ * node_rate[k];
-  const Push p = push(now.place, at, state, ahead);
+  const Push p = push(now.place, span, at, state, ahead);
   const double g = span.grip;
   const double damping = std::max(g * heave_damping_ * state[sinking], -g * p.upward);  // soil doesn't pull
   now.motor_torque = motor.torque(time, state[spin], state[speed_error]);
@@ -250,8 +250,9 @@ void DrivenWheel::rate(double time, std::span<const double> state, const Motor& 
 /// Of a wheel that does not move, at the start.
 DrivenWheel::Push DrivenWheel::push_at_rest(const Place& start, std::span<const double> state) const {
   const OnSoil& on = soils_[start.soil];
-  const double slip = slip_in_contact(on, contact_span(on, state[depth], 0.0), state);
-  return push(start, condition(start, slip, 0.0, 0.0), state, state.subspan(first_node));
+  const Span span = contact_span(on, state[depth], 0.0);
+  const double slip = slip_in_contact(on, span, state);
+  return push(start, span, condition(start, slip, 0.0, 0.0), state, state.subspan(first_node));
 }
 
 /// Depth at which the soil carries the load with the shear that the state holds; the state gets it.

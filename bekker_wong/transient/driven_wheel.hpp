@@ -101,8 +101,8 @@ class DrivenWheel {
                   std::span<double> out) const;
   Push push(const OnSoil& on, const Span& span, const OperatingCondition& at, std::span<const double> state,
             std::span<const double> effective_j) const;
-  /// On all the soils that the contact touches, each by its share.
-  Push push(const Place& place, const OperatingCondition& at, std::span<const double> state,
+  /// On all the soils that the contact touches, each by its share. span: on the first of them.
+  Push push(const Place& place, const Span& span, const OperatingCondition& at, std::span<const double> state,
             std::span<const double> effective_j) const;
   Push push_at_rest(const Place& start, std::span<const double> state) const;
   Instant assemble(double time, std::span<const double> state, const Motor& motor, std::span<double> node_rate) const;

@@ -88,7 +88,7 @@ std::vector<Step> stress_steps(const Facts& f) {
   const double drop = std::cos(f.theta_m) - std::cos(f.theta_1);
   const double sigma = f.k * std::pow(f.r * drop, s.exponent);
   const auto& motion = f.wheel.motion;
-  const double turned = f.theta_1 - f.theta_m, rim = motion.locked ? 0.0 : 1.0;
+  const double turned = f.theta_1 - f.theta_m, rim = motion.rim();
   const double j_x = f.r * (rim * turned - motion.forward * (std::sin(f.theta_1) - std::sin(f.theta_m)));
   const double j_y = f.r * motion.lateral * turned, j = motion.lateral == 0.0 ? j_x : std::hypot(j_x, j_y);
   const double mobilised = motion.locked ? 1.0 : 1 - std::exp(-std::abs(j) / s.shear_modulus);

@@ -30,7 +30,7 @@ std::vector<double> block_means(std::span<const double> series, std::size_t bloc
 
 namespace {
 
-/// Autocorrelations of a series that is not constant, each made when it is first asked for.
+/// Autocorrelations of a series, each made when it is first asked for; of a constant one none may be asked for.
 class Autocorrelations {
  public:
   explicit Autocorrelations(std::span<const double> series)
@@ -75,11 +75,33 @@ double error_of_few(std::span<const double> series, Autocorrelations& correlatio
   double tau = 1;
   for (int round = 0; round < rounds; ++round) {
     const double bias = std::min(tau / n, 0.5);
-    tau = summed(correlations,
-                 [&](double lag, double rho) { return (1 - lag / n) * (n / (n - lag) * rho * (1 - bias) + bias); });
+    tau = summed(correlations, [&](double lag, double rho) { return (1 - bias) * rho + (1 - lag / n) * bias; });
   }
   tau = std::min(tau, n / 3);
   return std::sqrt(scatter(series) / n * tau / (n - tau));
+}
+
+struct BlockAverage {
+  Estimate mean;
+  bool enough = true;  ///< eight blocks of four autocorrelation times fit; else they were shorter
+};
+
+/// series: not empty; rho: its own.
+BlockAverage block_average(std::span<const double> series, Autocorrelations& rho) {
+  constexpr std::size_t fewest = 8;
+  const std::size_t n = series.size();
+  if (n == 1) return {{series[0], 0}};
+  std::size_t wanted = 1;
+  if (n >= fewest && scatter(series) > 0) wanted = static_cast<std::size_t>(std::llround(4 * summed(rho, as_found)));
+  const std::size_t most = std::max<std::size_t>(n / fewest, 1);
+  const std::vector<double> means = block_means(series, std::min(wanted, most));
+  const double blocks = static_cast<double>(means.size());
+  return {{mean(series), std::sqrt(scatter(means) / (blocks * (blocks - 1)))}, wanted <= most};
+}
+
+BlockAverage block_average(std::span<const double> series) {
+  Autocorrelations rho(series);
+  return block_average(series, rho);
 }
 
 }  // namespace
@@ -90,31 +112,13 @@ double autocorrelation_time(std::span<const double> series) {
   return summed(correlations, as_found);
 }
 
-namespace {
-
-/// What a run too short for eight blocks of four autocorrelation times is given.
-enum class Short { error_of_eight_blocks, larger_error };
-
-Estimate mean_with_error(std::span<const double> series, Short where_short) {
-  constexpr std::size_t fewest_blocks = 8;
-  const std::size_t n = series.size();
-  if (n == 0) return {};
-  if (n == 1) return {series[0], 0};
-  const auto error_of = [](const std::vector<double>& means) {
-    const double count = static_cast<double>(means.size());
-    return std::sqrt(scatter(means) / (count * (count - 1)));
-  };
-  if (n < fewest_blocks || !(scatter(series) > 0)) return {mean(series), error_of(block_means(series, 1))};
-  Autocorrelations correlations(series);
-  const auto wanted = static_cast<std::size_t>(std::llround(4 * summed(correlations, as_found)));
-  const double of_blocks = error_of(block_means(series, std::min(wanted, n / fewest_blocks)));
-  if (wanted <= n / fewest_blocks || where_short == Short::error_of_eight_blocks) return {mean(series), of_blocks};
-  return {mean(series), std::max(of_blocks, error_of_few(series, correlations))};
+Estimate mean_with_error(std::span<const double> series) {
+  if (series.empty()) return {};
+  Autocorrelations rho(series);
+  BlockAverage average = block_average(series, rho);
+  if (!average.enough) average.mean.std_error = std::max(average.mean.std_error, error_of_few(series, rho));
+  return average.mean;
 }
-
-}  // namespace
-
-Estimate mean_with_error(std::span<const double> series) { return mean_with_error(series, Short::larger_error); }
 
 std::size_t end_of_start_up(std::span<const double> series) {
   constexpr std::size_t five = 5;
@@ -134,8 +138,7 @@ double drift_over_error(std::span<const double> series) {
   const std::size_t half = series.size() / 2;
   if (half < 8) return 0;
   // A trend within a half is no few times of correlation: it is what is asked for.
-  const Estimate first = mean_with_error(series.first(half), Short::error_of_eight_blocks),
-                 last = mean_with_error(series.last(half), Short::error_of_eight_blocks);
+  const Estimate first = block_average(series.first(half)).mean, last = block_average(series.last(half)).mean;
   const double error = std::hypot(first.std_error, last.std_error);
   const double difference = std::abs(last.value - first.value);
   return error > 0 ? difference / error : (difference > 0 ? 1e300 : 0);

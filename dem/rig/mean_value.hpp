@@ -33,9 +33,8 @@ Estimate mean_with_error(std::span<const double> series);
 /// left, sum (x - mean)^2/n^2, over means of five samples (MSER-5, White 1997).
 std::size_t end_of_start_up(std::span<const double> series);
 
-/// Difference of the means of the two halves over its standard error, from the
-/// halves' own errors by blocks alone; around 1 where the series is steady. 0 for less than
-/// sixteen samples.
+/// Difference of the means of the two halves over its standard error, from the halves' own errors by blocks alone;
+/// around 1 where the series is steady. 0 for less than sixteen samples.
 double drift_over_error(std::span<const double> series);
 
 /// What is left of several series of one length once their start-up is cut off.

@@ -136,8 +136,6 @@ TEST(SidewallBulldozing, ARoughAreaInClosedForm) {
   EXPECT_NEAR(w.forces.added.rows()[0].lateral, 300 / (width * radius * std::sin(t)) * wall, 1e-7);
 }
 
-// Closed form: sideways and locked all of the wall's resistance is called up. In weightless clay (phi = 0, gamma = 0)
-// Rankine's pressure is 2 c, on the wall's buried half segment r^2 (theta_1 - sin theta_1 cos theta_1)/2.
 // tan(psi_s) = v_y/(r w): the rim that stops slides sideways alone.
 TEST(SidewallBulldozing, SideAreaHasNoStepAtTheLockedWheel) {
   const auto side = [&](double slip) {
@@ -147,6 +145,8 @@ TEST(SidewallBulldozing, SideAreaHasNoStepAtTheLockedWheel) {
   EXPECT_NEAR(side(-0.999999) / side(-1.0), 1.0, 1e-4);
 }
 
+// Closed form: sideways and locked all of the wall's resistance is called up. In weightless clay (phi = 0, gamma = 0)
+// Rankine's pressure is 2 c, on the wall's buried half segment r^2 (theta_1 - sin theta_1 cos theta_1)/2.
 TEST(SidewallBulldozing, LockedSidewaysInClosedForm) {
   SoilValues clay = sand();
   clay.friction_angle = 0, clay.density = 0, clay.cohesion = 3000;

@@ -102,7 +102,6 @@ TEST(MeasuredPlates, OnlyTheReadingsOfAWindowCount) {
   EXPECT_LE(fit.highest, 35e3);
 }
 
-// The same readings in other columns and units.
 // Bekker's b is a round plate's radius and a strip's whole width, as it is a wheel's.
 TEST(MeasuredPlates, AStripCountsByItsWidth) {
   const std::vector<MeasuredPlate> strips =
@@ -111,6 +110,7 @@ TEST(MeasuredPlates, AStripCountsByItsWidth) {
   EXPECT_DOUBLE_EQ(strips[0].curve.radius, 0.05);
 }
 
+// The same readings in other columns and units.
 TEST(MeasuredPlates, ColumnsTellTheirUnits) {
   std::string csv = "box,nr,tool,depth_mm,force_N,time_s\n";
   for (const auto& [tool, diameter] : {std::pair{"plate_d60mm", 0.06}, {"d100mm", 0.1}})
