@@ -80,7 +80,7 @@ class Sliding final : public Effect {
   double settle(double sinkage, const Rolling& rolling) const override {
     const Kinematics& motion = rolling.around.motion;
     const double radius = rolling.outline.radius, rim = motion.rim();
-    const double least = least_rolled * std::max(rim, motion.forward);
+    const double least = least_rolled * std::max(rim, std::hypot(motion.forward, motion.lateral));
     const double rolls = std::max(std::min(rim, motion.forward), least), slides = rim - motion.forward;
     const double along = dug(std::abs(slides) / rolls, (slides > 0.0 ? driven_end_ : braked_end_) * radius);
     const double across = dug(std::abs(motion.lateral) / rolls, across_end * radius);

@@ -99,7 +99,7 @@ TEST(SlipSinkage, SlidesSidewaysByTheTangentOfYaw) {
 
 // A wheel that hardly turns digs as deep as one that is locked, straight ahead and at yaw.
 TEST(SlipSinkage, SlidingHasNoCliffAtTheLockedWheel) {
-  for (const double yaw : {0.0, 17.0})
+  for (const double yaw : {0.0, 17.0, 75.0, 90.0})
     EXPECT_NEAR(dug(slipping_at_yaw(yaw, -0.999999)), dug(slipping_at_yaw(yaw, -1.0)), 1e-6) << yaw;
 }
 

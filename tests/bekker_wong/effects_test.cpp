@@ -1,5 +1,6 @@
 // What every form of every effect owes: the base model at amplitude 0, a derivative there that the implicit function
 // theorem confirms, defaults inside their bounds, a budget that adds up, finite numbers at the conditions' corners.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -304,6 +305,22 @@ TEST(Effects, NeverAnswerWithANumberThatIsNone) {
       RC_SUCCEED("said so");
     }
   }));
+}
+
+// Locked, spinning on the spot and sideways at once, where a ratio of speeds may be 0/0: a light wheel stands there.
+TEST(Effects, AnswerWithANumberAtTheCornersOfTheMotion) {
+  for (const EffectForm& form : effect_catalogue())
+    for (const Setting& s : settings())
+      for (const double slip : {-1.0, 0.0, 1.0})
+        for (const double yaw : {-90.0, 0.0, 90.0}) {
+          OperatingCondition at = bed::driven(0.02 * s.load, slip);
+          at.yaw = yaw * degree;
+          at.slip_by = SlipBy::travel_speed;
+          SCOPED_TRACE(fmt::format("{}, {}, slip {}, yaw {} deg", key(form), s.name, slip, yaw));
+          EXPECT_NO_THROW({
+            for (const double value : channels(wheel_with(s, form).roll(at).reading)) EXPECT_TRUE(std::isfinite(value));
+          });
+        }
 }
 
 // The search for the balance asks those forms alone that say that they may lift the wheel: none does it unasked.
