@@ -31,7 +31,8 @@ struct Surroundings {
   const OperatingCondition& at;
   const Kinematics& motion;
   const std::optional<Bin>& bin;
-  double normal_load = 0.0;  ///< share of the load normal to the ground [N]
+  double normal_load = 0.0;   ///< share of the load normal to the ground [N]
+  double stress_share = 1.0;  ///< of the stresses that soil pressed so deep gives: less where slip has dug the wheel in
 };
 
 /// A force that an effect adds to the stress integrals, in the wheel's axes.
@@ -85,6 +86,8 @@ class Effect {
   virtual void angles(ContactAngles&, const Outline&, const Surroundings&) const {}
   /// Every trial sinkage: depth, normals, arcs, arms at the nodes (a carcass that flattens, a shifted depth).
   virtual void geometry(ContactPatch&, const Outline&, const Surroundings&) const {}
+  /// How deep the circle's lowest point lies where geometry leaves the tread this deep under the axle [m].
+  virtual double circle_depth(double tread_depth, const Outline&, const Surroundings&) const { return tread_depth; }
   /// sigma is filled; change it in place.
   virtual void pressure(ContactPatch&, const SoilValues&, const Outline&, const Surroundings&) const {}
   /// j_x, j_y are filled; change them in place.
@@ -99,7 +102,8 @@ class Effect {
   /// Whether they may have a vertical part; the search for the balance leaves out those that have none.
   virtual bool lifts() const { return true; }
   /// After the balance: total sinkage from the one that balances the load [m]. Where an effect deepens it, forces are
-  /// taken at the deeper position with the stresses scaled so that they still carry the load.
+  /// taken at the deeper position with the stresses scaled so that they still carry the load; a carcass gives way to
+  /// the scaled ones.
   virtual double settle(double sinkage, const Rolling&) const { return sinkage; }
   /// What the rig's instruments make of it.
   virtual void sensor(Reading&, const Surroundings&) const {}

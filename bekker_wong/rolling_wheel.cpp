@@ -248,14 +248,31 @@ double RollingWheel::settled(const Prepared& p, const ContactPatch& patch, doubl
   return deeper;
 }
 
-void RollingWheel::settle(const Prepared& p, double deeper, RolledWheel& wheel) const {
-  const double share = (deeper + wheel.patch.deflection) / p.outline.radius;
-  if (share > max_settled_share)
+void RollingWheel::settle(const Prepared& balanced, double deeper, RolledWheel& wheel) const {
+  Prepared p = balanced;
+  const double r = p.outline.radius;
+  const auto circle_depth = [&](double share) {
+    p.around.stress_share = share;
+    double depth = deeper;
+    for (const auto& effect : effects_) depth = effect->circle_depth(depth, p.outline, p.around);
+    return depth;
+  };
+  // The share of the stresses there that carries the load, where a carcass gives way to the share `felt` of them.
+  const auto carrying = [&](double felt) {
+    const double circle = std::min(circle_depth(felt), max_settled_share * r);
+    fill_patch(p, std::acos(1.0 - circle / r), wheel.patch);
+    return (p.around.normal_load - lifted(p, wheel.patch)) / pressed(p, wheel.patch);
+  };
+  const double rigid = deeper != circle_depth(1.0) ? 0.0 : 1.0;
+  double scale = carrying(rigid);
+  if (rigid == 0.0) {
+    const auto lacking = [&](double felt) { return felt - (scale = carrying(felt)); };
+    if (const double most = scale; !rising_root(lacking, 0.8 * most, 1.2, most, 1e-12) && lacking(most) >= 0.0)
+      lacking(gsl::bracketed_root(lacking, 0.0, most, 1e-14, 1e-12, "the share of the stresses that carries the load"));
+  }
+  if (const double share = circle_depth(scale) / r; !(share <= max_settled_share))
     throw NoSolution(
         fmt::format("the wheel would dig itself in to {:.3g} of its radius, deeper than {}", share, max_settled_share));
-  fill_patch(p, std::acos(1.0 - share), wheel.patch);
-  const double added = lifted(p, wheel.patch), unscaled = pressed(p, wheel.patch) + added;
-  const double scale = (p.around.normal_load - added) / (unscaled - added);
   if (!(scale > 0.0) || !std::isfinite(scale)) throw NoSolution("no balance of the load at the deeper position");
   for (auto member : {&ContactPatch::sigma, &ContactPatch::tau_x, &ContactPatch::tau_y})
     for (double& stress : wheel.patch.of(member)) stress *= scale;

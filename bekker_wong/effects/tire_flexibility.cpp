@@ -15,6 +15,7 @@
 // S takes the declared soil.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -48,6 +49,13 @@ constexpr Presumption inflation_pressure = {.key = "inflation_pressure",
 
 double ground_pressure(const Tire& tire) { return inflation_pressure(tire) + carcass_pressure(tire); }
 
+/// k of the declared soil, as far as its stresses act.
+double pressing_modulus(const Outline& outline, const Surroundings& around) {
+  return around.stress_share * around.declared.pressure_modulus(outline.width);
+}
+
+double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
+
 /// S(d) and dS/dd at the depths d of many nodes.
 struct Depths {
   ContactPatch::Array value, slope;
@@ -58,8 +66,13 @@ struct Depths {
 struct PressureCap {
   double deepest;
   PressureCap(double a, const Outline& outline, const Surroundings& around)
-      : deepest(std::pow(ground_pressure(around.tire) / (a * around.declared.pressure_modulus(outline.width)),
+      : deepest(std::pow(ground_pressure(around.tire) / (a * pressing_modulus(outline, around)),
                          1 / around.declared.exponent)) {}
+  /// d where S(d) = y; infinite from z_g on.
+  double circle(double y) const {
+    const double power = std::pow(y / deepest, 6);
+    return power < 1 ? y * std::pow(1 - power, -1.0 / 6) : std::numeric_limits<double>::infinity();
+  }
   void operator()(std::span<const double> d, Depths& reached) const {
     constexpr double largest = 1e50;  // of d/z_g, whose sixth power is still a number
     ContactPatch::Array q, root;
@@ -77,9 +90,10 @@ struct CarcassSpring {
   double n, give, log_give;  // give [m^(1-n)]: deflection = give S^n
   CarcassSpring(double a, const Outline& outline, const Surroundings& around)
       : n(around.declared.exponent),
-        give(0.5 * a * a * outline.radius * around.declared.pressure_modulus(outline.width) /
-             ground_pressure(around.tire)),
+        give(0.5 * a * a * outline.radius * pressing_modulus(outline, around) / ground_pressure(around.tire)),
         log_give(std::log(give)) {}
+  /// d where S(d) = y.
+  double circle(double y) const { return y + give * std::pow(y, n); }
   void operator()(std::span<const double> d, Depths& reached) const {
     for (std::size_t i = 0; i < d.size(); ++i) std::tie(reached.value[i], reached.slope[i]) = at(d[i]);
   }
@@ -110,36 +124,68 @@ class Flattening final : public Effect {
     a.exit = std::min(a.exit, -2 * std::asin(std::sqrt(std::clamp(deflection / (2 * outline.radius), 0.0, 1.0))));
   }
 
+  double circle_depth(double tread_depth, const Outline& outline, const Surroundings& around) const override {
+    return amplitude_ == 0.0 ? tread_depth : Law(amplitude_, outline, around).circle(tread_depth);
+  }
+
   void geometry(ContactPatch& p, const Outline& outline, const Surroundings& around) const override {
     if (amplitude_ == 0.0) return;
     const Law law(amplitude_, outline, around);
-    const double r = outline.radius, axle = r * std::cos(p.angles.entry);
     const auto count = static_cast<std::size_t>(p.count);
-    ContactPatch::Array depth;
-    for (std::size_t i = 0; i < count; ++i) depth[i] = std::max(0.0, r * p.normal_cosine[i] - axle);
+    const double surface = std::cos(p.angles.entry);
     Depths tread, mirrored;
-    law({depth.data(), count}, tread);
+    law({circle_depths(p.of(&ContactPatch::normal_cosine), surface, outline).data(), count}, tread);
     std::size_t first_rear = 0;  // behind theta_m the pressure law looks at the mirror angle's depth
     while (first_rear < count && p.theta[first_rear] >= p.angles.max_stress) ++first_rear;
     law({&p.depth[first_rear], count - first_rear}, mirrored);
-    double lost = 0.0, rate_before = 0.0, angle_before = p.angles.entry;
-    for (std::size_t i = 0; i < count; ++i) {  // from the entry to the exit
-      const double sine = p.normal_sine[i], cosine = p.normal_cosine[i];
-      const double rise = tread.slope[i] * sine;
-      const double stretch = std::sqrt(rise * rise + cosine * cosine);  // arc length of the tread over the circle's
+    const ContactPatch::Array travel = belt_travel(law, outline, tread.slope, p);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double rise = tread.slope[i] * p.normal_sine[i], cosine = p.normal_cosine[i];
+      const double stretch = length_of(rise, cosine);
       p.normal_sine[i] = rise / stretch;
       p.normal_cosine[i] = cosine / stretch;
       p.arc[i] *= stretch;
       p.depth[i] = i < first_rear ? tread.value[i] : mirrored.value[i - first_rear];
-      lost += 0.5 * (1 - stretch + rate_before) * (angle_before - p.theta[i]);
-      p.since_entry[i] -= lost;  // the belt's travel since the entry, over r
-      rate_before = 1 - stretch;
-      angle_before = p.theta[i];
+      p.since_entry[i] = travel[i];
     }
     p.deflection = deflection_of(law, p.angles.entry, outline);
   }
 
  private:
+  /// Depths of the circle where the cosine of its angle is this; surface: that of theta_1.
+  static ContactPatch::Array circle_depths(std::span<const double> cosine, double surface, const Outline& outline) {
+    ContactPatch::Array depth;
+    for (std::size_t i = 0; i < cosine.size(); ++i) depth[i] = std::max(0.0, outline.radius * (cosine[i] - surface));
+    return depth;
+  }
+
+  /// The belt's travel since the entry, over r, at nodes that still lie on the circle: the integral of ds/(r dtheta) =
+  /// sqrt((S' sin)^2 + cos^2) by Simpson's rule from node to node.
+  static ContactPatch::Array belt_travel(const Law& law, const Outline& outline, const ContactPatch::Array& slope,
+                                         const ContactPatch& p) {
+    const auto count = static_cast<std::size_t>(p.count);
+    const double sine_1 = std::sin(p.angles.entry), cosine_1 = std::cos(p.angles.entry), surface = 0.0;
+    ContactPatch::Array sine, cosine, travel;  // sine and cosine half way from the node before
+    for (std::size_t i = 0; i < count; ++i) {
+      const double across = (i == 0 ? sine_1 : p.normal_sine[i - 1]) + p.normal_sine[i];
+      const double up = (i == 0 ? cosine_1 : p.normal_cosine[i - 1]) + p.normal_cosine[i];
+      const double length = length_of(across, up);
+      sine[i] = across / length, cosine[i] = up / length;
+    }
+    Depths at_entry, between;
+    law({&surface, 1}, at_entry);
+    law({circle_depths({cosine.data(), count}, cosine_1, outline).data(), count}, between);
+    double before = length_of(at_entry.slope[0] * sine_1, cosine_1), lost = 0.0, passed = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double half_way = length_of(between.slope[i] * sine[i], cosine[i]);
+      const double here = length_of(slope[i] * p.normal_sine[i], p.normal_cosine[i]);
+      lost += (1 - (before + 4 * half_way + here) / 6) * (p.since_entry[i] - passed);
+      travel[i] = p.since_entry[i] - lost;
+      before = here, passed = p.since_entry[i];
+    }
+    return travel;
+  }
+
   static double deflection_of(const Law& law, double entry, const Outline& outline) {
     const double half = std::sin(0.5 * entry), depth = 2 * outline.radius * half * half;
     Depths reached;

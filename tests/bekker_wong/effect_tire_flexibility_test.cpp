@@ -1,4 +1,6 @@
 // tire_flexibility: a carcass that gives way before the soil does.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 
@@ -130,13 +132,15 @@ std::array<double, 3> summed(const Law& law, double theta_1, double slip) {
 template <class Law>
 void expect_summed(const char* form, double a, const Law& law) {
   const RollingWheel wheel(soft_tire(), sand(), make_effects({{"tire_flexibility", form, {{"a", a}}}}));
-  for (const double theta_1 : {0.4, 0.8, 1.2}) {
-    const RolledWheel w = wheel.at_entry_angle(driven(800, 0.3), theta_1);
-    const std::array<double, 3> sum = summed(law, theta_1, 0.3);
-    EXPECT_NEAR(w.forces.thrust + w.forces.compaction, sum[0], 1e-4 * sum[1]) << form << " " << theta_1;
-    EXPECT_NEAR(w.forces.vertical, sum[1], 1e-4 * sum[1]) << form << " " << theta_1;
-    EXPECT_NEAR(w.forces.torque, sum[2], 1e-4 * sum[1] * radius) << form << " " << theta_1;
-  }
+  for (const double slip : {0.0, 0.3})
+    for (const double theta_1 : {0.4, 0.8, 1.2}) {
+      SCOPED_TRACE(fmt::format("{} {}, slip {}, theta_1 {}", form, a, slip, theta_1));
+      const RolledWheel w = wheel.at_entry_angle(driven(800, slip), theta_1);
+      const std::array<double, 3> sum = summed(law, theta_1, slip);
+      EXPECT_NEAR(w.forces.thrust + w.forces.compaction, sum[0], 1e-4 * sum[1]);
+      EXPECT_NEAR(w.forces.vertical, sum[1], 1e-4 * sum[1]);
+      EXPECT_NEAR(w.forces.torque, sum[2], 1e-4 * sum[1] * radius);
+    }
 }
 
 // The patch's few nodes against brute force. The outline bends where the flat begins, so 1e-4 of the load instead of
@@ -145,14 +149,46 @@ TEST(TireFlexibility, PatchAgreesWithBruteForce) {
   const double k = sand().pressure_modulus(width), n = sand().exponent;
   const double deepest = std::pow(100e3 / k, 1 / n);
   expect_summed("flat_section", 1.0, [&](double d) { return d * std::pow(1 + std::pow(d / deepest, 6), -1.0 / 6); });
-  expect_summed("carcass_spring", 0.4, [&](double d) {
-    double low = 0, high = d;
-    for (int i = 0; i < 60; ++i) {
-      const double y = 0.5 * (low + high);
-      (y + 0.5 * radius * 0.16 * k * std::pow(y, n) / 100e3 < d ? low : high) = y;
+  for (const double a : {0.4, 1.0})
+    expect_summed("carcass_spring", a, [&](double d) {
+      double low = 0, high = d;
+      for (int i = 0; i < 60; ++i) {
+        const double y = 0.5 * (low + high);
+        (y + 0.5 * radius * a * a * k * std::pow(y, n) / 100e3 < d ? low : high) = y;
+      }
+      return low;
+    });
+}
+
+// A wheel that slip has dug in stands as deep as it says: its circle lies deeper by the deflection. The carcass gives
+// way to the stresses that carry the load there, not to those of soil pressed so deep.
+TEST(TireFlexibility, FlattensByTheStressesOfTheWheelThatHasDugItselfIn) {
+  const double a = 0.4, slip = 0.4;
+  for (const char* form : {"flat_section", "carcass_spring"}) {
+    SCOPED_TRACE(form);
+    const EffectChoice flat{"tire_flexibility", form, {{"a", a}}}, digs{"slip_sinkage", "linear", {{"S", 2.0}}};
+    const RolledWheel balanced = rolled_on(flat, driven(800, slip));
+    const RolledWheel w = RollingWheel(soft_tire(), sand(), make_effects({flat, digs})).roll(driven(800, slip));
+    EXPECT_NEAR(w.sinkage, balanced.sinkage * (1 + 2.0 * slip), 1e-9);
+    EXPECT_NEAR(w.sinkage + w.patch.deflection, radius * (1 - std::cos(w.patch.angles.entry)), 1e-9);
+    EXPECT_NEAR(w.forces.vertical, 800, 1e-6);
+    for (int i = 0; i < w.patch.count; ++i) {
+      EXPECT_LT(w.patch.sigma[i], 100e3 / a);
+      if (std::string(form) != "carcass_spring" || w.patch.theta[i] < w.patch.angles.max_stress) continue;
+      const double circle = radius * (std::cos(w.patch.theta[i]) - std::cos(w.patch.angles.entry));
+      EXPECT_NEAR(circle - w.patch.depth[i], 0.5 * radius * a * a * w.patch.sigma[i] / 100e3, 1e-9);
     }
-    return low;
-  });
+  }
+}
+
+// Braked, rolling and driven by next to nothing are one wheel.
+TEST(TireFlexibility, HasNoStepAtSlipZero) {
+  for (const char* form : carcass_forms) {
+    const EffectChoice choice{"tire_flexibility", form, {{"a", 1.0}}};
+    const double rolling = rolled_on(choice, driven(800, 0.0)).reading.drawbar_pull;
+    for (const double slip : {-1e-9, 1e-9})
+      EXPECT_NEAR(rolled_on(choice, driven(800, slip)).reading.drawbar_pull, rolling, 1e-5 * 800) << form << slip;
+  }
 }
 
 // Schmid's circle is as long as the tire's contact before and behind the axle: sqrt(2R z) = sqrt(2r (z + f)) +
