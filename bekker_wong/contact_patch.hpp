@@ -6,6 +6,8 @@
 #include <array>
 #include <span>
 
+#include "scenario/unit.hpp"
+
 namespace soilbin::bekker_wong {
 
 /// Values of the soil as the wheel meets it [SI]; effects at the soil joint change a copy of the declared ones.
@@ -18,7 +20,8 @@ struct SoilValues {
   double shear_modulus = 0.01;  ///< K [m]
   double c1 = 0.0;              ///< theta_m = (c1 + c2 |s|) theta_1
   double c2 = 0.0;
-  double density = 1500.0;  ///< [kg/m^3]
+  double density = 1500.0;            ///< [kg/m^3]
+  double gravity = standard_gravity;  ///< [m/s^2]
   /// k_c/b + k_phi for a contact of width b [m].
   double pressure_modulus(double width) const { return k_c / width + k_phi; }
 };

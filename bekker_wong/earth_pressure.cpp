@@ -7,7 +7,7 @@
 
 namespace soilbin::bekker_wong {
 
-double specific_weight(const SoilValues& soil) { return soil.density * standard_gravity; }
+double specific_weight(const SoilValues& soil) { return soil.density * soil.gravity; }
 
 double flow_value(const SoilValues& soil) {
   const double t = std::tan(std::numbers::pi / 4 + soil.friction_angle / 2);

@@ -13,7 +13,7 @@
 namespace soilbin::bekker_wong {
 
 SoilValues values_of(const SemiEmpiricalSoil& soil) {
-  SoilValues values{.density = bulk_density(soil)};
+  SoilValues values{.density = bulk_density(soil), .gravity = gravity_of(soil)};
   for (std::size_t i = 0; i < soil_parameters.size(); ++i)
     values.*soil_members[i] = (soil.*soil_parameters[i].value).value;
   return values;

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -81,8 +82,17 @@ double implied_speed(const AskedCondition& one, const Tire& tire) {
 }
 
 constexpr const char* on_command_line = "given on the command line";  // the source of such a value
-constexpr const char* density_key = "density";
-constexpr Measure density_measure{"kg/m^3", above_zero};
+/// A value of a soil without a standard deviation.
+struct ExactValue {
+  const char* key;
+  std::optional<double> SemiEmpiricalSoil::*value;
+  Measure measure;
+  const char *meaning, *example;
+};
+constexpr std::array<ExactValue, 2> exact_values = {{
+    {"density", &SemiEmpiricalSoil::density, {"kg/m^3", above_zero}, "bulk density", "1600kg/m^3"},
+    {"gravity", &SemiEmpiricalSoil::gravity, {"m/s^2", above_zero}, gravity_meaning, "1.62m/s^2"},
+}};
 
 /// "30+-2 deg" as {"30 deg", "2 deg"}; the second is empty where none is given.
 std::pair<std::string, std::string> value_and_deviation(std::string text) {
@@ -172,7 +182,7 @@ void SoilFlags::add_to(CLI::App& app, const std::string& heading) {
   };
   for (const SoilParameter& p : soil_parameters)
     add(p.name, std::string(p.unit) == "-" ? "NUMBER[+-SD]" : std::string(p.unit) + "[+-SD]", p.meaning);
-  add(density_key, density_measure.unit, "bulk density");
+  for (const ExactValue& exact : exact_values) add(exact.key, exact.measure.unit, exact.meaning);
 }
 
 bool SoilFlags::any_given() const {
@@ -192,12 +202,15 @@ void SoilFlags::apply(Soil& soil) const {
       set_value(p, text, values);
       values.sources[p.name] = on_command_line;
     }
-  if (const std::string& text = texts_.at(density_key); !text.empty()) {
-    if (!value_and_deviation(text).second.empty())
-      throw InputError("--density: a density has no standard deviation here\n  hint: such as --density 1600kg/m^3");
-    values.density = read_flag(flag_of("", density_key), text, density_measure);
-    values.sources[density_key] = on_command_line;
-  }
+  for (const ExactValue& exact : exact_values)
+    if (const std::string& text = texts_.at(exact.key); !text.empty()) {
+      if (!value_and_deviation(text).second.empty())
+        throw InputError(fmt::format("--{0}: a {0} has no standard deviation here\n  hint: such as --{0} {1}",
+                                     exact.key, exact.example));
+      values.*exact.value = read_flag(flag_of("", exact.key), text, exact.measure);
+      values.sources[exact.key] = on_command_line;
+    }
+  if (soil.granular) soil.granular->gravity = values.gravity;
   soil.name += ", changed";
 }
 

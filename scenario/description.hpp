@@ -116,6 +116,8 @@ void describe(Visitor& v, std::type_identity<Tire>) {
            "pressure that the carcass itself carries (Wong's p_c)");
 }
 
+inline constexpr const char* gravity_meaning = "that pulls on soil and wheel; absent: Earth's, 9.80665 m/s^2";
+
 template <class Visitor>
 void describe(Visitor& v, std::type_identity<SemiEmpiricalSoil>) {
   using S = SemiEmpiricalSoil;
@@ -130,6 +132,7 @@ void describe(Visitor& v, std::type_identity<SemiEmpiricalSoil>) {
                    "share of a value below n that is its sd where it has none: an assumption; absent: exact");
   }
   v.number("density", &S::density, Measure{"kg/m^3", above_zero}, Need::optional, "bulk density");
+  v.number("gravity", &S::gravity, Measure{"m/s^2", above_zero}, Need::optional, gravity_meaning);
 }
 
 /// What a file may leave out of a soil, and what is then taken. `given`: whether it holds a key.
@@ -164,6 +167,7 @@ void describe(Visitor& v, std::type_identity<GranularSoil>) {
   v.number("radius_max", &G::radius_max, Measure{"mm", above_zero}, Need::required, "largest grain radius");
   v.number("grain_density", &G::grain_density, Measure{"kg/m^3", above_zero}, Need::required,
            "density of a grain, not of the bed");
+  v.number("gravity", &G::gravity, Measure{"m/s^2", above_zero}, Need::optional, gravity_meaning);
   v.number("youngs_modulus", &G::youngs_modulus, Measure{"MPa", above_zero}, Need::required, "E of a grain");
   v.number("poisson_ratio", &G::poisson_ratio, Measure{"-", {.lower = -1.0, .upper = 0.5, .lower_open = true}},
            Need::required, "nu of a grain");
@@ -198,7 +202,10 @@ void describe(Visitor& v, std::type_identity<Soil>) {
 }
 
 inline std::string contradiction(const Soil& soil) {
-  return soil.semi_empirical || soil.granular ? "" : "a soil needs 'semi_empirical', 'granular' or both";
+  if (!soil.semi_empirical && !soil.granular) return "a soil needs 'semi_empirical', 'granular' or both";
+  if (soil.semi_empirical && soil.granular && soil.semi_empirical->gravity != soil.granular->gravity)
+    return "gravity must be the same in 'semi_empirical' and in 'granular'";
+  return "";
 }
 
 template <class Visitor>

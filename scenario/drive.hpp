@@ -43,7 +43,7 @@ struct Waypoint {
 /// A drive: a wheel with mass and inertia from rest.
 struct Drive {
   double load = 0.0;              ///< W [N]
-  std::optional<double> mass;     ///< that travels with the wheel [kg]; absent: W/(9.80665 m/s^2)
+  std::optional<double> mass;     ///< that travels with the wheel [kg]; absent: W over the gravity on the case's soil
   std::optional<double> inertia;  ///< of what spins, about the axle [kg m^2]; absent: a tenth of mass r^2
   int pass = 1;
   double duration = 0.0;           ///< [s]
@@ -55,13 +55,15 @@ struct Drive {
   std::vector<EffectChoice> effects{};  ///< forms and parameters resolved
 };
 
-/// The mass that travels with the wheel [kg].
-inline double mass_of(const Drive& drive) { return drive.mass.value_or(drive.load / standard_gravity); }
+/// The mass that travels with the wheel under this gravity [m/s^2], in kg.
+inline double mass_of(const Drive& drive, double gravity = standard_gravity) {
+  return drive.mass.value_or(drive.load / gravity);
+}
 
 /// The inertia of what spins on a wheel of this radius, about the axle [kg m^2].
-inline double inertia_of(const Drive& drive, double radius) {
+inline double inertia_of(const Drive& drive, double radius, double gravity = standard_gravity) {
   constexpr double spinning_share = 0.1;  // of m r^2
-  return drive.inertia.value_or(spinning_share * mass_of(drive) * radius * radius);
+  return drive.inertia.value_or(spinning_share * mass_of(drive, gravity) * radius * radius);
 }
 
 template <class Visitor>
@@ -106,7 +108,7 @@ void describe(Visitor& v, std::type_identity<Drive>) {
   v.number("load", &D::load, Measure{"N", above_zero}, Need::required,
            "vertical load on the axle, weight of the wheel included");
   v.number("mass", &D::mass, Measure{"kg", above_zero}, Need::optional,
-           "that travels with the wheel; absent: load over 9.80665 m/s^2");
+           "that travels with the wheel; absent: load over the gravity on the case's soil");
   v.number("inertia", &D::inertia, Measure{"kg m^2", above_zero}, Need::optional,
            "of what spins, about the axle; absent: a tenth of mass times radius squared");
   v.integer("pass", &D::pass, 1, Need::optional, "1: undisturbed soil");

@@ -14,6 +14,7 @@
 
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin {
 
@@ -21,15 +22,16 @@ namespace soilbin {
 /// soil_parameters.hpp.
 /// Pressure under a plate of smaller width b at depth z: p = (k_c/b + k_phi) z^n.
 struct SemiEmpiricalSoil {
-  Estimate exponent;              ///< n [-]
-  Estimate k_c;                   ///< cohesive modulus [N/m^(n+1)]
-  Estimate k_phi;                 ///< frictional modulus [N/m^(n+2)]
-  Estimate cohesion;              ///< c [Pa]
-  Estimate friction_angle;        ///< phi [rad]
-  Estimate shear_modulus;         ///< Janosi's shear deformation modulus K [m]
-  Estimate stress_angle_c1;       ///< c1 [-]: theta_m = (c1 + c2 |s|) theta_1
-  Estimate stress_angle_c2;       ///< c2 [-]
-  std::optional<double> density;  ///< bulk density [kg/m^3]; absent: bulk_density() presumes one
+  Estimate exponent;                ///< n [-]
+  Estimate k_c;                     ///< cohesive modulus [N/m^(n+1)]
+  Estimate k_phi;                   ///< frictional modulus [N/m^(n+2)]
+  Estimate cohesion;                ///< c [Pa]
+  Estimate friction_angle;          ///< phi [rad]
+  Estimate shear_modulus;           ///< Janosi's shear deformation modulus K [m]
+  Estimate stress_angle_c1;         ///< c1 [-]: theta_m = (c1 + c2 |s|) theta_1
+  Estimate stress_angle_c2;         ///< c2 [-]
+  std::optional<double> density;    ///< bulk density [kg/m^3]; absent: bulk_density() presumes one
+  std::optional<double> gravity{};  ///< that pulls on it [m/s^2]; absent: Earth's
   /// Of a source that gives no standard deviations: the share of each value but n that its file assumes
   /// in their place, >= 0. (k_c and k_phi belong to one n: at this n their shares stand for the stiffness.)
   std::optional<double> assumed_sd{};
@@ -71,11 +73,12 @@ constexpr int spheres_of(GrainShape shape) { return static_cast<int>(shape) + 1;
 
 /// The same soil as grains, for the discrete element model.
 struct GranularSoil {
-  double radius_min = 0.0;      ///< [m] radii are uniform between radius_min and radius_max
-  double radius_max = 0.0;      ///< [m]; of a grain of several spheres, that of the sphere of its volume
-  double grain_density = 0.0;   ///< [kg/m^3]
-  double youngs_modulus = 0.0;  ///< [Pa]
-  double poisson_ratio = 0.25;  ///< [-], -1 .. 0.5
+  double radius_min = 0.0;          ///< [m] radii are uniform between radius_min and radius_max
+  double radius_max = 0.0;          ///< [m]; of a grain of several spheres, that of the sphere of its volume
+  double grain_density = 0.0;       ///< [kg/m^3]
+  std::optional<double> gravity{};  ///< that pulls on the grains [m/s^2]; absent: Earth's
+  double youngs_modulus = 0.0;      ///< [Pa]
+  double poisson_ratio = 0.25;      ///< [-], -1 .. 0.5
   RollingResistance rolling_resistance = RollingResistance::elastic_plastic;
   TwistingResistance twisting_resistance = TwistingResistance::none;
   GrainShape shape = GrainShape::sphere;
@@ -105,6 +108,15 @@ inline const GranularSoil& grains_of(const Soil& soil) {
                      "' has no grains: the model dem and virtual tests need its section 'granular'\n  hint: 'soilbin "
                      "list soils' says which have it");
   return *soil.granular;
+}
+
+/// The gravity that pulls on soil and wheel [m/s^2].
+template <class Values>
+double gravity_of(const Values& soil) {
+  return soil.gravity.value_or(standard_gravity);
+}
+inline double gravity_of(const Soil& soil) {
+  return soil.semi_empirical ? gravity_of(*soil.semi_empirical) : gravity_of(*soil.granular);
 }
 
 /// n [-], which the units of some values hang on; 1 for a soil that has values for grains alone.

@@ -58,13 +58,17 @@ DrivenWheel::DrivenWheel(const Scenario& scenario, const Drive& drive, const Dri
       way_(drive.profile, scenario.tire.radius),
       nodes_(numerics.nodes),
       turns_(way_.turns()),
-      mass_(mass_of(drive)),
-      inertia_(inertia_of(drive, scenario.tire.radius)) {
+      mass_(mass_of(drive, gravity_of(scenario.soil))),
+      inertia_(inertia_of(drive, scenario.tire.radius, gravity_of(scenario.soil))) {
   if (nodes_ < 6) throw InputError("the shear displacement needs at least 6 nodes along the contact");
   if (const std::string wrong = contradiction(drive_.controller); !wrong.empty()) throw InputError(wrong);
   const EffectList effects = time_effects(drive.effects);
   std::vector<SoilValues> soils = {soil_values(scenario.soil)};
-  for (const Soil& soil : way_.soils()) soils.push_back(soil_values(soil));
+  for (const Soil& soil : way_.soils()) {
+    if (gravity_of(soil) != gravity_of(scenario.soil))
+      throw InputError("soil '" + soil.name + "' lies under another gravity than the one before it");
+    soils.push_back(soil_values(soil));
+  }
   const OperatingCondition at = condition(way_.at(0.0), 0.0, 0.0, 0.0);
   for (const SoilValues& soil : soils) {
     RollingWheel wheel(tire_, soil, effects, scenario.bin);

@@ -342,6 +342,7 @@ Warnings doubts(const SemiEmpiricalSoil& soil) {
   expect(warnings, "phi", phi, {0, 50, "deg", "the densest sand has some 45 deg"});
   expect(warnings, "K", 1000 * soil.shear_modulus.value, {0.5, 120, "mm", "6 mm in firm clay, 25 mm in loose sand"});
   expect(warnings, "density", bulk_density(soil), {200, 2400, "kg/m^3", "fresh snow has some 250, dense gravel 2200"});
+  if (soil.gravity) expect(warnings, "gravity", *soil.gravity, {0.1, 25, "m/s^2", "the Moon has 1.62, Earth 9.81"});
   for (const auto& [key, name, value] :
        {std::tuple{"stress_angle_c1", "c1", soil.stress_angle_c1}, {"stress_angle_c2", "c2", soil.stress_angle_c2}})
     if (const auto from = soil.sources.find(key);

@@ -36,7 +36,8 @@ VectorXd groups_at(const InclineMap& map, const VectorXd& values) {
   const double pressing = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
   const double sinkage =
       bekker_wong::bekker_static_sinkage(bekker_wong::values_of(soil), tire.radius, tire.width, pressing);
-  return (VectorXd(4) << at.load / (bulk_density(soil) * gravity * tire.width * tire.radius * tire.radius),
+  return (VectorXd(4) << at.load / (bulk_density(soil) * soil.gravity.value_or(gravity) * tire.width * tire.radius *
+                                    tire.radius),
           values[map_lug_height] / sinkage, std::tan(values[map_angle]), values[map_slip])
       .finished();
 }

@@ -177,6 +177,7 @@ Table soil_table(const std::string& name, const SemiEmpiricalSoil& soil, const s
     table.add({p.title, number(soil.*p.value, p.per_si), p.unit, source_of(soil.sources, p.name)});
   table.add({"density", number(bulk_density(soil)), "kg/m^3",
              soil.density ? source_of(soil.sources, "density") : "presumed: the soil declares none"});
+  if (soil.gravity) table.add({"gravity", number(*soil.gravity), "m/s^2", source_of(soil.sources, "gravity")});
   return table;
 }
 

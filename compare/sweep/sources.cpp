@@ -49,15 +49,13 @@ std::vector<SourcedValue> sourced_values(const Scenario& scenario) {
   for (const SoilParameter& p : soil_parameters)
     all.push_back({"soil", p.name, p.title, p.unit, p.per_si, soil.*p.value, has_assumed_sd(soil, soil.*p.value),
                    source_of(p.name, soil.sources, scenario.soil.source)});
-  if (soil.density)
-    all.push_back({"soil",
-                   "density",
-                   "density",
-                   "kg/m^3",
-                   1.0,
-                   {*soil.density, 0.0},
-                   false,
-                   source_of("density", soil.sources, scenario.soil.source)});
+  const auto add_exact = [&](const char* key, const std::optional<double>& value, const char* unit) {
+    if (value)
+      all.push_back(
+          {"soil", key, key, unit, 1.0, {*value, 0.0}, false, source_of(key, soil.sources, scenario.soil.source)});
+  };
+  add_exact("density", soil.density, "kg/m^3");
+  add_exact("gravity", soil.gravity, "m/s^2");
   return all;
 }
 

@@ -13,7 +13,7 @@ std::shared_ptr<const SettledBed> bed_for_tool(const GranularSoil& soil, const T
     throw InputError("the bed must be wider than 1.2 and deeper than 0.2 diameters of the tool");
   const double side = bed.width * tool;
   BedRecipe recipe = specimen_recipe(soil, {side, side, bed.depth * tool}, bed.specimen);
-  recipe.gravity = bed.gravity;
+  recipe.gravity = soil.gravity.value_or(bed.gravity);
   return specimen_bed(recipe, how, beds);
 }
 

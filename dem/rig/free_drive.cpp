@@ -26,7 +26,8 @@ OperatingCondition condition_at(const Place& place, double load) {
 
 /// The rig takes mass and inertia from the drive.
 WheelOnBed with_masses_of(const Drive& drive, WheelOnBed on) {
-  on.rig.mass = mass_of(drive), on.rig.inertia = inertia_of(drive, on.tire.radius);
+  const double gravity = gravity_of(on.bed.recipe.soil);
+  on.rig.mass = mass_of(drive, gravity), on.rig.inertia = inertia_of(drive, on.tire.radius, gravity);
   return on;
 }
 

@@ -104,9 +104,10 @@ std::string inputs_text(const BedRecipe& recipe, const Tire& tire, const Contact
   Inputs inputs = inputs_with_contact(recipe, tire, tire_contact, rig);
   const auto& [load, mass, inertia, pass, duration, distance, damping, stuck_speed, controller, profile, effects] =
       drive;  // damping and effects are the analytic wheel's
+  const double gravity = gravity_of(recipe.soil);
   const auto& [rim_speed, torque, highest_torque, highest_rim_speed, ramp, response] = controller;
-  add(inputs, "drive.load", load), add(inputs, "drive.mass", mass_of(drive));
-  add(inputs, "drive.inertia", inertia_of(drive, tire.radius)), add(inputs, "drive.pass", pass);
+  add(inputs, "drive.load", load), add(inputs, "drive.mass", mass_of(drive, gravity));
+  add(inputs, "drive.inertia", inertia_of(drive, tire.radius, gravity)), add(inputs, "drive.pass", pass);
   add(inputs, "drive.duration", duration), add(inputs, "drive.distance", distance.value_or(0));
   add(inputs, "drive.stuck_speed", stuck_speed), add(inputs, "motor.rim_speed", rim_speed.value_or(0));
   add(inputs, "motor.torque", torque.value_or(0)), add(inputs, "motor.highest_torque", highest_torque.value_or(0));

@@ -323,6 +323,26 @@ TEST(Effects, AnswerWithANumberAtTheCornersOfTheMotion) {
         }
 }
 
+// Gravity acts through the soil's weight alone: on the Moon as where the soil is as much lighter. What sets soil in
+// motion asks for its mass.
+TEST(Effects, FeelGravityThroughTheWeightOfTheSoil) {
+  constexpr double moon = 1.62;
+  for (const EffectForm& form : effect_catalogue()) {
+    if (form.id == "rate_dependence") continue;
+    for (Setting s : settings()) {
+      const OperatingCondition at = condition(s, questions[5]);
+      s.soil.gravity = moon;
+      const std::array<double, 4> there =
+          channels(wheel_with(s, form, 0.1 * form.parameters[0].fallback).roll(at).reading);
+      s.soil.gravity = standard_gravity, s.soil.density *= moon / standard_gravity;
+      const std::array<double, 4> lighter =
+          channels(wheel_with(s, form, 0.1 * form.parameters[0].fallback).roll(at).reading);
+      for (std::size_t c = 0; c < there.size(); ++c)
+        EXPECT_NEAR(there[c], lighter[c], 1e-12 * s.load) << label(form, s, questions[5]);
+    }
+  }
+}
+
 // The search for the balance asks those forms alone that say that they may lift the wheel: none does it unasked.
 TEST(Effects, EveryFormLeavesTheLoadCarried) {
   for (const EffectForm& form : effect_catalogue())

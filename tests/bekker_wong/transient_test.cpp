@@ -64,6 +64,20 @@ TEST(Transient, EnergyAddsUpAtEveryTime) {
   }
 }
 
+// Under the Moon's gravity the same load is six times the mass; on one way there is one gravity.
+TEST(Transient, MassIsTheLoadOverTheSoilsGravity) {
+  Scenario moon = scenario();
+  moon.soil.semi_empirical->gravity = 1.62;
+  Drive heavy = drive(0.0, 0.0, 2.0);
+  heavy.mass = load / 1.62;
+  const DriveRecord there = drive_wheel(moon, drive(0.0, 0.0, 2.0), 20), here = drive_wheel(scenario(), heavy, 20);
+  EXPECT_EQ(there.samples.back().travelled, here.samples.back().travelled);
+  EXPECT_LT(there.samples[2].speed, drive_wheel(scenario(), drive(0.0, 0.0, 2.0), 20).samples[2].speed);
+  Drive two = drive();
+  two.profile.push_back({.at = 0.5, .soil = dry_sand()});
+  EXPECT_THROW(drive_wheel(moon, two, 20), InputError);
+}
+
 // Steady power by hand: M w = F_DP v + what presses the soil, -F_c v, + what shears it, the rest.
 TEST(Transient, PowerOfCompactionIsResistanceTimesSpeed) {
   const DriveRecord record = drive_wheel(scenario(), drive(), 300);

@@ -316,6 +316,21 @@ TEST(Explain, ShearHasTheSignOfTheTorqueAndAtYawBothItsParts) {
   }
 }
 
+// A wave of soil weighs a sixth on the Moon.
+TEST(Estimate, SoilIsAsHeavyAsItsGravity) {
+  const std::string question =
+      "estimate --tire rover-wheel --soil dry-sand --cohesion 0kPa --load 80N --slip 0.2 --effect bulldozing:rankine "
+      "--json ";
+  const auto wave = [&](const std::string& gravity) {
+    const nlohmann::json budget = soilbin(question + gravity).json()["rows"][0]["budget"];
+    for (const auto& part : budget)
+      if (part["name"] == "bulldozing") return part["force"].get<double>();
+    return 0.0;
+  };
+  EXPECT_LT(wave(""), 0.0);
+  EXPECT_NEAR(wave("--gravity 1.62m/s^2") / wave(""), 1.62 / 9.80665, 1e-9);
+}
+
 TEST(Explain, EndsWithTheSourceOfEachValue) {
   const std::string question = "explain --tire rover-wheel --soil dry-sand --radius 95mm --load 80N --slip 0.2 ";
   const Outcome text = soilbin(question);

@@ -231,6 +231,10 @@ TEST_F(SlowSmallWheel, AnswersAsAModel) {
   scenario.tire = wheel();
   EXPECT_THROW(model.evaluate(scenario, condition(load, 0.3, 0.3)), InputError);
   scenario.soil.granular = bed().recipe.soil;
+  EXPECT_EQ(model.recipe(scenario).gravity, BedRecipe().gravity);
+  Scenario moon = scenario;
+  moon.soil.granular->gravity = 1.62;
+  EXPECT_EQ(model.recipe(moon).gravity, 1.62);
   const TractionResult told = model.evaluate(scenario, condition(load, 0.3, 0.3));
   EXPECT_GT(told.torque.value, 0);
   EXPECT_LT(told.torque.value, load * wheel().radius);

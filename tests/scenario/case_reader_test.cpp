@@ -130,6 +130,19 @@ TEST(CaseReader, AMisspeltKeyIsShownWithTheRightOne) {
               StartsWith("case.yaml:2:1: unknown key 'nmae', did you mean 'name'?"));
 }
 
+// Both models of a soil stand on one ground.
+TEST(CaseReader, GravityIsThatOfTheSoil) {
+  const std::string last = "    stress_angle_c2: 0.32\n", moon = last + "    gravity: 1.62 m/s^2\n";
+  const std::string grains =
+      "  granular:\n    {radius_min: 5 mm, radius_max: 6 mm, grain_density: 2500 kg/m^3, youngs_modulus: 5 MPa,\n"
+      "     poisson_ratio: 0.25, grain_grain: {restitution: 0.5, sliding_friction: 0.5, rolling_friction: 0.1},\n"
+      "     grain_tire: {restitution: 0.5, sliding_friction: 0.5, rolling_friction: 0.1}}\n";
+  EXPECT_EQ(gravity_of(parse(good).scenario.soil), 9.80665);
+  EXPECT_EQ(gravity_of(parse(with(last, moon)).scenario.soil), 1.62);
+  EXPECT_THAT(refused(with(last, moon + grains)), HasSubstr("gravity must be the same"));
+  EXPECT_THAT(refused(with(last, last + "    gravity: 1.62 m/s\n")), HasSubstr("m/s^2"));
+}
+
 TEST(CaseReader, UnitsAreDemanded) {
   EXPECT_THAT(refused(with("250 mm", "0.25")),
               StartsWith("case.yaml:4:11: expected a length, such as '11 mm', not '0.25': it has no unit"));

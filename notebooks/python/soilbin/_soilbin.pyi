@@ -179,9 +179,14 @@ class SemiEmpiricalSoil:
         """bulk density [kg/m^3], above 0 kg/m^3"""
     @density.setter
     def density(self, value: Optional[float]) -> None: ...
-    def __init__(self, *, exponent: Union[Estimate, float], assumed_sd: Optional[float] = ..., k_c: Union[Estimate, float], k_phi: Union[Estimate, float], cohesion: Union[Estimate, float], friction_angle: Union[Estimate, float], shear_modulus: Union[Estimate, float], stress_angle_c1: Union[Estimate, float] = ..., stress_angle_c2: Union[Estimate, float] = ..., density: Optional[float] = ...) -> None:
+    @property
+    def gravity(self) -> Optional[float]:
+        """that pulls on soil and wheel; absent: Earth's, 9.80665 m/s^2 [m/s^2], above 0 m/s^2"""
+    @gravity.setter
+    def gravity(self, value: Optional[float]) -> None: ...
+    def __init__(self, *, exponent: Union[Estimate, float], assumed_sd: Optional[float] = ..., k_c: Union[Estimate, float], k_phi: Union[Estimate, float], cohesion: Union[Estimate, float], friction_angle: Union[Estimate, float], shear_modulus: Union[Estimate, float], stress_angle_c1: Union[Estimate, float] = ..., stress_angle_c2: Union[Estimate, float] = ..., density: Optional[float] = ..., gravity: Optional[float] = ...) -> None:
         """By keywords: the attributes, in SI."""
-    def replace(self, *, exponent: Union[Estimate, float] = ..., assumed_sd: Optional[float] = ..., k_c: Union[Estimate, float] = ..., k_phi: Union[Estimate, float] = ..., cohesion: Union[Estimate, float] = ..., friction_angle: Union[Estimate, float] = ..., shear_modulus: Union[Estimate, float] = ..., stress_angle_c1: Union[Estimate, float] = ..., stress_angle_c2: Union[Estimate, float] = ..., density: Optional[float] = ...) -> SemiEmpiricalSoil:
+    def replace(self, *, exponent: Union[Estimate, float] = ..., assumed_sd: Optional[float] = ..., k_c: Union[Estimate, float] = ..., k_phi: Union[Estimate, float] = ..., cohesion: Union[Estimate, float] = ..., friction_angle: Union[Estimate, float] = ..., shear_modulus: Union[Estimate, float] = ..., stress_angle_c1: Union[Estimate, float] = ..., stress_angle_c2: Union[Estimate, float] = ..., density: Optional[float] = ..., gravity: Optional[float] = ...) -> SemiEmpiricalSoil:
         """A copy in which the attributes given are changed."""
 
 class ContactPair:
@@ -277,6 +282,11 @@ class GranularSoil:
     @grain_density.setter
     def grain_density(self, value: float) -> None: ...
     @property
+    def gravity(self) -> Optional[float]:
+        """that pulls on soil and wheel; absent: Earth's, 9.80665 m/s^2 [m/s^2], above 0 m/s^2"""
+    @gravity.setter
+    def gravity(self, value: Optional[float]) -> None: ...
+    @property
     def youngs_modulus(self) -> float:
         """E of a grain [Pa], above 0 Pa"""
     @youngs_modulus.setter
@@ -319,9 +329,9 @@ class GranularSoil:
         """contact of a grain and the tire"""
     @grain_tire.setter
     def grain_tire(self, value: ContactPair) -> None: ...
-    def __init__(self, *, radius_min: float, radius_max: float, grain_density: float, youngs_modulus: float, poisson_ratio: float, rolling_resistance: RollingResistance = ..., twisting_resistance: TwistingResistance = ..., shape: GrainShape = ..., sphere_spacing: float = ..., grain_grain: ContactPair, grain_tire: ContactPair) -> None:
+    def __init__(self, *, radius_min: float, radius_max: float, grain_density: float, gravity: Optional[float] = ..., youngs_modulus: float, poisson_ratio: float, rolling_resistance: RollingResistance = ..., twisting_resistance: TwistingResistance = ..., shape: GrainShape = ..., sphere_spacing: float = ..., grain_grain: ContactPair, grain_tire: ContactPair) -> None:
         """By keywords: the attributes, in SI."""
-    def replace(self, *, radius_min: float = ..., radius_max: float = ..., grain_density: float = ..., youngs_modulus: float = ..., poisson_ratio: float = ..., rolling_resistance: RollingResistance = ..., twisting_resistance: TwistingResistance = ..., shape: GrainShape = ..., sphere_spacing: float = ..., grain_grain: ContactPair = ..., grain_tire: ContactPair = ...) -> GranularSoil:
+    def replace(self, *, radius_min: float = ..., radius_max: float = ..., grain_density: float = ..., gravity: Optional[float] = ..., youngs_modulus: float = ..., poisson_ratio: float = ..., rolling_resistance: RollingResistance = ..., twisting_resistance: TwistingResistance = ..., shape: GrainShape = ..., sphere_spacing: float = ..., grain_grain: ContactPair = ..., grain_tire: ContactPair = ...) -> GranularSoil:
         """A copy in which the attributes given are changed."""
 
 class Soil:
@@ -595,7 +605,7 @@ class Drive:
     def load(self, value: float) -> None: ...
     @property
     def mass(self) -> Optional[float]:
-        """that travels with the wheel; absent: load over 9.80665 m/s^2 [kg], above 0 kg"""
+        """that travels with the wheel; absent: load over the gravity on the case's soil [kg], above 0 kg"""
     @mass.setter
     def mass(self, value: Optional[float]) -> None: ...
     @property
