@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "bekker_wong/effect.hpp"
 
@@ -20,8 +21,10 @@ class Rim {
   explicit Rim(const Rolling& r)
       : rolling_(r), entry_sine_(std::sin(r.patch.angles.entry)), entry_cosine_(std::cos(r.patch.angles.entry)) {}
   Edge at(int node) const {
-    const double sine = entry_sine_ - rolling_.patch.sine_drop[static_cast<std::size_t>(node)];
-    const double cosine = std::sqrt(std::max(0.0, 1 - sine * sine));  // |theta| < 90 deg
+    const auto i = static_cast<std::size_t>(node);
+    const double sine = entry_sine_ - rolling_.patch.sine_drop[i];
+    const double below_axle = std::numbers::pi / 2 - std::abs(rolling_.patch.theta[i]);
+    const double cosine = std::copysign(std::sqrt(std::max(0.0, 1 - sine * sine)), below_axle);
     return {sine, cosine, std::max(0.0, rolling_.outline.radius * (cosine - entry_cosine_))};
   }
 

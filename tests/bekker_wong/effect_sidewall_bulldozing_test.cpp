@@ -1,5 +1,6 @@
 // sidewall_bulldozing: soil against the wheel's wall.
 #include "bekker_wong/bed_fixture.hpp"
+#include "bekker_wong/effects/edge.hpp"
 #include "scenario/unit.hpp"
 
 namespace soilbin::bekker_wong::bed {
@@ -122,6 +123,24 @@ TEST(SidewallBulldozing, FrictionTakesPower) {
       const Kinematics motion = kinematics(at);
       EXPECT_GT(f.torque / radius - f.forward * motion.forward, 0.0) << form << " at slip " << slip;
     }
+}
+
+// A wheel that slip has dug in over its axle: the wall is as deep as the circle, up to where it leaves the soil.
+TEST(SidewallBulldozing, DepthOfTheWallOverTheAxleIsTheCircles) {
+  const OperatingCondition at = driven(800, 0.6);
+  const EffectList digs = make_effects({{"slip_sinkage", "reece", {{"h", 0.15}}}});
+  Tire tire;
+  tire.radius = radius, tire.width = width;
+  const RolledWheel w = RollingWheel(tire, sand(), digs).roll(at);
+  ASSERT_GT(w.patch.angles.entry, 95 * degree);
+  const SoilValues soil = sand();
+  const Outline outline{.radius = radius, .width = width, .shear_radius = radius};
+  const std::optional<Bin> bin;
+  const Surroundings around{tire, soil, w.at, w.motion, bin};
+  const Rolling rolling{around, soil, outline, w.patch, w.sinkage};
+  const Rim rim(rolling);
+  for (int i = 0; i < w.patch.count; ++i)
+    EXPECT_NEAR(rim.at(i).depth, radius * (std::cos(w.patch.theta[i]) - std::cos(w.patch.angles.entry)), 1e-8 * radius);
 }
 
 // Dragged sideways and locked, all of the wall's buried half segment r^2 (theta_1 - sin theta_1 cos theta_1)/2 takes
