@@ -165,7 +165,8 @@ void add_compare(CLI::App& app, Session& session) {
   add_value(*command, "--effect", asked->effects, "ID[:FORM][,PARAMETER=VALUE][+ID...]",
             "one more side: the analytic model with this effect, or with several joined by '+'; repeatable");
   add_file(*command, "--report", asked->report, "FILE.html", "write everything as one page");
-  add_folder(*command, "--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data");
+  add_folder(*command, "--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data",
+             {"case.yaml"});
   add_file(*command, "--csv", asked->csv, "FILE.csv", "save every row");
   add_value(*command, "--replay", asked->replay, "FILE", "a replay of grains to put into the page");
   add_value(*command, "--title", asked->title, "TEXT", "title of the page");

@@ -14,6 +14,7 @@
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -40,6 +41,7 @@ int report(const ReportOptions& options, const Session& session) {
   if (options.studies.empty() && options.campaigns.empty())
     throw InputError("name a study or a campaign: soilbin report paper-straight --measured cmu-smooth");
   if (const std::string why = why_not_writable(options.output); !why.empty()) throw InputError("--output: " + why);
+  announce_output(options.output, "--output");
   std::vector<compare::StudyPart> studies;
   std::vector<compare::PageCard> links;
   for (const std::string& link : options.links) links.push_back(compare::page_card(link, options.output));
