@@ -105,6 +105,21 @@ void add_power_doubt(const Answer& answer, Warnings& warnings) {
                     in_words(answer.at)));
 }
 
+/// A cross slope down which the load slides; "" where the soil can hold it. Along the way a pull below 0 says the same.
+std::string too_steep_across(const Scenario& scenario, const Answer& answer, double contact_length) {
+  const OperatingCondition& at = answer.at;
+  const bekker_wong::SoilValues soil = bekker_wong::values_of(*scenario.soil.semi_empirical);
+  const double uphill = std::cos(at.longitudinal_incline),
+               share = std::abs(at.load * uphill * std::sin(at.transverse_incline)),
+               pressing = at.load * uphill * std::cos(at.transverse_incline),
+               held = pressing * std::tan(soil.friction_angle) + soil.cohesion * scenario.tire.width * contact_length;
+  if (!(share > held)) return "";
+  return fmt::format(
+      "the cross slope is steeper than the soil holds at {}: {:.3g} N of the load pull the wheel down "
+      "it, and the soil under the wheel shears at {:.3g} N (c, phi): it slides",
+      in_words(at), share, held);
+}
+
 /// What the analytic wheel answers at one condition.
 void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings& warnings) {
   const std::string at = " at " + in_words(answer.at);
@@ -115,6 +130,9 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings&
   if (pressure < 500.0 || pressure > 2e6)
     warnings.push_back(fmt::format("mean ground pressure {:.3g} kPa{}: wheels on soil press with 0.5 .. 2000 kPa",
                                    pressure / 1000, at));
+  const double arc = tire.radius * std::acos(1.0 - std::clamp(r.sinkage.value / tire.radius, 0.0, 1.0));
+  if (std::string slides = too_steep_across(scenario, answer, std::fmax(length, arc)); !slides.empty())
+    warnings.push_back(std::move(slides));
   if (std::string deep = too_deep(scenario, answer); !deep.empty()) warnings.push_back(std::move(deep));
   if (scenario.bin && r.sinkage.value > 0.5 * scenario.bin->depth)
     warnings.push_back(

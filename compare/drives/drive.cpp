@@ -1,6 +1,7 @@
 #include "compare/drives/drive.hpp"
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
@@ -14,6 +15,7 @@
 #include "compare/report/page.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/drive_way.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 #include "scenario/nearest_word.hpp"
@@ -27,20 +29,38 @@ using bekker_wong::EnergyLedger;
 
 double slip_of(const DriveSample& s) { return s.slip.value_or(not_a_number); }
 
+Place start_of(const Drive& drive) {
+  constexpr double any = 1.0;  // how soils take over from each other
+  return Way(drive.profile, any).at(0.0);
+}
+
 std::optional<double> steepest_of(const Case& question) {
   const Drive& drive = *question.drive;
+  const Place start = start_of(drive);
   const bekker_wong::RollingWheel wheel(question.scenario.tire,
                                         bekker_wong::values_of(*question.scenario.soil.semi_empirical),
                                         bekker_wong::make_effects(drive.effects), question.scenario.bin);
   OperatingCondition at;
   at.load = drive.load;
   at.pass = drive.pass;
+  at.transverse_incline = start.transverse_incline, at.yaw = start.yaw;
   at.speed = drive.controller.rim_speed.value_or(at.speed);
   try {
     return bekker_wong::steepest_slope(wheel, at);
   } catch (const NoSolution&) {
     return {};
   }
+}
+
+/// "Steadily it climbs 14 deg of dry-sand at most, with the cross slope of 10 deg at its start."
+std::string words_on_steepest(const AnalyticDrive& part) {
+  const Place start = start_of(*part.question.drive);
+  std::vector<std::string> askew;
+  for (const auto& [name, angle] : {std::pair{"cross slope", start.transverse_incline}, {"yaw", start.yaw}})
+    if (angle != 0.0) askew.push_back(fmt::format("{} of {:.3g} deg", name, angle / degree));
+  return fmt::format("Steadily it climbs {:.3g} deg of {} at most{}.", *part.steepest / degree,
+                     in_words(part.question.scenario.soil),
+                     askew.empty() ? "" : fmt::format(", with the {} at its start", fmt::join(askew, " and the ")));
 }
 
 /// "the wheel is stuck"
@@ -224,9 +244,7 @@ std::vector<std::string> in_words(const AnalyticDrive& part) {
   if (end.slip && record.end != DriveEnd::stuck)
     sentences.push_back(fmt::format("Its slip is then {:.3g} %, its sinkage {:.3g} mm, its torque {:.3g} N m.",
                                     100 * *end.slip, 1000 * end.sinkage, end.torque));
-  if (part.steepest)
-    sentences.push_back(fmt::format("Steadily it climbs {:.3g} deg of {} at most.", *part.steepest / degree,
-                                    in_words(part.question.scenario.soil)));
+  if (part.steepest) sentences.push_back(words_on_steepest(part));
   const std::vector<std::string> on_errors = words_on_errors(part);
   sentences.insert(sentences.end(), on_errors.begin(), on_errors.end());
   return sentences;

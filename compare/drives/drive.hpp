@@ -19,7 +19,8 @@ namespace soilbin::compare {
 struct AnalyticDrive {
   Case question;
   bekker_wong::DriveRecord record;
-  std::optional<double> steepest;  ///< slope that the wheel climbs in a steady state at the soil of the start [rad]
+  std::optional<double> steepest;  ///< slope that the wheel climbs in a steady state at the soil, the cross slope and
+                                   ///< the yaw of the start [rad]
   DriveErrors errors;
 };
 

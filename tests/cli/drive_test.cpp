@@ -65,6 +65,24 @@ TEST(Drive, SpeaksWritesTableAndPage) {
   EXPECT_EQ(strokes.size(), entries) << "no two of them look alike";
 }
 
+// The slope that it climbs is that of a wheel with the cross slope and the yaw of its start, as limits has it; a cross
+// slope that its way leads into is doubted where it slides down.
+TEST(Drive, ItsSteepestSlopeIsThatAcrossTheSlopeOfItsStart) {
+  const Scratch scratch;
+  const std::string file = scratch.write("start.yaml", std::string(short_drive) +
+                                                           "  profile: [{at: 0 m, transverse_incline: 20 deg, yaw: 9 "
+                                                           "deg}, {at: 2 cm, transverse_incline: 45 deg}]\n");
+  const Outcome said = soilbin("drive '" + file + "' --samples 20"), json = soilbin("drive '" + file + "' --json");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_THAT(said.out, HasSubstr("of dry-sand at most, with the cross slope of 20 deg and the yaw of 9 deg at its"));
+  EXPECT_THAT(said.err, HasSubstr("warning: the cross slope is steeper than the soil holds"));
+  const nlohmann::json limits = soilbin(
+                                    "limits --tire rover-wheel --soil dry-sand --load 64.68N --speed 5cm/s "
+                                    "--transverse-incline 20deg --yaw 9deg --json")
+                                    .json()["rows"][0];
+  EXPECT_NEAR(json.json()["steepest_steady_slope"].get<double>(), limits["steepest_slope"].get<double>(), 1e-9);
+}
+
 TEST(Drive, ACaseHasADriveOrAStudyAndEachCommandSaysWhich) {
   const Outcome drive = soilbin("drive rover-slip");
   EXPECT_EQ(drive.status, 2);

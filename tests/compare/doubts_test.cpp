@@ -320,6 +320,27 @@ TEST(Doubts, ADeepWheelIsDoubtedWithItsAnswerAsWithoutIt) {
                                        HasSubstr("(and at 1 other condition)"))));
 }
 
+// Without cohesion a soil of phi = 28 deg holds a wheel on cross slopes up to phi; 1 kPa on a contact of 0.1 m by 5 cm
+// adds some 5 N to the 40 N that friction gives, which hold it at 30 deg too.
+TEST(Doubts, ACrossSlopeSteeperThanTheSoilHoldsIsTold) {
+  Case question;
+  question.scenario = wheel_on_sand();
+  SemiEmpiricalSoil& soil = *question.scenario.soil.semi_empirical;
+  soil.friction_angle.value = 28 * degree;
+  question.study.models = {ModelChoice{}};
+  const auto told_at = [&](double cross_slope, double cohesion) {
+    soil.cohesion.value = cohesion;
+    question.study.conditions = {condition(80, 0.2)};
+    question.study.conditions[0].transverse_incline = cross_slope * degree;
+    return doubts(question);
+  };
+  EXPECT_THAT(told_at(27, 0), IsEmpty());
+  EXPECT_THAT(told_at(29, 0), ElementsAre(StartsWith("the cross slope is steeper than the soil holds at load 80 N")));
+  EXPECT_THAT(told_at(-29, 0), ElementsAre(HasSubstr("38.8 N of the load pull the wheel down it")));  // 80 N sin 29 deg
+  EXPECT_THAT(told_at(30, 1000), IsEmpty());
+  EXPECT_THAT(told_at(60, 1000), ElementsAre(HasSubstr("it slides")));
+}
+
 TEST(Doubts, MorePowerOutThanInIsTold) {
   Case question;
   question.scenario = wheel_on_sand();
