@@ -296,8 +296,8 @@ AskAgain asked_again(const Case& question) {
 
 enum class NextIs { nothing, a_fit_for_effects };
 
-Warnings doubts_of(const Campaign& campaign, const Case& question, const std::vector<ModelAnswers>& study,
-                   Answered answered, NextIs next) {
+DoubtsBeforeFit doubts_of(const Campaign& campaign, const Case& question, const std::vector<ModelAnswers>& study,
+                          Answered answered, NextIs next) {
   Warnings warnings = doubts_but_unused_inputs(question, study, answered);
   if (next == NextIs::nothing)
     for (UnusedInput& one : unused_inputs(question))
@@ -305,12 +305,13 @@ Warnings doubts_of(const Campaign& campaign, const Case& question, const std::ve
   Warnings of_data;
   for (const RowDoubt& one : row_doubts(campaign))
     of_data.push_back(one.line ? fmt::format("line {}: {}", *one.line, one.words) : one.words);
-  append(of_data, column_doubts(campaign, study.front().answers, asked_again(question)));
+  const Warnings columns = column_doubts(campaign, study.front().answers, asked_again(question));
+  append(of_data, columns);
   append(warnings, once_each(of_data));
-  return warnings;
+  return {warnings, columns};
 }
 
-Warnings doubts_as_declared(const Campaign& campaign, NextIs next) {
+DoubtsBeforeFit doubts_as_declared(const Campaign& campaign, NextIs next) {
   const Case question = question_of(campaign, scenario_of(campaign));
   return doubts_of(campaign, question, quick_answers(question), Answered::no, next);
 }
@@ -400,15 +401,17 @@ Warnings doubts(const Case& question) {
   return warnings;
 }
 
-Warnings doubts(const Campaign& campaign) { return doubts_as_declared(campaign, NextIs::nothing); }
+Warnings doubts(const Campaign& campaign) { return doubts_as_declared(campaign, NextIs::nothing).all; }
 
-Warnings doubts_before_fit(const Campaign& campaign) { return doubts_as_declared(campaign, NextIs::a_fit_for_effects); }
+DoubtsBeforeFit doubts_before_fit(const Campaign& campaign) {
+  return doubts_as_declared(campaign, NextIs::a_fit_for_effects);
+}
 
 Warnings doubts(const Campaign& campaign, const Scenario& asked, const Prediction& prediction) {
   const Case question = question_of(campaign, asked);
   ModelAnswers answers{question.study.models.front(), {}};
   for (const PredictedRun& run : prediction.runs) answers.answers.push_back(run.predicted);
-  return doubts_of(campaign, question, {answers}, Answered::yes, NextIs::nothing);
+  return doubts_of(campaign, question, {answers}, Answered::yes, NextIs::nothing).all;
 }
 
 }  // namespace soilbin::compare

@@ -81,7 +81,7 @@ Table next_run_table(const LoopAnswer& answer) {
 Table error_table(const LoopAnswer& answer) {
   MarkedTable table{
       "Root mean square error on conditions that neither choice nor fit has seen; before: soil refitted, no effect "
-      "added",
+      "added; noise alone: what no smooth function of the conditions explains",
       {"channel", "values", "before", "after", "change", "noise alone"}};
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const HeldOutErrors& e = answer.validation.channels[c];
@@ -128,6 +128,12 @@ Table candidates_table(const LoopAnswer& answer) {
   }
   table.add({"none: the base model", "-", "-", "-", number(answer.found().base.fit().chi2), values});
   return table;
+}
+
+std::string candidates_columns_in_words() {
+  return "Odds to the first: how likely these data are with this set, beside the first one. chi2: the sum of the "
+         "squared residuals, each in standard deviations of the noise; about the number of values where nothing is "
+         "missing.";
 }
 
 Table parameters_table(const LoopAnswer& answer) {

@@ -215,6 +215,18 @@ TEST(DoubtsOfColumns, APowerOfTenIsToldWithTheDeclaredUnit) {
       << "a model may be wrong by as much";
 }
 
+// A fit for effects would take such a column for an effect: it gets that doubt by itself too.
+TEST(DoubtsOfColumns, AreToldByThemselvesBeforeAFit) {
+  Campaign campaign = rig_campaign();
+  EXPECT_THAT(doubts_before_fit(campaign).columns, IsEmpty());
+  for (compare::Run& run : campaign.runs) *run.torque *= 10;
+  campaign.runs.push_back(campaign.runs.back());
+  campaign.runs.back().csv_line = 99;
+  const DoubtsBeforeFit found = doubts_before_fit(campaign);
+  EXPECT_THAT(found.columns, ElementsAre(HasSubstr("'My' looks 10 times too large")));
+  EXPECT_THAT(found.all, testing::UnorderedElementsAre(found.columns.front(), HasSubstr("counted twice")));
+}
+
 TEST(DoubtsOfColumns, SlipsAsSharesInAColumnOfPercentAreTold) {
   EXPECT_THAT(
       doubts_with([](compare::Run& run) { run.at.slip /= 100; }),
@@ -375,7 +387,7 @@ TEST(Doubts, OfACampaignAreThoseOfTheModelThatAnswers) {
   EXPECT_THAT(doubts(campaign, declared, predict(*model, declared, campaign)),
               ElementsAre(HasSubstr("density"), HasSubstr("lugs change nothing")));
   EXPECT_THAT(doubts(campaign, fitted, predict(*model, fitted, campaign)), IsEmpty());
-  EXPECT_THAT(doubts_before_fit(campaign), ElementsAre(HasSubstr("density"))) << "a fit tries lugs";
+  EXPECT_THAT(doubts_before_fit(campaign).all, ElementsAre(HasSubstr("density"))) << "a fit tries lugs";
 }
 
 /// The paper's tire on its grains of 30 to 50 mm, 0.25 mm deep at 4 kN.

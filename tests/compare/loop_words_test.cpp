@@ -129,6 +129,28 @@ TEST(ErrorSentence, TellsGainLossAndWhatHardlyChanges) {
   EXPECT_EQ(table.rows.at(2).at(4).text, "-66 %");
 }
 
+// What takes a column for mistaken comes before the verdict, which may be of that column.
+TEST(Headline, OpensWithAColumnThatLooksMistaken) {
+  LoopAnswer answer;
+  EXPECT_EQ(headline(answer).front().about, "What is missing");
+  const auto parts = headline(answer, {"runs.csv:1:5: column 'load_N' looks as if it were in kg: ..."});
+  EXPECT_EQ(parts.front().about, "Before you believe what follows");
+  EXPECT_NE(parts.front().text.find("column 'load_N' looks as if it were in kg"), std::string::npos);
+  EXPECT_EQ(parts[1].about, "What is missing");
+}
+
+// The noise is what no smooth function of the conditions explains: more than re-runs scatter, where setpoints differ.
+TEST(Notes, SayWhereTheNoiseIsMoreThanReRunsScatter) {
+  LoopAnswer answer;
+  ChannelNoise& pull = answer.noise.channels[drawbar_pull];
+  pull.measured = true, pull.floor = 5.86, pull.rerun_sd = 0.71;
+  const std::vector<std::string> said = notes(answer);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("for the drawbar pull (5.86 beside 0.710 N)"), std::string::npos) << said[0];
+  pull.rerun_sd = 4.0;
+  EXPECT_TRUE(notes(answer).empty());
+}
+
 TEST(Odds, AreSharesOfCampaigns) {
   EXPECT_EQ(odds_words(1.0 / 4001), "1 of 4,000 campaigns");
   EXPECT_EQ(odds_words(0.0123), "1 of 81 campaigns");
