@@ -72,6 +72,23 @@ void expect(Warnings& warnings, const char* name, double value, const UsualRange
                                    *usual.unit ? " " : "", usual.unit, usual.lower, usual.upper, usual.why));
 }
 
+/// Standard deviations far beyond what a test leaves: of values that may well be 0, only where they decide what the
+/// soil carries or holds.
+void add_doubts_of_wide_errors(const SemiEmpiricalSoil& soil, Warnings& warnings) {
+  constexpr double narrow = 0.1, firm = 1000.0;  // a wheel's width [m], a cohesion that hardly matters [Pa]
+  const auto add = [&](const char* name, const Estimate& value, double most) {
+    if (value.std_error <= most) return;
+    warnings.push_back(
+        fmt::format("the standard deviation of {} is {:.2g} times its value: it is hardly known; is its "
+                    "unit right?",
+                    name, value.std_error / std::abs(value.value)));
+  };
+  const double modulus = std::abs(soil.k_c.value / narrow + soil.k_phi.value);
+  if (soil.k_phi.value != 0.0) add("k_phi", soil.k_phi, std::max(std::abs(soil.k_phi.value), modulus));
+  if (soil.k_c.value != 0.0) add("k_c", soil.k_c, std::max(3 * std::abs(soil.k_c.value), narrow * modulus));
+  if (soil.cohesion.value != 0.0) add("c", soil.cohesion, std::max(3 * soil.cohesion.value, firm));
+}
+
 /// What a wheel and a soil say together, before any condition.
 void add_wheel_doubts(const Tire& tire, const std::optional<SemiEmpiricalSoil>& soil, Warnings& warnings) {
   expect(warnings, "the wheel's radius", tire.radius * 1000, {20, 2000, "mm", "the model is tested from 50 mm to 2 m"});
@@ -385,6 +402,13 @@ Warnings doubts(const SemiEmpiricalSoil& soil) {
                                             100 * value.std_error / value.value)
                               : fmt::format("{} is 0 with a standard deviation, and can only be larger", name)) +
                          ": errors propagated to first order are a rough guide");
+  add_doubts_of_wide_errors(soil, warnings);
+  return warnings;
+}
+
+Warnings doubts(const Tire& tire) {
+  Warnings warnings;
+  add_wheel_doubts(tire, std::nullopt, warnings);
   return warnings;
 }
 

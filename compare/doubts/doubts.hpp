@@ -37,6 +37,9 @@ namespace soilbin::compare {
 /// Of a soil by itself.
 std::vector<std::string> doubts(const SemiEmpiricalSoil& soil);
 
+/// Of a wheel by itself.
+std::vector<std::string> doubts(const Tire& tire);
+
 /// Of a question and the answers to it, by any model. What no answer was found to is not among them: answers say that
 /// themselves. `study` may be empty, and its models need not be all of the question's.
 std::vector<std::string> doubts(const Case& question, const std::vector<ModelAnswers>& study);

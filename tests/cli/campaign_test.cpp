@@ -225,6 +225,12 @@ study:
     EXPECT_THAT(warnings, HasSubstr(word));
 }
 
+TEST(Check, ATireIsJudgedByItsMeasures) {
+  const Scratch scratch;
+  const fs::path file = scratch.write("tire.yaml", "format: soilbin-tire/1\nradius: 25 m\nwidth: 100 mm\n");
+  EXPECT_THAT(soilbin("check '" + file.string() + "'").out, HasSubstr("warning: the wheel's radius"));
+}
+
 TEST(Check, ARefusedFileIsStatusTwo) {
   const Scratch scratch;
   const fs::path file = scratch.write("case.yaml", "format: soilbin-case/1\nname: x\ntyre: rover-wheel\n");

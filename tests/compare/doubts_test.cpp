@@ -131,20 +131,6 @@ TEST(Doubts, SwappedColumnsAreToldAtTheirHeader) {
   EXPECT_THAT(doubts(loads), Contains(HasSubstr("the columns 'load' and 'drawbar_pull' look swapped")));
 }
 
-TEST(Doubts, LoadsInAnotherUnitAreToldAtTheirHeader) {
-  for (const auto& [unit, newtons] : {std::pair{"kg", 9.80665}, {"lbf", 4.4482216}, {"kN", 1000.0}}) {
-    Campaign campaign = modelled_campaign();
-    campaign.columns["load"] = {"load_N", "N", {"runs.csv", 1, 5}};
-    for (compare::Run& run : campaign.runs) run.at.load /= newtons;
-    EXPECT_THAT(
-        doubts(campaign),
-        Contains(StartsWith(fmt::format("runs.csv:1:5: column 'load_N' looks as if it were in {}: with loads", unit))));
-  }
-  Campaign halved = modelled_campaign();  // no unit
-  for (compare::Run& run : halved.runs) run.at.load /= 2;
-  EXPECT_THAT(doubts(halved), Not(Contains(HasSubstr("looks as if"))));
-}
-
 /// How far a rig's channels are from the declared model's.
 struct Off {
   double pull_of_load = -0.03, torque_times = 1.2, side_force_times = 0.8;
@@ -174,6 +160,24 @@ Campaign rig_campaign(const Off& off = {}) {
         campaign.runs.push_back(run);
       }
   return campaign;
+}
+
+TEST(Doubts, LoadsInAnotherUnitAreToldAtTheirHeader) {
+  for (const auto& [unit, newtons] : {std::pair{"kg", 9.80665}, {"lbf", 4.4482216}, {"kN", 1000.0}}) {
+    Campaign campaign = modelled_campaign();
+    campaign.columns["load"] = {"load_N", "N", {"runs.csv", 1, 5}};
+    for (compare::Run& run : campaign.runs) run.at.load /= newtons;
+    EXPECT_THAT(
+        doubts(campaign),
+        Contains(StartsWith(fmt::format("runs.csv:1:5: column 'load_N' looks as if it were in {}: with loads", unit))));
+  }
+  Campaign times_ten = rig_campaign();  // of all channels none is called too small
+  for (compare::Run& run : times_ten.runs) run.at.load *= 10;
+  EXPECT_THAT(doubts_before_fit(times_ten).columns,
+              ElementsAre(StartsWith("runs.csv:1:1: column 'W' looks 10 times too large: with its values divided")));
+  Campaign halved = modelled_campaign();  // no unit
+  for (compare::Run& run : halved.runs) run.at.load /= 2;
+  EXPECT_THAT(doubts(halved), Not(Contains(HasSubstr("looks as if"))));
 }
 
 /// What is told with each row changed.
@@ -275,6 +279,29 @@ TEST(Doubts, WarningsOfOneKindOfManyRowsAreOneLine) {
   for (auto& run : campaign.runs) *run.sinkage += 1.0;
   EXPECT_THAT(doubts(campaign),
               Contains(AllOf(HasSubstr("more than the wheel's diameter"), HasSubstr("(and at 7 other lines)"))));
+}
+
+// A standard deviation of many times the value is a slip of a unit; what may well be 0 may have one of its size.
+TEST(Doubts, AStandardDeviationFarBeyondItsValueIsTold) {
+  const auto with_sd = [](Estimate SemiEmpiricalSoil::*value, double of, double std_error) {
+    SemiEmpiricalSoil soil = dry_sand();
+    soil.*value = {of, std_error};
+    return doubts(soil);
+  };
+  using S = SemiEmpiricalSoil;
+  EXPECT_THAT(with_sd(&S::k_phi, 1.5e6, 1e7), ElementsAre(HasSubstr("standard deviation of k_phi is 6.7 times")));
+  EXPECT_THAT(with_sd(&S::k_c, 1e3, 1e6), ElementsAre(HasSubstr("standard deviation of k_c is 1e+03 times")));
+  EXPECT_THAT(with_sd(&S::cohesion, 1e3, 1e5), ElementsAre(HasSubstr("standard deviation of c is 1e+02 times")));
+  EXPECT_THAT(with_sd(&S::k_phi, 1.5e6, 7e5), IsEmpty());
+  EXPECT_THAT(with_sd(&S::k_c, 1e3, 2e4), IsEmpty()) << "small beside k_phi";
+  EXPECT_THAT(with_sd(&S::cohesion, 100, 500), IsEmpty()) << "little of what sand holds";
+}
+
+TEST(Doubts, AWheelByItselfIsJudgedToo) {
+  Tire tire = wheel_on_sand().tire;
+  EXPECT_THAT(doubts(tire), IsEmpty());
+  tire.radius = 25;
+  EXPECT_THAT(doubts(tire), ElementsAre(StartsWith("the wheel's radius = 2.5e+04 mm is outside 20 .. 2000: ")));
 }
 
 TEST(Doubts, ASoilThatCarriesNothingIsTold) {
