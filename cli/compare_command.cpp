@@ -76,8 +76,11 @@ void ask_loop(const compare::Comparison& comparison, unsigned seed, compare::Com
 }
 
 void print_text(const compare::Comparison& comparison, const compare::ComparisonAbout& about) {
-  fmt::print("{}: {} on {}\n\n", comparison.question.study.name, in_words(comparison.question.scenario.tire),
+  fmt::print("{}: {} on {}\n", comparison.question.study.name, in_words(comparison.question.scenario.tire),
              compare::in_words(comparison.question.scenario.soil));
+  if (const std::string errors = compare::errors_in_words(comparison.question.scenario); !errors.empty())
+    fmt::print("{}\n", errors);
+  fmt::print("\n");
   const auto print = [](const std::vector<compare::Clause>& clauses) {
     for (const compare::Clause& clause : clauses)
       fmt::print("{}{}\n", clause.about.empty() ? "" : clause.about + ": ", clause.text);

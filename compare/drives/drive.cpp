@@ -92,8 +92,8 @@ std::string in_words(const MovedDrive::Side& side) {
                      number(side.record->samples.back().travelled));
 }
 
-/// ", most of it from the friction angle and K": the values that make up four fifths of the variance, where they are
-/// three at most.
+/// "Most of it comes from the friction angle and K.": the values that make up four fifths of the variance, where they
+/// are three at most.
 std::string largest_parts(const AnalyticDrive& part) {
   constexpr double most = 0.8;
   const bool by_time = part.record.end == DriveEnd::arrived;
@@ -114,15 +114,25 @@ std::string largest_parts(const AnalyticDrive& part) {
     told += square;
     names.push_back(name);
   }
-  return names.empty() || names.size() > 3 ? "" : ", most of it from " + listed(names);
+  return names.empty() || names.size() > 3 ? "" : "Most of it comes from " + listed(names) + ".";
+}
+
+Scenario scenario_on(const Soil& soil) {
+  Scenario scenario;
+  scenario.soil = soil;
+  return scenario;
 }
 
 /// Where the errors come from, and the drives that end in another way.
 std::vector<std::string> words_on_errors(const AnalyticDrive& part) {
   std::vector<std::string> sentences;
-  if (part.errors.travelled)
-    sentences.push_back("± is one standard error, from the standard deviations of the soil's values" +
-                        largest_parts(part) + ".");
+  if (part.errors.travelled) {
+    sentences.push_back(errors_in_words(part.question.scenario));
+    for (const Waypoint& point : part.question.drive->profile)
+      if (point.soil)
+        sentences.push_back("From " + number(point.at) + " m on: " + errors_in_words(scenario_on(*point.soil)));
+    if (const std::string parts = largest_parts(part); !parts.empty()) sentences.push_back(parts);
+  }
   for (const MovedDrive& drive : part.errors.moved)
     for (const MovedDrive::Side* side : {&drive.lower, &drive.higher}) {
       if (!drive.ends_otherwise(*side, part.record.end)) continue;
@@ -251,15 +261,21 @@ std::vector<std::string> in_words(const AnalyticDrive& part) {
 }
 
 Table energy_table(const EnergyLedger& e, WorkTable where) {
-  const bool page = where == WorkTable::on_page;
-  Table table{page ? "Of the motor's work in all" : "", {page ? "" : "of the motor's work", "J", "%"}, {true}};
+  const bool page = where == WorkTable::on_page, motor_alone = e.motor >= 0.0 && e.height >= 0.0;
+  const double gravity = std::max(0.0, -e.height), given = std::max(0.0, e.motor) + gravity;
+  const std::string of = motor_alone ? "the motor's work" : "the work put in";
+  Table table{page ? "Of " + of + " in all" : "", {page ? "" : "of " + of, "J", "%"}, {true}};
   const auto add = [&](const char* name, double joules) {
-    table.add({name, number(joules), e.motor != 0.0 ? number(100 * joules / e.motor) : "-"});
+    table.add({name, number(joules), given != 0.0 ? number(100 * joules / given) : "-"});
   };
   add("shears the soil", e.shear), add("presses the soil", e.compaction), add("added forces of effects", e.added);
-  add("lifts the load", e.height), add("pulls the drawbar", e.drawbar), add("is in motion", e.kinetic);
+  if (e.height >= 0.0) add("lifts the load", e.height);
+  add("pulls the drawbar", e.drawbar), add("is in motion", e.kinetic);
+  if (e.motor < 0.0) add("is taken by the motor, which brakes", -e.motor);
   add("damps the heave", e.damping), add("unaccounted for", e.unaccounted());
-  table.add({page ? "motor's work" : "in all", number(e.motor), "100"});
+  if (!motor_alone && e.motor > 0.0) add("put in: motor's work", e.motor);
+  if (!motor_alone && gravity > 0.0) add("put in: gravity's work", gravity);
+  table.add({page && motor_alone ? "motor's work" : "in all", number(given), "100"});
   return table;
 }
 
@@ -344,7 +360,7 @@ std::string drive_page(const AnalyticDrive& part, const PageAbout& about) {
     page.section("How sure");
     page.table(errors_table(part.errors));
   }
-  page.section("Where the motor's work went");
+  page.section("Where the work went");
   page.table(energy_table(end.energy, WorkTable::on_page));
   if (!part.record.happenings.empty()) {
     page.section("On the way");

@@ -225,11 +225,14 @@ TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
 
 TEST(SoilTable, SaysWhatAValueMeansAndWhetherItIsAtItsBound) {
   LoopAnswer answer;
-  answer.soil_shifts = {{"stress_angle_c2", {-0.5, 0.0}, {0.2, 0.1}}, {"exponent", {0.9, 0.1}, {1.0, 0.1}}};
+  answer.soil_shifts = {{"stress_angle_c2", {-0.5, 0.0}, {0.2, 0.1}, 0.2},
+                        {"exponent", {0.9, 0.1}, {1.0, 0.1}, 0.3},
+                        {"cohesion", {1000, 290}, {1010, 295}, 300}};  // the runs tell next to nothing of it
   const Table table = soil_table(answer);
   EXPECT_EQ(table.rows[0].front().note, "c2 of theta_m = (c1 + c2 |s|) theta_1");
   EXPECT_EQ(table.rows[0].back().text, "no: at its bound");
   EXPECT_EQ(table.rows[1].back().text, "yes");
+  EXPECT_EQ(table.rows[2].back().text, "no: as declared");
 }
 
 /// As if something without a name depended on the slip.
