@@ -104,7 +104,9 @@ std::string largest_parts(const AnalyticDrive& part) {
   double sum = 0.0, told = 0.0;
   for (const MovedDrive& drive : part.errors.moved) {
     const double by = change(drive, *value(part.record), value).value_or(0.0);
-    parts.emplace_back(by * by, drive.parameter->title);
+    const bool elsewhere = drive.soil != part.errors.moved.front().soil;
+    parts.emplace_back(by * by, elsewhere ? fmt::format("{} of {}", drive.parameter->title, drive.soil)
+                                          : std::string(drive.parameter->title));
     sum += by * by;
   }
   std::ranges::sort(parts, std::greater());
@@ -130,7 +132,8 @@ std::vector<std::string> words_on_errors(const AnalyticDrive& part) {
     sentences.push_back(errors_in_words(part.question.scenario));
     for (const Waypoint& point : part.question.drive->profile)
       if (point.soil)
-        sentences.push_back("From " + number(point.at) + " m on: " + errors_in_words(scenario_on(*point.soil)));
+        sentences.push_back(fmt::format("On {} from {:.4g} m on: {}", compare::in_words(*point.soil), point.at,
+                                        errors_in_words(scenario_on(*point.soil))));
     if (const std::string parts = largest_parts(part); !parts.empty()) sentences.push_back(parts);
   }
   for (const MovedDrive& drive : part.errors.moved)
