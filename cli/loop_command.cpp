@@ -81,7 +81,7 @@ int loop(const LoopOptions& asked, const Session& session) {
     outputs.file(asked.proposal, [&] { return compare::proposed_effect(answer); });
   if (asked.json) {
     nlohmann::ordered_json document = compare::to_json(answer);
-    document["column_doubts"] = doubts.columns;
+    if (!doubts.columns.empty()) document["column_doubts"] = doubts.columns;
     if (asked.details) document["details"] = compare::details_json(answer);
     print_json(std::move(document), doubts.all);
   } else {

@@ -270,6 +270,7 @@ void need_forces_that_agree(const std::vector<const CsvRow*>& rows, const std::v
   for (const CsvRow* row : rows) {
     if (row->cells[place].text.empty()) continue;
     const PlateReading reading = reading_of(*row, columns, csv);
+    if (reading.pressure == 0.0) continue;  // no reading
     const double pressure =
         value_in(row->cells[place], *force, csv) / (std::numbers::pi * reading.radius * reading.radius);
     largest = std::max(largest, reading.pressure);
