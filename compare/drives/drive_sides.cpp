@@ -9,6 +9,7 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/report/number_text.hpp"
+#include "scenario/drive_way.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/soil_parameters.hpp"
 
