@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -31,10 +32,12 @@ std::vector<Presumed> presumed(const EffectForm& form, const Tire& tire) {
 
 std::vector<std::string> presumptions(const std::vector<EffectChoice>& choices, const Tire& tire) {
   std::vector<std::pair<std::string, std::vector<std::string>>> by_effect;
+  std::set<std::string> lugless;  // effects of lugs; a height of 0 is declared by leaving them out
   for (const EffectChoice& choice : choices)
     for (const Presumed& value : presumed(find_form(choice), tire)) {
       auto of = std::find_if(by_effect.begin(), by_effect.end(), [&](const auto& e) { return e.first == choice.id; });
       if (of == by_effect.end()) of = by_effect.insert(of, {choice.id, {}});
+      if (value.key == "lugs.height") lugless.insert(choice.id);
       std::vector<std::string>& values = of->second;
       if (std::find(values.begin(), values.end(), value.words) == values.end()) values.push_back(value.words);
     }
@@ -43,7 +46,8 @@ std::vector<std::string> presumptions(const std::vector<EffectChoice>& choices, 
     std::string name = id, listed;
     std::replace(name.begin(), name.end(), '_', ' ');
     for (const std::string& value : values) listed += (listed.empty() ? "" : ", ") + value;
-    sentences.push_back(fmt::format("{} presumes {}, which the tire does not declare.", name, listed));
+    sentences.push_back(fmt::format("{} presumes {}, which the tire does not declare{}.", name, listed,
+                                    lugless.contains(id) ? "; leave the effect out for a wheel without lugs" : ""));
   }
   return sentences;
 }

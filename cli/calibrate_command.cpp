@@ -191,7 +191,7 @@ void add_options(CLI::App& command, CalibrateOptions& asked) {
   add_value(command, "--within", asked.within, "SHARE", "the search ends within this share of every target; 3 %");
   add_value(command, "--probability", asked.probability, "SHARE", "probability with which --within must hold; 90 %");
   add_value(command, "--seed", asked.options.seed, "N", "seed of packings and search; 1")->check(whole_number(1));
-  add_file(command, "--store", asked.store, "FILE.json", "where finished experiments are kept; the user's cache");
+  add_kept_file(command, "--store", asked.store, "FILE.json", "where finished experiments are kept; the user's cache");
   add_file(command, "--output", asked.output, "FILE.yaml", "write the soil with the calibrated contact");
   add_value(command, "--beside", asked.beside, "FILE.csv",
             "only run the sets of this table and show them beside its results");

@@ -64,7 +64,10 @@ Verdict judge(const fs::path& file, const Workplace& place) {
                         in_words(campaign.wheel)),
             compare::doubts(campaign)};
   }
-  if (format == tire_format) return {fmt::format("tire {}", in_words(read_tire(file))), {}};
+  if (format == tire_format) {
+    const Tire tire = read_tire(file);
+    return {fmt::format("tire {}", in_words(tire)), compare::doubts(tire)};
+  }
   if (format == soil_format) {
     const Soil soil = read_soil(file);
     return {fmt::format("soil '{}'", soil.name),

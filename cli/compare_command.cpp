@@ -76,8 +76,11 @@ void ask_loop(const compare::Comparison& comparison, unsigned seed, compare::Com
 }
 
 void print_text(const compare::Comparison& comparison, const compare::ComparisonAbout& about) {
-  fmt::print("{}: {} on {}\n\n", comparison.question.study.name, in_words(comparison.question.scenario.tire),
+  fmt::print("{}: {} on {}\n", comparison.question.study.name, in_words(comparison.question.scenario.tire),
              compare::in_words(comparison.question.scenario.soil));
+  if (const std::string errors = compare::errors_in_words(comparison.question.scenario); !errors.empty())
+    fmt::print("{}\n", errors);
+  fmt::print("\n");
   const auto print = [](const std::vector<compare::Clause>& clauses) {
     for (const compare::Clause& clause : clauses)
       fmt::print("{}{}\n", clause.about.empty() ? "" : clause.about + ": ", clause.text);
@@ -165,7 +168,8 @@ void add_compare(CLI::App& app, Session& session) {
   add_value(*command, "--effect", asked->effects, "ID[:FORM][,PARAMETER=VALUE][+ID...]",
             "one more side: the analytic model with this effect, or with several joined by '+'; repeatable");
   add_file(*command, "--report", asked->report, "FILE.html", "write everything as one page");
-  add_folder(*command, "--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data");
+  add_folder(*command, "--markdown", asked->markdown, "write it as Markdown with SVGs and the figures' data",
+             {"case.yaml"});
   add_file(*command, "--csv", asked->csv, "FILE.csv", "save every row");
   add_value(*command, "--replay", asked->replay, "FILE", "a replay of grains to put into the page");
   add_value(*command, "--title", asked->title, "TEXT", "title of the page");

@@ -1,6 +1,7 @@
 // soilbin design: the runs that are expected to tell effects apart best, before any is made.
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -9,8 +10,11 @@
 #include "cli/progress.hpp"
 #include "cli/rig_flags.hpp"
 #include "cli/text_output.hpp"
+#include "compare/measured/csv.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/test_design/test_design.hpp"
+#include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -30,6 +34,13 @@ void print_design(const compare::TestDesign& design) {
     fmt::print("\n{}", as_text(table));
 }
 
+/// Throws InputError for a file that holds anything but these rows: somebody has filled them in.
+void refuse_other_rows(const std::string& file, const std::string& rows) {
+  if (!std::filesystem::is_regular_file(file) || read_bytes(file, compare::largest_csv) == rows) return;
+  throw InputError({file}, "holds other rows than this plan, and stays as it is", "",
+                   "give --csv another name, or delete the file");
+}
+
 int design(const DesignFlags& asked, const Session& session) {
   const compare::Campaign campaign = find_campaign(session.place, asked.campaign, compare::CampaignUse::design);
   compare::DesignOptions options;
@@ -42,8 +53,10 @@ int design(const DesignFlags& asked, const Session& session) {
   options.progress = shown_progress();
   const compare::TestDesign design = compare::design_test(campaign, options);
   clear_progress_line();
+  const std::string rows = compare::rows_to_fill_in(design);
+  refuse_other_rows(asked.csv, rows);
   Outputs outputs;
-  outputs.file(asked.csv, [&] { return compare::rows_to_fill_in(design); });
+  outputs.file(asked.csv, [&] { return rows; });
   if (asked.json)
     print_json(compare::to_json(design));
   else
@@ -68,7 +81,7 @@ void add_design(CLI::App& app, Session& session) {
   add_value(*command, "--noise", asked->noise, "CHANNEL=SD",
             "standard deviation of one run, for each channel that is measured; repeatable; 2 % of its range")
       ->allow_extra_args(false);
-  add_file(*command, "--csv", asked->csv, "FILE.csv", "save the rows, to fill in as the campaign's runs");
+  add_kept_file(*command, "--csv", asked->csv, "FILE.csv", "save the rows, to fill in as the campaign's runs");
   add_value(*command, "--seed", asked->seed, "N", "seed of the order of the runs; 1");
   command->add_flag("--json", asked->json, "the answer as JSON, soilbin-design/1");
   command->footer(

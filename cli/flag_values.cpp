@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <system_error>
 #include <thread>
 
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
 #include "scenario/nearest_word.hpp"
 #include "scenario/source_text.hpp"
 
@@ -68,12 +70,25 @@ CLI::Validator whole_number(long long lower, long long upper) {
 }
 
 CLI::Option* add_file(CLI::App& command, const char* flag, std::string& name, const char* type, const char* meaning) {
+  const auto announced = [by = std::string(flag)](const std::string& given) {
+    announce_output(given, by);
+    return std::string();
+  };
+  return add_kept_file(command, flag, name, type, meaning)->check(announced);
+}
+
+CLI::Option* add_kept_file(CLI::App& command, const char* flag, std::string& name, const char* type,
+                           const char* meaning) {
   const auto refused = [](const std::string& given) { return why_not_writable(given); };
   return add_value(command, flag, name, type, meaning)->check(refused);
 }
 
-CLI::Option* add_folder(CLI::App& command, const char* flag, std::string& name, const char* meaning) {
-  const auto refused = [](const std::string& given) { return why_no_folder(given); };
+CLI::Option* add_folder(CLI::App& command, const char* flag, std::string& name, const char* meaning,
+                        const std::vector<std::string>& written) {
+  const auto refused = [by = std::string(flag), written](const std::string& given) {
+    for (const std::string& file : written) announce_output(std::filesystem::path(given) / file, by);
+    return why_no_folder(given);
+  };
   return add_value(command, flag, name, "DIR", meaning)->check(refused);
 }
 

@@ -41,10 +41,16 @@ CLI::Option* add_value(CLI::App& command, const std::string& flag, T& value, con
 }
 
 /// A flag that names a file to write: tries the place before any work is done, and refuses what can't become one.
-/// Folders that are missing are made when the file is written. `type`: as the help has it, "FILE.csv".
+/// Folders that are missing are made when the file is written. `type`: as the help has it, "FILE.csv". A command that
+/// reads the same file is refused (announce_output).
 CLI::Option* add_file(CLI::App& command, const char* flag, std::string& name, const char* type, const char* meaning);
 
-/// The same for a folder that files are written into.
-CLI::Option* add_folder(CLI::App& command, const char* flag, std::string& name, const char* meaning);
+/// The same for a file that the command reads first, so that nothing of it is lost.
+CLI::Option* add_kept_file(CLI::App& command, const char* flag, std::string& name, const char* type,
+                           const char* meaning);
+
+/// The same for a folder that files are written into; `written`: those of them that the command may also read.
+CLI::Option* add_folder(CLI::App& command, const char* flag, std::string& name, const char* meaning,
+                        const std::vector<std::string>& written = {});
 
 }  // namespace soilbin::cli

@@ -36,15 +36,18 @@ void print_table(const compare::Table& table) {
 }
 
 /// The page's sentences and tables, in its order.
-void print_answer(const compare::LoopAnswer& answer, bool only_next) {
+void print_answer(const compare::LoopAnswer& answer, const std::vector<std::string>& column_doubts, bool only_next) {
   if (!only_next) {
     fmt::print("{}\n", answer.campaign);
-    for (const compare::BackedSentence& said : compare::headline(answer))
+    for (const compare::BackedSentence& said : compare::headline(answer, column_doubts))
       fmt::print("\n{}. {}\n{}{}", said.about, said.text, said.detail, said.detail.empty() ? "" : "\n");
     print_table(compare::next_run_table(answer));
     print_table(compare::error_table(answer));
     print_table(compare::parameters_table(answer));
-    if (answer.has_candidates()) print_table(compare::candidates_table(answer));
+    if (answer.has_candidates()) {
+      print_table(compare::candidates_table(answer));
+      fmt::print("{}\n", compare::candidates_columns_in_words());
+    }
     const std::vector<std::string> notes = compare::notes(answer);
     if (!notes.empty()) fmt::print("\n");
     for (const std::string& note : notes) fmt::print("{}\n", note);
@@ -57,8 +60,8 @@ void print_answer(const compare::LoopAnswer& answer, bool only_next) {
 
 int loop(const LoopOptions& asked, const Session& session) {
   const compare::Campaign campaign = find_campaign(session.place, asked.campaign, compare::CampaignUse::fit);
-  const std::vector<std::string> doubts = compare::doubts_before_fit(campaign);
-  print_warnings(doubts);
+  const compare::DoubtsBeforeFit doubts = compare::doubts_before_fit(campaign);
+  print_warnings(doubts.all);
   compare::LoopOptions options;
   options.folds = asked.folds;
   options.attribution.seed = asked.seed;
@@ -67,7 +70,8 @@ int loop(const LoopOptions& asked, const Session& session) {
   options.progress = shown_progress();
   const compare::LoopAnswer answer = compare::run_loop(campaign, options);
   Outputs outputs;
-  outputs.file(asked.report, [&] { return compare::loop_page(campaign, answer, doubts, session.command); });
+  outputs.file(asked.report,
+               [&] { return compare::loop_page(campaign, answer, doubts.all, doubts.columns, session.command); });
   outputs.file(asked.model,
                [&] { return write_case(compare::resolved_model(campaign, answer), session.place.effects); });
   if (!asked.proposal.empty() && !answer.formula)
@@ -77,10 +81,11 @@ int loop(const LoopOptions& asked, const Session& session) {
     outputs.file(asked.proposal, [&] { return compare::proposed_effect(answer); });
   if (asked.json) {
     nlohmann::ordered_json document = compare::to_json(answer);
+    if (!doubts.columns.empty()) document["column_doubts"] = doubts.columns;
     if (asked.details) document["details"] = compare::details_json(answer);
-    print_json(std::move(document), doubts);
+    print_json(std::move(document), doubts.all);
   } else {
-    print_answer(without_given_limits(answer, options.limits), asked.next);
+    print_answer(without_given_limits(answer, options.limits), doubts.columns, asked.next);
   }
   return outputs.status(done);
 }

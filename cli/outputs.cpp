@@ -61,10 +61,10 @@ int Outputs::status(int so_far) const { return complete_ ? so_far : failed; }
 void add_plot(CLI::App& command, std::string& name, const char* meaning) {
   const auto refused = [](const std::string& given) {
     return drawing_format_of(given) != nullptr
-               ? why_not_writable(given)
+               ? ""
                : fmt::format("'{}' names no format by its ending\n  hint: .svg, .png or .pdf", clipped(given));
   };
-  add_value(command, "--plot", name, "FILE.svg|png|pdf", meaning)->check(refused);
+  add_file(command, "--plot", name, "FILE.svg|png|pdf", meaning)->check(refused);
 }
 
 }  // namespace soilbin::cli

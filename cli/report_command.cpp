@@ -1,6 +1,8 @@
 // soilbin report: studies and measured campaigns as one HTML page that needs nothing but a browser.
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -14,6 +16,7 @@
 #include "compare/sweep/varying.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -36,10 +39,22 @@ std::string command_of(const ReportOptions& options) {
   return command + " --title " + quoted(options.title) + " --output " + quoted(options.output);
 }
 
-int report(const ReportOptions& options, const Session& session) {
+/// Whether a name is a campaign's, on the disk or in the library.
+bool is_campaign(const std::string& name, const Workplace& place) {
+  const std::filesystem::path path = name;
+  if (path.filename() == "campaign.yaml" || std::filesystem::exists(path / "campaign.yaml")) return true;
+  return place.library.find(Shelf::measured, name) && !place.library.find(Shelf::studies, name);
+}
+
+int report(ReportOptions options, const Session& session) {
+  const auto campaigns_named = std::ranges::stable_partition(
+      options.studies, [&](const std::string& name) { return !is_campaign(name, session.place); });
+  options.campaigns.insert(options.campaigns.begin(), campaigns_named.begin(), campaigns_named.end());
+  options.studies.erase(campaigns_named.begin(), campaigns_named.end());
   if (options.studies.empty() && options.campaigns.empty())
     throw InputError("name a study or a campaign: soilbin report paper-straight --measured cmu-smooth");
   if (const std::string why = why_not_writable(options.output); !why.empty()) throw InputError("--output: " + why);
+  announce_output(options.output, "--output");
   std::vector<compare::StudyPart> studies;
   std::vector<compare::PageCard> links;
   for (const std::string& link : options.links) links.push_back(compare::page_card(link, options.output));
@@ -75,7 +90,8 @@ int report(const ReportOptions& options, const Session& session) {
 void add_report(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("report", "studies and campaigns as one HTML page to open");
   const auto options = std::make_shared<ReportOptions>();
-  add_value(*command, "studies", options->studies, "STUDY...", "studies of the library, or case files");
+  add_value(*command, "studies", options->studies, "STUDY|CAMPAIGN...",
+            "studies and campaigns of the library, case files, or campaigns' folders");
   add_value(*command, "--measured", options->campaigns, "CAMPAIGN...", "campaigns to predict and compare");
   add_value(*command, "--link", options->links, "FILE.html...",
             "other pages of soilbin, shown with their first drawing and sentence");

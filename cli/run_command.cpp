@@ -213,7 +213,7 @@ void add_run(CLI::App& app, Session& session) {
   command->add_option("--model", options->model, "only this model: bekker_wong or dem")->type_name("NAME");
   add_plot(*command, options->plot, "draw the curves against slip");
   add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");
-  add_folder(*command, "--output", options->output, "save the resolved case and the results");
+  add_folder(*command, "--output", options->output, "save the resolved case and the results", {"case.yaml"});
   command->add_flag("--json", options->json, "the results as JSON, in SI");
   command
       ->add_flag("--converge", options->converge,

@@ -246,8 +246,8 @@ void SoilBinFlags::add_to(CLI::App& command) {
   add_rig_to(command);
   add_starting_to(command);
   add_packings_to(command);
-  add_file(command, "--record", record, "FILE.json",
-           "keep each run in this file as it is finished, and go on with what is there")
+  add_kept_file(command, "--record", record, "FILE.json",
+                "keep each run in this file as it is finished, and go on with what is there")
       ->group(grains_heading);
   add_value(command, "--recorded", recorded, "[FILE.json]",
             "answer from this record, without running; without a file from the one in the library")

@@ -4,10 +4,37 @@
 
 #include <fstream>
 #include <system_error>
+#include <vector>
 
 #include "scenario/errors.hpp"
 
 namespace soilbin {
+namespace {
+
+struct AnnouncedOutput {
+  std::filesystem::path path;
+  std::string flag;
+};
+
+/// Of this process, in the order in which its flags were read.
+std::vector<AnnouncedOutput>& announced_outputs() {
+  static std::vector<AnnouncedOutput> all;
+  return all;
+}
+
+void refuse_an_output(const std::filesystem::path& path, const SourcePosition& where) {
+  std::error_code none;
+  for (const auto& [output, flag] : announced_outputs())
+    if (std::filesystem::equivalent(path, output, none))
+      throw InputError(where, fmt::format("{} would write over this file, which the command reads", flag), "",
+                       fmt::format("give {} another name", flag));
+}
+
+}  // namespace
+
+void announce_output(const std::filesystem::path& path, const std::string& flag) {
+  announced_outputs().push_back({path, flag});
+}
 
 std::string read_bytes(const std::filesystem::path& path, std::size_t largest) {
   namespace fs = std::filesystem;
@@ -22,6 +49,7 @@ std::string read_bytes(const std::filesystem::path& path, std::size_t largest) {
     throw InputError(where, "is a folder; a file is expected", "", in_it.empty() ? "" : "in it there is " + in_it);
   }
   if (!fs::is_regular_file(status)) throw InputError(where, "is not a regular file that can be read");
+  refuse_an_output(path, where);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(where, "can't be opened for reading");
   std::string bytes;

@@ -157,6 +157,7 @@ Reply estimate_reply(const Setup& setup, const std::string& query) {
   document["command"] = command_line(first.asked.words);
   document["in_words"] = question_in_words(question);
   document["title"] = title_of(question);
+  document["errors_in_words"] = compare::errors_in_words(question);
   document["readings"] = readings_json(first);
   document["numbers"] = numbers_json(question);
   document["effects"] = effect_values_json(question);

@@ -130,11 +130,15 @@ MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, con
   std::vector<PlateCurve> curves;
   for (const MeasuredPlate& plate : plates) {
     curves.push_back(within(plate.curve, window));
+    const bool enough = plate.curve.pressure.size() >= fewest;
     if (curves.back().pressure.size() < fewest)
       throw InputError(fmt::format(
-          "test '{}' of the plate of b = {:g} mm has {} with a pressure and a sinkage above 0; {} are needed\n  hint: "
-          "widen --pressure",
-          plate.test, 1000 * plate.curve.radius, counted(curves.back().pressure.size(), "reading"), fewest));
+          "test '{}' of the plate of b = {:g} mm has {} with a pressure and a sinkage above 0{}; {} are needed\n  "
+          "hint: "
+          "{}",
+          plate.test, 1000 * plate.curve.radius, counted(curves.back().pressure.size(), "reading"),
+          enough ? " in the window" : "", fewest,
+          enough ? "widen --pressure" : "more readings of this test, or leave it out; a negative one is not counted"));
   }
   if (curves.empty()) throw InputError("no plate tests to fit");
   MeasuredPlatesFit fit;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -19,7 +20,18 @@ namespace soilbin::compare {
 namespace {
 
 /// What a column of a plate file holds.
-enum class Holds { diameter, radius, width, plate_label, sinkage, pressure, force, label, nothing };
+enum class Holds {
+  diameter,
+  radius,
+  width,
+  plate_label,
+  sinkage,
+  pressure,
+  force,
+  force_beside_pressure,
+  label,
+  nothing
+};
 
 struct PlateColumn {
   Holds holds = Holds::nothing;
@@ -68,7 +80,7 @@ std::vector<PlateColumn> columns_of(const CsvTable& table) {
     return std::ranges::any_of(columns, [&](const PlateColumn& c) { return c.holds == what; });
   };
   for (PlateColumn& column : columns) {
-    if (column.holds == Holds::force && has(Holds::pressure)) column.holds = Holds::nothing;
+    if (column.holds == Holds::force && has(Holds::pressure)) column.holds = Holds::force_beside_pressure;
     const bool sized = has(Holds::diameter) || has(Holds::radius) || has(Holds::width);
     if (column.holds == Holds::plate_label && sized) column.holds = Holds::label;
   }
@@ -92,7 +104,9 @@ void need_columns(const std::vector<PlateColumn>& columns, const CsvTable& table
     csv.refuse(at, "a force on a strip gives no pressure: its length is not told", columns_hint);
 }
 
+/// 0 in an empty cell: nothing was measured, and no reading counts there.
 double value_in(const CsvCell& cell, const PlateColumn& column, const SourceText& csv) {
+  if (cell.text.empty()) return 0.0;
   return number_in(cell, column.name, column.unit, csv) / per_unit(column.unit);
 }
 
@@ -114,6 +128,8 @@ double diameter_in(const CsvCell& cell, const SourceText& csv) {
 
 /// Bekker's b: a round plate's radius, a strip's whole width.
 double radius_in(const CsvCell& cell, const PlateColumn& column, const SourceText& csv) {
+  if (cell.text.empty())
+    csv.refuse(cell.offset, fmt::format("column '{}': empty; every reading needs the size of its plate", column.name));
   const double size = column.holds == Holds::plate_label ? diameter_in(cell, csv) : value_in(cell, column, csv);
   if (!(size > 0.0)) csv.refuse(cell.offset, "a plate's size must be above 0");
   return column.holds == Holds::diameter || column.holds == Holds::plate_label ? size / 2 : size;
@@ -148,6 +164,7 @@ PlateReading reading_of(const CsvRow& row, const std::vector<PlateColumn>& colum
       case Holds::label:
         reading.test += (reading.test.empty() ? "" : ", ") + cell.text;
         break;
+      case Holds::force_beside_pressure:
       case Holds::nothing:
         break;
     }
@@ -214,8 +231,15 @@ void need_possible_numbers(const std::vector<const CsvRow*>& rows, const std::ve
   for (const PlateLimits& limits : plate_limits)
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (std::ranges::find(limits.columns, columns[i].holds) == limits.columns.end()) continue;
-      double largest = 0.0;
-      for (const CsvRow* row : rows) largest = std::max(largest, value_in(row->cells[i], columns[i], csv));
+      double largest = 0.0, smallest = 0.0;
+      for (const CsvRow* row : rows) {
+        const double value = value_in(row->cells[i], columns[i], csv);
+        largest = std::max(largest, value), smallest = std::min(smallest, value);
+      }
+      if (largest == 0.0 && smallest < 0.0)
+        csv.refuse(table.header.cells[i].offset,
+                   fmt::format("column '{}': every number is below 0", clipped(columns[i].name)),
+                   "change their sign: down into the soil is positive");
       if (largest == 0.0 || (largest >= limits.least && largest <= limits.most)) continue;
       const double written = largest * per_unit(columns[i].unit);
       std::string hint = "the end of a column's name is the unit of its numbers";
@@ -234,6 +258,32 @@ void need_possible_numbers(const std::vector<const CsvRow*>& rows, const std::ve
     }
 }
 
+/// Forces that stand beside the pressures of round plates and, over their area, say otherwise; which is right is not
+/// known.
+void need_forces_that_agree(const std::vector<const CsvRow*>& rows, const std::vector<PlateColumn>& columns,
+                            const CsvTable& table, const SourceText& csv) {
+  constexpr double rounding = 0.05;  // of the largest pressure
+  const auto force = std::ranges::find(columns, Holds::force_beside_pressure, &PlateColumn::holds);
+  if (force == columns.end() || std::ranges::find(columns, Holds::width, &PlateColumn::holds) != columns.end()) return;
+  const auto place = static_cast<std::size_t>(force - columns.begin());
+  double largest = 0.0, apart = 0.0, by_force = 0.0, told = 0.0;
+  for (const CsvRow* row : rows) {
+    if (row->cells[place].text.empty()) continue;
+    const PlateReading reading = reading_of(*row, columns, csv);
+    if (reading.pressure == 0.0) continue;  // no reading
+    const double pressure =
+        value_in(row->cells[place], *force, csv) / (std::numbers::pi * reading.radius * reading.radius);
+    largest = std::max(largest, reading.pressure);
+    if (std::abs(pressure - reading.pressure) > apart)
+      apart = std::abs(pressure - reading.pressure), by_force = pressure, told = reading.pressure;
+  }
+  if (apart > rounding * largest)
+    csv.refuse(table.header.cells[place].offset,
+               fmt::format("column '{}' over the plate's area gives {:.3g} kPa where the pressure is {:.3g} kPa",
+                           clipped(force->name), by_force / 1e3, told / 1e3),
+               "take the column out that is not to be used");
+}
+
 }  // namespace
 
 std::vector<MeasuredPlate> read_plates(const SourceText& csv,
@@ -248,6 +298,7 @@ std::vector<MeasuredPlate> read_plates(const SourceText& csv,
       rows.push_back(&row);
   need_labels_of_tests(rows, columns, table, csv);
   need_possible_numbers(rows, columns, table, csv);
+  need_forces_that_agree(rows, columns, table, csv);
   std::vector<MeasuredPlate> plates;
   for (const CsvRow* row : rows) {
     const PlateReading reading = reading_of(*row, columns, csv);

@@ -187,7 +187,10 @@ void add_loop(Page& page, const ComparisonAbout& about) {
   if (const Table next = next_run_table(*about.loop); !next.rows.empty()) page.table(next);
   for (const Table& table : {error_table(*about.loop), parameters_table(*about.loop)})
     if (!table.rows.empty()) page.table(table);
-  if (about.loop->has_candidates()) page.table(candidates_table(*about.loop));
+  if (about.loop->has_candidates()) {
+    page.table(candidates_table(*about.loop));
+    page.paragraph(candidates_columns_in_words());
+  }
   page.list(notes(*about.loop));
 }
 
@@ -215,8 +218,9 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
   page.list(
       {"A difference d with standard error u counts where |d| is above 2 u and above the scatter of one run; u is the "
        "root of both sides' variances. Where u rests on few re-runs, Student's t takes the place of 2.",
-       "Analytic: the declared standard deviations of the soil's values, propagated to first order. They move all "
-       "conditions together; the joint test takes that in.",
+       "Analytic: the standard deviations of the soil's values, propagated to first order. They move all conditions "
+       "together; the joint test takes that in. " +
+           errors_in_words(comparison.question.scenario),
        "Grains: block averages of each run, or the spread between packings where that is larger. A point from one "
        "packing says nothing of that spread, and its row carries the doubt.",
        "Convergence of the balance: 1e-14 of the load; of its quadrature 1e-9. Of grains with their size: by the study "

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "compare/discrepancy/causes.hpp"
@@ -78,12 +79,13 @@ struct ChannelPanel {
   Reader read;        ///< [SI]
   double per_si = 1.0;
   const Smooth* smooth = nullptr;  ///< none: the conditions' own points
+  std::optional<double> lower{};   ///< what the number can't be below, in the title's unit
 };
 
 /// A panel with a series for each side that has a value.
 void add_panel(Sheet& sheet, const Comparison& comparison, const std::vector<std::size_t>& members,
                const ChannelPanel& panel) {
-  Plot plot{panel.title, {"slip [%]"}};
+  Plot plot{panel.title, {"slip [%]"}, {"", panel.lower}};
   for (std::size_t s = 0; s < comparison.sides.size(); ++s) {
     const bool many = panel.smooth != nullptr && s < panel.smooth->sides.sides.size();
     Series series = many ? series_of(panel.smooth->sides, s, panel.smooth->members, panel.read, panel.per_si)
@@ -188,7 +190,7 @@ Sheet curve_sheet(const Comparison& comparison, std::size_t curve, bool coarse_g
   const auto efficiency = [](const SidePoint& point, std::size_t) {
     return has_efficiency(*point.result) ? efficiency_with_error(*point.result) : Estimate{not_a_number, 0.0};
   };
-  add_panel(sheet, comparison, members, {"Tractive efficiency [%]", efficiency, 100, &lines});
+  add_panel(sheet, comparison, members, {"Tractive efficiency [%]", efficiency, 100, &lines, 0.0});
   if (!sheet.plots.empty()) mark_limits(sheet.plots.back(), comparison, members, false, coarse_grains);
   return sheet;
 }

@@ -99,7 +99,8 @@ void add_slips_in_another_unit(const Campaign& campaign, std::vector<Correction>
                    looks(column, what, with, look_at_unit(column))});
 }
 
-/// Loads in kilograms, pounds or kilonewtons under a heading that says newtons, and the like.
+/// Loads in kilograms, pounds or kilonewtons under a heading that says newtons, and the like; a decimal point that
+/// slid.
 void add_loads_in_another_unit(const Campaign& campaign, std::vector<Correction>& all) {
   const DataColumn column = column_of(campaign, "load");
   for (const auto& [unit, one] : {std::pair{"kg", "1 kgf"}, {"lbf", "1 lbf"}, {"kN", "1 kN"}}) {
@@ -109,6 +110,11 @@ void add_loads_in_another_unit(const Campaign& campaign, std::vector<Correction>
                    looks(column, fmt::format("as if it were in {}", unit),
                          fmt::format("loads {:.4g} times as large", newtons), look_at_unit(column))});
   }
+  for (const double power : {10.0, 100.0, 1000.0})  // ten times too small is as good as in kg, a thousand times in kN
+    all.push_back({{"load"},
+                   [power](Run& run) { run.at.load /= power; },
+                   looks(column, fmt::format("{:g} times too large", power),
+                         fmt::format("its values divided by {:g}", power), look_at_unit(column))});
 }
 
 /// "runs.csv:1:34: the columns 'drawbar_pull_N' and 'torque_Nm' look swapped: ...", at the second of them.

@@ -72,6 +72,23 @@ void expect(Warnings& warnings, const char* name, double value, const UsualRange
                                    *usual.unit ? " " : "", usual.unit, usual.lower, usual.upper, usual.why));
 }
 
+/// Standard deviations far beyond what a test leaves: of values that may well be 0, only where they decide what the
+/// soil carries or holds.
+void add_doubts_of_wide_errors(const SemiEmpiricalSoil& soil, Warnings& warnings) {
+  constexpr double narrow = 0.1, firm = 1000.0;  // a wheel's width [m], a cohesion that hardly matters [Pa]
+  const auto add = [&](const char* name, const Estimate& value, double most) {
+    if (value.std_error <= most) return;
+    warnings.push_back(
+        fmt::format("the standard deviation of {} is {:.2g} times its value: it is hardly known; is its "
+                    "unit right?",
+                    name, value.std_error / std::abs(value.value)));
+  };
+  const double modulus = std::abs(soil.k_c.value / narrow + soil.k_phi.value);
+  if (soil.k_phi.value != 0.0) add("k_phi", soil.k_phi, std::max(std::abs(soil.k_phi.value), modulus));
+  if (soil.k_c.value != 0.0) add("k_c", soil.k_c, std::max(3 * std::abs(soil.k_c.value), narrow * modulus));
+  if (soil.cohesion.value != 0.0) add("c", soil.cohesion, std::max(3 * soil.cohesion.value, firm));
+}
+
 /// What a wheel and a soil say together, before any condition.
 void add_wheel_doubts(const Tire& tire, const std::optional<SemiEmpiricalSoil>& soil, Warnings& warnings) {
   expect(warnings, "the wheel's radius", tire.radius * 1000, {20, 2000, "mm", "the model is tested from 50 mm to 2 m"});
@@ -105,6 +122,21 @@ void add_power_doubt(const Answer& answer, Warnings& warnings) {
                     in_words(answer.at)));
 }
 
+/// A cross slope down which the load slides; "" where the soil can hold it. Along the way a pull below 0 says the same.
+std::string too_steep_across(const Scenario& scenario, const Answer& answer, double contact_length) {
+  const OperatingCondition& at = answer.at;
+  const bekker_wong::SoilValues soil = bekker_wong::values_of(*scenario.soil.semi_empirical);
+  const double uphill = std::cos(at.longitudinal_incline),
+               share = std::abs(at.load * uphill * std::sin(at.transverse_incline)),
+               pressing = at.load * uphill * std::cos(at.transverse_incline),
+               held = pressing * std::tan(soil.friction_angle) + soil.cohesion * scenario.tire.width * contact_length;
+  if (!(share > held)) return "";
+  return fmt::format(
+      "the cross slope is steeper than the soil holds at {}: {:.3g} N of the load pull the wheel down "
+      "it, and the soil under the wheel shears at {:.3g} N (c, phi): it slides",
+      in_words(at), share, held);
+}
+
 /// What the analytic wheel answers at one condition.
 void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings& warnings) {
   const std::string at = " at " + in_words(answer.at);
@@ -115,6 +147,9 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings&
   if (pressure < 500.0 || pressure > 2e6)
     warnings.push_back(fmt::format("mean ground pressure {:.3g} kPa{}: wheels on soil press with 0.5 .. 2000 kPa",
                                    pressure / 1000, at));
+  const double arc = tire.radius * std::acos(1.0 - std::clamp(r.sinkage.value / tire.radius, 0.0, 1.0));
+  if (std::string slides = too_steep_across(scenario, answer, std::fmax(length, arc)); !slides.empty())
+    warnings.push_back(std::move(slides));
   if (std::string deep = too_deep(scenario, answer); !deep.empty()) warnings.push_back(std::move(deep));
   if (scenario.bin && r.sinkage.value > 0.5 * scenario.bin->depth)
     warnings.push_back(
@@ -278,8 +313,8 @@ AskAgain asked_again(const Case& question) {
 
 enum class NextIs { nothing, a_fit_for_effects };
 
-Warnings doubts_of(const Campaign& campaign, const Case& question, const std::vector<ModelAnswers>& study,
-                   Answered answered, NextIs next) {
+DoubtsBeforeFit doubts_of(const Campaign& campaign, const Case& question, const std::vector<ModelAnswers>& study,
+                          Answered answered, NextIs next) {
   Warnings warnings = doubts_but_unused_inputs(question, study, answered);
   if (next == NextIs::nothing)
     for (UnusedInput& one : unused_inputs(question))
@@ -287,12 +322,13 @@ Warnings doubts_of(const Campaign& campaign, const Case& question, const std::ve
   Warnings of_data;
   for (const RowDoubt& one : row_doubts(campaign))
     of_data.push_back(one.line ? fmt::format("line {}: {}", *one.line, one.words) : one.words);
-  append(of_data, column_doubts(campaign, study.front().answers, asked_again(question)));
+  const Warnings columns = column_doubts(campaign, study.front().answers, asked_again(question));
+  append(of_data, columns);
   append(warnings, once_each(of_data));
-  return warnings;
+  return {warnings, columns};
 }
 
-Warnings doubts_as_declared(const Campaign& campaign, NextIs next) {
+DoubtsBeforeFit doubts_as_declared(const Campaign& campaign, NextIs next) {
   const Case question = question_of(campaign, scenario_of(campaign));
   return doubts_of(campaign, question, quick_answers(question), Answered::no, next);
 }
@@ -367,6 +403,13 @@ Warnings doubts(const SemiEmpiricalSoil& soil) {
                                             100 * value.std_error / value.value)
                               : fmt::format("{} is 0 with a standard deviation, and can only be larger", name)) +
                          ": errors propagated to first order are a rough guide");
+  add_doubts_of_wide_errors(soil, warnings);
+  return warnings;
+}
+
+Warnings doubts(const Tire& tire) {
+  Warnings warnings;
+  add_wheel_doubts(tire, std::nullopt, warnings);
   return warnings;
 }
 
@@ -383,15 +426,17 @@ Warnings doubts(const Case& question) {
   return warnings;
 }
 
-Warnings doubts(const Campaign& campaign) { return doubts_as_declared(campaign, NextIs::nothing); }
+Warnings doubts(const Campaign& campaign) { return doubts_as_declared(campaign, NextIs::nothing).all; }
 
-Warnings doubts_before_fit(const Campaign& campaign) { return doubts_as_declared(campaign, NextIs::a_fit_for_effects); }
+DoubtsBeforeFit doubts_before_fit(const Campaign& campaign) {
+  return doubts_as_declared(campaign, NextIs::a_fit_for_effects);
+}
 
 Warnings doubts(const Campaign& campaign, const Scenario& asked, const Prediction& prediction) {
   const Case question = question_of(campaign, asked);
   ModelAnswers answers{question.study.models.front(), {}};
   for (const PredictedRun& run : prediction.runs) answers.answers.push_back(run.predicted);
-  return doubts_of(campaign, question, {answers}, Answered::yes, NextIs::nothing);
+  return doubts_of(campaign, question, {answers}, Answered::yes, NextIs::nothing).all;
 }
 
 }  // namespace soilbin::compare

@@ -37,6 +37,9 @@ namespace soilbin::compare {
 /// Of a soil by itself.
 std::vector<std::string> doubts(const SemiEmpiricalSoil& soil);
 
+/// Of a wheel by itself.
+std::vector<std::string> doubts(const Tire& tire);
+
 /// Of a question and the answers to it, by any model. What no answer was found to is not among them: answers say that
 /// themselves. `study` may be empty, and its models need not be all of the question's.
 std::vector<std::string> doubts(const Case& question, const std::vector<ModelAnswers>& study);
@@ -51,8 +54,13 @@ std::vector<std::string> doubts(const Campaign& campaign, const Scenario& asked,
 /// Of a campaign, by the model that it declares; tells where that has no answer.
 std::vector<std::string> doubts(const Campaign& campaign);
 
+struct DoubtsBeforeFit {
+  std::vector<std::string> all;
+  std::vector<std::string> columns;  ///< those of them that take a column for mistaken: no verdict holds beside one
+};
+
 /// The same before a fit that looks for effects: without what the declared model alone doesn't hear of.
-std::vector<std::string> doubts_before_fit(const Campaign& campaign);
+DoubtsBeforeFit doubts_before_fit(const Campaign& campaign);
 
 /// What is doubtful in one answer, for its row of a table: without the condition, which stands there. "" where nothing
 /// is. An answer that is none says why by itself.

@@ -1,6 +1,7 @@
 #include "compare/drives/drive.hpp"
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
@@ -14,6 +15,7 @@
 #include "compare/report/page.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/drive_way.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
 #include "scenario/nearest_word.hpp"
@@ -27,20 +29,38 @@ using bekker_wong::EnergyLedger;
 
 double slip_of(const DriveSample& s) { return s.slip.value_or(not_a_number); }
 
+Place start_of(const Drive& drive) {
+  constexpr double any = 1.0;  // how soils take over from each other
+  return Way(drive.profile, any).at(0.0);
+}
+
 std::optional<double> steepest_of(const Case& question) {
   const Drive& drive = *question.drive;
+  const Place start = start_of(drive);
   const bekker_wong::RollingWheel wheel(question.scenario.tire,
                                         bekker_wong::values_of(*question.scenario.soil.semi_empirical),
                                         bekker_wong::make_effects(drive.effects), question.scenario.bin);
   OperatingCondition at;
   at.load = drive.load;
   at.pass = drive.pass;
+  at.transverse_incline = start.transverse_incline, at.yaw = start.yaw;
   at.speed = drive.controller.rim_speed.value_or(at.speed);
   try {
     return bekker_wong::steepest_slope(wheel, at);
   } catch (const NoSolution&) {
     return {};
   }
+}
+
+/// "Steadily it climbs 14 deg of dry-sand at most, with the cross slope of 10 deg at its start."
+std::string words_on_steepest(const AnalyticDrive& part) {
+  const Place start = start_of(*part.question.drive);
+  std::vector<std::string> askew;
+  for (const auto& [name, angle] : {std::pair{"cross slope", start.transverse_incline}, {"yaw", start.yaw}})
+    if (angle != 0.0) askew.push_back(fmt::format("{} of {:.3g} deg", name, angle / degree));
+  return fmt::format("Steadily it climbs {:.3g} deg of {} at most{}.", *part.steepest / degree,
+                     in_words(part.question.scenario.soil),
+                     askew.empty() ? "" : fmt::format(", with the {} at its start", fmt::join(askew, " and the ")));
 }
 
 /// "the wheel is stuck"
@@ -72,8 +92,8 @@ std::string in_words(const MovedDrive::Side& side) {
                      number(side.record->samples.back().travelled));
 }
 
-/// ", most of it from the friction angle and K": the values that make up four fifths of the variance, where they are
-/// three at most.
+/// "Most of it comes from the friction angle and K.": the values that make up four fifths of the variance, where they
+/// are three at most.
 std::string largest_parts(const AnalyticDrive& part) {
   constexpr double most = 0.8;
   const bool by_time = part.record.end == DriveEnd::arrived;
@@ -84,7 +104,9 @@ std::string largest_parts(const AnalyticDrive& part) {
   double sum = 0.0, told = 0.0;
   for (const MovedDrive& drive : part.errors.moved) {
     const double by = change(drive, *value(part.record), value).value_or(0.0);
-    parts.emplace_back(by * by, drive.parameter->title);
+    const bool elsewhere = drive.soil != part.errors.moved.front().soil;
+    parts.emplace_back(by * by, elsewhere ? fmt::format("{} of {}", drive.parameter->title, drive.soil)
+                                          : std::string(drive.parameter->title));
     sum += by * by;
   }
   std::ranges::sort(parts, std::greater());
@@ -94,15 +116,26 @@ std::string largest_parts(const AnalyticDrive& part) {
     told += square;
     names.push_back(name);
   }
-  return names.empty() || names.size() > 3 ? "" : ", most of it from " + listed(names);
+  return names.empty() || names.size() > 3 ? "" : "Most of it comes from " + listed(names) + ".";
+}
+
+Scenario scenario_on(const Soil& soil) {
+  Scenario scenario;
+  scenario.soil = soil;
+  return scenario;
 }
 
 /// Where the errors come from, and the drives that end in another way.
 std::vector<std::string> words_on_errors(const AnalyticDrive& part) {
   std::vector<std::string> sentences;
-  if (part.errors.travelled)
-    sentences.push_back("± is one standard error, from the standard deviations of the soil's values" +
-                        largest_parts(part) + ".");
+  if (part.errors.travelled) {
+    sentences.push_back(errors_in_words(part.question.scenario));
+    for (const Waypoint& point : part.question.drive->profile)
+      if (point.soil)
+        sentences.push_back(fmt::format("On {} from {:.4g} m on: {}", compare::in_words(*point.soil), point.at,
+                                        errors_in_words(scenario_on(*point.soil))));
+    if (const std::string parts = largest_parts(part); !parts.empty()) sentences.push_back(parts);
+  }
   for (const MovedDrive& drive : part.errors.moved)
     for (const MovedDrive::Side* side : {&drive.lower, &drive.higher}) {
       if (!drive.ends_otherwise(*side, part.record.end)) continue;
@@ -224,24 +257,28 @@ std::vector<std::string> in_words(const AnalyticDrive& part) {
   if (end.slip && record.end != DriveEnd::stuck)
     sentences.push_back(fmt::format("Its slip is then {:.3g} %, its sinkage {:.3g} mm, its torque {:.3g} N m.",
                                     100 * *end.slip, 1000 * end.sinkage, end.torque));
-  if (part.steepest)
-    sentences.push_back(fmt::format("Steadily it climbs {:.3g} deg of {} at most.", *part.steepest / degree,
-                                    in_words(part.question.scenario.soil)));
+  if (part.steepest) sentences.push_back(words_on_steepest(part));
   const std::vector<std::string> on_errors = words_on_errors(part);
   sentences.insert(sentences.end(), on_errors.begin(), on_errors.end());
   return sentences;
 }
 
 Table energy_table(const EnergyLedger& e, WorkTable where) {
-  const bool page = where == WorkTable::on_page;
-  Table table{page ? "Of the motor's work in all" : "", {page ? "" : "of the motor's work", "J", "%"}, {true}};
+  const bool page = where == WorkTable::on_page, motor_alone = e.motor >= 0.0 && e.height >= 0.0;
+  const double gravity = std::max(0.0, -e.height), given = std::max(0.0, e.motor) + gravity;
+  const std::string of = motor_alone ? "the motor's work" : "the work put in";
+  Table table{page ? "Of " + of + " in all" : "", {page ? "" : "of " + of, "J", "%"}, {true}};
   const auto add = [&](const char* name, double joules) {
-    table.add({name, number(joules), e.motor != 0.0 ? number(100 * joules / e.motor) : "-"});
+    table.add({name, number(joules), given != 0.0 ? number(100 * joules / given) : "-"});
   };
   add("shears the soil", e.shear), add("presses the soil", e.compaction), add("added forces of effects", e.added);
-  add("lifts the load", e.height), add("pulls the drawbar", e.drawbar), add("is in motion", e.kinetic);
+  if (e.height >= 0.0) add("lifts the load", e.height);
+  add("pulls the drawbar", e.drawbar), add("is in motion", e.kinetic);
+  if (e.motor < 0.0) add("is taken by the motor, which brakes", -e.motor);
   add("damps the heave", e.damping), add("unaccounted for", e.unaccounted());
-  table.add({page ? "motor's work" : "in all", number(e.motor), "100"});
+  if (!motor_alone && e.motor > 0.0) add("put in: motor's work", e.motor);
+  if (!motor_alone && gravity > 0.0) add("put in: gravity's work", gravity);
+  table.add({page && motor_alone ? "motor's work" : "in all", number(given), "100"});
   return table;
 }
 
@@ -326,7 +363,7 @@ std::string drive_page(const AnalyticDrive& part, const PageAbout& about) {
     page.section("How sure");
     page.table(errors_table(part.errors));
   }
-  page.section("Where the motor's work went");
+  page.section("Where the work went");
   page.table(energy_table(end.energy, WorkTable::on_page));
   if (!part.record.happenings.empty()) {
     page.section("On the way");

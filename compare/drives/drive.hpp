@@ -19,7 +19,8 @@ namespace soilbin::compare {
 struct AnalyticDrive {
   Case question;
   bekker_wong::DriveRecord record;
-  std::optional<double> steepest;  ///< slope that the wheel climbs in a steady state at the soil of the start [rad]
+  std::optional<double> steepest;  ///< slope that the wheel climbs in a steady state at the soil, the cross slope and
+                                   ///< the yaw of the start [rad]
   DriveErrors errors;
 };
 
@@ -39,6 +40,7 @@ std::vector<std::string> doubts(const AnalyticDrive& part);
 enum class WorkTable { on_page, in_text };
 
 /// Where the motor's work went: a name, its share in J and in percent; what is unaccounted for, then all of it, last.
+/// Of a wheel that came down or braked: where the work of motor and gravity went, and how much each put in.
 Table energy_table(const bekker_wong::EnergyLedger& energy, WorkTable where);
 
 /// So many of the samples, evenly, the first and the last among them.

@@ -9,6 +9,7 @@
 #include "compare/doubts/doubts.hpp"
 #include "compare/recorded/recorded_model.hpp"
 #include "compare/report/number_text.hpp"
+#include "scenario/drive_way.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/soil_parameters.hpp"
 
@@ -309,10 +310,13 @@ namespace {
 template <class Sample>
 ModelAnswers answers_of(const ModelChoice& choice, const Drive& drive, const std::vector<Sample>& samples) {
   ModelAnswers answers{choice, {}};
+  constexpr double any = 1.0;  // how soils take over from each other
+  const Way way(drive.profile, any);
   for (const Sample& sample : samples) {
     OperatingCondition at;
     at.load = drive.load, at.pass = drive.pass, at.speed = sample.speed;
     at.slip = sample.slip.value_or(0.0), at.longitudinal_incline = sample.longitudinal_incline;
+    at.transverse_incline = way.at(sample.travelled).transverse_incline;
     TractionResult result;
     result.at = at;
     result.sinkage.value = sample.sinkage;

@@ -81,7 +81,7 @@ Table next_run_table(const LoopAnswer& answer) {
 Table error_table(const LoopAnswer& answer) {
   MarkedTable table{
       "Root mean square error on conditions that neither choice nor fit has seen; before: soil refitted, no effect "
-      "added",
+      "added; noise alone: what no smooth function of the conditions explains",
       {"channel", "values", "before", "after", "change", "noise alone"}};
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const HeldOutErrors& e = answer.validation.channels[c];
@@ -130,6 +130,12 @@ Table candidates_table(const LoopAnswer& answer) {
   return table;
 }
 
+std::string candidates_columns_in_words() {
+  return "Odds to the first: how likely these data are with this set, beside the first one. chi2: the sum of the "
+         "squared residuals, each in standard deviations of the noise; about the number of values where nothing is "
+         "missing.";
+}
+
 Table parameters_table(const LoopAnswer& answer) {
   MarkedTable table{answer.effects.empty() ? "The stand-in of the saved model: its fitted parameters"
                                            : "The effects of the saved model: their fitted parameters",
@@ -169,15 +175,19 @@ Table soil_table(const LoopAnswer& answer) {
   MarkedTable table{"The soil's values, and the bias that leaving the effects out puts into them",
                     {"value", "with", "without", "bias", "unit", "determined?"},
                     {true, false, false, false, true, true}};
+  constexpr double hardly_less = 0.9;  // of the declared standard deviation: the data tell next to nothing
   for (const SoilShift& s : answer.soil_shifts) {
     const SoilParameter& p = soil_parameter(s.name);
     const bool held = s.with.std_error == 0;  // a fit leaves no error to a value that it ends at its bound
+    const bool as_declared = s.declared_sd > 0 && s.with.std_error > hardly_less * s.declared_sd;
     table.add({{p.title, p.meaning},
                number(s.with, p.per_si),
                number(s.without, p.per_si),
                number(p.per_si * (s.without.value - s.with.value)),
                p.unit,
-               held ? TableCell("no: at its bound", "", Tone::bad) : TableCell("yes")});
+               held          ? TableCell("no: at its bound", "", Tone::bad)
+               : as_declared ? TableCell("no: as declared", "", Tone::bad)
+                             : TableCell("yes")});
   }
   return table;
 }

@@ -271,6 +271,26 @@ std::vector<EffectChoice> forms_named(const LoopAnswer& answer) {
   return forms;
 }
 
+/// Where the noise is much more than re-runs show: setpoints that lie off any smooth function of the conditions.
+std::string note_on_noise(const LoopAnswer& answer) {
+  constexpr double far_more = 2.0;
+  std::vector<std::string> channels;
+  for (std::size_t c = 0; c < channel_views.size(); ++c) {
+    const HeldOutErrors& held_out = answer.validation.channels[c];
+    const ChannelNoise& n = answer.noise.channels[c];
+    const ChannelView& view = channel_views[c];
+    const double noise = held_out.cells > 0 ? held_out.noise_floor : n.floor;
+    if (n.measured && n.rerun_sd > 0.0 && noise > far_more * n.rerun_sd)
+      channels.push_back(fmt::format("the {} ({} beside {} {})", view.title, error_number(noise * view.per_si),
+                                     error_number(n.rerun_sd * view.per_si), view.unit));
+  }
+  if (channels.empty()) return "";
+  return fmt::format(
+      "The noise is more than re-runs of a setpoint scatter, for {}: setpoints lie that far off any smooth function of "
+      "the conditions, and the loop counts that as noise.",
+      joined_with_and(channels));
+}
+
 /// What was set aside, and whether anything hangs on it.
 std::string outlier_sentence(const LoopAnswer& answer) {
   const bool one = answer.outliers == 1;
@@ -331,14 +351,19 @@ std::string stand_in_sentence(const LoopAnswer& answer) {
                      stand_in_words(answer), answer.formula ? formula_sentence(*answer.formula) : "");
 }
 
-std::vector<BackedSentence> headline(const LoopAnswer& answer) {
+std::vector<BackedSentence> headline(const LoopAnswer& answer, const std::vector<std::string>& column_doubts) {
   std::string verdict = verdict_sentence(answer);
   if (const std::string odds = odds_clause(answer); !odds.empty()) {
     verdict.pop_back();
     verdict += fmt::format("{} {}.", answer.verdict == Verdict::unknown_effect ? ":" : ";", odds);
   }
-  std::vector<BackedSentence> parts = {
-      {.about = "What is missing", .text = std::move(verdict), .detail = beside_the_verdict(answer)}};
+  std::vector<BackedSentence> parts;
+  if (!column_doubts.empty())
+    parts.push_back({.about = "Before you believe what follows",
+                     .text = fmt::format("A column of these data looks mistaken, and the loop may have taken that for "
+                                         "an effect. Settle it and ask again: {}.",
+                                         fmt::join(column_doubts, "; "))});
+  parts.push_back({.about = "What is missing", .text = std::move(verdict), .detail = beside_the_verdict(answer)});
   if (answer.validation.overall.cells > 0)
     parts.push_back({.about = !takes_effects(answer)    ? "How large the error is"
                               : answer.stand_in.empty() ? "What it does to the error"
@@ -359,6 +384,7 @@ std::vector<std::string> notes(const LoopAnswer& answer) {
     sentences.push_back(std::move(sentence));
   if (answer.verdict != Verdict::not_enough_data && answer.found().base.data().noise.rerun_freedom == 0)
     sentences.push_back("No setpoint was run twice: the noise was estimated together with the fit.");
+  if (std::string noise = note_on_noise(answer); !noise.empty()) sentences.push_back(std::move(noise));
   if (answer.outliers > 0) sentences.push_back(outlier_sentence(answer));
   if (!answer.judgement) return sentences;
   if (const auto& impossible = answer.found().base.data().campaign->impossible; !impossible.empty())

@@ -26,8 +26,9 @@ std::string stand_in_sentence(const LoopAnswer& answer);
 
 /// What a page opens with: what is missing and how sure that is; what it, or a stand-in, does to the error, gain and
 /// loss alike; what to measure next. A sentence each, with details in smaller print. The last is absent where no
-/// question is open.
-std::vector<BackedSentence> headline(const LoopAnswer& answer);
+/// question is open. Before all of it stands what takes a column of the data for mistaken, where anything does
+/// (doubts_before_fit): then the verdict may be of that column.
+std::vector<BackedSentence> headline(const LoopAnswer& answer, const std::vector<std::string>& column_doubts = {});
 
 /// What else there is to know, a string a sentence: the reading that does not decide, what is presumed, set aside, not
 /// testable.
@@ -64,16 +65,18 @@ std::vector<const WeightedSet*> sets_shown(const LoopAnswer& answer);
 Table next_run_table(const LoopAnswer& answer);
 /// Held-out errors before and after by channel; what falls is marked good, what rises bad.
 Table error_table(const LoopAnswer& answer);
-/// Candidates, first those that the data can't tell apart, their weights and chi2.
+/// Candidates, first those that the data can't tell apart, their weights and chi2; and what its columns mean.
 Table candidates_table(const LoopAnswer& answer);
+std::string candidates_columns_in_words();
 /// The fitted parameters of the effects that the saved model takes: meaning, value, unit, whether they are at a bound.
 Table parameters_table(const LoopAnswer& answer);
 /// The soil's values beside the effects and without them.
 Table soil_table(const LoopAnswer& answer);
 
 /// The report: headline, the next run, measured points with the model before and after, tables, doubts, and folded what
-/// stands behind it. `doubts`: in the campaign (compare/doubts/doubts.hpp). `command`: how to repeat it.
+/// stands behind it. `doubts`: in the campaign (compare/doubts/doubts.hpp), `column_doubts` those of them that the
+/// headline opens with. `command`: how to repeat it.
 std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const std::vector<std::string>& doubts,
-                      const std::string& command);
+                      const std::vector<std::string>& column_doubts, const std::string& command);
 
 }  // namespace soilbin::compare

@@ -53,7 +53,8 @@ std::vector<SoilShift> soil_shifts(const FittedModel& with, const FittedModel& w
   for (int i = 0; i < without.predictor().soil_parameters(); ++i)
     shifts.push_back({with.predictor().parameters()[i].name,
                       {with.fit().theta[i], error[i]},
-                      {without.fit().theta[i], base_error[i]}});
+                      {without.fit().theta[i], base_error[i]},
+                      with.predictor().parameters()[i].prior_sd});
   return shifts;
 }
 

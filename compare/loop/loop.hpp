@@ -49,7 +49,8 @@ struct AcceptedEffect {
 /// A soil value refitted with the accepted effects and without: the difference is the bias of leaving them out.
 struct SoilShift {
   std::string name;
-  Estimate with, without;  ///< [SI]
+  Estimate with, without;    ///< [SI]
+  double declared_sd = 0.0;  ///< that the campaign gives the value [SI]
 };
 
 struct LoopOptions {

@@ -155,6 +155,7 @@ void add_tables(Page& page, const LoopAnswer& answer) {
   if (answer.has_candidates()) {
     page.section("Candidates", "candidates");
     page.table(candidates_table(answer));
+    page.paragraph(candidates_columns_in_words());
   }
 }
 
@@ -198,13 +199,13 @@ void add_appendix(Page& page, const LoopAnswer& answer, const std::vector<Covari
 }  // namespace
 
 std::string loop_page(const Campaign& campaign, const LoopAnswer& answer, const std::vector<std::string>& doubts,
-                      const std::string& command) {
+                      const std::vector<std::string>& column_doubts, const std::string& command) {
   Page page(
       campaign.name + ": what the model lacks",
       fmt::format(
           "The analytic wheel against {} measured runs: what is missing, how sure that is, and what to measure next",
           campaign.runs.size()));
-  page.backed_summary(headline(answer));
+  page.backed_summary(headline(answer, column_doubts));
   if (const Table next = next_run_table(answer); !next.rows.empty()) page.table(next);
   const bool judged = answer.judgement && (answer.verdict != Verdict::not_enough_data || answer.has_candidates());
   const std::vector<Covariate> variables = judged ? variables_by_weight(answer) : std::vector<Covariate>();

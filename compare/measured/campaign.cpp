@@ -185,7 +185,8 @@ std::vector<ColumnChoice> choose_columns(const CsvTable& table, Renames& renames
   return choices;
 }
 
-/// The speed of a run that gives the wheel's rotation in its place.
+/// The speed of a run that gives the wheel's rotation in its place. That of a wheel that is locked, 0, tells none: the
+/// run keeps the speed of one that gives neither.
 void add_speeds(Campaign& campaign, const CsvTable& table, const SourceText& csv) {
   const auto rotation = campaign.columns.find("rotation"), speed = campaign.columns.find("speed");
   if (rotation == campaign.columns.end()) return;
@@ -198,7 +199,8 @@ void add_speeds(Campaign& campaign, const CsvTable& table, const SourceText& csv
     refuse(0, fmt::format("columns '{}' and '{}' both tell the speed", speed->second.header, rotation->second.header));
   for (std::size_t i = 0; i < campaign.runs.size(); ++i) try {
       Run& run = campaign.runs[i];
-      if (run.rotation) run.at.speed = speed_at_rotation(run.at, *run.rotation, campaign.wheel);
+      const bool locked = run.rotation == 0.0 && run.at.slip <= -1.0;
+      if (run.rotation && !locked) run.at.speed = speed_at_rotation(run.at, *run.rotation, campaign.wheel);
     } catch (const InputError& error) {
       refuse(i + 1, error.what());
     }

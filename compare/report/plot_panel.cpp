@@ -88,6 +88,8 @@ class Frame {
   static double right() { return panel_width - 12.0; }
   static double bottom() { return panel_height - 42.0; }
   double x(double value) const { return left + (value - x_.lower) / x_.length() * (right() - left); }
+  /// y of what ends at the panel's edge, where its axis ends before the value.
+  double inside(double value) const { return y(std::clamp(value, y_.lower, y_.upper)); }
   double y(double value) const { return bottom() - (value - y_.lower) / y_.length() * (bottom() - top); }
   const Span& y_span() const { return y_; }
   const Span& x_span() const { return x_; }
@@ -166,8 +168,8 @@ std::string band(const Sheet& sheet, const Series& series, const Frame& f) {
     for (std::size_t i = first; i < last; ++i) {
       const double high = area ? series.y[i] : series.y[i] + error_at(series, i);
       const double low = area ? series.base[i] : series.y[i] - error_at(series, i);
-      upper += fmt::format("{:.1f},{:.1f} ", f.x(series.x[i]), f.y(high));
-      lower = fmt::format("{:.1f},{:.1f} ", f.x(series.x[i]), f.y(low)) + lower;
+      upper += fmt::format("{:.1f},{:.1f} ", f.x(series.x[i]), f.inside(high));
+      lower = fmt::format("{:.1f},{:.1f} ", f.x(series.x[i]), f.inside(low)) + lower;
     }
     out += fmt::format(R"(<polygon {} fill-opacity="{}" points="{}"/>)", fill(sheet.palette, color_of(sheet, series)),
                        area ? 0.45 : 0.15, upper + lower);
@@ -194,8 +196,8 @@ std::string points(const Sheet& sheet, const Series& series, const Frame& f, dou
     if (!std::isfinite(series.y[i])) continue;
     if (has_bars(series) && error_at(series, i) > 0.0)
       out += fmt::format(R"(<line {} x1="{:.1f}" x2="{:.1f}" y1="{:.1f}" y2="{:.1f}"/>)", stroke(sheet.palette, color),
-                         f.x(series.x[i]) + shift, f.x(series.x[i]) + shift, f.y(series.y[i] - error_at(series, i)),
-                         f.y(series.y[i] + error_at(series, i)));
+                         f.x(series.x[i]) + shift, f.x(series.x[i]) + shift,
+                         f.inside(series.y[i] - error_at(series, i)), f.inside(series.y[i] + error_at(series, i)));
     out += fmt::format(R"(<circle {} r="3.2" cx="{:.1f}" cy="{:.1f}"/>)", fill(sheet.palette, color),
                        f.x(series.x[i]) + shift, f.y(series.y[i]));
   }

@@ -197,7 +197,7 @@ std::string bands_in_words(const std::vector<Series>& pulls) {
   std::string text = drawn == 0       ? " So many bands of one standard error would hide each other: none is drawn"
                      : kept_back == 0 ? " Bands: one standard error"
                                       : " Bands, of solid curves alone: one standard error";
-  text += ", from the standard deviations of the soil's values; the efficiency has none.";
+  text += "; the efficiency has none.";
   return text + (kept_back > 0 ? " Point at a name in the legend to see its band." : "");
 }
 
@@ -209,6 +209,11 @@ void add_curves(Page& page, const StudyPart& part) {
                                  bands_in_words(sheet.plots.front().series)));
 }
 
+/// Which standard deviations the errors come from, declared and assumed; nothing for grains, which have none of these.
+void add_origin_of_errors(Page& page, const Scenario& scenario) {
+  if (const std::string words = errors_in_words(scenario); !words.empty()) page.paragraph(words);
+}
+
 /// `opens`: its curves stand at the head of the page already.
 void add_study(Page& page, const StudyPart& part, bool opens) {
   page.section(part.question.study.name);
@@ -217,6 +222,7 @@ void add_study(Page& page, const StudyPart& part, bool opens) {
     page.paragraph("Its curves open this page.");
   else
     add_curves(page, part);
+  add_origin_of_errors(page, seen_by(part.question.study.models.front(), part.question.scenario));
   page.table(peak_table(part));
   page.folded("All conditions as a table", [&] { page.table(answers_table(part)); });
 }
@@ -224,6 +230,7 @@ void add_study(Page& page, const StudyPart& part, bool opens) {
 void add_campaign(Page& page, const CampaignPart& part) {
   page.section(part.campaign.name);
   page.table(error_table(part.prediction));
+  add_origin_of_errors(page, scenario_of(part.campaign));
   page.figure(campaign_sheet(part.campaign, part.prediction),
               "Points: measured runs. Lines: what the model says at the same load, slip and angle, with the soil as it "
               "was declared beforehand.");
@@ -351,12 +358,6 @@ std::string analysis_page(const std::vector<StudyPart>& answered, const std::vec
   std::vector<std::pair<std::string, std::string>> summary;
   for (const StudyPart& part : studies) summary.emplace_back(part.question.study.name, in_words(part));
   for (const CampaignPart& part : campaigns) summary.emplace_back(part.campaign.name, in_words(part));
-  bool doubt = false;
-  for (const StudyPart& part : studies)
-    for (const ModelAnswers& model : part.study)
-      for (const Answer& answer : model.answers)
-        doubt = doubt || (answer.result && answer.result->drawbar_pull.std_error > 0.0);
-  if (doubt) summary.emplace_back("", "± is one standard error, from the standard deviations of the soil's values.");
   if (!studies.empty()) add_curves(page, studies.front());
   page.figures_at_a_glance(key_figures(studies, campaigns));
   page.summary(summary);

@@ -119,7 +119,15 @@ std::vector<OperatingCondition> without_slip(const std::vector<OperatingConditio
   return kept;
 }
 
-std::string steepest_in_words(const Estimate& steepest) {
+/// At a slip of 100 % a wheel pulls and stands: it climbs nothing.
+bool spins_on_the_spot(double slip) { return slip > 1.0 - 1e-6; }
+
+std::string steepest_in_words(const Estimate& steepest, double slip) {
+  if (steepest.value >= 0.0 && spins_on_the_spot(slip))
+    return fmt::format(
+        "It climbs slopes of less than {} deg: there it pulls what the slope takes at 100 % slip alone, where it spins "
+        "on the spot.",
+        number(steepest, 1 / degree));
   if (steepest.value >= 0.0)
     return fmt::format("The steepest slope that it climbs is {} deg.", number(steepest, 1 / degree));
   return fmt::format(
@@ -175,11 +183,14 @@ std::string in_words(const WheelLimits& answer) {
   if (!answer.error.empty()) return text + "no solution: " + answer.error + "\n";
   Table table{"", {"slope [deg]", "slip at which it climbs [%]", "largest pull [N]", "slip of the largest pull [%]"}};
   for (const SlopeRow& row : answer.slopes)
-    table.add({number(row.slope / degree), row.slip ? number({*row.slip, row.slip_error}, 100) : "-",
+    table.add({number(row.slope / degree),
+               !row.slip                      ? "-"
+               : spins_on_the_spot(*row.slip) ? "100: spins on the spot"
+                                              : number({*row.slip, row.slip_error}, 100),
                number({row.best.drawbar_pull, row.pull_error}), number(100 * row.best.slip)});
   text += as_text(table);
   if (!answer.steepest) return text + "The steepest slope lies beyond -60 .. 80 deg.\n";
-  return text + steepest_in_words({*answer.steepest, answer.steepest_error}) + "\n";
+  return text + steepest_in_words({*answer.steepest, answer.steepest_error}, answer.slopes.back().best.slip) + "\n";
 }
 
 Json to_json(const WheelLimits& answer) {

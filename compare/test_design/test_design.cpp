@@ -241,10 +241,13 @@ void refuse_unknown(const Campaign& campaign, const std::vector<std::string>& wa
   }
 }
 
-/// In a drawn order, numbered after the runs that are made, runs at one condition under one label of their own.
+/// In a drawn order, numbered after the campaign's runs once any is made, runs at one condition under one label of
+/// their own.
 std::vector<Run> in_drawn_order(const Campaign& campaign, Conditions conditions, std::uint64_t seed) {
   int last = 0, plans = 0;
+  const bool begun = std::ranges::any_of(campaign.runs, has_channel);
   for (const Run& run : campaign.runs) {
+    if (!begun) break;  // an earlier plan, of which nothing is made: this one takes its place
     last = std::max(last, run.at.run.value_or(0));
     const std::string label = run.setpoint.value_or("");
     if (label.starts_with("D") && label.find_first_not_of("0123456789", 1) == label.npos && label.size() < 9)

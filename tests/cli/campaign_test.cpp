@@ -172,6 +172,36 @@ TEST(Predict, RefusesABadCampaignWithFileAndLine) {
   EXPECT_THAT(soilbin("predict cmu-smoth").err, HasSubstr("did you mean 'cmu-smooth'?"));
 }
 
+// What a person wrote is never lost to what a command makes of it, by whatever name, before any work.
+TEST(Outputs, NeverTakeThePlaceOfWhatTheCommandReads) {
+  const Scratch scratch;
+  scratch.write("c/campaign.yaml", campaign);
+  scratch.write("c/runs.csv", "load_N,slip,drawbar_pull_N\n80,0.2,1.0\n80,0.4,3.0\n");
+  scratch.write("mine/case.yaml",
+                "format: soilbin-case/1\nname: mine\ntire: rover-wheel\nsoil: dry-sand\n"
+                "study: {conditions: [{load: 80 N, slip: 20 %}]}\n");
+  fs::create_symlink(scratch / "c/runs.csv", scratch / "link.csv");
+  const std::string here = (scratch / "").string();
+  struct Asked {
+    std::string command, file, flag;
+  };
+  for (const Asked& asked :
+       {Asked{"predict " + here + "c --csv " + here + "c/runs.csv", "c/runs.csv", "--csv"},
+        {"predict " + here + "c --csv " + here + "link.csv", "c/runs.csv", "--csv"},
+        {"loop " + here + "c --save-model " + here + "c/campaign.yaml", "c/campaign.yaml", "--save-model"},
+        {"run " + here + "mine/case.yaml --csv " + here + "mine/../mine/case.yaml", "mine/case.yaml", "--csv"},
+        {"run " + here + "mine/case.yaml --output " + here + "mine", "mine/case.yaml", "--output"},
+        {"report " + here + "mine/case.yaml --output " + here + "mine/case.yaml", "mine/case.yaml", "--output"}}) {
+    const std::string before = text_of(scratch / asked.file);
+    const Outcome outcome = soilbin(asked.command);
+    EXPECT_EQ(outcome.status, 2) << asked.command;
+    EXPECT_EQ(outcome.out, "") << asked.command;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(asked.file + ": " + asked.flag + " would write over this file"),
+                                   HasSubstr("hint: give " + asked.flag + " another name")));
+    EXPECT_EQ(text_of(scratch / asked.file), before) << asked.command;
+  }
+}
+
 TEST(Check, ValidFilesPassAndNonsenseIsWarnedOf) {
   for (const char* name : {"paper-straight", "cmu-smooth", "dry-sand", "rover-wheel"}) {
     const Outcome r = soilbin(std::string("check ") + name);
@@ -193,6 +223,12 @@ study:
   const std::string warnings = r.json()["warnings"].dump();
   for (const char* word : {"n = 0.15", "c and phi are both 0", "density", "c1 + c2", "K", "no solution", "wider"})
     EXPECT_THAT(warnings, HasSubstr(word));
+}
+
+TEST(Check, ATireIsJudgedByItsMeasures) {
+  const Scratch scratch;
+  const fs::path file = scratch.write("tire.yaml", "format: soilbin-tire/1\nradius: 25 m\nwidth: 100 mm\n");
+  EXPECT_THAT(soilbin("check '" + file.string() + "'").out, HasSubstr("warning: the wheel's radius"));
 }
 
 TEST(Check, ARefusedFileIsStatusTwo) {

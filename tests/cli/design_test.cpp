@@ -34,6 +34,27 @@ TEST(DesignCommand, WritesRowsThatTheCampaignTakesOnceTheyAreFilledIn) {
   EXPECT_THAT(checked.out, HasSubstr("12 runs"));
 }
 
+// The same plan may be written again; rows that somebody has filled in, and any other file, stay.
+TEST(DesignCommand, NeverWritesOverRowsThatAreFilledIn) {
+  const Scratch scratch;
+  scratch.write("campaign.yaml", planned_campaign);
+  const std::string rows = (scratch / "runs.csv").string(), asked = "design '" + (scratch / "").string() +
+                                                                    "' --runs 12 --limit load=60N..140N --csv '" +
+                                                                    rows + "'";
+  ASSERT_EQ(soilbin(asked).status, 0);
+  EXPECT_EQ(soilbin(asked).status, 0);
+  std::string filled_in = text_of(rows);
+  filled_in.replace(filled_in.find(",,,"), 3, ",5,3,0.02");
+  scratch.write("runs.csv", filled_in);
+  const Outcome again = soilbin(asked);
+  EXPECT_EQ(again.status, 2);
+  EXPECT_EQ(again.out, "");
+  EXPECT_EQ(again.err, "soilbin: " + rows +
+                           ": holds other rows than this plan, and stays as it is\n"
+                           "  hint: give --csv another name, or delete the file\n");
+  EXPECT_EQ(text_of(rows), filled_in);
+}
+
 // The rows stand in the campaign's own columns and units, so that they are read as they are once filled in.
 TEST(DesignCommand, SpeaksInTheCampaignsUnits) {
   const Scratch scratch;

@@ -59,6 +59,25 @@ TEST(DoubtsOfCommands, AreToldBeforeGrainsAreRun) {
   EXPECT_THAT(sweep.err, HasSubstr("warning: the grains are coarse for this wheel"));
 }
 
+// Which standard deviations are declared and which assumed stands wherever there is a "±".
+TEST(ErrorsOfCommands, SayWhatIsAssumedInTextAndOnPages) {
+  const std::string said = "(declared) and k_c, k_phi, c, phi (assumed: 10";
+  const Scratch scratch;
+  const std::string page = (scratch / "page.html").string();
+  for (const std::string& command :
+       {std::string("estimate --tire rover-wheel --soil dry-sand --load 80N --slip 20%"), std::string("run rover-slip"),
+        std::string("limits --tire rover-wheel --soil dry-sand --load 80N"),
+        std::string("compare rover-slip --effect slip_sinkage --no-loop"),
+        std::string("drive rover-climb --samples 20")})
+    EXPECT_THAT(soilbin(command).out, HasSubstr(said)) << command;
+  for (const std::string& command : {"report rover-slip --output '" + page + "'",
+                                     "compare rover-slip --effect slip_sinkage --no-loop --report '" + page + "'",
+                                     "drive rover-climb --samples 20 --report '" + page + "'"}) {
+    ASSERT_EQ(soilbin(command).status, 0) << command;
+    EXPECT_THAT(text_of(page), HasSubstr(said)) << command;
+  }
+}
+
 TEST(DoubtsOfCommands, StandOnPages) {
   const Scratch scratch;
   const std::string study = " '" + scratch.write("case.yaml", doubtful).string() + "' ";

@@ -15,6 +15,7 @@ namespace {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 constexpr const char* short_drive = R"(format: soilbin-case/1
@@ -63,6 +64,45 @@ TEST(Drive, SpeaksWritesTableAndPage) {
     strokes.insert((*at)[1]), ++entries;
   EXPECT_EQ(entries, 12U);
   EXPECT_EQ(strokes.size(), entries) << "no two of them look alike";
+}
+
+// The slope that it climbs is that of a wheel with the cross slope and the yaw of its start, as limits has it; a cross
+// slope that its way leads into is doubted where it slides down.
+TEST(Drive, ItsSteepestSlopeIsThatAcrossTheSlopeOfItsStart) {
+  const Scratch scratch;
+  const std::string file = scratch.write("start.yaml", std::string(short_drive) +
+                                                           "  profile: [{at: 0 m, transverse_incline: 20 deg, yaw: 9 "
+                                                           "deg}, {at: 2 cm, transverse_incline: 45 deg}]\n");
+  const Outcome said = soilbin("drive '" + file + "' --samples 20"), json = soilbin("drive '" + file + "' --json");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_THAT(said.out, HasSubstr("of dry-sand at most, with the cross slope of 20 deg and the yaw of 9 deg at its"));
+  EXPECT_THAT(said.err, HasSubstr("warning: the cross slope is steeper than the soil holds"));
+  const nlohmann::json limits = soilbin(
+                                    "limits --tire rover-wheel --soil dry-sand --load 64.68N --speed 5cm/s "
+                                    "--transverse-incline 20deg --yaw 9deg --json")
+                                    .json()["rows"][0];
+  EXPECT_NEAR(json.json()["steepest_steady_slope"].get<double>(), limits["steepest_slope"].get<double>(), 1e-9);
+}
+
+// Downhill gravity works too: shares are of all that is put in, and sum to 100 %. Shear gives a little of it back.
+TEST(Drive, DownhillGravityPutsWorkIn) {
+  const Scratch scratch;
+  const std::string file =
+      scratch.write("down.yaml", std::string(short_drive) + "  profile: [{at: 0 m, longitudinal_incline: -12 deg}]\n");
+  const Outcome down = soilbin("drive '" + file + "' --samples 20");
+  ASSERT_EQ(down.status, 0) << down.err;
+  const std::string table = down.out.substr(down.out.find("of the work put in"));
+  EXPECT_THAT(table, AllOf(HasSubstr("put in: gravity's work"), Not(HasSubstr("lifts the load"))));
+  const std::regex share(R"(([a-z':, ]+?) +([-+.0-9e]+) +([-+.0-9e]+)\n)");
+  double used = 0.0, put_in = 0.0;
+  for (auto at = std::sregex_iterator(table.begin(), table.end(), share); at != std::sregex_iterator(); ++at) {
+    const double percent = std::stod((*at)[3]);
+    EXPECT_LE(std::abs(percent), 103.0) << (*at)[0];
+    if ((*at)[1] == "in all") continue;
+    ((*at)[1].str().starts_with("put in") ? put_in : used) += percent;
+  }
+  EXPECT_NEAR(put_in, 100.0, 0.1);
+  EXPECT_NEAR(used, 100.0, 0.1);
 }
 
 TEST(Drive, ACaseHasADriveOrAStudyAndEachCommandSaysWhich) {
@@ -320,8 +360,17 @@ TEST(LimitsCommand, AStandardErrorIsTheChangeByOneStandardDeviation) {
               1.0, 0.01);
 }
 
+// With 64.68 N the rover's wheel pulls most at 100 % slip, where it climbs nothing; with 80 N at less.
+TEST(LimitsCommand, AWheelThatSpinsOnTheSpotClimbsNothing) {
+  const std::string light = soilbin("limits --tire rover-wheel --soil dry-sand --load 64.68N").out,
+                    heavy = soilbin("limits --tire rover-wheel --soil dry-sand --load 80N").out;
+  EXPECT_THAT(light, AllOf(HasSubstr("100: spins on the spot"), HasSubstr("It climbs slopes of less than "),
+                           Not(HasSubstr("The steepest slope that it climbs"))));
+  EXPECT_THAT(heavy, AllOf(HasSubstr("The steepest slope that it climbs is"), Not(HasSubstr("on the spot"))));
+}
+
 TEST(LimitsCommand, HeadingsSayWhatEachColumnIs) {
-  const std::string text = soilbin("limits --tire rover-wheel --soil dry-sand --load 64.68N").out;
+  const std::string text = soilbin("limits --tire rover-wheel --soil dry-sand --load 80N").out;
   for (const char* told : {"slope [deg]", "slip at which it climbs [%]", "largest pull [N]",
                            "slip of the largest pull [%]", "± is one standard error from"})
     EXPECT_THAT(text, HasSubstr(told));

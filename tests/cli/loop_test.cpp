@@ -103,6 +103,23 @@ data: runs.csv
   EXPECT_THAT(text_of(page), AllOf(HasSubstr("What is doubtful"), HasSubstr("counted twice")));
 }
 
+// Torques ten times too large: the answer opens with that, in text, in JSON and on the page.
+TEST(SlowLoopCommand, OpensWithAColumnThatLooksMistaken) {
+  const Scratch scratch;
+  const std::string made = SOILBIN_SOURCE_DIR "/cases/measured/made-lesson/", page = (scratch / "loop.html").string();
+  scratch.write("c/campaign.yaml",
+                text_of(made + "campaign.yaml") + "columns: {torque_Nm: {quantity: torque, unit: kN m}}\n");
+  scratch.write("c/runs.csv", text_of(made + "runs.csv"));
+  const std::string folder = "loop '" + (scratch / "c").string() + "' --folds 2 ";
+  const Outcome said = soilbin(folder + "--report '" + page + "'");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_LT(said.out.find("Before you believe what follows. A column"), said.out.find("What is missing."));
+  EXPECT_THAT(said.out, HasSubstr("column 'torque_Nm' looks 1000 times too large"));
+  EXPECT_THAT(text_of(page),
+              HasSubstr("<b>Before you believe what follows.</b> A column of these data looks mistaken"));
+  EXPECT_THAT(soilbin(folder + "--json").json().at("column_doubts").at(0).get<std::string>(), HasSubstr("'torque_Nm'"));
+}
+
 TEST(LoopCommand, RefusesALimitThatIsNone) {
   const Outcome outcome = soilbin("loop made-lesson --limit lod=1..2");
   EXPECT_EQ(outcome.status, 2);

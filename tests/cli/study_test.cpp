@@ -247,6 +247,19 @@ TEST(Report, IsOnePageThatLoadsNothing) {
   EXPECT_EQ(soilbin("report").status, 2);
 }
 
+// A campaign is one by its name too, of the library or a folder.
+TEST(Report, TakesCampaignsBesideStudies) {
+  const Scratch scratch;
+  const std::string page = (scratch / "page.html").string();
+  const Outcome r =
+      soilbin("report rover-slip " SOILBIN_SOURCE_DIR "/cases/measured/cmu-smooth --output '" + page + "'");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(text_of(page),
+              AllOf(HasSubstr("rover-slip"), HasSubstr("--measured " SOILBIN_SOURCE_DIR "/cases/measured/"
+                                                       "cmu-smooth")));
+  EXPECT_EQ(soilbin("report cmu-smooth --output '" + page + "'").status, 0);
+}
+
 TEST(RunCommand, NamesTheSoilsThatHaveGrains) {
   const Outcome r = soilbin("run rover-slip --model dem --slip 20%");
   EXPECT_EQ(r.status, 2);

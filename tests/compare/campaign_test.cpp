@@ -143,6 +143,21 @@ TEST(Campaign, TheRotationTellsTheSpeed) {
               StartsWith("runs.csv:1:23: columns 'speed_m_s' and 'rotation_rpm' both tell the speed"));
 }
 
+// A locked wheel does not turn, however fast it is dragged; a wheel that turns is not locked.
+TEST(Campaign, ARotationOfZeroIsThatOfALockedWheel) {
+  const std::string header = "load_N,slip,rotation_rpm,sinkage_m\n80,0.2,30,0.01\n";
+  const Campaign c = parse(good_yaml, header + "80,-1,0,0.02\n");
+  EXPECT_EQ(c.runs[1].at.speed, OperatingCondition().speed) << "the usual speed, as without the cell";
+  EXPECT_THAT(refused(good_yaml, header + "80,-1,3,0.02\n"), HasSubstr("it has no speed of rotation"));
+}
+
+TEST(Campaign, ALogIsToldFromRuns) {
+  std::string csv = "load_N,slip,sinkage_m\n";
+  for (std::size_t i = 0; i <= most_csv_rows; ++i) csv += "80,0.2,0.01\n";
+  EXPECT_THAT(refused(good_yaml, csv), AllOf(HasSubstr("more than 100000 rows"), HasSubstr("hint: this is a log"),
+                                             HasSubstr("NR % 10 == 0' runs.csv > fewer.csv")));
+}
+
 TEST(Campaign, RealFilesHaveQuotesCarriageReturnsMarksAndBlankLines) {
   const Campaign c = parse(good_yaml,
                            "\xEF\xBB\xBF\"load_N\",slip, torque_Nm ,setpoint\r\n"

@@ -131,20 +131,6 @@ TEST(Doubts, SwappedColumnsAreToldAtTheirHeader) {
   EXPECT_THAT(doubts(loads), Contains(HasSubstr("the columns 'load' and 'drawbar_pull' look swapped")));
 }
 
-TEST(Doubts, LoadsInAnotherUnitAreToldAtTheirHeader) {
-  for (const auto& [unit, newtons] : {std::pair{"kg", 9.80665}, {"lbf", 4.4482216}, {"kN", 1000.0}}) {
-    Campaign campaign = modelled_campaign();
-    campaign.columns["load"] = {"load_N", "N", {"runs.csv", 1, 5}};
-    for (compare::Run& run : campaign.runs) run.at.load /= newtons;
-    EXPECT_THAT(
-        doubts(campaign),
-        Contains(StartsWith(fmt::format("runs.csv:1:5: column 'load_N' looks as if it were in {}: with loads", unit))));
-  }
-  Campaign halved = modelled_campaign();  // no unit
-  for (compare::Run& run : halved.runs) run.at.load /= 2;
-  EXPECT_THAT(doubts(halved), Not(Contains(HasSubstr("looks as if"))));
-}
-
 /// How far a rig's channels are from the declared model's.
 struct Off {
   double pull_of_load = -0.03, torque_times = 1.2, side_force_times = 0.8;
@@ -174,6 +160,24 @@ Campaign rig_campaign(const Off& off = {}) {
         campaign.runs.push_back(run);
       }
   return campaign;
+}
+
+TEST(Doubts, LoadsInAnotherUnitAreToldAtTheirHeader) {
+  for (const auto& [unit, newtons] : {std::pair{"kg", 9.80665}, {"lbf", 4.4482216}, {"kN", 1000.0}}) {
+    Campaign campaign = modelled_campaign();
+    campaign.columns["load"] = {"load_N", "N", {"runs.csv", 1, 5}};
+    for (compare::Run& run : campaign.runs) run.at.load /= newtons;
+    EXPECT_THAT(
+        doubts(campaign),
+        Contains(StartsWith(fmt::format("runs.csv:1:5: column 'load_N' looks as if it were in {}: with loads", unit))));
+  }
+  Campaign times_ten = rig_campaign();  // of all channels none is called too small
+  for (compare::Run& run : times_ten.runs) run.at.load *= 10;
+  EXPECT_THAT(doubts_before_fit(times_ten).columns,
+              ElementsAre(StartsWith("runs.csv:1:1: column 'W' looks 10 times too large: with its values divided")));
+  Campaign halved = modelled_campaign();  // no unit
+  for (compare::Run& run : halved.runs) run.at.load /= 2;
+  EXPECT_THAT(doubts(halved), Not(Contains(HasSubstr("looks as if"))));
 }
 
 /// What is told with each row changed.
@@ -213,6 +217,18 @@ TEST(DoubtsOfColumns, APowerOfTenIsToldWithTheDeclaredUnit) {
               ElementsAre(HasSubstr("'z' looks 10 times too small")));
   EXPECT_THAT(doubts_with([](compare::Run& run) { *run.sinkage /= 3; }), IsEmpty())
       << "a model may be wrong by as much";
+}
+
+// A fit for effects would take such a column for an effect: it gets that doubt by itself too.
+TEST(DoubtsOfColumns, AreToldByThemselvesBeforeAFit) {
+  Campaign campaign = rig_campaign();
+  EXPECT_THAT(doubts_before_fit(campaign).columns, IsEmpty());
+  for (compare::Run& run : campaign.runs) *run.torque *= 10;
+  campaign.runs.push_back(campaign.runs.back());
+  campaign.runs.back().csv_line = 99;
+  const DoubtsBeforeFit found = doubts_before_fit(campaign);
+  EXPECT_THAT(found.columns, ElementsAre(HasSubstr("'My' looks 10 times too large")));
+  EXPECT_THAT(found.all, testing::UnorderedElementsAre(found.columns.front(), HasSubstr("counted twice")));
 }
 
 TEST(DoubtsOfColumns, SlipsAsSharesInAColumnOfPercentAreTold) {
@@ -263,6 +279,29 @@ TEST(Doubts, WarningsOfOneKindOfManyRowsAreOneLine) {
   for (auto& run : campaign.runs) *run.sinkage += 1.0;
   EXPECT_THAT(doubts(campaign),
               Contains(AllOf(HasSubstr("more than the wheel's diameter"), HasSubstr("(and at 7 other lines)"))));
+}
+
+// A standard deviation of many times the value is a slip of a unit; what may well be 0 may have one of its size.
+TEST(Doubts, AStandardDeviationFarBeyondItsValueIsTold) {
+  const auto with_sd = [](Estimate SemiEmpiricalSoil::*value, double of, double std_error) {
+    SemiEmpiricalSoil soil = dry_sand();
+    soil.*value = {of, std_error};
+    return doubts(soil);
+  };
+  using S = SemiEmpiricalSoil;
+  EXPECT_THAT(with_sd(&S::k_phi, 1.5e6, 1e7), ElementsAre(HasSubstr("standard deviation of k_phi is 6.7 times")));
+  EXPECT_THAT(with_sd(&S::k_c, 1e3, 1e6), ElementsAre(HasSubstr("standard deviation of k_c is 1e+03 times")));
+  EXPECT_THAT(with_sd(&S::cohesion, 1e3, 1e5), ElementsAre(HasSubstr("standard deviation of c is 1e+02 times")));
+  EXPECT_THAT(with_sd(&S::k_phi, 1.5e6, 7e5), IsEmpty());
+  EXPECT_THAT(with_sd(&S::k_c, 1e3, 2e4), IsEmpty()) << "small beside k_phi";
+  EXPECT_THAT(with_sd(&S::cohesion, 100, 500), IsEmpty()) << "little of what sand holds";
+}
+
+TEST(Doubts, AWheelByItselfIsJudgedToo) {
+  Tire tire = wheel_on_sand().tire;
+  EXPECT_THAT(doubts(tire), IsEmpty());
+  tire.radius = 25;
+  EXPECT_THAT(doubts(tire), ElementsAre(StartsWith("the wheel's radius = 2.5e+04 mm is outside 20 .. 2000: ")));
 }
 
 TEST(Doubts, ASoilThatCarriesNothingIsTold) {
@@ -320,6 +359,27 @@ TEST(Doubts, ADeepWheelIsDoubtedWithItsAnswerAsWithoutIt) {
                                        HasSubstr("(and at 1 other condition)"))));
 }
 
+// Without cohesion a soil of phi = 28 deg holds a wheel on cross slopes up to phi; 1 kPa on a contact of 0.1 m by 5 cm
+// adds some 5 N to the 40 N that friction gives, which hold it at 30 deg too.
+TEST(Doubts, ACrossSlopeSteeperThanTheSoilHoldsIsTold) {
+  Case question;
+  question.scenario = wheel_on_sand();
+  SemiEmpiricalSoil& soil = *question.scenario.soil.semi_empirical;
+  soil.friction_angle.value = 28 * degree;
+  question.study.models = {ModelChoice{}};
+  const auto told_at = [&](double cross_slope, double cohesion) {
+    soil.cohesion.value = cohesion;
+    question.study.conditions = {condition(80, 0.2)};
+    question.study.conditions[0].transverse_incline = cross_slope * degree;
+    return doubts(question);
+  };
+  EXPECT_THAT(told_at(27, 0), IsEmpty());
+  EXPECT_THAT(told_at(29, 0), ElementsAre(StartsWith("the cross slope is steeper than the soil holds at load 80 N")));
+  EXPECT_THAT(told_at(-29, 0), ElementsAre(HasSubstr("38.8 N of the load pull the wheel down it")));  // 80 N sin 29 deg
+  EXPECT_THAT(told_at(30, 1000), IsEmpty());
+  EXPECT_THAT(told_at(60, 1000), ElementsAre(HasSubstr("it slides")));
+}
+
 TEST(Doubts, MorePowerOutThanInIsTold) {
   Case question;
   question.scenario = wheel_on_sand();
@@ -354,7 +414,7 @@ TEST(Doubts, OfACampaignAreThoseOfTheModelThatAnswers) {
   EXPECT_THAT(doubts(campaign, declared, predict(*model, declared, campaign)),
               ElementsAre(HasSubstr("density"), HasSubstr("lugs change nothing")));
   EXPECT_THAT(doubts(campaign, fitted, predict(*model, fitted, campaign)), IsEmpty());
-  EXPECT_THAT(doubts_before_fit(campaign), ElementsAre(HasSubstr("density"))) << "a fit tries lugs";
+  EXPECT_THAT(doubts_before_fit(campaign).all, ElementsAre(HasSubstr("density"))) << "a fit tries lugs";
 }
 
 /// The paper's tire on its grains of 30 to 50 mm, 0.25 mm deep at 4 kN.

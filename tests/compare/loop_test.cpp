@@ -364,7 +364,7 @@ TEST(SlowLoop, TellsWhatAnEffectPresumesOfTheWheel) {
   const std::vector<std::string> said = explanation(answer);
   EXPECT_TRUE(std::any_of(said.begin(), said.end(), tells));
   EXPECT_TRUE(tells(resolved_model(campaign, answer).description));
-  const std::string page = loop_page(campaign, answer, {"rows 3 and 7 repeat each other"}, "");
+  const std::string page = loop_page(campaign, answer, {"rows 3 and 7 repeat each other"}, {}, "");
   EXPECT_NE(page.find("lug thrust presumes lug height = 12.5 mm (5"), std::string::npos);
   EXPECT_NE(page.find("rows 3 and 7 repeat each other"), std::string::npos);
   campaign.wheel.lugs.height = 0.0125;

@@ -129,6 +129,28 @@ TEST(ErrorSentence, TellsGainLossAndWhatHardlyChanges) {
   EXPECT_EQ(table.rows.at(2).at(4).text, "-66 %");
 }
 
+// What takes a column for mistaken comes before the verdict, which may be of that column.
+TEST(Headline, OpensWithAColumnThatLooksMistaken) {
+  LoopAnswer answer;
+  EXPECT_EQ(headline(answer).front().about, "What is missing");
+  const auto parts = headline(answer, {"runs.csv:1:5: column 'load_N' looks as if it were in kg: ..."});
+  EXPECT_EQ(parts.front().about, "Before you believe what follows");
+  EXPECT_NE(parts.front().text.find("column 'load_N' looks as if it were in kg"), std::string::npos);
+  EXPECT_EQ(parts[1].about, "What is missing");
+}
+
+// The noise is what no smooth function of the conditions explains: more than re-runs scatter, where setpoints differ.
+TEST(Notes, SayWhereTheNoiseIsMoreThanReRunsScatter) {
+  LoopAnswer answer;
+  ChannelNoise& pull = answer.noise.channels[drawbar_pull];
+  pull.measured = true, pull.floor = 5.86, pull.rerun_sd = 0.71;
+  const std::vector<std::string> said = notes(answer);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("for the drawbar pull (5.86 beside 0.710 N)"), std::string::npos) << said[0];
+  pull.rerun_sd = 4.0;
+  EXPECT_TRUE(notes(answer).empty());
+}
+
 TEST(Odds, AreSharesOfCampaigns) {
   EXPECT_EQ(odds_words(1.0 / 4001), "1 of 4,000 campaigns");
   EXPECT_EQ(odds_words(0.0123), "1 of 81 campaigns");
@@ -203,11 +225,14 @@ TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
 
 TEST(SoilTable, SaysWhatAValueMeansAndWhetherItIsAtItsBound) {
   LoopAnswer answer;
-  answer.soil_shifts = {{"stress_angle_c2", {-0.5, 0.0}, {0.2, 0.1}}, {"exponent", {0.9, 0.1}, {1.0, 0.1}}};
+  answer.soil_shifts = {{"stress_angle_c2", {-0.5, 0.0}, {0.2, 0.1}, 0.2},
+                        {"exponent", {0.9, 0.1}, {1.0, 0.1}, 0.3},
+                        {"cohesion", {1000, 290}, {1010, 295}, 300}};  // the runs tell next to nothing of it
   const Table table = soil_table(answer);
   EXPECT_EQ(table.rows[0].front().note, "c2 of theta_m = (c1 + c2 |s|) theta_1");
   EXPECT_EQ(table.rows[0].back().text, "no: at its bound");
   EXPECT_EQ(table.rows[1].back().text, "yes");
+  EXPECT_EQ(table.rows[2].back().text, "no: as declared");
 }
 
 /// As if something without a name depended on the slip.

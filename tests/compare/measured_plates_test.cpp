@@ -167,6 +167,47 @@ TEST(MeasuredPlates, NumbersUnderAWrongUnitAreRefused) {
   EXPECT_NO_THROW(read_csv_of_plates(plate_columns + rows));
 }
 
+// What was not measured is an empty cell, and no reading; a plate without a size is none.
+TEST(MeasuredPlates, AnEmptyCellIsNoReading) {
+  const std::string rows = rows_of_a_plate(0.06, "a") + rows_of_a_plate(0.1, "b");
+  const std::vector<MeasuredPlate> whole = read_csv_of_plates(plate_columns + rows),
+                                   gaps = read_csv_of_plates(plate_columns + rows + "a,0.06,,20\nb,0.1,0.02,\n");
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(gaps[i].curve.pressure, whole[i].curve.pressure);
+  EXPECT_THAT(refusal([&] { read_csv_of_plates(plate_columns + rows + "a,,0.02,20\n"); }),
+              HasSubstr("column 'plate_diameter_m': empty; every reading needs the size of its plate"));
+}
+
+// The window is to blame for readings that it leaves out, and for no others.
+TEST(MeasuredPlates, NumbersOfTheOtherSignAreRefusedAtTheirColumn) {
+  const std::string rows = "a,0.06,0.01,-5\na,0.06,0.02,-9\n";
+  EXPECT_THAT(refusal([&] { read_csv_of_plates(plate_columns + rows); }),
+              AllOf(StartsWith("plates.csv:1:33: column 'pressure_kPa': every number is below 0"),
+                    HasSubstr("hint: change their sign: down into the soil is positive")));
+  const auto fit = [](const std::string& csv, const PressureWindow& window) {
+    return refusal([&] { fit_measured_plates(read_csv_of_plates(csv), window); });
+  };
+  const std::string both = plate_columns + rows_of_a_plate(0.1, "b");
+  EXPECT_THAT(fit(both + rows, {}), AllOf(HasSubstr("0 readings"), HasSubstr("a negative one is not counted"),
+                                          testing::Not(HasSubstr("--pressure"))));
+  EXPECT_THAT(fit(both, {0.0, 1.0}), HasSubstr("0 readings with a pressure and a sinkage above 0 in the window; 6 are "
+                                               "needed\n  hint: widen --pressure"));
+}
+
+// A force beside a pressure says the same over the plate's area, or one of the two is wrong.
+TEST(MeasuredPlates, AForceBesideAPressureMustAgree) {
+  std::string agreeing = "test,plate_diameter_m,sinkage_m,pressure_kPa,force_N\n", other = agreeing;
+  std::istringstream rows(rows_of_a_plate(0.06, "a") + rows_of_a_plate(0.1, "b"));
+  for (std::string row; std::getline(rows, row);) {
+    const double area = std::numbers::pi / 4 * (row.starts_with("a") ? 0.06 * 0.06 : 0.1 * 0.1),
+                 force = 1e3 * std::stod(row.substr(row.rfind(',') + 1)) * area;
+    agreeing += fmt::format("{},{:.4g}\n", row, force), other += fmt::format("{},{:.4g}\n", row, 2 * force);
+  }
+  EXPECT_NO_THROW(read_csv_of_plates(agreeing + "a,0.06,0.03,,70\n")) << "a pressure that was not measured";
+  EXPECT_THAT(refusal([&] { read_csv_of_plates(other); }),
+              AllOf(StartsWith("plates.csv:1:46: column 'force_N' over the plate's area gives "),
+                    HasSubstr("hint: take the column out that is not to be used")));
+}
+
 // A number without a unit in its name would make each reading a test of its own.
 TEST(MeasuredPlates, AColumnThatChangesInEachRowTellsNoTests) {
   std::string csv = "R2," + plate_columns;

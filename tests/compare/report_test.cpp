@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include "compare/report/heat_map.hpp"
 #include "compare/report/number_text.hpp"
@@ -182,6 +184,26 @@ TEST(Svg, ErrorsThatAreOnlyToldTakeNoRoomAndAreNotDrawn) {
   const nlohmann::ordered_json series = to_json(Sheet{"", {Plot{"pull", {}, {}, {told}}}})["plots"][0]["series"][0];
   EXPECT_EQ(series["error"][0], 50);
   EXPECT_EQ(series["band"], false);
+}
+
+// An efficiency of 5 ± 20 % is none of -15 %: the band ends where its axis does, at the bottom of the panel.
+TEST(Svg, ABandEndsWhereItsAxisDoes) {
+  Series efficiency = line("a", {5, 30});
+  efficiency.error = {20, 20};
+  const auto lowest = [&](const Axis& axis) {
+    const std::string text = svg(Sheet{"", {Plot{"efficiency [%]", {}, axis, {efficiency}}}});
+    std::string points = text.substr(text.find("points=\"") + 8);
+    points.erase(points.find('"'));
+    double y = 0.0, most = 0.0;
+    char comma = 0;
+    std::istringstream numbers(points);
+    for (double x = 0.0; numbers >> x >> comma >> y;) most = std::max(most, y);
+    const std::string axes = text.substr(text.find("quiet-line\" stroke=\"#8a919c\" fill=\"none\" d=\"M"));
+    const double bottom = std::stod(axes.substr(axes.find('V') + 1));
+    return most - bottom;
+  };
+  EXPECT_NEAR(lowest({"", 0.0}), 0.0, 0.1);
+  EXPECT_LT(lowest({}), 0.0) << "without an end there is room below";
 }
 
 // Areas are drawn from their base; as data they say what they add to the pile.

@@ -193,6 +193,15 @@ class ThePage(unittest.TestCase):
         self.assertEqual(told["rows"], self.js("soilbin.live.answer.rows"))
         self.reset()
 
+    def test_5c2_numbers_fit_their_boxes(self):
+        clipped = "[...document.querySelectorAll('input[type=number]')].filter(b => b.scrollWidth > b.clientWidth).map(b => b.value)"
+        self.choose("Soil", "dry-sand")
+        for width in (1100, 1400, 1600):
+            self.browser.size(width, 1000)
+            self.assertEqual(self.js(clipped), [], width)
+        self.choose("Soil", "")
+        self.reset()
+
     def test_5d_a_second_soil_and_tire_beside(self):
         lines = "document.querySelectorAll('#curves .line').length"
         self.choose("A second soil", "sandy-loam")

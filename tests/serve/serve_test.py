@@ -59,6 +59,10 @@ class TheServer(unittest.TestCase):
             for key in ("format", "tire", "soil", "rows"):
                 self.assertEqual(served[key], told[key], key)
 
+    def test_says_which_standard_deviations_are_assumed(self):
+        _, served = self.server.estimate(soil="dry-sand")
+        self.assertIn("k_c, k_phi, c, phi (assumed: 10 %, no source)", served["errors_in_words"])
+
     def test_the_curves_go_through_the_point(self):
         _, served = self.server.estimate(slip="30%")
         titles = [plot["title"].split(" [")[0] for plot in served["curves"]["plots"]]

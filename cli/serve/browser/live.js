@@ -230,6 +230,7 @@ soilbin.Live = class {
     document.title = document.querySelector('h1').textContent = answer.title;
     const keeps = !drawn && this.answer;
     if (!keeps) soilbin.part('chosen').textContent = answer.in_words + (answer.beside ? `; beside it ${answer.beside.in_words}` : '');
+    soilbin.part('errors').textContent = answer.errors_in_words;
     soilbin.part('command').textContent = answer.command + (answer.beside ? `\n${answer.beside.command}` : '');
     for (const [id, target] of [['save-case', 'case.yaml'], ['save-csv', 'curves.csv']]) soilbin.part(id).href = `${target}?${this.state}`;
     if (!keeps) this.showReadings(answer.readings, answer.beside);
