@@ -71,6 +71,15 @@ Estimate times(const Estimate& estimate, double factor) {
   return {estimate.value * factor, estimate.std_error * std::abs(factor)};
 }
 
+/// The study's own wheel under its load.
+bool is_studied(const Tire& tire, const OperatingCondition& at) {
+  const auto same = [](double value, double studied) { return std::abs(value - studied) <= 0.02 * studied; };
+  return same(tire.radius, studied_radius) && same(at.load, studied_load) &&
+         (!is_lugged(tire) || same(tire.lugs.height, studied_lugs));
+}
+
+void widen(Estimate& error, double share) { error.std_error = std::hypot(error.std_error, share * error.value); }
+
 /// Why the study does not reach to grains this large beside that length; "" where it does.
 std::string coarser(const char* length, double grains, double most) {
   if (!(grains > most * size_reach)) return "";
@@ -141,6 +150,10 @@ ResolutionError resolution_error(const Scenario& scenario, const OperatingCondit
   const double share = d / contact * slopes.contact * at.load / studied_load;
   error.drawbar_pull = times(slopes.drawbar_pull, share);
   error.torque = times(slopes.torque, share * tire.radius / studied_radius);
+  if (!is_studied(tire, at)) {
+    widen(error.drawbar_pull, carried_over.drawbar_pull), widen(error.torque, carried_over.torque);
+    widen(error.sinkage, carried_over.sinkage);
+  }
   return error;
 }
 

@@ -11,8 +11,9 @@
 //   F_DP = a_F + s_F d,   M = a_M + s_M d,   z = a_z + s_z d,   l = r acos(1 - a_z/r) the length of the contact,
 //
 // so the errors are s_F d, s_M d and s_z d: none for d -> 0. For another wheel, load or contact, F_DP/W and M/(W r) are
-// taken to follow d/l, and z to follow d alone. Between slips the slopes are interpolated. How far this carries to
-// other wheels nobody has shown; `beyond` says where a question leaves what was studied.
+// taken to follow d/l, and z to follow d alone. Between slips the slopes are interpolated. Carried over so to a rover's
+// wheel, the errors missed those found there by `carried_over` of themselves, which their standard errors then hold;
+// `beyond` says where a question leaves what was studied.
 #pragma once
 
 #include <span>
@@ -43,6 +44,9 @@ struct StudiedAnswer {
 
 /// The wheel of the study [m] and its load [N].
 inline constexpr double studied_radius = 0.496, studied_lugs = 0.011, studied_load = 4000.0;
+/// By how much of themselves the errors of another wheel, load or sand are off: root mean square of what was found for
+/// a rover's wheel with lugs and without, in another sand (docs/lab/grain-size.md).
+inline constexpr struct { double drawbar_pull = 0.9, torque = 0.5, sinkage = 0.8; } carried_over;
 /// Beyond the studied slips the slopes of the nearest one hold as far as this (chosen).
 inline constexpr double slip_reach = 0.1;
 /// So many times coarser than the study's coarsest, beside a lug's height or the contact, is still told (chosen).

@@ -176,7 +176,7 @@ double Grading::share_of_grains(const BedSize& bed) const {
 Grading grading_for(const Tire& tire, const GranularSoil& soil, double factor) {
   if (factor == 1) return {};
   const double contact = 0.4 * tire.radius;
-  return {factor, tire.width / 2 + contact / 4, contact / 2 + tire.lugs.height, factor * mean_diameter(soil)};
+  return {factor, tire.width / 2 + contact / 4, contact + tire.lugs.height, factor * mean_diameter(soil)};
 }
 
 double expected_grains(const BedRecipe& recipe) {

@@ -40,7 +40,7 @@ struct Grading {
 };
 
 /// The fine zone for a tire. Its contact is taken as l = 0.4 r long (that of a sinkage of 8 % of the radius). Fine
-/// grains reach l/2 and the height of a lug below the surface, and l/4 to both sides of the tire; the transition is a
+/// grains reach l and the height of a lug below the surface, and l/4 to both sides of the tire; the transition is a
 /// diameter of the coarse grains.
 Grading grading_for(const Tire& tire, const GranularSoil& soil, double factor);
 

@@ -172,6 +172,23 @@ TEST(GrainResolution, ScalesWithTheWheel) {
   EXPECT_NEAR(two.sinkage.value, 2 * one.sinkage.value, 1e-12);
 }
 
+// What was found for one wheel is a guess for another: its error is no less than what the guess for a rover's wheel
+// missed.
+TEST(GrainResolution, IsLessCertainForAnotherWheelOrLoad) {
+  const Scenario studied = studied_wheel(0.02);
+  const OperatingCondition at = condition(studied_load, 0.2);
+  const ResolutionError own = resolution_error(studied, at, 0.03);
+  EXPECT_LT(own.drawbar_pull.std_error, 0.2 * own.drawbar_pull.value);
+  Scenario larger = studied, high = studied;
+  larger.tire.radius *= 1.1, high.tire.lugs.height = 0.03;
+  for (const ResolutionError& error : {resolution_error(larger, at, 0.03), resolution_error(high, at, 0.03),
+                                       resolution_error(studied, condition(2000, 0.2), 0.03)}) {
+    EXPECT_GT(error.drawbar_pull.std_error, carried_over.drawbar_pull * std::abs(error.drawbar_pull.value));
+    EXPECT_GT(error.torque.std_error, carried_over.torque * std::abs(error.torque.value));
+    EXPECT_GT(error.sinkage.std_error, carried_over.sinkage * std::abs(error.sinkage.value));
+  }
+}
+
 // Between studied slips an error lies between theirs, at the same depth of the contact's fine end.
 TEST(GrainResolution, IsInterpolatedBetweenSlips) {
   const auto slips = by_slip(StudiedWheel::lugged);

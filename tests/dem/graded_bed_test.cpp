@@ -37,10 +37,10 @@ TEST(GradedBed, TheZoneFollowsFromTheTire) {
   const GranularSoil soil = test::soft_soil();  // d = 20 mm
   const Grading grading = grading_for(tire, soil, 2);
   EXPECT_NEAR(grading.half_width, 0.15 + 0.05, 1e-12);  // l = 0.2 m, a quarter of it beside the tire
-  EXPECT_NEAR(grading.depth, 0.1, 1e-12);               // half of it
+  EXPECT_NEAR(grading.depth, 0.2, 1e-12);               // and as deep as it is long
   EXPECT_NEAR(grading.transition, 0.04, 1e-12);         // a coarse diameter
   tire.lugs.height = 0.03;
-  EXPECT_NEAR(grading_for(tire, soil, 2).depth, 0.13, 1e-12);  // lugs reach deeper by their height
+  EXPECT_NEAR(grading_for(tire, soil, 2).depth, 0.23, 1e-12);  // lugs reach deeper by their height
   EXPECT_EQ(grading_for(tire, soil, 1).half_width, 0);
 }
 
