@@ -86,8 +86,12 @@ class Effect {
   virtual void angles(ContactAngles&, const Outline&, const Surroundings&) const {}
   /// Every trial sinkage: depth, normals, arcs, arms at the nodes (a carcass that flattens, a shifted depth).
   virtual void geometry(ContactPatch&, const Outline&, const Surroundings&) const {}
-  /// How deep the circle's lowest point lies where geometry leaves the tread this deep under the axle [m].
-  virtual double circle_depth(double tread_depth, const Outline&, const Surroundings&) const { return tread_depth; }
+  /// The share of the soil's stresses at which geometry leaves the tread this deep under the axle where the circle's
+  /// lowest point lies so deep [m], 0 where both are one; nothing where geometry leaves the tread on the circle.
+  virtual std::optional<double> stress_share([[maybe_unused]] double tread_depth, [[maybe_unused]] double circle_depth,
+                                             const Outline&, const Surroundings&) const {
+    return std::nullopt;
+  }
   /// sigma is filled; change it in place.
   virtual void pressure(ContactPatch&, const SoilValues&, const Outline&, const Surroundings&) const {}
   /// j_x, j_y are filled; change them in place.

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "bekker_wong/balance_search.hpp"
 #include "bekker_wong/closed_forms.hpp"
@@ -251,28 +253,40 @@ double RollingWheel::settled(const Prepared& p, const ContactPatch& patch, doubl
 void RollingWheel::settle(const Prepared& balanced, double deeper, RolledWheel& wheel) const {
   Prepared p = balanced;
   const double r = p.outline.radius;
-  const auto circle_depth = [&](double share) {
-    p.around.stress_share = share;
-    double depth = deeper;
-    for (const auto& effect : effects_) depth = effect->circle_depth(depth, p.outline, p.around);
-    return depth;
+  const auto felt_share = [&](double circle) {  // of the soil's stresses, where they flatten the carcass to this depth
+    std::optional<double> share;
+    for (const auto& effect : effects_)
+      if (!share) share = effect->stress_share(deeper, circle, p.outline, balanced.around);
+    return share;
   };
-  // The share of the stresses there that carries the load, where a carcass gives way to the share `felt` of them.
-  const auto carrying = [&](double felt) {
-    const double circle = std::min(circle_depth(felt), max_settled_share * r);
+  // The share of the stresses there that carries the load, under a circle of this depth.
+  double scale = 0.0;
+  const auto carry = [&](double circle, double felt) {
+    p.around.stress_share = felt;
     fill_patch(p, std::acos(1.0 - circle / r), wheel.patch);
-    return (p.around.normal_load - lifted(p, wheel.patch)) / pressed(p, wheel.patch);
+    scale = (p.around.normal_load - lifted(p, wheel.patch)) / pressed(p, wheel.patch);
   };
-  const double rigid = deeper != circle_depth(1.0) ? 0.0 : 1.0;
-  double scale = carrying(rigid);
-  if (rigid == 0.0) {
-    const auto lacking = [&](double felt) { return felt - (scale = carrying(felt)); };
-    if (const double most = scale; !rising_root(lacking, 0.8 * most, 1.2, most, 1e-12) && lacking(most) >= 0.0)
-      lacking(gsl::bracketed_root(lacking, 0.0, most, 1e-14, 1e-12, "the share of the stresses that carries the load"));
-  }
-  if (const double share = circle_depth(scale) / r; !(share <= max_settled_share))
-    throw NoSolution(
+  const auto too_deep = [](double share) {
+    return NoSolution(
         fmt::format("the wheel would dig itself in to {:.3g} of its radius, deeper than {}", share, max_settled_share));
+  };
+  if (deeper > max_settled_share * r) throw too_deep(deeper / r);
+  const bool flexes = felt_share(deeper).has_value();
+  carry(deeper, flexes ? 0.0 : 1.0);
+  if (flexes && scale > 0.0) try {
+      // Both shares are one where the carcass bears what the soil does. Over 90 deg of contact carry less again.
+      const auto excess = [&](double circle) {
+        const double felt = felt_share(circle).value();
+        carry(circle, felt);
+        return felt - scale;
+      };
+      double low = deeper, high = std::clamp(deeper, r, max_settled_share * r);
+      if (excess(high) < 0.0) low = std::exchange(high, max_settled_share * r);
+      if (high > r && excess(high) < 0.0) throw too_deep(high / r);
+      excess(gsl::bracketed_root(excess, low, high, 1e-14, 1e-11, "how deep a carcass that gives way digs itself in"));
+    } catch (const std::domain_error&) {
+      throw NoSolution("no balance of the load at the deeper position");
+    }
   if (!(scale > 0.0) || !std::isfinite(scale)) throw NoSolution("no balance of the load at the deeper position");
   for (auto member : {&ContactPatch::sigma, &ContactPatch::tau_x, &ContactPatch::tau_y})
     for (double& stress : wheel.patch.of(member)) stress *= scale;

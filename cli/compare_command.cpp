@@ -89,7 +89,7 @@ void print_text(const compare::Comparison& comparison, const compare::Comparison
   const compare::Table table = compare::tally_table(comparison);
   if (!table.rows.empty()) fmt::print("\n{}\n", as_text(table));
   print(compare::cause_clauses(comparison));
-  if (about.loop) print(compare::missing_clauses(*about.loop));
+  if (about.loop) print(compare::missing_clauses(*about.loop, about.mistaken_columns));
   print(compare::limits_of_the_comparison(comparison));
 }
 

@@ -97,6 +97,11 @@ Drive read_drive(const YamlNode& node, const Soil& soil, const Library& library,
   const SoilReader soils = [&](const YamlNode& part, const Reading& at) {
     Soil other = read_soil_part(part, library, at);
     if (!other.semi_empirical) at.refuse(part, "a drive needs a soil with a 'semi_empirical' section");
+    if (gravity_of(other) != gravity_of(soil))
+      at.refuse(part,
+                fmt::format("soil '{}' lies under {:.6g} m/s^2, and the case's soil under {:.6g} m/s^2",
+                            clipped(other.name), gravity_of(other), gravity_of(soil)),
+                "a drive has one gravity: write it in every soil on the way");
     return other;
   };
   reading.soils = &soils;

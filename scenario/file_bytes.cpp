@@ -12,9 +12,21 @@ namespace soilbin {
 namespace {
 
 struct AnnouncedOutput {
-  std::filesystem::path path;
+  std::filesystem::path path;  ///< as it is once folders that are missing are there
   std::string flag;
 };
+
+std::filesystem::path in_full(const std::filesystem::path& path) {
+  std::error_code none;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, none);
+  const std::filesystem::path full = std::filesystem::weakly_canonical(absolute, none);
+  return full.empty() ? absolute.lexically_normal() : full;
+}
+
+bool are_one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code none;
+  return in_full(a) == b || std::filesystem::equivalent(a, b, none);
+}
 
 /// Of this process, in the order in which its flags were read.
 std::vector<AnnouncedOutput>& announced_outputs() {
@@ -23,9 +35,8 @@ std::vector<AnnouncedOutput>& announced_outputs() {
 }
 
 void refuse_an_output(const std::filesystem::path& path, const SourcePosition& where) {
-  std::error_code none;
   for (const auto& [output, flag] : announced_outputs())
-    if (std::filesystem::equivalent(path, output, none))
+    if (are_one_file(path, output))
       throw InputError(where, fmt::format("{} would write over this file, which the command reads", flag), "",
                        fmt::format("give {} another name", flag));
 }
@@ -33,7 +44,13 @@ void refuse_an_output(const std::filesystem::path& path, const SourcePosition& w
 }  // namespace
 
 void announce_output(const std::filesystem::path& path, const std::string& flag) {
-  announced_outputs().push_back({path, flag});
+  std::error_code none;
+  for (const auto& [output, other] : announced_outputs())
+    if (other != flag && are_one_file(path, output) && !std::filesystem::is_character_file(path, none) &&
+        !std::filesystem::is_fifo(path, none))
+      throw InputError({path.string()}, fmt::format("is named by both {} and {}", other, flag), "",
+                       fmt::format("give {} another name", flag));
+  announced_outputs().push_back({in_full(path), flag});
 }
 
 std::string read_bytes(const std::filesystem::path& path, std::size_t largest) {

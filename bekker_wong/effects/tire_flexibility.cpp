@@ -15,7 +15,7 @@
 // S takes the declared soil.
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -64,14 +64,14 @@ struct Depths {
 /// Wong's flat: the pressure stays below p_g/a, so the depth below z_g = (p_g/(a k))^(1/n). The corner is rounded by
 /// the power 6 (the depth is 11 % below z_g where the circle's is z_g), so that the balance stays smooth.
 struct PressureCap {
-  double deepest;
+  double n, deepest;
   PressureCap(double a, const Outline& outline, const Surroundings& around)
-      : deepest(std::pow(ground_pressure(around.tire) / (a * pressing_modulus(outline, around)),
+      : n(around.declared.exponent),
+        deepest(std::pow(ground_pressure(around.tire) / (a * pressing_modulus(outline, around)),
                          1 / around.declared.exponent)) {}
-  /// d where S(d) = y; infinite from z_g on.
-  double circle(double y) const {
-    const double power = std::pow(y / deepest, 6);
-    return power < 1 ? y * std::pow(1 - power, -1.0 / 6) : std::numeric_limits<double>::infinity();
+  /// The share of the stresses at which S(d) = y.
+  double share(double y, double d) const {
+    return std::pow(deepest / y, n) * std::pow(-std::expm1(6 * std::log(y / d)), n / 6);
   }
   void operator()(std::span<const double> d, Depths& reached) const {
     constexpr double largest = 1e50;  // of d/z_g, whose sixth power is still a number
@@ -92,8 +92,8 @@ struct CarcassSpring {
       : n(around.declared.exponent),
         give(0.5 * a * a * outline.radius * pressing_modulus(outline, around) / ground_pressure(around.tire)),
         log_give(std::log(give)) {}
-  /// d where S(d) = y.
-  double circle(double y) const { return y + give * std::pow(y, n); }
+  /// The share of the stresses at which S(d) = y.
+  double share(double y, double d) const { return (d - y) / (give * std::pow(y, n)); }
   void operator()(std::span<const double> d, Depths& reached) const {
     for (std::size_t i = 0; i < d.size(); ++i) std::tie(reached.value[i], reached.slope[i]) = at(d[i]);
   }
@@ -124,8 +124,10 @@ class Flattening final : public Effect {
     a.exit = std::min(a.exit, -2 * std::asin(std::sqrt(std::clamp(deflection / (2 * outline.radius), 0.0, 1.0))));
   }
 
-  double circle_depth(double tread_depth, const Outline& outline, const Surroundings& around) const override {
-    return amplitude_ == 0.0 ? tread_depth : Law(amplitude_, outline, around).circle(tread_depth);
+  std::optional<double> stress_share(double tread_depth, double circle_depth, const Outline& outline,
+                                     const Surroundings& around) const override {
+    if (amplitude_ == 0.0) return std::nullopt;
+    return Law(amplitude_, outline, around).share(tread_depth, circle_depth);
   }
 
   void geometry(ContactPatch& p, const Outline& outline, const Surroundings& around) const override {

@@ -66,7 +66,7 @@ DrivenWheel::DrivenWheel(const Scenario& scenario, const Drive& drive, const Dri
   std::vector<SoilValues> soils = {soil_values(scenario.soil)};
   for (const Soil& soil : way_.soils()) {
     if (gravity_of(soil) != gravity_of(scenario.soil))
-      throw InputError("soil '" + soil.name + "' lies under another gravity than the one before it");
+      throw InputError("soil '" + soil.name + "' lies under another gravity than the case's soil");
     soils.push_back(soil_values(soil));
   }
   const OperatingCondition at = condition(way_.at(0.0), 0.0, 0.0, 0.0);

@@ -8,6 +8,7 @@
 #include "compare/discrepancy/comparison_sheets.hpp"
 #include "compare/discrepancy/comparison_tables.hpp"
 #include "compare/discrepancy/summary.hpp"
+#include "compare/doubts/doubts.hpp"
 #include "compare/loop/answer_words.hpp"
 #include "compare/report/page.hpp"
 #include "compare/sweep/model_names.hpp"
@@ -183,7 +184,7 @@ void add_loop(Page& page, const ComparisonAbout& about) {
       "The loop takes the results of '{}' as if they had been measured: it refits the soil within its declared doubt, "
       "tests every effect of the catalogue, and judges on conditions that neither choice nor fit has seen.",
       about.loop->campaign));
-  page.backed_summary(headline(*about.loop));
+  page.backed_summary(headline(*about.loop, about.mistaken_columns));
   if (const Table next = next_run_table(*about.loop); !next.rows.empty()) page.table(next);
   for (const Table& table : {error_table(*about.loop), parameters_table(*about.loop)})
     if (!table.rows.empty()) page.table(table);
@@ -241,7 +242,10 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
 
 void ask_loop(const Comparison& comparison, const LoopOptions& options, ComparisonAbout& about) {
   const Side& reference = comparison.sides.back();
-  if (reference.kind != SideKind::analytic) about.loop = run_loop(as_campaign(reference, comparison.question), options);
+  if (reference.kind == SideKind::analytic) return;
+  const Campaign campaign = as_campaign(reference, comparison.question);
+  if (reference.kind == SideKind::measured) about.mistaken_columns = doubts_before_fit(campaign).columns;
+  about.loop = run_loop(campaign, options);
 }
 
 std::string comparison_page(const Comparison& answered, const ComparisonAbout& about) {

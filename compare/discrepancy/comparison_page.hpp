@@ -16,6 +16,7 @@ struct ComparisonAbout {
   std::vector<std::pair<std::string, std::string>> facts;  ///< seeds, hashes of inputs, grain runs
   std::string resolved_case;                               ///< as YAML
   std::optional<LoopAnswer> loop;
+  std::vector<std::string> mistaken_columns;  ///< of the measurements that the loop took (DoubtsBeforeFit::columns)
   std::optional<ReplayFile> replay;
 };
 

@@ -274,9 +274,9 @@ std::vector<Clause> opening(const Comparison& comparison) {
   return clauses;
 }
 
-std::vector<Clause> missing_clauses(const LoopAnswer& loop) {
+std::vector<Clause> missing_clauses(const LoopAnswer& loop, const std::vector<std::string>& mistaken_columns) {
   std::vector<Clause> clauses;
-  for (const BackedSentence& said : headline(loop))
+  for (const BackedSentence& said : headline(loop, mistaken_columns))
     clauses.push_back({said.about, said.text + (said.detail.empty() ? "" : " " + said.detail), {"the loop"}});
   return clauses;
 }

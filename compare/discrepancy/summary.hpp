@@ -37,7 +37,7 @@ const Difference* widest_difference(const Comparison& comparison);
 std::vector<Clause> cause_clauses(const Comparison& comparison);
 
 /// What the loop says is missing, what that does to the error, what to measure next.
-std::vector<Clause> missing_clauses(const LoopAnswer& loop);
+std::vector<Clause> missing_clauses(const LoopAnswer& loop, const std::vector<std::string>& mistaken_columns);
 
 /// How sure it is, what limits it, what was not compared.
 std::vector<Clause> limits_of_the_comparison(const Comparison& comparison);

@@ -79,9 +79,8 @@ void add_doubts_of_wide_errors(const SemiEmpiricalSoil& soil, Warnings& warnings
   const auto add = [&](const char* name, const Estimate& value, double most) {
     if (value.std_error <= most) return;
     warnings.push_back(
-        fmt::format("the standard deviation of {} is {:.2g} times its value: it is hardly known; is its "
-                    "unit right?",
-                    name, value.std_error / std::abs(value.value)));
+        fmt::format("the standard deviation of {} is {:.3g} % of its value: it is hardly known; is its unit right?",
+                    name, 100 * value.std_error / std::abs(value.value)));
   };
   const double modulus = std::abs(soil.k_c.value / narrow + soil.k_phi.value);
   if (soil.k_phi.value != 0.0) add("k_phi", soil.k_phi, std::max(std::abs(soil.k_phi.value), modulus));

@@ -44,7 +44,7 @@ struct StudiedAnswer {
 
 /// The wheel of the study [m] and its load [N].
 inline constexpr double studied_radius = 0.496, studied_lugs = 0.011, studied_load = 4000.0;
-/// By how much of themselves the errors of another wheel, load or sand are off: root mean square of what was found for
+/// By how much of themselves the errors of another wheel or load are off: root mean square of what was found for
 /// a rover's wheel with lugs and without, in another sand (docs/lab/grain-size.md).
 inline constexpr struct { double drawbar_pull = 0.9, torque = 0.5, sinkage = 0.8; } carried_over;
 /// Beyond the studied slips the slopes of the nearest one hold as far as this (chosen).

@@ -52,13 +52,13 @@ std::optional<double> steepest_of(const Case& question) {
   }
 }
 
-/// "Steadily it climbs 14 deg of dry-sand at most, with the cross slope of 10 deg at its start."
+/// "Steadily it climbs less than 14 deg of dry-sand, with the cross slope of 10 deg at its start."
 std::string words_on_steepest(const AnalyticDrive& part) {
   const Place start = start_of(*part.question.drive);
   std::vector<std::string> askew;
   for (const auto& [name, angle] : {std::pair{"cross slope", start.transverse_incline}, {"yaw", start.yaw}})
     if (angle != 0.0) askew.push_back(fmt::format("{} of {:.3g} deg", name, angle / degree));
-  return fmt::format("Steadily it climbs {:.3g} deg of {} at most{}.", *part.steepest / degree,
+  return fmt::format("Steadily it climbs less than {:.3g} deg of {}{}.", *part.steepest / degree,
                      in_words(part.question.scenario.soil),
                      askew.empty() ? "" : fmt::format(", with the {} at its start", fmt::join(askew, " and the ")));
 }
@@ -92,8 +92,8 @@ std::string in_words(const MovedDrive::Side& side) {
                      number(side.record->samples.back().travelled));
 }
 
-/// "Most of it comes from the friction angle and K.": the values that make up four fifths of the variance, where they
-/// are three at most.
+/// "Most of the ± comes from the friction angle and K.": the values that make up four fifths of the variance, where
+/// they are three at most.
 std::string largest_parts(const AnalyticDrive& part) {
   constexpr double most = 0.8;
   const bool by_time = part.record.end == DriveEnd::arrived;
@@ -116,7 +116,7 @@ std::string largest_parts(const AnalyticDrive& part) {
     told += square;
     names.push_back(name);
   }
-  return names.empty() || names.size() > 3 ? "" : "Most of it comes from " + listed(names) + ".";
+  return names.empty() || names.size() > 3 ? "" : "Most of the ± comes from " + listed(names) + ".";
 }
 
 Scenario scenario_on(const Soil& soil) {
@@ -264,15 +264,17 @@ std::vector<std::string> in_words(const AnalyticDrive& part) {
 }
 
 Table energy_table(const EnergyLedger& e, WorkTable where) {
-  const bool page = where == WorkTable::on_page, motor_alone = e.motor >= 0.0 && e.height >= 0.0;
-  const double gravity = std::max(0.0, -e.height), given = std::max(0.0, e.motor) + gravity;
+  constexpr double by_sinking = 0.01;
+  const bool page = where == WorkTable::on_page,
+             motor_alone = e.motor >= 0.0 && -e.height <= by_sinking * e.motor;  // the wheel's sinking gives a little
+  const double gravity = motor_alone ? 0.0 : std::max(0.0, -e.height), given = std::max(0.0, e.motor) + gravity;
   const std::string of = motor_alone ? "the motor's work" : "the work put in";
   Table table{page ? "Of " + of + " in all" : "", {page ? "" : "of " + of, "J", "%"}, {true}};
   const auto add = [&](const char* name, double joules) {
     table.add({name, number(joules), given != 0.0 ? number(100 * joules / given) : "-"});
   };
   add("shears the soil", e.shear), add("presses the soil", e.compaction), add("added forces of effects", e.added);
-  if (e.height >= 0.0) add("lifts the load", e.height);
+  if (motor_alone || e.height >= 0.0) add("lifts the load", e.height);
   add("pulls the drawbar", e.drawbar), add("is in motion", e.kinetic);
   if (e.motor < 0.0) add("is taken by the motor, which brakes", -e.motor);
   add("damps the heave", e.damping), add("unaccounted for", e.unaccounted());

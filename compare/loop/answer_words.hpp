@@ -28,7 +28,7 @@ std::string stand_in_sentence(const LoopAnswer& answer);
 /// loss alike; what to measure next. A sentence each, with details in smaller print. The last is absent where no
 /// question is open. Before all of it stands what takes a column of the data for mistaken, where anything does
 /// (doubts_before_fit): then the verdict may be of that column.
-std::vector<BackedSentence> headline(const LoopAnswer& answer, const std::vector<std::string>& column_doubts = {});
+std::vector<BackedSentence> headline(const LoopAnswer& answer, const std::vector<std::string>& column_doubts);
 
 /// What else there is to know, a string a sentence: the reading that does not decide, what is presumed, set aside, not
 /// testable.

@@ -127,7 +127,7 @@ CsvTable parse_csv(const SourceText& source) {
     if (table.rows.size() >= most_csv_rows)
       source.refuse(row.cells.front().offset, fmt::format("more than {} rows", most_csv_rows),
                     fmt::format("this is a log: keep a part of it, such as each tenth row: awk 'NR == 1 || NR % 10 == "
-                                "0' {} > fewer.csv; in a campaign a row is the mean of a run",
+                                "0' '{}' > fewer.csv",
                                 source.file));
     const bool blank = std::ranges::all_of(row.cells, [](const CsvCell& cell) { return cell.text.empty(); });
     if (!blank) table.rows.push_back(std::move(row));

@@ -125,8 +125,7 @@ bool spins_on_the_spot(double slip) { return slip > 1.0 - 1e-6; }
 std::string steepest_in_words(const Estimate& steepest, double slip) {
   if (steepest.value >= 0.0 && spins_on_the_spot(slip))
     return fmt::format(
-        "It climbs slopes of less than {} deg: there it pulls what the slope takes at 100 % slip alone, where it spins "
-        "on the spot.",
+        "It climbs slopes of less than {} deg: on that slope it needs 100 % slip, and spins on the spot.",
         number(steepest, 1 / degree));
   if (steepest.value >= 0.0)
     return fmt::format("The steepest slope that it climbs is {} deg.", number(steepest, 1 / degree));

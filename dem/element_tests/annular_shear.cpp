@@ -101,8 +101,9 @@ AnnulusRun turn_ring(const SettledBed& bed, double stress, const AnnulusSettings
 std::vector<AnnulusRun> annular_shear(const GranularSoil& soil, const AnnulusSettings& settings, const WorkOptions& how,
                                       BedStore* beds) {
   check(settings);
-  const double d = mean_diameter(soil), speed = settings.speed * std::sqrt(settings.bed.gravity * d);
+  const double d = mean_diameter(soil);
   const auto bed = bed_for_tool(soil, settings.bed, 2 * settings.outer * d, how, beds);
+  const double speed = settings.speed * std::sqrt(bed->recipe.gravity * d);
   SteppedWork work(how);
   const double dt = bed->setup.numerics.dt;
   work.expect(static_cast<double>(settings.stresses.size()) * (settings.travel * d / (speed * dt) + 0.5 / dt));

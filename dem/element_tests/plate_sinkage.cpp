@@ -67,7 +67,7 @@ std::vector<PlateRun> plate_sinkage(const GranularSoil& soil, const PlateSetting
   const double widest = *std::max_element(settings.diameters.begin(), settings.diameters.end()) * d;
   const auto bed = bed_for_tool(soil, settings.bed, widest, how, beds);
   SteppedWork work(how);
-  const double speed = settings.speed * std::sqrt(settings.bed.gravity * d);
+  const double speed = settings.speed * std::sqrt(bed->recipe.gravity * d);
   work.expect(static_cast<double>(settings.diameters.size()) * (settings.sinkage + 0.7) * d /
               (speed * bed->setup.numerics.dt));
   std::vector<PlateRun> runs;

@@ -181,6 +181,15 @@ TEST(TireFlexibility, FlattensByTheStressesOfTheWheelThatHasDugItselfIn) {
   }
 }
 
+// A carcass so soft that its tread nearly rests on the cap: digging by next to nothing changes next to nothing.
+TEST(TireFlexibility, SettlesEvenlyOnTheSoftestTire) {
+  const EffectChoice flat{"tire_flexibility", "flat_section", {{"a", 30.0}}}, digs{"slip_sinkage", "lyasko", {}};
+  const RollingWheel still(soft_tire(), sand(), make_effects({flat})),
+      wheel(soft_tire(), sand(), make_effects({flat, digs}));
+  const RolledWheel without = still.roll(driven(100, 1e-4)), with_it = wheel.roll(driven(100, 1e-4));
+  EXPECT_NEAR(with_it.reading.drawbar_pull, without.reading.drawbar_pull, 1e-2 * 100);
+}
+
 // Braked, rolling and driven by next to nothing are one wheel.
 TEST(TireFlexibility, HasNoStepAtSlipZero) {
   for (const char* form : carcass_forms) {

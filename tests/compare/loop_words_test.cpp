@@ -113,7 +113,7 @@ TEST(ErrorSentence, TellsGainLossAndWhatHardlyChanges) {
   answer.effects.emplace_back();
   answer.effects.back().choice.id = "bulldozing";
   answer.verdict = Verdict::not_enough_data;
-  const auto parts = headline(answer);
+  const auto parts = headline(answer, {});
   ASSERT_EQ(parts.size(), 2u);
   EXPECT_EQ(parts[1].about, "What it does to the error");
   EXPECT_EQ(parts[1].text.find(
@@ -132,7 +132,7 @@ TEST(ErrorSentence, TellsGainLossAndWhatHardlyChanges) {
 // What takes a column for mistaken comes before the verdict, which may be of that column.
 TEST(Headline, OpensWithAColumnThatLooksMistaken) {
   LoopAnswer answer;
-  EXPECT_EQ(headline(answer).front().about, "What is missing");
+  EXPECT_EQ(headline(answer, {}).front().about, "What is missing");
   const auto parts = headline(answer, {"runs.csv:1:5: column 'load_N' looks as if it were in kg: ..."});
   EXPECT_EQ(parts.front().about, "Before you believe what follows");
   EXPECT_NE(parts.front().text.find("column 'load_N' looks as if it were in kg"), std::string::npos);
