@@ -78,9 +78,10 @@ void add_doubts_of_wide_errors(const SemiEmpiricalSoil& soil, Warnings& warnings
   constexpr double narrow = 0.1, firm = 1000.0;  // a wheel's width [m], a cohesion that hardly matters [Pa]
   const auto add = [&](const char* name, const Estimate& value, double most) {
     if (value.std_error <= most) return;
+    const double times = value.std_error / std::abs(value.value);
     warnings.push_back(
-        fmt::format("the standard deviation of {} is {:.3g} % of its value: it is hardly known; is its unit right?",
-                    name, 100 * value.std_error / std::abs(value.value)));
+        fmt::format("the standard deviation of {} is {:.{}f} times its value: it is hardly known; is its unit right?",
+                    name, times, times < 10 ? 1 : 0));
   };
   const double modulus = std::abs(soil.k_c.value / narrow + soil.k_phi.value);
   if (soil.k_phi.value != 0.0) add("k_phi", soil.k_phi, std::max(std::abs(soil.k_phi.value), modulus));
