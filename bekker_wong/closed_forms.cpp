@@ -1,10 +1,15 @@
 #include "bekker_wong/closed_forms.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scenario/errors.hpp"
 
 namespace soilbin::bekker_wong {
+
+double contact_length(double sinkage, double radius) {
+  return radius * std::acos(1.0 - std::clamp(sinkage / radius, 0.0, 1.0));
+}
 
 double bekker_static_sinkage(const SoilValues& soil, double radius, double width, double load) {
   const double n = soil.exponent;

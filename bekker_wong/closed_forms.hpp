@@ -9,6 +9,10 @@
 
 namespace soilbin::bekker_wong {
 
+/// Length of the contact of a wheel that stands this deep [m]: from the lowest point to where the undisturbed surface
+/// meets it, r acos(1 - z/r); of one over its axle a quarter of its circle.
+double contact_length(double sinkage, double radius);
+
 /// Bekker's static sinkage of a towed rigid wheel [m], z = [3 W/((3 - n) b k sqrt(D))]^(2/(2n + 1)) with
 /// k = k_c/b + k_phi and D = 2r (Bekker 1956; Wong, Theory of Ground Vehicles). For n < 3; load [N] >= 0.
 double bekker_static_sinkage(const SoilValues& soil, double radius, double width, double load);

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -25,29 +24,32 @@ std::vector<Presumed> presumed(const EffectForm& form, const Tire& tire) {
     const double shown = std::stod(fmt::format("{:.6g}", value));  // 5.5 mm, not 5.5000000000000005 mm
     std::string words = fmt::format("{} = {}", p.name, write_quantity(shown, std::string(p.unit)));
     if (!words.ends_with(fmt::format("= {}", p.rule))) words += fmt::format(" ({})", p.rule);
-    all.push_back({std::string(p.key), value, std::move(words)});
+    all.push_back({std::string(p.key), value, std::move(words), std::string(p.else_do)});
   }
   return all;
 }
 
 std::vector<std::string> presumptions(const std::vector<EffectChoice>& choices, const Tire& tire) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> by_effect;
-  std::set<std::string> lugless;  // effects of lugs; a height of 0 is declared by leaving them out
+  struct OfEffect {
+    std::string id;
+    std::vector<std::string> values;
+    std::string else_do;
+  };
+  std::vector<OfEffect> by_effect;
   for (const EffectChoice& choice : choices)
     for (const Presumed& value : presumed(find_form(choice), tire)) {
-      auto of = std::find_if(by_effect.begin(), by_effect.end(), [&](const auto& e) { return e.first == choice.id; });
-      if (of == by_effect.end()) of = by_effect.insert(of, {choice.id, {}});
-      if (value.key == "lugs.height") lugless.insert(choice.id);
-      std::vector<std::string>& values = of->second;
-      if (std::find(values.begin(), values.end(), value.words) == values.end()) values.push_back(value.words);
+      auto of = std::find_if(by_effect.begin(), by_effect.end(), [&](const auto& e) { return e.id == choice.id; });
+      if (of == by_effect.end()) of = by_effect.insert(of, {choice.id, {}, {}});
+      if (!value.else_do.empty()) of->else_do = "; " + value.else_do;
+      if (std::find(of->values.begin(), of->values.end(), value.words) == of->values.end())
+        of->values.push_back(value.words);
     }
   std::vector<std::string> sentences;
-  for (const auto& [id, values] : by_effect) {
+  for (const auto& [id, values, else_do] : by_effect) {
     std::string name = id, listed;
     std::replace(name.begin(), name.end(), '_', ' ');
     for (const std::string& value : values) listed += (listed.empty() ? "" : ", ") + value;
-    sentences.push_back(fmt::format("{} presumes {}, which the tire does not declare{}.", name, listed,
-                                    lugless.contains(id) ? "; leave the effect out for a wheel without lugs" : ""));
+    sentences.push_back(fmt::format("{} presumes {}, which the tire does not declare{}.", name, listed, else_do));
   }
   return sentences;
 }

@@ -22,6 +22,7 @@ struct Presumption {
   std::string_view rule;                           ///< what is taken instead: "5 % of the radius"
   std::optional<double> (*declared)(const Tire&);  ///< [SI]; nothing where the tire leaves it out
   double (*presumed)(const Tire&);                 ///< [SI]
+  std::string_view else_do = {};                   ///< for a tire that has none of it: "leave the effect out ..."
 
   /// What the effect reads: the declared value, else the presumed one [SI].
   double operator()(const Tire& tire) const;
@@ -30,8 +31,9 @@ struct Presumption {
 /// A value that a form takes although this tire does not declare it.
 struct Presumed {
   std::string key;
-  double value = 0.0;  ///< [SI]
-  std::string words;   ///< "lug height = 12.5 mm (5 % of the radius)"
+  double value = 0.0;   ///< [SI]
+  std::string words;    ///< "lug height = 12.5 mm (5 % of the radius)"
+  std::string else_do;  ///< of its presumption
 };
 
 /// All that a form presumes of this tire; empty where the tire declares whatever the form reads.

@@ -4,7 +4,7 @@
 //   Drive drive{.load = 4000, .duration = 20};                                   // [N], [s]
 //   drive.controller.rim_speed = 0.5;                                            // [m/s], held by the motor
 //   drive.profile = {{.at = 2}, {.at = 4, .longitudinal_incline = 0.17}};        // [m], [rad]; level up to 2 m
-//   mass_of(drive)                                                               // 408 kg
+//   mass_of(drive, 9.80665)                                                      // 408 kg
 #pragma once
 
 #include <optional>
@@ -56,12 +56,10 @@ struct Drive {
 };
 
 /// The mass that travels with the wheel under this gravity [m/s^2], in kg.
-inline double mass_of(const Drive& drive, double gravity = standard_gravity) {
-  return drive.mass.value_or(drive.load / gravity);
-}
+inline double mass_of(const Drive& drive, double gravity) { return drive.mass.value_or(drive.load / gravity); }
 
-/// The inertia of what spins on a wheel of this radius, about the axle [kg m^2].
-inline double inertia_of(const Drive& drive, double radius, double gravity = standard_gravity) {
+/// The inertia of what spins on a wheel of this radius under this gravity, about the axle [kg m^2].
+inline double inertia_of(const Drive& drive, double radius, double gravity) {
   constexpr double spinning_share = 0.1;  // of m r^2
   return drive.inertia.value_or(spinning_share * mass_of(drive, gravity) * radius * radius);
 }

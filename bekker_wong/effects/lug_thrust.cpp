@@ -23,7 +23,8 @@ constexpr Presumption lug_height = {
     .unit = "mm",
     .rule = "5 % of the radius",
     .declared = [](const Tire& t) { return is_lugged(t) ? std::optional<double>(t.lugs.height) : std::nullopt; },
-    .presumed = [](const Tire& t) { return 0.05 * t.radius; }};
+    .presumed = [](const Tire& t) { return 0.05 * t.radius; },
+    .else_do = "leave the effect out for a wheel without lugs"};
 
 constexpr Presumption lug_count = {
     .key = "lugs.count",

@@ -54,8 +54,6 @@ double pressing_modulus(const Outline& outline, const Surroundings& around) {
   return around.stress_share * around.declared.pressure_modulus(outline.width);
 }
 
-double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
-
 /// S(d) and dS/dd at the depths d of many nodes.
 struct Depths {
   ContactPatch::Array value, slope;
@@ -140,15 +138,15 @@ class Flattening final : public Effect {
     std::size_t first_rear = 0;  // behind theta_m the pressure law looks at the mirror angle's depth
     while (first_rear < count && p.theta[first_rear] >= p.angles.max_stress) ++first_rear;
     law({&p.depth[first_rear], count - first_rear}, mirrored);
-    const ContactPatch::Array travel = belt_travel(law, outline, tread.slope, p);
+    ContactPatch::Array rise, stretch;  // of the tread a radian; arc length of the tread over the circle's
+    for (std::size_t i = 0; i < count; ++i) rise[i] = tread.slope[i] * p.normal_sine[i];
+    length({rise.data(), count}, p.of(&ContactPatch::normal_cosine), {stretch.data(), count});
+    follow_belt(law, outline, stretch, p);
     for (std::size_t i = 0; i < count; ++i) {
-      const double rise = tread.slope[i] * p.normal_sine[i], cosine = p.normal_cosine[i];
-      const double stretch = length_of(rise, cosine);
-      p.normal_sine[i] = rise / stretch;
-      p.normal_cosine[i] = cosine / stretch;
-      p.arc[i] *= stretch;
+      p.normal_sine[i] = rise[i] / stretch[i];
+      p.normal_cosine[i] /= stretch[i];
+      p.arc[i] *= stretch[i];
       p.depth[i] = i < first_rear ? tread.value[i] : mirrored.value[i - first_rear];
-      p.since_entry[i] = travel[i];
     }
     p.deflection = deflection_of(law, p.angles.entry, outline);
   }
@@ -161,31 +159,30 @@ class Flattening final : public Effect {
     return depth;
   }
 
-  /// The belt's travel since the entry, over r, at nodes that still lie on the circle: the integral of ds/(r dtheta) =
-  /// sqrt((S' sin)^2 + cos^2) by Simpson's rule from node to node.
-  static ContactPatch::Array belt_travel(const Law& law, const Outline& outline, const ContactPatch::Array& slope,
-                                         const ContactPatch& p) {
+  /// Makes since_entry, at nodes that still lie on the circle, the belt's travel since the entry over r: the integral
+  /// of the stretch, sqrt((S' sin)^2 + cos^2), by Simpson's rule from node to node.
+  static void follow_belt(const Law& law, const Outline& outline, const ContactPatch::Array& stretch, ContactPatch& p) {
     const auto count = static_cast<std::size_t>(p.count);
     const double sine_1 = std::sin(p.angles.entry), cosine_1 = std::cos(p.angles.entry), surface = 0.0;
-    ContactPatch::Array sine, cosine, travel;  // sine and cosine half way from the node before
+    ContactPatch::Array rise, cosine, half_way;  // half way from the node before
     for (std::size_t i = 0; i < count; ++i) {
-      const double across = (i == 0 ? sine_1 : p.normal_sine[i - 1]) + p.normal_sine[i];
-      const double up = (i == 0 ? cosine_1 : p.normal_cosine[i - 1]) + p.normal_cosine[i];
-      const double length = length_of(across, up);
-      sine[i] = across / length, cosine[i] = up / length;
+      rise[i] = (i == 0 ? sine_1 : p.normal_sine[i - 1]) + p.normal_sine[i];
+      cosine[i] = (i == 0 ? cosine_1 : p.normal_cosine[i - 1]) + p.normal_cosine[i];
     }
+    length({rise.data(), count}, {cosine.data(), count}, {half_way.data(), count});
+    for (std::size_t i = 0; i < count; ++i) rise[i] /= half_way[i], cosine[i] /= half_way[i];
     Depths at_entry, between;
     law({&surface, 1}, at_entry);
     law({circle_depths({cosine.data(), count}, cosine_1, outline).data(), count}, between);
-    double before = length_of(at_entry.slope[0] * sine_1, cosine_1), lost = 0.0, passed = 0.0;
+    for (std::size_t i = 0; i < count; ++i) rise[i] *= between.slope[i];
+    length({rise.data(), count}, {cosine.data(), count}, {half_way.data(), count});
+    const double rise_1 = at_entry.slope[0] * sine_1;
+    double before = std::sqrt(rise_1 * rise_1 + cosine_1 * cosine_1), lost = 0.0, passed = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
-      const double half_way = length_of(between.slope[i] * sine[i], cosine[i]);
-      const double here = length_of(slope[i] * p.normal_sine[i], p.normal_cosine[i]);
-      lost += (1 - (before + 4 * half_way + here) / 6) * (p.since_entry[i] - passed);
-      travel[i] = p.since_entry[i] - lost;
-      before = here, passed = p.since_entry[i];
+      lost += (1 - (before + 4 * half_way[i] + stretch[i]) / 6) * (p.since_entry[i] - passed);
+      before = stretch[i], passed = p.since_entry[i];
+      p.since_entry[i] -= lost;
     }
-    return travel;
   }
 
   static double deflection_of(const Law& law, double entry, const Outline& outline) {

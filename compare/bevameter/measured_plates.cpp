@@ -134,8 +134,7 @@ MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, con
     if (curves.back().pressure.size() < fewest)
       throw InputError(fmt::format(
           "test '{}' of the plate of b = {:g} mm has {} with a pressure and a sinkage above 0{}; {} are needed\n  "
-          "hint: "
-          "{}",
+          "hint: {}",
           plate.test, 1000 * plate.curve.radius, counted(curves.back().pressure.size(), "reading"),
           enough ? " in the window" : "", fewest,
           enough ? "widen --pressure" : "more readings of this test, or leave it out; a negative one is not counted"));

@@ -147,7 +147,7 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings&
   if (pressure < 500.0 || pressure > 2e6)
     warnings.push_back(fmt::format("mean ground pressure {:.3g} kPa{}: wheels on soil press with 0.5 .. 2000 kPa",
                                    pressure / 1000, at));
-  const double arc = tire.radius * std::acos(1.0 - std::clamp(r.sinkage.value / tire.radius, 0.0, 1.0));
+  const double arc = bekker_wong::contact_length(r.sinkage.value, tire.radius);
   if (std::string slides = too_steep_across(scenario, answer, std::fmax(length, arc)); !slides.empty())
     warnings.push_back(std::move(slides));
   if (std::string deep = too_deep(scenario, answer); !deep.empty()) warnings.push_back(std::move(deep));

@@ -1,4 +1,3 @@
-#include "compare/doubts/grain_doubts.hpp"
 
 #include <fmt/core.h>
 
@@ -6,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "bekker_wong/closed_forms.hpp"
+#include "bekker_wong/closed_forms.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/sweep/varying.hpp"
 #include "dem/bed/settled_bed.hpp"
@@ -92,7 +93,7 @@ GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswer
   counts.width = tire.width / counts.diameter;
   if (is_lugged(tire)) counts.lug = tire.lugs.height / counts.diameter;
   each_answer_for_grains(study, [&](const Answer& answer, SinkageOf) {
-    const double count = contact_length(answer.result->sinkage.value, tire.radius) / counts.diameter;
+    const double count = bekker_wong::contact_length(answer.result->sinkage.value, tire.radius) / counts.diameter;
     if (!(count > 0.0) || (counts.contact && !(count < *counts.contact))) return;  // a wheel may stand on their tops
     counts.contact = count, counts.at = answer.at;
   });

@@ -8,10 +8,14 @@
 #include <stdexcept>
 #include <vector>
 
+#include "bekker_wong/closed_forms.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::compare {
+
+using bekker_wong::contact_length;
+
 namespace {
 
 /// bench/grain_size/recorded, as tests/compare/grain_resolution_test.cpp reads it: slip, m, N, N m, m.
@@ -120,10 +124,6 @@ SizeFit fit_against_size(std::span<const double> diameters, std::span<const Esti
   const double freedom = static_cast<double>(values.size()) - 2;
   const double widened = freedom > 0 ? std::sqrt(std::max(1.0, misfit / freedom)) : 1.0;
   return {{y - slope * x, widened * std::sqrt(1 / n + x * x / xx)}, {slope, widened / std::sqrt(xx)}};
-}
-
-double contact_length(double sinkage, double radius) {
-  return radius * std::acos(1.0 - std::clamp(sinkage / radius, 0.0, 1.0));
 }
 
 ResolutionError resolution_error(const Scenario& scenario, const OperatingCondition& at, double sinkage,

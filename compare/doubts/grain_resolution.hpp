@@ -75,10 +75,6 @@ enum class SinkageOf { grains, another_model };
 ResolutionError resolution_error(const Scenario& scenario, const OperatingCondition& at, double sinkage,
                                  SinkageOf whose = SinkageOf::grains);
 
-/// Length of the contact of a wheel that stands this deep [m]: from the lowest point to where the undisturbed surface
-/// meets it.
-double contact_length(double sinkage, double radius);
-
 /// "the drawbar pull by +150 ± 60 N, the torque by +30 ± 12 N m and the sinkage by -11 ± 3 mm". Of a known one.
 std::string in_words(const ResolutionError& error);
 

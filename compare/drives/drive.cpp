@@ -29,10 +29,7 @@ using bekker_wong::EnergyLedger;
 
 double slip_of(const DriveSample& s) { return s.slip.value_or(not_a_number); }
 
-Place start_of(const Drive& drive) {
-  constexpr double any = 1.0;  // how soils take over from each other
-  return Way(drive.profile, any).at(0.0);
-}
+Place start_of(const Drive& drive) { return angles_along(drive.profile).at(0.0); }
 
 std::optional<double> steepest_of(const Case& question) {
   const Drive& drive = *question.drive;

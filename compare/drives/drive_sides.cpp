@@ -310,8 +310,7 @@ namespace {
 template <class Sample>
 ModelAnswers answers_of(const ModelChoice& choice, const Drive& drive, const std::vector<Sample>& samples) {
   ModelAnswers answers{choice, {}};
-  constexpr double any = 1.0;  // how soils take over from each other
-  const Way way(drive.profile, any);
+  const Way way = angles_along(drive.profile);
   for (const Sample& sample : samples) {
     OperatingCondition at;
     at.load = drive.load, at.pass = drive.pass, at.speed = sample.speed;
