@@ -1,3 +1,4 @@
+#include "compare/doubts/grain_doubts.hpp"
 
 #include <fmt/core.h>
 
@@ -5,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "bekker_wong/closed_forms.hpp"
 #include "bekker_wong/closed_forms.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/sweep/varying.hpp"
