@@ -32,7 +32,16 @@ void check_soil_for(const ModelChoice& choice, const Soil& soil, const YamlNode&
     reading.refuse(node, "model 'dem' takes no effects: grains show them or they don't");
 }
 
-/// A model's name, or {model, effects, label}.
+/// The effects of a model or a drive, and how they and the soil err where a fit found both.
+template <class T>
+void read_effects_and_errors(const YamlNode& node, const EffectVocabulary& effects, const Reading& reading, T& into) {
+  if (const YamlNode* list = value_of(node, "effects", Need::optional, "list of effects; [] for none", reading))
+    into.effects = read_effects(*list, effects, reading);
+  if (const YamlNode* list = value_of(node, "errors", Need::optional, "how fitted parameters err together", reading))
+    into.errors = read_fitted_errors(*list, into.effects, effects, reading);
+}
+
+/// A model's name, or {model, effects, label, errors}.
 ModelChoice read_model(const YamlNode& node, const Soil& soil, const EffectVocabulary& effects,
                        const Reading& reading) {
   ModelChoice choice;
@@ -42,12 +51,9 @@ ModelChoice read_model(const YamlNode& node, const Soil& soil, const EffectVocab
     expect_keys(node, {"model", "effects", "label", "errors"}, reading);
     choice.model =
         read_choice<ModelKind>(*value_of(node, "model", Need::required, "bekker_wong or dem", reading), reading);
-    if (const YamlNode* list = value_of(node, "effects", Need::optional, "list of effects; [] for none", reading))
-      choice.effects = read_effects(*list, effects, reading);
+    read_effects_and_errors(node, effects, reading, choice);
     if (const YamlNode* label = value_of(node, "label", Need::optional, "for tables and plots", reading))
       choice.label = read_text(*label, reading);
-    if (const YamlNode* list = value_of(node, "errors", Need::optional, "how fitted parameters err together", reading))
-      choice.errors = read_fitted_errors(*list, choice.effects, effects, reading);
   }
   check_soil_for(choice, soil, node, reading);
   return choice;
@@ -105,9 +111,8 @@ Drive read_drive(const YamlNode& node, const Soil& soil, const Library& library,
     return other;
   };
   reading.soils = &soils;
-  Drive drive = read_mapping<Drive>(node, reading, {"effects"});
-  if (const YamlNode* list = value_of(node, "effects", Need::optional, "list of effects", reading))
-    drive.effects = read_effects(*list, effects, reading);
+  Drive drive = read_mapping<Drive>(node, reading, {"effects", "errors"});
+  read_effects_and_errors(node, effects, reading, drive);
   return drive;
 }
 

@@ -56,6 +56,7 @@ std::string write_case(const Case& value, const EffectVocabulary& effects) {
     Writing drive{&lines, std::nullopt, nullptr, ""};
     write_members(*value.drive, drive);
     write_effects(value.drive->effects, effects, n, lines);
+    write_fitted_errors(value.drive->errors, value.drive->effects, effects, n, lines);
     lines.close();
   }
   if (value.study.conditions.empty()) return lines.text();

@@ -53,6 +53,7 @@ struct Drive {
   Controller controller;
   std::vector<Waypoint> profile;        ///< rising in `at`
   std::vector<EffectChoice> effects{};  ///< forms and parameters resolved
+  std::vector<FittedError> errors{};    ///< how values of the case's soil and of `effects` err, where they were fitted
 };
 
 /// The mass that travels with the wheel under this gravity [m/s^2], in kg.

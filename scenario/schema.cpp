@@ -88,24 +88,23 @@ ordered_json conditions_schema() {
   return {{"anyOf", ordered_json::array({grid, {{"type", "array"}, {"minItems", 1}, {"items", grid}}})}};
 }
 
-ordered_json fitted_error_schema() {
+ordered_json fitted_errors_schema() {
   ordered_json error = empty_object_schema();
   const ordered_json correlation = {{"type", "number"}, {"minimum", -1}, {"maximum", 1}};
   error["properties"] = {{"parameter", text_schema("of the soil, or of an effect: slip_sinkage.a")},
                          {"sd", text_schema("standard deviation, of an effect's parameter")},
                          {"correlations", {{"type", "array"}, {"items", correlation}}}};
   error["required"] = {"parameter"};
-  return error;
+  return {{"type", "array"}, {"items", error}, {"description", "of a fit"}};
 }
 
 ordered_json models_schema(const EffectVocabulary& effects) {
   const ordered_json name = words_schema({"bekker_wong", "dem"}, "which model");
   ordered_json object = empty_object_schema();
-  object["properties"] = {
-      {"model", name},
-      {"effects", effects_schema(effects)},
-      {"label", text_schema("for tables and plots")},
-      {"errors", {{"type", "array"}, {"items", fitted_error_schema()}, {"description", "of a fit"}}}};
+  object["properties"] = {{"model", name},
+                          {"effects", effects_schema(effects)},
+                          {"label", text_schema("for tables and plots")},
+                          {"errors", fitted_errors_schema()}};
   object["required"] = {"model"};
   return {{"type", "array"}, {"minItems", 1}, {"items", {{"anyOf", ordered_json::array({name, object})}}}};
 }
@@ -199,6 +198,7 @@ ordered_json case_schema(const EffectVocabulary& effects) {
   object["properties"]["study"] = study_schema(effects);
   object["properties"]["drive"] = object_schema<Drive>();
   object["properties"]["drive"]["properties"]["effects"] = effects_schema(effects);
+  object["properties"]["drive"]["properties"]["errors"] = fitted_errors_schema();
   for (const char* key : {"tire", "soil"}) object["required"].push_back(key);
   ordered_json schema = document_schema(case_format, "A soilbin case", object);
   schema["anyOf"] = {{{"required", {"study"}}}, {{"required", {"drive"}}}};

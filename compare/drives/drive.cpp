@@ -89,10 +89,17 @@ std::string in_words(const MovedDrive::Side& side) {
                      number(side.record->samples.back().travelled));
 }
 
+/// "friction angle", or "friction angle of snow" where values of other soils were moved too.
+std::string title_of(const MovedDrive& drive, const DriveErrors& errors) {
+  const bool elsewhere = !drive.soil.empty() && drive.soil != errors.moved.front().soil;
+  return elsewhere ? fmt::format("{} of {}", drive.title, drive.soil) : drive.title;
+}
+
 /// "Most of the ± comes from the friction angle and K.": the values that make up four fifths of the variance, where
-/// they are three at most.
+/// they are three at most. "" where values err together: then none has a part of its own.
 std::string largest_parts(const AnalyticDrive& part) {
   constexpr double most = 0.8;
+  if (part.errors.correlated()) return "";
   const bool by_time = part.record.end == DriveEnd::arrived;
   const auto value = [&](const bekker_wong::DriveRecord& r) {
     return std::optional(by_time ? r.end_time : r.samples.back().travelled);
@@ -101,9 +108,7 @@ std::string largest_parts(const AnalyticDrive& part) {
   double sum = 0.0, told = 0.0;
   for (const MovedDrive& drive : part.errors.moved) {
     const double by = change(drive, *value(part.record), value).value_or(0.0);
-    const bool elsewhere = drive.soil != part.errors.moved.front().soil;
-    parts.emplace_back(by * by, elsewhere ? fmt::format("{} of {}", drive.parameter->title, drive.soil)
-                                          : std::string(drive.parameter->title));
+    parts.emplace_back(by * by, title_of(drive, part.errors));
     sum += by * by;
   }
   std::ranges::sort(parts, std::greater());
@@ -116,41 +121,48 @@ std::string largest_parts(const AnalyticDrive& part) {
   return names.empty() || names.size() > 3 ? "" : "Most of the ± comes from " + listed(names) + ".";
 }
 
-Scenario scenario_on(const Soil& soil) {
-  Scenario scenario;
-  scenario.soil = soil;
-  return scenario;
+/// "On snow from 0.5 m on: ± is ..." of each soil of the way once.
+std::vector<std::string> words_on_other_soils(const Drive& drive) {
+  std::vector<std::string> sentences, told;
+  for (const Waypoint& point : drive.profile) {
+    if (!point.soil) continue;
+    Scenario scenario;
+    scenario.soil = *point.soil;
+    const std::string words = fmt::format("{}: {}", compare::in_words(*point.soil), errors_in_words(scenario));
+    if (std::ranges::find(told, words) != told.end()) continue;
+    told.push_back(words);
+    sentences.push_back(fmt::format("On {}", words));
+  }
+  return sentences;
 }
 
 /// Where the errors come from, and the drives that end in another way.
 std::vector<std::string> words_on_errors(const AnalyticDrive& part) {
   std::vector<std::string> sentences;
   if (part.errors.travelled) {
-    sentences.push_back(errors_in_words(part.question.scenario));
-    for (const Waypoint& point : part.question.drive->profile)
-      if (point.soil)
-        sentences.push_back(fmt::format("On {} from {:.4g} m on: {}", compare::in_words(*point.soil), point.at,
-                                        errors_in_words(scenario_on(*point.soil))));
+    const Drive& drive = *part.question.drive;
+    sentences.push_back(
+        errors_in_words(seen_by({ModelKind::bekker_wong, drive.effects, "", drive.errors}, part.question.scenario)));
+    const std::vector<std::string> others = words_on_other_soils(drive);
+    sentences.insert(sentences.end(), others.begin(), others.end());
     if (const std::string parts = largest_parts(part); !parts.empty()) sentences.push_back(parts);
   }
   for (const MovedDrive& drive : part.errors.moved)
     for (const MovedDrive::Side* side : {&drive.lower, &drive.higher}) {
       if (!drive.ends_otherwise(*side, part.record.end)) continue;
-      sentences.push_back(fmt::format("With the {} of {} a standard deviation {} ({} {}) {}.", drive.parameter->title,
-                                      drive.soil, side == &drive.lower ? "lower" : "higher",
-                                      number(side->value * drive.parameter->per_si), drive.parameter->unit,
-                                      in_words(*side)));
+      sentences.push_back(fmt::format("With {}{} a standard deviation {} ({}{}) {}.", drive.soil.empty() ? "" : "the ",
+                                      drive.soil.empty() ? drive.title : drive.title + " of " + drive.soil,
+                                      side == &drive.lower ? "lower" : "higher", number(side->value * drive.per_si),
+                                      unit_behind(drive.unit), in_words(*side)));
     }
   return sentences;
 }
 
 /// A row for each uncertain value: what a standard deviation of it does to the drive.
 Table errors_table(const DriveErrors& errors) {
-  Table table{"What a standard deviation of each of the soil's values does",
+  Table table{"What a standard deviation of each value does",
               {"", "as declared", "a standard deviation lower", "higher"},
               {true, false, true, true}};
-  const bool one_soil =
-      std::ranges::all_of(errors.moved, [&](const MovedDrive& d) { return d.soil == errors.moved.front().soil; });
   for (const MovedDrive& drive : errors.moved) {
     const auto cell = [&](const MovedDrive::Side& side) -> std::string {
       if (!drive.was_moved(side)) return "lies on its bound";
@@ -158,10 +170,8 @@ Table errors_table(const DriveErrors& errors) {
       return fmt::format("{}, {:.3g} m, {:.3g} s", word_of(side.record->end), side.record->samples.back().travelled,
                          side.record->end_time);
     };
-    const SoilParameter& of = *drive.parameter;
-    table.add({one_soil ? of.title : fmt::format("{} of {}", of.title, drive.soil),
-               number(drive.of, of.per_si) + (of.unit == std::string_view("-") ? "" : fmt::format(" {}", of.unit)),
-               cell(drive.lower), cell(drive.higher)});
+    table.add({title_of(drive, errors), number(drive.of, drive.per_si) + unit_behind(drive.unit), cell(drive.lower),
+               cell(drive.higher)});
   }
   return table;
 }
@@ -179,7 +189,7 @@ Json errors_json(const DriveErrors& errors) {
   Json rows = Json::array();
   for (const MovedDrive& drive : errors.moved)
     rows.push_back({{"soil", drive.soil},
-                    {"parameter", drive.parameter->name},
+                    {"parameter", drive.parameter},
                     {"value", drive.of.value},
                     {"std_error", drive.of.std_error},
                     {"lower", side_json(drive, drive.lower)},

@@ -2,55 +2,98 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "bekker_wong/effect.hpp"
+#include "compare/report/number_text.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/fitted_errors.hpp"
+#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
 namespace {
 
 using bekker_wong::DriveRecord;
+using DriveValue = std::function<std::optional<double>(const DriveRecord&)>;
 
 constexpr int few_samples = 40;  // the end and whether it is steady are all that is asked for
 
-/// Soil k of the way: 0 the case's own, then those that begin on the way.
-Soil& soil_of_way(Case& question, std::size_t k) {
-  if (k == 0) return question.scenario.soil;
+/// The soils of the way: the case's own, then those that begin on it.
+std::vector<Soil*> soils_of_way(Case& question) {
+  std::vector<Soil*> soils = {&question.scenario.soil};
   for (Waypoint& point : question.drive->profile)
-    if (point.soil && --k == 0) return *point.soil;
-  throw std::out_of_range("no such soil on the way");
+    if (point.soil) soils.push_back(&*point.soil);
+  return soils;
 }
 
-std::size_t soils_of_way(const Case& question) {
-  std::size_t count = 1;
-  for (const Waypoint& point : question.drive->profile) count += point.soil ? 1 : 0;
-  return count;
+/// Whether this is the same soil again: a value that errs, errs in both.
+bool is_same_soil(const Soil& one, const Soil& other) {
+  if (one.name != other.name || !one.semi_empirical || !other.semi_empirical) return false;
+  return std::ranges::all_of(soil_parameters, [&](const SoilParameter& p) {
+    const Estimate &a = (*one.semi_empirical).*p.value, &b = (*other.semi_empirical).*p.value;
+    return a.value == b.value && a.std_error == b.std_error;
+  });
 }
 
-/// A value of a soil on the way that is to be moved.
+/// A value that is to be moved, and how.
 struct Uncertain {
-  std::size_t soil;
   MovedDrive drive;
+  bool of_fit = false;  ///< of the case's soil or of an effect: what drive.errors speaks of
+  std::function<void(Case&, double value)> set;
 };
 
-std::vector<Uncertain> uncertain_values(Case question) {
-  std::vector<Uncertain> values;
-  for (std::size_t k = 0; k < soils_of_way(question); ++k) {
-    const Soil& soil = soil_of_way(question, k);
-    if (!soil.semi_empirical) continue;
-    for (const SoilParameter& parameter : soil_parameters) {
-      const Estimate of = (*soil.semi_empirical).*parameter.value;
-      if (!(of.std_error > 0.0)) continue;
-      const auto [below, above] = neighbours(of.value, of.std_error, parameter.range);
-      values.push_back({k, {soil.name, &parameter, of, {below}, {above}}});
-    }
+void add_soil_values(const Case& question, std::size_t k, std::vector<Uncertain>& values) {
+  Case copy = question;
+  const Soil soil = *soils_of_way(copy)[k];
+  for (const SoilParameter& p : soil_parameters) {
+    const Estimate of = (*soil.semi_empirical).*p.value;
+    if (!(of.std_error > 0.0)) continue;
+    const auto [below, above] = neighbours(of.value, of.std_error, p.range);
+    values.push_back({{soil.name, p.name, p.title, p.unit, p.per_si, of, {below}, {above}},
+                      k == 0,
+                      [soil, member = p.value](Case& asked, double value) {
+                        for (Soil* one : soils_of_way(asked))
+                          if (is_same_soil(*one, soil)) ((*one->semi_empirical).*member).value = value;
+                      }});
   }
+}
+
+void add_effect_values(const Drive& drive, std::vector<Uncertain>& values) {
+  for (const FittedError& error : drive.errors) {
+    const auto place = find_effect_parameter(error.parameter, drive.effects);
+    if (!place || !(error.std_error > 0.0)) continue;
+    const EffectChoice& effect = drive.effects[place->effect];
+    const auto& all = bekker_wong::find_form(effect).parameters;
+    const auto described = std::ranges::find(all, place->parameter, &bekker_wong::EffectParameter::name);
+    if (described == all.end())
+      throw InputError("effect '" + effect.id + "' has no parameter '" + place->parameter + "'");
+    const Estimate of{effect.parameters.at(place->parameter), *error.std_error};
+    const auto [below, above] =
+        neighbours(of.value, of.std_error, {.lower = described->lower, .upper = described->upper});
+    const std::string& unit = described->unit;
+    values.push_back({{"", error.parameter, error.parameter, unit, per_unit(unit), of, {below}, {above}},
+                      true,
+                      [at = *place](Case& asked, double value) {
+                        asked.drive->effects[at.effect].parameters[at.parameter] = value;
+                      }});
+  }
+}
+
+std::vector<Uncertain> uncertain_values(const Case& question) {
+  std::vector<Uncertain> values;
+  Case copy = question;
+  const std::vector<Soil*> soils = soils_of_way(copy);
+  for (std::size_t k = 0; k < soils.size(); ++k) {
+    const bool returns = std::any_of(soils.begin(), soils.begin() + static_cast<std::ptrdiff_t>(k),
+                                     [&](const Soil* before) { return is_same_soil(*before, *soils[k]); });
+    if (soils[k]->semi_empirical && !returns) add_soil_values(question, k, values);
+  }
+  add_effect_values(*question.drive, values);
   return values;
 }
 
-void drive_side(Case question, std::size_t soil, const MovedDrive& moved, MovedDrive::Side& side, const Pulse& pulse) {
-  if (!moved.was_moved(side)) return;
-  ((*soil_of_way(question, soil).semi_empirical).*moved.parameter->value).value = side.value;
+void drive_side(Case question, const Uncertain& moved, MovedDrive::Side& side, const Pulse& pulse) {
+  if (!moved.drive.was_moved(side)) return;
+  moved.set(question, side.value);
   try {
     side.record =
         bekker_wong::drive_wheel(question.scenario, *question.drive, few_samples, {}, [&](double, double) { pulse(); });
@@ -59,21 +102,37 @@ void drive_side(Case question, std::size_t soil, const MovedDrive& moved, MovedD
   }
 }
 
-std::optional<double> root_of_sum(const DriveErrors& errors, double as_declared,
-                                  const std::function<std::optional<double>(const DriveRecord&)>& value) {
-  double variance = 0.0;
-  for (const MovedDrive& drive : errors.moved) {
-    const auto by = change(drive, as_declared, value);
+Eigen::MatrixXd correlations_of(const std::vector<Uncertain>& values, const std::vector<FittedError>& fit) {
+  const auto n = static_cast<Eigen::Index>(values.size());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Identity(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index k = 0; k < i; ++k) {
+      const Uncertain &one = values[static_cast<std::size_t>(i)], &other = values[static_cast<std::size_t>(k)];
+      if (one.of_fit && other.of_fit)
+        all(i, k) = all(k, i) = correlation(fit, one.drive.parameter, other.drive.parameter);
+    }
+  return all;
+}
+
+/// None where nothing was moved, or a value has no drive on either side.
+std::optional<double> error_of(const DriveErrors& errors, double as_declared, const DriveValue& value) {
+  if (errors.moved.empty()) return std::nullopt;
+  Eigen::VectorXd changes(static_cast<Eigen::Index>(errors.moved.size()));
+  for (std::size_t i = 0; i < errors.moved.size(); ++i) {
+    const auto by = change(errors.moved[i], as_declared, value);
     if (!by) return std::nullopt;
-    variance += *by * *by;
+    changes[static_cast<Eigen::Index>(i)] = *by;
   }
-  return errors.moved.empty() ? std::nullopt : std::optional(std::sqrt(variance));
+  return errors.standard_error(changes);
 }
 
 }  // namespace
 
-std::optional<double> change(const MovedDrive& drive, double as_declared,
-                             const std::function<std::optional<double>(const DriveRecord&)>& value) {
+double DriveErrors::standard_error(const Eigen::VectorXd& changes) const {
+  return std::sqrt(std::max(0.0, changes.dot(correlations * changes)));
+}
+
+std::optional<double> change(const MovedDrive& drive, double as_declared, const DriveValue& value) {
   const auto of = [&](const MovedDrive::Side& side) { return side.record ? value(*side.record) : std::nullopt; };
   const std::optional<double> low = of(drive.lower), high = of(drive.higher);
   if (!low && !high) return std::nullopt;
@@ -85,17 +144,17 @@ DriveErrors drive_errors(const Case& question, const DriveRecord& record, const 
   std::vector<Uncertain> values = uncertain_values(question);
   pool.each(2 * static_cast<int>(values.size()), [&](int i, const Pulse& pulse) {
     Uncertain& one = values[static_cast<std::size_t>(i / 2)];
-    drive_side(question, one.soil, one.drive, i % 2 == 0 ? one.drive.lower : one.drive.higher, pulse);
+    drive_side(question, one, i % 2 == 0 ? one.drive.lower : one.drive.higher, pulse);
   });
   DriveErrors errors;
+  errors.correlations = correlations_of(values, question.drive->errors);
   for (Uncertain& one : values) errors.moved.push_back(std::move(one.drive));
-  errors.travelled = root_of_sum(errors, record.samples.back().travelled,
-                                 [](const DriveRecord& r) { return std::optional(r.samples.back().travelled); });
+  errors.travelled = error_of(errors, record.samples.back().travelled,
+                              [](const DriveRecord& r) { return std::optional(r.samples.back().travelled); });
   if (std::ranges::none_of(errors.moved, [&](const MovedDrive& drive) {
         return drive.ends_otherwise(drive.lower, record.end) || drive.ends_otherwise(drive.higher, record.end);
       }))
-    errors.end_time =
-        root_of_sum(errors, record.end_time, [](const DriveRecord& r) { return std::optional(r.end_time); });
+    errors.end_time = error_of(errors, record.end_time, [](const DriveRecord& r) { return std::optional(r.end_time); });
   return errors;
 }
 

@@ -11,7 +11,7 @@
 #include "compare/report/number_text.hpp"
 #include "scenario/drive_way.hpp"
 #include "scenario/errors.hpp"
-#include "scenario/soil_parameters.hpp"
+#include "scenario/nearest_word.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -59,27 +59,29 @@ dem::SteadyDrive values_at(const DriveState& end) {
   return steady;
 }
 
-/// Adds the errors of the soil's values, from the drives with one of them moved that have a steady state. Names the
+/// Adds the errors of uncertain values, from the drives with one of them moved that have a steady state. Names the
 /// values that are left out where neither side has one.
 std::string add_errors(dem::SteadyDrive& steady, const AnalyticDrive& part) {
-  std::string left_out;
-  for (const MovedDrive& drive : part.errors.moved) {
-    bool counts = true;
-    for (const SteadyValue& value : steady_values) {
-      Estimate& of = steady.*value.value;
+  std::vector<std::string> left_out;
+  for (const SteadyValue& value : steady_values) {
+    Estimate& of = steady.*value.value;
+    Eigen::VectorXd changes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(part.errors.moved.size()));
+    left_out.clear();
+    for (Eigen::Index i = 0; i < changes.size(); ++i) {
+      const MovedDrive& drive = part.errors.moved[static_cast<std::size_t>(i)];
       const auto by = change(drive, of.value, [&](const DriveRecord& record) -> std::optional<double> {
         if (!unsteady(record, *part.question.drive).empty()) return std::nullopt;
         return (values_at(record.samples.back()).*value.value).value;
       });
       if (by)
-        of.std_error = std::hypot(of.std_error, *by);
+        changes[i] = *by;
       else
-        counts = false;
+        left_out.push_back(drive.title);
     }
-    if (!counts) left_out += (left_out.empty() ? "" : ", ") + std::string(drive.parameter->symbol);
+    of.std_error = part.errors.standard_error(changes);
   }
   if (left_out.empty()) return "";
-  return "the standard errors leave out the soil's " + left_out + ": the drive has no steady state beside it";
+  return "the standard errors leave out " + listed(left_out) + ": the drive has no steady state beside it";
 }
 
 template <class Sample>

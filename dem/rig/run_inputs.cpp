@@ -102,8 +102,8 @@ std::string inputs_text(const BedRecipe& recipe, const Tire& tire, const Contact
 std::string inputs_text(const BedRecipe& recipe, const Tire& tire, const ContactPair& tire_contact, const Rig& rig,
                         const Drive& drive, int samples) {
   Inputs inputs = inputs_with_contact(recipe, tire, tire_contact, rig);
-  const auto& [load, mass, inertia, pass, duration, distance, damping, stuck_speed, controller, profile, effects] =
-      drive;  // damping and effects are the analytic wheel's
+  const auto& [load, mass, inertia, pass, duration, distance, damping, stuck_speed, controller, profile, effects,
+               errors] = drive;  // damping, effects and their errors are the analytic wheel's
   const double gravity = gravity_of(recipe.soil);
   const auto& [rim_speed, torque, highest_torque, highest_rim_speed, ramp, response] = controller;
   add(inputs, "drive.load", load), add(inputs, "drive.mass", mass_of(drive, gravity));

@@ -8,6 +8,7 @@
 #include "bekker_wong/drive_fixture.hpp"
 #include "bekker_wong/limits.hpp"
 #include "compare/drives/drive.hpp"
+#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -78,10 +79,55 @@ TEST(DriveErrors, AreTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.moved.front().lower.value, 0.0);
 }
 
+// Two values of one fit, and a soil that comes back: what errs together adds up, or takes away, before it is squared.
+TEST(DriveErrors, OfAFitAddUpAsItsCorrelationsHaveThem) {
+  Case asked = question(2 * degree, 6, 1 * degree);
+  value_of(asked.scenario.soil, "shear_modulus").std_error = 0.003;
+  const auto with = [&](double correlation) {
+    asked.drive->errors = {{"friction_angle", std::nullopt, {}}, {"shear_modulus", std::nullopt, {correlation}}};
+    return run_drive(asked, 20);
+  };
+  const AnalyticDrive alone = with(0.0);
+  ASSERT_EQ(alone.errors.moved.size(), 2U);
+  const double way = alone.record.samples.back().travelled;
+  const auto travelled = [](const bekker_wong::DriveRecord& r) { return std::optional(r.samples.back().travelled); };
+  const double a = change(alone.errors.moved[0], way, travelled).value(),
+               b = change(alone.errors.moved[1], way, travelled).value();
+  EXPECT_NEAR(*alone.errors.travelled, std::hypot(a, b), 1e-12);
+  EXPECT_FALSE(alone.errors.correlated());
+  EXPECT_NEAR(*with(1.0).errors.travelled, std::abs(a + b), 1e-9);
+  EXPECT_NEAR(*with(-1.0).errors.travelled, std::abs(a - b), 1e-9);
+  EXPECT_NEAR(*with(0.5).errors.travelled, std::sqrt(a * a + b * b + a * b), 1e-9);
+  EXPECT_THAT(in_words(with(0.5)), testing::Contains(testing::HasSubstr("err together")));
+  EXPECT_THAT(in_words(with(0.5)), testing::Not(testing::Contains(testing::HasSubstr("Most of the ±"))));
+}
+
+TEST(DriveErrors, AnEffectsValueErrsWhereItsFitSaysSo) {
+  Case asked = question(2 * degree, 6, 0);
+  asked.drive->effects = {{"slip_sinkage", "ding", {{"n1", 0.4}}}};
+  asked.drive->errors = {{"slip_sinkage.n1", 0.1, {}}};
+  const AnalyticDrive part = run_drive(asked, 20);
+  ASSERT_EQ(part.errors.moved.size(), 1U);
+  EXPECT_EQ(part.errors.moved.front().parameter, "slip_sinkage.n1");
+  EXPECT_GT(*part.errors.travelled, 0.0);
+  EXPECT_GT(part.errors.moved.front().higher.record.value().samples.back().sinkage,
+            part.errors.moved.front().lower.record.value().samples.back().sinkage);
+}
+
+TEST(DriveErrors, OfASoilThatComesBackAreThoseOfOneSoil) {
+  Case asked = question(0, 6, 1 * degree), back = asked;
+  for (const double at : {0.05, 0.1}) back.drive->profile.push_back({.at = at, .soil = asked.scenario.soil});
+  const AnalyticDrive one = run_drive(asked, 20), returned = run_drive(back, 20);
+  EXPECT_EQ(returned.errors.moved.size(), 1U);
+  EXPECT_NEAR(*returned.errors.travelled / *one.errors.travelled, 1, 1e-3);
+  back.drive->profile.back().soil->name = "another";
+  EXPECT_EQ(run_drive(back, 20).errors.moved.size(), 2U) << "a soil of another name errs by itself";
+}
+
 TEST(DriveErrors, ChangeTakesTheSideThereIs) {
   bekker_wong::DriveRecord far;
   far.end_time = 12;
-  MovedDrive drive{"sand", &soil_parameter("cohesion"), {1.0, 2.0}, {0.0, {}}, {3.0, far}};
+  MovedDrive drive{"sand", "cohesion", "cohesion c", "kPa", 1e-3, {1.0, 2.0}, {0.0, {}}, {3.0, far}};
   const auto time = [](const bekker_wong::DriveRecord& r) { return std::optional(r.end_time); };
   EXPECT_DOUBLE_EQ(*change(drive, 10.0, time), 2.0) << "all of it to the one side";
   bekker_wong::DriveRecord near;
