@@ -36,6 +36,7 @@ struct Outline {
   double radius = 0.0;        ///< of the circle that presses on the soil [m]
   double width = 0.0;         ///< [m]
   double shear_radius = 0.0;  ///< radius on which the soil shears and the torque's arm [m]
+  double slip_radius = 0.0;   ///< radius whose slip it is: the shear circle meets the soil at v_x/(r w) times this [m]
 };
 
 /// Angles from the vertical, entry side positive [rad].

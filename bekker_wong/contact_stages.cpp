@@ -127,16 +127,24 @@ void fill_trigonometry(ContactPatch& p, const Outline& outline, int first_rear) 
     p.depth[i] = radius * 2 * sine[i] * (sine_1 * cosine[i] - cosine_1 * sine[i]);
 }
 
+/// v_x/(r w) and v_y/(r w) as the shear circle has them: of its own radius in place of r.
+struct CircleMotion {
+  double forward, lateral;
+  CircleMotion(const Outline& outline, const Kinematics& motion)
+      : forward(outline.slip_radius / outline.shear_radius * motion.forward),
+        lateral(outline.slip_radius / outline.shear_radius * motion.lateral) {}
+};
+
 /// |j| at a distance x from entry [m], on the shear radius.
-double displacement_at(double x, double entry, const Outline& outline, const Kinematics& motion) {
+double displacement_at(double x, double entry, const Outline& outline, const CircleMotion& motion) {
   const double along = x - motion.forward * (std::sin(entry) - std::sin(entry - x));
   return outline.shear_radius * std::hypot(along, motion.lateral * x);
 }
 
 /// A braked wheel's shear displacement along the wheel may grow, turn and change sign. Past 45 deg of yaw that leaves
 /// no trace in |j|, which the displacement across the wheel rules.
-bool turns_back(const ContactAngles& angles, const Kinematics& motion) {
-  return !motion.locked && motion.forward > 1.0 && motion.forward * std::cos(angles.entry) < 1.0 &&
+bool turns_back(const ContactAngles& angles, const CircleMotion& motion) {
+  return motion.forward > 1.0 && motion.forward * std::cos(angles.entry) < 1.0 &&
          std::abs(motion.lateral) < motion.forward;
 }
 
@@ -157,14 +165,15 @@ NodeLayout node_layout(const SoilValues& soil, const Outline& outline, const Kin
   if (motion.locked) {
     if (motion.lateral != 0.0) nodes += 10;
   } else {
+    const CircleMotion circle(outline, motion);
     const auto hardness = [&](double x) {
-      return displacement_at(x, angles.entry, outline, motion) / soil.shear_modulus;
+      return displacement_at(x, angles.entry, outline, circle) / soil.shear_modulus;
     };
     const double extent = angles.entry - angles.exit, front = hardness(angles.entry - angles.max_stress);
     const double whole = std::max(hardness(extent), hardness(0.5 * extent));
     layout.crowd_at_crest = front < 20.0 && whole > 8.0 * std::max(1.0, front);
     if (layout.crowd_at_crest) nodes += 8;
-    if (turns_back(angles, motion)) {
+    if (turns_back(angles, circle)) {
       nodes = 16.0 + (motion.lateral != 0.0 ? 16.0 : 0.0) + 12.0 * std::log10(1.0 + whole);
     } else {
       const double decades = std::log10(1.0 + whole);
@@ -186,10 +195,11 @@ void fill_geometry(ContactPatch& patch, const ContactAngles& angles, const Outli
   patch.count = 0;
   patch.angles = angles;
   patch.deflection = 0.0;
-  const bool may_turn = turns_back(angles, motion), no_rear = !(angles.max_stress > angles.exit);
+  const CircleMotion circle(outline, motion);
+  const bool may_turn = !motion.locked && turns_back(angles, circle), no_rear = !(angles.max_stress > angles.exit);
   double split = angles.exit - 1.0;  // out of reach
   if (may_turn) {
-    const double x = sign_change(angles.entry, angles.entry - angles.exit, motion.forward);
+    const double x = sign_change(angles.entry, angles.entry - angles.exit, circle.forward);
     if (x > 0.0) split = angles.entry - x;
   }
   const auto lay = [&](double high, double low, Crowd crowd, bool front) {
@@ -213,9 +223,8 @@ void fill_pressure(ContactPatch& p, const SoilValues& soil, const Outline& outli
 }
 
 void fill_displacement(ContactPatch& p, const Outline& outline, const Kinematics& motion) {
-  const double r = outline.shear_radius;
-  const double turning = motion.locked ? 0.0 : r;
-  const double forward = r * motion.forward, lateral = r * motion.lateral;
+  const double turning = motion.locked ? 0.0 : outline.shear_radius;
+  const double forward = outline.slip_radius * motion.forward, lateral = outline.slip_radius * motion.lateral;
   for (int i = 0; i < p.count; ++i) {
     p.j_x[i] = turning * p.since_entry[i] - forward * p.sine_drop[i];
     p.j_y[i] = lateral * p.since_entry[i];

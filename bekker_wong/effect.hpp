@@ -94,8 +94,6 @@ class Effect {
   }
   /// sigma is filled; change it in place.
   virtual void pressure(ContactPatch&, const SoilValues&, const Outline&, const Surroundings&) const {}
-  /// j_x, j_y are filled; change them in place.
-  virtual void displacement(ContactPatch&, const Outline&, const Surroundings&) const {}
   /// strength and modulus are filled; change them in place.
   virtual void strength(ContactPatch&, const SoilValues&, const Outline&, const Surroundings&) const {}
   /// mobilised is filled from |j|/K; change it in place. displacement: |j| at the nodes [m].

@@ -58,7 +58,10 @@ RollingWheel::Prepared RollingWheel::prepare(const OperatingCondition& at) const
   Prepared p{.at = at,
              .motion = kinematics(at),
              .soil = soil_,
-             .outline = {.radius = tire_.radius, .width = tire_.width, .shear_radius = tire_.radius},
+             .outline = {.radius = tire_.radius,
+                         .width = tire_.width,
+                         .shear_radius = tire_.radius,
+                         .slip_radius = tire_.radius},
              .around = {tire_, soil_, at, p.motion, bin_, 0.0},
              .layout = {}};
   p.around.normal_load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
@@ -84,7 +87,6 @@ void RollingWheel::fill_patch(const Prepared& p, double theta_1, ContactPatch& p
     displacement_of(patch, p.outline);
   else
     fill_displacement(patch, p.outline, p.motion);
-  for (const auto& effect : effects_) effect->displacement(patch, p.outline, p.around);
   fill_strength(patch, p.soil);
   for (const auto& effect : effects_) effect->strength(patch, p.soil, p.outline, p.around);
   ContactPatch::Array j;
@@ -122,6 +124,8 @@ double share_of(double log_share) {
   const double below = log_share - std::log(small_share);
   return below > 0.0 ? std::exp(log_share) : small_share * (1 + below);
 }
+
+constexpr std::array stress_members = {&ContactPatch::sigma, &ContactPatch::tau_x, &ContactPatch::tau_y};
 
 double deepest_angle() { return std::acos(1.0 - max_sinkage_share); }
 
@@ -204,6 +208,17 @@ bool RollingWheel::is_smallest(const Prepared& p, double log_theta) const {
   return true;
 }
 
+/// The share of its stresses with which a patch carries the load. Added forces carry too, and some of them rise with
+/// the stresses, in proportion: those of faces that soil is pressed against.
+double RollingWheel::carrying_share(const Prepared& p, const ContactPatch& patch) const {
+  const double by_stresses = pressed(p, patch), by_forces = lifted(p, patch);
+  if (by_forces == 0.0) return p.around.normal_load / by_stresses;
+  ContactPatch bare = patch;
+  for (auto member : stress_members) std::ranges::fill(bare.of(member), 0.0);
+  const double alone = lifted(p, bare);
+  return (p.around.normal_load - alone) / (by_stresses + (by_forces - alone));
+}
+
 FirstRoot RollingWheel::balance(Prepared& p, const NearBalance& known, ContactPatch& patch) const {
   const double load = p.around.normal_load, upper = std::log(deepest_angle());
   // ln(carried/load) against ln(theta_1) is nearly a line of slope 2n + 1.
@@ -265,7 +280,7 @@ void RollingWheel::settle(const Prepared& balanced, double deeper, RolledWheel& 
   const auto carry = [&](double circle, double felt) {
     p.around.stress_share = felt;
     fill_patch(p, std::acos(1.0 - circle / r), wheel.patch);
-    scale = (p.around.normal_load - lifted(p, wheel.patch)) / pressed(p, wheel.patch);
+    scale = carrying_share(p, wheel.patch);
   };
   const auto too_deep = [](double share) {
     return NoSolution(
@@ -289,9 +304,9 @@ void RollingWheel::settle(const Prepared& balanced, double deeper, RolledWheel& 
       throw NoSolution("no balance of the load at the deeper position");
     }
   if (!(scale > 0.0) || !std::isfinite(scale)) throw NoSolution("no balance of the load at the deeper position");
-  for (auto member : {&ContactPatch::sigma, &ContactPatch::tau_x, &ContactPatch::tau_y})
+  for (auto member : stress_members)
     for (double& stress : wheel.patch.of(member)) stress *= scale;
-  wheel.sinkage = deeper;
+  wheel.sinkage = deeper, wheel.stress_share = scale;
 }
 
 void RollingWheel::read(const Prepared& p, RolledWheel& wheel) const {

@@ -40,6 +40,7 @@ struct RolledWheel {
   WheelForces forces;
   double balance_angle = 0.0;  ///< theta_1 that balances the load [rad]
   double sinkage = 0.0;        ///< z [m]
+  double stress_share = 1.0;   ///< of the soil's stresses at this depth, where effects settled the wheel: they carry W
   bool gives_way = false;      ///< nothing balances: this is the wheel where the soil carries most
   double shortfall = 0.0;      ///< then: ln(load/most that the soil carries)
   Reading unmeasured;          ///< the same four channels before the sensor joint
@@ -104,6 +105,7 @@ class RollingWheel {
   WheelForces integrate(const Prepared&, const ContactPatch&) const;
   static double pressed(const Prepared&, const ContactPatch&);
   double lifted(const Prepared&, const ContactPatch&) const;
+  double carrying_share(const Prepared&, const ContactPatch&) const;
   double vertical(const Prepared&, const ContactPatch&) const;
   /// Finds ln(theta_1) and leaves the patch filled for it; refines p's node layout on the way. Looks from `known`
   /// where that is known, and then for no higher place than the one that a climb from there leads to.

@@ -27,7 +27,7 @@ void print_steps(const char* heading, const std::vector<Step>& steps) {
     if (step.unit == "SI")
       fmt::print("      with {}\n", step.numbers);  // an effect's parameters
     else
-      fmt::print("      = {} = {} {}\n", step.numbers, number(step.value), step.unit);
+      fmt::print("      = {} = {}{}\n", step.numbers, number(step.value), compare::unit_behind(step.unit));
     if (!step.remark.empty()) fmt::print("      ({})\n", step.remark);
   }
 }
@@ -69,7 +69,7 @@ int explain(const Question& inputs, bool json, const Session& session) {
   const std::vector<std::string> doubts = compare::doubts(question, answered);
   print_warnings(doubts);
   if (!json) return done;
-  nlohmann::ordered_json document = document_of("soilbin-explain/1", question, rows);
+  nlohmann::ordered_json document = document_of("soilbin-explain/1", question, rows, session.place.effects);
   document["sources"] = compare::sources_json(question.scenario);
   print_json(document, doubts);
   return done;

@@ -36,30 +36,22 @@ constexpr Presumption lug_count = {
 
 double spacing(const Tire& tire) { return 2 * std::numbers::pi * tire.radius / lug_count(tire); }
 
+enum class SlipOf { tread_base, shear_circle };
+
 /// The soil shears on R_s = r + lambda_s h, which is the torque's arm too. By the conventions slip is that of the tread
-/// base, so the soil's path keeps its length: j_x = R_s (theta_1 - theta) - r v_x/(r w) (sin theta_1 - sin theta). The
-/// base model scales both terms with R_s, which is what slip counted at R_s means (ShearRadiusOwnSlip).
-class ShearRadiusOwnSlip : public Effect {
+/// base: j_x = R_s (theta_1 - theta) - r v_x/(r w) (sin theta_1 - sin theta). Slip counted at R_s scales both terms.
+template <SlipOf slip>
+class ShearRadius final : public Effect {
  public:
-  explicit ShearRadiusOwnSlip(const std::vector<double>& p) : share_(p[0]) {}
+  explicit ShearRadius(const std::vector<double>& p) : share_(p[0]) {}
   void outline(Outline& outline, const Surroundings& around) const override {
-    outline.shear_radius += share_ * lug_height(around.tire);
-  }
-
- protected:
-  double share_;
-};
-
-class ShearRadius final : public ShearRadiusOwnSlip {
- public:
-  using ShearRadiusOwnSlip::ShearRadiusOwnSlip;
-  void displacement(ContactPatch& patch, const Outline&, const Surroundings& around) const override {
     const double beyond = share_ * lug_height(around.tire);
-    for (int i = 0; i < patch.count && !around.motion.locked; ++i) {
-      patch.j_x[i] += beyond * around.motion.forward * patch.sine_drop[i];
-      patch.j_y[i] -= beyond * around.motion.lateral * patch.since_entry[i];
-    }
+    outline.shear_radius += beyond;
+    if (slip == SlipOf::shear_circle) outline.slip_radius += beyond;
   }
+
+ private:
+  double share_;
 };
 
 /// Bekker's factors for the soil sheared on the sides of the lugs.
@@ -151,14 +143,14 @@ std::vector<EffectForm> lug_thrust_forms() {
        .source = "after Ding, Gao, Deng, Nagatani, Yoshida 2011, J. Terramechanics 48:27 (equivalent shearing radius)",
        .parameters = {{"lambda_s", "-", 0.5, 0.0, 4.0, meaning}},
        .presumes = of_height,
-       .make = maker<ShearRadius>()},
+       .make = maker<ShearRadius<SlipOf::tread_base>>()},
       {.id = id,
        .form = "shear_radius_own_slip",
        .equation = "R_s = r + lambda_s h: shear surface and torque's arm; slip counted at R_s",
        .source = "after Ding, Gao, Deng, Nagatani, Yoshida 2011, J. Terramechanics 48:27, with the slip of their wheel",
        .parameters = {{"lambda_s", "-", 0.5, 0.0, 4.0, meaning}},
        .presumes = of_height,
-       .make = maker<ShearRadiusOwnSlip>()},
+       .make = maker<ShearRadius<SlipOf::shear_circle>>()},
       {.id = id,
        .form = "side_factors",
        .equation = "tau_max = c (1 + 2 h/b) + sigma tan(phi) [1 + 0.64 (h/b) acot(h/b)], h = a h_lug",

@@ -205,7 +205,7 @@ class SubstituteCircle final : public Effect {
   void outline(Outline& outline, const Surroundings& around) const override {
     if (amplitude_ == 0.0) return;
     const double larger = enlargement(outline.radius, outline.width, around);
-    outline.shear_radius += (larger - 1) * outline.radius;
+    outline.shear_radius += (larger - 1) * outline.radius, outline.slip_radius += (larger - 1) * outline.radius;
     outline.radius *= larger;
   }
 

@@ -72,8 +72,8 @@ DrivenWheel::DrivenWheel(const Scenario& scenario, const Drive& drive, const Dri
   const OperatingCondition at = condition(way_.at(0.0), 0.0, 0.0, 0.0);
   for (const SoilValues& soil : soils) {
     RollingWheel wheel(tire_, soil, effects, scenario.bin);
-    const double shear_radius = wheel.outline(at).shear_radius;
-    soils_.push_back({std::move(wheel), shear_radius});
+    const Outline outline = wheel.outline(at);
+    soils_.push_back({std::move(wheel), outline});
   }
   std::vector<double> state(state_size(), 0.0);
   const double z = held_depth(state), entry = entry_angle(z, tire_.radius);
@@ -138,7 +138,8 @@ DrivenWheel::Span DrivenWheel::contact_span(const OnSoil& on, double z, double z
 /// The v/(r w) of a steady wheel with this j at the exit, as a slip.
 double DrivenWheel::slip_in_contact(const OnSoil& on, const Span& span, std::span<const double> state) const {
   const double at_exit = state[first_node + static_cast<std::size_t>(nodes_) - 1];
-  const double ratio = (span.length() - at_exit / on.shear_radius) / (std::sin(span.entry) - std::sin(span.exit));
+  const double ratio = (on.outline.shear_radius * span.length() - at_exit) /
+                       (on.outline.slip_radius * (std::sin(span.entry) - std::sin(span.exit)));
   constexpr double highest = 1e3;  // a wheel that is dragged: all but locked
   const double held = std::clamp(ratio, 0.0, highest);
   return held <= 1.0 ? 1 - held : 1 / held - 1;
@@ -146,14 +147,14 @@ double DrivenWheel::slip_in_contact(const OnSoil& on, const Span& span, std::spa
 
 void DrivenWheel::node_rates(const OnSoil& on, const Span& span, const Place& place, std::span<const double> state,
                              std::span<double> out) const {
-  const double scale = on.shear_radius / tire_.radius, v = state[speed];
+  const double scale = on.outline.slip_radius / tire_.radius, v = state[speed];
   const double along = v * std::cos(place.yaw), across = v * std::sin(place.yaw);
   const std::span<const double> nodes = state.subspan(first_node);
   for (int i = 0; i < nodes_; ++i) {
     const double u = static_cast<double>(i + 1) / nodes_, theta = span.entry - u * span.length();
     const double stream = (state[spin] + span.entry_rate - u * (span.entry_rate - span.exit_rate)) / span.length();
     const double sliding =
-        scale * (tire_.radius * state[spin] - along * std::cos(theta) + state[sinking] * std::sin(theta));
+        on.outline.shear_radius * state[spin] + scale * (state[sinking] * std::sin(theta) - along * std::cos(theta));
     const auto k = static_cast<std::size_t>(i);
     out[k] = span.grip * sliding - stream * slope_at(line(nodes, 0), i, stream >= 0.0);
     if (!turns_) continue;

@@ -80,10 +80,10 @@ class DrivenWheel {
   double inertia() const { return inertia_; }
 
  private:
-  /// A soil along the way, the wheel on it, and the radius on which it shears.
+  /// A soil along the way, the wheel on it, and the outline that its effects give it.
   struct OnSoil {
     RollingWheel wheel;
-    double shear_radius;
+    Outline outline;
   };
   /// Ends of the contact and how they move.
   struct Span {

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bekker_wong/closed_forms.hpp"
@@ -28,6 +29,8 @@ struct Facts {
   SoilValues soil;
   RolledWheel wheel;
   double r, b, k, normal_load, theta_1, theta_m;
+
+  bool settled() const { return wheel.stress_share != 1.0; }
 };
 
 Facts gather(const Scenario& scenario, const OperatingCondition& at) {
@@ -63,15 +66,18 @@ std::vector<Step> contact_steps(const Facts& f) {
                    fmt::format("{:.5g} N cos({:.3g} deg) cos({:.3g} deg)", f.at.load,
                                f.at.longitudinal_incline / degree, f.at.transverse_incline / degree),
                    f.normal_load, "N"});
-  steps.push_back({"entry angle", "W_n = r b Int (sigma cos + tau sin) d theta", "solved for theta_1",
-                   f.wheel.balance_angle / degree, "deg",
-                   fmt::format("the stresses then carry {:.6g} N", f.wheel.forces.vertical)});
+  const std::string carried = fmt::format("{:.6g} N are then carried", f.wheel.forces.vertical);
   const double yields = f.wheel.patch.deflection;
-  if (std::abs(f.theta_1 - f.wheel.balance_angle) > 1e-9)
+  steps.push_back({"entry angle", "W_n = r b Int (sigma cos + tau sin) d theta", "solved for theta_1",
+                   f.wheel.balance_angle / degree, "deg", f.settled() ? "" : carried});
+  if (f.settled()) {
     steps.push_back({"entry angle after settling",
                      yields == 0.0 ? "theta_1 = arccos(1 - z/r)" : "theta_1 = arccos(1 - (z + deflection)/r)",
                      "where the effects below move the wheel", f.theta_1 / degree, "deg",
-                     "what follows is at this angle, the stresses scaled to carry the load"});
+                     "what follows is at this angle"});
+    steps.push_back({"share of the soil's stresses there", "W_n = a r b Int (sigma cos + tau sin) d theta",
+                     "solved for a", f.wheel.stress_share, "-", carried});
+  }
   steps.push_back({"sinkage", yields == 0.0 ? "z = r (1 - cos theta_1)" : "z = r (1 - cos theta_1) - deflection",
                    fmt::format("{:.4g} m (1 - cos {:.4g} deg)", f.r, f.theta_1 / degree) +
                        (yields == 0.0 ? "" : fmt::format(" - {:.4g} mm", 1000 * yields)),
@@ -86,25 +92,28 @@ std::vector<Step> contact_steps(const Facts& f) {
 std::vector<Step> stress_steps(const Facts& f) {
   const SoilValues& s = f.soil;
   const double drop = std::cos(f.theta_m) - std::cos(f.theta_1);
-  const double sigma = f.k * std::pow(f.r * drop, s.exponent);
+  const double share = f.wheel.stress_share, sigma = share * f.k * std::pow(f.r * drop, s.exponent);
+  const std::string scaled = f.settled() ? fmt::format("{:.4g} * ", share) : "";
   const auto& motion = f.wheel.motion;
   const double turned = f.theta_1 - f.theta_m, rim = motion.rim();
   const double j_x = f.r * (rim * turned - motion.forward * (std::sin(f.theta_1) - std::sin(f.theta_m)));
   const double j_y = f.r * motion.lateral * turned, j = motion.lateral == 0.0 ? j_x : std::hypot(j_x, j_y);
   const double mobilised = motion.locked ? 1.0 : 1 - std::exp(-std::abs(j) / s.shear_modulus);
-  const double tau = std::copysign((s.cohesion + sigma * std::tan(s.friction_angle)) * mobilised, j);
-  const std::string strength = fmt::format("({:.4g} kPa + {:.4g} kPa tan {:.4g} deg) * {:.4g}", s.cohesion / 1000,
-                                           sigma / 1000, s.friction_angle / degree, mobilised);
-  std::vector<Step> steps = {{"normal stress there", "sigma_m = k r^n (cos theta_m - cos theta_1)^n",
-                              fmt::format("k ({:.4g} m * {:.4g})^{:.4g}", f.r, drop, s.exponent), sigma / 1000, "kPa"}};
+  const double tau = std::copysign((share * s.cohesion + sigma * std::tan(s.friction_angle)) * mobilised, j);
+  const std::string strength = fmt::format("({}{:.4g} kPa + {:.4g} kPa tan {:.4g} deg) * {:.4g}", scaled,
+                                           s.cohesion / 1000, sigma / 1000, s.friction_angle / degree, mobilised);
+  const std::string a = f.settled() ? "a " : "";
+  std::vector<Step> steps = {{"normal stress there", "sigma_m = " + a + "k r^n (cos theta_m - cos theta_1)^n",
+                              fmt::format("{}k ({:.4g} m * {:.4g})^{:.4g}", scaled, f.r, drop, s.exponent),
+                              sigma / 1000, "kPa"}};
   const char* along = motion.locked ? " = -r cos(psi) (sin theta_1 - sin theta_m)"
                                     : " = r [(theta_1 - theta_m) - v_x/(r w) (sin theta_1 - sin theta_m)]";
   const std::string by = motion.locked ? "the wheel is locked: only the direction of j counts, shear is saturated"
                                        : fmt::format("v_x/(r w) = {:.4g}", motion.forward);
   if (motion.lateral == 0.0) {
     steps.push_back({"shear displacement there", std::string("j") + along, by, 1000 * j, "mm"});
-    steps.push_back(
-        {"shear stress there", "tau = (c + sigma_m tan phi) (1 - exp(-|j|/K)) sign(j)", strength, tau / 1000, "kPa"});
+    steps.push_back({"shear stress there", "tau = (" + a + "c + sigma_m tan phi) (1 - exp(-|j|/K)) sign(j)", strength,
+                     tau / 1000, "kPa"});
     return steps;
   }
   steps.push_back({"shear displacement in the wheel's plane", std::string("j_x") + along, by, 1000 * j_x, "mm"});
@@ -113,23 +122,51 @@ std::vector<Step> stress_steps(const Facts& f) {
                    motion.locked ? by : fmt::format("v_y/(r w) = {:.4g}", motion.lateral), 1000 * j_y, "mm"});
   steps.push_back({"shear displacement there", "j = sqrt(j_x^2 + j_y^2)",
                    fmt::format("sqrt(({:.4g} mm)^2 + ({:.4g} mm)^2)", 1000 * j_x, 1000 * j_y), 1000 * j, "mm"});
-  steps.push_back({"shear stress there", "tau = (c + sigma_m tan phi) (1 - exp(-j/K))", strength, tau / 1000, "kPa",
+  steps.push_back({"shear stress there", "tau = (" + a + "c + sigma_m tan phi) (1 - exp(-j/K))", strength, tau / 1000,
+                   "kPa",
                    fmt::format("of it tau j_x/j = {:.4g} kPa in the wheel's plane, tau j_y/j = {:.4g} kPa across",
                                tau * j_x / j / 1000, tau * j_y / j / 1000)});
   return steps;
 }
 
+/// "12.3 - 4.5 + 0.6"
+std::string sum_in_words(const std::vector<double>& parts) {
+  std::string sum;
+  for (const double part : parts) {
+    const char* sign = sum.empty() ? (part < 0 ? "-" : "") : part < 0 ? " - " : " + ";
+    sum += fmt::format("{}{:.6g}", sign, std::abs(part));
+  }
+  return sum;
+}
+
+Step torque_step(const Facts& f, const TractionResult& result) {
+  double shear = f.wheel.forces.torque;
+  std::vector<double> parts;
+  std::string names;
+  const auto add = [&](const std::string& name, double torque) {
+    if (torque != 0.0) parts.push_back(torque), names += " + " + name;
+  };
+  for (const auto& added : f.wheel.forces.added.rows())
+    shear -= added.torque, add("that of " + spaced(added.name), added.torque);
+  add("what the instruments add", f.wheel.reading.torque - f.wheel.unmeasured.torque);
+  parts.insert(parts.begin(), shear);
+  const bool on_the_rim =
+      std::ranges::all_of(f.wheel.patch.of(&bekker_wong::ContactPatch::arm), [&](double arm) { return arm == f.r; });
+  return {"torque",
+          (on_the_rim ? "M = r^2 b Int tau d theta" : "M = r b Int R_s tau d theta") + names,
+          parts.size() > 1 ? sum_in_words(parts) + " N m" : "over the contact",
+          result.torque.value,
+          "N m",
+          on_the_rim ? "" : "R_s: the arm that the effects below give to the shear"};
+}
+
 std::vector<Step> result_steps(const Facts& f, const TractionResult& result) {
-  std::string parts;
-  for (const Contribution& part : result.budget)
-    parts += fmt::format("{}{:.6g}",
-                         parts.empty()    ? (part.force < 0 ? "-" : "")
-                         : part.force < 0 ? " - "
-                                          : " + ",
-                         std::abs(part.force));
+  std::vector<double> parts;
+  for (const Contribution& part : result.budget) parts.push_back(part.force);
   std::vector<Step> steps;
-  steps.push_back({"drawbar pull", "F_DP = the sum of the budget", parts + " N", result.drawbar_pull.value, "N"});
-  steps.push_back({"torque", "M = r^2 b Int tau d theta", "over the contact", result.torque.value, "N m"});
+  steps.push_back(
+      {"drawbar pull", "F_DP = the sum of the budget", sum_in_words(parts) + " N", result.drawbar_pull.value, "N"});
+  steps.push_back(torque_step(f, result));
   if (result.lateral_force.value != 0.0) {
     const bool travel = f.at.force_frame == ForceFrame::travel;
     double in_plane = f.wheel.forces.thrust + f.wheel.forces.compaction, across = f.wheel.forces.side;

@@ -355,6 +355,24 @@ TEST(Effects, EveryFormLeavesTheLoadCarried) {
       }
 }
 
+// Where another effect settles the wheel, the stresses of a form there are scaled, and with them what its faces lift.
+TEST(Effects, EveryFormLeavesTheLoadCarriedWhereTheWheelSettles) {
+  for (const EffectForm& form : effect_catalogue())
+    for (const char* digs : {"lyasko", "linear", "reece", "sliding"})
+      for (const Setting& s : settings())
+        for (const Question& q : questions) {
+          if (form.id == "slip_sinkage") continue;
+          const OperatingCondition at = condition(s, q);
+          const double load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
+          try {
+            const RollingWheel wheel(s.tire, s.soil,
+                                     make_effects({{form.id, form.form, {}}, {"slip_sinkage", digs, {}}}), bin);
+            EXPECT_NEAR(wheel.roll(at).forces.vertical, load, 1e-9 * load) << label(form, s, q) << ", " << digs;
+          } catch (const NoSolution&) {  // digs itself in
+          }
+        }
+}
+
 TEST(Effects, DerivativeAtZeroIsThatOfTheImplicitFunctionTheorem) {
   for (const EffectForm& form : effect_catalogue()) {
     if (not_smooth_at_zero.contains(key(form))) continue;

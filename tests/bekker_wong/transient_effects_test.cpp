@@ -4,6 +4,7 @@
 
 #include "bekker_wong/drive_fixture.hpp"
 #include "bekker_wong/limits.hpp"
+#include "bekker_wong/transient/driven_wheel.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 
@@ -42,6 +43,20 @@ TEST_P(SlowTransientEffects, EndInTheirStaticWheelOrAreRefused) {
   EXPECT_NEAR(end.torque, wheel.reading.torque, 1e-3 * load * 0.09);
   EXPECT_NEAR(end.sinkage, wheel.sinkage, 1e-3 * 0.09);
   EXPECT_LT(std::abs(end.energy.unaccounted()), 1e-5 * end.energy.shear);
+}
+
+// Nothing has moved: no shear is called up, and nothing resists. One form alone is called up by the slip that the
+// contact has seen: shear of 0 all along is that of a wheel braked by a few per cent.
+TEST(TransientEffects, AWheelAtRestOnLevelGroundIsNotPushed) {
+  for (const EffectForm& form : effect_catalogue()) {
+    if (!form.steady_only.empty() || form.form == "level_blade") continue;
+    Drive d = drive();
+    d.effects = {{form.id, form.form, {}}};
+    const DrivenWheel wheel(scenario(), d);
+    const Held held = wheel.hold();
+    EXPECT_NEAR(wheel.look(0.0, held.state, wheel.motor(held.torque)).forward, 0.0, 1e-9 * load)
+        << form.id << " " << form.form;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, SlowTransientEffects, testing::Range(std::size_t{0}, effect_catalogue().size()),

@@ -283,6 +283,23 @@ TEST(Explain, ASettledWheelHasTheAngleOfItsBalanceAndTheOneWhereItStands) {
   const double angle = step_named(settled, "entry angle after settling")["value"].get<double>();
   EXPECT_NEAR(0.09 * (1 - std::cos(angle * std::numbers::pi / 180)), settled["sinkage"].get<double>(), 1e-9);
   EXPECT_THROW(step_named(plain, "entry angle after settling"), std::runtime_error);
+  const double share = step_named(settled, "share of the soil's stresses there")["value"].get<double>();
+  EXPECT_GT(share, 0.1);
+  EXPECT_LT(share, 1.0) << "a deeper wheel asks less of the soil";
+}
+
+// A torque's equation names what has a part in it, and the parts add up.
+TEST(Explain, TheTorqueOfLugsIsThatOfTheShearAndTheFaces) {
+  const nlohmann::json row = soilbin(
+                                 "explain --json --tire rover-wheel --soil dry-sand --load 65N --slip 40% "
+                                 "--effect lug_thrust:passive_blade")
+                                 .json()["rows"]
+                                 .at(0);
+  const nlohmann::json& torque = step_named(row, "torque");
+  EXPECT_THAT(torque["equation"].get<std::string>(), HasSubstr("Int tau d theta + that of lug thrust"));
+  const std::string sum = torque["numbers"].get<std::string>();
+  const double shear = std::stod(sum), faces = std::stod(sum.substr(sum.find('+') + 1));
+  EXPECT_NEAR(shear + faces, torque["value"].get<double>(), 1e-5);
 }
 
 // Shear brakes a locked wheel, as its torque does; a wheel at yaw is sheared along both axes, and its side force stands
