@@ -81,19 +81,6 @@ double implied_speed(const AskedCondition& one, const Tire& tire) {
       fmt::format("soil '{}' has no {}\n  hint: these have: {}", clipped(soil.name), lacks, listed(right)));
 }
 
-constexpr const char* on_command_line = "given on the command line";  // the source of such a value
-/// A value of a soil without a standard deviation.
-struct ExactValue {
-  const char* key;
-  std::optional<double> SemiEmpiricalSoil::*value;
-  Measure measure;
-  const char *meaning, *example;
-};
-constexpr std::array<ExactValue, 2> exact_values = {{
-    {"density", &SemiEmpiricalSoil::density, {"kg/m^3", above_zero}, "bulk density", "1600kg/m^3"},
-    {"gravity", &SemiEmpiricalSoil::gravity, {"m/s^2", above_zero}, gravity_meaning, "1.62m/s^2"},
-}};
-
 /// "30+-2 deg" as {"30 deg", "2 deg"}; the second is empty where none is given.
 std::pair<std::string, std::string> value_and_deviation(std::string text) {
   for (const char* sign : {"±", "+-"}) {
@@ -182,7 +169,7 @@ void SoilFlags::add_to(CLI::App& app, const std::string& heading) {
   };
   for (const SoilParameter& p : soil_parameters)
     add(p.name, std::string(p.unit) == "-" ? "NUMBER[+-SD]" : std::string(p.unit) + "[+-SD]", p.meaning);
-  for (const ExactValue& exact : exact_values) add(exact.key, exact.measure.unit, exact.meaning);
+  for (const ExactSoilValue& exact : exact_soil_values) add(exact.name, exact.unit, exact.meaning);
 }
 
 bool SoilFlags::any_given() const {
@@ -200,15 +187,15 @@ void SoilFlags::apply(Soil& soil) const {
   for (const SoilParameter& p : soil_parameters)  // n first: the units of k_c and k_phi depend on it
     if (const std::string& text = texts_.at(p.name); !text.empty()) {
       set_value(p, text, values);
-      values.sources[p.name] = on_command_line;
+      values.sources[p.name] = command_line_source;
     }
-  for (const ExactValue& exact : exact_values)
-    if (const std::string& text = texts_.at(exact.key); !text.empty()) {
+  for (const ExactSoilValue& exact : exact_soil_values)
+    if (const std::string& text = texts_.at(exact.name); !text.empty()) {
       if (!value_and_deviation(text).second.empty())
         throw InputError(fmt::format("--{0}: a {0} has no standard deviation here\n  hint: such as --{0} {1}",
-                                     exact.key, exact.example));
-      values.*exact.value = read_flag(flag_of("", exact.key), text, exact.measure);
-      values.sources[exact.key] = on_command_line;
+                                     exact.name, exact.example));
+      values.*exact.value = read_flag(flag_of("", exact.name), text, exact.measure());
+      values.sources[exact.name] = command_line_source;
     }
   if (soil.granular) soil.granular->gravity = values.gravity;
   soil.name += ", changed";
@@ -237,8 +224,8 @@ void Question::override_tire(Tire& tire, const Workplace& place) const {
   if (const std::string why = why_no_gaps(tire); !why.empty())
     throw InputError(why + "\n  hint: fewer or thinner lugs");
   const std::vector<std::string> of_wheel = wheel_.given_keys(), of_lugs = lugs_.given_keys();
-  for (const std::string& key : of_wheel) tire.sources[key] = on_command_line;
-  for (const std::string& key : of_lugs) tire.sources["lugs." + key] = on_command_line;
+  for (const std::string& key : of_wheel) tire.sources[key] = command_line_source;
+  for (const std::string& key : of_lugs) tire.sources["lugs." + key] = command_line_source;
   if (tire.name.empty())
     tire.name = "wheel";
   else if (!of_wheel.empty() || !of_lugs.empty())
@@ -296,10 +283,12 @@ Case Question::ask(const Workplace& place) const {
   return question;
 }
 
-nlohmann::ordered_json document_of(const char* format, const Case& question, nlohmann::ordered_json rows) {
+nlohmann::ordered_json document_of(const char* format, const Case& question, nlohmann::ordered_json rows,
+                                   const EffectVocabulary& effects) {
   return {{"format", format},
           {"tire", question.scenario.tire.name},
           {"soil", question.scenario.soil.name},
+          {"case", write_case(question, effects)},
           {"rows", std::move(rows)}};
 }
 

@@ -116,8 +116,6 @@ void describe(Visitor& v, std::type_identity<Tire>) {
            "pressure that the carcass itself carries (Wong's p_c)");
 }
 
-inline constexpr const char* gravity_meaning = "that pulls on soil and wheel; absent: Earth's, 9.80665 m/s^2";
-
 template <class Visitor>
 void describe(Visitor& v, std::type_identity<SemiEmpiricalSoil>) {
   using S = SemiEmpiricalSoil;
@@ -131,8 +129,8 @@ void describe(Visitor& v, std::type_identity<SemiEmpiricalSoil>) {
       v.assumed_sd("assumed_sd", &S::assumed_sd,
                    "share of a value below n that is its sd where it has none: an assumption; absent: exact");
   }
-  v.number("density", &S::density, Measure{"kg/m^3", above_zero}, Need::optional, "bulk density");
-  v.number("gravity", &S::gravity, Measure{"m/s^2", above_zero}, Need::optional, gravity_meaning);
+  for (const ExactSoilValue& exact : exact_soil_values)
+    v.number(exact.name, exact.value, exact.measure(), Need::optional, exact.meaning);
 }
 
 /// What a file may leave out of a soil, and what is then taken. `given`: whether it holds a key.

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <cstdlib>
 #include <set>
 #include <sstream>
@@ -77,12 +78,17 @@ fs::path find_file(const Library& library, Shelf shelf, const std::string& name)
   if (fs::exists(name, error)) return name;
   const std::vector<std::string> names = library.names(shelf);
   const std::string there = what_there_is(shelf, names);
-  for (const Shelf other : {Shelf::tires, Shelf::soils, Shelf::studies, Shelf::measured})
+  constexpr std::array shelves = {Shelf::tires, Shelf::soils, Shelf::studies, Shelf::measured};
+  for (const Shelf other : shelves)
     if (other != shelf && library.find(other, name))
       throw InputError(fmt::format("no {} '{}' in the library: that is a {}\n  hint: {}", kind_of(shelf), name,
                                    kind_of(other), where_it_goes(other, shelf, name, there)));
+  std::string meant = did_you_mean(name, names);
+  for (const Shelf other : shelves)
+    if (const std::string near = nearest_word(name, library.names(other)); meant.empty() && !near.empty())
+      meant = fmt::format(", did you mean the {} '{}'?", kind_of(other), near);
   throw InputError(fmt::format("no {} '{}' in the library, and no such file{}\n  hint: {}", kind_of(shelf),
-                               clipped(name), did_you_mean(name, names), there));
+                               clipped(name), meant, there));
 }
 
 std::string_view folder_of(Shelf shelf) {

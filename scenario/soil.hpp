@@ -44,6 +44,15 @@ inline constexpr Estimate usual_stress_angle_c1{0.30, 0.15}, usual_stress_angle_
 /// Its source then.
 inline constexpr const char* usual_stress_angle_source = "not declared: a usual value with a wide standard deviation";
 
+/// The source of a value that was typed.
+inline constexpr const char* command_line_source = "given on the command line";
+
+/// Whether a value was typed, by its name.
+inline bool is_from_command_line(const SemiEmpiricalSoil& soil, const char* name) {
+  const auto source = soil.sources.find(name);
+  return source != soil.sources.end() && source->second == command_line_source;
+}
+
 /// Of a soil that declares no density, some sand's [kg/m^3].
 inline constexpr double presumed_bulk_density = 1500.0;
 

@@ -1,5 +1,5 @@
-// The eight parameters of a semi-empirical soil as one table: names, symbols, units, ranges and meanings. Reader,
-// writer, schema, fits, error propagation, tables and pages all go over it.
+// The eight parameters of a semi-empirical soil as one table: names, symbols, units, ranges and meanings; and its two
+// values without an error. Reader, writer, schema, flags, fits, error propagation, tables and pages all go over them.
 //
 //   for (const SoilParameter& p : soil_parameters)
 //     fmt::print("{} = {} {}\n", p.title, (soil.*p.value).value * p.per_si, p.unit);  // "cohesion c = 1.04 kPa"
@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -52,6 +53,24 @@ inline constexpr std::array<SoilParameter, 8> soil_parameters = [] {
       {"stress_angle_c2", "c2", "c2", "-", 1.0, c2s, "c2 of theta_m = (c1 + c2 |s|) theta_1", &S::stress_angle_c2},
   }};
 }();
+
+/// A value of a soil that has no standard deviation and may be absent.
+struct ExactSoilValue {
+  const char* name;     ///< in files and tables: "density"
+  const char* unit;     ///< the SI unit, in files and tables: "kg/m^3"
+  const char* meaning;  ///< in the schema
+  const char* example;  ///< of a flag
+  std::optional<double> SemiEmpiricalSoil::*value;
+
+  Measure measure() const { return {unit, above_zero}; }
+};
+
+inline constexpr const char* gravity_meaning = "that pulls on soil and wheel; absent: Earth's, 9.80665 m/s^2";
+
+inline constexpr std::array<ExactSoilValue, 2> exact_soil_values = {{
+    {"density", "kg/m^3", "bulk density", "1600kg/m^3", &SemiEmpiricalSoil::density},
+    {"gravity", "m/s^2", gravity_meaning, "1.62m/s^2", &SemiEmpiricalSoil::gravity},
+}};
 
 /// n, k_c, k_phi, c, phi and K: what plates and sheared rings measure.
 inline constexpr std::span<const SoilParameter, 6> bevameter_parameters = std::span(soil_parameters).first<6>();

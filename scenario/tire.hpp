@@ -41,8 +41,7 @@ struct Tire {
 inline bool is_lugged(const Tire& tire) { return tire.lugs.height > 0.0; }
 
 /// "24 lugs of 600 mm leave no gap ..." where count and thickness ask for more than the circumference of the tread
-/// base;
-/// "" where they don't, or where either is not known.
+/// base; "" where they don't, or where either is not known.
 std::string why_no_gaps(const Tire& tire);
 
 /// "rover-wheel (r 90 mm, b 110 mm, smooth)".

@@ -90,6 +90,7 @@ VirtualTest shear_box_test(const ElementExperiment& experiment, const dem::Direc
   identity.add("height", settings.height).add("travel", settings.travel).add("inertial", settings.inertial);
   identity.add("residual_share", settings.residual_share).add("peak_window", settings.peak_window);
   for (const double stress : settings.stresses) identity.add("stress", stress);
+  if (experiment.soil.gravity) identity.add("gravity", *experiment.soil.gravity);
   VirtualTest test = test_of(experiment, identity.text());
   test.run = [=](const VectorXd& values, std::uint64_t seed) {
     return answered([&] {
@@ -116,7 +117,7 @@ VirtualTest tilting_board_test(const ElementExperiment& experiment, const dem::T
   identity.add(experiment, ContactKind::grain_tire).add(settings.laws).add("packings", packings);
   identity.add("across", settings.across).add("layers", settings.layers).add("rate", settings.rate);
   identity.add("onset", settings.onset).add("gone", settings.gone).add("steepest", settings.steepest);
-  identity.add("dt", settings.dt).add("gravity", settings.gravity);
+  identity.add("dt", settings.dt).add("gravity", dem::gravity_on(experiment.soil));
   VirtualTest test = test_of(experiment, identity.text());
   test.run = [=](const VectorXd& values, std::uint64_t seed) {
     return answered([&] {

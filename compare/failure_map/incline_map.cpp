@@ -20,8 +20,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double gravity = 9.81;
-
 std::optional<double> analytic_pull(const InclineMap& map, const Model& model, const VectorXd& values) {
   const Answer answer = ask(model, scenario_at(map, values), condition_at(map, values));
   return answer.result ? std::optional(answer.result->drawbar_pull.value) : std::nullopt;
@@ -36,8 +34,7 @@ VectorXd groups_at(const InclineMap& map, const VectorXd& values) {
   const double pressing = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
   const double sinkage =
       bekker_wong::bekker_static_sinkage(bekker_wong::values_of(soil), tire.radius, tire.width, pressing);
-  return (VectorXd(4) << at.load / (bulk_density(soil) * soil.gravity.value_or(gravity) * tire.width * tire.radius *
-                                    tire.radius),
+  return (VectorXd(4) << at.load / (bulk_density(soil) * gravity_of(soil) * tire.width * tire.radius * tire.radius),
           values[map_lug_height] / sinkage, std::tan(values[map_angle]), values[map_slip])
       .finished();
 }

@@ -175,9 +175,11 @@ Table soil_table(const std::string& name, const SemiEmpiricalSoil& soil, const s
               {true, false, true, true}};
   for (const SoilParameter& p : soil_parameters)
     table.add({p.title, number(soil.*p.value, p.per_si), p.unit, source_of(soil.sources, p.name)});
-  table.add({"density", number(bulk_density(soil)), "kg/m^3",
-             soil.density ? source_of(soil.sources, "density") : "presumed: the soil declares none"});
-  if (soil.gravity) table.add({"gravity", number(*soil.gravity), "m/s^2", source_of(soil.sources, "gravity")});
+  if (!soil.density)
+    table.add({"density", number(presumed_bulk_density), "kg/m^3", "presumed: the soil declares none"});
+  for (const ExactSoilValue& exact : exact_soil_values)
+    if (const std::optional<double>& value = soil.*exact.value)
+      table.add({exact.name, number(*value), exact.unit, source_of(soil.sources, exact.name)});
   return table;
 }
 

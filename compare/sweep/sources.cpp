@@ -49,20 +49,23 @@ std::vector<SourcedValue> sourced_values(const Scenario& scenario) {
   for (const SoilParameter& p : soil_parameters)
     all.push_back({"soil", p.name, p.title, p.unit, p.per_si, soil.*p.value, has_assumed_sd(soil, soil.*p.value),
                    source_of(p.name, soil.sources, scenario.soil.source)});
-  const auto add_exact = [&](const char* key, const std::optional<double>& value, const char* unit) {
-    if (value)
-      all.push_back(
-          {"soil", key, key, unit, 1.0, {*value, 0.0}, false, source_of(key, soil.sources, scenario.soil.source)});
-  };
-  add_exact("density", soil.density, "kg/m^3");
-  add_exact("gravity", soil.gravity, "m/s^2");
+  for (const ExactSoilValue& exact : exact_soil_values)
+    if (const std::optional<double>& value = soil.*exact.value)
+      all.push_back({"soil",
+                     exact.name,
+                     exact.name,
+                     exact.unit,
+                     1.0,
+                     {*value, 0.0},
+                     false,
+                     source_of(exact.name, soil.sources, scenario.soil.source)});
   return all;
 }
 
 std::string in_words(const SourcedValue& value) {
   const bool exact = value.value.std_error == 0.0;
   return (exact ? fmt::format("{:.6g}", value.value.value * value.per_si) : number(value.value, value.per_si)) +
-         (value.unit == "-" ? "" : " " + value.unit) + (value.assumed_sd ? " (± assumed)" : "");
+         unit_behind(value.unit) + (value.assumed_sd ? " (± assumed)" : "");
 }
 
 Json sources_json(const Scenario& scenario) {

@@ -23,7 +23,7 @@ void check(const AngleOfReposeSettings& s) {
   require(s.lift > 0 && s.lift <= 1, "the lift must lie in 0 .. 1");
   require(s.from >= 0 && s.to > s.from && s.to <= 1, "the part that is fitted must rise within 0 .. 1");
   require(s.sectors >= 3, "at least 3 sectors");
-  require(s.gravity > 0 && s.floor_friction >= 0, "gravity must be above 0, friction not below");
+  require(s.floor_friction >= 0, "friction must not be below 0");
 }
 
 /// A tube about z, open at both ends: a sheet.
@@ -45,7 +45,12 @@ TriangleMesh tube(double radius, double height, int segments) {
 class Heap {
  public:
   Heap(const GranularSoil& soil, const AngleOfReposeSettings& settings, const WorkOptions& how)
-      : soil_(soil), settings_(settings), d_(mean_diameter(soil)), work_(how), simulation_(setup_for(how)) {
+      : soil_(soil),
+        settings_(settings),
+        d_(mean_diameter(soil)),
+        gravity_(gravity_on(soil)),
+        work_(how),
+        simulation_(setup_for(how)) {
     pour();
   }
   AngleOfReposeResult run();
@@ -58,7 +63,7 @@ class Heap {
 
   const GranularSoil& soil_;
   const AngleOfReposeSettings& settings_;
-  double d_;
+  double d_, gravity_;
   SteppedWork work_;
   Simulation simulation_;
   int tube_ = 0;
@@ -95,7 +100,7 @@ void Heap::pour() {
   sleeve.name = "cylinder";
   sleeve.surfaces.push_back({surface_at(tube(radius, region.upper.z + d_, 64), {}), 1});
   tube_ = simulation_.add_body(sleeve);
-  simulation_.set_gravity({0, 0, -settings_.gravity});
+  simulation_.set_gravity({0, 0, -gravity_});
 }
 
 void Heap::come_to_rest(const RestTest& test) {
@@ -174,7 +179,7 @@ AngleOfReposeResult Heap::run() {
   AngleOfReposeResult result;
   const double dt = simulation_.setup().numerics.dt;
   result.mean_diameter = d_;
-  result.lift_speed = settings_.lift * std::sqrt(settings_.gravity * d_);
+  result.lift_speed = settings_.lift * std::sqrt(gravity_ * d_);
   const double way = (settings_.height + 4) * d_;
   work_.expect((way / result.lift_speed + 3) / dt);
   work_.begin("settling");

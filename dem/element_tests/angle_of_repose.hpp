@@ -15,7 +15,6 @@ struct AngleOfReposeSettings {
   double radius = 6;              ///< of the cylinder, in mean diameters
   double height = 12;             ///< of the grains in it, about, in mean diameters
   double lift = 0.1;              ///< speed of the cylinder over sqrt(g d)
-  double gravity = 9.81;          ///< [m/s^2]
   double floor_friction = 1;      ///< sliding and rolling friction of floor and cylinder, share of the grains' own
   double from = 0.15, to = 0.85;  ///< part of the heap's height over which the slope is fitted
   int sectors = 8;                ///< each gives an angle; their scatter is the error

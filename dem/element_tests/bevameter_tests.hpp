@@ -17,7 +17,6 @@ struct TestBed {
   SpecimenSettings specimen;
   double width = 3;
   double depth = 1.2;
-  double gravity = 9.81;  ///< [m/s^2]
 };
 
 /// The narrowest a tool may be, in mean diameters of the grains: below, single grains carry it.

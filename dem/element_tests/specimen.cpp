@@ -18,6 +18,7 @@ void Requirements::operator()(bool holds, const std::string& what) const {
 BedRecipe specimen_recipe(const GranularSoil& soil, const BedSize& size, const SpecimenSettings& settings) {
   BedRecipe recipe;
   recipe.soil = soil;
+  recipe.gravity = gravity_on(soil);
   recipe.size = size;
   recipe.packing = settings.packing;
   recipe.settling_friction = settings.settling_friction;

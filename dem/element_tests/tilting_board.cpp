@@ -16,14 +16,17 @@ void check(const TiltingBoardSettings& s) {
   require(s.layers >= 1 && s.layers <= 100, "1 to 100 layers");
   require(s.rate > 0 && s.steepest > 0 && s.steepest < std::numbers::pi / 2, "tilt at a rate above 0, below 90 deg");
   require(s.onset > 0 && s.gone > s.onset, "onset above 0, gone above onset");
-  require(s.gravity > 0, "gravity must be above 0");
 }
 
 /// Sand on the board, from laying it down to its slide.
 class Board {
  public:
   Board(const GranularSoil& soil, const TiltingBoardSettings& settings, const WorkOptions& how)
-      : settings_(settings), d_(mean_diameter(soil)), work_(how), simulation_(setup_for(soil, how)) {
+      : settings_(settings),
+        d_(mean_diameter(soil)),
+        gravity_(gravity_on(soil)),
+        work_(how),
+        simulation_(setup_for(soil, how)) {
     lay(soil);
   }
 
@@ -37,7 +40,7 @@ class Board {
   void find_angles(TiltingBoardResult& result) const;
 
   const TiltingBoardSettings& settings_;
-  double d_, angle_ = 0;
+  double d_, gravity_, angle_ = 0;
   SteppedWork work_;
   Simulation simulation_;
   std::vector<Vec3> start_;
@@ -74,8 +77,8 @@ void Board::lay(const GranularSoil& soil) {
 /// Lays the grains down on the level board, then waits until they lie still.
 void Board::settle() {
   work_.begin("settling");
-  simulation_.set_gravity({0, 0, -settings_.gravity});
-  const double fall = 4 * std::sqrt(2 * d_ * settings_.layers / settings_.gravity) + 0.2;
+  simulation_.set_gravity({0, 0, -gravity_});
+  const double fall = 4 * std::sqrt(2 * d_ * settings_.layers / gravity_) + 0.2;
   const auto steps = static_cast<std::int64_t>(fall / simulation_.setup().numerics.dt);
   for (std::int64_t k = 0; k < steps; ++k) work_.step(simulation_);
 }
@@ -129,7 +132,7 @@ TiltingBoardResult Board::run() {
   while (angle_ < settings_.steepest && !result.slid) {
     for (std::int64_t k = 0; k < steps; ++k) {
       angle_ += settings_.rate * dt;
-      simulation_.set_gravity(settings_.gravity * Vec3{std::sin(angle_), 0, -std::cos(angle_)});
+      simulation_.set_gravity(gravity_ * Vec3{std::sin(angle_), 0, -std::cos(angle_)});
       work_.step(simulation_);
     }
     for (std::size_t k = 0; k < grains.count(); ++k)

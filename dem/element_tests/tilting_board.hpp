@@ -25,7 +25,6 @@ struct TiltingBoardSettings {
   double gone = 1;            ///< mean slide at which the test ends, in mean diameters
   double steepest = 1.2;      ///< the test is given up there [rad]
   double dt = 0;              ///< [s]; 0: longest_step
-  double gravity = 9.81;      ///< [m/s^2]
   ContactLaws laws = BedRecipe{}.laws;
 };
 

@@ -12,9 +12,7 @@ std::shared_ptr<const SettledBed> bed_for_tool(const GranularSoil& soil, const T
   if (!(bed.width > 1.2 && bed.depth > 0.2))
     throw InputError("the bed must be wider than 1.2 and deeper than 0.2 diameters of the tool");
   const double side = bed.width * tool;
-  BedRecipe recipe = specimen_recipe(soil, {side, side, bed.depth * tool}, bed.specimen);
-  recipe.gravity = soil.gravity.value_or(bed.gravity);
-  return specimen_bed(recipe, how, beds);
+  return specimen_bed(specimen_recipe(soil, {side, side, bed.depth * tool}, bed.specimen), how, beds);
 }
 
 Simulation simulation_on(const SettledBed& bed, const WorkOptions& how) {

@@ -16,7 +16,7 @@ BedRecipe DemModel::recipe(const Scenario& scenario) const {
     tire_surface(scenario.tire, meshing);  // refused before a bed is settled
   BedRecipe recipe;
   recipe.soil = grains_of(scenario.soil);
-  recipe.gravity = recipe.soil.gravity.value_or(recipe.gravity);
+  recipe.gravity = gravity_on(recipe.soil);
   static_cast<LawFlags&>(recipe.laws) = laws_of(recipe.soil);
   recipe.size = settings_.size;
   if (scenario.bin) recipe.size.depth = scenario.bin->depth, recipe.size.width = scenario.bin->width;
