@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/flag_values.hpp"
 #include "cli/text_output.hpp"
+#include "compare/doubts/declared_doubts.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/recorded/step_pair.hpp"
 #include "compare/report/json_fields.hpp"
@@ -70,8 +71,7 @@ Verdict judge(const fs::path& file, const Workplace& place) {
   }
   if (format == soil_format) {
     const Soil soil = read_soil(file);
-    return {fmt::format("soil '{}'", soil.name),
-            soil.semi_empirical ? compare::doubts(*soil.semi_empirical) : std::vector<std::string>{}};
+    return {fmt::format("soil '{}'", soil.name), compare::doubts(soil)};
   }
   const Case question =
       read_case(file, place.library, place.effects);  // refuses any other format with the nearest word

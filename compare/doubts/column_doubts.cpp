@@ -235,11 +235,21 @@ struct MisfitLeft {
   double mean = 1.0, log_product = 0.0;
 };
 
-/// None where the correction is not to be thought of.
+/// Whether a correction gives an answer to most rows where the model had none.
+bool answers_at_last(const Compared& rows, const Compared& other) {
+  std::ptrdiff_t before = 0, after = 0;
+  for (std::size_t i = 0; i < rows.answers.size(); ++i)
+    before += rows.answers[i].result ? 1 : 0, after += other.answers[i].result ? 1 : 0;
+  const auto n = static_cast<std::ptrdiff_t>(rows.answers.size());
+  return 2 * before < n && 2 * after > n;
+}
+
+/// None where the correction is not to be thought of. A prediction that there is none of counts as 0, wholly wrong.
 std::optional<MisfitLeft> misfit_left(const Correction& correction, const Compared& rows, const Compared& other) {
   constexpr std::size_t fewest_to_compare = 3;
   // Of a prediction that may itself be wrong by a factor of 2 or 3.
   constexpr double least_size_ratio = 6.0, most_size_ratio_left = 3.0;
+  const bool at_last = answers_at_last(rows, other);
   double log_ratio = 0;
   std::size_t channels = 0;
   for (const ChannelView& view : channel_views) {
@@ -248,16 +258,16 @@ std::optional<MisfitLeft> misfit_left(const Correction& correction, const Compar
     for (std::size_t i = 0; i < rows.runs.size(); ++i) {
       const auto &was = rows.runs[i].*view.measured, &is = other.runs[i].*view.measured;
       const auto &said = rows.answers[i].result, &says = other.answers[i].result;
-      if (!was || !said) continue;
+      if (!was || !(said || at_last)) continue;
       ++comparable;
       if (!is || !says) continue;
-      before.measured.push_back(*was), before.predicted.push_back(((*said).*view.predicted).value);
+      before.measured.push_back(*was), before.predicted.push_back(said ? ((*said).*view.predicted).value : 0.0);
       after.measured.push_back(*is), after.predicted.push_back(((*says).*view.predicted).value);
     }
     const std::size_t n = after.measured.size();
     if (n < fewest_to_compare || 2 * n < comparable) continue;
     if (!moved(before, after)) continue;
-    const bool named = std::ranges::find(correction.columns, view.name) != correction.columns.end();
+    const bool named = at_last || std::ranges::find(correction.columns, view.name) != correction.columns.end();
     if (named && !follows(after)) return std::nullopt;
     if (correction.by_power_of_ten &&
         !(size_ratio(before) > least_size_ratio && size_ratio(after) < most_size_ratio_left))

@@ -6,15 +6,14 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <tuple>
 
 #include "bekker_wong/closed_forms.hpp"
-#include "bekker_wong/contact_stages.hpp"
 #include "bekker_wong/learned.hpp"
 #include "bekker_wong/model.hpp"
 #include "bekker_wong/presumption.hpp"
 #include "bekker_wong/rolling_wheel.hpp"
 #include "compare/doubts/column_doubts.hpp"
+#include "compare/doubts/declared_doubts.hpp"
 #include "compare/doubts/grain_doubts.hpp"
 #include "compare/doubts/row_doubts.hpp"
 #include "compare/doubts/unused_inputs.hpp"
@@ -59,48 +58,6 @@ void append(Warnings& all, Warnings more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// What a value usually is, in a unit.
-struct UsualRange {
-  double lower, upper;
-  const char *unit, *why;
-};
-
-/// "n = 0.12 is outside 0.3 .. 1.6, ..." where it is.
-void expect(Warnings& warnings, const char* name, double value, const UsualRange& usual) {
-  if (value < usual.lower || value > usual.upper)
-    warnings.push_back(fmt::format("{} = {:.4g}{}{} is outside {:.4g} .. {:.4g}: {}", name, value,
-                                   *usual.unit ? " " : "", usual.unit, usual.lower, usual.upper, usual.why));
-}
-
-/// Standard deviations far beyond what a test leaves: of values that may well be 0, only where they decide what the
-/// soil carries or holds.
-void add_doubts_of_wide_errors(const SemiEmpiricalSoil& soil, Warnings& warnings) {
-  constexpr double narrow = 0.1, firm = 1000.0;  // a wheel's width [m], a cohesion that hardly matters [Pa]
-  const auto add = [&](const char* name, const Estimate& value, double most) {
-    if (value.std_error <= most) return;
-    const double times = value.std_error / std::abs(value.value);
-    warnings.push_back(
-        fmt::format("the standard deviation of {} is {:.{}f} times its value: it is hardly known; is its unit right?",
-                    name, times, times < 10 ? 1 : 0));
-  };
-  const double modulus = std::abs(soil.k_c.value / narrow + soil.k_phi.value);
-  if (soil.k_phi.value != 0.0) add("k_phi", soil.k_phi, std::max(std::abs(soil.k_phi.value), modulus));
-  if (soil.k_c.value != 0.0) add("k_c", soil.k_c, std::max(3 * std::abs(soil.k_c.value), narrow * modulus));
-  if (soil.cohesion.value != 0.0) add("c", soil.cohesion, std::max(3 * soil.cohesion.value, firm));
-}
-
-/// What a wheel and a soil say together, before any condition.
-void add_wheel_doubts(const Tire& tire, const std::optional<SemiEmpiricalSoil>& soil, Warnings& warnings) {
-  expect(warnings, "the wheel's radius", tire.radius * 1000, {20, 2000, "mm", "the model is tested from 50 mm to 2 m"});
-  if (tire.width > 2 * tire.radius)
-    warnings.push_back(fmt::format("the wheel is wider ({:.4g} mm) than its diameter ({:.4g} mm)", 1000 * tire.width,
-                                   2000 * tire.radius));
-  if (is_lugged(tire) && tire.lugs.height > 0.3 * tire.radius)
-    warnings.push_back(fmt::format("the lugs ({:.4g} mm) are higher than 30 % of the radius", 1000 * tire.lugs.height));
-  if (soil && !(bekker_wong::values_of(*soil).pressure_modulus(tire.width) > 0.0))
-    warnings.push_back("k_c/b + k_phi is not positive for this width: the soil carries nothing");
-}
-
 /// A wheel so deep that the stresses under it are a stretch, or none at all; "" where it isn't.
 std::string too_deep(const Scenario& scenario, const Answer& answer) {
   const double share = answer.result->sinkage.value / scenario.tire.radius;
@@ -122,7 +79,8 @@ void add_power_doubt(const Answer& answer, Warnings& warnings) {
                     in_words(answer.at)));
 }
 
-/// A cross slope down which the load slides; "" where the soil can hold it. Along the way a pull below 0 says the same.
+/// A cross slope down which the load slides; "" where the soil can hold it beside the thrust. Along the way a pull
+/// below 0 says the same.
 std::string too_steep_across(const Scenario& scenario, const Answer& answer, double contact_length) {
   const OperatingCondition& at = answer.at;
   const bekker_wong::SoilValues soil = bekker_wong::values_of(*scenario.soil.semi_empirical);
@@ -130,11 +88,15 @@ std::string too_steep_across(const Scenario& scenario, const Answer& answer, dou
                share = std::abs(at.load * uphill * std::sin(at.transverse_incline)),
                pressing = at.load * uphill * std::cos(at.transverse_incline),
                held = pressing * std::tan(soil.friction_angle) + soil.cohesion * scenario.tire.width * contact_length;
-  if (!(share > held)) return "";
+  const auto budget = std::ranges::find(answer.result->budget, "shear_thrust", &Contribution::name);
+  const double thrust = budget == answer.result->budget.end() ? 0.0 : std::abs(budget->force);
+  constexpr double hardly = 0.05;  // of what the soil holds: no slope to speak of
+  if (!(share > hardly * held && std::hypot(share, thrust) > held)) return "";
+  const std::string beside = share > held ? "" : fmt::format(", {:.3g} N are its thrust", thrust);
   return fmt::format(
-      "the cross slope is steeper than the soil holds at {}: {:.3g} N of the load pull the wheel down "
-      "it, and the soil under the wheel shears at {:.3g} N (c, phi): it slides",
-      in_words(at), share, held);
+      "the cross slope is steeper than the soil holds at {}: {:.3g} N of the load pull the wheel down it{}, and the "
+      "soil under the wheel shears at {:.3g} N (c, phi): it slides",
+      in_words(at), share, beside, held);
 }
 
 /// What the analytic wheel answers at one condition.
@@ -252,6 +214,12 @@ Warnings doubts_of_declarations(const Case& question) {
     effects.insert(effects.end(), model.effects.begin(), model.effects.end());
   append(words, bekker_wong::presumptions(effects, question.scenario.tire));
   const std::optional<SemiEmpiricalSoil>& soil = question.scenario.soil.semi_empirical;
+  const bool asks_wheel = asks(question.study, ModelKind::bekker_wong);
+  if (soil && is_from_command_line(*soil, "gravity") && asks_wheel && !question.drive && !weighs_soil(question))
+    words.push_back(
+        "the soil's gravity changes nothing: loads are forces here, and the analytic wheel weighs soil by effects "
+        "alone "
+        "(such as bulldozing)");
   if (soil && !soil->density && !effects.empty() && weighs_soil(question))
     words.push_back(fmt::format("the soil declares no density: {:g} kg/m^3 is presumed, and the answers hang on it",
                                 presumed_bulk_density));
@@ -279,9 +247,9 @@ Warnings doubts_but_unused_inputs(const Case& question, const std::vector<ModelA
   const Scenario& scenario = question.scenario;
   const bool open = answered == Answered::no;
   Warnings warnings;
-  if (scenario.soil.semi_empirical && (open || asks(question.study, ModelKind::bekker_wong)))
-    append(warnings, doubts(*scenario.soil.semi_empirical));
-  add_wheel_doubts(scenario.tire, scenario.soil.semi_empirical, warnings);
+  if (open || asks(question.study, ModelKind::bekker_wong) || !scenario.soil.semi_empirical)
+    append(warnings, doubts(scenario.soil));
+  append(warnings, doubts(scenario.tire, scenario.soil));
   append(warnings, doubts_of_speeds(question));
   append(warnings, doubts_of_answers(scenario, study, open));
   if (open || asks(question.study, ModelKind::dem)) append(warnings, grain_doubts(scenario, study));
@@ -366,51 +334,6 @@ std::vector<std::string> remarks_on(const Campaign& campaign, const Scenario& as
       remark += (remark.empty() ? "" : "; ") + one.words;
     }
   return remarks;
-}
-
-Warnings doubts(const SemiEmpiricalSoil& soil) {
-  Warnings warnings;
-  if (!(soil.k_c.value > 0.0) && !(soil.k_phi.value > 0.0))
-    warnings.emplace_back("neither k_c nor k_phi is positive: this soil carries nothing, at any width of wheel");
-  const double phi = soil.friction_angle.value / degree, c = soil.cohesion.value / 1000;
-  expect(warnings, "n", soil.exponent.value, {0.3, 1.8, "", "plate tests give 0.5 .. 1.6"});
-  expect(warnings, "c", c, {0, 100, "kPa", "soft soils have 0 .. 70 kPa"});
-  expect(warnings, "phi", phi, {0, 50, "deg", "the densest sand has some 45 deg"});
-  expect(warnings, "K", 1000 * soil.shear_modulus.value, {0.5, 120, "mm", "6 mm in firm clay, 25 mm in loose sand"});
-  expect(warnings, "density", bulk_density(soil), {200, 2400, "kg/m^3", "fresh snow has some 250, dense gravel 2200"});
-  if (soil.gravity) expect(warnings, "gravity", *soil.gravity, {0.1, 25, "m/s^2", "the Moon has 1.62, Earth 9.81"});
-  for (const auto& [key, name, value] :
-       {std::tuple{"stress_angle_c1", "c1", soil.stress_angle_c1}, {"stress_angle_c2", "c2", soil.stress_angle_c2}})
-    if (const auto from = soil.sources.find(key);
-        from != soil.sources.end() && from->second == usual_stress_angle_source)
-      warnings.push_back(
-          fmt::format("the soil declares no {}: {:g} with a standard deviation of {:g} is taken, a usual "
-                      "value",
-                      name, value.value, value.std_error));
-  if (c == 0.0 && phi == 0.0)
-    warnings.push_back("c and phi are both 0: this soil has no strength and gives no traction");
-  const double most = soil.stress_angle_c1.value + std::max(0.0, soil.stress_angle_c2.value);
-  if (most > bekker_wong::max_stress_share)
-    warnings.push_back(fmt::format("c1 + c2 = {:.3g}: at full slip theta_m would pass {} theta_1 and is held there",
-                                   most, bekker_wong::max_stress_share));
-  if (soil.stress_angle_c1.value + std::min(0.0, soil.stress_angle_c2.value) < 0.0)
-    warnings.push_back("c1 + c2 is negative: at full slip the largest stress would lie behind the axle");
-  for (const auto& [name, value] :
-       {std::pair{"n", soil.exponent}, {"phi", soil.friction_angle}, {"K", soil.shear_modulus}})
-    if (value.std_error > 0.6 * value.value)
-      warnings.push_back((value.value > 0.0
-                              ? fmt::format("the standard deviation of {} is {:.0f} % of its value", name,
-                                            100 * value.std_error / value.value)
-                              : fmt::format("{} is 0 with a standard deviation, and can only be larger", name)) +
-                         ": errors propagated to first order are a rough guide");
-  add_doubts_of_wide_errors(soil, warnings);
-  return warnings;
-}
-
-Warnings doubts(const Tire& tire) {
-  Warnings warnings;
-  add_wheel_doubts(tire, std::nullopt, warnings);
-  return warnings;
 }
 
 Warnings doubts(const Case& question, const std::vector<ModelAnswers>& study) {

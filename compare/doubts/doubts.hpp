@@ -8,8 +8,8 @@
 //
 // What is doubtful is decided in this folder, so that every command tells the same:
 //
-//   a soil by itself     values out of the usual, no strength, nothing carried     doubts.cpp
-//   a wheel on a soil    proportions, a width for which the soil carries nothing   doubts.cpp
+//   a soil by itself     values out of the usual, no strength, nothing carried     declared_doubts.cpp
+//   a wheel on a soil    proportions, a width for which the soil carries nothing   declared_doubts.cpp
 //   an answer            deep sinkage, odd pressure, more power out than in        doubts.cpp
 //   no influence         lugs, inflation, passes, ... that change no digit         unused_inputs.cpp
 //   a presumption        what an effect takes the wheel to have, and nobody said   doubts.cpp
@@ -33,12 +33,6 @@
 #include "scenario/case.hpp"
 
 namespace soilbin::compare {
-
-/// Of a soil by itself.
-std::vector<std::string> doubts(const SemiEmpiricalSoil& soil);
-
-/// Of a wheel by itself.
-std::vector<std::string> doubts(const Tire& tire);
 
 /// Of a question and the answers to it, by any model. What no answer was found to is not among them: answers say that
 /// themselves. `study` may be empty, and its models need not be all of the question's.
