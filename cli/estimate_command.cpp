@@ -33,7 +33,7 @@ int estimate(const Question& inputs, bool json, const Session& session) {
   const std::vector<std::string> doubts = compare::doubts(question, study);
   print_warnings(doubts);
   if (json)
-    print_json(document_of("soilbin-estimate/1", question, compare::rows_json(study)), doubts);
+    print_json(document_of("soilbin-estimate/1", question, compare::rows_json(study), session.place.effects), doubts);
   else if (compare::any_result(study))
     print_text(question, study);
   if (compare::any_result(study)) return done;

@@ -42,7 +42,7 @@ int limits(const Question& inputs, const LimitsOptions& options, const Session& 
   if (options.json) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const compare::WheelLimits& answer : answers) rows.push_back(to_json(answer));
-    print_json(document_of("soilbin-limits/1", question, rows), doubts);
+    print_json(document_of("soilbin-limits/1", question, rows, session.place.effects), doubts);
   } else {
     fmt::print("{} on {}\n{}\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil),
                compare::errors_in_words(question));

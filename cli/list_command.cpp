@@ -200,7 +200,7 @@ Json effect_json(const bekker_wong::EffectForm& form) {
 std::string in_unit(double value, const std::string& unit) {
   if (!std::isfinite(value)) return value < 0 ? "-inf" : "inf";
   try {
-    return fmt::format("{:.4g}{}", value * compare::per_unit(unit), unit == "-" ? "" : " " + unit);
+    return fmt::format("{:.4g}{}", value * compare::per_unit(unit), compare::unit_behind(unit));
   } catch (const InputError&) {
     return fmt::format("{:.4g} (SI)", value);
   }

@@ -101,7 +101,8 @@ void require_semi_empirical(const Case& question, const Library& library);
 /// The same where grains are to be run on a soil without them.
 void require_grains(const Case& question, const Library& library);
 
-/// The rows of an answer under the names of its tire and soil.
-nlohmann::ordered_json document_of(const char* format, const Case& question, nlohmann::ordered_json rows);
+/// The rows of an answer under the names of its tire and soil, with the whole question as a case file's text.
+nlohmann::ordered_json document_of(const char* format, const Case& question, nlohmann::ordered_json rows,
+                                   const EffectVocabulary& effects);
 
 }  // namespace soilbin::cli

@@ -46,11 +46,20 @@ bool is_campaign(const std::string& name, const Workplace& place) {
   return place.library.find(Shelf::measured, name) && !place.library.find(Shelf::studies, name);
 }
 
-int report(ReportOptions options, const Session& session) {
-  const auto campaigns_named = std::ranges::stable_partition(
-      options.studies, [&](const std::string& name) { return !is_campaign(name, session.place); });
-  options.campaigns.insert(options.campaigns.begin(), campaigns_named.begin(), campaigns_named.end());
-  options.studies.erase(campaigns_named.begin(), campaigns_named.end());
+/// Campaigns that were named among the studies as campaigns, and each name once.
+ReportOptions sorted(ReportOptions options, const Workplace& place) {
+  const auto add = [](std::vector<std::string>& names, const std::string& name) {
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  };
+  std::vector<std::string> studies, campaigns;
+  for (const std::string& name : options.studies) add(is_campaign(name, place) ? campaigns : studies, name);
+  for (const std::string& name : options.campaigns) add(campaigns, name);
+  options.studies = studies, options.campaigns = campaigns;
+  return options;
+}
+
+int report(const ReportOptions& asked, const Session& session) {
+  const ReportOptions options = sorted(asked, session.place);
   if (options.studies.empty() && options.campaigns.empty())
     throw InputError("name a study or a campaign: soilbin report paper-straight --measured cmu-smooth");
   if (const std::string why = why_not_writable(options.output); !why.empty()) throw InputError("--output: " + why);

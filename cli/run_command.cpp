@@ -33,6 +33,12 @@ struct RunOptions {
   SoilBinFlags soil_bin;
 };
 
+compare::Json run_document(const Case& question, const compare::StudyResults& answered, const Workplace& place) {
+  compare::Json document = to_json(question, answered);
+  document["case"] = write_case(question, place.effects);
+  return document;
+}
+
 void save(Outputs& outputs, const RunOptions& options, const Case& question, const compare::StudyResults& answered,
           const Workplace& place) {
   const std::vector<compare::ModelAnswers>& study = answered.study;
@@ -44,7 +50,7 @@ void save(Outputs& outputs, const RunOptions& options, const Case& question, con
     const fs::path folder = options.output;
     write_file_atomically(folder / "case.yaml", write_case(question, place.effects));
     write_file_atomically(folder / "results.csv", csv());
-    write_file_atomically(folder / "results.json", compare::json_text(to_json(question, answered)));
+    write_file_atomically(folder / "results.json", compare::json_text(run_document(question, answered, place)));
   });
 }
 
@@ -173,7 +179,7 @@ int answer(const RunOptions& options, const Case& question, const Case& whole,
   save(outputs, options, question, answered, session.place);
   print_warnings(answered.doubts);
   if (options.json)
-    print_json(to_json(question, answered));
+    print_json(run_document(question, answered, session.place));
   else
     print_text(question, answered);
   delete_restarts(answered.runs, outputs);

@@ -269,6 +269,11 @@ compare::RunKeeping keeping_of(const SoilBinFlags& flags) {
 
 compare::StudyGrains grains_of(const SoilBinFlags& flags) {
   compare::StudyGrains grains{settings_of(flags), flags.packings, keeping_of(flags)};
+  for (const auto& [flag, text] : flags.texts)
+    if (!flags.recorded.empty() && !text.empty())
+      throw InputError(fmt::format(
+          "{} changes nothing of runs that are recorded\n  hint: leave it out, or run them anew without --recorded",
+          flag));
   if (!flags.recorded.empty()) grains.recorded = {flags.recorded, read_record_with_notes(flags.recorded)};
   return grains;
 }

@@ -407,6 +407,7 @@ Attribution attribute(const FittedModel& base, const AttributionOptions& options
   ResidualSignatures signatures{residual_signatures(base, problem, options.pool)};
   signatures.p_value = family_wise_p(signatures.all, strongest(signatures.all), base.data().noise.typical_freedom(),
                                      options.simulations, options.seed);
+  signatures.simulations = options.simulations;
   const bool stands_out = signatures.p_value <= thresholds::family_level;
   Candidates candidates = candidates_of(base, signatures.all, stands_out, options);
   return {base, std::move(signatures), std::move(kinds), unnamed, std::move(candidates)};

@@ -17,6 +17,9 @@ std::string thousands_apart(long long value) {
   return text;
 }
 
+/// Whether none of the simulated campaigns looked like this.
+bool in_none(const ResidualSignatures& signatures) { return signatures.p_value * (signatures.simulations + 1.0) < 1.5; }
+
 }  // namespace
 
 std::string joined_with_and(const std::vector<std::string>& words) {
@@ -45,15 +48,22 @@ std::string times_likelier(double log_odds) {
   return thousands_apart(std::llround(std::round(odds / step) * step)) + " times";
 }
 
-std::string odds_words(double p) {
+std::string odds_words(const ResidualSignatures& signatures) {
   constexpr double often = 0.095;
+  const double p = signatures.p_value;
+  if (in_none(signatures))
+    return fmt::format("none of {} simulated campaigns", thousands_apart(signatures.simulations));
   if (p >= often) return fmt::format("{:.0f} of 100 campaigns", 100 * p);
   const double one_in = 1 / std::max(p, 1e-12), step = std::pow(10.0, std::floor(std::log10(one_in)) - 1);
   return fmt::format("1 of {} campaigns", thousands_apart(std::llround(std::round(one_in / step) * step)));
 }
 
-std::string odds_and_p(double p) {
-  return fmt::format("noise alone would look like this in {}, p = {:.2g}", odds_words(p), p);
+std::string p_words(const ResidualSignatures& signatures) {
+  return fmt::format("p {} {:.2g}", in_none(signatures) ? "<" : "=", signatures.p_value);
+}
+
+std::string odds_and_p(const ResidualSignatures& signatures) {
+  return fmt::format("noise alone would look like this in {}, {}", odds_words(signatures), p_words(signatures));
 }
 
 std::string share_words(double weight) {

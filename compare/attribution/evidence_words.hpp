@@ -1,11 +1,13 @@
 // Sets of effects and the evidence for them in words: names, odds, shares.
 //
-//   odds_and_p(0.00025);   // "noise alone would look like this in 1 of 4,000 campaigns, p = 0.00025"
+//   odds_and_p(found.signatures);   // "noise alone would look like this in 1 of 81 campaigns, p = 0.012"
 #pragma once
 
 #include <set>
 #include <string>
 #include <vector>
+
+#include "compare/attribution/signatures.hpp"
 
 namespace soilbin::compare {
 
@@ -18,10 +20,13 @@ std::string joined(const std::set<std::string>& ids);
 /// Names for people: "side-wall bulldozing, slip sinkage and hard layer"; "no effect" for an empty set.
 std::string named_effects(const std::set<std::string>& ids);
 
-/// A share of campaigns: "1 of 4,000 campaigns", "30 of 100 campaigns".
-std::string odds_words(double p);
-/// "noise alone would look like this in 1 of 4,000 campaigns, p = 0.00025".
-std::string odds_and_p(double p);
+/// How often noise alone would look like this: "1 of 81 campaigns", "30 of 100 campaigns", "none of 4,000 simulated
+/// campaigns".
+std::string odds_words(const ResidualSignatures& signatures);
+/// "p = 0.012"; "p < 0.00025" where no simulated campaign looked like this.
+std::string p_words(const ResidualSignatures& signatures);
+/// "noise alone would look like this in 1 of 81 campaigns, p = 0.012".
+std::string odds_and_p(const ResidualSignatures& signatures);
 
 /// Odds from their logarithm: "132 times", "more than a million times".
 std::string times_likelier(double log_odds);

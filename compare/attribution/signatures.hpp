@@ -34,6 +34,7 @@ struct Signature {
 struct ResidualSignatures {
   std::vector<Signature> all;
   double p_value = 1.0;  ///< family-wise, of the strongest
+  int simulations = 0;   ///< campaigns of noise alone that p_value is counted in
 };
 
 /// Signatures of all forms of the catalogue that are not of an effect among the declared or the model's own; secants at

@@ -62,8 +62,8 @@ Conclusion without_effect(const Attribution& found, const ResidualTests& before,
                       before.serial.series, before.serial.p_value);
   else
     return {Verdict::nothing_missing, std::move(nothing)};
-  return {Verdict::unknown_effect, fmt::format("no effect of the catalogue is accepted ({}), but {}",
-                                               odds_and_p(found.signatures.p_value), why)};
+  return {Verdict::unknown_effect,
+          fmt::format("no effect of the catalogue is accepted ({}), but {}", odds_and_p(found.signatures), why)};
 }
 
 /// Why what the chosen candidate leaves is the work of another effect; nothing where it may be noise or its form's.
@@ -107,7 +107,7 @@ Conclusion conclude(const Attribution& found, const ResidualTests& before,
     return without_effect(found, before,
                           fmt::format("the strongest of all effects reaches p = {:.3g} among the whole catalogue", p));
   if (const auto more = more_than_named(found, before, *choice))
-    return {Verdict::unknown_effect, fmt::format("the residual is real ({}), {}", odds_and_p(p), *more)};
+    return {Verdict::unknown_effect, fmt::format("the residual is real ({}), {}", odds_and_p(found.signatures), *more)};
   if (!choice->stands)
     return without_effect(found, before,
                           fmt::format("the best effect fits (p = {:.2g}) but does not predict held-out conditions "
@@ -150,7 +150,7 @@ Judgement judge_with_model_discrepancy(Attribution found, const AttributionOptio
   std::string reason = fmt::format(
       "the base model is off by what a smooth function of load and slip makes good, and beside that {} stands out most "
       "({})",
-      named_effects(found.best().ids), odds_and_p(found.signatures.p_value));
+      named_effects(found.best().ids), odds_and_p(found.signatures));
   return {std::move(found), before, std::move(choice), Verdict::unknown_effect, std::move(reason)};
 }
 

@@ -133,10 +133,10 @@ MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, con
     const bool enough = plate.curve.pressure.size() >= fewest;
     if (curves.back().pressure.size() < fewest)
       throw InputError(fmt::format(
-          "test '{}' of the plate of b = {:g} mm has {} with a pressure and a sinkage above 0{}; {} are needed\n  "
+          "{} of the plate of b = {:g} mm has {} with a pressure and a sinkage above 0{}; {} are needed\n  "
           "hint: {}",
-          plate.test, 1000 * plate.curve.radius, counted(curves.back().pressure.size(), "reading"),
-          enough ? " in the window" : "", fewest,
+          plate.test.empty() ? "the test" : fmt::format("test '{}'", plate.test), 1000 * plate.curve.radius,
+          counted(curves.back().pressure.size(), "reading"), enough ? " in the window" : "", fewest,
           enough ? "widen --pressure" : "more readings of this test, or leave it out; a negative one is not counted"));
   }
   if (curves.empty()) throw InputError("no plate tests to fit");
@@ -198,7 +198,7 @@ std::vector<NamedValue> plate_values(const MeasuredPlatesFit& fit) {
 std::string yaml_lines(const MeasuredPlatesFit& fit, const std::string& source) {
   std::string text;
   for (const auto& [p, value] : plate_values(fit)) {
-    const std::string unit = std::string_view(p.unit) == "-" ? "" : std::string(" ") + p.unit;
+    const std::string unit = unit_behind(p.unit);
     const double sd = value.estimate.std_error * p.per_si;
     const int places = sd > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(sd))), 0, 9) : 4;
     text += fmt::format("  {}: {{value: {:.{}f}{}, sd: {:.{}f}{}, source: \"{}\"}}\n", p.name,

@@ -13,9 +13,7 @@
 namespace soilbin::compare {
 namespace {
 
-std::string with_unit(const std::string& text, const std::string& unit) {
-  return unit == "-" ? text : text + " " + unit;
-}
+std::string with_unit(const std::string& text, const std::string& unit) { return text + unit_behind(unit); }
 
 std::string value_with_unit(const Estimate& value, const std::string& unit) {
   return with_unit(number(value, per_unit(unit)), unit);

@@ -117,15 +117,14 @@ std::string differences_csv(const Comparison& comparison) {
   std::string text =
       "side,reference,channel,unit,condition,value,value_se,reference_value,reference_se,scatter,difference,std_error,"
       "freedom,share_of_load,sigma,finding,remark\n";
-  const auto cell = [](double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); };
   for (const Difference& d : comparison.differences)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-                        csv_cell(comparison.sides[d.side].label), csv_cell(comparison.sides[d.reference].label),
-                        channel_views[d.channel].name, channel_views[d.channel].si_unit,
-                        csv_cell(in_words(comparison.question.study.conditions[d.condition])), cell(d.value.value),
-                        cell(d.value.std_error), cell(d.reference_value.value), cell(d.reference_value.std_error),
-                        cell(d.scatter), cell(d.difference), cell(d.std_error), cell(d.freedom), cell(d.share),
-                        cell(d.sigma), word(d.finding), csv_cell(remarks_of(comparison, d)));
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(comparison.sides[d.side].label),
+        csv_cell(comparison.sides[d.reference].label), channel_views[d.channel].name, channel_views[d.channel].si_unit,
+        csv_cell(in_words(comparison.question.study.conditions[d.condition])), csv_number(d.value.value),
+        csv_number(d.value.std_error), csv_number(d.reference_value.value), csv_number(d.reference_value.std_error),
+        csv_number(d.scatter), csv_number(d.difference), csv_number(d.std_error), csv_number(d.freedom),
+        csv_number(d.share), csv_number(d.sigma), word(d.finding), csv_cell(remarks_of(comparison, d)));
   return text;
 }
 

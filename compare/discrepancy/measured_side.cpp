@@ -81,14 +81,17 @@ SortedRuns sorted(const Campaign& campaign, const std::vector<OperatingCondition
   return sorted;
 }
 
-/// Runs of one setpoint each: of one label or, without one, of one condition of the study.
+/// Runs of one setpoint each: of one label, wherever the study counts them, or, without one, of one condition of it.
 std::vector<std::vector<const Run*>> setpoints_of(const Campaign& campaign, const SortedRuns& sorted) {
+  enum class By { label, condition, none };
   const Observations seen = observe(campaign);
-  std::map<std::pair<std::size_t, int>, std::vector<const Run*>> by_name;
+  std::map<std::pair<By, std::size_t>, std::vector<const Run*>> by_name;
   for (std::size_t i = 0; i < sorted.asked.size(); ++i) {
-    const bool counts = sorted.condition[i] != SortedRuns::none;
-    const int label = counts && !sorted.asked[i].setpoint ? -1 : seen.condition[i];
-    by_name[{sorted.condition[i], label}].push_back(&sorted.asked[i]);
+    const auto label = static_cast<std::size_t>(seen.condition[i]);
+    const auto name = sorted.condition[i] == SortedRuns::none ? std::pair(By::none, label)
+                      : sorted.asked[i].setpoint              ? std::pair(By::label, label)
+                                                              : std::pair(By::condition, sorted.condition[i]);
+    by_name[name].push_back(&sorted.asked[i]);
   }
   std::vector<std::vector<const Run*>> setpoints;
   for (auto& [name, runs] : by_name) setpoints.push_back(std::move(runs));

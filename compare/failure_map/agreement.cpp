@@ -125,9 +125,7 @@ struct BoxSearch {
 
 std::string bare(const Factor& factor, double value) { return fmt::format("{:.3g}", value * per_unit(factor.unit)); }
 
-std::string with_unit(const Factor& factor, double value) {
-  return bare(factor, value) + (factor.unit == "-" ? "" : " " + factor.unit);
-}
+std::string with_unit(const Factor& factor, double value) { return bare(factor, value) + unit_behind(factor.unit); }
 
 /// "load up to 4 kN", "load from 3 kN", "load from 3 to 4 kN"; empty where the box has the whole range.
 std::string range_of(const Factor& factor, double lower, double upper) {

@@ -22,7 +22,7 @@ std::string factors_in_words(const std::vector<Factor>& factors, const VectorXd&
   for (std::size_t j = 0; j < factors.size(); ++j) {
     const Factor& factor = factors[j];
     text += fmt::format("{}{} {:.3g}{}", text.empty() ? "" : ", ", factor.name, values[j] * per_unit(factor.unit),
-                        factor.unit == "-" ? "" : " " + factor.unit);
+                        unit_behind(factor.unit));
   }
   return text;
 }
@@ -126,7 +126,7 @@ std::string checks_sentence(const FailureMapResult& result) {
 constexpr int cells = 7;  // of a heat map, along and up
 
 std::string in_units(const Factor& factor, double value) {
-  return fmt::format("{:.3g}{}", value * per_unit(factor.unit), factor.unit == "-" ? "" : " " + factor.unit);
+  return fmt::format("{:.3g}{}", value * per_unit(factor.unit), unit_behind(factor.unit));
 }
 
 HeatCell cell_at(const FailureMapResult& result, const VectorXd& values) {

@@ -156,7 +156,7 @@ Table parameters_table(const LoopAnswer& answer) {
       const auto p =
           std::ranges::find_if(form.parameters, [&](const auto& one) { return one.name == effect.fitted[i]; });
       const double scale = per_unit(p->unit);
-      const std::string unit = p->unit == "-" ? "" : " " + p->unit;
+      const std::string unit = unit_behind(p->unit);
       const auto& [low, high] = effect.ci95[i];
       table.add({i == 0
                      ? TableCell(std::string(bekker_wong::effect_title(form.id).name), form.id + ", form " + form.form)

@@ -135,8 +135,9 @@ std::string presumed_of_the_wheel(const LoopAnswer& answer) {
 std::string odds_clause(const LoopAnswer& answer) {
   if (!answer.judgement || answer.verdict == Verdict::not_enough_data) return "";
   if (answer.verdict == Verdict::unknown_effect) return answer.judgement->reason;
-  const double p = answer.found().signatures.p_value;
-  return fmt::format("noise alone would make some effect stand out this much in {} (p = {:.2g})", odds_words(p), p);
+  const ResidualSignatures& signatures = answer.found().signatures;
+  return fmt::format("noise alone would make some effect stand out this much in {} ({})", odds_words(signatures),
+                     p_words(signatures));
 }
 
 /// What else to know of the verdict; "" where there is nothing.
@@ -228,9 +229,8 @@ std::string effect_sentence(const AcceptedEffect& effect) {
     const auto p = std::ranges::find_if(form.parameters, [&](const auto& one) { return one.name == effect.fitted[i]; });
     const double scale = per_unit(p->unit);
     parameters.push_back(fmt::format("{} {}{} (95 %: {} to {}{})", p->meaning,
-                                     number(scale * effect.choice.parameters.at(p->name)),
-                                     p->unit == "-" ? "" : " " + p->unit, number(scale * effect.ci95[i].first),
-                                     number(scale * effect.ci95[i].second),
+                                     number(scale * effect.choice.parameters.at(p->name)), unit_behind(p->unit),
+                                     number(scale * effect.ci95[i].first), number(scale * effect.ci95[i].second),
                                      effect.at_bound[i] ? "; at its bound: these data do not determine it" : ""));
   }
   return fmt::format("{} ({}): {}.", capital(std::string(effect_title(effect.choice.id).name)),

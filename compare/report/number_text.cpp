@@ -26,10 +26,14 @@ std::string number(const Estimate& estimate, double per_unit) {
   return fmt::format("{:.{}f} ± {:.{}f}", value, places, error, places);
 }
 
+std::string csv_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+
 double per_unit(const std::string& unit) {
   const Unit parsed = parse_unit(unit);
   return parsed.denominator / (parsed.numerator * std::pow(10.0, parsed.decimal));
 }
+
+std::string unit_behind(std::string_view unit) { return unit == "-" ? "" : " " + std::string(unit); }
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 

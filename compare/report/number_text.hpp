@@ -16,8 +16,14 @@ std::string number(double value, int digits = 4);
 /// "4.18 ± 0.31": the error to two digits, the value to the error's place; the value alone for an error of 0.
 std::string number(const Estimate& estimate, double per_unit = 1.0);
 
+/// A number for a file, with all its digits; "" for what is not a number.
+std::string csv_number(double value);
+
 /// What a value in SI is multiplied by to be in a unit: 57.3 for "deg", 1 for "-". Throws as parse_unit.
 double per_unit(const std::string& unit);
+
+/// " kPa", to stand behind a number; "" of a plain one ("-").
+std::string unit_behind(std::string_view unit);
 
 /// A share as "12.3 %".
 std::string percent(double share);

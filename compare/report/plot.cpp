@@ -195,13 +195,12 @@ Json to_json(const Sheet& sheet) {
 
 std::string sheet_csv(const Sheet& sheet) {
   std::string text = "plot,series,x,y,error\n";
-  const auto cell = [](double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); };
   for (const Plot& plot : sheet.plots)
     for (const Series& series : plot.series)
       for (std::size_t i = 0; i < series.x.size(); ++i)
-        text += fmt::format("{},{},{},{},{}\n", csv_cell(plot.title), csv_cell(series.label), cell(series.x[i]),
-                            cell(series.base.empty() ? series.y[i] : series.y[i] - series.base[i]),
-                            i < series.error.size() ? cell(series.error[i]) : "");
+        text += fmt::format("{},{},{},{},{}\n", csv_cell(plot.title), csv_cell(series.label), csv_number(series.x[i]),
+                            csv_number(series.base.empty() ? series.y[i] : series.y[i] - series.base[i]),
+                            i < series.error.size() ? csv_number(series.error[i]) : "");
   return text;
 }
 

@@ -142,7 +142,7 @@ std::string prediction_text(const Prediction& prediction) {
   for (const ChannelError& error : prediction.errors) {
     const ChannelView& channel = channel_views[error.channel];
     header.push_back(heading(std::string(channel.title), std::string(channel.unit)));
-    header.insert(header.end(), {"predicted", "residual"});
+    header.insert(header.end(), {"predicted", "less measured"});
   }
   Table table{"", header};
   std::string notes;

@@ -68,7 +68,7 @@ void add_errors(const Scenario& scenario, WheelLimits& answer) {
     if (const Answer best = ask(model, scenario, at); best.result) row.pull_error = best.result->drawbar_pull.std_error;
     if (row.slope == answer.steepest) {
       answer.steepest_error = error_of_root(&OperatingCondition::longitudinal_incline, row.slope + 1.0);
-    } else if (row.slip) {
+    } else if (row.slip && !row.perhaps_not_at_all()) {
       at.slip = *row.slip;
       row.slip_error = error_of_root(&OperatingCondition::slip, 1.0);
     }
@@ -121,6 +121,13 @@ std::vector<OperatingCondition> without_slip(const std::vector<OperatingConditio
 
 /// At a slip of 100 % a wheel pulls and stands: it climbs nothing.
 bool spins_on_the_spot(double slip) { return slip > 1.0 - 1e-6; }
+
+std::string slip_in_words(const SlopeRow& row) {
+  if (!row.slip) return "-";
+  if (spins_on_the_spot(*row.slip)) return "100: spins on the spot";
+  if (row.perhaps_not_at_all()) return number(100 * *row.slip) + ", or not at all";
+  return number({*row.slip, std::isfinite(row.slip_error) ? row.slip_error : 0.0}, 100);
+}
 
 std::string steepest_in_words(const Estimate& steepest, double slip) {
   if (steepest.value >= 0.0 && spins_on_the_spot(slip))
@@ -182,12 +189,11 @@ std::string in_words(const WheelLimits& answer) {
   if (!answer.error.empty()) return text + "no solution: " + answer.error + "\n";
   Table table{"", {"slope [deg]", "slip at which it climbs [%]", "largest pull [N]", "slip of the largest pull [%]"}};
   for (const SlopeRow& row : answer.slopes)
-    table.add({number(row.slope / degree),
-               !row.slip                      ? "-"
-               : spins_on_the_spot(*row.slip) ? "100: spins on the spot"
-                                              : number({*row.slip, row.slip_error}, 100),
-               number({row.best.drawbar_pull, row.pull_error}), number(100 * row.best.slip)});
+    table.add({number(row.slope / degree), slip_in_words(row), number({row.best.drawbar_pull, row.pull_error}),
+               number(100 * row.best.slip)});
   text += as_text(table);
+  if (std::ranges::any_of(answer.slopes, &SlopeRow::perhaps_not_at_all))
+    text += "or not at all: one standard error of the soil's values makes the slope steeper than what it climbs.\n";
   if (!answer.steepest) return text + "The steepest slope lies beyond -60 .. 80 deg.\n";
   return text + steepest_in_words({*answer.steepest, answer.steepest_error}, answer.slopes.back().best.slip) + "\n";
 }
@@ -230,8 +236,9 @@ std::string limits_csv(const std::vector<WheelLimits>& answers, const std::vecto
     for (std::size_t k = 0; k < answer.slopes.size(); ++k) {
       const SlopeRow& row = answer.slopes[k];
       text += fmt::format("{},{},{},{},{},{},,{}\n", asked, row.slope / degree,
-                          row.slip ? fmt::format("{},{}", *row.slip, row.slip_error) : ",", row.best.drawbar_pull,
-                          row.pull_error, row.best.slip, csv_cell(remark(answer.model, at_limits[i].answers[k])));
+                          row.slip ? fmt::format("{},{}", *row.slip, csv_number(row.slip_error)) : ",",
+                          row.best.drawbar_pull, row.pull_error, row.best.slip,
+                          csv_cell(remark(answer.model, at_limits[i].answers[k])));
     }
   }
   return text;

@@ -21,8 +21,13 @@ struct SlopeRow {
   double slope = 0.0;          ///< [rad]
   std::optional<double> slip;  ///< at which it travels without a load behind it
   bekker_wong::PullPeak best;
-  double slip_error = 0.0;  ///< standard error of `slip`; 0 on the steepest slope, where that slip is best.slip
+  double slip_error =
+      not_a_number;         ///< of `slip`; none on the steepest slope, where that slip is best.slip, and where
+                            ///< it may not climb at all: near the pull's peak a slip has no error to first order
   double pull_error = 0.0;  ///< standard error of best.drawbar_pull [N]
+
+  /// Whether one standard error of the soil's values makes the slope one that it does not climb.
+  bool perhaps_not_at_all() const { return slip && best.drawbar_pull > 0.0 && best.drawbar_pull < pull_error; }
 
   bool operator==(const SlopeRow& other) const {
     return slope == other.slope && slip == other.slip && best.slip == other.best.slip &&

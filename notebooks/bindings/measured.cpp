@@ -1,6 +1,7 @@
 // compare/measured and predictions beside measurements.
 #include <fmt/core.h>
 
+#include "compare/doubts/doubts.hpp"
 #include "compare/measured/campaign.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/sweep/prediction.hpp"
@@ -34,6 +35,10 @@ void bind_campaign(py::module_& module) {
       .def(
           "scenario", [](const Campaign& c) { return compare::scenario_of(c); },
           "Wheel, declared soil and effects, for a model.")
+      .def(
+          "doubts", [](const Campaign& c) { return compare::doubts(c); },
+          "What is possible, but hardly meant: sentences. No verdict of run_loop holds beside a column that looks "
+          "mistaken.")
       .def("__repr__", [](const Campaign& c) { return fmt::format("Campaign('{}', {} runs)", c.name, c.runs.size()); });
   module.def(
       "find_campaign",

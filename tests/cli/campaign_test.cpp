@@ -135,7 +135,7 @@ TEST(Predict, TextShowsMeasuredPredictedAndTheErrorTable) {
   const std::string plot = (scratch / "p.svg").string();
   const Outcome r = soilbin("predict cmu-smooth --plot '" + plot + "'");
   EXPECT_EQ(r.status, 0) << r.err;
-  for (const char* word : {"predicted", "residual", "rms error", "lateral force", "yaw"})
+  for (const char* word : {"predicted", "less measured", "rms error", "lateral force", "yaw"})
     EXPECT_THAT(r.out, HasSubstr(word));
   EXPECT_THAT(text_of(plot), HasSubstr("<circle"));
 }

@@ -152,9 +152,12 @@ TEST(Notes, SayWhereTheNoiseIsMoreThanReRunsScatter) {
 }
 
 TEST(Odds, AreSharesOfCampaigns) {
-  EXPECT_EQ(odds_words(1.0 / 4001), "1 of 4,000 campaigns");
-  EXPECT_EQ(odds_words(0.0123), "1 of 81 campaigns");
-  EXPECT_EQ(odds_words(0.3), "30 of 100 campaigns");
+  const auto of = [](double p) { return ResidualSignatures{{}, p, 4000}; };
+  EXPECT_EQ(odds_words(of(0.0123)), "1 of 81 campaigns");
+  EXPECT_EQ(odds_words(of(0.3)), "30 of 100 campaigns");
+  EXPECT_EQ(odds_words(of(2.0 / 4001)), "1 of 2,000 campaigns");
+  EXPECT_EQ(odds_and_p(of(1.0 / 4001)),
+            "noise alone would look like this in none of 4,000 simulated campaigns, p < 0.00025");
 }
 
 // A parameter stands in its own unit, with its meaning, and says where the data did not determine it.

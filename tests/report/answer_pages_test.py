@@ -75,7 +75,7 @@ class Pages(unittest.TestCase):
                              ["What is missing", "What it does to the error", "What to measure next"])
             for about, text in self.parts():
                 self.assertIn(f"{about}. {text}".replace("\u00a0", " "), self.words[name])
-            self.assertIn("1 of 4,000 campaigns", self.parts()[0][1])
+            self.assertIn("none of 4,000 simulated campaigns", self.parts()[0][1])
 
     def test_the_loops_figure_holds_measured_points_and_both_models(self):
         self.show("loop")

@@ -1447,6 +1447,10 @@ class Campaign:
     def runs(self) -> list[Run]: ...
     def scenario(self) -> Scenario:
         """Wheel, declared soil and effects, for a model."""
+    def doubts(self) -> list[str]:
+        """What is possible, but hardly meant: sentences. No verdict of run_loop holds beside a column that looks
+        mistaken.
+        """
 
 def find_campaign(name: str) -> Campaign:
     """A campaign of the library, its folder, or its campaign.yaml. Raises InputError with file, line and the nearest
