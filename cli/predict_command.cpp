@@ -9,6 +9,7 @@
 #include "cli/progress.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "compare/loop/loop.hpp"
 #include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/answer_tables.hpp"
 #include "compare/sweep/prediction.hpp"
@@ -24,20 +25,30 @@ struct PredictOptions {
   bool json = false;
 };
 
+/// A wheel to predict with, and where its soil and effects come from.
+struct Predictor {
+  Scenario scenario;
+  std::string from;
+};
+
 /// The campaign's wheel and bin with its declared soil and effects, or those of a resolved model file.
-Scenario scenario_for(const PredictOptions& options, const compare::Campaign& campaign, const Workplace& place) {
+Predictor predictor_for(const PredictOptions& options, const compare::Campaign& campaign, const Workplace& place) {
   Scenario scenario = compare::scenario_of(campaign);
-  if (options.model.empty()) return scenario;
+  if (options.model.empty()) return {std::move(scenario), "the declared soil and not fitted"};
   const Case fitted = find_study(place, options.model);
   if (fitted.study.models.size() != 1 || fitted.study.models.front().model != ModelKind::bekker_wong)
     throw InputError(options.model + ": a model file for predict holds one model, bekker_wong");
   scenario.soil = fitted.scenario.soil;
-  return seen_by(fitted.study.models.front(), std::move(scenario));
+  const bool to_these = fitted.source == compare::source_of_fit(campaign.name);
+  return {
+      seen_by(fitted.study.models.front(), std::move(scenario)),
+      options.model + (to_these ? ", which was fitted to these runs: the loop tells its error on conditions left out"
+                                : " and not fitted")};
 }
 
 int predict(const PredictOptions& options, const Session& session) {
   const compare::Campaign campaign = find_campaign(session.place, options.campaign);
-  const Scenario scenario = scenario_for(options, campaign, session.place);
+  const auto [scenario, from] = predictor_for(options, campaign, session.place);
   const auto model = compare::make_model(ModelKind::bekker_wong);
   const compare::Prediction prediction = compare::predict(*model, scenario, campaign, shown_progress());
   const std::vector<std::string> doubts = compare::doubts(campaign, scenario, prediction);
@@ -50,9 +61,9 @@ int predict(const PredictOptions& options, const Session& session) {
   if (options.json)
     print_json(compare::to_json(prediction, campaign.name), doubts);
   else
-    fmt::print("{}: {} runs of {}, predicted with {} and not fitted\n{}\n\n{}", campaign.name, prediction.runs.size(),
-               in_words(campaign.wheel), options.model.empty() ? "the declared soil" : options.model,
-               compare::errors_in_words(scenario), compare::prediction_text(prediction));
+    fmt::print("{}: {} runs of {}, predicted with {}\n{}\n\n{}", campaign.name, prediction.runs.size(),
+               in_words(campaign.wheel), from, compare::errors_in_words(scenario),
+               compare::prediction_text(prediction));
   if (prediction.unsolved < prediction.runs.size()) return outputs.status(done);
   fmt::print(stderr, "soilbin: no run of the campaign has a solution\n");
   return failed;

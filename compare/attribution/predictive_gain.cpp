@@ -12,12 +12,15 @@ namespace soilbin::compare {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-Folds deal_folds(int conditions, int folds, std::uint64_t seed) {
-  Folds dealt{std::min(folds, conditions), std::vector<int>(conditions)};
-  std::vector<int>& fold = dealt.of_condition;
-  for (int c = 0; c < conditions; ++c) fold[c] = c % dealt.count;
+Folds deal_folds(const Observations& observations, int folds, std::uint64_t seed) {
+  std::map<int, std::size_t> place;  // of each block, in the order of their first conditions
+  for (const int block : observations.block) place.emplace(block, place.size());
+  std::vector<int> fold(place.size());
+  Folds dealt{std::min(folds, static_cast<int>(fold.size())), {}};
+  for (std::size_t b = 0; b < fold.size(); ++b) fold[b] = static_cast<int>(b) % dealt.count;
   std::mt19937_64 random(seed);
   for (std::size_t i = fold.size(); i > 1; --i) std::swap(fold[i - 1], fold[random() % i]);
+  for (const int block : observations.block) dealt.of_condition.push_back(fold[place.at(block)]);
   return dealt;
 }
 
@@ -63,8 +66,7 @@ std::optional<VectorXd> density_of(const FittedModel& model, const Observations&
 std::vector<FoldDensity> fold_densities(const FittedModel& model, std::uint64_t seed, const ThreadPool& pool) {
   const Observations& all = model.data().observations;
   const bool many = std::ssize(all.rows) > thresholds::max_searched_rows;
-  const Folds folds =
-      deal_folds(all.conditions, many ? thresholds::choice_folds_of_many_runs : thresholds::choice_folds, seed);
+  const Folds folds = deal_folds(all, many ? thresholds::choice_folds_of_many_runs : thresholds::choice_folds, seed);
   const std::vector<int>& fold = folds.of_condition;
   std::vector<FoldDensity> densities(folds.count);
   pool.each(folds.count, [&](int f, const Pulse& pulse) {

@@ -17,9 +17,9 @@ struct Folds {
   std::vector<int> of_condition;
 };
 
-/// Conditions dealt to folds in turn, then shuffled; no more folds than conditions, for one that leaves none out tests
-/// nothing.
-Folds deal_folds(int conditions, int folds, std::uint64_t seed);
+/// Blocks of conditions dealt to folds in turn, then shuffled; no more folds than blocks, for one that leaves none out
+/// tests nothing.
+Folds deal_folds(const Observations& observations, int folds, std::uint64_t seed);
 
 /// Mean and standard error over conditions of what the cells of each add up to.
 std::pair<double, double> over_conditions(const std::map<int, double>& sums);

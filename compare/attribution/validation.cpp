@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "compare/attribution/choice.hpp"
 #include "compare/attribution/learned_effect.hpp"
 #include "compare/attribution/model_discrepancy.hpp"
 #include "compare/attribution/predictive_gain.hpp"
@@ -36,11 +37,13 @@ FoldResult run_fold(const Dataset& whole, const NoiseFloor& noise, const Validat
   if (options.with_model_discrepancy) beside = attribute_with_model_discrepancy(exact, options.attribution);
   const Attribution& found = beside ? beside->found : exact;
   const FittedModel& base = exact.base;
-  const FittedModel* better = found.candidates.best ? &found.best().model : nullptr;
+  const CandidateModel* chosen =
+      found.candidates.best ? &found.candidates.models[choose(found, options.attribution).candidate] : nullptr;
+  const FittedModel* better = chosen ? &chosen->model : nullptr;
   std::vector<LearnedEffect> learned;
   if (options.learn) learned = learn_effects(refitted_as_exact(base, better), options.attribution);
   FoldResult result;
-  if (better) result.chosen = found.best().ids;
+  if (chosen) result.chosen = chosen->ids;
   VectorXd predicted = VectorXd::Constant(all.cells.size(), not_a_number);
   std::vector<Index> of_cell;  // of each held-out cell, its index among all
   Index trained = 0, index = -1;
@@ -76,7 +79,7 @@ FoldResult run_fold(const Dataset& whole, const NoiseFloor& noise, const Validat
 /// Every fold, some at once. The first exception of any stops them all and is thrown.
 std::vector<std::optional<FoldResult>> run_folds(const Dataset& whole, const NoiseFloor& noise,
                                                  const ValidationOptions& options) {
-  const Folds folds = deal_folds(whole.observations.conditions, options.folds, options.attribution.seed);
+  const Folds folds = deal_folds(whole.observations, options.folds, options.attribution.seed);
   std::vector<std::optional<FoldResult>> results(folds.count);
   std::atomic<std::size_t> done{0};
   const ThreadPool pool{options.threads, [&] {
@@ -149,6 +152,12 @@ CrossValidation cross_validate(const Dataset& whole, const NoiseFloor& noise, co
   }
   sum_up(whole.observations, cv);
   return cv;
+}
+
+CrossValidation without_effects(CrossValidation validation, const Observations& whole) {
+  for (HeldOut& held : validation.cells) held.after = held.named = held.before;
+  sum_up(whole, validation);
+  return validation;
 }
 
 CrossValidation without_learned_effects(CrossValidation validation, const Observations& whole) {

@@ -49,10 +49,14 @@ struct ValidationOptions {
 };
 
 /// Folds are made of whole conditions, dealt by a seeded shuffle. Steps from the noise estimate to the choice of the
-/// effect are redone in each. noise: of the cells left out, in whose sd errors are expressed.
+/// effects (choose) are redone in each; not the verdict: the choice is taken whether or not it would stand on the fewer
+/// conditions. noise: of the cells left out, in whose sd errors are expressed.
 CrossValidation cross_validate(const Dataset& whole, const NoiseFloor& noise, const ValidationOptions& options);
 
 /// What it would be without learned effects. whole: the observations that it is of.
 CrossValidation without_learned_effects(CrossValidation validation, const Observations& whole);
+
+/// What it would be of the base model alone: nothing changes.
+CrossValidation without_effects(CrossValidation validation, const Observations& whole);
 
 }  // namespace soilbin::compare

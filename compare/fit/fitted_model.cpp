@@ -65,8 +65,9 @@ VectorXd FittedModel::contribution(int term) const {
 SemiEmpiricalSoil FittedModel::soil() const {
   SemiEmpiricalSoil soil = data_->campaign->soil;
   const VectorXd errors = standard_errors();
-  for (int i = 0; i < predictor_.soil_parameters(); ++i)
-    soil.*soil_parameter(predictor_.parameters()[i].name).value = {fit_.theta[i], errors[i]};
+  for (int i = 0; i < predictor_.soil_parameters(); ++i)  // a value that its bound holds is no exact one
+    soil.*soil_parameter(predictor_.parameters()[i].name).value = {fit_.theta[i],
+                                                                   errors[i] > 0.0 ? errors[i] : held_error(i)};
   return soil;
 }
 

@@ -268,6 +268,41 @@ VectorXd variance_shape(const ChannelData& data, double mean_square, double shar
   return (1 - part) * shape.array() + part * (constant_share + growing_share * data.spread.array().square() / scatter);
 }
 
+/// -2 ln of the likelihood of these sizes, and what a size far from the typical one and growth cost.
+double price_of(const VarianceComponents& model, const ChannelSizes& sizes, double typical) {
+  return model.deviance(sizes.sigma, sizes.tau) + std::pow(std::log(sizes.sigma / typical), 2) +
+         thresholds::price_of_growth * sizes.share + thresholds::price_of_growth * sizes.part;
+}
+
+constexpr double sigma_step = 0.12, ratio_step = 1.2;  // of ln sigma, and the widest of ln(tau/sigma), on the grid
+
+/// The top near a point of the grid: a step apart is a share of the noise that chi2 and errors would show.
+ChannelSizes refined(const VarianceComponents& model, ChannelSizes sizes, double typical) {
+  const auto climb = [&](const auto& at, double step, double x_tol) {
+    const auto height = [&](double by) { return -price_of(model, at(by), typical); };
+    const gsl::Sample top =
+        gsl::bracketed_maximum(height, {{-step, height(-step)}, {0.0, height(0.0)}, {step, height(step)}}, x_tol,
+                               std::numeric_limits<double>::infinity(), "the size of a channel's noise");
+    sizes = at(top.x);
+    sizes.deviance = -top.f;
+  };
+  const auto both = [&](double by) {
+    ChannelSizes other = sizes;
+    other.sigma *= std::exp(by), other.tau *= std::exp(by);
+    return other;
+  };
+  const auto smooth_alone = [&](double by) {
+    ChannelSizes other = sizes;
+    other.tau *= std::exp(by);
+    return other;
+  };
+  climb(both, sigma_step, 1e-3);
+  if (sizes.tau == 0.0) return sizes;
+  climb(smooth_alone, ratio_step, 1e-2);
+  climb(both, sigma_step, 1e-3);
+  return sizes;
+}
+
 ChannelSizes likeliest(const ChannelData& data, double mean_square) {
   const double typical = typical_noise(data.e, data.f);
   const bool enough = data.e.size() >= thresholds::min_growth_values;
@@ -280,13 +315,15 @@ ChannelSizes likeliest(const ChannelData& data, double mean_square) {
       const VarianceComponents model(data.e, data.soil, data.smooth, variance_shape(data, mean_square, share, part));
       for (int i = -32; i <= 20; ++i)
         for (const double ratio : {0.0, 0.3, 1.0, 3.0, 10.0, 40.0}) {
-          const double sigma = typical * std::exp(0.12 * i), tau = ratio * sigma;
-          const double deviance = model.deviance(sigma, tau) + std::pow(0.12 * i, 2) +
-                                  thresholds::price_of_growth * share + thresholds::price_of_growth * part;
-          if (deviance < best.deviance) best = {sigma, tau, share, part, deviance};
+          ChannelSizes sizes{.sigma = typical * std::exp(sigma_step * i), .share = share, .part = part};
+          sizes.tau = ratio * sizes.sigma;
+          sizes.deviance = price_of(model, sizes, typical);
+          if (sizes.deviance < best.deviance) best = sizes;
         }
     }
-  return best;
+  if (!std::isfinite(best.deviance)) return best;
+  return refined({data.e, data.soil, data.smooth, variance_shape(data, mean_square, best.share, best.part)}, best,
+                 typical);
 }
 
 ChannelFit fit_channel(const Observations& observations, const NoiseData& data, const ChannelCells& cells,

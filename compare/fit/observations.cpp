@@ -1,12 +1,15 @@
 #include "compare/fit/observations.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "compare/measured/condition_views.hpp"
 #include "compare/measured/within_run_scatter.hpp"
+#include "scenario/unit.hpp"
 
 namespace soilbin::compare {
 
@@ -26,12 +29,53 @@ auto fingerprint(const OperatingCondition& at) {
                          at.moisture.value_or(0.0), at.position.value_or(0.0));
 }
 
+/// Whether two conditions may be one setpoint, read twice by instruments.
+bool may_be_one(const OperatingCondition& a, const OperatingCondition& b) {
+  constexpr double load_share = 0.03, slip = 0.01, speed_share = 0.1, angle = 0.5 * degree, moisture = 0.005;
+  const auto near = [](double x, double y, double within) { return std::abs(x - y) <= within; };
+  return near(a.load, b.load, load_share * a.load) && near(a.slip, b.slip, slip) &&
+         near(a.speed, b.speed, speed_share * std::abs(a.speed)) && a.pass == b.pass &&
+         near(a.longitudinal_incline, b.longitudinal_incline, angle) &&
+         near(a.transverse_incline, b.transverse_incline, angle) && near(a.yaw, b.yaw, angle) &&
+         near(a.moisture.value_or(0.0), b.moisture.value_or(0.0), moisture);
+}
+
+/// Blocks begin with one condition and take what is near that one, in the order of their slips and loads.
+std::vector<int> blocks_of(const std::vector<OperatingCondition>& conditions, const std::vector<bool>& labelled) {
+  std::vector<std::size_t> order(conditions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t c) { return conditions[c].slip; });
+  std::vector<int> block(conditions.size(), -1);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::size_t first = order[i];
+    if (block[first] >= 0) continue;
+    block[first] = static_cast<int>(first);
+    if (labelled[first]) continue;
+    for (std::size_t k = i + 1; k < order.size(); ++k) {
+      const std::size_t other = order[k];
+      if (conditions[other].slip - conditions[first].slip > 0.02) break;
+      if (block[other] < 0 && !labelled[other] && may_be_one(conditions[first], conditions[other]))
+        block[other] = static_cast<int>(first);
+    }
+  }
+  return block;
+}
+
 }  // namespace
+
+int Observations::conditions_in_blocks() const {
+  std::set<int> several, seen;
+  for (const int b : block)
+    if (!seen.insert(b).second) several.insert(b);
+  return static_cast<int>(std::ranges::count_if(block, [&](int b) { return several.contains(b); }));
+}
 
 Observations observe(const Campaign& campaign) {
   std::array<double, channel_count> usual{};
   for (int c = 0; c < channel_count; ++c) usual[c] = usual_scatter(campaign.runs, c).value_or(0.0);
   Observations all;
+  std::vector<OperatingCondition> conditions;
+  std::vector<bool> labelled;
   std::map<std::string, int> by_label;
   std::map<decltype(fingerprint(std::declval<const OperatingCondition&>())), int> by_values;
   for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
@@ -39,7 +83,7 @@ Observations observe(const Campaign& campaign) {
     const int next = all.conditions;
     const int condition = run.setpoint ? by_label.emplace(*run.setpoint, next).first->second
                                        : by_values.emplace(fingerprint(run.at), next).first->second;
-    if (condition == next) ++all.conditions;
+    if (condition == next) ++all.conditions, conditions.push_back(run.at), labelled.push_back(run.setpoint.has_value());
     const int row = static_cast<int>(all.rows.size());
     all.rows.push_back(run.at);
     all.condition.push_back(condition);
@@ -48,6 +92,7 @@ Observations observe(const Campaign& campaign) {
       if (const auto& value = run.*channel_views[c].measured)
         all.cells.push_back({row, c, *value, run.within_run_sd[c].value_or(usual[c])});
   }
+  all.block = blocks_of(conditions, labelled);
   return all;
 }
 
@@ -55,7 +100,7 @@ Observations of_conditions(const Observations& all, const std::vector<bool>& kee
   Observations part;
   std::vector<int> renumbered(keep.size(), -1), new_row(all.rows.size(), -1);
   for (std::size_t c = 0; c < keep.size(); ++c)
-    if (keep[c]) renumbered[c] = part.conditions++;
+    if (keep[c]) renumbered[c] = part.conditions++, part.block.push_back(all.block[c]);
   for (std::size_t i = 0; i < all.rows.size(); ++i) {
     const int condition = renumbered[all.condition[i]];
     if (condition < 0) continue;

@@ -40,10 +40,15 @@ struct Observations {
   std::vector<int> source_row;  ///< index into Campaign::runs
   std::vector<Cell> cells;      ///< ordered by row, then channel
   int conditions = 0;
+  /// Of each condition: those without a label that lie so near each other that they may be re-runs have one block. They
+  /// are left out together, so that no prediction rests on a re-run of what it predicts.
+  std::vector<int> block;
 
   Eigen::VectorXd values() const;
   /// Rows per condition beyond the first, summed: the degrees of freedom that re-runs alone give.
   int rerun_freedom() const;
+  /// How many share their block with another.
+  int conditions_in_blocks() const;
 };
 
 /// All runs of a campaign. Rows share a condition where their setpoint labels agree or, without labels, where every

@@ -74,6 +74,7 @@ Observations one_row_a_group(const Observations& all, const std::vector<std::vec
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const int row = static_cast<int>(g);
     pooled.rows.push_back(mean_condition(all, groups[g], varying));
+    pooled.block.push_back(pooled.conditions);
     pooled.condition.push_back(pooled.conditions++);
     pooled.source_row.push_back(all.source_row[groups[g].front()]);
     for (int channel = 0; channel < channel_count; ++channel)

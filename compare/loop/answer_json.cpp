@@ -210,6 +210,16 @@ Json worse_json(const LoopAnswer& answer) {
   return names;
 }
 
+Json set_aside_json(const LoopAnswer& answer) {
+  Json all = Json::array();
+  for (const SetAside& one : answer.set_aside)
+    all.push_back({{"line", one.csv_line},
+                   {"channel", channel_views[one.channel].name},
+                   {"measured", one.measured},
+                   {"predicted", finite(one.predicted)}});
+  return all;
+}
+
 Json with_outliers_json(const LoopAnswer& answer) {
   if (!answer.with_outliers) return nullptr;
   return {{"verdict", word(answer.with_outliers->verdict)}, {"effects", answer.with_outliers->effects}};
@@ -228,7 +238,8 @@ Json to_json(const LoopAnswer& answer) {
           {"error", error_json(answer)},
           {"next_test", next_json(answer)},
           {"soil", soil_json(answer)},
-          {"outliers", answer.outliers},
+          {"outliers", answer.outliers()},
+          {"set_aside", set_aside_json(answer)},
           {"with_outliers", with_outliers_json(answer)},
           {"stand_in", effects_json(answer.stand_in, answer.wheel)},
           {"worse", worse_json(answer)},

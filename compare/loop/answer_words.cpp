@@ -151,7 +151,7 @@ std::string beside_the_verdict(const LoopAnswer& answer) {
              presumed_of_the_wheel(answer);
     case Verdict::unknown_effect:
       return sets.size() > 1 ? "Of the known effects these come nearest: " + sets_with_shares(sets, 0, worth_listing) +
-                                   "." + why_taken(sets)
+                                   "." + (takes_effects(answer) ? why_taken(sets) : "")
                              : "";
     case Verdict::nothing_missing:
       return capital(answer.judgement->reason) + ".";
@@ -291,11 +291,28 @@ std::string note_on_noise(const LoopAnswer& answer) {
       joined_with_and(channels));
 }
 
+/// "line 12: torque 14.2 N m where 9.1 N m are predicted"
+std::string value_in_words(const SetAside& one) {
+  const std::string where =
+      fmt::format("line {}: {} {}", one.csv_line, channel_views[one.channel].title, in_unit(one.channel, one.measured));
+  return std::isfinite(one.predicted)
+             ? fmt::format("{} where {} is predicted", where, in_unit(one.channel, one.predicted))
+             : where;
+}
+
 /// What was set aside, and whether anything hangs on it.
 std::string outlier_sentence(const LoopAnswer& answer) {
-  const bool one = answer.outliers == 1;
-  std::string said = fmt::format("{} measured value{} stood more than five standard deviations off and {} set aside.",
-                                 answer.outliers, one ? "" : "s", one ? "was" : "were");
+  constexpr std::size_t most = 5;
+  const bool one = answer.outliers() == 1;
+  std::vector<std::string> listed;
+  for (std::size_t i = 0; i < std::min(most, answer.set_aside.size()); ++i)
+    listed.push_back(value_in_words(answer.set_aside[i]));
+  if (answer.set_aside.size() > most) listed.push_back("...");
+  std::string said = fmt::format(
+      "{} {} farther off than noise puts any value in 99 of 100 campaigns, and {} set aside "
+      "({}).",
+      counted(answer.set_aside.size(), "measured value"), one ? "is" : "are", one ? "was" : "were",
+      fmt::join(listed, "; "));
   if (!answer.with_outliers) return said;
   const WithOutliers& kept = *answer.with_outliers;
   said += fmt::format(" With {} kept ", one ? "it" : "them");
@@ -327,10 +344,13 @@ std::string verdict_sentence(const LoopAnswer& answer) {
     case Verdict::effect_found: {
       const std::set<std::string>& ids = answer.found().best().ids;
       const std::string names = named_effects(ids);
-      if (answer.ambiguity_set.size() > 1)
-        return fmt::format("The model lacks {}, most likely {} ({}).",
-                           ids.size() == 1 ? "an effect" : fmt::format("{} effects", ids.size()), names,
-                           share_words(answer.ambiguity_set.front().weight));
+      if (answer.ambiguity_set.size() > 1) {
+        const std::string what = ids.size() == 1 ? "an effect" : fmt::format("{} effects", ids.size());
+        const std::string share = share_words(answer.ambiguity_set.front().weight);
+        if (!why_taken(answer.ambiguity_set).empty())
+          return fmt::format("The model lacks {}: {}, by conditions left out ({} by the fit).", what, names, share);
+        return fmt::format("The model lacks {}, most likely {} ({}).", what, names, share);
+      }
       return ids.size() == 1 ? fmt::format("The model lacks {}: {}.", names, effect_title(*ids.begin()).meaning)
                              : fmt::format("The model lacks {}.", names);
     }
@@ -383,9 +403,14 @@ std::vector<std::string> notes(const LoopAnswer& answer) {
   for (std::string& sentence : bekker_wong::presumptions(forms_named(answer), answer.wheel))
     sentences.push_back(std::move(sentence));
   if (answer.verdict != Verdict::not_enough_data && answer.found().base.data().noise.rerun_freedom == 0)
-    sentences.push_back("No setpoint was run twice: the noise was estimated together with the fit.");
+    sentences.push_back("No two rows share a setpoint: the noise was estimated together with the fit.");
+  if (const int near = answer.judgement ? answer.found().base.data().observations.conditions_in_blocks() : 0; near > 0)
+    sentences.push_back(fmt::format(
+        "{} conditions without a label lie so near another one that they may be re-runs: none is predicted from its "
+        "neighbours. A label (setpoint) says which are, and tells the noise better.",
+        near));
   if (std::string noise = note_on_noise(answer); !noise.empty()) sentences.push_back(std::move(noise));
-  if (answer.outliers > 0) sentences.push_back(outlier_sentence(answer));
+  if (answer.outliers() > 0) sentences.push_back(outlier_sentence(answer));
   if (!answer.judgement) return sentences;
   if (const auto& impossible = answer.found().base.data().campaign->impossible; !impossible.empty())
     sentences.push_back(

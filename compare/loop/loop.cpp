@@ -1,10 +1,13 @@
 #include "compare/loop/loop.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "compare/attribution/model_discrepancy.hpp"
 #include "compare/fit/thresholds.hpp"
 #include "compare/loop/answer_words.hpp"
+#include "scenario/errors.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -173,25 +176,46 @@ std::vector<LearnedEffect> learned_beside(const FittedModel& base, const Decisio
   return learn_effects(decision.exact_model(base), options);
 }
 
-/// Whether the whole procedure, redone in each fold, predicts better with learned effects than without, and in no
+bool was_asked(const CrossValidation& errors) { return errors.overall.cells > 0; }
+
+/// Whether the procedure, redone in each fold, predicts conditions left out no better with effects than without.
+bool is_not_confirmed(const CrossValidation& errors) {
+  return was_asked(errors) && !(errors.overall.after < errors.overall.before);
+}
+
+/// Whether the whole procedure, redone in each fold, predicts better with learned effects than without them, and in no
 /// channel clearly worse.
 bool predicts_better(const CrossValidation& with_learned) {
-  if (with_learned.overall.cells == 0) return true;  // not asked
+  if (!was_asked(with_learned)) return true;
+  if (is_not_confirmed(with_learned)) return false;
   for (const HeldOutErrors& channel : with_learned.channels)
     if (channel.after > channel.named * (1 + thresholds::max_learned_loss)) return false;
   return with_learned.overall.after < with_learned.overall.named * (1 - thresholds::min_learned_gain);
+}
+
+/// Effects that are not confirmed on conditions left out are neither named nor saved.
+void take_no_effects(Judgement& judgement, const CrossValidation& errors) {
+  if (judgement.verdict == Verdict::effect_found) {
+    judgement.verdict = Verdict::unknown_effect;
+    judgement.reason += fmt::format(
+        ", but the procedure, repeated without them, predicts conditions left out no better with effects ({:.4g} "
+        "standard deviations of the noise, root mean square) than without ({:.4g})",
+        errors.overall.after, errors.overall.before);
+  }
+  judgement.choice->stands = false;
 }
 
 /// A decision redone on conditions left out, and the learned effects that predict those better. They become a part of
 /// the model that is saved and explain nothing: what is told to be unexplained, and what that depends on, stays what
 /// the named effects leave.
 struct Validated {
-  NoiseFloor noise;  ///< in whose unit errors are told
-  CrossValidation errors;
+  NoiseFloor noise;        ///< in whose unit errors are told
+  CrossValidation errors;  ///< after: with what is taken
   std::vector<LearnedEffect> learned;
 };
 
-Validated validate(const FittedModel& base, const Decision& decision, std::vector<LearnedEffect> learned,
+/// Takes back from the decision what is not confirmed.
+Validated validate(const FittedModel& base, Decision& decision, std::vector<LearnedEffect> learned,
                    const LoopOptions& options, LoopProgress& progress) {
   NoiseFloor noise = decision.noise();
   CrossValidation errors;
@@ -203,8 +227,28 @@ Validated validate(const FittedModel& base, const Decision& decision, std::vecto
                              .folds = options.folds,
                              .threads = options.threads,
                              .progress = progress.folds()});
-  if (learned.empty() || predicts_better(errors)) return {std::move(noise), std::move(errors), std::move(learned)};
-  return {std::move(noise), without_learned_effects(std::move(errors), base.data().observations), {}};
+  const Observations& all = base.data().observations;
+  if (!learned.empty() && !predicts_better(errors))
+    learned.clear(), errors = without_learned_effects(std::move(errors), all);
+  Judgement& judgement = decision.judgement;
+  if (judgement.takes_best() && is_not_confirmed(errors)) take_no_effects(judgement, errors);
+  if (!judgement.takes_best() && learned.empty()) errors = without_effects(std::move(errors), all);
+  return {std::move(noise), std::move(errors), std::move(learned)};
+}
+
+std::vector<SetAside> set_aside_by(const FittedModel& base, const Observations& given) {
+  std::vector<SetAside> all;
+  const Dataset& data = base.data();
+  for (std::size_t i = 0; i < given.cells.size(); ++i) {
+    if (!data.outlier[i]) continue;
+    const Cell& cell = given.cells[i];
+    SetAside one{data.campaign->runs[given.source_row[cell.row]].csv_line, cell.channel, cell.value, not_a_number};
+    try {
+      one.predicted = channel_of(base.predictor().reading(base.fit().theta, given.rows[cell.row]), cell.channel);
+    } catch (const NoSolution&) {}
+    all.push_back(one);
+  }
+  return all;
 }
 
 /// The best named effects of an unknown one, and the learned ones beside them: the last candidate holds them all.
@@ -225,14 +269,15 @@ LoopAnswer not_judged(const Campaign& campaign, std::string reason) {
 }
 
 /// The same of a campaign that was fitted.
-LoopAnswer not_judged(const Campaign& campaign, std::vector<std::string> not_testable, Decision decision) {
+LoopAnswer not_judged(const Campaign& campaign, const Observations& given, std::vector<std::string> not_testable,
+                      Decision decision) {
   const FittedModel& base = decision.found().base;
   LoopAnswer answer = not_judged(campaign, decision.judgement.reason);
   answer.not_testable = std::move(not_testable);
   answer.dependences_before = dependences_of(base, 7);
   answer.noise = base.data().noise;
   answer.soil = base.soil();
-  answer.outliers = base.data().outliers();
+  answer.set_aside = set_aside_by(base, given);
   answer.judgement = std::move(decision.judgement);
   return answer;
 }
@@ -266,7 +311,8 @@ LoopAnswer answer_of(Stages made, const AttributionOptions& options, const Limit
   if (takes_best) left = dependences_of(decision.model(), 11);
   std::vector<SoilShift> shifts;
   if (takes_best || !learned.empty()) shifts = soil_shifts(saved, learned.empty() ? found.base : base);
-  const int outliers = found.base.data().outliers();
+  std::vector<SetAside> set_aside = set_aside_by(found.base, made.given);
+  const bool aside = !set_aside.empty();
 
   return {
       .campaign = campaign.name,
@@ -285,8 +331,8 @@ LoopAnswer answer_of(Stages made, const AttributionOptions& options, const Limit
       .noise = made.validated.noise,
       .soil_shifts = std::move(shifts),
       .soil = saved.soil(),
-      .outliers = outliers,
-      .with_outliers = outliers > 0 ? std::optional(keep_outliers(campaign, made.given, options)) : std::nullopt,
+      .set_aside = std::move(set_aside),
+      .with_outliers = aside ? std::optional(keep_outliers(campaign, made.given, options)) : std::nullopt,
       .validation = std::move(made.validated.errors),
       .learned = std::move(made.validated.learned),
       .second = std::move(made.decision.second),
@@ -314,7 +360,7 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   std::vector<std::string> hidden = not_testable(first.found);
   Decision decision = decide(std::move(first), whole);
   if (decision.judgement.verdict == Verdict::not_enough_data)
-    return not_judged(campaign, std::move(hidden), std::move(decision));
+    return not_judged(campaign, observations, std::move(hidden), std::move(decision));
   std::vector<LearnedEffect> learned = learned_beside(base, decision, whole);
   progress.choice_made();
   Validated validated = validate(base, decision, std::move(learned), options, progress);

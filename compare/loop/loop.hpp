@@ -62,6 +62,13 @@ struct LoopOptions {
   Progress progress;     ///< share of the work done, from the calling thread; may throw to stop
 };
 
+/// A measured value that was set aside, beside the base model's prediction.
+struct SetAside {
+  int csv_line = 0;
+  int channel = 0;
+  double measured = 0.0, predicted = 0.0;  ///< [SI]; predicted not a number where the base model carries no such wheel
+};
+
 /// What the loop would say with no value set aside.
 struct WithOutliers {
   Verdict verdict = Verdict::not_enough_data;
@@ -94,8 +101,8 @@ struct LoopAnswer {
   std::vector<Dependence> dependences_before, dependences_after;
   NoiseFloor noise;                    ///< beside the accepted effects where there are any: the unit of errors
   std::vector<SoilShift> soil_shifts;  ///< of the free values, where effects are accepted or stand in
-  SemiEmpiricalSoil soil;  ///< refitted with the accepted effects or those that stand in, with standard errors
-  int outliers = 0;        ///< cells set aside
+  SemiEmpiricalSoil soil;           ///< refitted with the accepted effects or those that stand in, with standard errors
+  std::vector<SetAside> set_aside;  ///< measured values that were left out of every fit
   std::optional<WithOutliers> with_outliers;  ///< where any were
   CrossValidation validation;
   /// Of an unknown effect: smooth functions of one condition or two that predict conditions left out better still, each
@@ -106,6 +113,7 @@ struct LoopAnswer {
   /// Absent where the campaign is too small to fit.
   std::optional<Judgement> judgement;
 
+  int outliers() const { return static_cast<int>(set_aside.size()); }
   const Attribution& found() const { return judgement->found; }
   /// Whether any set of effects was fitted.
   bool has_candidates() const { return judgement && !found().candidates.sets.empty(); }
@@ -149,5 +157,8 @@ nlohmann::ordered_json details_json(const LoopAnswer& answer);
 /// The campaign's wheel on the refitted soil with the accepted effects, at each of its conditions: what estimate, run
 /// and predict --model take.
 Case resolved_model(const Campaign& campaign, const LoopAnswer& answer);
+
+/// The source that such a case tells: "fitted to campaign cmu-smooth".
+std::string source_of_fit(const std::string& campaign);
 
 }  // namespace soilbin::compare

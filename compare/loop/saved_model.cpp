@@ -36,10 +36,12 @@ std::vector<OperatingCondition> asked_of(const Campaign& campaign, const std::ve
 
 }  // namespace
 
+std::string source_of_fit(const std::string& campaign) { return "fitted to campaign " + campaign; }
+
 Case resolved_model(const Campaign& campaign, const LoopAnswer& answer) {
   Case model;
   model.name = campaign.name + "-model";
-  model.source = "fitted to campaign " + campaign.name;
+  model.source = source_of_fit(campaign.name);
   model.scenario = scenario_of(campaign);
   model.scenario.effects.clear();
   model.scenario.tire.name = campaign.name + "-wheel";

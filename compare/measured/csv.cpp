@@ -125,10 +125,11 @@ CsvTable parse_csv(const SourceText& source) {
       source.refuse(row.cells.front().offset,
                     fmt::format("a row of {} cells under a header of {}", row.cells.size(), columns));
     if (table.rows.size() >= most_csv_rows)
-      source.refuse(row.cells.front().offset, fmt::format("more than {} rows", most_csv_rows),
-                    fmt::format("this is a log: keep a part of it, such as each tenth row: awk 'NR == 1 || NR % 10 == "
-                                "0' '{}' > fewer.csv",
-                                source.file));
+      source.refuse(
+          row.cells.front().offset, fmt::format("more than {} rows", most_csv_rows),
+          fmt::format("this is a log. A campaign wants one row a run, the means of its steady part; of plates a "
+                      "part will do, such as each tenth row: awk 'NR == 1 || NR % 10 == 0' '{}' > fewer.csv",
+                      source.file));
     const bool blank = std::ranges::all_of(row.cells, [](const CsvCell& cell) { return cell.text.empty(); });
     if (!blank) table.rows.push_back(std::move(row));
   }

@@ -32,7 +32,7 @@ struct RunForecast {
 
 /// One row whose four channels are all measured.
 Observations single_run(const OperatingCondition& at) {
-  Observations run{.rows = {at}, .condition = {0}, .source_row = {0}, .cells = {}, .conditions = 1};
+  Observations run{.rows = {at}, .condition = {0}, .source_row = {0}, .cells = {}, .conditions = 1, .block = {0}};
   for (int channel = 0; channel < channel_count; ++channel) run.cells.push_back({0, channel, 0.0});
   return run;
 }

@@ -122,8 +122,12 @@ class Rig {
   /// sinkage has no bound, and nobody would set a wheel down.
   bool carried(OperatingCondition at) const {
     at.load *= thresholds::spare_load;
-    const Observations one{
-        .rows = {at}, .condition = {0}, .source_row = {0}, .cells = {{0, sinkage, 0.0, 0.0}}, .conditions = 1};
+    const Observations one{.rows = {at},
+                           .condition = {0},
+                           .source_row = {0},
+                           .cells = {{0, sinkage, 0.0, 0.0}},
+                           .conditions = 1,
+                           .block = {0}};
     const auto prediction = declared_prediction(campaign_, one);
     return prediction && prediction->allFinite();
   }

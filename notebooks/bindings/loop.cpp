@@ -103,7 +103,7 @@ void bind_answer(py::module_& module) {
           "before", [](const LoopAnswer& a) { return a.judgement ? a.judgement->before.lack_of_fit : LackOfFit(); })
       .def_property_readonly("after", [](const LoopAnswer& a) { return a.choice().after.lack_of_fit; })
       .def_readonly("soil", &LoopAnswer::soil, "refitted with the accepted effects, with standard errors")
-      .def_readonly("outliers", &LoopAnswer::outliers, "values set aside")
+      .def_property_readonly("outliers", &LoopAnswer::outliers, "number of values set aside")
       .def_property_readonly(
           "weights",
           [](const LoopAnswer& a) { return a.judgement ? a.found().candidates.sets : std::vector<WeightedSet>(); },

@@ -154,8 +154,9 @@ TEST(Campaign, ARotationOfZeroIsThatOfALockedWheel) {
 TEST(Campaign, ALogIsToldFromRuns) {
   std::string csv = "load_N,slip,sinkage_m\n";
   for (std::size_t i = 0; i <= most_csv_rows; ++i) csv += "80,0.2,0.01\n";
-  EXPECT_THAT(refused(good_yaml, csv), AllOf(HasSubstr("more than 100000 rows"), HasSubstr("hint: this is a log"),
-                                             HasSubstr("NR % 10 == 0' 'runs.csv' > fewer.csv")));
+  EXPECT_THAT(refused(good_yaml, csv),
+              AllOf(HasSubstr("more than 100000 rows"), HasSubstr("hint: this is a log"),
+                    HasSubstr("means of its steady part"), HasSubstr("NR % 10 == 0' 'runs.csv' > fewer.csv")));
 }
 
 TEST(Campaign, RealFilesHaveQuotesCarriageReturnsMarksAndBlankLines) {

@@ -1,4 +1,5 @@
 // The loop's parts, each against what it must be: noise, signatures, p-values.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -100,6 +101,20 @@ NoiseEstimate twelve_of_one(const std::vector<double>& residual) {
                                .soil_columns = Eigen::MatrixXd::Zero(12, 0)});
 }
 
+// Sizes between those that are tried are found too: half a step apart, the noise is half a step larger.
+TEST(NoiseFloor, HasAnySize) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  std::vector<double> residual(12), larger;
+  for (double& r : residual) r = normal(random);
+  const auto floor_of = [](const std::vector<double>& of) { return twelve_of_one(of).floor.channels[torque].floor; };
+  for (const double times : {1.03, 1.06, 1.09}) {
+    larger.clear();
+    for (const double r : residual) larger.push_back(times * r);
+    EXPECT_NEAR(floor_of(larger) / floor_of(residual), times, 0.01);
+  }
+}
+
 // A value 5 sd off can't be among twelve, if its own size is in the sd: at the most it is 11/sqrt(12) = 3.2. Held
 // against the others it is as far off as it is.
 TEST(NoiseFloor, AMistypedValueIsHeldAgainstTheOthers) {
@@ -151,9 +166,37 @@ TEST(Observations, CellsStandInTheOrderOfTheRuns) {
 }
 
 TEST(Folds, AreNoMoreThanConditionsAndLeaveSomeOut) {
-  const Folds folds = deal_folds(4, 9, 1);
+  Observations four;
+  four.block = {0, 1, 2, 3};
+  const Folds folds = deal_folds(four, 9, 1);
   EXPECT_EQ(folds.count, 4);
   EXPECT_EQ(std::set<int>(folds.of_condition.begin(), folds.of_condition.end()), (std::set<int>{0, 1, 2, 3}));
+}
+
+// Re-runs that nobody labelled, as instruments read them: near each other, never alike. No fold predicts one from the
+// other. A label says that two conditions are two.
+TEST(Folds, KeepTogetherWhatMayBeReruns) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 7);
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  std::vector<std::string> setpoint;
+  for (compare::Run& run : campaign.runs) {
+    setpoint.push_back(*run.setpoint);
+    run.setpoint.reset();
+    run.at.load *= 1 + 0.003 * normal(random), run.at.slip += 0.001 * normal(random);
+  }
+  const Observations observations = observe(campaign);
+  EXPECT_EQ(observations.conditions, 42) << "each read otherwise";
+  EXPECT_EQ(observations.rerun_freedom(), 0);
+  EXPECT_EQ(observations.conditions_in_blocks(), 42);
+  const Folds folds = deal_folds(observations, 5, 1);
+  std::map<std::string, std::set<int>> folds_of_setpoint;
+  for (std::size_t i = 0; i < setpoint.size(); ++i)
+    folds_of_setpoint[setpoint[i]].insert(folds.of_condition[observations.condition[i]]);
+  for (const auto& [name, its_folds] : folds_of_setpoint) EXPECT_EQ(its_folds.size(), 1U) << name;
+  for (std::size_t i = 0; i < setpoint.size(); ++i) campaign.runs[i].setpoint = fmt::format("{}", i);
+  EXPECT_EQ(observe(campaign).conditions_in_blocks(), 0);
 }
 
 FittedModel settled(const Campaign& campaign) { return fit_base(campaign, observe(campaign), {}); }

@@ -291,13 +291,13 @@ TEST(Loop, IsNotMovedByOneOutlier) {
   measure(campaign, sweep(), {}, fine_noise, 27);
   *campaign.runs[5].drawbar_pull += 200.0;
   const LoopAnswer answer = run_loop(campaign, quick());
-  EXPECT_EQ(answer.outliers, 1);
+  EXPECT_EQ(answer.outliers(), 1);
   EXPECT_EQ(answer.verdict, Verdict::nothing_missing) << answer.reason;
   EXPECT_TRUE(answer.effects.empty());
   LoopOptions all = quick();
   all.attribution.drop_outliers = false;
   const LoopAnswer kept = run_loop(campaign, all);
-  EXPECT_EQ(kept.outliers, 0);
+  EXPECT_EQ(kept.outliers(), 0);
   EXPECT_FALSE(kept.with_outliers);
   ASSERT_TRUE(answer.with_outliers);
   EXPECT_EQ(answer.with_outliers->verdict, kept.verdict);
