@@ -59,18 +59,14 @@ void add_flipped_sinkage(const std::vector<Run>& runs, RowDoubts& found) {
                      above, measured)});
 }
 
-/// All that was set and measured in a run, but for its number, its place and the line it stands in: no run repeats
-/// another to the last digit.
+/// What no other run repeats: all that was set and measured in it. Of several channels no run repeats the last digit of
+/// another, whatever its number and its place.
 auto values_of(const Run& run) {
   OperatingCondition at = run.at;
-  at.run.reset(), at.position.reset();
+  const int channels =
+      run.drawbar_pull.has_value() + run.torque.has_value() + run.sinkage.has_value() + run.lateral_force.has_value();
+  if (channels > 1) at.run.reset(), at.position.reset();
   return std::make_tuple(run.drawbar_pull, run.torque, run.sinkage, run.lateral_force, at);
-}
-
-bool measures_several(const Run& run) {
-  return run.drawbar_pull.has_value() + run.torque.has_value() + run.sinkage.has_value() +
-             run.lateral_force.has_value() >
-         1;
 }
 
 /// Rows that were copied: a run's number that was there before, or every value equal to that of an earlier row.
@@ -78,8 +74,7 @@ void add_repeated_rows(const std::vector<Run>& runs, RowDoubts& found) {
   std::map<decltype(values_of(runs.front())), int> line_of_values;
   std::map<int, int> line_of_number;
   for (const Run& run : runs) {
-    const int same =
-        measures_several(run) ? line_of_values.try_emplace(values_of(run), run.csv_line).first->second : run.csv_line;
+    const int same = line_of_values.try_emplace(values_of(run), run.csv_line).first->second;
     const int numbered = run.at.run ? line_of_number.try_emplace(*run.at.run, run.csv_line).first->second : same;
     const int earlier = std::min(same, numbered);
     if (earlier == run.csv_line) continue;

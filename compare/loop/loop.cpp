@@ -179,15 +179,23 @@ std::vector<LearnedEffect> learned_beside(const FittedModel& base, const Decisio
 bool was_asked(const CrossValidation& errors) { return errors.overall.cells > 0; }
 
 /// Whether the procedure, redone in each fold, predicts conditions left out no better with effects than without.
-bool is_not_confirmed(const CrossValidation& errors) {
+bool is_no_better(const CrossValidation& errors) {
   return was_asked(errors) && !(errors.overall.after < errors.overall.before);
+}
+
+/// Whether named effects do not stand before conditions left out. Where folds, which have fewer conditions, choose none
+/// or do a little worse, an effect of overwhelming evidence is named all the same, and its error told.
+bool is_refuted(const Judgement& judgement, const CrossValidation& errors) {
+  if (judgement.verdict == Verdict::unknown_effect) return is_no_better(errors);
+  return was_asked(errors) && errors.overall.after > errors.overall.before &&
+         judgement.found.signatures.p_value > thresholds::sure_level;
 }
 
 /// Whether the whole procedure, redone in each fold, predicts better with learned effects than without them, and in no
 /// channel clearly worse.
 bool predicts_better(const CrossValidation& with_learned) {
   if (!was_asked(with_learned)) return true;
-  if (is_not_confirmed(with_learned)) return false;
+  if (is_no_better(with_learned)) return false;
   for (const HeldOutErrors& channel : with_learned.channels)
     if (channel.after > channel.named * (1 + thresholds::max_learned_loss)) return false;
   return with_learned.overall.after < with_learned.overall.named * (1 - thresholds::min_learned_gain);
@@ -198,7 +206,7 @@ void take_no_effects(Judgement& judgement, const CrossValidation& errors) {
   if (judgement.verdict == Verdict::effect_found) {
     judgement.verdict = Verdict::unknown_effect;
     judgement.reason += fmt::format(
-        ", but the procedure, repeated without them, predicts conditions left out no better with effects ({:.4g} "
+        ", but the procedure, repeated without them, predicts conditions left out worse with effects ({:.4g} "
         "standard deviations of the noise, root mean square) than without ({:.4g})",
         errors.overall.after, errors.overall.before);
   }
@@ -231,7 +239,7 @@ Validated validate(const FittedModel& base, Decision& decision, std::vector<Lear
   if (!learned.empty() && !predicts_better(errors))
     learned.clear(), errors = without_learned_effects(std::move(errors), all);
   Judgement& judgement = decision.judgement;
-  if (judgement.takes_best() && is_not_confirmed(errors)) take_no_effects(judgement, errors);
+  if (judgement.takes_best() && is_refuted(judgement, errors)) take_no_effects(judgement, errors);
   if (!judgement.takes_best() && learned.empty()) errors = without_effects(std::move(errors), all);
   return {std::move(noise), std::move(errors), std::move(learned)};
 }

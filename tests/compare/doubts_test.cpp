@@ -104,8 +104,10 @@ TEST(Doubts, ACampaignsRepeatedRowsAndFlippedPullAreTold) {
   copied.runs.back().csv_line = 11;
   EXPECT_THAT(doubts(copied), ElementsAre(AllOf(StartsWith("line 10: all its values are those of line 3"),
                                                 HasSubstr("(and at 1 other line)"))));
+  copied.runs.back().at.run = 99, copied.runs[8].at.run = 98;
+  EXPECT_THAT(doubts(copied), ElementsAre(HasSubstr("all its values are those of line 3"))) << "renumbered";
   copied.runs.resize(9);
-  *copied.runs.back().torque += 1;
+  copied.runs.back().at.run = 2, *copied.runs.back().torque += 1;
   EXPECT_THAT(doubts(copied), ElementsAre("line 10: run 2 stands in line 3 already"));
 }
 

@@ -1938,7 +1938,7 @@ class LoopAnswer:
         """refitted with the accepted effects, with standard errors"""
     @property
     def outliers(self) -> int:
-        """values set aside"""
+        """number of values set aside"""
     @property
     def weights(self) -> list[Weighted]:
         """over sets of effects, best first"""
