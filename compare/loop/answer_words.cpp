@@ -15,6 +15,7 @@
 #include "compare/measured/channels.hpp"
 #include "compare/measured/condition_views.hpp"
 #include "compare/report/number_text.hpp"
+#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -140,6 +141,19 @@ std::string odds_clause(const LoopAnswer& answer) {
                      p_words(signatures));
 }
 
+/// Effects of which the data ask for more than their form has; "" where there is none.
+std::string larger_than_their_forms(const LoopAnswer& answer) {
+  std::vector<std::string> names;
+  for (const AcceptedEffect& effect : answer.effects)
+    if (!effect.at_bound.empty() && effect.at_bound.front()) names.push_back(named_effects({effect.choice.id}));
+  if (names.empty()) return "";
+  return fmt::format(
+      " The data ask for more of {} than its form can give: something else may act like it, such as a column in "
+      "another "
+      "unit or a wheel of another size than is declared.",
+      joined_with_and(names));
+}
+
 /// What else to know of the verdict; "" where there is nothing.
 std::string beside_the_verdict(const LoopAnswer& answer) {
   if (!answer.judgement) return "";
@@ -148,7 +162,7 @@ std::string beside_the_verdict(const LoopAnswer& answer) {
     case Verdict::effect_found:
       return (sets.size() > 1 ? "Other candidates: " + sets_with_shares(sets, 1, least_share) + "." + why_taken(sets)
                               : next_candidate(answer)) +
-             presumed_of_the_wheel(answer);
+             larger_than_their_forms(answer) + presumed_of_the_wheel(answer);
     case Verdict::unknown_effect:
       return sets.size() > 1 ? "Of the known effects these come nearest: " + sets_with_shares(sets, 0, worth_listing) +
                                    "." + (takes_effects(answer) ? why_taken(sets) : "")
@@ -300,6 +314,26 @@ std::string value_in_words(const SetAside& one) {
              : where;
 }
 
+/// Soil values that the saved model has far from the declared ones; "" where there is none.
+std::string note_on_declared_soil(const LoopAnswer& answer) {
+  constexpr double far = 3.0;  // declared standard deviations
+  const FittedModel& model = answer.model();
+  std::vector<std::string> values;
+  for (int i = 0; i < model.predictor().soil_parameters(); ++i) {
+    const FreeParameter& of = model.predictor().parameters()[i];
+    const double fitted = model.fit().theta[i];
+    if (!(std::abs(fitted - of.prior) > far * of.prior_sd)) continue;
+    const SoilParameter& p = soil_parameter(of.name);
+    values.push_back(fmt::format("{} {}{}, declared as {}", p.symbol, number(fitted * p.per_si), unit_behind(p.unit),
+                                 number(Estimate{of.prior, of.prior_sd}, p.per_si)));
+  }
+  if (values.empty()) return "";
+  return fmt::format(
+      "More than three declared standard deviations off is the fit's {}. Where that is declared too surely, an effect "
+      "may stand in for the soil.",
+      fmt::join(values, "; "));
+}
+
 /// What was set aside, and whether anything hangs on it.
 std::string outlier_sentence(const LoopAnswer& answer) {
   constexpr std::size_t most = 5;
@@ -412,6 +446,7 @@ std::vector<std::string> notes(const LoopAnswer& answer) {
   if (std::string noise = note_on_noise(answer); !noise.empty()) sentences.push_back(std::move(noise));
   if (answer.outliers() > 0) sentences.push_back(outlier_sentence(answer));
   if (!answer.judgement) return sentences;
+  if (std::string soil = note_on_declared_soil(answer); !soil.empty()) sentences.push_back(std::move(soil));
   if (const auto& impossible = answer.found().base.data().campaign->impossible; !impossible.empty())
     sentences.push_back(
         fmt::format("Not looked for, since these data can't hold them: {}.", named_effects(impossible)));

@@ -12,6 +12,7 @@
 #include "compare/loop/answer_words.hpp"
 #include "compare/loop/next_run_words.hpp"
 #include "compare/loop_fixture.hpp"
+#include "scenario/soil_parameters.hpp"
 
 namespace soilbin::compare {
 namespace {
@@ -291,7 +292,10 @@ TEST(Loop, IsNotMovedByOneOutlier) {
   measure(campaign, sweep(), {}, fine_noise, 27);
   *campaign.runs[5].drawbar_pull += 200.0;
   const LoopAnswer answer = run_loop(campaign, quick());
-  EXPECT_EQ(answer.outliers(), 1);
+  ASSERT_EQ(answer.outliers(), 1);
+  EXPECT_EQ(answer.set_aside.front().channel, drawbar_pull);
+  EXPECT_EQ(answer.set_aside.front().measured, *campaign.runs[5].drawbar_pull);
+  EXPECT_NEAR(answer.set_aside.front().measured - answer.set_aside.front().predicted, 200, 5 * fine_noise[0]);
   EXPECT_EQ(answer.verdict, Verdict::nothing_missing) << answer.reason;
   EXPECT_TRUE(answer.effects.empty());
   LoopOptions all = quick();
@@ -305,6 +309,21 @@ TEST(Loop, IsNotMovedByOneOutlier) {
   EXPECT_TRUE(std::any_of(said.begin(), said.end(), [](const std::string& sentence) {
     return sentence.find("With it kept the verdict") != std::string::npos;
   }));
+}
+
+// A soil that is half a standard deviation off, declared ten times as surely: no effect is there.
+TEST(Loop, SaysWhereTheFitLeavesTheDeclaredSoilFarBehind) {
+  Campaign campaign = sand_campaign();
+  measure(campaign, sweep(), {}, fine_noise, 27);
+  const auto told = [&] {
+    const std::vector<std::string> said = notes(run_loop(campaign, quick()));
+    return std::ranges::any_of(said, [](const std::string& sentence) {
+      return sentence.starts_with("More than three declared standard deviations off is the fit's ");
+    });
+  };
+  EXPECT_FALSE(told());
+  for (const SoilParameter& p : soil_parameters) (campaign.soil.*p.value).std_error /= 10;
+  EXPECT_TRUE(told());
 }
 
 TEST(Loop, SaysWhenThereIsTooLittle) {
