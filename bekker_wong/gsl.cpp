@@ -160,6 +160,8 @@ double f_tail(double f, double freedom, double error_freedom) { return gsl_cdf_f
 double chi_square_tail(double chi_square, double freedom) { return gsl_cdf_chisq_Q(chi_square, freedom); }
 double normal_tail(double z) { return gsl_cdf_ugaussian_Q(z); }
 
+double student_factor(double freedom) { return gsl_cdf_tdist_Pinv(gsl_cdf_ugaussian_P(1.0), freedom); }
+
 double minimise(const Slope& f, std::span<double> x, double gradient_tol, int steps) {
   using Minimiser = std::unique_ptr<gsl_multimin_fdfminimizer, Freed<gsl_multimin_fdfminimizer_free>>;
   struct Called {

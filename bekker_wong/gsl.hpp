@@ -57,6 +57,9 @@ double integrate(FunctionRef f, double a, double b, double rel_tol, const std::s
 double f_tail(double f, double freedom, double error_freedom);
 double chi_square_tail(double chi_square, double freedom);
 double normal_tail(double z);
+/// By how much wider than a known standard deviation one is that so many degrees of freedom tell, such that it covers
+/// as often (68.27 %): 1.84 of one degree, 1.14 of four (gsl_cdf_tdist_Pinv).
+double student_factor(double freedom);
 
 /// A function of many variables with its gradient: fills `gradient`, gives the value; may give infinity.
 using Slope = std::function<double(std::span<const double> x, std::span<double> gradient)>;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "bekker_wong/gsl.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/report/table.hpp"
 #include "scenario/errors.hpp"
@@ -52,10 +53,18 @@ PlateNumbers numbers_of(const std::vector<PlateCurve>& curves, double common) {
 constexpr std::array<double PlateNumbers::*, 3> plate_numbers = {&PlateNumbers::exponent, &PlateNumbers::k_c,
                                                                  &PlateNumbers::k_phi};
 
+/// A variance and the degrees of freedom that tell it (Satterthwaite's, of a sum of variances).
+struct KnownVariance {
+  double sum = 0.0, of_squares = 0.0;
+  void add(double part, double freedom) { sum += part, of_squares += part * part / freedom; }
+  double freedom() const { return of_squares > 0.0 ? sum * sum / of_squares : 1.0; }
+};
+using Variances = std::array<KnownVariance, 3>;  // of plate_numbers
+
 /// Variances by leaving out one test after the other: for each size of plate with m > 1 tests, (m - 1)/m times the
 /// squares about the mean of what is then found.
-PlateNumbers jackknife(const std::vector<PlateCurve>& curves, const MeasuredPlatesFit& fit, double common) {
-  PlateNumbers variance;
+Variances jackknife(const std::vector<PlateCurve>& curves, const MeasuredPlatesFit& fit, double common) {
+  Variances variances;
   for (std::size_t k = 0; k < fit.radii.size(); ++k) {
     if (fit.tests[k] < 2) continue;
     std::vector<PlateNumbers> without;
@@ -66,18 +75,20 @@ PlateNumbers jackknife(const std::vector<PlateCurve>& curves, const MeasuredPlat
       without.push_back(numbers_of(rest, common));
     }
     const auto m = static_cast<double>(without.size());
-    for (double PlateNumbers::*value : plate_numbers) {
+    for (std::size_t v = 0; v < plate_numbers.size(); ++v) {
+      double PlateNumbers::*value = plate_numbers[v];
       double mean = 0.0, squares = 0.0;
       for (const PlateNumbers& one : without) mean += one.*value / m;
       for (const PlateNumbers& one : without) squares += (one.*value - mean) * (one.*value - mean);
-      variance.*value += (m - 1) / m * squares;
+      variances[v].add((m - 1) / m * squares, m - 1);
     }
   }
-  return variance;
+  return variances;
 }
 
-PlateValue value_of(double value, double variance, double lower, double upper) {
-  const double tests = std::sqrt(variance), pressures = std::abs(upper - lower) / 2;
+PlateValue value_of(double value, const KnownVariance& variance, double lower, double upper) {
+  const double tests = std::sqrt(variance.sum) * gsl::student_factor(variance.freedom()),
+               pressures = std::abs(upper - lower) / 2;
   return {.estimate = {value, std::hypot(tests, pressures)}, .between_tests = tests, .between_pressures = pressures};
 }
 
@@ -144,11 +155,12 @@ MeasuredPlatesFit fit_measured_plates(std::span<const MeasuredPlate> plates, con
   fit.radii = radii_of(curves);
   const double n = bekker_wong::fit_plates(curves, bekker_wong::PlateExponent::common).exponent;
   add_plates(curves, n, fit);
-  const PlateNumbers all = numbers_of(curves, n), variance = jackknife(curves, fit, n),
-                     lower = numbers_of(half_of(curves, true), n), upper = numbers_of(half_of(curves, false), n);
-  fit.exponent = value_of(all.exponent, variance.exponent, lower.exponent, upper.exponent);
-  fit.k_c = value_of(all.k_c, variance.k_c, lower.k_c, upper.k_c);
-  fit.k_phi = value_of(all.k_phi, variance.k_phi, lower.k_phi, upper.k_phi);
+  const PlateNumbers all = numbers_of(curves, n), lower = numbers_of(half_of(curves, true), n),
+                     upper = numbers_of(half_of(curves, false), n);
+  const auto [exponent, k_c, k_phi] = jackknife(curves, fit, n);
+  fit.exponent = value_of(all.exponent, exponent, lower.exponent, upper.exponent);
+  fit.k_c = value_of(all.k_c, k_c, lower.k_c, upper.k_c);
+  fit.k_phi = value_of(all.k_phi, k_phi, lower.k_phi, upper.k_phi);
   add_misfit(curves, fit);
   return fit;
 }

@@ -7,8 +7,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <sstream>
 
+#include "bekker_wong/gsl.hpp"
 #include "compare/doubts/plate_doubts.hpp"
 #include "compare/measured/csv.hpp"
 #include "tests/scenario/refusal.hpp"
@@ -56,6 +58,7 @@ TEST(MeasuredPlates, GiveBackTheSoilThatMadeThem) {
 
 // Two tests of each plate, of moduli 0.9 and 1.1. Without one of them its plate's modulus is the other's: a tenth off
 // the mean; so each plate's jackknife variance is (1/2)(0.01 + 0.01) of the modulus squared, that of the mean of two.
+// Two variances of one degree of freedom each are known as one of (a + b)^2/(a^2 + b^2) degrees: Student's t is wider.
 TEST(MeasuredPlates, ScatterOfRepeatsIsTheirError) {
   std::string csv = plate_columns;
   for (const double diameter : {0.06, 0.10})
@@ -64,9 +67,37 @@ TEST(MeasuredPlates, ScatterOfRepeatsIsTheirError) {
   EXPECT_THAT(fit.tests, Each(2));
   const double small = 0.1 * (made_k_c / 0.03 + made_k_phi), large = 0.1 * (made_k_c / 0.05 + made_k_phi);
   // k_phi = (k_2/u_2 - k_1/u_1)/(1/u_2 - 1/u_1) = (5 k_2 - 3 k_1)/2 with u = 1/b of 33.3 and 20 1/m.
-  EXPECT_NEAR(fit.k_phi.between_tests, std::hypot(2.5 * large, 1.5 * small), 1e-3 * made_k_phi);
+  const double a = std::pow(2.5 * large, 2), b = std::pow(1.5 * small, 2);
+  EXPECT_NEAR(fit.k_phi.between_tests, std::sqrt(a + b) * gsl::student_factor((a + b) * (a + b) / (a * a + b * b)),
+              1e-3 * made_k_phi);
   EXPECT_NEAR(fit.k_phi.estimate.value, made_k_phi, 1e-3 * made_k_phi);
   EXPECT_NEAR(fit.exponent.between_tests, 0.0, 1e-6);
+}
+
+// Three plates, three tests each, moduli that scatter by 5 %: the errors hold the truth as often as they say.
+TEST(MeasuredPlates, ErrorsOfFewTestsHoldTheTruthInTwoThirds) {
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  constexpr int made = 400;
+  int k_c = 0, k_phi = 0;
+  for (int i = 0; i < made; ++i) {
+    std::vector<MeasuredPlate> plates;
+    for (const double radius : {0.03, 0.04, 0.05})
+      for (int test = 0; test < 3; ++test) {
+        MeasuredPlate& plate = plates.emplace_back();
+        plate.curve.radius = radius;
+        const double modulus = (1 + 0.05 * normal(random)) * (made_k_c / radius + made_k_phi);
+        for (int reading = 1; reading <= 12; ++reading) {
+          plate.curve.sinkage.push_back(0.002 * reading);
+          plate.curve.pressure.push_back(modulus * std::pow(0.002 * reading, made_n));
+        }
+      }
+    const MeasuredPlatesFit fit = fit_measured_plates(plates);
+    k_c += std::abs(fit.k_c.estimate.value - made_k_c) < fit.k_c.estimate.std_error;
+    k_phi += std::abs(fit.k_phi.estimate.value - made_k_phi) < fit.k_phi.estimate.std_error;
+  }
+  EXPECT_NEAR(static_cast<double>(k_c) / made, 0.683, 0.06);
+  EXPECT_NEAR(static_cast<double>(k_phi) / made, 0.683, 0.06);
 }
 
 // A soil that is no power law: n is 1 below half of the largest pressure (there z = 14 mm) and, by the p^2-weighted fit
