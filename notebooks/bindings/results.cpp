@@ -9,6 +9,7 @@
 #include "compare/sweep/varying.hpp"
 #include "notebooks/bindings/bindings.hpp"
 #include "scenario/case.hpp"
+#include "scenario/nearest_word.hpp"
 #include "scenario/traction_channels.hpp"
 
 namespace soilbin::python {

@@ -16,6 +16,7 @@ try:
 except ModuleNotFoundError as error:
     raise ModuleNotFoundError(f"soilbin needs numpy and pandas: apt install python3-pandas, or pip install pandas "
                               f"({error})") from error
+del numpy, pandas
 
 from soilbin import bekker_wong, compare, dem
 from soilbin._soilbin import (
