@@ -16,32 +16,24 @@ std::string command_line(const std::vector<std::string>& words) {
 
 namespace {
 
-/// Words that people use, and the flag that means them.
-constexpr std::pair<std::string_view, std::string_view> everyday_words[] = {{"--slope", "--longitudinal-incline"},
-                                                                            {"--incline", "--longitudinal-incline"},
-                                                                            {"--grade", "--longitudinal-incline"},
-                                                                            {"--pitch", "--longitudinal-incline"},
-                                                                            {"--cross-slope", "--transverse-incline"},
-                                                                            {"--side-slope", "--transverse-incline"},
-                                                                            {"--bank", "--transverse-incline"},
-                                                                            {"--slip-angle", "--yaw"},
-                                                                            {"--steering", "--yaw"},
-                                                                            {"--weight", "--load"},
-                                                                            {"--mass", "--load"},
-                                                                            {"--velocity", "--speed"},
-                                                                            {"--pressure", "--inflation-pressure"}};
-
 /// Flags that people give to a command which another one has: who meets them is sent there.
 struct Elsewhere {
   std::vector<std::string_view> commands, flags;
   const char* hint;
 };
 const Elsewhere elsewhere[] = {
-    {{"estimate", "explain"},
+    {{"estimate"},
+     {"--report", "--slips", "--output"},
+     "curves over slip: --slip 0%..60% --plot slip.svg; a page: soilbin init mine, then soilbin report mine/case.yaml "
+     "--output page.html"},
+    {{"explain"},
      {"--plot", "--csv", "--report", "--slips"},
-     "this is one answer; for curves over slip: soilbin init mine, then soilbin run mine/case.yaml --plot curves.svg; "
-     "over slope, from these flags: soilbin limits --plot slope.svg"},
+     "this explains one answer; curves over slip: soilbin estimate --slip 0%..60% --plot slip.svg; over slope: soilbin "
+     "limits --plot slope.svg"},
     {{"estimate", "explain", "limits", "serve"}, {"--diameter"}, "--radius takes half of it"},
+    {{"limits"},
+     {"--slip", "--longitudinal-incline"},
+     "limits looks for the slip and the slope; soilbin estimate answers at those that are given"},
     {{"run", "compare", "sweep"},
      {"--tire", "--soil", "--radius", "--width", "--lug-height"},
      "it takes a case file, where tire and soil stand: soilbin init mine writes one to change; soilbin estimate takes "
@@ -54,14 +46,6 @@ std::string sent_elsewhere(const std::string& command, const std::string& flag) 
   for (const Elsewhere& one : elsewhere)
     if (holds(one.commands, command) && holds(one.flags, flag)) return one.hint;
   return "";
-}
-
-/// What a command has for a flag that it doesn't know, or "".
-std::string suggestion(const std::string& flag, const std::vector<std::string>& flags) {
-  for (const auto& [word, meant] : everyday_words)
-    if (flag == word && std::ranges::find(flags, meant) != flags.end())
-      return fmt::format(", did you mean '{}'?", meant);
-  return did_you_mean(flag, flags);
 }
 
 /// CLI11's sentences, and ours: what stands before the mark, what follows it, up to the end of a sentence of its own.
@@ -110,10 +94,13 @@ std::string unknown_flag(const CLI::App& command, const std::vector<std::string>
     if (word == "--") break;
     const std::string flag = word.substr(0, word.find('='));
     if (!flag.starts_with("--") || std::ranges::find(flags, flag) != flags.end()) continue;
-    if (const std::string hint = sent_elsewhere(command.get_name(), flag); !hint.empty())
+    std::string hint = sent_elsewhere(command.get_name(), flag);
+    if (hint.empty() && !meant_words(flag, {"--longitudinal-incline"}).empty())
+      hint = sent_elsewhere(command.get_name(), "--longitudinal-incline");
+    if (!hint.empty())
       return fmt::format("'{}' has no option '{}'\n  hint: {}", command.get_name(), clipped(flag), hint);
     return fmt::format("'{}' has no option '{}'{}\n  hint: see soilbin {} --help", command.get_name(), clipped(flag),
-                       suggestion(flag, flags), command.get_name());
+                       did_you_mean(flag, flags), command.get_name());
   }
   return "";
 }

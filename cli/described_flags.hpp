@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/flag_values.hpp"
+#include "scenario/condition_axes.hpp"
 #include "scenario/description.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -28,11 +29,14 @@ inline std::string flag_of(const std::string& prefix, std::string key) {
 template <class T>
 class DescribedFlags {
  public:
-  /// Adds "--<prefix><key>" for every key.
-  void add_to(CLI::App& app, const std::string& heading, const std::string& prefix = "") {
+  /// Adds "--<prefix><key>" for every key that is not among `without`.
+  void add_to(CLI::App& app, const std::string& heading, const std::string& prefix = "",
+              const std::vector<std::string>& without = {}) {
     prefix_ = prefix;
     each_member<T>([&](const char* key, auto member, const auto& limits, const char* meaning) {
       using Limits = std::decay_t<decltype(limits)>;
+      std::string& text = texts_[key];
+      if (std::ranges::find(without, key) != without.end()) return;
       std::string kind;
       if constexpr (std::is_same_v<Limits, Measure>)
         kind = limits.unit == "-" ? "NUMBER|%" : limits.unit;
@@ -40,7 +44,7 @@ class DescribedFlags {
         kind = "WHOLE";
       else
         kind = fmt::format("{}", fmt::join(all_words<std::decay_t<decltype(T().*member)>>(), "|"));
-      add_value(app, flag_of(prefix_, key), texts_[key], kind, meaning)->group(heading);
+      add_value(app, flag_of(prefix_, key), text, kind, meaning)->group(heading);
     });
   }
 
@@ -55,6 +59,31 @@ class DescribedFlags {
     for (const auto& [key, text] : texts_)
       if (!text.empty()) keys.push_back(key);
     return keys;
+  }
+
+  /// These flags once for each combination of the values that they hold (several_values), those of the key `fastest`
+  /// varying fastest. Throws InputError that names the flag.
+  std::vector<DescribedFlags> combinations(const std::string& fastest) const {
+    std::vector<DescribedFlags> all = {*this};
+    const auto multiply = [&](const std::string& key, const std::vector<std::string>& values) {
+      if (values.size() > most_conditions / all.size())
+        throw InputError(fmt::format("{}: more than {} conditions", flag_of(prefix_, key), most_conditions));
+      std::vector<DescribedFlags> product;
+      for (const DescribedFlags& flags : all)
+        for (const std::string& value : values) product.emplace_back(flags).texts_[key] = value;
+      all = std::move(product);
+    };
+    const auto values_of = [&](const char* key, const auto& limits) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(limits)>, Measure>)
+        return several_values(flag_of(prefix_, key), texts_.at(key), limits);
+      else
+        return split(texts_.at(key), ",");
+    };
+    for (const bool last : {false, true})
+      each_member<T>([&](const char* key, auto, const auto& limits, const char*) {
+        if (given(key) && (fastest == key) == last) multiply(key, values_of(key, limits));
+      });
+    return all;
   }
 
   /// Sets the members whose flags were given; `only`: that of this key alone. Throws InputError that names the flag.

@@ -1,24 +1,39 @@
 // soilbin estimate: one tire, one soil, one condition (or a case's), answered in plain text.
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <map>
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/flag_values.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "cli/question.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "compare/sweep/answer_sheets.hpp"
 #include "compare/sweep/answer_tables.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
+#include "scenario/errors.hpp"
 
 namespace soilbin::cli {
 namespace {
 
+/// "load 65 N" where all conditions have one load, "" for several, which the rows and curves tell apart.
+std::string only_load(const std::vector<OperatingCondition>& conditions) {
+  const double load = conditions.front().load;
+  return std::ranges::all_of(conditions, [&](const OperatingCondition& at) { return at.load == load; })
+             ? fmt::format("load {:.6g} N", load)
+             : "";
+}
+
 void print_text(const Case& question, const std::vector<compare::ModelAnswers>& study) {
-  fmt::print("{} on {}\n{}\n\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil),
+  fmt::print("{} on {}\n{}\n\n", compare::tire_in_words(question), compare::in_words(question.scenario.soil),
              compare::errors_in_words(question));
   if (question.study.conditions.size() > 1) {
+    if (const std::string load = only_load(question.study.conditions); !load.empty()) fmt::print("{}\n\n", load);
     fmt::print("{}", compare::study_text(study));
   } else {
     for (const compare::ModelAnswers& model : study)
@@ -26,17 +41,45 @@ void print_text(const Case& question, const std::vector<compare::ModelAnswers>& 
   }
 }
 
-int estimate(const Question& inputs, bool json, const Session& session) {
+struct EstimateOptions {
+  bool json = false;
+  std::string csv, plot;
+};
+
+compare::Sheet sheet_of(const Case& question, const std::vector<compare::ModelAnswers>& study) {
+  compare::Sheet sheet = compare::study_sheet(question, compare::smoothed_for_plot(question, study));
+  sheet.title = fmt::format("{} on {}", question.scenario.tire.name, compare::in_words(question.scenario.soil));
+  if (const std::string load = only_load(question.study.conditions); !load.empty()) sheet.title += ", " + load;
+  return sheet;
+}
+
+/// Whether one of its curves has two slips or more.
+bool has_a_curve(const std::vector<OperatingCondition>& conditions) {
+  const compare::Curves curves = compare::curves_against_slip(conditions, compare::Spread::exact);
+  std::map<std::size_t, double> slip;
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    if (slip.emplace(curves.curve_of[i], conditions[i].slip).first->second != conditions[i].slip) return true;
+  return false;
+}
+
+int estimate(const Question& inputs, const EstimateOptions& options, const Session& session) {
   const Case question = inputs.ask(session.place);
+  if (!options.plot.empty() && !has_a_curve(question.study.conditions))
+    throw InputError(
+        "--plot draws curves over slip: it takes more than one slip\n"
+        "  hint: --slip 0%..60%; over the slope: soilbin limits --plot slope.svg");
   require_semi_empirical(question, session.place.library);
   const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
   const std::vector<std::string> doubts = compare::doubts(question, study);
   print_warnings(doubts);
-  if (json)
+  Outputs outputs;
+  outputs.file(options.csv, [&] { return compare::study_csv(study, compare::remarks_about(question.scenario)); });
+  outputs.drawing(options.plot, [&] { return sheet_of(question, study); });
+  if (options.json)
     print_json(document_of("soilbin-estimate/1", question, compare::rows_json(study), session.place.effects), doubts);
   else if (compare::any_result(study))
     print_text(question, study);
-  if (compare::any_result(study)) return done;
+  if (compare::any_result(study)) return outputs.status(done);
   fmt::print(stderr, "soilbin: no solution: {}\n", study.front().answers.front().error);
   return failed;
 }
@@ -47,10 +90,16 @@ void add_estimate(CLI::App& app, Session& session) {
   CLI::App* command =
       app.add_subcommand("estimate", "drawbar pull, torque, sinkage and side force, from flags or a case");
   const auto inputs = std::make_shared<Question>(*command);
-  const auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "the answers as JSON, in SI");
-  command->footer("Example: soilbin estimate --soil dry-sand --radius 110mm --width 100mm --load 80N --slip 20%");
-  command->callback([=, &session] { session.action = [=, &session] { return estimate(*inputs, *json, session); }; });
+  const auto options = std::make_shared<EstimateOptions>();
+  add_plot(*command, options->plot, "draw the curves over slip");
+  add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");
+  command->add_flag("--json", options->json, "the answers as JSON, in SI");
+  command->footer(
+      "Several values of a condition give a table: a list, a range of seven values (0%..60%), or one in steps\n"
+      "(0%..60%:5%).\n"
+      "Example: soilbin estimate --soil dry-sand --radius 110mm --width 100mm --load 80N --slip 20%\n"
+      "         soilbin estimate --soil dry-sand --tire rover-wheel --load 65N --slip 0%..60% --plot slip.svg");
+  command->callback([=, &session] { session.action = [=, &session] { return estimate(*inputs, *options, session); }; });
 }
 
 }  // namespace soilbin::cli

@@ -17,29 +17,11 @@ namespace soilbin::cli {
 namespace {
 
 using compare::Explanation;
-using compare::Step;
-
-void print_steps(const char* heading, const std::vector<Step>& steps) {
-  if (steps.empty()) return;
-  fmt::print("\n{}\n", heading);
-  for (const Step& step : steps) {
-    fmt::print("  {}\n      {}\n", step.name, step.equation);
-    if (step.unit == "SI")
-      fmt::print("      with {}\n", step.numbers);  // an effect's parameters
-    else
-      fmt::print("      = {} = {}{}\n", step.numbers, number(step.value), compare::unit_behind(step.unit));
-    if (!step.remark.empty()) fmt::print("      ({})\n", step.remark);
-  }
-}
 
 void print_text(const ModelChoice& choice, const Explanation& explanation, const OperatingCondition& at) {
   fmt::print("{}", compare::answer_text({choice, {}}, {at, explanation.result, ""}));
   fmt::print("\nBudget of forces along the drawbar pull\n{}", as_text(compare::forces_table(explanation.result)));
-  print_steps(choice.effects.empty() ? "Equations with their values"
-                                     : "Equations of the base model at this contact (the effects below change them)",
-              explanation.steps);
-  print_steps("Effects", explanation.effects);
-  print_steps("Closed forms to check by (no balance, no effects)", explanation.cross_checks);
+  fmt::print("{}", compare::in_words(explanation));
 }
 
 int explain(const Question& inputs, bool json, const Session& session) {
@@ -49,7 +31,7 @@ int explain(const Question& inputs, bool json, const Session& session) {
     throw InputError(fmt::format("{} conditions are too many to explain; pick one with --load, --slip, ...",
                                  question.study.conditions.size()));
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  if (!json) fmt::print("{} on {}\n\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil));
+  if (!json) fmt::print("{} on {}\n\n", compare::tire_in_words(question), compare::in_words(question.scenario.soil));
   bool first = true;
   std::vector<compare::ModelAnswers> answered;
   for (const ModelChoice& choice : question.study.models) {

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "scenario/atomic_file.hpp"
+#include "scenario/condition_axes.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/file_bytes.hpp"
 #include "scenario/nearest_word.hpp"
@@ -51,6 +52,38 @@ std::pair<double, double> read_range(const std::string& flag, const std::string&
   if (!(range.first < range.second))
     throw InputError(fmt::format("{}: the lower end must be below the upper one, not '{}'", flag, clipped(text)));
   return range;
+}
+
+std::vector<std::string> several_values(const std::string& flag, const std::string& text, const Measure& measure) {
+  const std::vector<std::string> ends = split(text, "..");
+  const bool is_range = ends.size() > 1;
+  std::vector<std::string> numbers = split(ends.back(), is_range ? ":" : ",");
+  if (is_range) numbers.insert(numbers.begin(), ends.begin(), ends.end() - 1);
+  if (numbers.size() == 1) return numbers;
+  if (std::ranges::any_of(numbers, &std::string::empty) || (is_range && (ends.size() > 2 || numbers.size() > 3)))
+    throw InputError(fmt::format("{}: expected a list or a range, not '{}'\n  hint: {}", flag, clipped(text),
+                                 measure.unit == "-" ? "such as 0,10,20%, or 0%..60%, or in steps 0%..60%:5%"
+                                                     : fmt::format("such as 1,2,5{0}, or 1..5{0}, or in steps "
+                                                                   "1..5:0.5{0}",
+                                                                   measure.unit)));
+  const std::string unit = numbers.back().substr(numbers.back().find_last_of("0123456789.") + 1);
+  for (std::string& number : numbers)
+    if (read_number(number)) number += unit;
+  if (!is_range) return numbers;
+  try {
+    constexpr int usual_count = 7;
+    const Quantity from = parse_quantity(numbers[0], measure);
+    const double to = read_quantity(numbers[1], measure);
+    const std::vector<double> values =
+        numbers.size() == 2 ? numbers_by_count(from, to, usual_count)
+                            : numbers_by_step(from, to, parse_quantity(numbers[2], {measure.unit, any_value}));
+    if (values.size() < 2 || from.value == to) throw InputError("the range holds one value alone");
+    numbers.clear();
+    for (const double value : values) numbers.push_back(write_quantity(value, measure.unit));
+    return numbers;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} {}: {}", flag, clipped(text), error.what()));
+  }
 }
 
 int all_cores() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }

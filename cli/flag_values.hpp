@@ -27,6 +27,11 @@ void check_model(const std::string& name, const std::vector<std::string>& right)
 /// "LOW..HIGH" [SI], the lower end below the upper one. Throws InputError that names the flag.
 std::pair<double, double> read_range(const std::string& flag, const std::string& text, const Measure& measure);
 
+/// The values of a flag that takes several, each as text that read_flag reads: "20%"; a list, "0,10,20%"; a range of
+/// seven values, "0%..60%", or in steps, "0%..60%:5%". A number without a unit takes the last one's. Throws InputError
+/// that names the flag, for a range that is none; the values themselves are read later.
+std::vector<std::string> several_values(const std::string& flag, const std::string& text, const Measure& measure);
+
 /// What --threads 0 means: the number of cores, at least 1.
 int all_cores();
 

@@ -5,14 +5,12 @@
 #include <memory>
 
 #include "cli/commands.hpp"
-#include "cli/described_flags.hpp"
 #include "cli/outputs.hpp"
 #include "cli/question.hpp"
 #include "cli/text_output.hpp"
 #include "compare/doubts/doubts.hpp"
 #include "compare/sweep/varying.hpp"
 #include "compare/sweep/wheel_limits.hpp"
-#include "scenario/errors.hpp"
 
 namespace soilbin::cli {
 namespace {
@@ -23,12 +21,6 @@ struct LimitsOptions {
 };
 
 int limits(const Question& inputs, const LimitsOptions& options, const Session& session) {
-  for (const char* key : {"slip", "longitudinal_incline"})
-    if (inputs.given(key))
-      throw InputError(
-          fmt::format("{} is what limits looks for: leave it out\n  hint: soilbin estimate answers at a slip and on a "
-                      "slope that are given",
-                      flag_of("", key)));
   const Case question = inputs.ask(session.place);
   require_semi_empirical(question, session.place.library);
   const std::vector<compare::WheelLimits> answers = compare::limits_of(question);
@@ -44,7 +36,7 @@ int limits(const Question& inputs, const LimitsOptions& options, const Session& 
     for (const compare::WheelLimits& answer : answers) rows.push_back(to_json(answer));
     print_json(document_of("soilbin-limits/1", question, rows, session.place.effects), doubts);
   } else {
-    fmt::print("{} on {}\n{}\n", in_words(question.scenario.tire), compare::in_words(question.scenario.soil),
+    fmt::print("{} on {}\n{}\n", compare::tire_in_words(question), compare::in_words(question.scenario.soil),
                compare::errors_in_words(question));
     for (const compare::WheelLimits& answer : answers) fmt::print("\n{}", in_words(answer));
   }
@@ -58,7 +50,8 @@ int limits(const Question& inputs, const LimitsOptions& options, const Session& 
 
 void add_limits(CLI::App& app, Session& session) {
   CLI::App* command = app.add_subcommand("limits", "the largest pull and the steepest slope, and the slip for each");
-  const auto inputs = std::make_shared<Question>(*command, std::vector<std::string>{"load"});
+  const auto inputs = std::make_shared<Question>(*command, std::vector<std::string>{"load"},
+                                                 std::vector<std::string>{"slip", "longitudinal_incline"});
   const auto options = std::make_shared<LimitsOptions>();
   add_plot(*command, options->plot, "draw the largest pull and the slips against the slope");
   add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");

@@ -111,6 +111,7 @@ int run(int argc, char** argv) {
     start_with_short_waits(argv);
   app.footer(
       "Begin with: soilbin estimate --soil dry-sand --radius 110mm --width 100mm --load 80N --slip 20%\n"
+      "            soilbin estimate --soil dry-sand --tire rover-wheel --load 65N --slip 0%..60% --plot slip.svg\n"
       "            soilbin init mine, then soilbin run mine/case.yaml --plot curves.svg\n"
       "            soilbin serve, and move sliders in a browser\n"
       "soilbin COMMAND --help shows a command's flags and an example. Values carry their unit: 80N, 110mm, 20%, 5deg.");

@@ -140,27 +140,45 @@ void add_effect(std::vector<EffectChoice>& effects, const std::string& text, con
   effects.push_back(std::move(effect));
 }
 
+std::vector<OperatingCondition> ConditionFlags::conditions() const {
+  std::vector<OperatingCondition> all;
+  for (const Flags& flags : combinations()) flags.apply(all.emplace_back());
+  return all;
+}
+
 void ConditionFlags::pick(Study& study, const Tire& tire) const {
+  Study all = study;
+  all.conditions.clear(), all.rotations.clear();
+  for (const Flags& flags : combinations()) {
+    const Study some = picked(flags, study, tire);
+    all.conditions.insert(all.conditions.end(), some.conditions.begin(), some.conditions.end());
+    all.rotations.insert(all.rotations.end(), some.rotations.begin(), some.rotations.end());
+  }
+  study = std::move(all);
+}
+
+Study ConditionFlags::picked(const Flags& flags, const Study& study, const Tire& tire) {
   std::vector<AskedCondition> asked = with_rotations(study);
   bool overridden = false;
-  for (const std::string& key : flags_.given_keys()) {
+  for (const std::string& key : flags.given_keys()) {
     std::vector<AskedCondition> agreeing, changed = asked;
     for (std::size_t i = 0; i < asked.size(); ++i) {
-      flags_.apply(changed[i].at, key);
+      flags.apply(changed[i].at, key);
       if (key == "speed") asked[i].rotation.reset(), changed[i].rotation.reset();
       if (compare::alike(changed[i].at, asked[i].at)) agreeing.push_back(asked[i]);
     }
     overridden = overridden || agreeing.empty();
     asked = agreeing.empty() ? changed : agreeing;
   }
-  study.conditions.clear(), study.rotations.clear();
+  Study kept = {study.name, study.models, {}, {}};
   std::set<std::string> seen;
   for (AskedCondition& one : asked) {
     if (one.rotation) one.at.speed = implied_speed(one, tire);
     if (overridden && !seen.insert(compare::to_json(one.at).dump()).second) continue;
-    study.conditions.push_back(one.at);
-    study.rotations.push_back(one.rotation);
+    kept.conditions.push_back(one.at);
+    kept.rotations.push_back(one.rotation);
   }
+  return kept;
 }
 
 void SoilFlags::add_to(CLI::App& app, const std::string& heading) {
@@ -201,7 +219,8 @@ void SoilFlags::apply(Soil& soil) const {
   soil.name += ", changed";
 }
 
-Question::Question(CLI::App& app, std::vector<std::string> needed) : needed_(std::move(needed)) {
+Question::Question(CLI::App& app, std::vector<std::string> needed, const std::vector<std::string>& without)
+    : needed_(std::move(needed)) {
   add_value(app, "case", case_name_, "CASE", "a case file, or a study of the library");
   add_value(app, "--soil", soil_, "NAME|FILE", "a soil of the library, or a YAML file")->group("Tire and soil");
   add_value(app, "--tire", tire_, "NAME|FILE", "a tire of the library, or a YAML file")->group("Tire and soil");
@@ -209,7 +228,7 @@ Question::Question(CLI::App& app, std::vector<std::string> needed) : needed_(std
   lugs_.add_to(app, "Tire and soil", "lug-");
   bin_.add_to(app, "Tire and soil", "bin-");
   soil_values_.add_to(app, "Values of the soil, in place of its own");
-  condition_.add_to(app);
+  condition_.add_to(app, without);
   errors_.add_to(app);
   add_value(app, "--effect", effects_, "ID[:FORM][,PARAMETER=VALUE...]",
             "switch an effect on; may be given again; none: the case's off")
@@ -242,14 +261,15 @@ Case Question::from_flags(const Workplace& place) const {
         "  hint: there are " +
         listed(place.library.names(Shelf::tires)));
   for (const std::string& key : needed_)
-    if (!condition_.given(key)) throw InputError(fmt::format("--{} is missing (such as --load 80N --slip 20%)", key));
+    if (!condition_.given(key))
+      throw InputError(
+          fmt::format("--{} is missing\n  hint: such as --{}", key, key == "slip" ? "slip 20%" : "load 80N"));
   Case question;
   question.name = "estimate";
   override_tire(question.scenario.tire, place);
   question.scenario.soil = find_soil(soil_, place.library);
   question.study.name = question.name;
-  question.study.conditions.emplace_back();
-  condition_.apply(question.study.conditions.back());
+  question.study.conditions = condition_.conditions();
   question.study.models.push_back({ModelKind::bekker_wong, {}, "bekker_wong"});
   return question;
 }

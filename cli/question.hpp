@@ -19,21 +19,30 @@ namespace soilbin::cli {
 void add_effect(std::vector<EffectChoice>& effects, const std::string& text, const EffectVocabulary& vocabulary,
                 const Soil& soil);
 
-/// Flags that pick or override a study's conditions.
+/// Flags that pick or override a study's conditions. Each takes one value or several (several_values).
 class ConditionFlags {
  public:
-  void add_to(CLI::App& app) { flags_.add_to(app, "Condition"); }
+  /// `without`: keys that a command looks for and does not take.
+  void add_to(CLI::App& app, const std::vector<std::string>& without = {}) {
+    flags_.add_to(app, "Condition (several values: 0,10,20%, or 0%..60%, or 0%..60%:5% in steps)", "", without);
+  }
   bool given(const std::string& key) const { return flags_.given(key); }
-  void apply(OperatingCondition& at) const { flags_.apply(at); }
 
-  /// Flag by flag: keeps the study's conditions that agree with it; where none does, sets it in all that are left. A
-  /// condition that got its speed from a rotation keeps the rotation: its speed follows slip, yaw and `tire`, unless
-  /// the speed itself is given. Conditions that overriding makes equal are kept once. Throws InputError that names the
-  /// flag, or says why there is no such speed.
+  /// A condition for each combination of the values given, slip varying fastest. Throws InputError that names the flag.
+  std::vector<OperatingCondition> conditions() const;
+
+  /// For each combination of the values given, flag by flag: keeps the study's conditions that agree with it; where
+  /// none does, sets it in all that are left. A condition that got its speed from a rotation keeps the rotation: its
+  /// speed follows slip, yaw and `tire`, unless the speed itself is given. Conditions that overriding makes equal are
+  /// kept once. Throws InputError that names the flag, or says why there is no such speed.
   void pick(Study& study, const Tire& tire) const;
 
  private:
-  DescribedFlags<OperatingCondition> flags_;
+  using Flags = DescribedFlags<OperatingCondition>;
+  static Study picked(const Flags& flags, const Study& study, const Tire& tire);
+  std::vector<Flags> combinations() const { return flags_.combinations("slip"); }
+
+  Flags flags_;
 };
 
 /// --no-assumed-sd: values of the soil whose standard deviation its file only assumes count as exact.
@@ -71,14 +80,12 @@ class SoilFlags {
 /// the flags then going before what the case says.
 class Question {
  public:
-  /// `needed`: keys of the condition that must be given where no case is.
-  explicit Question(CLI::App& app, std::vector<std::string> needed = {"load", "slip"});
+  /// `needed`: keys of the condition that must be given where no case is; `without`: those that have no flag.
+  explicit Question(CLI::App& app, std::vector<std::string> needed = {"load", "slip"},
+                    const std::vector<std::string>& without = {});
 
   /// Throws InputError that names the flag that is missing or wrong.
   Case ask(const Workplace& place) const;
-
-  /// Whether a condition was given by a flag.
-  bool given(const std::string& key) const { return condition_.given(key); }
 
  private:
   Case from_flags(const Workplace& place) const;

@@ -27,8 +27,30 @@ struct Axis {
 
 constexpr std::size_t most_values = 10'000;
 
-/// The numbers of {from, to, step | count}. Each is rounded to 12 digits in the unit in which the range is written,
-/// so that 0 % .. 60 % in steps of 10 % gives 30 %, not 30.000000000000004 %.
+/// A value rounded to 12 digits of `largest`, in a unit.
+double rounded(double value, double largest, const Unit& unit, std::optional<double> n) {
+  const double per_unit = unit.denominator / unit.numerator / std::pow(10.0, unit.decimal);
+  largest *= per_unit;
+  if (!(largest > 1e-12 && largest < 1e12)) return value;
+  const int places = 12 - static_cast<int>(std::ceil(std::log10(largest)));
+  const std::string number = fmt::format("{:.{}f}", value * per_unit, places);
+  if (read_number(number) == 0.0) return 0.0;
+  return read_quantity(unit.text == "-" ? number : number + " " + unit.text, Measure{unit.text, any_value}, n);
+}
+
+std::vector<double> equally_spaced(double from, double to, std::size_t count, double step, const Unit& unit,
+                                   std::optional<double> n) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = from + static_cast<double>(i) * step, largest = std::max(std::abs(from), std::abs(to));
+    all.push_back(std::clamp(rounded(x, largest, unit, n), std::min(from, to), std::max(from, to)));
+  }
+  return all;
+}
+
+InputError too_many_values() { return InputError(fmt::format("more than {} values in a range", most_values)); }
+
+/// The numbers of {from, to, step | count}.
 class RangeReader {
  public:
   RangeReader(const YamlNode& node, const Measure& measure, const Reading& reading)
@@ -52,40 +74,20 @@ class RangeReader {
 
   std::vector<double> by_step(const YamlNode& node) {
     const Quantity step = read_scalar(node, Measure{measure_.unit, any_value}, reading_);
-    const double steps = (to_ - from_.value) / step.value;
-    if (step.value == 0.0 || !(steps >= 0.0))
-      reading_.refuse(node, "the step doesn't lead from 'from' to 'to'", "a falling range has a negative step");
-    if (steps > static_cast<double>(most_values))
-      reading_.refuse(node, fmt::format("more than {} values in a range", most_values));
-    constexpr double slack = 1e-9;  // of a step: 'to' counts as reached
-    return values(step.unit, static_cast<std::size_t>(std::floor(steps + slack)) + 1, step.value);
+    try {
+      return numbers_by_step(from_, to_, step, reading_.n);
+    } catch (const InputError& error) {
+      reading_.refuse(node, error.what());
+    }
   }
 
   std::vector<double> by_count(const YamlNode& node) {
     const int count = read_integer(node, 2, reading_);
-    if (count > static_cast<int>(most_values))
-      reading_.refuse(node, fmt::format("more than {} values in a range", most_values));
-    return values(from_.unit, static_cast<std::size_t>(count), (to_ - from_.value) / (count - 1));
-  }
-
-  std::vector<double> values(const Unit& unit, std::size_t count, double step) const {
-    std::vector<double> all;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double x = from_.value + static_cast<double>(i) * step;
-      all.push_back(std::clamp(rounded(x, unit), std::min(from_.value, to_), std::max(from_.value, to_)));
+    try {
+      return numbers_by_count(from_, to_, count, reading_.n);
+    } catch (const InputError& error) {
+      reading_.refuse(node, error.what());
     }
-    return all;
-  }
-
-  double rounded(double value, const Unit& unit) const {
-    const double per_unit = unit.denominator / unit.numerator / std::pow(10.0, unit.decimal);
-    const double largest = std::max(std::abs(from_.value), std::abs(to_)) * per_unit;
-    if (!(largest > 1e-12 && largest < 1e12)) return value;
-    const int places = 12 - static_cast<int>(std::ceil(std::log10(largest)));
-    const std::string number = fmt::format("{:.{}f}", value * per_unit, places);
-    if (read_number(number) == 0.0) return 0.0;
-    const std::string text = unit.text == "-" ? number : number + " " + unit.text;
-    return read_quantity(text, Measure{measure_.unit, any_value}, reading_.n);
   }
 
   const YamlNode& node_;
@@ -225,6 +227,22 @@ ConditionGrid read_conditions(const YamlNode& node, const Tire& tire, const Read
     all.rotations.insert(all.rotations.end(), some.rotations.begin(), some.rotations.end());
   }
   return all;
+}
+
+std::vector<double> numbers_by_step(const Quantity& from, double to, const Quantity& step, std::optional<double> n) {
+  const double steps = (to - from.value) / step.value;
+  if (step.value == 0.0 || !(steps >= 0.0))
+    throw InputError(
+        "the step doesn't lead from one end of the range to the other: a falling range has a negative step");
+  if (steps > static_cast<double>(most_values)) throw too_many_values();
+  constexpr double slack = 1e-9;  // of a step: 'to' counts as reached
+  const std::size_t count = static_cast<std::size_t>(std::floor(steps + slack)) + 1;
+  return equally_spaced(from.value, to, count, step.value, step.unit, n);
+}
+
+std::vector<double> numbers_by_count(const Quantity& from, double to, int count, std::optional<double> n) {
+  if (count > static_cast<int>(most_values)) throw too_many_values();
+  return equally_spaced(from.value, to, static_cast<std::size_t>(count), (to - from.value) / (count - 1), from.unit, n);
 }
 
 double speed_at_rotation(const OperatingCondition& at, double rotation, const Tire& tire) {

@@ -23,6 +23,17 @@ struct ConditionGrid {
 /// speed_at_rotation for a rim of the tire's radius.
 ConditionGrid read_conditions(const YamlNode& node, const Tire& tire, const Reading& reading);
 
+/// The numbers [SI] from one to another in equal steps, each rounded to 12 digits in the unit in which the range is
+/// written, so that 0 % .. 60 % in steps of 10 % gives 30 %, not 30.000000000000004 %. `to` is among them where a step
+/// ends there. `n` is the soil's exponent, for units that depend on it. Throws InputError, without a position, where
+/// the step doesn't lead from `from` to `to`, and for more than 10,000 numbers.
+std::vector<double> numbers_by_step(const Quantity& from, double to, const Quantity& step,
+                                    std::optional<double> n = std::nullopt);
+
+/// The same for a number of values, at least 2, both ends among them.
+std::vector<double> numbers_by_count(const Quantity& from, double to, int count,
+                                     std::optional<double> n = std::nullopt);
+
 /// The speed of travel [m/s] that slip and a speed of rotation w [rad/s] imply (docs/reference/conventions.md): r w (1
 /// - s) driven, r w/(1 + s) braked; that is the speed in the wheel's plane, v cos(yaw), or, where the condition's
 /// slip_by says so, the whole v. Throws InputError at slip -1, where the wheel does not turn, and at a yaw of 90 deg.

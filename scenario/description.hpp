@@ -111,7 +111,7 @@ void describe(Visitor& v, std::type_identity<Tire>) {
   v.number("width", &Tire::width, Measure{"mm", above_zero}, Need::required, "width of the tread");
   v.group("lugs", &Tire::lugs, Need::optional, "lugs or grousers; absent: smooth");
   v.number("inflation_pressure", &Tire::inflation_pressure, Measure{"kPa", zero_or_more}, Need::optional,
-           "absent: a rigid wheel");
+           "read by the effect tire_flexibility alone; without it the wheel is rigid");
   v.number("carcass_pressure", &Tire::carcass_pressure, Measure{"kPa", zero_or_more}, Need::optional,
            "pressure that the carcass itself carries (Wong's p_c)");
 }

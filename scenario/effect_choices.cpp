@@ -17,6 +17,23 @@ Measure measure_of(const EffectParameterWords& parameter) {
   return {parameter.unit, {.lower = parameter.lower, .upper = parameter.upper}};
 }
 
+/// "lug_thrust:passive_blade", as flags have it, as a file has it: "{id: lug_thrust, form: passive_blade}"; "" for
+/// other texts.
+std::string as_mapping(const std::string& text) {
+  const std::size_t colon = text.find(':'), comma = text.find(',');
+  const std::string id = text.substr(0, std::min(colon, comma));
+  constexpr std::size_t longest = 200;  // of a message
+  if (id.size() == text.size() || id.empty() || text.size() > longest) return "";
+  std::string words = "{id: " + id, parameters;
+  if (colon < comma) words += ", form: " + text.substr(colon + 1, comma == text.npos ? text.npos : comma - colon - 1);
+  for (std::size_t from = comma; from != text.npos; from = text.find(',', from + 1)) {
+    std::string parameter = text.substr(from + 1, text.find(',', from + 1) - from - 1);
+    if (const std::size_t equals = parameter.find('='); equals != parameter.npos) parameter.replace(equals, 1, ": ");
+    parameters += (parameters.empty() ? "" : ", ") + parameter;
+  }
+  return words + (parameters.empty() ? "" : ", parameters: {" + parameters + "}") + "}";
+}
+
 const EffectFormWords& read_form(const YamlNode* node, const std::vector<EffectFormWords>& forms,
                                  const Reading& reading) {
   if (node == nullptr) return forms.front();
@@ -30,6 +47,9 @@ EffectChoice read_effect(const YamlNode& node, const EffectVocabulary& vocabular
   if (!plain) expect_keys(node, {"id", "form", "parameters"}, reading);
   const YamlNode& id_node = plain ? node : *value_of(node, "id", Need::required, "of the catalogue", reading);
   const std::vector<std::string> ids = vocabulary.ids();
+  if (const std::string words = as_mapping(id_node.scalar); !words.empty())
+    reading.refuse(id_node, fmt::format("'{}' is how a flag spells an effect", clipped(id_node.scalar)),
+                   "in a file: " + words);
   EffectChoice choice;
   choice.id = ids[read_word(id_node, ids, reading)];
   const std::vector<EffectFormWords> forms = vocabulary.forms(choice.id);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <string_view>
+#include <utility>
 
 #include "scenario/source_text.hpp"
 
@@ -30,7 +32,72 @@ std::size_t distance(const std::string& a, const std::string& b) {
   return d[n][m];
 }
 
+/// Words that people use, and ours: flags, keys of files, effects and commands alike. Hyphens and underscores are one.
+constexpr std::pair<std::string_view, std::string_view> words_of_the_field[] = {
+    {"slope", "longitudinal_incline"},
+    {"incline", "longitudinal_incline"},
+    {"grade", "longitudinal_incline"},
+    {"gradient", "longitudinal_incline"},
+    {"pitch", "longitudinal_incline"},
+    {"cross_slope", "transverse_incline"},
+    {"side_slope", "transverse_incline"},
+    {"bank", "transverse_incline"},
+    {"slip_angle", "yaw"},
+    {"steering", "yaw"},
+    {"weight", "load"},
+    {"mass", "load"},
+    {"velocity", "speed"},
+    {"pressure", "inflation_pressure"},
+    {"grouser_height", "lug_height"},
+    {"grouser_count", "lug_count"},
+    {"grouser_thickness", "lug_thickness"},
+    {"grousers", "lug_count"},
+    {"grousers", "lugs"},
+    {"grouser", "lug_thrust"},
+    {"grousers", "lug_thrust"},
+    {"lug", "lug_thrust"},
+    {"lugs", "lug_thrust"},
+    {"rut", "multipass"},
+    {"tire_pressure", "tire_flexibility"},
+    {"flexible", "tire_flexibility"},
+    {"elastic_wheel", "tire_flexibility"},
+    {"diameter", "radius"},
+    {"gamma", "density"},
+    {"unit_weight", "density"},
+    {"phi", "friction_angle"},
+    {"n", "exponent"},
+    {"traction", "estimate"},
+    {"fit", "loop"},
+    {"fit", "plates"},
+    {"identify", "loop"},
+    {"incline", "limits"},
+    {"incline", "failure-map"},
+    {"slope", "limits"},
+    {"climb", "limits"},
+    {"map", "failure-map"},
+    {"simulate", "run"},
+    {"dem", "run"},
+    {"show", "list"},
+    {"validate", "check"},
+};
+
+/// With one spelling: "--lug-height" is "lug_height".
+std::string one_spelling(const std::string& word) {
+  std::string text = lower(word.starts_with("--") ? word.substr(2) : word);
+  std::ranges::replace(text, '-', '_');
+  return text;
+}
+
 }  // namespace
+
+std::vector<std::string> meant_words(const std::string& word, const std::vector<std::string>& right) {
+  std::vector<std::string> meant;
+  for (const auto& [theirs, ours] : words_of_the_field)
+    for (const std::string& candidate : right)
+      if (one_spelling(word) == theirs && one_spelling(candidate) == one_spelling(std::string(ours)))
+        meant.push_back(candidate);
+  return meant;
+}
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& right) {
   constexpr std::size_t longest = 200;  // a word beyond this is no misspelling, and the table is quadratic
@@ -46,6 +113,11 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
 }
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& right) {
+  if (const std::vector<std::string> meant = meant_words(word, right); !meant.empty()) {
+    std::string text = ", did you mean '" + meant.front();
+    for (std::size_t i = 1; i < meant.size(); ++i) text += "' or '" + meant[i];
+    return text + "'?";
+  }
   const std::string near = nearest_word(word, right);
   return near.empty() ? "" : ", did you mean '" + near + "'?";
 }

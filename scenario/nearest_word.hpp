@@ -10,7 +10,11 @@ namespace soilbin {
 /// enough to be meant (distance above a third of the word's length, at least 2, or as many as it has letters).
 std::string nearest_word(const std::string& word, const std::vector<std::string>& right);
 
-/// ", did you mean 'radius'?" for the end of a message, or "" where no word is near enough.
+/// The right words that a word of the field means: "lug_height" for "grouser_height"; most often none.
+std::vector<std::string> meant_words(const std::string& word, const std::vector<std::string>& right);
+
+/// ", did you mean 'radius'?" for the end of a message, or "" where no word is near enough. A word of the field goes
+/// before a misspelling: ", did you mean 'lug_height'?" for "grouser_height".
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& right);
 
 /// "radius, width, lugs"; a word that is longer than any of ours is clipped.

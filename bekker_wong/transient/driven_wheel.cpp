@@ -18,12 +18,20 @@ constexpr double rolling_in_share = 0.2;  // of the contact's length, see Drive'
 constexpr double floor_share = 0.02;      // of the depth at rest: below it the contact fades
 constexpr double deepest = 0.95;          // of the radius: the equations end there
 
+/// A hint at a form of the same effect that holds in time; "" where there is none.
+std::string in_another_form(const EffectForm& form) {
+  for (const EffectForm& other : effect_catalogue())
+    if (other.id == form.id && other.steady_only.empty())
+      return fmt::format("\n  hint: write {{id: {}, form: {}}}", other.id, other.form);
+  return "";
+}
+
 EffectList time_effects(const std::vector<EffectChoice>& choices) {
   for (const EffectChoice& choice : choices) {
     const EffectForm& form = find_form(choice);
     if (!form.steady_only.empty())
-      throw InputError(fmt::format("a wheel driven in time can't take the effect {} ({}): {}", form.id, form.form,
-                                   form.steady_only));
+      throw InputError(fmt::format("a wheel driven in time can't take the effect {} ({}): {}{}", form.id, form.form,
+                                   form.steady_only, in_another_form(form)));
   }
   return make_effects(choices);
 }

@@ -112,7 +112,9 @@ void add_opening(Page& page, const Comparison& comparison, bool coarse_grains) {
 void add_channels(Page& page, const Comparison& comparison) {
   if (comparison.tallies.empty()) return;
   page.section("Channel by channel", "tallies");
-  page.table(tally_table(comparison));
+  Table tally = tally_table(comparison);
+  tally.caption += ". Green: no more than the stated errors alone would give";
+  page.table(tally);
   const auto count = [&](DifferenceFinding finding) {
     return std::to_string(
         std::ranges::count_if(comparison.differences, [&](const Difference& d) { return d.finding == finding; }));

@@ -33,10 +33,9 @@ std::string rows_anchor(const Tally& t) { return fmt::format("rows-{}-{}-{}", t.
 Table tally_table(const Comparison& comparison) {
   constexpr std::size_t more_than_a_channel = 2;
   const bool several = comparison.sides.size() > more_than_a_channel;
-  MarkedTable table{
-      "Channel by channel, the widest apart first. Green: no more than the stated errors alone would give",
-      {"channel", "root mean square", "errors alone", "mean difference", "differ", "widest at"},
-      {true, false, false, false, true, true}};
+  MarkedTable table{"Channel by channel, the widest apart first",
+                    {"channel", "root mean square", "errors alone", "mean difference", "differ", "widest at"},
+                    {true, false, false, false, true, true}};
   for (const Tally* t : widest_first(comparison)) {
     const Difference& worst = comparison.differences[t->worst];
     const std::string pair =

@@ -342,6 +342,15 @@ Warnings doubts(const Case& question, const std::vector<ModelAnswers>& study) {
   return warnings;
 }
 
+std::string tire_in_words(const Case& question) {
+  std::string words = in_words(question.scenario.tire);
+  const std::vector<UnusedInput> unused = unused_inputs(question);
+  if (std::ranges::find(unused, "lugs", &UnusedInput::key) == unused.end()) return words;
+  words.pop_back();  // the closing bracket
+  return words + (question.study.models.size() == 1 ? "; this model leaves the lugs out)"
+                                                    : "; these models leave the lugs out)");
+}
+
 Warnings doubts(const Case& question) {
   Warnings warnings = doubts_but_unused_inputs(question, quick_answers(question), Answered::no);
   append(warnings,

@@ -38,6 +38,9 @@ namespace soilbin::compare {
 /// themselves. `study` may be empty, and its models need not be all of the question's.
 std::vector<std::string> doubts(const Case& question, const std::vector<ModelAnswers>& study);
 
+/// The question's tire, for the first line of an answer; says where its lugs change nothing.
+std::string tire_in_words(const Case& question);
+
 /// Of a question that nobody has answered yet: asks its analytic models, tells where they have no answer, and looks at
 /// the soil's grains too, which `--model dem` would take.
 std::vector<std::string> doubts(const Case& question);

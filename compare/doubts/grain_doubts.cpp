@@ -60,8 +60,8 @@ std::string depends_on_the_step(const GranularSoil& grains) {
   std::string text = fmt::format(
       "the grains' rolling law '{}' makes answers depend on the time step: below the angular speed mu_r R* F_N dt/I* a "
       "contact is a dashpot of I*/dt, whatever mu_r. At the longest step, {:.3g} ms, two mean grains that 100 N press "
-      "together are so below {:.2g} rad/s. At a quarter of the step the paper's tire at 4 kN, 20 % slip pulled 1183 ± "
-      "43 N in place of 773 ± 19 N. rolling_resistance: elastic_plastic does not depend on it",
+      "together are so below {:.2g} rad/s. At a quarter of the step a tire of 0.5 m radius at 4 kN, 20 % slip pulled "
+      "1183 ± 43 N in place of 773 ± 19 N. rolling_resistance: elastic_plastic does not depend on it",
       with_twist ? "directional_with_twist" : "directional", 1e3 * step, speed);
   if (with_twist) text += ". This law also resists spin about the contact's normal, which the published one does not";
   return text;

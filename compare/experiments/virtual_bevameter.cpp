@@ -1,5 +1,7 @@
 #include "compare/experiments/virtual_bevameter.hpp"
 
+#include "dem/element_tests/tool_bed.hpp"
+
 namespace soilbin::compare {
 namespace {
 
@@ -38,6 +40,7 @@ BevameterReadings virtual_bevameter(const GranularSoil& grains, const VirtualBev
   for (dem::TestBed* bed : {&plates.bed, &ring.bed}) {
     bed->specimen = asked.specimen;
     bed->width *= asked.size, bed->depth *= asked.size;
+    dem::check_bed(*bed);
   }
   for (int k = 0; k < asked.packings; ++k) {
     PlateSet set;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "compare/measured/channels.hpp"
 #include "compare/report/number_text.hpp"
@@ -26,6 +27,14 @@ bool any_side_force(const std::vector<ModelAnswers>& study) {
     for (const Answer& answer : model.answers)
       if (answer.result && answer.result->lateral_force.value != 0.0) return true;
   return false;
+}
+
+/// The places of the conditions, one curve after the other, each in its own order.
+std::vector<std::size_t> curve_by_curve(const Curves& curves) {
+  std::vector<std::size_t> order(curves.curve_of.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return curves.curve_of[i]; });
+  return order;
 }
 
 /// In percent; "-" where there is none (has_efficiency).
@@ -112,7 +121,7 @@ std::string study_text(const std::vector<ModelAnswers>& study) {
     header.push_back("efficiency [%]");
     Table table{"", header};
     std::string notes;
-    for (std::size_t i = 0; i < model.answers.size(); ++i) {
+    for (const std::size_t i : curve_by_curve(curves)) {
       const Answer& answer = model.answers[i];
       std::vector<TableCell> row;
       if (!curves.varying.empty()) row.push_back(curves.labels[curves.curve_of[i]]);

@@ -244,7 +244,7 @@ std::vector<Step> closed_forms(const Facts& f, const TractionResult& result) {
        fmt::format("{:.4g} kPa * {:.4g} m^2 + {:.4g} N tan {:.4g} deg", f.soil.cohesion / 1000, f.r * f.b * f.theta_1,
                    f.normal_load, f.soil.friction_angle / degree),
        thrust, "N", fmt::format("the model's thrust is {:.4g} N", f.wheel.forces.thrust)},
-      {"the paper's Eq. 5 as it stands", "z = z_0 + (D/2) (1 - i) theta_m",
+      {"Eq. 5 of Zhou, Gao, Li, Hu as it stands", "z = z_0 + (D/2) (1 - i) theta_m",
        fmt::format("{:.4g} mm + {:.4g} mm * {:.4g} * {:.4g} rad", 1000 * z0, 1000 * f.r, 1 - f.at.slip, f.theta_m),
        1000 * eq5, "mm",
        "faulty: its second term is an arc length, not a depth, and falls with slip where measured sinkage rises"}};
@@ -284,7 +284,29 @@ Json steps_json(const std::vector<Step>& steps) {
   return all;
 }
 
+std::string steps_in_words(const std::string& heading, const std::vector<Step>& steps) {
+  if (steps.empty()) return "";
+  std::string text = fmt::format("\n{}\n", heading);
+  for (const Step& step : steps) {
+    text += fmt::format("  {}\n      {}\n", step.name, step.equation);
+    text += step.unit == "SI"  // an effect's parameters
+                ? fmt::format("      with {}\n", step.numbers)
+                : fmt::format("      = {} = {}{}\n", step.numbers, number(step.value), unit_behind(step.unit));
+    if (!step.remark.empty()) text += fmt::format("      ({})\n", step.remark);
+  }
+  return text;
+}
+
 }  // namespace
+
+std::string in_words(const Explanation& explanation) {
+  return steps_in_words(explanation.effects.empty()
+                            ? "Equations with their values"
+                            : "Equations of the base model at this contact (the effects below change them)",
+                        explanation.steps) +
+         steps_in_words("Effects", explanation.effects) +
+         steps_in_words("Closed forms to check by (no balance, no effects)", explanation.cross_checks);
+}
 
 Json to_json(const Explanation& explanation, const ModelChoice& choice, const OperatingCondition& at) {
   Json row = {{"model", "bekker_wong"}, {"label", choice.label}};

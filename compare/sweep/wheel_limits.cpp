@@ -122,6 +122,13 @@ std::vector<OperatingCondition> without_slip(const std::vector<OperatingConditio
 /// At a slip of 100 % a wheel pulls and stands: it climbs nothing.
 bool spins_on_the_spot(double slip) { return slip > 1.0 - 1e-6; }
 
+/// Whether the wheel would pull most at 100 % slip, where one in soil digs itself in, and the model knows nothing of
+/// it.
+bool only_bounds(const WheelLimits& answer) {
+  return std::ranges::any_of(answer.slopes, [](const SlopeRow& row) { return spins_on_the_spot(row.best.slip); }) &&
+         std::ranges::find(answer.model.effects, "slip_sinkage", &EffectChoice::id) == answer.model.effects.end();
+}
+
 std::string slip_in_words(const SlopeRow& row) {
   if (!row.slip) return "-";
   if (spins_on_the_spot(*row.slip)) return "100: spins on the spot";
@@ -187,13 +194,17 @@ std::optional<double> carried_load(const Case& question) {
 std::string in_words(const WheelLimits& answer) {
   std::string text = fmt::format("{}, load {:.6g} N\n", answer.model.label, answer.at.load);
   if (!answer.error.empty()) return text + "no solution: " + answer.error + "\n";
-  Table table{"", {"slope [deg]", "slip at which it climbs [%]", "largest pull [N]", "slip of the largest pull [%]"}};
+  Table table{"", {"slope [deg]", "slip to climb it [%]", "largest pull [N]", "slip of the largest pull [%]"}};
   for (const SlopeRow& row : answer.slopes)
     table.add({number(row.slope / degree), slip_in_words(row), number({row.best.drawbar_pull, row.pull_error}),
                number(100 * row.best.slip)});
   text += as_text(table);
   if (std::ranges::any_of(answer.slopes, &SlopeRow::perhaps_not_at_all))
     text += "or not at all: one standard error of the soil's values makes the slope steeper than what it climbs.\n";
+  if (only_bounds(answer))
+    text +=
+        "The model has no slip sinkage: the largest pull lies at 100 % slip, where a wheel digs itself in. So the "
+        "largest pull\nand the steepest slope are upper bounds; --effect slip_sinkage lowers them.\n";
   if (!answer.steepest) return text + "The steepest slope lies beyond -60 .. 80 deg.\n";
   return text + steepest_in_words({*answer.steepest, answer.steepest_error}, answer.slopes.back().best.slip) + "\n";
 }

@@ -1,5 +1,7 @@
 #include "dem/element_tests/tool_bed.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,10 +9,17 @@
 
 namespace soilbin::dem {
 
+void check_bed(const TestBed& bed) {
+  if (!(bed.width > 1.2 && bed.depth > 0.2))
+    throw InputError(
+        fmt::format("a bed {:.3g} wide and {:.3g} deep, in diameters of the tool, is too small: above 1.2 and 0.2\n"
+                    "  hint: a larger --size",
+                    bed.width, bed.depth));
+}
+
 std::shared_ptr<const SettledBed> bed_for_tool(const GranularSoil& soil, const TestBed& bed, double tool,
                                                const WorkOptions& how, BedStore* beds) {
-  if (!(bed.width > 1.2 && bed.depth > 0.2))
-    throw InputError("the bed must be wider than 1.2 and deeper than 0.2 diameters of the tool");
+  check_bed(bed);
   const double side = bed.width * tool;
   return specimen_bed(specimen_recipe(soil, {side, side, bed.depth * tool}, bed.specimen), how, beds);
 }

@@ -5,6 +5,9 @@
 
 namespace soilbin::dem {
 
+/// Throws InputError for a bed that is too small for its tool.
+void check_bed(const TestBed& bed);
+
 /// The bed for a tool of this diameter [m].
 std::shared_ptr<const SettledBed> bed_for_tool(const GranularSoil& soil, const TestBed& bed, double tool,
                                                const WorkOptions& how, BedStore* beds);

@@ -9,6 +9,7 @@
 #include "compare/sweep/varying.hpp"
 #include "notebooks/bindings/bindings.hpp"
 #include "scenario/case.hpp"
+#include "scenario/nearest_word.hpp"
 #include "scenario/traction_channels.hpp"
 
 namespace soilbin::python {
@@ -125,7 +126,17 @@ void bind_explanation(py::module_& module) {
       .def_readonly("result", &Explanation::result)
       .def_readonly("steps", &Explanation::steps, "of the model, in the order in which it takes them")
       .def_readonly("effects", &Explanation::effects)
-      .def_readonly("cross_checks", &Explanation::cross_checks, "closed forms that need no balance");
+      .def_readonly("cross_checks", &Explanation::cross_checks, "closed forms that need no balance")
+      .def(
+          "__str__", [](const Explanation& e) { return compare::in_words(e).substr(1); },
+          "The equations with their values, as the command explain prints them.")
+      .def("__repr__", [](const Explanation& e) {
+        std::vector<std::string> names;
+        for (const std::vector<Step>& steps : {e.steps, e.effects, e.cross_checks})
+          for (const Step& step : steps) names.push_back(step.name);
+        return fmt::format("Explanation of a drawbar pull of {} N; print() shows its steps: {}",
+                           compare::number(e.result.drawbar_pull), listed(names));
+      });
   module.def("explain", &compare::explain, py::arg("scenario"), py::arg("at"),
              "The model's equations with their values. Raises InputError and NoSolution as the model does.");
   module.def(

@@ -84,9 +84,9 @@ void bind_board(py::module_& module) {
   def_test<S>(
       module, "tilting_board",
       [](const auto& soil, const auto& settings, const auto& how) { return dem::tilting_board(soil, settings, how); },
-      "The paper's friction test: sand on a board of the tire's material, tilted until it slides. across: grains along "
-      "a side. layers: height in mean diameters. dt: time step [s]; 0: the longest that is safe, at which directional "
-      "rolling resistance lets grains creep. Raises InputError, RunStopped.",
+      "The friction test of Zhou, Gao, Li, Hu: sand on a board of the tire's material, tilted until it slides. across: "
+      "grains along a side. layers: height in mean diameters. dt: time step [s]; 0: the longest that is safe, at which "
+      "directional rolling resistance lets grains creep. Raises InputError, RunStopped.",
       keyword("packing", &S::packing), keyword("across", &S::across), keyword("layers", &S::layers),
       keyword("dt", &S::dt), keyword("rolling", &S::laws, &dem::ContactLaws::rolling));
 }

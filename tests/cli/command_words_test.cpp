@@ -27,7 +27,8 @@ TEST(CommandWords, AreRefusedInOurs) {
       {"calibrate paper-sand --seed 1.5", "--seed: expected a whole number of at least 1, not '1.5'"},
       {"calibrate paper-sand --decide-at load=1N..2N", "--decide-at needs --decide"},
       {"run rover-slip --record a.json --recorded b.json", " exclude each other"},
-      {"estimate --soil dry-sand --plot a.svg", "soilbin run mine/case.yaml --plot curves.svg"},
+      {"explain --soil dry-sand --plot a.svg", "soilbin estimate --slip 0%..60% --plot slip.svg"},
+      {"estimate --soil dry-sand --report a.html", "soilbin report mine/case.yaml --output page.html"},
       {"run --soil dry-sand", "soilbin init mine writes one to change"},
       {"--nope", "'--nope' stands where a command is to be"},
       {"estimate --soil dry-sand --radius 1m --width 1m --load 1kN --slip 0.1 --density 1600kg/m^3+-100kg/m^3",
@@ -44,6 +45,31 @@ TEST(CommandWords, AreRefusedInOurs) {
         << words;
     EXPECT_LT(r.err.size(), 300U) << words;
   }
+}
+
+TEST(CommandWords, WordsOfTheFieldLeadToOurs) {
+  const std::pair<const char*, const char*> led[] = {
+      {"estimate --soil dry-sand --grouser-height 8mm",
+       "'estimate' has no option '--grouser-height', did you mean "
+       "'--lug-height'?"},
+      {"estimate --soil dry-sand --slope 8deg", "did you mean '--longitudinal-incline'?"},
+      {"estimate rover-slip --effect grouser", "did you mean 'lug_thrust'?"},
+      {"estimate rover-slip --effect lugs", "did you mean 'lug_thrust'?"},
+      {"fit", "unknown command 'fit', did you mean 'loop' or 'plates'?"},
+      {"incline", "did you mean 'limits' or 'failure-map'?"},
+      {"map", "did you mean 'failure-map'?"},
+      {"limits rover-slip --slip 20%", "limits looks for the slip and the slope; soilbin estimate answers"},
+      {"limits rover-slip --slope 20deg", "limits looks for the slip and the slope; soilbin estimate answers"},
+      {"limits --soil dry-sand --tire rover-wheel", "--load is missing\n  hint: such as --load 80N\n"},
+      {"bevameter paper-sand --size 0.5", "hint: a larger --size"},
+      {"list curiosity", "'curiosity' stands in the list of tires\n  hint: soilbin list tires; the whole of it: "},
+  };
+  for (const auto& [words, said] : led) {
+    const Outcome r = soilbin(words, "timeout 20 ");
+    EXPECT_EQ(r.status, 2) << words;
+    EXPECT_THAT(r.err, HasSubstr(said)) << words;
+  }
+  EXPECT_THAT(soilbin("limits --help").out, Not(AnyOf(HasSubstr("--slip "), HasSubstr("--longitudinal-incline"))));
 }
 
 TEST(CommandWords, AHintIsGivenOnce) {

@@ -91,6 +91,15 @@ TEST(DoubtsOfCommands, StandOnPages) {
     EXPECT_THAT(text_of(file), AllOf(HasSubstr("What is doubtful"), HasSubstr("lugs change nothing"))) << file;
 }
 
+// The first line of an answer names the lugs; without an effect that hears of them it says that they are left out.
+TEST(DoubtsOfCommands, TheFirstLineSaysThatLugsAreLeftOut) {
+  const std::string lugged =
+      "estimate --soil dry-sand --radius 110mm --width 100mm --lug-height 8mm --lug-count 24 "
+      "--load 80N --slip 20% ";
+  EXPECT_THAT(soilbin(lugged).out, HasSubstr("24 lugs of 8 mm; this model leaves the lugs out) on dry-sand"));
+  EXPECT_THAT(soilbin(lugged + "--effect lug_thrust").out, HasSubstr("24 lugs of 8 mm) on dry-sand"));
+}
+
 TEST(DoubtsOfCommands, ADriveHasThemToo) {
   const Scratch scratch;
   const std::string drive = " '" +

@@ -122,7 +122,8 @@ TEST(Drive, AnEffectThatHoldsInASteadyStateOnlyIsRefused) {
       scratch.write("start.yaml", std::string(short_drive) + "  effects: [slip_sinkage]\n").string();
   const Outcome r = soilbin("drive '" + file + "'");
   EXPECT_EQ(r.status, 2);
-  EXPECT_THAT(r.err, HasSubstr("a wheel driven in time can't take the effect slip_sinkage"));
+  EXPECT_THAT(r.err, AllOf(HasSubstr("a wheel driven in time can't take the effect slip_sinkage"),
+                           HasSubstr("hint: write {id: slip_sinkage, form: ding}")));
 }
 
 /// A small wheel that pulls a little on grains of 20 mm, level, then uphill.
@@ -369,10 +370,18 @@ TEST(LimitsCommand, AWheelThatSpinsOnTheSpotClimbsNothing) {
   EXPECT_THAT(heavy, AllOf(HasSubstr("The steepest slope that it climbs is"), Not(HasSubstr("on the spot"))));
 }
 
+// Of the base model the pull grows up to 100 % slip, where a wheel in soil digs itself in.
+TEST(LimitsCommand, WithoutSlipSinkageTheyAreUpperBounds) {
+  constexpr const char* said = "The model has no slip sinkage";
+  const std::string asked = "limits --tire rover-wheel --soil dry-sand --load 64.68N";
+  EXPECT_THAT(soilbin(asked).out, HasSubstr(said));
+  EXPECT_THAT(soilbin(asked + " --effect slip_sinkage").out, Not(HasSubstr(said)));
+}
+
 TEST(LimitsCommand, HeadingsSayWhatEachColumnIs) {
   const std::string text = soilbin("limits --tire rover-wheel --soil dry-sand --load 80N").out;
-  for (const char* told : {"slope [deg]", "slip at which it climbs [%]", "largest pull [N]",
-                           "slip of the largest pull [%]", "± is one standard error from"})
+  for (const char* told : {"slope [deg]", "slip to climb it [%]", "largest pull [N]", "slip of the largest pull [%]",
+                           "± is one standard error from"})
     EXPECT_THAT(text, HasSubstr(told));
   EXPECT_THAT(text, testing::ContainsRegex("The steepest slope that it climbs is [0-9.]+ ± [0-9.]+ deg"));
 }
@@ -385,7 +394,7 @@ TEST(LimitsCommand, AsksForTheLoadAndNoMore) {
   for (const char* found : {"--slip 20%", "--longitudinal-incline 5deg"}) {
     const Outcome told = soilbin(std::string("limits rover-slip ") + found);
     EXPECT_EQ(told.status, 2) << found;
-    EXPECT_THAT(told.err, HasSubstr("is what limits looks for")) << found;
+    EXPECT_THAT(told.err, HasSubstr("limits looks for the slip and the slope")) << found;
   }
 }
 

@@ -80,6 +80,72 @@ TEST(Estimate, JsonHasTheContractsNamesAndABudgetThatAddsUp) {
   EXPECT_NEAR(row["yaw"].get<double>(), 5 * std::acos(-1.0) / 180, 1e-12);
 }
 
+TEST(Estimate, SeveralSlipsGiveATableAndAPlotWithoutAFile) {
+  const Scratch scratch;
+  const std::string asked = "estimate --tire rover-wheel --soil dry-sand --load 65N --slip 0%..60%",
+                    plot = (scratch / "slip.svg").string(), csv = (scratch / "slip.csv").string();
+  const Outcome r = soilbin(asked + " --plot '" + plot + "' --csv '" + csv + "'");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, AllOf(HasSubstr("\nload 65 N\n"), HasSubstr("slip [%]  drawbar pull [N]")));
+  EXPECT_THAT(text_of(plot), AllOf(HasSubstr("<svg"), HasSubstr("rover-wheel on dry-sand, load 65 N")));
+  const std::string table = text_of(csv);
+  EXPECT_EQ(std::ranges::count(table, '\n'), 1 + 7) << "a header and seven slips";
+  std::vector<double> slips;
+  const nlohmann::json document = soilbin(asked + " --json").json();
+  for (const auto& row : document["rows"]) slips.push_back(row["slip"]);
+  EXPECT_THAT(slips, testing::ElementsAre(0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6));
+}
+
+/// Load [N] and slip of each row of an answer.
+std::vector<std::pair<double, double>> loads_and_slips(const std::string& arguments) {
+  std::vector<std::pair<double, double>> all;
+  const Outcome r = soilbin(arguments + " --json");
+  EXPECT_EQ(r.status, 0) << r.err;
+  const nlohmann::json document = r.status == 0 ? r.json() : nlohmann::json{{"rows", {}}};
+  for (const auto& row : document["rows"]) all.emplace_back(row["load"], row["slip"]);
+  return all;
+}
+
+TEST(Estimate, ListsAndStepsSpanAGridSlipFastest) {
+  using testing::ElementsAre;
+  using testing::Pair;
+  const std::string asked = "estimate --tire rover-wheel --soil dry-sand ";
+  const auto grid = ElementsAre(Pair(40, 0.1), Pair(40, 0.2), Pair(60, 0.1), Pair(60, 0.2));
+  EXPECT_THAT(loads_and_slips(asked + "--slip 10,20% --load 40,60N"), grid) << "the last one's unit is that of all";
+  EXPECT_THAT(loads_and_slips(asked + "--slip 10%..20%:10% --load 40N..60N:20N"), grid);
+  EXPECT_THAT(loads_and_slips(asked + "--slip 0.1,0.2 --load 40N,60N"), grid);
+}
+
+// The study has 65 N alone, at 0 to 60 % slip.
+TEST(Estimate, SeveralValuesPickAndOverrideACase) {
+  using testing::ElementsAre;
+  using testing::Pair;
+  EXPECT_THAT(loads_and_slips("estimate paper-straight --effect none --load 4kN --slip 10,20%"),
+              ElementsAre(Pair(4000, 0.1), Pair(4000, 0.2)));
+  EXPECT_THAT(loads_and_slips("run paper-straight --load 4kN --slip 10%,11%"),
+              ElementsAre(Pair(4000, 0.1), Pair(4000, 0.11), Pair(4000, 0.1), Pair(4000, 0.11)))
+      << "one that the study has, and one that it doesn't have; by each of its two models";
+}
+
+TEST(Estimate, ARangeThatIsNoneIsRefusedByItsFlag) {
+  const std::pair<const char*, const char*> refused[] = {
+      {"--slip 0%..60%..80%", "--slip: expected a list or a range, not '0%..60%..80%'"},
+      {"--slip 0%..", "hint: such as 0,10,20%, or 0%..60%, or in steps 0%..60%:5%"},
+      {"--slip ,", "--slip: expected a list or a range, not ','"},
+      {"--slip 20% --yaw 0deg,", "hint: such as 1,2,5deg, or 1..5deg, or in steps 1..5:0.5deg"},
+      {"--slip 0%..60%:-10%", "--slip 0%..60%:-10%: the step doesn't lead from one end of the range to the other"},
+      {"--slip 0..0.6:10%", "--slip 0..0.6:10%: the range holds one value alone"},
+      {"--slip 10%,300%", "--slip: "},
+      {"--slip 20% --pass 1..3", "--pass: expected a whole number of at least 1, not '1..3'"},
+      {"--slip 0..1:0.0001 --yaw 0deg..1deg:0.01deg", "more than 100000 conditions"},
+      {"--slip 20% --plot a.svg", "--plot draws curves over slip: it takes more than one slip"}};
+  for (const auto& [flags, said] : refused) {
+    const Outcome r = soilbin("estimate " + wheel + flags);
+    EXPECT_EQ(r.status, 2) << flags;
+    EXPECT_THAT(r.err, HasSubstr(said));
+  }
+}
+
 TEST(Estimate, NotANumberIsNull) {  // a locked wheel has no tractive efficiency
   const Outcome r = soilbin("estimate " + wheel + "--slip -1 --json");
   ASSERT_EQ(r.status, 0) << r.err;

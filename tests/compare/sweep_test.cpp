@@ -6,6 +6,7 @@
 #include <set>
 
 #include "compare/sweep/answer_sheets.hpp"
+#include "compare/sweep/answer_tables.hpp"
 #include "compare/sweep/answers_page.hpp"
 #include "compare/sweep/explanation.hpp"
 #include "compare/sweep/prediction.hpp"
@@ -52,6 +53,19 @@ TEST(Sweep, AConditionWithoutSolutionDoesNotStopTheOthers) {
   EXPECT_EQ(calls, 3U);
   EXPECT_TRUE(answers[0].result && answers[2].result);
   EXPECT_EQ(answers[1].error, "too much slip");
+}
+
+// The study gives the loads between the slips; a reader follows one curve after the other.
+TEST(Sweep, ATableHasOneBlockForEachCurve) {
+  ModelAnswers model{{ModelKind::bekker_wong, {}, "linear"}, {}};
+  for (const double slip : {0.1, 0.2})
+    for (const double load : {100.0, 50.0}) model.answers.push_back({condition(load, slip), TractionResult{}, ""});
+  const std::string text = study_text({model});
+  std::vector<std::size_t> places;
+  for (const char* row : {" 50 N        10", " 50 N        20", "100 N        10", "100 N        20"})
+    places.push_back(text.find(row));
+  EXPECT_TRUE(std::ranges::is_sorted(places)) << text;
+  EXPECT_NE(places.back(), std::string::npos) << text;
 }
 
 // Smooth curves keep the study's own slips and each curve's other conditions; a speed that came from a rotation follows

@@ -35,6 +35,14 @@ class Answers(unittest.TestCase):
         self.assertEqual(here.sinkage.std_error, row["std_error"]["sinkage"])
         self.assertAlmostEqual(sum(here.budget.values()), here.drawbar_pull.value, delta=1e-9)
 
+    def test_an_explanation_prints_its_steps(self):
+        why = bekker_wong.explain(ROVER, AT)
+        self.assertIn("Equations with their values\n", str(why))
+        for step in why.steps:
+            self.assertIn(f"  {step.name}\n      {step.equation}\n", str(why))
+            self.assertIn(step.name, repr(why))
+        self.assertNotIn("object at 0x", repr(why))
+
     def test_a_study_gives_a_frame_of_the_commands_rows(self):
         rows = command("run", "rover-slip")["rows"]
         frame = soilbin.run_study("rover-slip")
@@ -168,6 +176,18 @@ class Errors(unittest.TestCase):
                 soilbin.Tire(radius=value, width=1)
         with self.assertRaisesRegex(soilbin.InputError, "either 'rim_speed' or 'torque'"):
             soilbin.Controller(rim_speed=1, torque=1)
+
+    def test_a_number_in_the_place_of_a_condition_is_told_its_name(self):
+        for ask in (bekker_wong.slip_for_pull, bekker_wong.steepest_slope):
+            with self.assertRaisesRegex(TypeError, r"at: expected an OperatingCondition, not 5; the pull is drawbar=\.\.\."):
+                ask(ROVER, 5, load=60)
+        with self.assertRaisesRegex(TypeError, "at: expected an OperatingCondition, not 80; numbers go by their names"):
+            soilbin.estimate(ROVER, 80)
+
+    def test_without_pandas_it_says_what_to_install(self):
+        code = "import sys; sys.modules['pandas'] = None; import soilbin"
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertIn("soilbin needs numpy and pandas: apt install python3-pandas, or pip install pandas", done.stderr)
 
     def test_a_text_for_a_number_is_told_in_words(self):
         for wrong, said in ((lambda: soilbin.estimate(ROVER, load="65 N", slip=0.2),

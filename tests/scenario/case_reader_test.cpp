@@ -205,6 +205,11 @@ TEST(CaseReader, EffectsAreCheckedAgainstTheVocabulary) {
   EXPECT_THAT(refused(with("form: blade", "form: blades")), HasSubstr("did you mean 'blade'?"));
   EXPECT_THAT(refused(with("{angle:", "{angel:")), HasSubstr("unknown key 'angel', did you mean 'angle'?"));
   EXPECT_THAT(refused(with("- slip_sinkage", "- lug_thrust")), HasSubstr("effect 'lug_thrust' is listed twice"));
+  EXPECT_THAT(refused(with("- slip_sinkage", "- slip_sinkage:ding")),
+              AllOf(HasSubstr("'slip_sinkage:ding' is how a flag spells an effect"),
+                    HasSubstr("hint: in a file: {id: slip_sinkage, form: ding}")));
+  EXPECT_THAT(refused(with("- slip_sinkage", "- slip_sinkage:ding,n1=0.3,x=2 mm")),
+              HasSubstr("{id: slip_sinkage, form: ding, parameters: {n1: 0.3, x: 2 mm}}"));
 }
 
 /// The good case with errors of a fit under its second model.

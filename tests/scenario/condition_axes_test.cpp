@@ -105,7 +105,7 @@ TEST(ConditionAxes, Refusals) {
   EXPECT_THAT(refused_conditions("{load: 1 kN, slip: {from: 0, to: 1, step: 0.1, count: 3}}"),
               HasSubstr("either 'step' or 'count'"));
   EXPECT_THAT(refused_conditions("{load: 1 kN, slip: {from: 0, to: 1, step: -0.1}}"),
-              HasSubstr("doesn't lead from 'from' to 'to'"));
+              HasSubstr("doesn't lead from one end of the range to the other"));
   EXPECT_THAT(refused_conditions("{load: 1 kN, slip: {from: 0, to: 0, step: 0}}"), HasSubstr("doesn't lead"));
   EXPECT_THAT(refused_conditions("{load: 1 kN, slip: {from: 0, to: 1, step: 1e-9}}"),
               HasSubstr("more than 10000 values"));

@@ -21,5 +21,12 @@ TEST(NearestWord, SaysNothingWhereNothingIsNear) {
   EXPECT_EQ(nearest_word(std::string(100'000, 'x'), keys), "");
 }
 
+TEST(NearestWord, AWordOfTheFieldGoesBeforeAMisspelling) {
+  EXPECT_EQ(did_you_mean("--grouser-height", {"--lug-height", "--load"}), ", did you mean '--lug-height'?");
+  EXPECT_EQ(did_you_mean("grouser_height", {"height", "lug_height"}), ", did you mean 'lug_height'?");
+  EXPECT_EQ(did_you_mean("fit", {"loop", "plates", "list"}), ", did you mean 'loop' or 'plates'?");
+  EXPECT_EQ(did_you_mean("grouser", {"radius", "width"}), "") << "what the word means isn't there";
+}
+
 }  // namespace
 }  // namespace soilbin

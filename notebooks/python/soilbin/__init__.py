@@ -10,6 +10,14 @@ The floors of soilbin under the names that they have in C++ and in files, SI and
 soilbin.bekker_wong opens the analytic wheel, soilbin.dem runs grains, soilbin.compare holds both against measurements.
 Long work lets Ctrl-C through and shows its progress; progress=None keeps it silent.
 """
+try:
+    import numpy
+    import pandas
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError(f"soilbin needs numpy and pandas: apt install python3-pandas, or pip install pandas "
+                              f"({error})") from error
+del numpy, pandas
+
 from soilbin import bekker_wong, compare, dem
 from soilbin._soilbin import (
     Bin,

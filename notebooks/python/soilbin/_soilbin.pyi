@@ -111,7 +111,7 @@ class Tire:
     def lugs(self, value: Lugs) -> None: ...
     @property
     def inflation_pressure(self) -> Optional[float]:
-        """absent: a rigid wheel [Pa], at least 0 Pa"""
+        """read by the effect tire_flexibility alone; without it the wheel is rigid [Pa], at least 0 Pa"""
     @inflation_pressure.setter
     def inflation_pressure(self, value: Optional[float]) -> None: ...
     @property
@@ -1788,9 +1788,9 @@ class TiltingBoardResult:
         """
 
 def tilting_board(soil: GranularSoil, packing: int = ..., across: int = ..., layers: float = ..., dt: float = ..., rolling: RollingLaw = ..., threads: int = ..., progress: Optional[Told] = ...) -> TiltingBoardResult:
-    """The paper's friction test: sand on a board of the tire's material, tilted until it slides. across: grains along a
-    side. layers: height in mean diameters. dt: time step [s]; 0: the longest that is safe, at which directional
-    rolling resistance lets grains creep. Raises InputError, RunStopped.
+    """The friction test of Zhou, Gao, Li, Hu: sand on a board of the tire's material, tilted until it slides. across:
+    grains along a side. layers: height in mean diameters. dt: time step [s]; 0: the longest that is safe, at which
+    directional rolling resistance lets grains creep. Raises InputError, RunStopped.
     """
 
 class PlateRun:

@@ -41,6 +41,9 @@ __all__ = [
 ]
 
 
+PULL_HINT = "the pull is drawbar=...; "
+
+
 def explain(scenario: Scenario, at: Optional[OperatingCondition] = None, **condition: Any) -> Explanation:
     """The model's equations with their values: explain(wheel, load=80, slip=0.2). Keywords and errors as of estimate;
     each step's value is in its own `unit`.
@@ -48,8 +51,9 @@ def explain(scenario: Scenario, at: Optional[OperatingCondition] = None, **condi
     return _soilbin.explain(checked(scenario), one_condition(at, condition))
 
 
-def at_any_slip(at: Optional[OperatingCondition], condition: dict[str, Any]) -> OperatingCondition:
-    return one_condition(at, condition if at is not None else {"slip": 0.0, **condition})
+def at_any_slip(at: Optional[OperatingCondition], condition: dict[str, Any], hint: str = "") -> OperatingCondition:
+    """As one_condition, for questions that do not read the slip: it may be left out."""
+    return one_condition(at, condition if at is not None else {"slip": 0.0, **condition}, hint)
 
 
 def largest_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, **condition: Any) -> PullPeak:
@@ -62,13 +66,13 @@ def largest_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, **
 def slip_for_pull(scenario: Scenario, at: Optional[OperatingCondition] = None, drawbar: float = 0.0,
                   **condition: Any) -> Optional[float]:
     """Smallest slip [-] above -0.5 at which the wheel pulls `drawbar` [N] on the slope of `at`; None where it can't."""
-    return _soilbin.slip_for_pull(checked(scenario), at_any_slip(at, condition), drawbar)
+    return _soilbin.slip_for_pull(checked(scenario), at_any_slip(at, condition, PULL_HINT), drawbar)
 
 
 def steepest_slope(scenario: Scenario, at: Optional[OperatingCondition] = None, drawbar: float = 0.0,
                    **condition: Any) -> Optional[float]:
     """Steepest slope [rad] that the wheel climbs while it pulls `drawbar` [N]; None beyond -60 .. 80 deg."""
-    return _soilbin.steepest_slope(checked(scenario), at_any_slip(at, condition), drawbar)
+    return _soilbin.steepest_slope(checked(scenario), at_any_slip(at, condition, PULL_HINT), drawbar)
 
 
 def drive_wheel(scenario: Scenario, drive: Optional[Drive], samples: int = 400,

@@ -23,6 +23,7 @@ def told_to(progress: Progress) -> Optional[Told]:
 
 
 def in_notebook() -> bool:
+    """Whether the code runs in a cell of Jupyter."""
     shell: Any = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
     return hasattr(shell, "kernel")
 

@@ -45,8 +45,11 @@ def checked(scenario: Scenario) -> Scenario:
     return scenario
 
 
-def one_condition(at: Optional[OperatingCondition], keywords: dict[str, Any]) -> OperatingCondition:
-    """`at` with these attributes changed, or a condition of them alone."""
+def one_condition(at: Optional[OperatingCondition], keywords: dict[str, Any], hint: str = "") -> OperatingCondition:
+    """`at` with these attributes changed, or a condition of them alone. `hint`: what another value for `at` may mean."""
+    if at is not None and not isinstance(at, OperatingCondition):
+        raise TypeError(f"at: expected an OperatingCondition, not {at!r}; {hint}numbers go by their names, "
+                        "such as load=80, slip=0.2")
     for name, value in keywords.items():
         if np.ndim(value) > 0:
             raise TypeError(f"{name}: one number is asked for, not {np.size(value)} of them; "
@@ -130,5 +133,6 @@ def answers_frame(answers: Sequence[Answer]) -> pd.DataFrame:
 
 
 def without_empty(frame: pd.DataFrame) -> pd.DataFrame:
+    """The frame without its columns moisture, position and run where no row has a value there."""
     unused = [name for name in ("moisture", "position", "run") if name in frame and frame[name].isna().all()]
     return frame.drop(columns=unused)
