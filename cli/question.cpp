@@ -204,8 +204,10 @@ void SoilFlags::apply(Soil& soil) const {
   SemiEmpiricalSoil& values = *soil.semi_empirical;
   for (const SoilParameter& p : soil_parameters)  // n first: the units of k_c and k_phi depend on it
     if (const std::string& text = texts_.at(p.name); !text.empty()) {
+      const double before = (values.*p.value).value;
       set_value(p, text, values);
-      values.sources[p.name] = command_line_source;
+      if (p.value != &SemiEmpiricalSoil::exponent || values.exponent.value != before)  // a doubt asks whether n changed
+        values.sources[p.name] = command_line_source;
     }
   for (const ExactSoilValue& exact : exact_soil_values)
     if (const std::string& text = texts_.at(exact.name); !text.empty()) {

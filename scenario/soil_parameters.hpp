@@ -65,7 +65,7 @@ struct ExactSoilValue {
   Measure measure() const { return {unit, above_zero}; }
 };
 
-inline constexpr const char* gravity_meaning = "that pulls on soil and wheel; absent: Earth's, 9.80665 m/s^2";
+inline constexpr const char* gravity_meaning = "that pulls on soil and wheel; absent: Earth's";
 
 inline constexpr std::array<ExactSoilValue, 2> exact_soil_values = {{
     {"density", "kg/m^3", "bulk density", "1600kg/m^3", &SemiEmpiricalSoil::density},

@@ -24,11 +24,11 @@ Folds deal_folds(const Observations& observations, int folds, std::uint64_t seed
   return dealt;
 }
 
-std::pair<double, double> over_conditions(const std::map<int, double>& sums) {
+std::pair<double, double> over_blocks(const std::map<int, double>& sums) {
   const double n = static_cast<double>(sums.size());
   double mean = 0, square = 0;
-  for (const auto& [condition, sum] : sums) mean += sum / n;
-  for (const auto& [condition, sum] : sums) square += std::pow(sum - mean, 2);
+  for (const auto& [block, sum] : sums) mean += sum / n;
+  for (const auto& [block, sum] : sums) square += std::pow(sum - mean, 2);
   return {mean, std::sqrt(square / std::max(1.0, n - 1) / n)};
 }
 
@@ -72,27 +72,23 @@ std::vector<FoldDensity> fold_densities(const FittedModel& model, std::uint64_t 
   pool.each(folds.count, [&](int f, const Pulse& pulse) {
     pulse();
     std::vector<bool> keep(fold.size()), held(fold.size());
-    std::vector<int> original;
-    for (std::size_t c = 0; c < fold.size(); ++c) {
-      keep[c] = fold[c] != f, held[c] = !keep[c];
-      if (held[c]) original.push_back(static_cast<int>(c));
-    }
+    for (std::size_t c = 0; c < fold.size(); ++c) keep[c] = fold[c] != f, held[c] = !keep[c];
     const Observations rest = of_conditions(all, held);
-    for (const Cell& cell : rest.cells) densities[f].condition.push_back(original[rest.condition[cell.row]]);
+    for (const Cell& cell : rest.cells) densities[f].block.push_back(rest.block[rest.condition[cell.row]]);
     densities[f].log_density = density_of(model, of_conditions(all, keep), rest);
   });
   return densities;
 }
 
 PredictiveGain predictive_gain(const std::vector<FoldDensity>& model, const std::vector<FoldDensity>& over) {
-  std::map<int, double> gain;  // of each condition
+  std::map<int, double> gain;  // of each block
   for (std::size_t f = 0; f < model.size(); ++f) {
     const auto &better = model[f].log_density, &base = over[f].log_density;
     if (!better || !base) continue;
-    for (Index i = 0; i < better->size(); ++i) gain[model[f].condition[i]] += (*better)[i] - (*base)[i];
+    for (Index i = 0; i < better->size(); ++i) gain[model[f].block[i]] += (*better)[i] - (*base)[i];
   }
   if (gain.size() < 2) return {};
-  const auto [mean, error] = over_conditions(gain);
+  const auto [mean, error] = over_blocks(gain);
   return {mean, error, static_cast<int>(gain.size())};
 }
 

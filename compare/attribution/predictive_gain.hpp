@@ -21,10 +21,11 @@ struct Folds {
 /// tests nothing.
 Folds deal_folds(const Observations& observations, int folds, std::uint64_t seed);
 
-/// Mean and standard error over conditions of what the cells of each add up to.
-std::pair<double, double> over_conditions(const std::map<int, double>& sums);
+/// Mean and standard error over blocks of conditions of what the cells of each add up to.
+std::pair<double, double> over_blocks(const std::map<int, double>& sums);
 
-/// Gain of one model over another in the ln density that they give to conditions left out, mean over conditions.
+/// Gain of one model over another in the ln density that they give to conditions left out, mean over blocks of them
+/// (Observations::block; a condition each, but for re-runs without a label).
 /// Densities include each model's own uncertainty, so that a bold extrapolation costs only what it claims to know.
 struct PredictiveGain {
   double mean = 0.0;
@@ -34,7 +35,7 @@ struct PredictiveGain {
 
 /// The ln density that a model gives to the cells of a fold, fitted anew to the conditions of all other folds.
 struct FoldDensity {
-  std::vector<int> condition;                  ///< of each cell
+  std::vector<int> block;                      ///< of each cell: Observations::block of its condition
   std::optional<Eigen::VectorXd> log_density;  ///< of each cell; nothing where no fit carries every run
 };
 std::vector<FoldDensity> fold_densities(const FittedModel& model, std::uint64_t seed, const ThreadPool& pool = {});

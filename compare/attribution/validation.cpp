@@ -39,7 +39,7 @@ FoldResult run_fold(const Dataset& whole, const NoiseFloor& noise, const Validat
   const FittedModel& base = exact.base;
   const CandidateModel* chosen =
       found.candidates.best ? &found.candidates.models[choose(found, options.attribution).candidate] : nullptr;
-  const FittedModel* better = chosen ? &chosen->model : nullptr;
+  const FittedModel* better = chosen && options.takes_named ? &chosen->model : nullptr;
   std::vector<LearnedEffect> learned;
   if (options.learn) learned = learn_effects(refitted_as_exact(base, better), options.attribution);
   FoldResult result;
@@ -119,24 +119,24 @@ HeldOutErrors errors_over(const std::vector<HeldOut>& cells, int channel) {
   return e;
 }
 
-void pair_by_condition(const Observations& all, CrossValidation& cv) {
+void pair_by_block(const Observations& all, CrossValidation& cv) {
   std::map<int, std::pair<double, int>> fall;
   for (const HeldOut& h : cv.cells) {
     const double b = (h.measured - h.before) / h.sd, a = (h.measured - h.after) / h.sd;
-    auto& [sum, count] = fall[all.condition[h.row]];
+    auto& [sum, count] = fall[all.block[all.condition[h.row]]];
     sum += b * b - a * a;
     ++count;
   }
   if (fall.size() < 2) return;
   std::map<int, double> means;
-  for (const auto& [condition, f] : fall) means[condition] = f.first / f.second;
-  std::tie(cv.gain, cv.gain_error) = over_conditions(means);
+  for (const auto& [block, f] : fall) means[block] = f.first / f.second;
+  std::tie(cv.gain, cv.gain_error) = over_blocks(means);
 }
 
 void sum_up(const Observations& whole, CrossValidation& cv) {
   for (int c = 0; c < channel_count; ++c) cv.channels[c] = errors_over(cv.cells, c);
   cv.overall = errors_over(cv.cells, -1);
-  pair_by_condition(whole, cv);
+  pair_by_block(whole, cv);
 }
 
 }  // namespace

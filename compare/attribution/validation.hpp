@@ -42,6 +42,7 @@ struct ValidationOptions {
   AttributionOptions attribution;
   bool with_model_discrepancy = false;  ///< choose with the base model's discrepancy, where that can be attributed;
                                         ///< errors before are those of the base model taken as exact, all the same
+  bool takes_named = true;              ///< the model whose error is asked for has the named effects that are chosen
   bool learn = false;  ///< beside the chosen model learned effects, looked for and accepted anew in each fold
   int folds = 5;
   int threads = 1;    ///< folds at once; the answer does not depend on it

@@ -6,6 +6,7 @@
 
 #include "compare/attribution/evidence_words.hpp"
 #include "compare/fit/thresholds.hpp"
+#include "compare/report/number_text.hpp"
 
 namespace soilbin::compare {
 
@@ -110,10 +111,10 @@ Conclusion conclude(const Attribution& found, const ResidualTests& before,
     return {Verdict::unknown_effect, fmt::format("the residual is real ({}), {}", odds_and_p(found.signatures), *more)};
   if (!choice->stands)
     return without_effect(found, before,
-                          fmt::format("the best effect fits (p = {:.2g}) but does not predict held-out conditions "
+                          fmt::format("the best effect fits ({}) but does not predict held-out conditions "
                                       "better (gain in ln density a condition {:.2g} +- {:.2g})",
-                                      p, choice->gain.mean, choice->gain.std_error));
-  return {Verdict::effect_found, fmt::format("p = {:.2g} among the whole catalogue", p)};
+                                      p_words(found.signatures), choice->gain.mean, choice->gain.std_error));
+  return {Verdict::effect_found, fmt::format("{} among the whole catalogue", p_words(found.signatures))};
 }
 
 /// Chooses among the candidates, where any may stand; the choice is the best from then on.
@@ -129,10 +130,10 @@ std::optional<ChosenCandidate> settle(Attribution& found, const AttributionOptio
 std::optional<std::string> too_small(const Campaign& campaign, const Observations& observations) {
   const int values = static_cast<int>(observations.cells.size());
   const int free = free_parameters(campaign.soil);
-  if (values - free >= thresholds::min_spare_values && observations.conditions >= thresholds::min_conditions)
+  if (values - free >= thresholds::min_spare_values && observations.blocks() >= thresholds::min_conditions)
     return std::nullopt;
-  return fmt::format("{} measured values of {} conditions for {} soil values leave too little to judge by", values,
-                     observations.conditions, free);
+  return fmt::format("{} measured values of {} for {} soil values leave too little to judge by", values,
+                     counted(observations.blocks(), "condition"), free);
 }
 
 Judgement judge(Attribution found, const AttributionOptions& options) {
@@ -142,6 +143,15 @@ Judgement judge(Attribution found, const AttributionOptions& options) {
   auto choice = settle(found, options);
   Conclusion conclusion = conclude(found, before, choice);
   return {std::move(found), before, std::move(choice), conclusion.verdict, std::move(conclusion.reason)};
+}
+
+Judgement without_its_effects(Judgement judgement, const std::string& why_not) {
+  judgement.choice->stands = false;
+  Conclusion conclusion =
+      without_effect(judgement.found, judgement.before,
+                     fmt::format("the best effect fits ({}), but {}", p_words(judgement.found.signatures), why_not));
+  judgement.verdict = conclusion.verdict, judgement.reason = std::move(conclusion.reason);
+  return judgement;
 }
 
 Judgement judge_with_model_discrepancy(Attribution found, const AttributionOptions& options) {

@@ -30,6 +30,9 @@ std::optional<std::string> too_small(const Campaign& campaign, const Observation
 /// Whether an effect is missing, the base model taken as exact.
 Judgement judge(Attribution found, const AttributionOptions& options);
 
+/// The same where the effects that were found are not confirmed after all, for this reason: as where none stands.
+Judgement without_its_effects(Judgement judgement, const std::string& why_not);
+
 /// The same for an unknown effect, with an attribution that has a model discrepancy and a candidate that stands out:
 /// the verdict stays unknown_effect.
 Judgement judge_with_model_discrepancy(Attribution found, const AttributionOptions& options);

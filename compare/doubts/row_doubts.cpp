@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "compare/measured/channels.hpp"
@@ -59,20 +60,32 @@ void add_flipped_sinkage(const std::vector<Run>& runs, RowDoubts& found) {
                      above, measured)});
 }
 
-/// What no other run repeats: all that was set and measured in it. Of several channels no run repeats the last digit of
-/// another, whatever its number and its place.
+/// All that was set and measured in a run, but for the line it stands in.
 auto values_of(const Run& run) {
-  OperatingCondition at = run.at;
-  const int channels =
-      run.drawbar_pull.has_value() + run.torque.has_value() + run.sinkage.has_value() + run.lateral_force.has_value();
-  if (channels > 1) at.run.reset(), at.position.reset();
-  return std::make_tuple(run.drawbar_pull, run.torque, run.sinkage, run.lateral_force, at);
+  return std::make_tuple(run.setpoint, run.drawbar_pull, run.torque, run.sinkage, run.lateral_force, run.at);
+}
+
+/// A fifth of the rows or more that repeat an earlier one to the last digit under another number or label: here and
+/// there a re-run does.
+void add_renumbered_copies(const std::vector<Run>& runs, RowDoubts& found) {
+  constexpr std::size_t few = 5, one_in = 5;
+  std::set<decltype(values_of(runs.front()))> before;
+  std::size_t copies = 0;
+  for (Run run : runs) {
+    run.setpoint.reset(), run.at.run.reset(), run.at.position.reset();
+    if (!before.insert(values_of(run)).second) ++copies;
+  }
+  if (copies >= few && one_in * copies >= runs.size())
+    found.push_back({std::nullopt, fmt::format("{} of {} rows have all values of an earlier one, under another number: "
+                                               "were they copied? They would count twice",
+                                               copies, runs.size())});
 }
 
 /// Rows that were copied: a run's number that was there before, or every value equal to that of an earlier row.
 void add_repeated_rows(const std::vector<Run>& runs, RowDoubts& found) {
   std::map<decltype(values_of(runs.front())), int> line_of_values;
   std::map<int, int> line_of_number;
+  const std::size_t others = found.size();
   for (const Run& run : runs) {
     const int same = line_of_values.try_emplace(values_of(run), run.csv_line).first->second;
     const int numbered = run.at.run ? line_of_number.try_emplace(*run.at.run, run.csv_line).first->second : same;
@@ -82,6 +95,7 @@ void add_repeated_rows(const std::vector<Run>& runs, RowDoubts& found) {
                                        ? fmt::format("all its values are those of line {}: counted twice", earlier)
                                        : fmt::format("run {} stands in line {} already", *run.at.run, earlier)});
   }
+  if (found.size() == others) add_renumbered_copies(runs, found);
 }
 
 }  // namespace

@@ -121,17 +121,20 @@ std::string largest_parts(const AnalyticDrive& part) {
   return names.empty() || names.size() > 3 ? "" : "Most of the ± comes from " + listed(names) + ".";
 }
 
-/// "On snow from 0.5 m on: ± is ..." of each soil of the way once.
-std::vector<std::string> words_on_other_soils(const Drive& drive) {
-  std::vector<std::string> sentences, told;
-  for (const Waypoint& point : drive.profile) {
-    if (!point.soil) continue;
+/// "On snow from 0.5 m on: ± is ..." of each soil of the way that is another one than those before.
+std::vector<std::string> words_on_other_soils(const Case& question) {
+  const auto errors_on = [](const Soil& soil) {
     Scenario scenario;
-    scenario.soil = *point.soil;
-    const std::string words = fmt::format("{}: {}", compare::in_words(*point.soil), errors_in_words(scenario));
-    if (std::ranges::find(told, words) != told.end()) continue;
-    told.push_back(words);
-    sentences.push_back(fmt::format("On {}", words));
+    scenario.soil = soil;
+    return errors_in_words(scenario);
+  };
+  const auto named = [&](const Soil& soil) { return soil.name + ": " + errors_on(soil); };
+  std::vector<std::string> sentences, told = {named(question.scenario.soil)};
+  for (const Waypoint& point : question.drive->profile) {
+    if (!point.soil || std::ranges::find(told, named(*point.soil)) != told.end()) continue;
+    told.push_back(named(*point.soil));
+    sentences.push_back(
+        fmt::format("On {} from {:.4g} m on: {}", compare::in_words(*point.soil), point.at, errors_on(*point.soil)));
   }
   return sentences;
 }
@@ -143,7 +146,7 @@ std::vector<std::string> words_on_errors(const AnalyticDrive& part) {
     const Drive& drive = *part.question.drive;
     sentences.push_back(
         errors_in_words(seen_by({ModelKind::bekker_wong, drive.effects, "", drive.errors}, part.question.scenario)));
-    const std::vector<std::string> others = words_on_other_soils(drive);
+    const std::vector<std::string> others = words_on_other_soils(part.question);
     sentences.insert(sentences.end(), others.begin(), others.end());
     if (const std::string parts = largest_parts(part); !parts.empty()) sentences.push_back(parts);
   }

@@ -49,6 +49,13 @@ double FittedModel::held_error(Index parameter) const {
   return known > 0 ? 1 / std::sqrt(known) : std::numeric_limits<double>::infinity();
 }
 
+VectorXd FittedModel::errors_held_or_free() const {
+  VectorXd errors = standard_errors();
+  for (Index i = 0; i < errors.size(); ++i)
+    if (errors[i] == 0.0) errors[i] = held_error(i);
+  return errors;
+}
+
 double FittedModel::absorbed_freedom() const {
   const MatrixXd seen = fit_.columns.topRows(data_->cells());
   return information(ridge_of_errors).solve(seen.transpose() * seen).trace();
@@ -64,10 +71,9 @@ VectorXd FittedModel::contribution(int term) const {
 
 SemiEmpiricalSoil FittedModel::soil() const {
   SemiEmpiricalSoil soil = data_->campaign->soil;
-  const VectorXd errors = standard_errors();
-  for (int i = 0; i < predictor_.soil_parameters(); ++i)  // a value that its bound holds is no exact one
-    soil.*soil_parameter(predictor_.parameters()[i].name).value = {fit_.theta[i],
-                                                                   errors[i] > 0.0 ? errors[i] : held_error(i)};
+  const VectorXd errors = errors_held_or_free();
+  for (int i = 0; i < predictor_.soil_parameters(); ++i)
+    soil.*soil_parameter(predictor_.parameters()[i].name).value = {fit_.theta[i], errors[i]};
   return soil;
 }
 

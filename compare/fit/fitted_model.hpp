@@ -62,6 +62,8 @@ class FittedModel {
   Eigen::VectorXd standard_errors() const;
   /// 1 sd that a parameter held by a bound would have if it could move, the others free as they are [SI].
   double held_error(Eigen::Index parameter) const;
+  /// standard_errors(), with held_error() of each parameter that its bound holds: no exact value.
+  Eigen::VectorXd errors_held_or_free() const;
   /// Degrees of freedom of the cells that the parameters take, as far as their priors let them.
   double absorbed_freedom() const;
   /// What a term adds to each cell, the other parameters as fitted; zeros where the soil carries nothing without it.

@@ -274,7 +274,7 @@ double price_of(const VarianceComponents& model, const ChannelSizes& sizes, doub
          thresholds::price_of_growth * sizes.share + thresholds::price_of_growth * sizes.part;
 }
 
-constexpr double sigma_step = 0.12, ratio_step = 1.2;  // of ln sigma, and the widest of ln(tau/sigma), on the grid
+constexpr double sigma_step = 0.12, ratio_step = 1.2;  // of ln sigma, and about that of ln(tau/sigma), on the grid
 
 /// The top near a point of the grid: a step apart is a share of the noise that chi2 and errors would show.
 ChannelSizes refined(const VarianceComponents& model, ChannelSizes sizes, double typical) {

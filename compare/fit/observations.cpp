@@ -29,9 +29,11 @@ auto fingerprint(const OperatingCondition& at) {
                          at.moisture.value_or(0.0), at.position.value_or(0.0));
 }
 
+constexpr double widest_slip = 0.015;  // of a block
+
 /// Whether two conditions may be one setpoint, read twice by instruments.
 bool may_be_one(const OperatingCondition& a, const OperatingCondition& b) {
-  constexpr double load_share = 0.03, slip = 0.01, speed_share = 0.1, angle = 0.5 * degree, moisture = 0.005;
+  constexpr double load_share = 0.05, slip = widest_slip, speed_share = 0.1, angle = 0.5 * degree, moisture = 0.005;
   const auto near = [](double x, double y, double within) { return std::abs(x - y) <= within; };
   return near(a.load, b.load, load_share * a.load) && near(a.slip, b.slip, slip) &&
          near(a.speed, b.speed, speed_share * std::abs(a.speed)) && a.pass == b.pass &&
@@ -40,7 +42,8 @@ bool may_be_one(const OperatingCondition& a, const OperatingCondition& b) {
          near(a.moisture.value_or(0.0), b.moisture.value_or(0.0), moisture);
 }
 
-/// Blocks begin with one condition and take what is near that one, in the order of their slips and loads.
+/// Blocks begin with the condition of least slip that has none and take what is near that one. No chain of neighbours
+/// makes a block, for a dense sweep would be a single one.
 std::vector<int> blocks_of(const std::vector<OperatingCondition>& conditions, const std::vector<bool>& labelled) {
   std::vector<std::size_t> order(conditions.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -53,7 +56,7 @@ std::vector<int> blocks_of(const std::vector<OperatingCondition>& conditions, co
     if (labelled[first]) continue;
     for (std::size_t k = i + 1; k < order.size(); ++k) {
       const std::size_t other = order[k];
-      if (conditions[other].slip - conditions[first].slip > 0.02) break;
+      if (conditions[other].slip - conditions[first].slip > widest_slip) break;
       if (block[other] < 0 && !labelled[other] && may_be_one(conditions[first], conditions[other]))
         block[other] = static_cast<int>(first);
     }
@@ -62,6 +65,8 @@ std::vector<int> blocks_of(const std::vector<OperatingCondition>& conditions, co
 }
 
 }  // namespace
+
+int Observations::blocks() const { return static_cast<int>(std::set(block.begin(), block.end()).size()); }
 
 int Observations::conditions_in_blocks() const {
   std::set<int> several, seen;

@@ -47,7 +47,8 @@ struct Observations {
   Eigen::VectorXd values() const;
   /// Rows per condition beyond the first, summed: the degrees of freedom that re-runs alone give.
   int rerun_freedom() const;
-  /// How many share their block with another.
+  int blocks() const;
+  /// How many conditions share their block with another.
   int conditions_in_blocks() const;
 };
 

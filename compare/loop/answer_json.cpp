@@ -53,7 +53,8 @@ Json soil_json(const LoopAnswer& answer) {
     soil[s.name] = {{"value", finite(s.with.value)},
                     {"sd", finite(s.with.std_error)},
                     {"without", finite(s.without.value)},
-                    {"bias", finite(s.without.value - s.with.value)}};
+                    {"bias", finite(s.without.value - s.with.value)},
+                    {"at_bound", s.held}};
   return soil;
 }
 

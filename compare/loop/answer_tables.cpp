@@ -78,7 +78,23 @@ Table next_run_table(const LoopAnswer& answer) {
   return table;
 }
 
+/// Of a model that takes no effects: no "after".
+Table base_error_table(const LoopAnswer& answer) {
+  Table table{
+      "Root mean square error on conditions that the fit has not seen, the soil refitted; noise alone: what no "
+      "smooth function of the conditions explains",
+      {"channel", "values", "error", "noise alone"}};
+  for (std::size_t c = 0; c < channel_views.size(); ++c)
+    if (const HeldOutErrors& e = answer.validation.channels[c]; e.cells > 0)
+      table.add({std::string(channel_views[c].title), std::to_string(e.cells), in_unit(c, e.before),
+                 in_unit(c, e.noise_floor)});
+  if (const HeldOutErrors& all = answer.validation.overall; all.cells > 0)
+    table.add({"all, in standard deviations of the noise", std::to_string(all.cells), number(all.before), "1"});
+  return table;
+}
+
 Table error_table(const LoopAnswer& answer) {
+  if (!takes_effects(answer)) return base_error_table(answer);
   MarkedTable table{
       "Root mean square error on conditions that neither choice nor fit has seen; before: soil refitted, no effect "
       "added; noise alone: what no smooth function of the conditions explains",
@@ -178,7 +194,7 @@ Table soil_table(const LoopAnswer& answer) {
   constexpr double hardly_less = 0.9;  // of the declared standard deviation: the data tell next to nothing
   for (const SoilShift& s : answer.soil_shifts) {
     const SoilParameter& p = soil_parameter(s.name);
-    const bool held = s.with.std_error == 0;  // a fit leaves no error to a value that it ends at its bound
+    const bool held = s.held;
     const bool as_declared = s.declared_sd > 0 && s.with.std_error > hardly_less * s.declared_sd;
     table.add({{p.title, p.meaning},
                number(s.with, p.per_si),

@@ -141,16 +141,15 @@ std::string odds_clause(const LoopAnswer& answer) {
                      p_words(signatures));
 }
 
-/// Effects of which the data ask for more than their form has; "" where there is none.
-std::string larger_than_their_forms(const LoopAnswer& answer) {
+/// Effects whose amplitude ends at the bound of its form; "" where there is none.
+std::string sizes_at_a_bound(const LoopAnswer& answer) {
   std::vector<std::string> names;
   for (const AcceptedEffect& effect : answer.effects)
     if (!effect.at_bound.empty() && effect.at_bound.front()) names.push_back(named_effects({effect.choice.id}));
   if (names.empty()) return "";
   return fmt::format(
-      " The data ask for more of {} than its form can give: something else may act like it, such as a column in "
-      "another "
-      "unit or a wheel of another size than is declared.",
+      " The size of {} ends at the bound of its form: something else may act like it, such as a column in another unit "
+      "or a wheel of another size than is declared.",
       joined_with_and(names));
 }
 
@@ -162,7 +161,7 @@ std::string beside_the_verdict(const LoopAnswer& answer) {
     case Verdict::effect_found:
       return (sets.size() > 1 ? "Other candidates: " + sets_with_shares(sets, 1, least_share) + "." + why_taken(sets)
                               : next_candidate(answer)) +
-             larger_than_their_forms(answer) + presumed_of_the_wheel(answer);
+             sizes_at_a_bound(answer) + presumed_of_the_wheel(answer);
     case Verdict::unknown_effect:
       return sets.size() > 1 ? "Of the known effects these come nearest: " + sets_with_shares(sets, 0, worth_listing) +
                                    "." + (takes_effects(answer) ? why_taken(sets) : "")
@@ -324,13 +323,13 @@ std::string note_on_declared_soil(const LoopAnswer& answer) {
     const double fitted = model.fit().theta[i];
     if (!(std::abs(fitted - of.prior) > far * of.prior_sd)) continue;
     const SoilParameter& p = soil_parameter(of.name);
-    values.push_back(fmt::format("{} {}{}, declared as {}", p.symbol, number(fitted * p.per_si), unit_behind(p.unit),
+    values.push_back(fmt::format("{} {}{} in place of {}", p.symbol, number(fitted * p.per_si), unit_behind(p.unit),
                                  number(Estimate{of.prior, of.prior_sd}, p.per_si)));
   }
   if (values.empty()) return "";
   return fmt::format(
-      "More than three declared standard deviations off is the fit's {}. Where that is declared too surely, an effect "
-      "may stand in for the soil.",
+      "The fit leaves what is known of the soil by more than three standard deviations: {}. Where that is declared too "
+      "surely, an effect may stand in for the soil.",
       fmt::join(values, "; "));
 }
 
@@ -440,8 +439,8 @@ std::vector<std::string> notes(const LoopAnswer& answer) {
     sentences.push_back("No two rows share a setpoint: the noise was estimated together with the fit.");
   if (const int near = answer.judgement ? answer.found().base.data().observations.conditions_in_blocks() : 0; near > 0)
     sentences.push_back(fmt::format(
-        "{} conditions without a label lie so near another one that they may be re-runs: none is predicted from its "
-        "neighbours. A label (setpoint) says which are, and tells the noise better.",
+        "{} conditions without a label lie so near another one that they may be re-runs: such are left out together. A "
+        "label (setpoint) says which are re-runs, and tells the noise better.",
         near));
   if (std::string noise = note_on_noise(answer); !noise.empty()) sentences.push_back(std::move(noise));
   if (answer.outliers() > 0) sentences.push_back(outlier_sentence(answer));

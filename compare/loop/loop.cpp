@@ -51,13 +51,15 @@ std::vector<AcceptedEffect> accepted_effects(const Attribution& found, const Att
 /// Of each free soil value, beside a model with effects and beside the base model.
 std::vector<SoilShift> soil_shifts(const FittedModel& with, const FittedModel& without) {
   // the same soil parameters come first in both
-  const Eigen::VectorXd error = with.standard_errors(), base_error = without.standard_errors();
+  const Eigen::VectorXd error = with.errors_held_or_free(), base_error = without.errors_held_or_free(),
+                        free_error = with.standard_errors();
   std::vector<SoilShift> shifts;
   for (int i = 0; i < without.predictor().soil_parameters(); ++i)
     shifts.push_back({with.predictor().parameters()[i].name,
                       {with.fit().theta[i], error[i]},
                       {without.fit().theta[i], base_error[i]},
-                      with.predictor().parameters()[i].prior_sd});
+                      with.predictor().parameters()[i].prior_sd,
+                      free_error[i] == 0.0});
   return shifts;
 }
 
@@ -184,11 +186,10 @@ bool is_no_better(const CrossValidation& errors) {
 }
 
 /// Whether named effects do not stand before conditions left out. Where folds, which have fewer conditions, choose none
-/// or do a little worse, an effect of overwhelming evidence is named all the same, and its error told.
+/// or do worse, an effect of overwhelming evidence is named all the same, and its error told.
 bool is_refuted(const Judgement& judgement, const CrossValidation& errors) {
-  if (judgement.verdict == Verdict::unknown_effect) return is_no_better(errors);
-  return was_asked(errors) && errors.overall.after > errors.overall.before &&
-         judgement.found.signatures.p_value > thresholds::sure_level;
+  return judgement.verdict == Verdict::effect_found && was_asked(errors) &&
+         errors.overall.after > errors.overall.before && judgement.found.signatures.p_value > thresholds::sure_level;
 }
 
 /// Whether the whole procedure, redone in each fold, predicts better with learned effects than without them, and in no
@@ -201,18 +202,6 @@ bool predicts_better(const CrossValidation& with_learned) {
   return with_learned.overall.after < with_learned.overall.named * (1 - thresholds::min_learned_gain);
 }
 
-/// Effects that are not confirmed on conditions left out are neither named nor saved.
-void take_no_effects(Judgement& judgement, const CrossValidation& errors) {
-  if (judgement.verdict == Verdict::effect_found) {
-    judgement.verdict = Verdict::unknown_effect;
-    judgement.reason += fmt::format(
-        ", but the procedure, repeated without them, predicts conditions left out worse with effects ({:.4g} "
-        "standard deviations of the noise, root mean square) than without ({:.4g})",
-        errors.overall.after, errors.overall.before);
-  }
-  judgement.choice->stands = false;
-}
-
 /// A decision redone on conditions left out, and the learned effects that predict those better. They become a part of
 /// the model that is saved and explain nothing: what is told to be unexplained, and what that depends on, stays what
 /// the named effects leave.
@@ -222,7 +211,7 @@ struct Validated {
   std::vector<LearnedEffect> learned;
 };
 
-/// Takes back from the decision what is not confirmed.
+/// Takes stand-ins back from the decision that predict no better.
 Validated validate(const FittedModel& base, Decision& decision, std::vector<LearnedEffect> learned,
                    const LoopOptions& options, LoopProgress& progress) {
   NoiseFloor noise = decision.noise();
@@ -231,6 +220,7 @@ Validated validate(const FittedModel& base, Decision& decision, std::vector<Lear
     errors = cross_validate(base.data(), noise,
                             {.attribution = of_a_fold(options.attribution),
                              .with_model_discrepancy = decision.second && decision.second->decides,
+                             .takes_named = decision.judgement.takes_best(),
                              .learn = !learned.empty(),
                              .folds = options.folds,
                              .threads = options.threads,
@@ -239,7 +229,8 @@ Validated validate(const FittedModel& base, Decision& decision, std::vector<Lear
   if (!learned.empty() && !predicts_better(errors))
     learned.clear(), errors = without_learned_effects(std::move(errors), all);
   Judgement& judgement = decision.judgement;
-  if (judgement.takes_best() && is_refuted(judgement, errors)) take_no_effects(judgement, errors);
+  const bool stands_in = judgement.takes_best() && judgement.verdict == Verdict::unknown_effect;
+  if (stands_in && is_no_better(errors)) judgement.choice->stands = false;
   if (!judgement.takes_best() && learned.empty()) errors = without_effects(std::move(errors), all);
   return {std::move(noise), std::move(errors), std::move(learned)};
 }
@@ -257,6 +248,21 @@ std::vector<SetAside> set_aside_by(const FittedModel& base, const Observations& 
     all.push_back(one);
   }
   return all;
+}
+
+Validated learn_and_validate(const FittedModel& base, Decision& decision, const LoopOptions& options,
+                             const AttributionOptions& whole, LoopProgress& progress) {
+  std::vector<LearnedEffect> learned = learned_beside(base, decision, whole);
+  progress.choice_made();
+  return validate(base, decision, std::move(learned), options, progress);
+}
+
+std::string why_refuted(const CrossValidation& errors) {
+  return fmt::format(
+      "with the effects that are found without them conditions left out are predicted worse: {:.4g} standard "
+      "deviations "
+      "of the noise, root mean square, in place of {:.4g}",
+      errors.overall.after, errors.overall.before);
 }
 
 /// The best named effects of an unknown one, and the learned ones beside them: the last candidate holds them all.
@@ -369,9 +375,11 @@ LoopAnswer run_loop(const Campaign& campaign, const LoopOptions& options) {
   Decision decision = decide(std::move(first), whole);
   if (decision.judgement.verdict == Verdict::not_enough_data)
     return not_judged(campaign, observations, std::move(hidden), std::move(decision));
-  std::vector<LearnedEffect> learned = learned_beside(base, decision, whole);
-  progress.choice_made();
-  Validated validated = validate(base, decision, std::move(learned), options, progress);
+  Validated validated = learn_and_validate(base, decision, options, whole, progress);
+  if (is_refuted(decision.judgement, validated.errors)) {
+    decision = decide(without_its_effects(std::move(decision.judgement), why_refuted(validated.errors)), whole);
+    validated = learn_and_validate(base, decision, options, whole, progress);
+  }
   progress.validation_made();
   LoopAnswer answer = answer_of({observations, base, std::move(hidden), std::move(decision), std::move(validated)},
                                 whole, options.limits);

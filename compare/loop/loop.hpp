@@ -51,6 +51,7 @@ struct SoilShift {
   std::string name;
   Estimate with, without;    ///< [SI]
   double declared_sd = 0.0;  ///< that the campaign gives the value [SI]
+  bool held = false;         ///< with the effects a bound holds it
 };
 
 struct LoopOptions {

@@ -190,7 +190,7 @@ void add_appendix(Page& page, const LoopAnswer& answer, const std::vector<Covari
   });
   page.folded("Noise", [&] {
     page.table(noise_table(answer));
-    if (answer.validation.overall.cells > 0)
+    if (answer.validation.overall.cells > 0 && takes_effects(answer))
       page.paragraph(fmt::format("The squared error on conditions left out falls by {} ± {} noise variances a value.",
                                  number(answer.validation.gain), number(answer.validation.gain_error)));
   });

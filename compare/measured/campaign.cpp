@@ -215,7 +215,7 @@ void check_amount(const Campaign& campaign, const SourceText& csv, CampaignUse u
     csv.refuse(0,
                fmt::format("{} rows with a measured value are fewer than the {} free parameters of the soil", rows,
                            parameters),
-               fmt::format("{} more runs will do; a value without an sd would count as exact", parameters - rows));
+               "measure more runs; an sd that is left out to pass makes the soil's value exact");
 }
 
 void read_model(const YamlNode* model, Campaign& campaign, const EffectVocabulary& effects, Reading reading) {

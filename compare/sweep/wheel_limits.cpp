@@ -200,7 +200,7 @@ std::string in_words(const WheelLimits& answer) {
                number(100 * row.best.slip)});
   text += as_text(table);
   if (std::ranges::any_of(answer.slopes, &SlopeRow::perhaps_not_at_all))
-    text += "or not at all: one standard error of the soil's values makes the slope steeper than what it climbs.\n";
+    text += "or not at all: with the soil one standard error weaker it does not climb this slope.\n";
   if (only_bounds(answer))
     text +=
         "The model has no slip sinkage: the largest pull lies at 100 % slip, where a wheel digs itself in. So the "

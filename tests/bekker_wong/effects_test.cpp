@@ -357,20 +357,28 @@ TEST(Effects, EveryFormLeavesTheLoadCarried) {
 
 // Where another effect settles the wheel, the stresses of a form there are scaled, and with them what its faces lift.
 TEST(Effects, EveryFormLeavesTheLoadCarriedWhereTheWheelSettles) {
+  const EffectChoice digs[] = {{"slip_sinkage", "lyasko", {}},
+                               {"slip_sinkage", "linear", {}},
+                               {"slip_sinkage", "reece", {}},
+                               {"slip_sinkage", "sliding", {}},
+                               {"multipass", "rut_power", {}}};
+  std::size_t asked = 0, answered = 0;
   for (const EffectForm& form : effect_catalogue())
-    for (const char* digs : {"lyasko", "linear", "reece", "sliding"})
+    for (const EffectChoice& deeper : digs)
       for (const Setting& s : settings())
         for (const Question& q : questions) {
-          if (form.id == "slip_sinkage") continue;
+          if (form.id == deeper.id) continue;
           const OperatingCondition at = condition(s, q);
           const double load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
+          ++asked;
           try {
-            const RollingWheel wheel(s.tire, s.soil,
-                                     make_effects({{form.id, form.form, {}}, {"slip_sinkage", digs, {}}}), bin);
-            EXPECT_NEAR(wheel.roll(at).forces.vertical, load, 1e-9 * load) << label(form, s, q) << ", " << digs;
+            const RollingWheel wheel(s.tire, s.soil, make_effects({{form.id, form.form, {}}, deeper}), bin);
+            EXPECT_NEAR(wheel.roll(at).forces.vertical, load, 1e-9 * load) << label(form, s, q) << ", " << deeper.form;
+            ++answered;
           } catch (const NoSolution&) {  // digs itself in
           }
         }
+  EXPECT_GT(answered, asked * 3 / 4);
 }
 
 TEST(Effects, DerivativeAtZeroIsThatOfTheImplicitFunctionTheorem) {

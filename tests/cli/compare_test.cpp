@@ -166,6 +166,9 @@ TEST(Compare, NamesWhatIsWrong) {
   EXPECT_THAT(soilbin("compare paper-straight --measured cmu-smooth").err, HasSubstr("measured a wheel (r 58 mm"));
   EXPECT_THAT(soilbin("compare paper-straight --replay no-such").err, HasSubstr("no-such: no such file"));
   EXPECT_EQ(soilbin("compare paper-straight --recorded no-such.json").status, 2);
+  for (const char* command : {"compare", "run"})
+    EXPECT_THAT(soilbin(std::string(command) + " paper-straight --recorded --bed-length 1m").err,
+                HasSubstr("--bed-length changes nothing of runs that are recorded"));
 }
 
 }  // namespace

@@ -362,6 +362,19 @@ TEST(LimitsCommand, AStandardErrorIsTheChangeByOneStandardDeviation) {
 }
 
 // With 64.68 N the rover's wheel pulls most at 100 % slip, where it climbs nothing; with 80 N at less.
+// Where one standard error less of pull leaves none, a slip has no error to first order.
+TEST(LimitsCommand, ASlopeThatIsPerhapsNotClimbedSaysSo) {
+  const std::string ask = "limits --tire rover-wheel --soil dry-sand --load 64.68N";
+  EXPECT_THAT(soilbin(ask).out, AllOf(HasSubstr(", or not at all"), HasSubstr("one standard error weaker")));
+  std::size_t perhaps = 0;
+  for (const nlohmann::json& row : soilbin(ask + " --json").json()["rows"][0]["slopes"]) {
+    const bool sure = row["largest_pull"] > row["std_error"]["largest_pull"];
+    EXPECT_EQ(row["std_error"]["slip"].is_null(), !sure) << row;
+    perhaps += !sure;
+  }
+  EXPECT_GT(perhaps, 2U);
+}
+
 TEST(LimitsCommand, AWheelThatSpinsOnTheSpotClimbsNothing) {
   const std::string light = soilbin("limits --tire rover-wheel --soil dry-sand --load 64.68N").out,
                     heavy = soilbin("limits --tire rover-wheel --soil dry-sand --load 80N").out;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <sstream>
 
@@ -78,6 +80,27 @@ TEST(Estimate, JsonHasTheContractsNamesAndABudgetThatAddsUp) {
   EXPECT_NEAR(sum, row["drawbar_pull"].get<double>(), 1e-9);
   EXPECT_GT(row["std_error"]["drawbar_pull"].get<double>(), 0.0);
   EXPECT_NEAR(row["yaw"].get<double>(), 5 * std::acos(-1.0) / 180, 1e-12);
+}
+
+// What was asked, flags and all, as a case that answers the same.
+TEST(Estimate, JsonHoldsItsCase) {
+  const nlohmann::json asked =
+      soilbin("estimate " + wheel + "--slip 0.2 --friction-angle 35deg --effect lug_thrust:passive_blade,a=1 --json")
+          .json();
+  const auto file = std::filesystem::path(testing::TempDir()) / "asked.yaml";
+  std::ofstream(file) << asked["case"].get<std::string>();
+  const nlohmann::json again = soilbin("estimate '" + file.string() + "' --json").json();
+  EXPECT_EQ(again["rows"][0]["drawbar_pull"], asked["rows"][0]["drawbar_pull"]);
+  EXPECT_THAT(asked["case"].get<std::string>(), AllOf(HasSubstr("form: passive_blade"), HasSubstr("35 deg")));
+}
+
+// Typed values that change nothing, or half of what belongs together.
+TEST(Estimate, DoubtsWhatWasTyped) {
+  const std::string point = "estimate " + wheel + "--slip 0.2 ";
+  EXPECT_THAT(soilbin(point + "--gravity 1.62m/s^2").err, HasSubstr("gravity changes nothing"));
+  EXPECT_EQ(soilbin(point + "--gravity 1.62m/s^2 --effect bulldozing").err, "");
+  EXPECT_THAT(soilbin(point + "--exponent 0.9").err, HasSubstr("n was changed and k_phi was not"));
+  EXPECT_EQ(soilbin(point + "--exponent 1.1+-0.05").err, "") << "dry-sand's own n";
 }
 
 TEST(Estimate, SeveralSlipsGiveATableAndAPlotWithoutAFile) {

@@ -23,6 +23,7 @@ TEST(SlowLoopCommand, NamesTheLessonsEffectInWordsAndLeavesItsFiles) {
   EXPECT_THAT(text_of(page), HasSubstr("<svg"));
   EXPECT_THAT(text_of(page), HasSubstr("soilbin loop made-lesson --folds 4 --limit load=0.3kN..400N --report"));
   const Outcome predicted = soilbin("predict made-lesson --model '" + model + "'");
+  EXPECT_THAT(predicted.out, HasSubstr("which was fitted to these runs"));
   EXPECT_EQ(predicted.status, 0) << predicted.err;
 }
 

@@ -1,7 +1,7 @@
 // The loop as a whole, on campaigns whose missing effect the test put in.
 #include "compare/loop/loop.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -318,12 +318,26 @@ TEST(Loop, SaysWhereTheFitLeavesTheDeclaredSoilFarBehind) {
   const auto told = [&] {
     const std::vector<std::string> said = notes(run_loop(campaign, quick()));
     return std::ranges::any_of(said, [](const std::string& sentence) {
-      return sentence.starts_with("More than three declared standard deviations off is the fit's ");
+      return sentence.starts_with("The fit leaves what is known of the soil by more than three standard deviations: ");
     });
   };
   EXPECT_FALSE(told());
   for (const SoilParameter& p : soil_parameters) (campaign.soil.*p.value).std_error /= 10;
   EXPECT_TRUE(told());
+}
+
+// One setpoint, read a little otherwise each time and without a label: nothing can be left out to try a model on.
+TEST(Loop, SaysWhenAllRunsMayBeRerunsOfOneSetpoint) {
+  Campaign campaign = sand_campaign();
+  std::vector<OperatingCondition> rows(14, sweep().front());
+  measure(campaign, rows, {}, fine_noise, 27);
+  for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
+    campaign.runs[i].setpoint.reset();
+    campaign.runs[i].at.load += 0.1 * static_cast<double>(i);
+  }
+  const LoopAnswer answer = run_loop(campaign, quick());
+  EXPECT_EQ(answer.verdict, Verdict::not_enough_data);
+  EXPECT_THAT(answer.reason, testing::HasSubstr("of 1 condition"));
 }
 
 TEST(Loop, SaysWhenThereIsTooLittle) {

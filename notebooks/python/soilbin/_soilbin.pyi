@@ -181,7 +181,7 @@ class SemiEmpiricalSoil:
     def density(self, value: Optional[float]) -> None: ...
     @property
     def gravity(self) -> Optional[float]:
-        """that pulls on soil and wheel; absent: Earth's, 9.80665 m/s^2 [m/s^2], above 0 m/s^2"""
+        """that pulls on soil and wheel; absent: Earth's [m/s^2], above 0 m/s^2"""
     @gravity.setter
     def gravity(self, value: Optional[float]) -> None: ...
     def __init__(self, *, exponent: Union[Estimate, float], assumed_sd: Optional[float] = ..., k_c: Union[Estimate, float], k_phi: Union[Estimate, float], cohesion: Union[Estimate, float], friction_angle: Union[Estimate, float], shear_modulus: Union[Estimate, float], stress_angle_c1: Union[Estimate, float] = ..., stress_angle_c2: Union[Estimate, float] = ..., density: Optional[float] = ..., gravity: Optional[float] = ...) -> None:
@@ -283,7 +283,7 @@ class GranularSoil:
     def grain_density(self, value: float) -> None: ...
     @property
     def gravity(self) -> Optional[float]:
-        """that pulls on soil and wheel; absent: Earth's, 9.80665 m/s^2 [m/s^2], above 0 m/s^2"""
+        """that pulls on soil and wheel; absent: Earth's [m/s^2], above 0 m/s^2"""
     @gravity.setter
     def gravity(self, value: Optional[float]) -> None: ...
     @property
