@@ -367,7 +367,8 @@ TEST(LimitsCommand, ASlopeThatIsPerhapsNotClimbedSaysSo) {
   const std::string ask = "limits --tire rover-wheel --soil dry-sand --load 64.68N";
   EXPECT_THAT(soilbin(ask).out, AllOf(HasSubstr(", or not at all"), HasSubstr("one standard error weaker")));
   std::size_t perhaps = 0;
-  for (const nlohmann::json& row : soilbin(ask + " --json").json()["rows"][0]["slopes"]) {
+  const nlohmann::json document = soilbin(ask + " --json").json();
+  for (const nlohmann::json& row : document["rows"][0]["slopes"]) {
     const bool sure = row["largest_pull"] > row["std_error"]["largest_pull"];
     EXPECT_EQ(row["std_error"]["slip"].is_null(), !sure) << row;
     perhaps += !sure;

@@ -228,7 +228,7 @@ TEST(CandidatesTable, NamesFormsInTheOrderOfTheEffects) {
 
 TEST(SoilTable, SaysWhatAValueMeansAndWhetherItIsAtItsBound) {
   LoopAnswer answer;
-  answer.soil_shifts = {{"stress_angle_c2", {-0.5, 0.0}, {0.2, 0.1}, 0.2},
+  answer.soil_shifts = {{"stress_angle_c2", {-0.5, 0.1}, {0.2, 0.1}, 0.2, true},
                         {"exponent", {0.9, 0.1}, {1.0, 0.1}, 0.3},
                         {"cohesion", {1000, 290}, {1010, 295}, 300}};  // the runs tell next to nothing of it
   const Table table = soil_table(answer);
