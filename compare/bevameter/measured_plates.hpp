@@ -25,7 +25,7 @@ struct PressureWindow {
 /// A value and the two parts of its standard error, which is the root of the sum of their squares.
 struct PlateValue {
   Estimate estimate;
-  double between_tests = 0.0;      ///< by leaving out each test in turn (jackknife), with Student's t; 0 without repeats
+  double between_tests = 0.0;  ///< by leaving out each test in turn (jackknife), with Student's t; 0 without repeats
   double between_pressures = 0.0;  ///< half of what the lower and the upper half of each plate's pressures differ
 };
 
