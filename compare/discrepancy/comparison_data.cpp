@@ -9,6 +9,7 @@
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
+#include "compare/report/number_text.hpp"
 #include "compare/sweep/result_json.hpp"
 #include "compare/sweep/varying.hpp"
 #include "scenario/mapping_writer.hpp"

@@ -7,6 +7,7 @@
 
 #include "compare/measured/csv.hpp"
 #include "compare/report/json_fields.hpp"
+#include "compare/report/number_text.hpp"
 #include "compare/report/plot_panel.hpp"
 #include "scenario/quantity.hpp"
 
