@@ -48,11 +48,12 @@ TEST_P(SlowTransientEffects, EndInTheirStaticWheelOrAreRefused) {
 // Nothing has moved: no shear is called up, and nothing resists. One form alone is called up by the slip that the
 // contact has seen: shear of 0 all along is that of a wheel braked by a few per cent.
 TEST(TransientEffects, AWheelAtRestOnLevelGroundIsNotPushed) {
+  const Scenario on_level_ground = scenario();
   for (const EffectForm& form : effect_catalogue()) {
     if (!form.steady_only.empty() || form.form == "level_blade") continue;
     Drive d = drive();
     d.effects = {{form.id, form.form, {}}};
-    const DrivenWheel wheel(scenario(), d);
+    const DrivenWheel wheel(on_level_ground, d);
     const Held held = wheel.hold();
     EXPECT_NEAR(wheel.look(0.0, held.state, wheel.motor(held.torque)).forward, 0.0, 1e-9 * load)
         << form.id << " " << form.form;
