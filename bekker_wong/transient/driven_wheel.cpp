@@ -66,8 +66,8 @@ DrivenWheel::DrivenWheel(const Scenario& scenario, const Drive& drive, const Dri
       way_(drive.profile, scenario.tire.radius),
       nodes_(numerics.nodes),
       turns_(way_.turns()),
-      mass_(mass_of(drive, gravity_of(scenario.soil))),
-      inertia_(inertia_of(drive, scenario.tire.radius, gravity_of(scenario.soil))) {
+      mass_(mass_of(drive, soil_values(scenario.soil).gravity)),
+      inertia_(inertia_of(drive, scenario.tire.radius, soil_values(scenario.soil).gravity)) {
   if (nodes_ < 6) throw InputError("the shear displacement needs at least 6 nodes along the contact");
   if (const std::string wrong = contradiction(drive_.controller); !wrong.empty()) throw InputError(wrong);
   const EffectList effects = time_effects(drive.effects);
