@@ -92,10 +92,12 @@ std::string one_spelling(const std::string& word) {
 
 std::vector<std::string> meant_words(const std::string& word, const std::vector<std::string>& right) {
   std::vector<std::string> meant;
-  for (const auto& [theirs, ours] : words_of_the_field)
+  const std::string said = one_spelling(word);
+  for (const auto& [theirs, ours] : words_of_the_field) {
+    if (said != theirs) continue;
     for (const std::string& candidate : right)
-      if (one_spelling(word) == theirs && one_spelling(candidate) == one_spelling(std::string(ours)))
-        meant.push_back(candidate);
+      if (one_spelling(candidate) == one_spelling(std::string(ours))) meant.push_back(candidate);
+  }
   return meant;
 }
 

@@ -67,9 +67,8 @@ void add_value_doubts(const SemiEmpiricalSoil& soil, Warnings& warnings) {
     if (const auto from = soil.sources.find(key);
         from != soil.sources.end() && from->second == usual_stress_angle_source)
       warnings.push_back(
-          fmt::format("the soil declares no {}: {:g} with a standard deviation of {:g} is taken, a usual "
-                      "value",
-                      name, value.value, value.std_error));
+          fmt::format("the soil declares no {}: {:g} with a standard deviation of {:g} is taken, a usual value", name,
+                      value.value, value.std_error));
   if (c == 0.0 && phi == 0.0)
     warnings.push_back("c and phi are both 0: this soil has no strength and gives no traction");
   const double most = soil.stress_angle_c1.value + std::max(0.0, soil.stress_angle_c2.value);

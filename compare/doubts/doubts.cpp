@@ -218,8 +218,7 @@ Warnings doubts_of_declarations(const Case& question) {
   if (soil && is_from_command_line(*soil, "gravity") && asks_wheel && !question.drive && !weighs_soil(question))
     words.push_back(
         "the soil's gravity changes nothing: loads are forces here, and the analytic wheel weighs soil by effects "
-        "alone "
-        "(such as bulldozing)");
+        "alone (such as bulldozing)");
   if (soil && !soil->density && !effects.empty() && weighs_soil(question))
     words.push_back(fmt::format("the soil declares no density: {:g} kg/m^3 is presumed, and the answers hang on it",
                                 presumed_bulk_density));

@@ -41,15 +41,13 @@ struct Uncertain {
   std::function<void(Case&, double value)> set;
 };
 
-void add_soil_values(const Case& question, std::size_t k, std::vector<Uncertain>& values) {
-  Case copy = question;
-  const Soil soil = *soils_of_way(copy)[k];
+void add_soil_values(const Soil& soil, bool of_case, std::vector<Uncertain>& values) {
   for (const SoilParameter& p : soil_parameters) {
     const Estimate of = (*soil.semi_empirical).*p.value;
     if (!(of.std_error > 0.0)) continue;
     const auto [below, above] = neighbours(of.value, of.std_error, p.range);
     values.push_back({{soil.name, p.name, p.title, p.unit, p.per_si, of, {below}, {above}},
-                      k == 0,
+                      of_case,
                       [soil, member = p.value](Case& asked, double value) {
                         for (Soil* one : soils_of_way(asked))
                           if (is_same_soil(*one, soil)) ((*one->semi_empirical).*member).value = value;
@@ -78,14 +76,13 @@ void add_effect_values(const Drive& drive, std::vector<Uncertain>& values) {
   }
 }
 
-std::vector<Uncertain> uncertain_values(const Case& question) {
+std::vector<Uncertain> uncertain_values(Case question) {
   std::vector<Uncertain> values;
-  Case copy = question;
-  const std::vector<Soil*> soils = soils_of_way(copy);
+  const std::vector<Soil*> soils = soils_of_way(question);
   for (std::size_t k = 0; k < soils.size(); ++k) {
     const bool returns = std::any_of(soils.begin(), soils.begin() + static_cast<std::ptrdiff_t>(k),
                                      [&](const Soil* before) { return is_same_soil(*before, *soils[k]); });
-    if (soils[k]->semi_empirical && !returns) add_soil_values(question, k, values);
+    if (soils[k]->semi_empirical && !returns) add_soil_values(*soils[k], k == 0, values);
   }
   add_effect_values(*question.drive, values);
   return values;

@@ -260,8 +260,7 @@ Validated learn_and_validate(const FittedModel& base, Decision& decision, const 
 std::string why_refuted(const CrossValidation& errors) {
   return fmt::format(
       "with the effects that are found without them conditions left out are predicted worse: {:.4g} standard "
-      "deviations "
-      "of the noise, root mean square, in place of {:.4g}",
+      "deviations of the noise, root mean square, in place of {:.4g}",
       errors.overall.after, errors.overall.before);
 }
 
