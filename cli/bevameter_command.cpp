@@ -21,12 +21,14 @@ struct BevameterOptions {
   int packings = 2;
   bool json = false;
   ElementTestFlags flags;
+  PlateFlags plates;
 };
 
 int bevameter(const BevameterOptions& options, const Session& session) {
   if (options.packings < 1) throw InputError("--packings: 1 or more");
   const Soil soil = find_soil(options.soil, session.place.library);
   const compare::VirtualBevameter asked{.specimen = options.flags.specimen(grains_of(soil)),
+                                        .plates = options.plates.plates(grains_of(soil)),
                                         .size = options.flags.size,
                                         .packings = options.packings,
                                         .how = options.flags.work()};
@@ -35,8 +37,8 @@ int bevameter(const BevameterOptions& options, const Session& session) {
   const compare::BevameterFit fit = compare::fit_bevameter(measured.plates, measured.shear);
   clear_progress_line();
   const std::string source = fmt::format(
-      "virtual bevameter on the grains of {}: 3 round plates, ring with grousers, {} packings, settling friction {}",
-      soil.name, options.packings, number(asked.specimen.settling_friction));
+      "virtual bevameter on the grains of {}: {} round plates, ring with grousers, {} packings, settling friction {}",
+      soil.name, asked.plates.diameters.size(), options.packings, number(asked.specimen.settling_friction));
   Outputs outputs;
   outputs.file(options.output, [&] { return write_soil(with_bevameter(soil, fit, measured.density, source)); });
   outputs.drawing(options.plot, [&] {
@@ -63,6 +65,7 @@ void add_bevameter(CLI::App& app, Session& session) {
   add_value(*command, "--packings", options->packings, "N", "number of beds, 2; their scatter is the error");
   command->add_flag("--json", options->json, "soilbin-bevameter/1, in SI");
   options->flags.add_to(*command);
+  options->plates.add_to(*command);
   command->footer("Example: soilbin bevameter paper-sand --settling-friction 0 --output paper-sand-dense.yaml");
   command->callback([=, &session] { session.action = [=, &session] { return bevameter(*options, session); }; });
 }

@@ -25,6 +25,7 @@ struct ElementTestOptions {
   double inertial = 0;
   bool json = false, ledger = false;
   ElementTestFlags flags;
+  PlateFlags plates;
 };
 
 struct AskedTest {
@@ -81,7 +82,7 @@ compare::TestReport repose(const AskedTest& asked) {
 }
 
 compare::TestReport plate(const AskedTest& asked) {
-  dem::PlateSettings s;
+  dem::PlateSettings s = asked.options.plates.plates(asked.grains);
   s.bed.specimen = asked.specimen;
   s.bed.width *= asked.options.flags.size, s.bed.depth *= asked.options.flags.size;
   return compare::report_on(dem::plate_sinkage(asked.grains, s, asked.how, &asked.beds));
@@ -98,13 +99,14 @@ compare::TestReport shear(const AskedTest& asked) {
 struct Test {
   const char* name;
   compare::TestReport (*run)(const AskedTest&);
+  bool takes_specimens = false, takes_stresses = takes_specimens, takes_plates = false;
 };
-constexpr Test tests[] = {{"direct-shear", direct_shear},
-                          {"tilting-board", tilting_board},
-                          {"repose", repose},
-                          {"triaxial", triaxial},
-                          {"plate", plate},
-                          {"shear", shear}};
+constexpr Test tests[] = {{.name = "direct-shear", .run = direct_shear, .takes_specimens = true},
+                          {.name = "tilting-board", .run = tilting_board},
+                          {.name = "repose", .run = repose},
+                          {.name = "triaxial", .run = triaxial, .takes_specimens = true},
+                          {.name = "plate", .run = plate, .takes_plates = true},
+                          {.name = "shear", .run = shear, .takes_stresses = true}};
 
 const Test& test_of(const std::string& name) {
   std::vector<std::string> names;
@@ -116,10 +118,29 @@ const Test& test_of(const std::string& name) {
                                listed(names)));
 }
 
+/// Throws InputError for a flag that would change nothing.
+void check_flags(const ElementTestOptions& options, const Test& asked) {
+  const auto only = [&](const char* flag, bool given, bool Test::*takes) {
+    if (!given || asked.*takes) return;
+    std::vector<std::string> names;
+    for (const Test& test : tests)
+      if (test.*takes) names.emplace_back(test.name);
+    throw InputError(fmt::format("the test {} takes no {}\n  hint: {} {}", asked.name, flag, listed(names),
+                                 names.size() > 1 ? "do" : "does"));
+  };
+  only("--stress", !options.stresses.empty(), &Test::takes_stresses);
+  only("--packings", options.packings != 1, &Test::takes_specimens);
+  only("--inertial", options.inertial != 0, &Test::takes_specimens);
+  only("--ledger", options.ledger, &Test::takes_specimens);
+  only("--plate", !options.plates.diameters.empty(), &Test::takes_plates);
+  only("--plate-sinkage", !options.plates.sinkage.empty(), &Test::takes_plates);
+}
+
 int element_test(const ElementTestOptions& options, const Session& session) {
   const Test& test = test_of(options.test);
   if (options.packings < 1) throw InputError("--packings: 1 or more");
   if (options.inertial < 0) throw InputError("--inertial: above 0");
+  check_flags(options, test);
   const Soil soil = find_soil(options.soil, session.place.library);
   dem::BedStore beds(folder_of_beds());
   compare::TestReport report =
@@ -156,6 +177,7 @@ void add_element_test(CLI::App& app, Session& session) {
   add_plot(*command, options->plot, "draw the curves");
   command->add_flag("--json", options->json, "soilbin-element-test/1, in SI");
   options->flags.add_to(*command);
+  options->plates.add_to(*command);
   command->footer("Example: soilbin element-test direct-shear paper-sand --stress 10kPa --stress 40kPa --plot box.svg");
   command->callback([=, &session] { session.action = [=, &session] { return element_test(*options, session); }; });
 }

@@ -1,7 +1,10 @@
 #include "cli/element_test_flags.hpp"
 
+#include <fmt/core.h>
+
 #include "cli/flag_values.hpp"
 #include "cli/soil_bin.hpp"
+#include "compare/report/number_text.hpp"
 #include "scenario/description.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
@@ -40,6 +43,31 @@ dem::SpecimenSettings ElementTestFlags::specimen(const GranularSoil& soil) const
     out.laws.rolling = dem::RollingLaw::none;
   else if (!rolling.empty())
     out.laws.rolling = dem::rolling_law(rolling_named(rolling, {"none"}));
+  return out;
+}
+
+void PlateFlags::add_to(CLI::App& command) {
+  add_value(command, "--plate", diameters, "DIAMETER",
+            "plates: the diameter of one, or several, 60mm,100mm; 5, 7 and 9 mean diameters of the grains")
+      ->allow_extra_args(false);
+  add_value(command, "--plate-sinkage", sinkage, "DEPTH",
+            "plates: how deep they are pressed; 2 mean diameters of the grains");
+}
+
+dem::PlateSettings PlateFlags::plates(const GranularSoil& soil) const {
+  const Measure length{"mm", above_zero};
+  const double grain = mean_diameter(soil);
+  dem::PlateSettings out;
+  if (!diameters.empty()) out.diameters.clear();
+  for (const std::string& flag : diameters)
+    for (const std::string& text : several_values("--plate", flag, length)) {
+      out.diameters.push_back(read_flag("--plate", text, length) / grain);
+      if (out.diameters.back() < dem::narrowest_tool)
+        throw InputError(fmt::format("--plate {} is narrower than {:.3g} grains, of {} mm on average: single grains "
+                                     "would carry it",
+                                     text, dem::narrowest_tool, number(1e3 * grain)));
+    }
+  if (!sinkage.empty()) out.sinkage = read_flag("--plate-sinkage", sinkage, length) / grain;
   return out;
 }
 

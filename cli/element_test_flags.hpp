@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dem/element_tests/specimen.hpp"
+#include "dem/element_tests/bevameter_tests.hpp"
 #include "scenario/soil.hpp"
 
 namespace soilbin::cli {
@@ -23,6 +23,16 @@ struct ElementTestFlags {
   /// With the soil's own rolling resistance, where no flag gives another. Throws InputError that names the flag.
   dem::SpecimenSettings specimen(const GranularSoil& soil) const;
   dem::WorkOptions work() const;
+};
+
+/// Plates of the size that a field test has, --plate and --plate-sinkage; without them they are sized in grains.
+struct PlateFlags {
+  std::vector<std::string> diameters;
+  std::string sinkage;
+
+  void add_to(CLI::App& command);
+  /// Throws InputError that names the flag.
+  dem::PlateSettings plates(const GranularSoil& soil) const;
 };
 
 }  // namespace soilbin::cli

@@ -35,7 +35,7 @@ ShearCurve curve_of(const dem::AnnulusRun& run) {
 
 BevameterReadings virtual_bevameter(const GranularSoil& grains, const VirtualBevameter& asked, dem::BedStore& beds) {
   BevameterReadings out;
-  dem::PlateSettings plates;
+  dem::PlateSettings plates = asked.plates;
   dem::AnnulusSettings ring;
   for (dem::TestBed* bed : {&plates.bed, &ring.bed}) {
     bed->specimen = asked.specimen;

@@ -14,6 +14,7 @@ namespace soilbin::compare {
 
 struct VirtualBevameter {
   dem::SpecimenSettings specimen{};  ///< its packing is the first bed's seed
+  dem::PlateSettings plates{};       ///< their specimen is the above
   double size = 1;                   ///< of the beds, as a multiple of the default; tools keep theirs
   int packings = 2;                  ///< beds; at least one
   dem::WorkOptions how{};

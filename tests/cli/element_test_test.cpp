@@ -26,6 +26,12 @@ TEST(ElementTestCommand, RefusesWhatMakesNoSenseWithAHint) {
       {"element-test direct-shear paper-sand --settling-friction lose", "did you mean 'loose'"},
       {"element-test direct-shear paper-sand --settling-friction 2", "--settling-friction"},
       {"element-test direct-shear paper-sand --rolling directionl", "did you mean 'directional'"},
+      {"element-test plate paper-sand --plate 190mm", "--plate 190mm is narrower than 5 grains"},
+      {"element-test plate paper-sand --plate 300", "no unit"},
+      {"element-test plate paper-sand --plate-sinkage 0mm", "--plate-sinkage"},
+      {"element-test repose paper-sand --plate 300mm", "the test repose takes no --plate\n  hint: plate does"},
+      {"element-test plate paper-sand --stress 10kPa", "hint: direct-shear, triaxial, shear do"},
+      {"element-test shear paper-sand --packings 3", "the test shear takes no --packings"},
   };
   for (const auto& [arguments, says] : wrong) {
     const Outcome outcome = soilbin(arguments);
@@ -49,6 +55,14 @@ TEST(SlowElementTestCommand, ShowsInDegreesWhatItsJsonHoldsAsARatio) {
   row >> stress >> packing >> void_ratio >> shown;
   EXPECT_EQ(stress, 20);
   EXPECT_NEAR(shown, std::atan(peak) * 180 / std::numbers::pi, 0.1) << line;
+}
+
+TEST(SlowElementTestCommand, PressesPlatesOfTheSizeThatIsGiven) {
+  const std::string plates = "element-test plate paper-sand --size 0.5 --threads 1 --json";
+  const Outcome in_grains = soilbin(plates);  // 5, 7 and 9 of 40 mm, to a sinkage of 2
+  const Outcome in_metres = soilbin(plates + " --plate 200mm,280mm --plate 360mm --plate-sinkage 80mm");
+  ASSERT_EQ(in_grains.status, 0) << in_grains.err;
+  EXPECT_EQ(in_metres.out, in_grains.out);
 }
 
 }  // namespace
