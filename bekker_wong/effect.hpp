@@ -165,6 +165,9 @@ bool depends_on(const EffectForm& form, std::string_view key);
 /// and for a value outside its bounds.
 const EffectForm& find_form(const EffectChoice& choice);
 
+/// A parameter of a form. Throws InputError with the nearest right word for a name that it doesn't have.
+const EffectParameter& find_parameter(const EffectForm& form, const std::string& name);
+
 /// The effect that a choice names, with the form's defaults for what it leaves out.
 std::unique_ptr<const Effect> make_effect(const EffectChoice& choice);
 

@@ -86,13 +86,10 @@ BalanceDerivatives::Channels BalanceDerivatives::by(std::size_t parameter, doubl
 
 BalanceDerivatives::Channels BalanceDerivatives::by(const std::vector<EffectChoice>& choices, std::size_t effect,
                                                     const std::string& parameter, double sd) const {
-  const auto& all = find_form(choices[effect]).parameters;
-  const auto described = std::ranges::find(all, parameter, &EffectParameter::name);
-  if (described == all.end())
-    throw InputError("effect '" + choices[effect].id + "' has no parameter '" + parameter + "'");
+  const EffectParameter& described = find_parameter(find_form(choices[effect]), parameter);
   const auto given = choices[effect].parameters.find(parameter);
-  const double x = given == choices[effect].parameters.end() ? described->fallback : given->second;
-  const Neighbours beside = neighbours(x, step_of(x, sd), {.lower = described->lower, .upper = described->upper});
+  const double x = given == choices[effect].parameters.end() ? described.fallback : given->second;
+  const Neighbours beside = neighbours(x, step_of(x, sd), {.lower = described.lower, .upper = described.upper});
   const auto with = [&](double value) {
     EffectChoice moved = choices[effect];
     moved.parameters[parameter] = value;

@@ -18,7 +18,7 @@ namespace {
 
 /// Flags that people give to a command which another one has: who meets them is sent there.
 struct Elsewhere {
-  std::vector<std::string_view> commands, flags;
+  std::vector<std::string> commands, flags;
   const char* hint;
 };
 const Elsewhere elsewhere[] = {
@@ -44,7 +44,8 @@ std::string sent_elsewhere(const std::string& command, const std::string& flag) 
     return std::ranges::find(words, word) != words.end();
   };
   for (const Elsewhere& one : elsewhere)
-    if (holds(one.commands, command) && holds(one.flags, flag)) return one.hint;
+    if (holds(one.commands, command) && (holds(one.flags, flag) || !meant_words(flag, one.flags).empty()))
+      return one.hint;
   return "";
 }
 
@@ -95,8 +96,6 @@ std::string unknown_flag(const CLI::App& command, const std::vector<std::string>
     const std::string flag = word.substr(0, word.find('='));
     if (!flag.starts_with("--") || std::ranges::find(flags, flag) != flags.end()) continue;
     std::string hint = sent_elsewhere(command.get_name(), flag);
-    if (hint.empty() && !meant_words(flag, {"--longitudinal-incline"}).empty())
-      hint = sent_elsewhere(command.get_name(), "--longitudinal-incline");
     if (!hint.empty())
       return fmt::format("'{}' has no option '{}'\n  hint: {}", command.get_name(), clipped(flag), hint);
     return fmt::format("'{}' has no option '{}'{}\n  hint: see soilbin {} --help", command.get_name(), clipped(flag),

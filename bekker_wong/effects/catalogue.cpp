@@ -42,19 +42,13 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 
 std::vector<double> parameters_of(const EffectForm& form, const EffectChoice& choice) {
   std::vector<double> values;
-  std::vector<std::string> names;
-  for (const EffectParameter& p : form.parameters) values.push_back(p.fallback), names.push_back(p.name);
+  for (const EffectParameter& p : form.parameters) values.push_back(p.fallback);
   for (const auto& [name, value] : choice.parameters) {
-    std::size_t i = 0;
-    while (i < names.size() && names[i] != name) ++i;
-    if (i == names.size())
-      throw InputError(
-          fmt::format("effect '{}' ({}) has no parameter '{}'{}", form.id, form.form, name, suggestion(name, names)));
-    const EffectParameter& p = form.parameters[i];
+    const EffectParameter& p = find_parameter(form, name);
     if (!(value >= p.lower && value <= p.upper))
       throw InputError(fmt::format("effect '{}' ({}): {} = {:.6g} lies outside {:.6g} .. {:.6g} (SI)", form.id,
                                    form.form, name, value, p.lower, p.upper));
-    values[i] = value;
+    values[static_cast<std::size_t>(&p - form.parameters.data())] = value;
   }
   return values;
 }
@@ -93,6 +87,15 @@ const EffectForm& find_form(const EffectChoice& choice) {
   if (forms.empty()) throw InputError(fmt::format("unknown effect '{}'{}", choice.id, suggestion(choice.id, ids)));
   throw InputError(
       fmt::format("effect '{}' has no form '{}'{}", choice.id, choice.form, suggestion(choice.form, forms)));
+}
+
+const EffectParameter& find_parameter(const EffectForm& form, const std::string& name) {
+  const auto found = std::ranges::find(form.parameters, name, &EffectParameter::name);
+  if (found != form.parameters.end()) return *found;
+  std::vector<std::string> names;
+  for (const EffectParameter& p : form.parameters) names.push_back(p.name);
+  throw InputError(
+      fmt::format("effect '{}' ({}) has no parameter '{}'{}", form.id, form.form, name, suggestion(name, names)));
 }
 
 std::unique_ptr<const Effect> make_effect(const EffectChoice& choice) {

@@ -60,14 +60,11 @@ void add_effect_values(const Drive& drive, std::vector<Uncertain>& values) {
     const auto place = find_effect_parameter(error.parameter, drive.effects);
     if (!place || !(error.std_error > 0.0)) continue;
     const EffectChoice& effect = drive.effects[place->effect];
-    const auto& all = bekker_wong::find_form(effect).parameters;
-    const auto described = std::ranges::find(all, place->parameter, &bekker_wong::EffectParameter::name);
-    if (described == all.end())
-      throw InputError("effect '" + effect.id + "' has no parameter '" + place->parameter + "'");
+    const auto& described = bekker_wong::find_parameter(bekker_wong::find_form(effect), place->parameter);
     const Estimate of{effect.parameters.at(place->parameter), *error.std_error};
     const auto [below, above] =
-        neighbours(of.value, of.std_error, {.lower = described->lower, .upper = described->upper});
-    const std::string& unit = described->unit;
+        neighbours(of.value, of.std_error, {.lower = described.lower, .upper = described.upper});
+    const std::string& unit = described.unit;
     values.push_back({{"", error.parameter, error.parameter, unit, per_unit(unit), of, {below}, {above}},
                       true,
                       [at = *place](Case& asked, double value) {

@@ -62,24 +62,25 @@ dem::SteadyDrive values_at(const DriveState& end) {
 /// Adds the errors of uncertain values, from the drives with one of them moved that have a steady state. Names the
 /// values that are left out where neither side has one.
 std::string add_errors(dem::SteadyDrive& steady, const AnalyticDrive& part) {
+  const std::vector<MovedDrive>& moved = part.errors.moved;
   std::vector<std::string> left_out;
-  for (const SteadyValue& value : steady_values) {
-    Estimate& of = steady.*value.value;
-    Eigen::VectorXd changes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(part.errors.moved.size()));
-    left_out.clear();
-    for (Eigen::Index i = 0; i < changes.size(); ++i) {
-      const MovedDrive& drive = part.errors.moved[static_cast<std::size_t>(i)];
-      const auto by = change(drive, of.value, [&](const DriveRecord& record) -> std::optional<double> {
+  Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(moved.size()),
+                                                  static_cast<Eigen::Index>(std::size(steady_values)));
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    for (std::size_t k = 0; k < std::size(steady_values); ++k) {
+      const auto member = steady_values[k].value;
+      const auto by = change(moved[i], (steady.*member).value, [&](const DriveRecord& record) -> std::optional<double> {
         if (!unsteady(record, *part.question.drive).empty()) return std::nullopt;
-        return (values_at(record.samples.back()).*value.value).value;
+        return (values_at(record.samples.back()).*member).value;
       });
       if (by)
-        changes[i] = *by;
-      else
-        left_out.push_back(drive.title);
+        changes(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = *by;
+      else if (k == 0)  // it has a steady state or not, for all values
+        left_out.push_back(moved[i].title);
     }
-    of.std_error = part.errors.standard_error(changes);
-  }
+  for (std::size_t k = 0; k < std::size(steady_values); ++k)
+    (steady.*steady_values[k].value).std_error =
+        part.errors.standard_error(changes.col(static_cast<Eigen::Index>(k)));
   if (left_out.empty()) return "";
   return "the standard errors leave out " + listed(left_out) + ": the drive has no steady state beside it";
 }

@@ -169,18 +169,17 @@ Table parameters_table(const LoopAnswer& answer) {
       continue;
     }
     for (std::size_t i = 0; i < effect.fitted.size(); ++i) {
-      const auto p =
-          std::ranges::find_if(form.parameters, [&](const auto& one) { return one.name == effect.fitted[i]; });
-      const double scale = per_unit(p->unit);
-      const std::string unit = unit_behind(p->unit);
+      const auto& p = bekker_wong::find_parameter(form, effect.fitted[i]);
+      const double scale = per_unit(p.unit);
+      const std::string unit = unit_behind(p.unit);
       const auto& [low, high] = effect.ci95[i];
       table.add({i == 0
                      ? TableCell(std::string(bekker_wong::effect_title(form.id).name), form.id + ", form " + form.form)
                      : TableCell{},
-                 {p->meaning, p->name},
-                 number(scale * effect.choice.parameters.at(p->name)) + unit,
+                 {p.meaning, p.name},
+                 number(scale * effect.choice.parameters.at(p.name)) + unit,
                  fmt::format("{} to {}{}", number(scale * low), number(scale * high), unit),
-                 fmt::format("{:.4g} to {:.4g}{}", scale * p->lower, scale * p->upper, unit),
+                 fmt::format("{:.4g} to {:.4g}{}", scale * p.lower, scale * p.upper, unit),
                  effect.at_bound[i] ? TableCell("no: at its bound", "", Tone::bad) : TableCell("yes")});
     }
   }

@@ -239,10 +239,10 @@ std::string effect_sentence(const AcceptedEffect& effect) {
                        spaced(effect.choice.form), form.equation, learned_ranges({effect.choice}));
   std::vector<std::string> parameters;
   for (std::size_t i = 0; i < effect.fitted.size(); ++i) {
-    const auto p = std::ranges::find_if(form.parameters, [&](const auto& one) { return one.name == effect.fitted[i]; });
-    const double scale = per_unit(p->unit);
-    parameters.push_back(fmt::format("{} {}{} (95 %: {} to {}{})", p->meaning,
-                                     number(scale * effect.choice.parameters.at(p->name)), unit_behind(p->unit),
+    const auto& p = bekker_wong::find_parameter(form, effect.fitted[i]);
+    const double scale = per_unit(p.unit);
+    parameters.push_back(fmt::format("{} {}{} (95 %: {} to {}{})", p.meaning,
+                                     number(scale * effect.choice.parameters.at(p.name)), unit_behind(p.unit),
                                      number(scale * effect.ci95[i].first), number(scale * effect.ci95[i].second),
                                      effect.at_bound[i] ? "; at its bound: these data do not determine it" : ""));
   }

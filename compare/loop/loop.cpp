@@ -235,6 +235,20 @@ Validated validate(const FittedModel& base, Decision& decision, std::vector<Lear
   return {std::move(noise), std::move(errors), std::move(learned)};
 }
 
+Validated learn_and_validate(const FittedModel& base, Decision& decision, const LoopOptions& options,
+                             const AttributionOptions& whole, LoopProgress& progress) {
+  std::vector<LearnedEffect> learned = learned_beside(base, decision, whole);
+  progress.choice_made();
+  return validate(base, decision, std::move(learned), options, progress);
+}
+
+std::string why_refuted(const CrossValidation& errors) {
+  return fmt::format(
+      "with the effects that are found without them conditions left out are predicted worse: {:.4g} standard "
+      "deviations of the noise, root mean square, in place of {:.4g}",
+      errors.overall.after, errors.overall.before);
+}
+
 std::vector<SetAside> set_aside_by(const FittedModel& base, const Observations& given) {
   std::vector<SetAside> all;
   const Dataset& data = base.data();
@@ -248,20 +262,6 @@ std::vector<SetAside> set_aside_by(const FittedModel& base, const Observations& 
     all.push_back(one);
   }
   return all;
-}
-
-Validated learn_and_validate(const FittedModel& base, Decision& decision, const LoopOptions& options,
-                             const AttributionOptions& whole, LoopProgress& progress) {
-  std::vector<LearnedEffect> learned = learned_beside(base, decision, whole);
-  progress.choice_made();
-  return validate(base, decision, std::move(learned), options, progress);
-}
-
-std::string why_refuted(const CrossValidation& errors) {
-  return fmt::format(
-      "with the effects that are found without them conditions left out are predicted worse: {:.4g} standard "
-      "deviations of the noise, root mean square, in place of {:.4g}",
-      errors.overall.after, errors.overall.before);
 }
 
 /// The best named effects of an unknown one, and the learned ones beside them: the last candidate holds them all.
