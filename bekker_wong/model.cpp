@@ -6,6 +6,7 @@
 
 #include "bekker_wong/standard_errors.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/number_check.hpp"
 #include "scenario/soil_parameters.hpp"
 #include "scenario/traction_channels.hpp"
 #include "scenario/tractive_efficiency.hpp"
@@ -85,6 +86,7 @@ TractionResult traction_result(const RolledWheel& wheel, const Tire& tire, bool 
 TractionResult BekkerWong::evaluate(const Scenario& scenario, const OperatingCondition& at) const {
   if (!scenario.soil.semi_empirical)
     throw InputError("soil '" + scenario.soil.name + "' has no semi_empirical values, which bekker_wong needs");
+  check_numbers(at);
   const EffectList effects = make_effects(scenario.effects);
   const RollingWheel wheel(scenario.tire, values_of(*scenario.soil.semi_empirical), effects, scenario.bin);
   const RolledWheel balanced = wheel.roll(at);

@@ -30,6 +30,17 @@ double ForceLedger::vertical() const {
 
 /// What one condition fixes before any trial sinkage.
 struct RollingWheel::Prepared {
+  Prepared(const RollingWheel& wheel, const OperatingCondition& at);
+  Prepared(const Prepared& other)  // around refers to the motion beside it
+      : at(other.at),
+        motion(other.motion),
+        soil(other.soil),
+        outline(other.outline),
+        around{other.around.tire,        other.around.declared,    at, motion, other.around.bin,
+               other.around.normal_load, other.around.stress_share},
+        layout(other.layout) {}
+  Prepared& operator=(const Prepared&) = delete;
+
   const OperatingCondition& at;
   Kinematics motion;
   SoilValues soil;
@@ -45,6 +56,9 @@ RollingWheel::RollingWheel(const Tire& tire, const SoilValues& soil, EffectList 
   };
   need(tire_.radius > 0.0 && std::isfinite(tire_.radius), "the wheel's radius must be positive");
   need(tire_.width > 0.0 && std::isfinite(tire_.width), "the wheel's width must be positive");
+  need(std::isfinite(tire_.lugs.height), "the lugs' height must be a number");
+  for (const auto member : soil_members) need(std::isfinite(soil_.*member), "each value of the soil must be a number");
+  need(std::isfinite(soil_.density) && std::isfinite(soil_.gravity), "the soil's density and gravity must be numbers");
   need(soil_.exponent > 0.0, "the soil's exponent n must be positive");
   need(soil_.shear_modulus > 0.0, "the soil's shear modulus K must be positive");
   need(soil_.cohesion >= 0.0, "the soil's cohesion must not be negative");
@@ -53,22 +67,27 @@ RollingWheel::RollingWheel(const Tire& tire, const SoilValues& soil, EffectList 
   need(soil_.pressure_modulus(tire_.width) > 0.0, "k_c/b + k_phi must be positive: this soil carries nothing");
 }
 
+RollingWheel::Prepared::Prepared(const RollingWheel& wheel, const OperatingCondition& condition)
+    : at(condition),
+      motion(kinematics(condition)),
+      soil(wheel.soil_),
+      outline{.radius = wheel.tire_.radius,
+              .width = wheel.tire_.width,
+              .shear_radius = wheel.tire_.radius,
+              .slip_radius = wheel.tire_.radius},
+      around{wheel.tire_, wheel.soil_, condition, motion, wheel.bin_, 0.0},
+      layout{} {
+  around.normal_load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
+  if (!(around.normal_load > 0.0)) throw InputError("on this incline no load presses on the ground");
+  for (const auto& effect : wheel.effects_) effect->soil(soil, around);
+  for (const auto& effect : wheel.effects_) effect->outline(outline, around);
+}
+
 RollingWheel::Prepared RollingWheel::prepare(const OperatingCondition& at) const {
   if (!(at.load > 0.0 && std::isfinite(at.load))) throw InputError("the load must be positive");
-  Prepared p{.at = at,
-             .motion = kinematics(at),
-             .soil = soil_,
-             .outline = {.radius = tire_.radius,
-                         .width = tire_.width,
-                         .shear_radius = tire_.radius,
-                         .slip_radius = tire_.radius},
-             .around = {tire_, soil_, at, p.motion, bin_, 0.0},
-             .layout = {}};
-  p.around.normal_load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
-  if (!(p.around.normal_load > 0.0)) throw InputError("on this incline no load presses on the ground");
-  for (const auto& effect : effects_) effect->soil(p.soil, p.around);
-  for (const auto& effect : effects_) effect->outline(p.outline, p.around);
-  return p;
+  if (!(at.speed >= 0.0 && std::isfinite(at.speed))) throw InputError("the speed must be 0 or more: slip has the sign");
+  if (!std::isfinite(at.longitudinal_incline + at.transverse_incline)) throw InputError("an incline must be a number");
+  return {*this, at};
 }
 
 ContactAngles RollingWheel::angles(const Prepared& p, double theta_1) const {

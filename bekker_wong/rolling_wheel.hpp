@@ -72,11 +72,13 @@ class RollingWheel {
 
   /// The same; where the soil gives way, because no sinkage down to 0.9 r carries the load, the wheel at the depth at
   /// which the soil carries most: its readings go on smoothly from those of the last load carried. For fits, which may
-  /// cross such soils. Where a balance nearby is known with its steepness, to 1e-8 of the load.
+  /// cross such soils. Where a balance nearby is known with its steepness, to 1e-8 of the load. Throws InputError for
+  /// an impossible condition, NoSolution where an effect would settle the wheel deeper than max_settled_share.
   RolledWheel roll_or_give_way(const OperatingCondition& at, const NearBalance& near = {}) const;
 
   /// The wheel at a given theta_1 [rad], balanced or not: forces.vertical says what it carries. For derivatives by the
-  /// implicit function theorem and for looking at the balance.
+  /// implicit function theorem and for looking at the balance. Where an effect settles the wheel, all other forces are
+  /// those of its settled place with stresses that carry the load of `at`.
   RolledWheel at_entry_angle(const OperatingCondition& at, double theta_1) const;
   /// The same on these nodes: for differences between wheels, which must not change nodes from one to the other.
   RolledWheel at_entry_angle(const OperatingCondition& at, double theta_1, const NodeLayout& nodes) const;

@@ -42,7 +42,7 @@ compare::Json run_document(const Case& question, const compare::StudyResults& an
 void save(Outputs& outputs, const RunOptions& options, const Case& question, const compare::StudyResults& answered,
           const Workplace& place) {
   const std::vector<compare::ModelAnswers>& study = answered.study;
-  const auto csv = [&] { return compare::study_csv(study, compare::remarks_about(question.scenario)); };
+  const auto csv = [&] { return compare::study_csv(study, compare::remarks_about(question.scenario, answered)); };
   outputs.file(options.csv, csv);
   outputs.drawing(options.plot,
                   [&] { return compare::study_sheet(question, compare::smoothed_for_plot(question, study)); });

@@ -2,7 +2,8 @@
 // is described in docs/reference/case-files.md.
 //
 //   const Case question = read_case("rover.yaml", Library({"cases"}), bekker_wong::CatalogueVocabulary());
-//   for (const OperatingCondition& at : question.study.conditions) model.evaluate(question.scenario, at);
+//   const Scenario seen = seen_by(question.study.models.front(), question.scenario);  // with the model's effects
+//   for (const OperatingCondition& at : question.study.conditions) model.evaluate(seen, at);
 #pragma once
 
 #include <array>

@@ -37,21 +37,21 @@ struct Waypoint {
   double transverse_incline = 0.0;    ///< [rad]
   double yaw = 0.0;                   ///< [rad]
   double drawbar = 0.0;               ///< load pulled against travel [N]
-  std::optional<Soil> soil;           ///< absent: as before
+  std::optional<Soil> soil{};         ///< absent: as before
 };
 
 /// A drive: a wheel with mass and inertia from rest.
 struct Drive {
-  double load = 0.0;              ///< W [N]
-  std::optional<double> mass;     ///< that travels with the wheel [kg]; absent: W over the gravity on the case's soil
-  std::optional<double> inertia;  ///< of what spins, about the axle [kg m^2]; absent: a tenth of mass r^2
+  double load = 0.0;                ///< W [N]
+  std::optional<double> mass{};     ///< that travels with the wheel [kg]; absent: W over the gravity on the case's soil
+  std::optional<double> inertia{};  ///< of what spins, about the axle [kg m^2]; absent: a tenth of mass r^2
   int pass = 1;
-  double duration = 0.0;           ///< [s]
-  std::optional<double> distance;  ///< the drive has arrived there [m]
-  double damping = 0.2;            ///< share of critical damping, of the soil under heave and of shear at rest [-]
-  double stuck_speed = 0.5e-3;     ///< mean speed of travel below which the wheel is stuck [m/s]
-  Controller controller;
-  std::vector<Waypoint> profile;        ///< rising in `at`
+  double duration = 0.0;             ///< [s]
+  std::optional<double> distance{};  ///< the drive has arrived there [m]
+  double damping = 0.2;              ///< share of critical damping, of the soil under heave and of shear at rest [-]
+  double stuck_speed = 0.5e-3;       ///< mean speed of travel below which the wheel is stuck [m/s]
+  Controller controller{};
+  std::vector<Waypoint> profile{};      ///< rising in `at`
   std::vector<EffectChoice> effects{};  ///< forms and parameters resolved
   std::vector<FittedError> errors{};    ///< how values of the case's soil and of `effects` err, where they were fitted
 };

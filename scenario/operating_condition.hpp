@@ -33,9 +33,9 @@ struct OperatingCondition {
   SlipBy slip_by = SlipBy::wheel_plane_speed;
   ForceFrame force_frame = ForceFrame::travel;  ///< axes of drawbar pull and lateral force in the answer
   // Where and when in a campaign; only some effects ask for these.
-  std::optional<double> moisture;  ///< water content by mass [-]
-  std::optional<double> position;  ///< mean distance along the bin [m]
-  std::optional<int> run;          ///< order in which the runs were made
+  std::optional<double> moisture{};  ///< water content by mass [-]
+  std::optional<double> position{};  ///< mean distance along the bin [m]
+  std::optional<int> run{};          ///< order in which the runs were made
 
   /// Member by member: equal where every number is the same, sorted as a tuple.
   auto operator<=>(const OperatingCondition&) const = default;

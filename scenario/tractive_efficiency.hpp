@@ -17,12 +17,12 @@ double pull_along_travel(const TractionResult& result);
 
 /// The ratio of powers in a steady state,
 ///
-///   TE = F_t v / (M w + P_g),   P_g = W sin(-alpha) v downhill (alpha < 0), 0 on level ground and uphill,
+///   TE = F_DP v / (M w + P_g),   P_g = W sin(-alpha) v downhill (alpha < 0), 0 on level ground and uphill,
 ///
-/// F_t: drawbar pull along travel, v: speed of travel, M: torque, w: rotation, W: load, alpha: longitudinal incline.
+/// F_DP: drawbar pull along travel, v: speed of travel, M: torque, w: rotation, W: load, alpha: longitudinal incline.
 /// Power put out is that at the drawbar, after Wong, Theory of Ground Vehicles (drawbar power over the power put in):
 /// the force along travel times the speed of travel, whatever frame forces are told in. So climbing counts as a
-/// resistance, since F_t is less the slope's share of the load. Downhill that share pulls: the power that gravity puts
+/// resistance, since F_DP is less the slope's share of the load. Downhill that share pulls: the power that gravity puts
 /// in counts as put in (our choice; without it the ratio passes 1). On a cross slope gravity does no work along travel.
 ///
 /// `radius` [m] and the result's slip give v/w. Negative where the wheel is pushed. NaN where nothing is driven (M <=

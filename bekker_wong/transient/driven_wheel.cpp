@@ -10,6 +10,7 @@
 #include "bekker_wong/transient/shear_line.hpp"
 #include "scenario/drive_record.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/number_check.hpp"
 
 namespace soilbin::bekker_wong {
 namespace {
@@ -69,7 +70,8 @@ DrivenWheel::DrivenWheel(const Scenario& scenario, const Drive& drive, const Dri
       mass_(mass_of(drive, soil_values(scenario.soil).gravity)),
       inertia_(inertia_of(drive, scenario.tire.radius, soil_values(scenario.soil).gravity)) {
   if (nodes_ < 6) throw InputError("the shear displacement needs at least 6 nodes along the contact");
-  if (const std::string wrong = contradiction(drive_.controller); !wrong.empty()) throw InputError(wrong);
+  check_numbers(drive_);
+  if (!scenario.effects.empty()) throw InputError("a drive's effects are those of Drive::effects, not of its scenario");
   const EffectList effects = time_effects(drive.effects);
   std::vector<SoilValues> soils = {soil_values(scenario.soil)};
   for (const Soil& soil : way_.soils()) {

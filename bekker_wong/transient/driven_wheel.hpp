@@ -56,16 +56,20 @@ struct DriveNumerics {
 /// any number of threads.
 class DrivenWheel {
  public:
-  /// Throws InputError for an effect that holds in a steady state only (EffectForm::steady_only) and for a case whose
-  /// soil has no semi-empirical values.
+  /// Throws InputError for a number that a case's section `drive` may not hold, for an effect that holds in a steady
+  /// state only (EffectForm::steady_only), for effects in the scenario (a drive has its own) and for a soil without
+  /// semi-empirical values.
   DrivenWheel(const Scenario& scenario, const Drive& drive, const DriveNumerics& numerics = {});
 
   /// The wheel at rest at the start of its way: soil carries its load, shear and motor hold it on a slope. Throws
   /// NoSolution where the soil can't.
   Held hold() const;
 
+  /// The wheel at this state, which rolls forward or rests: the soil's forces on one that has turned to rolling
+  /// backward are not those of a wheel mirrored, for its shear displacement still counts from the front. Drives end
+  /// where the wheel has rolled back by drive_limits::roll_back.
   Instant look(double time, std::span<const double> state, const Motor& motor) const;
-  /// d(state)/dt
+  /// d(state)/dt of the same; `out` has state_size() values.
   void rate(double time, std::span<const double> state, const Motor& motor, std::span<double> out) const;
 
   Motor motor(double hold_torque) const;

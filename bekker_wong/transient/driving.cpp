@@ -151,6 +151,7 @@ class Ride {
 
 DriveRecord drive_wheel(const Scenario& scenario, const Drive& drive, int samples, const DriveNumerics& numerics,
                         const DriveProgress& progress) {
+  if (samples < 1) throw InputError("a drive has at least one sample");
   return Ride(scenario, drive, numerics).run(samples, progress);
 }
 

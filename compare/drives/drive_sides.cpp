@@ -79,8 +79,7 @@ std::string add_errors(dem::SteadyDrive& steady, const AnalyticDrive& part) {
         left_out.push_back(moved[i].title);
     }
   for (std::size_t k = 0; k < std::size(steady_values); ++k)
-    (steady.*steady_values[k].value).std_error =
-        part.errors.standard_error(changes.col(static_cast<Eigen::Index>(k)));
+    (steady.*steady_values[k].value).std_error = part.errors.standard_error(changes.col(static_cast<Eigen::Index>(k)));
   if (left_out.empty()) return "";
   return "the standard errors leave out " + listed(left_out) + ": the drive has no steady state beside it";
 }

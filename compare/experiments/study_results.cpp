@@ -1,24 +1,47 @@
 #include "compare/experiments/study_results.hpp"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <filesystem>
 
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/recorded/step_pair.hpp"
-#include "compare/sweep/result_json.hpp"
+#include "compare/sweep/varying.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-/// rows_json, with what the size of the grains does to their answers.
-Json rows_with_resolution(const Case& question, const StudyResults& results) {
+/// What is doubtful in runs of grains at a condition; "" where nothing is.
+std::string remark_on_runs(const std::vector<RecordedRun>& runs, const OperatingCondition& at) {
+  return fmt::format("{}", fmt::join(side_of("", runs, {at}).points.front().doubts, "; "));
+}
+
+/// How many packings the answer of grains at a condition is the mean of, and whether their runs became steady.
+void add_runs(Json& row, const std::vector<RecordedRun>& runs, const OperatingCondition& at) {
+  std::size_t packings = 0;
+  bool steady = true;
+  double drift = 0.0;
+  for (const RecordedRun& run : runs) {
+    if (!run.answer.result || !alike(run.answer.at, at)) continue;
+    ++packings, steady = steady && run.steady, drift = std::max(drift, run.drift);
+  }
+  row["packings"] = packings, row["steady"] = steady, row["drift"] = finite(drift);
+  if (const std::string remark = remark_on_runs(runs, at); !remark.empty()) row["remark"] = remark;
+}
+
+/// rows_json, with what the runs of grains say of themselves and what the size of the grains does to their answers.
+Json rows_with_runs(const Case& question, const StudyResults& results) {
   Json rows = rows_json(results.study);
   auto row = rows.begin();
   for (const ModelAnswers& model : results.study)
     for (const Answer& answer : model.answers) {
-      if (model.choice.model == ModelKind::dem && answer.result)
+      if (model.choice.model == ModelKind::dem && answer.result) {
         (*row)["resolution_error"] =
             to_json(resolution_error(question.scenario, answer.at, answer.result->sinkage.value));
+        add_runs(*row, results.runs, answer.at);
+      }
       ++row;
     }
   return rows;
@@ -78,12 +101,21 @@ GrainSideRuns run_grain_side(const Case& question, const StudyGrains& grains, co
   return of;
 }
 
+Remark remarks_about(const Scenario& scenario, const StudyResults& results) {
+  return [remark = remarks_about(scenario), &runs = results.runs](const ModelChoice& model, const Answer& answer) {
+    const std::string of_answer = remark(model, answer);
+    if (model.model != ModelKind::dem || !answer.result) return of_answer;
+    const std::string of_runs = remark_on_runs(runs, answer.at);
+    return of_answer + (of_answer.empty() || of_runs.empty() ? "" : "; ") + of_runs;
+  };
+}
+
 Json to_json(const Case& question, const StudyResults& results) {
   Json document = {{"format", "soilbin-run/1"},
                    {"study", question.study.name},
                    {"tire", question.scenario.tire.name},
                    {"soil", question.scenario.soil.name},
-                   {"rows", rows_with_resolution(question, results)}};
+                   {"rows", rows_with_runs(question, results)}};
   add_warnings(document, results.doubts);
   if (results.step) document["dem"] = to_json(*results.step);
   return document;

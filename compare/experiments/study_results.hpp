@@ -15,6 +15,7 @@
 #include "compare/experiments/soil_bin_runs.hpp"
 #include "compare/recorded/merge.hpp"
 #include "compare/report/json_fields.hpp"
+#include "compare/sweep/result_json.hpp"
 
 namespace soilbin::compare {
 
@@ -59,7 +60,11 @@ struct GrainSideRuns {
 GrainSideRuns run_grain_side(const Case& question, const StudyGrains& grains, const EffectVocabulary& effects,
                              const Progress& progress = {});
 
-/// soilbin-run/1; answers of grains with what the size of their grains does to them.
+/// remarks_about, and of grains what their runs say of themselves: not steady, one packing. Both must outlive it.
+Remark remarks_about(const Scenario& scenario, const StudyResults& results);
+
+/// soilbin-run/1; answers of grains with packings, steady, drift and remark of their runs, and with what the size of
+/// their grains does to them.
 Json to_json(const Case& question, const StudyResults& results);
 
 }  // namespace soilbin::compare

@@ -1,7 +1,7 @@
 // Stage 8 of the loop: its answer in plain words, as tables and as a page. Terminal, page, Python and the comparison
 // say the same sentences in the same order.
 //
-//   for (const BackedSentence& said : headline(answer)) fmt::print("{}. {}\n", said.about, said.text);
+//   for (const BackedSentence& said : headline(answer, {})) fmt::print("{}. {}\n", said.about, said.text);
 //   fmt::print("{}", as_text(error_table(answer)));
 #pragma once
 

@@ -26,7 +26,7 @@ using bekker_wong::SoilValues;
 struct Facts {
   const Scenario& scenario;
   const OperatingCondition& at;
-  SoilValues soil;
+  SoilValues declared, soil;  ///< before and after the effects that change the soil's values
   RolledWheel wheel;
   double r, b, k, normal_load, theta_1, theta_m;
 
@@ -36,18 +36,22 @@ struct Facts {
 Facts gather(const Scenario& scenario, const OperatingCondition& at) {
   if (!scenario.soil.semi_empirical)
     throw InputError("soil '" + scenario.soil.name + "' has no semi_empirical values, which bekker_wong needs");
-  const SoilValues soil = bekker_wong::values_of(*scenario.soil.semi_empirical);
-  const bekker_wong::RollingWheel wheel(scenario.tire, soil, bekker_wong::make_effects(scenario.effects), scenario.bin);
+  const SoilValues declared = bekker_wong::values_of(*scenario.soil.semi_empirical);
+  const bekker_wong::EffectList effects = bekker_wong::make_effects(scenario.effects);
   Facts f{.scenario = scenario,
           .at = at,
-          .soil = soil,
-          .wheel = wheel.roll(at),
+          .declared = declared,
+          .soil = declared,
+          .wheel = bekker_wong::RollingWheel(scenario.tire, declared, effects, scenario.bin).roll(at),
           .r = scenario.tire.radius,
           .b = scenario.tire.width,
-          .k = soil.pressure_modulus(scenario.tire.width),
+          .k = 0.0,
           .normal_load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline),
           .theta_1 = 0.0,
           .theta_m = 0.0};
+  for (const auto& effect : effects)
+    effect->soil(f.soil, {scenario.tire, declared, at, f.wheel.motion, scenario.bin, f.normal_load});
+  f.k = f.soil.pressure_modulus(f.b);
   f.theta_1 = f.wheel.patch.angles.entry;
   f.theta_m = f.wheel.patch.angles.max_stress;
   return f;
@@ -108,18 +112,23 @@ std::vector<Step> stress_steps(const Facts& f) {
                               sigma / 1000, "kPa"}};
   const char* along = motion.locked ? " = -r cos(psi) (sin theta_1 - sin theta_m)"
                                     : " = r [(theta_1 - theta_m) - v_x/(r w) (sin theta_1 - sin theta_m)]";
-  const std::string by = motion.locked ? "the wheel is locked: only the direction of j counts, shear is saturated"
-                                       : fmt::format("v_x/(r w) = {:.4g}", motion.forward);
+  const char* locked = motion.locked ? "the wheel is locked: only the direction of j counts, shear is saturated" : "";
+  const double turned_sine = std::sin(f.theta_1) - std::sin(f.theta_m);
+  const std::string by_x =
+      motion.locked ? fmt::format("{:.4g} m * {:.4g}", motion.forward * f.r, -turned_sine)
+                    : fmt::format("{:.4g} m ({:.4g} - {:.4g} * {:.4g})", f.r, turned, motion.forward, turned_sine);
+  const std::string by_y = fmt::format("{:.4g} m * {:.4g} * {:.4g}", f.r, turned, motion.lateral);
   if (motion.lateral == 0.0) {
-    steps.push_back({"shear displacement there", std::string("j") + along, by, 1000 * j, "mm"});
+    steps.push_back({"shear displacement there", std::string("j") + along, by_x, 1000 * j_x, "mm", locked});
     steps.push_back({"shear stress there", "tau = (" + a + "c + sigma_m tan phi) (1 - exp(-|j|/K)) sign(j)", strength,
                      tau / 1000, "kPa"});
     return steps;
   }
-  steps.push_back({"shear displacement in the wheel's plane", std::string("j_x") + along, by, 1000 * j_x, "mm"});
+  steps.push_back(
+      {"shear displacement in the wheel's plane", std::string("j_x") + along, by_x, 1000 * j_x, "mm", locked});
   steps.push_back({"shear displacement across it",
                    motion.locked ? "j_y = r sin(psi) (theta_1 - theta_m)" : "j_y = r (theta_1 - theta_m) v_y/(r w)",
-                   motion.locked ? by : fmt::format("v_y/(r w) = {:.4g}", motion.lateral), 1000 * j_y, "mm"});
+                   by_y, 1000 * j_y, "mm"});
   steps.push_back({"shear displacement there", "j = sqrt(j_x^2 + j_y^2)",
                    fmt::format("sqrt(({:.4g} mm)^2 + ({:.4g} mm)^2)", 1000 * j_x, 1000 * j_y), 1000 * j, "mm"});
   steps.push_back({"shear stress there", "tau = (" + a + "c + sigma_m tan phi) (1 - exp(-j/K))", strength, tau / 1000,
@@ -190,10 +199,10 @@ std::vector<Step> result_steps(const Facts& f, const TractionResult& result) {
     const std::string slope =
         downhill ? fmt::format(" + {:.5g} N * {:.4g} m", -f.at.load * std::sin(f.at.longitudinal_incline), advance)
                  : "";
-    steps.push_back({"tractive efficiency", downhill ? "TE = F_t v/(M w + W sin(-alpha) v)" : "TE = F_t v/(M w)",
+    steps.push_back({"tractive efficiency", downhill ? "TE = F_DP v/(M w + W sin(-alpha) v)" : "TE = F_DP v/(M w)",
                      fmt::format("{:.5g} N * {:.4g} m / {}{:.5g} N m{}{}", pull_along_travel(result), advance,
                                  downhill ? "(" : "", result.torque.value, slope, downhill ? ")" : ""),
-                     100 * result.tractive_efficiency, "%", "F_t: the drawbar pull along travel"});
+                     100 * result.tractive_efficiency, "%", "F_DP along travel"});
   }
   return steps;
 }
@@ -225,11 +234,13 @@ std::string pressure_remark(const Tire& tire, double critical) {
 }
 
 std::vector<Step> closed_forms(const Facts& f, const TractionResult& result) {
-  const double z0 = bekker_wong::bekker_static_sinkage(f.soil, f.r, f.b, f.at.load), n = f.soil.exponent;
-  const double rolling = bekker_wong::rolling_resistance(f.soil, f.r, f.b, f.at.load);
-  const double critical = bekker_wong::critical_ground_pressure(f.soil, f.r, f.b, f.at.load);
-  const double eq5 = bekker_wong::paper::sinkage(f.soil, f.r, f.b, f.at.load, f.at.slip, f.theta_m);
-  const double thrust = f.soil.cohesion * f.r * f.b * f.theta_1 + f.normal_load * std::tan(f.soil.friction_angle);
+  const SoilValues& soil = f.declared;
+  const double z0 = bekker_wong::bekker_static_sinkage(soil, f.r, f.b, f.at.load), n = soil.exponent;
+  const double rolling = bekker_wong::rolling_resistance(soil, f.r, f.b, f.at.load);
+  const double critical = bekker_wong::critical_ground_pressure(soil, f.r, f.b, f.at.load);
+  const double eq5 = bekker_wong::paper::sinkage(soil, f.r, f.b, f.at.load, f.at.slip, f.theta_m);
+  const double area = f.r * f.b * f.theta_1;
+  const double thrust = soil.cohesion * area + f.normal_load * std::tan(soil.friction_angle);
   return {
       {"Bekker's static sinkage", "z_0 = [3 W/((3 - n) b k sqrt(D))]^(2/(2n + 1))",
        fmt::format("[3 * {:.4g} N / ({:.4g} * {:.4g} m * k * sqrt({:.4g} m))]^{:.4g}", f.at.load, 3 - n, f.b, 2 * f.r,
@@ -240,9 +251,9 @@ std::vector<Step> closed_forms(const Facts& f, const TractionResult& result) {
        fmt::format("the model's compaction resistance is {:.4g} N", -f.wheel.forces.compaction)},
       {"critical ground pressure", "p_gcr = k z_0^n", fmt::format("k ({:.4g} m)^{:.4g}", z0, n), critical / 1000, "kPa",
        pressure_remark(f.scenario.tire, critical)},
-      {"largest thrust of this soil", "c A + W_n tan phi",
-       fmt::format("{:.4g} kPa * {:.4g} m^2 + {:.4g} N tan {:.4g} deg", f.soil.cohesion / 1000, f.r * f.b * f.theta_1,
-                   f.normal_load, f.soil.friction_angle / degree),
+      {"largest thrust of this soil", "c r b theta_1 + W_n tan phi",
+       fmt::format("{:.4g} kPa * {:.4g} m^2 + {:.4g} N tan {:.4g} deg", soil.cohesion / 1000, area, f.normal_load,
+                   soil.friction_angle / degree),
        thrust, "N", fmt::format("the model's thrust is {:.4g} N", f.wheel.forces.thrust)},
       {"Eq. 5 of Zhou, Gao, Li, Hu as it stands", "z = z_0 + (D/2) (1 - i) theta_m",
        fmt::format("{:.4g} mm + {:.4g} mm * {:.4g} * {:.4g} rad", 1000 * z0, 1000 * f.r, 1 - f.at.slip, f.theta_m),
@@ -300,9 +311,10 @@ std::string steps_in_words(const std::string& heading, const std::vector<Step>& 
 }  // namespace
 
 std::string in_words(const Explanation& explanation) {
-  return steps_in_words(explanation.effects.empty()
-                            ? "Equations with their values"
-                            : "Equations of the base model at this contact (the effects below change them)",
+  return steps_in_words(explanation.effects.empty() ? "Equations with their values"
+                                                    : "Equations of the base model at this contact, with the soil's "
+                                                      "values that the effects below leave; what "
+                                                      "else they change is not in these equations",
                         explanation.steps) +
          steps_in_words("Effects", explanation.effects) +
          steps_in_words("Closed forms to check by (no balance, no effects)", explanation.cross_checks);

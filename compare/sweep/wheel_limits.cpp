@@ -78,6 +78,7 @@ void add_errors(const Scenario& scenario, WheelLimits& answer) {
 WheelLimits limits_at(const Scenario& scenario, const ModelChoice& model, const OperatingCondition& at,
                       std::vector<double> (*slopes)(double steepest)) {
   WheelLimits answer{model, at, {}, 0.0, {}, "", false};
+  answer.friction_angle = scenario.soil.semi_empirical->friction_angle.value;
   if (model.model != ModelKind::bekker_wong) throw InputError("limits asks the model bekker_wong alone");
   const bekker_wong::RollingWheel wheel = wheel_of(scenario, model);
   try {
@@ -122,10 +123,10 @@ std::vector<OperatingCondition> without_slip(const std::vector<OperatingConditio
 /// At a slip of 100 % a wheel pulls and stands: it climbs nothing.
 bool spins_on_the_spot(double slip) { return slip > 1.0 - 1e-6; }
 
-/// Whether the wheel would pull most at 100 % slip, where one in soil digs itself in, and the model knows nothing of
-/// it.
+/// Whether the wheel would pull most at a slip at which one in soil digs itself in, and the model knows nothing of it.
 bool only_bounds(const WheelLimits& answer) {
-  return std::ranges::any_of(answer.slopes, [](const SlopeRow& row) { return spins_on_the_spot(row.best.slip); }) &&
+  constexpr double digs_in = 0.6;  // by Lyasko's factor the sinkage has doubled there
+  return std::ranges::any_of(answer.slopes, [](const SlopeRow& row) { return row.best.slip > digs_in; }) &&
          std::ranges::find(answer.model.effects, "slip_sinkage", &EffectChoice::id) == answer.model.effects.end();
 }
 
@@ -203,8 +204,14 @@ std::string in_words(const WheelLimits& answer) {
     text += "or not at all: with the soil one standard error weaker it does not climb this slope.\n";
   if (only_bounds(answer))
     text +=
-        "The model has no slip sinkage: the largest pull lies at 100 % slip, where a wheel digs itself in. So the "
+        "The model has no slip sinkage: the largest pull lies at a slip at which a wheel digs itself in. So the "
         "largest pull\nand the steepest slope are upper bounds; --effect slip_sinkage lowers them.\n";
+  const double phi = answer.friction_angle;
+  if (answer.steepest && *answer.steepest > phi)
+    text += fmt::format(
+        "Beyond {:.3g} deg, its friction angle, the soil itself holds by its cohesion alone, or slides: "
+        "that is not looked at.\n",
+        phi / degree);
   if (!answer.steepest) return text + "The steepest slope lies beyond -60 .. 80 deg.\n";
   return text + steepest_in_words({*answer.steepest, answer.steepest_error}, answer.slopes.back().best.slip) + "\n";
 }

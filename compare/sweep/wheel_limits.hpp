@@ -44,6 +44,7 @@ struct WheelLimits {
   std::vector<SlopeRow> slopes;
   std::string error;            ///< why there is no answer; empty where there is one
   bool at_every_speed = false;  ///< of the question's: the same answer
+  double friction_angle = 0.0;  ///< of the soil [rad]
 };
 
 /// Of each analytic model at each condition of the question, slip and longitudinal incline left aside; conditions that

@@ -134,16 +134,29 @@ TEST(Estimate, ListsAndStepsSpanAGridSlipFastest) {
   using testing::Pair;
   const std::string asked = "estimate --tire rover-wheel --soil dry-sand ";
   const auto grid = ElementsAre(Pair(40, 0.1), Pair(40, 0.2), Pair(60, 0.1), Pair(60, 0.2));
-  EXPECT_THAT(loads_and_slips(asked + "--slip 10,20% --load 40,60N"), grid) << "the last one's unit is that of all";
+  EXPECT_THAT(loads_and_slips(asked + "--slip 10%,20% --load 40N,60N"), grid);
   EXPECT_THAT(loads_and_slips(asked + "--slip 10%..20%:10% --load 40N..60N:20N"), grid);
   EXPECT_THAT(loads_and_slips(asked + "--slip 0.1,0.2 --load 40N,60N"), grid);
+  EXPECT_THAT(loads_and_slips(asked + "--slip 10% --load 40,50,60N"),
+              ElementsAre(Pair(40, 0.1), Pair(50, 0.1), Pair(60, 0.1)))
+      << "the last one's unit is that of all";
+}
+
+TEST(Estimate, RefusesTwoValuesThatMayBeOneWithADecimalComma) {
+  for (const auto& [condition, hint] : {std::pair{"--slip 0,1", "'0.0,1.0' are two, '0.1' is one"},
+                                        {"--load 80,5N", "'80N,5N' are two, '80.5N' is one"},
+                                        {"--slip 20% --load 1,5kN", "'1kN,5kN' are two, '1.5kN' is one"}}) {
+    const Outcome r = soilbin(std::string("estimate --tire rover-wheel --soil dry-sand ") + condition);
+    EXPECT_EQ(r.status, 2) << condition;
+    EXPECT_THAT(r.err, HasSubstr(hint));
+  }
 }
 
 // The study has 65 N alone, at 0 to 60 % slip.
 TEST(Estimate, SeveralValuesPickAndOverrideACase) {
   using testing::ElementsAre;
   using testing::Pair;
-  EXPECT_THAT(loads_and_slips("estimate paper-straight --effect none --load 4kN --slip 10,20%"),
+  EXPECT_THAT(loads_and_slips("estimate paper-straight --effect none --load 4kN --slip 10%,20%"),
               ElementsAre(Pair(4000, 0.1), Pair(4000, 0.2)));
   EXPECT_THAT(loads_and_slips("run paper-straight --load 4kN --slip 10%,11%"),
               ElementsAre(Pair(4000, 0.1), Pair(4000, 0.11), Pair(4000, 0.1), Pair(4000, 0.11)))

@@ -1,0 +1,71 @@
+// Whether the numbers of a struct made in code, which no reader has checked, are those that a file may hold.
+//
+//   check_numbers(OperatingCondition{.load = 80, .slip = 1.2});  // throws InputError: slip 1.2 is out of range: ...
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <type_traits>
+
+#include "scenario/description.hpp"
+#include "scenario/errors.hpp"
+
+namespace soilbin {
+namespace number_check_detail {
+
+void check(const char* key, double value, const Measure& measure);
+void check(const char* key, int value, int lowest);
+
+template <class T>
+struct Visitor {
+  const T& of;
+
+  void number(const char* key, auto member, const Measure& measure, Need, const char*) const {
+    each(of.*member, [&](double value) { check(key, value, measure); });
+  }
+  void exponent(const char* key, auto member, const Range& range, Need, const char*) const {
+    check(key, (of.*member).value, {"-", range});
+  }
+  void integer(const char* key, auto member, int lowest, Need, const char*) const {
+    each(of.*member, [&](int value) { check(key, value, lowest); });
+  }
+  void group(const char*, auto member, Need, const char*) const;
+  void list(const char*, auto member, Need, const char*) const;
+  void text(const auto&...) const {}
+  void assumed_sd(const auto&...) const {}
+  void choice(const auto&...) const {}
+  void part(const auto&...) const {}
+
+  template <class M>
+  static void each(const M& value, const auto& on) {
+    if constexpr (requires { value.std_error; })
+      on(value.value);
+    else if constexpr (requires { value.has_value(); }) {
+      if (value) on(*value);
+    } else
+      on(value);
+  }
+};
+
+}  // namespace number_check_detail
+
+/// Throws InputError that names the first number of `of`, or of what it holds, that lies outside its description's
+/// range or is none; and where its members can't stand together (contradiction).
+template <class T>
+void check_numbers(const T& of) {
+  const number_check_detail::Visitor<T> visitor{of};
+  describe(visitor, std::type_identity<T>{});
+  if (const std::string wrong = contradiction(of); !wrong.empty()) throw InputError(wrong);
+}
+
+template <class T>
+void number_check_detail::Visitor<T>::group(const char*, auto member, Need, const char*) const {
+  each(of.*member, [](const auto& part) { check_numbers(part); });
+}
+
+template <class T>
+void number_check_detail::Visitor<T>::list(const char*, auto member, Need, const char*) const {
+  for (const auto& one : of.*member) check_numbers(one);
+}
+
+}  // namespace soilbin
