@@ -1,5 +1,5 @@
 """A notebook runs from a clean kernel, every assertion in it holds, and it is stored without outputs. Its exercises don't
-hold their solutions, and its figures are those of the documents.
+hold their solutions and, where nobody has answered yet, don't show them; its figures are those of the documents.
 
 notebook_test.py FILE.ipynb SCRATCH
 """
@@ -49,6 +49,12 @@ done = json.loads((scratch / notebook.name).read_text(encoding="utf-8"))
 outputs = [out for cell in done["cells"] if cell["cell_type"] == "code" for out in cell["outputs"]]
 warnings = [out["text"] for out in outputs if out.get("name") == "stderr"]
 assert not warnings, f"a student would see: {warnings}"
+# as stored every answer is None: a solution's cell says so, and nothing that gives the right one away
+for number, place in enumerate(exercises, 1):
+    shown = [cell for cell in done["cells"] if cell["cell_type"] == "code"][place + 1]["outputs"]
+    texts = "".join("".join(out.get("text", str(out.get("data", "")))) for out in shown)
+    assert texts == "No answer yet.\n", f"exercise {number} shows without an answer: {texts!r}"
+assert not any("Right" in "".join(out.get("text", "")) for out in outputs), "an answer is called right that nobody gave"
 figures = sum("image/png" in out.get("data", {}) for out in outputs)
 assert figures >= 2, "a lesson shows what it says"
 print(f"{notebook.name}: {len(code)} cells, {figures} figures")

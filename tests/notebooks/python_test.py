@@ -1,4 +1,6 @@
 """The package soilbin: the same answers as the command's, errors with places, arrays without copies, work that stops."""
+import contextlib
+import io
 import json
 import math
 import os
@@ -16,7 +18,7 @@ COMMAND = sys.argv.pop(1)
 import numpy as np  # noqa: E402
 
 import soilbin  # noqa: E402
-from soilbin import bekker_wong, compare, dem  # noqa: E402
+from soilbin import bekker_wong, compare, dem, lessons  # noqa: E402
 
 ROVER = soilbin.Scenario("rover-wheel", "dry-sand")
 AT = soilbin.OperatingCondition(load=64.68, slip=0.2)
@@ -133,6 +135,33 @@ class Values(unittest.TestCase):
             for name in module.__all__:
                 if not name.startswith("__"):
                     self.assertTrue((getattr(module, name).__doc__ or "").strip(), f"{module.__name__}.{name}")
+
+
+class Lessons(unittest.TestCase):
+    def said(self, answer, right=172.2):
+        with contextlib.redirect_stdout(io.StringIO()) as text:
+            verdict = lessons.check(answer, right, hint="Look at b.")
+        return verdict, text.getvalue()
+
+    def test_an_answer_is_right_within_a_share(self):
+        self.assertEqual(self.said(None), (None, "No answer yet.\n"))
+        self.assertEqual(self.said(np.float64(174)), (True, "Right: 172.2.\n"))
+        self.assertEqual(self.said(180), (False, "Not yet: 180 is close. Look at b.\n"))
+        self.assertEqual(self.said(86.1), (False, "Not yet: 86.1 is far off. Look at b.\n"))
+
+    def test_what_is_not_one_number_is_told_how_to_write_one(self):
+        how = "write one number, without quotes and with a decimal point, such as 172.2.\n"
+        self.assertEqual(self.said("172,2"), (False, f"Not yet: '172,2' is a text; {how}"))
+        self.assertEqual(self.said((172, 2)), (False, f"Not yet: (172, 2) is several numbers; {how}"))
+        self.assertEqual(self.said([1, 2]), (False, f"Not yet: an answer of the type list is not a number; {how}"))
+
+    def test_a_solution_tests_itself_in_silence(self):
+        with contextlib.redirect_stdout(io.StringIO()) as text:
+            self.assertTrue(lessons.is_right(172.2, 172.2))
+            self.assertTrue(lessons.is_right(0, 0))
+            self.assertFalse(lessons.is_right(180, 172.2))
+            self.assertTrue(lessons.is_right(180, 172.2, within=0.05))
+        self.assertEqual(text.getvalue(), "")
 
 
 class Errors(unittest.TestCase):

@@ -40,52 +40,87 @@ def rolled(slip=0.2, **at):
     return contact, {name: values[order] for name, values in contact.nodes.items()}
 
 
+def arrow(ax, start, end, colour="k", width=1.6):
+    ax.annotate("", end, start, arrowprops={"arrowstyle": "->", "color": colour, "lw": width, "shrinkA": 0, "shrinkB": 0})
+
+
+def arc(ax, radius, first, last, colour, width=1.2):
+    """An arc about the axle, angles from the lowest point, with its head at `last`."""
+    along = np.linspace(first, last, 60)
+    x, z = radius * np.sin(along), 1 - radius * np.cos(along)
+    ax.plot(x[:-1], z[:-1], color=colour, lw=width)
+    arrow(ax, (x[-3], z[-3]), (x[-1], z[-1]), colour, width)
+
+
 def contact_geometry():
-    figure, ax = plt.subplots(figsize=(6.4, 4.2))
-    entry, exit_, most, r = 48 * deg, -10 * deg, 17 * deg, 1.0
+    """The wheel rolls to the right. Stresses, pull and torque as they act on the wheel."""
+    figure, ax = plt.subplots(figsize=(7.4, 5.2))
+    entry, most, at = 50 * deg, 19 * deg, 31 * deg  # `at`: where the two stresses are drawn
     around = np.linspace(0, 2 * np.pi, 300)
     surface = 1 - np.cos(entry)
-    ax.fill_between([np.sin(entry), 1.7], surface, -0.45, color="#e9dcc6", lw=0)
-    under = np.linspace(entry, exit_, 60)
-    ax.fill_between(r * np.sin(under), 1 - np.cos(under), -0.45, color="#e9dcc6", lw=0)
-    ax.fill_between([-1.5, np.sin(exit_)], 1 - np.cos(exit_), -0.45, color="#e9dcc6", lw=0)
+    under = np.linspace(0, entry, 60)
+    x = np.concatenate([[-1.5], np.sin(under), [1.9]])
+    z = np.concatenate([[0], 1 - np.cos(under), [surface]])
+    ax.fill_between(x, z, -0.5, color="#e9dcc6", lw=0)
+    ax.plot(x, z, color="#8a6d3b", lw=1.2)
     ax.plot(np.sin(around), 1 - np.cos(around), color="k", lw=1.4)
-    ax.plot([np.sin(entry), 1.7], [surface] * 2, color="#8a6d3b")
-    ax.plot([-1.5, np.sin(exit_)], [1 - np.cos(exit_)] * 2, color="#8a6d3b")
-    for angle, label, shift in ((entry, r"$\theta_1$: entry", (0.12, 0.06)), (most, r"$\theta_m$: largest stress", (0.03, -0.16)),
-                                (exit_, r"$\theta_2$: exit", (-0.52, -0.12))):
-        x, z = np.sin(angle), 1 - np.cos(angle)
-        ax.plot([0, x], [1, z], color=GREY, lw=0.8, ls="--")
-        ax.plot(x, z, "o", color="k", ms=4)
-        ax.annotate(label, (x, z), (x + shift[0], z + shift[1]))
-    ax.annotate("", (1.25, 0), (1.25, surface), arrowprops={"arrowstyle": "<->", "color": GREY})
-    ax.plot([0, 1.3], [0, 0], color=GREY, lw=0.6, ls=":")
-    ax.text(1.28, surface / 2 - 0.03, "z")
-    ax.annotate("", (0.75, 1), (0, 1), arrowprops={"arrowstyle": "->", "color": BLUE, "lw": 1.6})
-    ax.text(0.78, 0.98, "v", color=BLUE)
-    ax.annotate("", (0, 0.6), (0, 1), arrowprops={"arrowstyle": "->", "color": "k", "lw": 1.6})
-    ax.text(-0.04, 1.06, "W")
-    ax.text(-0.36, 1.12, r"$\omega$", color=ORANGE)
-    turn = np.linspace(200, 320, 40) * deg
-    ax.plot(0.42 * np.sin(turn), 1 - 0.42 * np.cos(turn) * 1.0, color=ORANGE, lw=1.2)
-    ax.annotate("", (0.42 * np.sin(turn[0]), 1 - 0.42 * np.cos(turn[0])),
-                (0.42 * np.sin(turn[2]), 1 - 0.42 * np.cos(turn[2])), arrowprops={"arrowstyle": "->", "color": ORANGE})
-    ax.set(aspect="equal", xlim=(-1.5, 1.7), ylim=(-0.45, 1.75))
+
+    for angle in (0, most, entry):
+        ax.plot([0, np.sin(angle)], [1, 1 - np.cos(angle)], color=GREY, lw=0.8, ls="--")
+        ax.plot(np.sin(angle), 1 - np.cos(angle), "o", color="k", ms=4)
+    arc(ax, 0.50, 0, entry, GREY)
+    ax.text(0.36, 0.45, r"$\theta_1$", color=GREY)
+    arc(ax, 0.78, 0, most, GREY)
+    ax.text(0.10, 0.10, r"$\theta_m$", color=GREY)
+    ax.text(np.sin(entry) + 0.16, surface + 0.07, r"entry, $\theta_1$")
+    ax.annotate(r"largest normal stress, $\theta_m$", (np.sin(most), 1 - np.cos(most)), (-0.75, -0.4),
+                arrowprops={"arrowstyle": "-", "color": GREY, "lw": 0.8})
+    ax.text(-0.75, -0.17, r"exit, $\theta_2 = 0$")
+
+    rim = np.array([np.sin(at), 1 - np.cos(at)])
+    inward, forward = np.array([-np.sin(at), np.cos(at)]), np.array([np.cos(at), np.sin(at)])
+    arrow(ax, rim - 0.42 * inward, rim, BLUE)
+    ax.text(*(rim - 0.42 * inward + [0.05, -0.02]), r"$\sigma$", color=BLUE)
+    arrow(ax, rim, rim + 0.36 * forward, ORANGE)
+    ax.text(*(rim + 0.33 * forward + [0.04, -0.08]), r"$\tau$", color=ORANGE)
+
+    ax.plot([0, np.sin(275 * deg)], [1, 1 - np.cos(275 * deg)], color=GREY, lw=0.8)
+    ax.text(-0.58, 0.96, "r", color=GREY)
+    arrow(ax, (1.55, surface), (1.55, 0), GREY, 1), arrow(ax, (1.55, 0), (1.55, surface), GREY, 1)
+    ax.plot([np.sin(most), 1.6], [0, 0], color=GREY, lw=0.6, ls=":")
+    ax.text(1.59, surface / 2 - 0.03, "z", color=GREY)
+
+    ax.plot(0, 1, "o", color="k", ms=4)
+    arrow(ax, (0, 1), (0, 0.62))
+    ax.text(-0.11, 0.72, "W")
+    arrow(ax, (0, 1), (0.62, 1), BLUE)
+    ax.text(0.40, 1.05, r"$F_{DP}$", color=BLUE)
+    arc(ax, 0.26, 290 * deg, 130 * deg, "k", 1.4)
+    ax.text(-0.02, 1.32, "M")
+    arc(ax, 1.10, 215 * deg, 165 * deg, ORANGE, 1.4)
+    ax.text(-0.03, 2.15, r"$\omega$", color=ORANGE)
+    arrow(ax, (1.12, 1.7), (1.72, 1.7), ORANGE)
+    ax.text(1.38, 1.76, "v", color=ORANGE)
+    ax.set(aspect="equal", xlim=(-1.5, 1.9), ylim=(-0.5, 2.3))
     ax.axis("off")
     save(figure, "geometry")
 
 
 def stresses():
+    """The wheel rolls to the right, so the entry is at the right."""
     figure, axes = plt.subplots(1, 2, figsize=(8.4, 3.2), sharex=True)
     for slip, colour in ((0.05, GREY), (0.2, BLUE), (0.6, ORANGE)):
         contact, nodes = rolled(slip)
-        axes[0].plot(nodes["theta"] / deg, nodes["sigma"] / kPa, color=colour, label=f"slip {100 * slip:.0f} %")
-        axes[1].plot(nodes["theta"] / deg, nodes["tau_x"] / kPa, color=colour)
-        axes[0].plot(contact.max_stress_angle / deg, nodes["sigma"].max() / kPa, "o", color=colour, ms=4)
-    axes[0].set(title=r"normal stress $\sigma$ [kPa]", xlabel=r"angle $\theta$ before the lowest point [deg]")
-    axes[1].set(title=r"shear stress $\tau$ [kPa]", xlabel=r"angle $\theta$ before the lowest point [deg]")
+        largest = {step.name: step.value for step in bw.explain(scenario(), AT.replace(slip=slip)).steps}  # kPa, at theta_m
+        place = np.searchsorted(nodes["theta"], contact.max_stress_angle)  # no node lies there
+        theta = np.insert(nodes["theta"], place, contact.max_stress_angle) / deg
+        for ax, stress, name in ((axes[0], "sigma", "normal stress there"), (axes[1], "tau_x", "shear stress there")):
+            ax.plot(theta, np.insert(nodes[stress] / kPa, place, largest[name]), color=colour, label=f"slip {100 * slip:.0f} %")
+        axes[0].plot(theta[place], largest["normal stress there"], "o", color=colour, ms=4)
+    axes[0].set(title=r"normal stress $\sigma$ [kPa]"), axes[1].set(title=r"shear stress $\tau$ [kPa]")
+    for ax in axes:
+        ax.set(xlabel=r"exit   $\leftarrow$   angle $\theta$ [deg]   $\rightarrow$   entry")
     axes[0].legend(frameon=False)
-    axes[0].invert_xaxis()
     save(figure, "stresses")
 
 
@@ -138,20 +173,21 @@ def slopes_and_yaw():
 
 
 def plates():
-    """For notebook 1: two plates, their curves, and the line that gives k_c and k_phi."""
+    """For notebook 1: two round plates, their curves, and the line that gives k_c and k_phi. With k_c > 0 the small plate
+    is stiffer. The depths on the left are those of the curves at 70 kPa."""
     figure, axes = plt.subplots(1, 3, figsize=(9.6, 2.9))
     ground = axes[0]
     ground.fill_between([-2.6, 2.6], 0, -1.5, color="#e9dcc6", lw=0)
-    for middle, half, depth, colour in ((-1.3, 0.35, 0.75, ORANGE), (1.1, 0.8, 0.5, BLUE)):
+    for middle, half, depth, colour in ((-1.3, 0.35, 0.47, ORANGE), (1.1, 0.8, 0.68, BLUE)):
         ground.fill_between([middle - half, middle + half], 0, -depth, color="white", lw=0)
         ground.fill_between([middle - half, middle + half], -depth, -depth + 0.12, color=colour, lw=0)
         ground.annotate("", (middle, -depth + 0.14), (middle, 0.75), arrowprops={"arrowstyle": "->", "lw": 1.6})
         ground.annotate("", (middle + half, -depth - 0.16), (middle, -depth - 0.16), arrowprops={"arrowstyle": "<->", "color": GREY})
         ground.text(middle + half / 2 - 0.08, -depth - 0.42, "b")
         ground.text(middle + 0.08, 0.5, "p")
-    ground.annotate("", (-2.0, -0.75), (-2.0, 0), arrowprops={"arrowstyle": "<->", "color": GREY})
-    ground.text(-2.3, -0.45, "z")
-    ground.set(xlim=(-2.6, 2.6), ylim=(-1.5, 1.0), title="the same pressure, two plates")
+    ground.annotate("", (-2.0, -0.47), (-2.0, 0), arrowprops={"arrowstyle": "<->", "color": GREY})
+    ground.text(-2.3, -0.3, "z")
+    ground.set(xlim=(-2.6, 2.6), ylim=(-1.5, 1.0), title="two round plates, the same pressure")
     ground.axis("off")
     depth = np.linspace(0, 0.04, 60)
     n, k_c, k_phi = 0.8, 30.0, 1200.0
