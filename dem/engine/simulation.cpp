@@ -18,6 +18,7 @@ namespace soilbin::dem {
 namespace {
 
 constexpr double search_is_due_now = std::numeric_limits<double>::infinity();
+constexpr std::size_t grains_a_thread = 2000;  // docs/lab/dem-performance.md, 'Threads and few grains'
 
 void check(const Domain& domain) {
   const Vec3 side = domain.upper - domain.lower;
@@ -93,11 +94,18 @@ Margins margins_of(const World& world, double largest) {
   return margins;
 }
 
+/// Threads that wait for each other cost more than they save where each has few grains.
+int threads_for(const Numerics& numerics, std::size_t grains) {
+  if (numerics.threads > 0) return numerics.threads;
+  return static_cast<int>(std::clamp<std::size_t>(grains / grains_a_thread, 1, omp_get_num_procs()));
+}
+
 /// What follows from the setup, once the grains are there.
 void prepare(World& world) {
   const double largest = world.state.grains.largest_radius();
   world.laws.fill(world.setup.materials, world.setup.laws, largest);
   world.margins = margins_of(world, largest);
+  world.threads = threads_for(world.setup.numerics, world.state.grains.count());
   give_grids(world.state.bodies, largest + world.margins.motion + world.margins.adhesion);
   check_step(world.setup, world.state.grains);
 }
@@ -182,7 +190,6 @@ void Simulation::set_numerics(const Numerics& numerics) {
   Numerics& ours = world_.setup.numerics;
   if (world_.state.step > 0 && numerics.dt != ours.dt) shift(world_, false, (ours.dt - numerics.dt) / 2);
   ours = numerics;
-  world_.threads = numerics.threads > 0 ? numerics.threads : omp_get_num_procs();
   const std::string_view set =
       numerics.instruction_set.empty() ? instruction_sets().front() : std::string_view(numerics.instruction_set);
   world_.kernels = kernels_for(set);

@@ -72,6 +72,8 @@ class Simulation {
   /// What is where: kinetic, potential, elastic, and what the ledger has counted. Grains added since the last run are
   /// not yet in it.
   EnergyBalance energy() const { return energy_of(world_); }
+  /// How many threads the last run() has used (Numerics::threads).
+  int threads() const { return world_.threads; }
   /// Share of the grains that sleep.
   double share_asleep() const { return world_.sleeping.share(world_.state); }
 
