@@ -110,7 +110,7 @@ void ContactTestFlags::add_to(CLI::App& command) {
             "law of rolling resistance: elastic_plastic, directional, directional_with_twist; the soil's own");
   add_value(command, "--across", across, "N", "grains along a side of the board, 16");
   add_value(command, "--packings", packings, "N", "number of samples of each experiment; shear box 1, board 4");
-  add_value(command, "--threads", threads, "N", "0, one a core");
+  add_value(command, "--threads", threads, "N", "number of threads; 0: one for each core, fewer for few grains");
 }
 
 }  // namespace soilbin::cli

@@ -29,7 +29,7 @@ void ElementTestFlags::add_to(CLI::App& command) {
             "law of rolling resistance: elastic_plastic, directional, directional_with_twist, none; the soil's own");
   add_value(command, "--size", size, "FACTOR",
             "size of specimens and beds, as a multiple of the default; tools keep theirs");
-  add_value(command, "--threads", threads, "N", "number of threads; 0: one for each core");
+  add_value(command, "--threads", threads, "N", "number of threads; 0: one for each core, fewer for few grains");
 }
 
 dem::SpecimenSettings ElementTestFlags::specimen(const GranularSoil& soil) const {

@@ -17,7 +17,7 @@ struct Progress {
 };
 
 struct WorkOptions {
-  int threads = 0;  ///< 0: one a core
+  int threads = 0;  ///< 0: one a core, fewer for few grains (Numerics)
   std::function<void(const Progress&)> progress;
   std::stop_token stop;
   /// Gets what a person should know and that stops nothing: a bed that couldn't be kept, say.

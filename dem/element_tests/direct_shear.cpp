@@ -95,7 +95,7 @@ void ShearBox::add_bodies() {
   lower_ = add_half("lower half", -d_, size_.depth / 2);
   upper_ = add_half("upper half", size_.depth / 2, top_ + 4 * d_);
   lid_ = add_planes("lid", {{{0, 0, 0}, {0, 0, -1}}}, rough_);
-  body(lid_).position = {0, 0, top_};
+  simulation_.move_body(lid_, {0, 0, top_}, {});
   body(lid_).servo = press({0, 0, 1}, stress_, size_.length * size_.width, soil_, simulation_.setup().numerics.dt);
 }
 

@@ -1,6 +1,7 @@
 #include "dem/engine/evaluation.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "dem/engine/pair_touch.hpp"
 #include "dem/engine/world.hpp"

@@ -25,9 +25,18 @@ void check(const Material& m) {
 
 void check(const Interaction& c, const std::string& pair) {
   require(c.restitution >= 0 && c.restitution <= 1, pair, "the restitution must lie in [0, 1]");
-  for (const double value : {c.sliding_friction, c.rolling_friction, c.rolling_damping, c.rolling_stiffness,
-                             c.rolling_viscosity, c.cohesion, c.normal_stiffness, c.shear_stiffness})
-    require(value >= 0 && std::isfinite(value), pair, "friction, stiffness, damping and cohesion must be 0 or more");
+  const auto not_negative = [&](double value, const char* what) {
+    if (!(value >= 0 && std::isfinite(value)))
+      throw InputError(fmt::format("material {}: the {} must be 0 or more and finite, not {}", pair, what, value));
+  };
+  not_negative(c.sliding_friction, "sliding friction");
+  not_negative(c.rolling_friction, "rolling friction");
+  not_negative(c.rolling_damping, "rolling damping");
+  not_negative(c.rolling_stiffness, "rolling stiffness");
+  not_negative(c.rolling_viscosity, "rolling viscosity");
+  not_negative(c.cohesion, "cohesion");
+  not_negative(c.normal_stiffness, "normal stiffness");
+  not_negative(c.shear_stiffness, "shear stiffness");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "dem/engine/rayleigh_time.hpp"
@@ -17,6 +18,7 @@ namespace soilbin::dem {
 namespace {
 
 constexpr double search_is_due_now = std::numeric_limits<double>::infinity();
+constexpr std::size_t grains_a_thread = 2000;  // docs/lab/dem-performance.md, 'Threads and few grains'
 
 void check(const Domain& domain) {
   const Vec3 side = domain.upper - domain.lower;
@@ -25,11 +27,37 @@ void check(const Domain& domain) {
 }
 
 void check(const Numerics& numerics) {
-  if (!positive(numerics.dt)) throw InputError("the time step must be above 0");
-  if (numerics.skin < 0 || !positive(numerics.deepest_overlap))
-    throw InputError("skin and deepest overlap can't be negative");
+  const auto above_0 = [](double value, const char* field, const char* what) {
+    if (!positive(value))
+      throw InputError(fmt::format("{}: {} must be above 0 and finite, not {}", field, what, value));
+  };
+  const auto not_negative = [](double value, const char* field, const char* what) {
+    if (!(value >= 0 && std::isfinite(value)))
+      throw InputError(fmt::format("{}: {} must be 0 or more and finite, not {}", field, what, value));
+  };
+  above_0(numerics.dt, "dt", "the time step");
+  not_negative(numerics.skin, "skin", "the margin of the search");
+  above_0(numerics.deepest_overlap, "deepest_overlap", "the share of the smaller radius");
+  above_0(numerics.safe_share, "safe_share", "the share of the Rayleigh time");
+  not_negative(numerics.sleep.speed, "sleep.speed", "the speed");
+  not_negative(numerics.sleep.time, "sleep.time", "the time");
   if (numerics.threads < 0 || numerics.threads > most_threads())
-    throw InputError(fmt::format("threads: 0 (one a core) .. {}, not {}", most_threads(), numerics.threads));
+    throw InputError(fmt::format("threads: 0 .. {}, not {}", most_threads(), numerics.threads));
+}
+
+void check(const ContactLaws& laws) {
+  if (laws.cohesion == CohesionLaw::jkr && laws.normal != NormalLaw::hertz)
+    throw InputError(
+        "jkr cohesion needs the normal law hertz"
+        "\n  hint: linear cohesion goes with hooke");
+  if (!std::isfinite(laws.tangential_damping))
+    throw InputError(
+        fmt::format("tangential_damping: a share of the normal damping, or negative for Mindlin's own, not {}",
+                    laws.tangential_damping));
+}
+
+void check_bodies(const World& world) {
+  for (const Body& body : world.state.bodies) check(body, static_cast<int>(world.setup.materials.all.size()));
 }
 
 void check_step(const Setup& setup, const Grains& grains) {
@@ -66,11 +94,18 @@ Margins margins_of(const World& world, double largest) {
   return margins;
 }
 
+/// Threads that wait for each other cost more than they save where each has few grains.
+int threads_for(const Numerics& numerics, std::size_t grains) {
+  if (numerics.threads > 0) return numerics.threads;
+  return static_cast<int>(std::clamp<std::size_t>(grains / grains_a_thread, 1, omp_get_num_procs()));
+}
+
 /// What follows from the setup, once the grains are there.
 void prepare(World& world) {
   const double largest = world.state.grains.largest_radius();
   world.laws.fill(world.setup.materials, world.setup.laws, largest);
   world.margins = margins_of(world, largest);
+  world.threads = threads_for(world.setup.numerics, world.state.grains.count());
   give_grids(world.state.bodies, largest + world.margins.motion + world.margins.adhesion);
   check_step(world.setup, world.state.grains);
 }
@@ -112,6 +147,7 @@ void half_step_back(World& world) {
 
 /// Brings in what was added or changed since the last step.
 void settle_changes(World& world) {
+  check_bodies(world);  // anybody may have changed them
   if (world.state.travel < search_is_due_now) return;
   with_energy_counted(world, [&] {
     prepare(world);
@@ -138,6 +174,7 @@ Simulation::Simulation(Setup setup) {
   world_.setup = std::move(setup);
   if (world_.setup.materials.all.empty()) throw InputError("a simulation needs a material");
   check(world_.setup.domain);
+  check(world_.setup.laws);
   set_numerics(world_.setup.numerics);
 }
 
@@ -153,7 +190,6 @@ void Simulation::set_numerics(const Numerics& numerics) {
   Numerics& ours = world_.setup.numerics;
   if (world_.state.step > 0 && numerics.dt != ours.dt) shift(world_, false, (ours.dt - numerics.dt) / 2);
   ours = numerics;
-  world_.threads = numerics.threads > 0 ? numerics.threads : omp_get_num_procs();
   const std::string_view set =
       numerics.instruction_set.empty() ? instruction_sets().front() : std::string_view(numerics.instruction_set);
   world_.kernels = kernels_for(set);
@@ -234,6 +270,29 @@ int Simulation::add_body(Body body) {
   with_energy_counted(world_, [&] { state.bodies.push_back(std::move(body)); });
   note_change(state);
   return static_cast<int>(state.bodies.size()) - 1;
+}
+
+void Simulation::move_body(int index, const Vec3& position, const Rotation& rotation) {
+  State& s = world_.state;
+  Body& body = s.bodies.at(index);
+  Body moved = body;
+  moved.position = position, moved.rotation = rotation;
+  check(moved, static_cast<int>(world_.setup.materials.all.size()));
+  wake_all(s);
+  with_energy_counted(world_, [&] {
+    if (s.travel == search_is_due_now) {
+      body = std::move(moved);
+      return;
+    }
+    const Rotation turn = rotation * body.rotation.inverse();
+    const double chord = 2 * length(Vec3{turn.x, turn.y, turn.z});  // that a point at distance 1 moves along
+    const double reach = world_.extents.reach(index, position, world_.margins.motion);
+    const double jump = length(position - body.position) + chord * reach;
+    body = std::move(moved);
+    body.travel += jump;
+    s.travel += jump;
+    if (search_is_due(world_)) search(world_);
+  });
 }
 
 std::size_t Simulation::remove_grains(const std::function<bool(const GrainNow&)>& gone) {

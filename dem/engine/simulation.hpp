@@ -45,14 +45,22 @@ class Simulation {
   std::size_t hold_grains(const std::function<bool(const GrainNow&)>& which);
   /// Gives the body's index. Throws InputError for an unknown material or a mass or inertia that isn't positive.
   int add_body(Body body);
-  /// To change what drives it between steps.
+  /// To change between steps what drives a body and what it weighs: velocity, spin, servo, what is applied, which
+  /// motions are free, mass, inertia, material; the next run() throws InputError where that makes no sense. Its
+  /// surfaces stay those that were added, and its place changes through move_body: grains would not feel it at another
+  /// one.
   Body& body(int index) { return world_.state.bodies.at(index); }
   const Body& body(int index) const { return world_.state.bodies.at(index); }
+  /// Puts a body elsewhere at once; velocity and spin stay as they are. What it has left behind and what it meets feel
+  /// that from the next step on, and all grains wake. One put deep into grains stops the run: move it there by its
+  /// velocity. Throws InputError for a place that is not finite or a rotation that is not of length 1.
+  void move_body(int index, const Vec3& position, const Rotation& rotation);
   void set_numerics(const Numerics& numerics);
   /// Changes the interaction of a pair of materials between steps: settle without friction, then switch it on.
   void set_interaction(int a, int b, const Interaction& interaction);
 
-  /// Throws RunStopped; the state is then that after the step in which it failed, so it can be looked at.
+  /// Throws InputError for a body or a time step that makes no sense, and RunStopped; the state is then that after the
+  /// step in which it failed, so it can be looked at.
   void run(std::int64_t steps);
 
   /// A grain at the present time, whole-step velocities included. By its id; throws std::out_of_range.
@@ -64,6 +72,8 @@ class Simulation {
   /// What is where: kinetic, potential, elastic, and what the ledger has counted. Grains added since the last run are
   /// not yet in it.
   EnergyBalance energy() const { return energy_of(world_); }
+  /// How many threads the last run() has used (Numerics::threads).
+  int threads() const { return world_.threads; }
   /// Share of the grains that sleep.
   double share_asleep() const { return world_.sleeping.share(world_.state); }
 

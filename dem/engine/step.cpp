@@ -119,8 +119,8 @@ double move_bodies(World& world) {
   for (std::size_t b = 0; b < world.state.bodies.size(); ++b) {
     Body& body = world.state.bodies[b];
     advance(body, world.state.gravity, dt);
-    const double of_plane = length(body.position - to.middle) + to.around_middle + world.margins.motion;
-    const double speed = length(body.velocity) + length(body.spin) * (to.bodies[b] < 0 ? of_plane : to.bodies[b]);
+    const double reach = to.reach(b, body.position, world.margins.motion);
+    const double speed = length(body.velocity) + length(body.spin) * reach;
     body.travel += dt * speed;
     fastest = speed < 1e15 ? std::max(fastest, speed) : infinity;
   }

@@ -41,6 +41,11 @@ struct Extents {
   std::vector<double> bodies;  ///< extent of each; -1: it has a plane
   Vec3 middle;                 ///< of a ball round all grains at the last search, for planes
   double around_middle = 0;
+
+  /// How far from a body at `position` its points are that a grain may touch before the next search [m].
+  double reach(std::size_t body, const Vec3& position, double margin) const {
+    return bodies[body] < 0 ? length(position - middle) + around_middle + margin : bodies[body];
+  }
 };
 
 struct World {

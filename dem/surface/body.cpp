@@ -18,6 +18,8 @@ Vec3 momentum_of(const Body& body, const Vec3& spin) { return angular_momentum(b
 
 double inertia_about_axis(const Body& body) { return dot(body.axis, momentum_of(body, body.axis)); }
 
+std::string name_of_body(const Body& body) { return body.name.empty() ? "a body without a name" : "body " + body.name; }
+
 void follow(const Servo& servo, Body& body) {
   const double wanted = servo.gain * (dot(body.force, servo.direction) - servo.target);
   const double speed = std::clamp(wanted, -servo.fastest, servo.fastest);
@@ -28,18 +30,19 @@ void follow(const Servo& servo, Body& body) {
 
 void check(const Body& body, int materials) {
   const auto require = [&](bool holds, const char* what) {
-    if (!holds) throw InputError(fmt::format("body {}: {}", body.name, what));
+    if (!holds) throw InputError(fmt::format("{}: {}", name_of_body(body), what));
   };
   const Vec3& inertia = body.inertia;
   require(positive(body.mass) && positive(inertia.x) && positive(inertia.y) && positive(inertia.z),
           "mass and inertia must be above 0");
   for (const Surface& surface : body.surfaces) {
-    require(surface.material >= 0 && surface.material < materials,
-            fmt::format("there is no material {}", surface.material).c_str());
+    if (surface.material < 0 || surface.material >= materials)
+      throw InputError(fmt::format("{}: there is no material {}", name_of_body(body), surface.material));
     const auto* plane = std::get_if<Plane>(&surface.shape);
     require(plane || std::get<MeshSurface>(surface.shape).mesh, "a surface has no mesh");
     require(!plane || is_unit(plane->normal), "a plane's normal must have length 1");
   }
+  require(std::isfinite(squared(body.position)), "the position must be finite");
   const Rotation& q = body.rotation;
   require(std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1) < 1e-6, "the rotation must have length 1");
   require(body.turning != Turning::about_axis || is_unit(body.axis), "the axis must have length 1");

@@ -65,7 +65,7 @@ struct Body {
   std::optional<Servo> servo;
   Vec3 applied_force, applied_torque;  ///< on top of what the grains do [N], [N m]
 
-  Vec3 position;  ///< of the origin of its frame, taken as its centre of mass [m]
+  Vec3 position;  ///< of the origin of its frame, taken as its centre of mass [m]; in a run: Simulation::move_body
   Rotation rotation;
   Vec3 velocity, spin;     ///< at the half step [m/s], [rad/s]
   Vec3 force, torque;      ///< of the grains at the last step, torque about position
@@ -85,7 +85,7 @@ constexpr Vec3 where(const std::array<bool, 3>& yes, const Vec3& a) {
 }
 
 /// Throws InputError for what makes no sense: no mesh, directions that are not units, an unknown material of so many, a
-/// mass or inertia that isn't positive, a servo along a direction that is free.
+/// mass or inertia that isn't positive, a place that is not finite, a servo along a direction that is free.
 void check(const Body& body, int materials);
 
 /// Kinetic energy of its free motion, of these velocities [J].

@@ -164,8 +164,8 @@ void bind_grains(py::module_& module) {
       .def(py::init(&make_simulation), py::arg("material"), py::arg("interaction"), py::arg("dt"),
            py::arg("gravity") = Triple{0, 0, 0}, py::arg("normal") = NormalLaw::hertz,
            py::arg("rolling") = RollingLaw::none, py::arg("cohesion") = CohesionLaw::none, py::arg("threads") = 1,
-           "dt [s], gravity [m/s^2], threads 0: one a core (no number of them changes a bit). Raises InputError for "
-           "what makes no sense.")
+           "dt [s], gravity [m/s^2], threads 0: one a core or fewer (no number of them changes a bit). Raises "
+           "InputError for what makes no sense.")
       .def(
           "add_grain",
           [](Simulation& s, const Triple& position, double radius, const Triple& velocity, const Triple& spin) {

@@ -122,7 +122,7 @@ std::string settings_doc() {
       "packing: seed of the bed. beds: folder that keeps settled beds, and runs that are stopped, which then go on; "
       "None: "
       "neither is kept. ledger: tells "
-      "where the power goes. threads: 0, one a core; changes no bit. By keywords:";
+      "where the power goes. threads: 0, one a core or fewer; changes no bit. By keywords:";
   for (const Setting& setting : settings_by_name) doc += "\n  " + std::string(setting.name) + ": " + setting.doc;
   return doc;
 }

@@ -55,6 +55,88 @@ TEST(DrivenBody, KeepsItsVelocityAndSpin) {
   EXPECT_EQ(now.spin, body.spin);
 }
 
+constexpr double moved_overlap = 1e-4;  // [m]
+
+/// What a grain of 10 mm presses with on a body that overlaps it: (4/3) E* sqrt(R*) delta^1.5, E* = E/(2 (1 - nu^2)).
+double pressing_force() {
+  return 4.0 / 3 * 5e6 / (2 * (1 - 0.25 * 0.25)) * std::sqrt(0.01) * std::pow(moved_overlap, 1.5);
+}
+
+/// A grain at the origin and a body far below it, after some steps, so that pairs have been searched for.
+Simulation grain_above(Body body, bool ledger = false) {
+  Setup setup = soft_stone();
+  setup.numerics.ledger = ledger;
+  Simulation simulation(setup);
+  simulation.add_grain({0, 0, 0}, 0.01, 0);
+  body.position = {0, 0, -1};
+  simulation.add_body(body);
+  simulation.run(10);
+  return simulation;
+}
+
+Body floor_plane() {
+  Body floor;
+  floor.surfaces.push_back({Plane{}, 0});
+  return floor;
+}
+
+TEST(MovedBody, PressesOnTheGrainsAtItsNewPlaceAtOnce) {
+  const double half = 0.005;  // of the plate's height
+  Simulation plate = grain_above(cuboid(1, {0.1, 0.1, 2 * half})), plane = grain_above(floor_plane());
+  plate.move_body(0, {0, 0, -0.01 - half + moved_overlap}, {});
+  plane.move_body(0, {0.3, 0, -0.01 + moved_overlap}, {});
+  for (Simulation* each : {&plate, &plane}) {
+    EXPECT_EQ(each->contacts().size(), 1u);
+    each->run(1);
+    EXPECT_NEAR(each->body(0).force.z, -pressing_force(), 1e-10 * pressing_force());
+  }
+  plate.move_body(0, {0, 0, -1}, {});
+  plate.run(1);
+  EXPECT_EQ(plate.body(0).force, Vec3{});
+}
+
+TEST(MovedBody, IsFeltWhereItTurnedOnTheSpot) {
+  // On end, a plate of 100 mm reaches 50 mm up; lying, 5 mm.
+  Simulation plate = grain_above(cuboid(1, {0.1, 0.1, 0.01}));
+  plate.move_body(0, {0, 0, -0.06 + moved_overlap}, {});
+  plate.run(10);
+  EXPECT_EQ(plate.body(0).force, Vec3{});
+  plate.move_body(0, plate.body(0).position, rotation_by({0, pi / 2, 0}));
+  plate.run(1);
+  EXPECT_NEAR(plate.body(0).force.z, -pressing_force(), 1e-10 * pressing_force());
+
+  // A plane through (0.3, 0) that rises by 0.1 a metre toward -x: below the grain's lowest point, then in it.
+  const double slope = 0.1, length_of_normal = std::sqrt(1 + slope * slope);
+  Simulation plane = grain_above(floor_plane());
+  plane.move_body(0, {0.3, 0, -0.01 * length_of_normal - 0.3 * slope + moved_overlap * length_of_normal}, {});
+  plane.run(10);
+  EXPECT_EQ(plane.body(0).force, Vec3{});
+  plane.move_body(0, plane.body(0).position, rotation_by({0, std::atan(slope), 0}));
+  plane.run(1);
+  EXPECT_NEAR(length(plane.body(0).force), pressing_force(), 1e-9 * pressing_force());
+}
+
+TEST(MovedBody, IsFeltThoughEachMoveIsSmall) {
+  // Steps of a tenth of the search's margin, a fifth of the radius.
+  Simulation plate = grain_above(cuboid(1, {0.1, 0.1, 0.01}));
+  const double last = -0.015 + moved_overlap;
+  plate.move_body(0, {0, 0, last - 30 * 2e-4}, {});
+  for (int k = 29; k >= 0; --k) {
+    plate.move_body(0, {0, 0, last - k * 2e-4}, {});
+    plate.run(1);
+    EXPECT_EQ(plate.body(0).force.z == 0, k > 0);
+  }
+  EXPECT_NEAR(plate.body(0).force.z, -pressing_force(), 1e-10 * pressing_force());
+}
+
+TEST(MovedBody, BringsTheEnergyOfTheContactsThatItMakes) {
+  Simulation plate = grain_above(cuboid(1, {0.1, 0.1, 0.01}), true);
+  plate.move_body(0, {0, 0, -0.015 + moved_overlap}, {});
+  const EnergyBalance now = plate.energy();
+  EXPECT_NEAR(now.elastic, 0.4 * pressing_force() * moved_overlap, 1e-10 * now.elastic);
+  EXPECT_NEAR(now.total(), 0, 1e-12 * now.elastic) << "all of it is counted as brought in";
+}
+
 TEST(FreeBody, FallsWhereItIsFree) {
   Simulation simulation = empty(1e-3);
   simulation.set_gravity({1, 2, -g});

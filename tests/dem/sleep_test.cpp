@@ -112,6 +112,7 @@ TEST(Sleep, EndsForAllWhenGravityOrWhatIsThereChanges) {
     high.position.z = 0.2;
     s.add_body(high);
   });
+  awake_after([](Simulation& s) { s.move_body(bin_body, s.body(bin_body).position, {}); });
   awake_after([](Simulation& s) { s.set_interaction(0, 0, {.restitution = 0.4, .sliding_friction = 0.1}); });
   awake_after([](Simulation& s) { s.remove_grains([](const GrainNow& g) { return g.position.x > 0.95; }); });
 }

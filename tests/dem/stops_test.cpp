@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "dem/engine/rayleigh_time.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/estimate.hpp"
@@ -117,6 +119,50 @@ TEST(Setups, ThatMakeNoSenseAreRefused) {
   EXPECT_THAT(message<InputError>([&] { hooke.run(1); }), HasSubstr("stone on stone has no normal stiffness"));
 }
 
+TEST(Setups, ANumberThatMakesNoSenseIsRefusedByItsName) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  const auto refused = [](const auto& spoil) {
+    auto setup = soft_stone();
+    spoil(setup.numerics);
+    return message<InputError>([&] { Simulation{setup}; });
+  };
+  EXPECT_THAT(refused([](Numerics& n) { n.dt = not_a_number; }), HasSubstr("dt: the time step must be above 0"));
+  EXPECT_THAT(refused([](Numerics& n) { n.safe_share = not_a_number; }), HasSubstr("safe_share: "));
+  EXPECT_THAT(refused([](Numerics& n) { n.skin = not_a_number; }), HasSubstr("skin: "));
+  EXPECT_THAT(refused([&](Numerics& n) { n.skin = infinite; }), HasSubstr("skin: "));
+  EXPECT_THAT(refused([](Numerics& n) { n.deepest_overlap = 0; }), HasSubstr("deepest_overlap: "));
+  EXPECT_THAT(refused([](Numerics& n) { n.sleep.speed = -1; }), HasSubstr("sleep.speed: "));
+  EXPECT_THAT(refused([](Numerics& n) { n.sleep.time = not_a_number; }), HasSubstr("sleep.time: "));
+  EXPECT_THAT(refused([](Numerics& n) { n.threads = -1; }), HasSubstr("threads: "));
+  Simulation simulation(soft_stone());
+  Numerics later = simulation.setup().numerics;
+  later.safe_share = -1;
+  EXPECT_THAT(message<InputError>([&] { simulation.set_numerics(later); }), HasSubstr("safe_share: "));
+}
+
+TEST(Setups, LawsThatMakeNoSenseAreRefused) {
+  auto both = soft_stone({{NormalLaw::hooke, RollingLaw::none, CohesionLaw::jkr}, -1});
+  EXPECT_THAT(message<InputError>([&] { Simulation{both}; }), HasSubstr("jkr cohesion needs the normal law hertz"));
+  auto damping = soft_stone({{}, not_a_number});
+  EXPECT_THAT(message<InputError>([&] { Simulation{damping}; }), HasSubstr("tangential_damping: "));
+}
+
+TEST(Setups, AnInteractionThatMakesNoSenseIsRefusedByWhatIsWrong) {
+  const auto refused = [](const Interaction& interaction) {
+    Materials materials;
+    return message<InputError>([&] { materials.add({"stone", 2500, 5e6, 0.25}, interaction); });
+  };
+  EXPECT_THAT(refused({.restitution = 1.1}), HasSubstr("material stone: the restitution must lie in [0, 1]"));
+  EXPECT_THAT(refused({.sliding_friction = -1}), HasSubstr("the sliding friction must be 0 or more"));
+  EXPECT_THAT(refused({.rolling_friction = -1}), HasSubstr("rolling friction"));
+  EXPECT_THAT(refused({.rolling_damping = not_a_number}), HasSubstr("rolling damping"));
+  EXPECT_THAT(refused({.rolling_stiffness = -1}), HasSubstr("rolling stiffness"));
+  EXPECT_THAT(refused({.rolling_viscosity = -1}), HasSubstr("rolling viscosity"));
+  EXPECT_THAT(refused({.cohesion = -1}), HasSubstr("cohesion"));
+  EXPECT_THAT(refused({.normal_stiffness = -1}), HasSubstr("normal stiffness"));
+  EXPECT_THAT(refused({.shear_stiffness = -1}), HasSubstr("shear stiffness must be 0 or more and finite, not -1"));
+}
+
 TEST(Setups, GrainsThatMakeNoSenseAreRefused) {
   auto setup = soft_stone();
   setup.domain = {{-1, -1, -1}, {1, 1, 1}};
@@ -155,6 +201,34 @@ TEST(Setups, BodiesThatMakeNoSenseAreRefused) {
   EXPECT_THAT(refused([](Body& b) { b.servo = Servo{.direction = {0, 0, 3}}; }), HasSubstr("direction must"));
   EXPECT_THAT(refused([](Body& b) { b.servo.emplace(), b.free_translation[2] = true; }), HasSubstr("where it is free"));
   EXPECT_TRUE(simulation.state().bodies.empty());
+}
+
+TEST(MidRun, ABodyThatMakesNoSenseIsRefused) {
+  const auto refused = [](const auto& act) {
+    Simulation simulation = with_floor(soft_stone());
+    simulation.add_grain({0, 0, 0.0099}, ball_radius, 0);
+    simulation.run(1);
+    return message<InputError>([&] {
+      act(simulation);
+      simulation.run(1);
+    });
+  };
+  EXPECT_THAT(refused([](Simulation& s) { s.body(0).mass = -1; }), HasSubstr("mass and inertia must be above 0"));
+  EXPECT_THAT(refused([](Simulation& s) { s.body(0).surfaces[0].material = 7; }), HasSubstr("there is no material 7"));
+  EXPECT_THAT(refused([](Simulation& s) { s.body(0).position.x = not_a_number; }),
+              HasSubstr("position must be finite"));
+
+  Simulation simulation = with_floor(soft_stone());
+  EXPECT_THAT(message<InputError>([&] {
+                simulation.move_body(0, {0, 0, not_a_number}, {});
+              }),
+              HasSubstr("position must be finite"));
+  EXPECT_THAT(message<InputError>([&] {
+                simulation.move_body(0, {}, {2, 0, 0, 0});
+              }),
+              HasSubstr("rotation must have length 1"));
+  EXPECT_THROW(simulation.move_body(1, {}, {}), std::out_of_range);
+  EXPECT_EQ(simulation.body(0).position, Vec3{}) << "it stays where it is";
 }
 
 TEST(Setups, ABodyNeedsNoGrains) {

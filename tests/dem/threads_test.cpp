@@ -1,6 +1,8 @@
 // The same bits for any number of threads, and for a run that goes on from a copy of its state.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/dem/worlds.hpp"
 
 namespace soilbin::dem {
@@ -46,6 +48,23 @@ void expect_same_bits(const ContactLaws& laws, int threads, int steps) {
   EXPECT_GT(one.contacts().size(), 10u) << test::name_of(laws);
   EXPECT_NE(one.body(1).work, 0) << test::name_of(laws);
   EXPECT_EQ(test::bits(several.state()), test::bits(one.state())) << threads << ' ' << test::name_of(laws);
+}
+
+/// Threads that work on so many grains apart from each other.
+int threads_on(int grains, int asked) {
+  Setup setup = test::soft_stone();
+  setup.numerics.threads = asked;
+  Simulation simulation(setup);
+  for (int k = 0; k < grains; ++k) simulation.add_grain({0.03 * (k % 20), 0.03 * (k / 20), 0}, 0.01, 0);
+  simulation.run(1);
+  return simulation.threads();
+}
+
+TEST(Threads, AreAsManyAsAreAskedForOrAsGrainsKeepBusy) {
+  EXPECT_EQ(threads_on(2, 0), 1);
+  EXPECT_EQ(threads_on(3999, 0), 1);
+  EXPECT_EQ(threads_on(4000, 0), std::min(2, threads_on(16000, 0)));
+  EXPECT_EQ(threads_on(2, 3), 3);
 }
 
 TEST(SlowThreads, OfTwoGiveTheSameBitsUnderEachLaw) {

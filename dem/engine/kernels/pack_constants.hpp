@@ -10,6 +10,9 @@
 
 namespace soilbin::dem::HWY_NAMESPACE {
 
+static_assert(sizeof(LawConstants<double>) == 13 * sizeof(double),
+              "a new constant: broadcast and gather list each one");
+
 HWY_INLINE LawConstants<Pack> broadcast(const double* c) {
   return {Pack(c[0]), Pack(c[1]), Pack(c[2]), Pack(c[3]),  Pack(c[4]),  Pack(c[5]), Pack(c[6]),
           Pack(c[7]), Pack(c[8]), Pack(c[9]), Pack(c[10]), Pack(c[11]), Pack(c[12])};

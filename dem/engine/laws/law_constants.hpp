@@ -27,7 +27,8 @@ struct LawFlags {
   TwistingLaw twisting = TwistingLaw::none;
 };
 
-/// Of a pair of materials (double), or of a pack of contacts.
+/// Of a pair of materials (double), or of a pack of contacts. Kernels read them one after the other, as they stand here
+/// (kernels/pack_constants.hpp).
 template <class Real>
 struct LawConstants {
   Real normal;            ///< hertz: (4/3) E*; hooke: k_n
@@ -44,7 +45,5 @@ struct LawConstants {
   Real adhesion_start;    ///< jkr: above the cube root of adhesion_overlap R* for every contact
   Real pull_off;          ///< jkr: 2 F_po/R* = 3 pi w
 };
-
-/// How many numbers a LawConstants holds; they lie one after the other.
 
 }  // namespace soilbin::dem

@@ -1321,8 +1321,8 @@ class Simulation:
     def radii(self) -> Array:
         """[m]; a copy"""
     def __init__(self, material: Material, interaction: Interaction, dt: float, gravity: Sequence[float] = ..., normal: NormalLaw = ..., rolling: RollingLaw = ..., cohesion: CohesionLaw = ..., threads: int = ...) -> None:
-        """dt [s], gravity [m/s^2], threads 0: one a core (no number of them changes a bit). Raises InputError for what
-        makes no sense.
+        """dt [s], gravity [m/s^2], threads 0: one a core or fewer (no number of them changes a bit). Raises InputError
+        for what makes no sense.
         """
     def add_grain(self, position: Sequence[float], radius: float, velocity: Sequence[float] = ..., spin: Sequence[float] = ...) -> int:
         """[m], [m/s], [rad/s]; gives the grain's id."""
@@ -1580,7 +1580,7 @@ class WheelRun:
 class SoilBin:
     """A virtual soil bin: a case's tire over a settled bed of its grains. Keeps its beds."""
     def __init__(self, packing: int = ..., beds: Optional[Union[str, PathLike[str]]] = ..., ledger: bool = ..., threads: int = ..., **parameters: float) -> None:
-        """packing: seed of the bed. beds: folder that keeps settled beds, and runs that are stopped, which then go on; None: neither is kept. ledger: tells where the power goes. threads: 0, one a core; changes no bit. By keywords:
+        """packing: seed of the bed. beds: folder that keeps settled beds, and runs that are stopped, which then go on; None: neither is kept. ledger: tells where the power goes. threads: 0, one a core or fewer; changes no bit. By keywords:
           length: of the bed [m]
           width: of the bed [m]; a scenario's bin replaces it
           depth: of the bed [m]; a scenario's bin replaces it

@@ -49,8 +49,8 @@ def direct_shear(soil: GranularSoil, stresses: Sequence[float] = (10e3, 20e3, 40
 
     stresses: normal stresses on the lid [Pa], at least two for c and phi. packings: specimens, of seeds packing,
     packing + 1, ... length, width, height, travel: in mean diameters of the grains. settling_friction: 0 (densest) .. 1
-    (loose). inertial: inertial number of the shear, which sets its speed. threads: 0, one a core; changes no bit.
-    Raises InputError for settings that make no sense, RunStopped.
+    (loose). inertial: inertial number of the shear, which sets its speed. threads: 0, one a core or fewer; changes no
+    bit. Raises InputError for settings that make no sense, RunStopped.
     """
     return _soilbin.direct_shear(soil, list(stresses), packings, packing, length, width, height, travel,
                                  settling_friction, rolling, inertial, threads, told_to(progress))
