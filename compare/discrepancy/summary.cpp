@@ -133,7 +133,7 @@ std::optional<Clause> grains_clause(const Comparison& comparison) {
   constexpr double worth_a_line = 0.01;  // of the load (chosen)
   const Scenario& scenario = comparison.question.scenario;
   if (!scenario.soil.granular) return std::nullopt;
-  double sum = 0.0, squares = 0.0;
+  double sum = 0.0, squares = 0.0, squared_errors = 0.0;
   std::size_t known = 0, with_result = 0;
   for (const Side& side : comparison.sides)
     for (std::size_t i = 0; i < side.points.size(); ++i) {
@@ -143,17 +143,19 @@ std::optional<Clause> grains_clause(const Comparison& comparison) {
       const ResolutionError error = resolution_error(scenario, at, side.points[i].result->sinkage.value);
       if (!error.known()) continue;
       const double share = error.drawbar_pull.value / at.load;
-      ++known, sum += share, squares += share * share;
+      const double its_error = error.drawbar_pull.std_error / at.load;
+      ++known, sum += share, squares += share * share, squared_errors += its_error * its_error;
     }
   if (known == 0) return std::nullopt;
-  const double rms = std::sqrt(squares / static_cast<double>(known));
-  if (rms < worth_a_line) return std::nullopt;
+  const auto n = static_cast<double>(known);
+  const Estimate rms{std::sqrt(squares / n), std::sqrt(squared_errors / n)};
+  if (rms.value < worth_a_line) return std::nullopt;
   return Clause{"The grains",
                 fmt::format("Grains of {:.3g} mm are coarse for this wheel: their own drawbar pull is estimated to be "
-                            "too {} by {} of the load against infinitely fine ones (root mean square of the {} of {} "
+                            "too {} by {} % of the load against infinitely fine ones (root mean square of the {} of {} "
                             "points that the study of grain sizes reaches).",
-                            1000 * mean_diameter(*scenario.soil.granular), sum > 0 ? "large" : "small", percent(rms),
-                            known, with_result),
+                            1000 * mean_diameter(*scenario.soil.granular), sum > 0 ? "large" : "small",
+                            number(rms, 100), known, with_result),
                 {"what is doubtful"}};
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 /// What is doubtful in runs of grains at a condition; "" where nothing is.
 std::string remark_on_runs(const std::vector<RecordedRun>& runs, const OperatingCondition& at) {
-  return fmt::format("{}", fmt::join(side_of("", runs, {at}).points.front().doubts, "; "));
+  return fmt::to_string(fmt::join(side_of("", runs, {at}).points.front().doubts, "; "));
 }
 
 /// How many packings the answer of grains at a condition is the mean of, and whether their runs became steady.

@@ -143,8 +143,8 @@ TEST(Estimate, ListsAndStepsSpanAGridSlipFastest) {
 }
 
 TEST(Estimate, RefusesTwoValuesThatMayBeOneWithADecimalComma) {
-  for (const auto& [condition, hint] : {std::pair{"--slip 0,1", "'0.0,1.0' are two, '0.1' is one"},
-                                        {"--load 80,5N", "'80N,5N' are two, '80.5N' is one"},
+  for (const auto& [condition, hint] : {std::pair{"--load 80N --slip 0,1", "'0.0,1.0' are two, '0.1' is one"},
+                                        {"--slip 20% --load 80,5N", "'80N,5N' are two, '80.5N' is one"},
                                         {"--slip 20% --load 1,5kN", "'1kN,5kN' are two, '1.5kN' is one"}}) {
     const Outcome r = soilbin(std::string("estimate --tire rover-wheel --soil dry-sand ") + condition);
     EXPECT_EQ(r.status, 2) << condition;

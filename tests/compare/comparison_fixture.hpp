@@ -66,4 +66,10 @@ inline Side grain_side(const ModelAnswers& base, const std::vector<double>& offs
   return side_of("dem", grain_runs(base, offsets, own), conditions);
 }
 
+/// The same where enough packings have shown how far they scatter.
+inline Side of_known_scatter(Side grains) {
+  for (SidePoint& point : grains.points) point.freedom.fill(1e6);
+  return grains;
+}
+
 }  // namespace soilbin::compare
