@@ -59,12 +59,11 @@ Facts gather(const Scenario& scenario, const OperatingCondition& at) {
 
 std::vector<Step> contact_steps(const Facts& f) {
   const SoilValues& s = f.soil;
-  const double n = s.exponent;
   const char* modulus_unit = soil_parameter("k_phi").unit;
   std::vector<Step> steps;
   steps.push_back({"soil's stiffness", "k = k_c/b + k_phi",
-                   fmt::format("{} / {:.4g} m + {}", write_quantity(s.k_c, soil_parameter("k_c").unit, n), f.b,
-                               write_quantity(s.k_phi, modulus_unit, n)),
+                   fmt::format("{:.5g} {} / {:.4g} m + {:.5g} {}", s.k_c / 1000, soil_parameter("k_c").unit, f.b,
+                               s.k_phi / 1000, modulus_unit),
                    f.k / 1000, modulus_unit});
   steps.push_back({"load on the ground", "W_n = W cos(alpha) cos(beta_t)",
                    fmt::format("{:.5g} N cos({:.3g} deg) cos({:.3g} deg)", f.at.load,

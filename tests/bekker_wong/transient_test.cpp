@@ -64,6 +64,17 @@ TEST(Transient, EnergyAddsUpAtEveryTime) {
   }
 }
 
+TEST(Transient, RefusesWhatACaseMayNotHold) {
+  Scenario with_effect = scenario();
+  with_effect.effects.push_back({.id = "slip_sinkage", .form = "lyasko", .parameters = {}});
+  EXPECT_THROW(drive_wheel(with_effect, drive(), 20), InputError) << "a drive has effects of its own";
+  Drive heavy = drive(), unsorted = drive();
+  heavy.inertia = -1.0;
+  unsorted.profile = {{.at = 2}, {.at = 1}};
+  for (const Drive& wrong : {heavy, unsorted}) EXPECT_THROW(drive_wheel(scenario(), wrong, 20), InputError);
+  EXPECT_THROW(drive_wheel(scenario(), drive(), -3), InputError);
+}
+
 // Under the Moon's gravity the same load is six times the mass; on one way there is one gravity.
 TEST(Transient, MassIsTheLoadOverTheSoilsGravity) {
   Scenario moon = scenario();

@@ -138,7 +138,13 @@ study: {models: [dem], conditions: {load: [80 N], slip: [20 %]}}
 
 // A table of words and figures is folded to the width of a terminal; figures stay whole.
 TEST(Compare, ItsTableFitsATerminalOf120Columns) {
-  const Outcome r = soilbin("compare paper-straight --recorded --no-loop --load 4kN --slip 20%");
+  const std::string asked = "paper-straight --recorded --load 4kN --slip 20% ";
+  const nlohmann::json row = soilbin("run --model dem --json " + asked).json()["rows"][0];
+  EXPECT_EQ(row["packings"], 3);
+  EXPECT_EQ(row["steady"], false);
+  EXPECT_GT(row["drift"], 3.0);
+  EXPECT_THAT(row["remark"], HasSubstr("2 of 3 runs not steady"));
+  const Outcome r = soilbin("compare --no-loop " + asked);
   ASSERT_EQ(r.status, 0) << r.err;
   const std::size_t begin = r.out.find("channel "), end = r.out.find("\n\n", begin);
   ASSERT_NE(end, std::string::npos) << r.out;

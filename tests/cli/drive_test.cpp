@@ -392,6 +392,14 @@ TEST(LimitsCommand, WithoutSlipSinkageTheyAreUpperBounds) {
   EXPECT_THAT(soilbin(asked + " --effect slip_sinkage").out, Not(HasSubstr(said)));
 }
 
+// The largest pull at 800 N lies at 92 % slip, as deep a dig as at 100 %; at 50 N the wheel outclimbs the sand itself.
+TEST(LimitsCommand, BoundsAndSlopesBeyondTheFrictionAngleAreSaid) {
+  const std::string wheel = "limits --soil upland-sandy-loam --radius 300mm --width 200mm ";
+  const std::string heavy = soilbin(wheel + "--load 800N").out, light = soilbin(wheel + "--load 50N").out;
+  EXPECT_THAT(heavy, AllOf(HasSubstr("91.94"), HasSubstr("are upper bounds"), Not(HasSubstr("its friction angle"))));
+  EXPECT_THAT(light, HasSubstr("Beyond 33.7 deg, its friction angle"));
+}
+
 TEST(LimitsCommand, HeadingsSayWhatEachColumnIs) {
   const std::string text = soilbin("limits --tire rover-wheel --soil dry-sand --load 80N").out;
   for (const char* told : {"slope [deg]", "slip to climb it [%]", "largest pull [N]", "slip of the largest pull [%]",

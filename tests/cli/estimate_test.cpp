@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -388,6 +389,23 @@ TEST(Explain, ASettledWheelHasTheAngleOfItsBalanceAndTheOneWhereItStands) {
   const double share = step_named(settled, "share of the soil's stresses there")["value"].get<double>();
   EXPECT_GT(share, 0.1);
   EXPECT_LT(share, 1.0) << "a deeper wheel asks less of the soil";
+}
+
+// What a compacted rut does to the soil's values is in the equations; what stands behind an equals sign is the value.
+TEST(Explain, TheEquationsTakeTheSoilThatEffectsLeave) {
+  const std::string question = "explain --json --tire rover-wheel --soil dry-sand --load 65N --slip 20% --pass 2 ";
+  const nlohmann::json plain = soilbin(question).json()["rows"].at(0);
+  const nlohmann::json second = soilbin(question + "--effect multipass:stiffer").json()["rows"].at(0);
+  const auto value = [](const nlohmann::json& row, const char* step) {
+    return step_named(row, step)["value"].get<double>();
+  };
+  EXPECT_NEAR(value(second, "soil's stiffness") / value(plain, "soil's stiffness"), 1 + 0.5 * (1 - std::exp(-1.0)),
+              1e-9);
+  EXPECT_GT(value(second, "normal stress there"), value(plain, "normal stress there"));
+  const std::string j = step_named(plain, "shear displacement there")["numbers"];  // "0.09 m (0.2 - 0.8 * 0.1)"
+  double r = 0, turned = 0, ratio = 0, sines = 0;
+  ASSERT_EQ(std::sscanf(j.c_str(), "%lf m (%lf - %lf * %lf)", &r, &turned, &ratio, &sines), 4) << j;
+  EXPECT_NEAR(1000 * r * (turned - ratio * sines), value(plain, "shear displacement there"), 0.05);
 }
 
 // A torque's equation names what has a part in it, and the parts add up.
