@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -47,27 +46,20 @@ struct EstimateOptions {
 };
 
 compare::Sheet sheet_of(const Case& question, const std::vector<compare::ModelAnswers>& study) {
-  compare::Sheet sheet = compare::study_sheet(question, compare::smoothed_for_plot(question, study));
+  const compare::Abscissa& abscissa = *compare::curves_run_over(question.study.conditions);
+  compare::Sheet sheet = compare::study_sheet(question, compare::smoothed_for_plot(question, study, abscissa),
+                                              compare::Panels::telling, abscissa);
   sheet.title = fmt::format("{} on {}", question.scenario.tire.name, compare::in_words(question.scenario.soil));
   if (const std::string load = only_load(question.study.conditions); !load.empty()) sheet.title += ", " + load;
   return sheet;
 }
 
-/// Whether one of its curves has two slips or more.
-bool has_a_curve(const std::vector<OperatingCondition>& conditions) {
-  const compare::Curves curves = compare::curves_against_slip(conditions, compare::Spread::exact);
-  std::map<std::size_t, double> slip;
-  for (std::size_t i = 0; i < conditions.size(); ++i)
-    if (slip.emplace(curves.curve_of[i], conditions[i].slip).first->second != conditions[i].slip) return true;
-  return false;
-}
-
 int estimate(const Question& inputs, const EstimateOptions& options, const Session& session) {
   const Case question = inputs.ask(session.place);
-  if (!options.plot.empty() && !has_a_curve(question.study.conditions))
+  if (!options.plot.empty() && compare::curves_run_over(question.study.conditions) == nullptr)
     throw InputError(
-        "--plot draws curves over slip: it takes more than one slip\n"
-        "  hint: --slip 0%..60%; over the slope: soilbin limits --plot slope.svg");
+        "--plot draws curves: it takes several values of slip or of another condition\n"
+        "  hint: --slip 0%..60%, or --load 50N..200N; the steepest slope: soilbin limits --plot slope.svg");
   require_semi_empirical(question, session.place.library);
   const std::vector<compare::ModelAnswers> study = compare::run_study(question, shown_progress());
   const std::vector<std::string> doubts = compare::doubts(question, study);
@@ -91,7 +83,7 @@ void add_estimate(CLI::App& app, Session& session) {
       app.add_subcommand("estimate", "drawbar pull, torque, sinkage and side force, from flags or a case");
   const auto inputs = std::make_shared<Question>(*command);
   const auto options = std::make_shared<EstimateOptions>();
-  add_plot(*command, options->plot, "draw the curves over slip");
+  add_plot(*command, options->plot, "draw the curves over slip, or over another condition that varies");
   add_file(*command, "--csv", options->csv, "FILE.csv", "save the table");
   command->add_flag("--json", options->json, "the answers as JSON, in SI");
   command->footer(

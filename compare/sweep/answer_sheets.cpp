@@ -5,7 +5,6 @@
 
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/model_names.hpp"
-#include "compare/sweep/varying.hpp"
 #include "scenario/estimate.hpp"
 #include "scenario/unit.hpp"
 
@@ -37,24 +36,26 @@ std::vector<Shown> shown_of(const std::vector<ModelAnswers>& study, Panels panel
   return all;
 }
 
-Plot empty_plot(const Shown& shown) {
-  Plot plot{capital(shown.title) + " [" + shown.unit + "]", {"slip [%]"}};
+Plot empty_plot(const Shown& shown, const Abscissa& abscissa = slip_abscissa()) {
+  Plot plot{capital(shown.title) + " [" + shown.unit + "]", {abscissa.name + " [" + abscissa.unit + "]"}};
   if (shown.title == "sinkage" || shown.title == "tractive efficiency") plot.y.lower = 0.0;
   return plot;
 }
 
 std::string join(const std::string& a, const std::string& b) { return a.empty() || b.empty() ? a + b : a + ", " + b; }
 
-/// A curve's points, in rising order of slip.
-Series series_of(const std::vector<Answer>& answers, const Curves& curves, std::size_t curve, const Shown& shown) {
+/// A curve's points, from left to right.
+Series series_of(const std::vector<Answer>& answers, const Abscissa& abscissa, const Curves& curves, std::size_t curve,
+                 const Shown& shown) {
   std::vector<const Answer*> members;
   for (std::size_t i = 0; i < answers.size(); ++i)
     if (curves.curve_of[i] == curve) members.push_back(&answers[i]);
-  std::ranges::stable_sort(members, [](const Answer* a, const Answer* b) { return a->at.slip < b->at.slip; });
+  std::ranges::stable_sort(members,
+                           [&](const Answer* a, const Answer* b) { return abscissa.get(a->at) < abscissa.get(b->at); });
   Series series;
   for (const Answer* answer : members) {
     const Estimate y = answer->result ? shown.get(*answer->result) : Estimate{not_a_number, 0.0};
-    series.x.push_back(100 * answer->at.slip);
+    series.x.push_back(abscissa.per_si * abscissa.get(answer->at));
     series.y.push_back(y.value * shown.per_unit);
     series.error.push_back(y.std_error * shown.per_unit);
   }
@@ -113,9 +114,10 @@ Series predicted_line(const std::vector<const PredictedRun*>& runs, const Channe
 
 }  // namespace
 
-std::vector<ModelAnswers> smoothed_for_plot(const Case& question, std::vector<ModelAnswers> study) {
+std::vector<ModelAnswers> smoothed_for_plot(const Case& question, std::vector<ModelAnswers> study,
+                                            const Abscissa& abscissa) {
   constexpr int points = 41;
-  Case smooth = with_smooth_curves(question, points);
+  Case smooth = with_smooth_curves(question, points, abscissa);
   smooth.study.models.clear();
   for (const ModelAnswers& model : study)
     if (model.choice.model == ModelKind::bekker_wong) smooth.study.models.push_back(model.choice);
@@ -128,9 +130,10 @@ std::vector<ModelAnswers> smoothed_for_plot(const Case& question, std::vector<Mo
   return study;
 }
 
-Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, Panels panels) {
+Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, Panels panels,
+                  const Abscissa& abscissa) {
   Sheet sheet{question.study.name, {}, Palette::ordered};
-  const Curves curves = curves_against_slip(question.study.conditions, Spread::exact);
+  const Curves curves = curves_against(abscissa, question.study.conditions, Spread::exact);
   const bool one_curve = curves.labels.size() == 1;
   if (one_curve) sheet.palette = Palette::named;
   const bool all_bands = curves.labels.size() * study.size() <= most_bands;
@@ -139,7 +142,7 @@ Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, 
   for (const ModelAnswers& model : study) {
     std::vector<OperatingCondition> conditions;
     for (const Answer& answer : model.answers) conditions.push_back(answer.at);
-    own.push_back(curves_against_slip(conditions, Spread::exact));
+    own.push_back(curves_against(abscissa, conditions, Spread::exact));
   }
   sheet.note = in_words(question.scenario.tire) + " on " + in_words(question.scenario.soil) + "; ";
   if (all_bands)
@@ -149,10 +152,10 @@ Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, 
   else
     sheet.note += "so many curves are drawn without their standard errors";
   for (const Shown& shown : shown_of(study, panels)) {
-    Plot plot = empty_plot(shown);
+    Plot plot = empty_plot(shown, abscissa);
     for (std::size_t m = 0; m < study.size(); ++m)
       for (std::size_t curve = 0; curve < curves.labels.size(); ++curve) {
-        Series series = series_of(study[m].answers, own[m], curve, shown);
+        Series series = series_of(study[m].answers, abscissa, own[m], curve, shown);
         series.band = all_bands || (m == 0 && first_bands);
         series.label = join(study.size() > 1 ? study[m].choice.label : "", curves.labels[curve]);
         series.color = static_cast<int>(one_curve ? m : curve);

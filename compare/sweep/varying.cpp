@@ -29,6 +29,8 @@ std::string angle(const char* name, double radian) { return fmt::format("{} {:.4
 const std::vector<ConditionAxis>& axes() {
   using C = OperatingCondition;
   static const std::vector<ConditionAxis> all = {
+      {"slip", [](const C& c) { return c.slip; }, [](double x) { return fmt::format("slip {:.4g} %", 100 * x); }, 0.0,
+       0.02},
       {"load", [](const C& c) { return c.load; }, [](double x) { return newtons(x); }, 0.25, 0.0},
       {"longitudinal incline", [](const C& c) { return c.longitudinal_incline; },
        [](double x) { return angle("uphill", x); }, 0.0, 2 * degree},
@@ -70,26 +72,66 @@ AxisLevels levels(const ConditionAxis& axis, const std::vector<OperatingConditio
   return found;
 }
 
-/// Whether levels differ between conditions that agree in slip and in their curve so far.
-bool splits_a_slip(const AxisLevels& levels, const std::vector<std::vector<std::size_t>>& keys,
-                   const std::vector<OperatingCondition>& conditions) {
+/// Whether levels differ between conditions that agree in the abscissa and in their curve so far.
+bool splits_a_place(const AxisLevels& levels, const std::vector<std::vector<std::size_t>>& keys,
+                    const Abscissa& abscissa, const std::vector<OperatingCondition>& conditions) {
   std::map<std::pair<std::vector<std::size_t>, double>, std::size_t> seen;
   for (std::size_t i = 0; i < conditions.size(); ++i) {
-    const auto [place, fresh] = seen.insert({{keys[i], conditions[i].slip}, levels.of[i]});
+    const auto [place, fresh] = seen.insert({{keys[i], abscissa.get(conditions[i])}, levels.of[i]});
     if (!fresh && place->second != levels.of[i]) return true;
+  }
+  return false;
+}
+
+template <double OperatingCondition::*member>
+Abscissa abscissa(const char* name, const char* unit, double per_si) {
+  return {name, unit, per_si, [](const OperatingCondition& c) { return c.*member; },
+          [](OperatingCondition& c, double x) { c.*member = x; }};
+}
+
+const std::vector<Abscissa>& abscissas() {
+  using C = OperatingCondition;
+  static const std::vector<Abscissa> all = {
+      abscissa<&C::slip>("slip", "%", 100.0),
+      abscissa<&C::load>("load", "N", 1.0),
+      abscissa<&C::longitudinal_incline>("longitudinal incline", "deg", 1 / degree),
+      abscissa<&C::transverse_incline>("transverse incline", "deg", 1 / degree),
+      abscissa<&C::yaw>("yaw", "deg", 1 / degree),
+      {"pass", "-", 1.0, [](const C& c) { return static_cast<double>(c.pass); }, nullptr},
+      {"moisture", "%", 100.0, [](const C& c) { return c.moisture.value_or(0.0); },
+       [](C& c, double x) { c.moisture = x; }},
+      abscissa<&C::speed>("speed", "m/s", 1.0)};
+  return all;
+}
+
+/// Whether one of the curves has two places or more.
+bool has_a_curve(const Abscissa& abscissa, const std::vector<OperatingCondition>& conditions) {
+  const Curves curves = curves_against(abscissa, conditions, Spread::exact);
+  std::map<std::size_t, double> place;
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    const double x = abscissa.get(conditions[i]);
+    if (place.emplace(curves.curve_of[i], x).first->second != x) return true;
   }
   return false;
 }
 
 }  // namespace
 
-Curves curves_against_slip(const std::vector<OperatingCondition>& conditions, Spread spread) {
+const Abscissa& slip_abscissa() { return abscissas().front(); }
+
+const Abscissa* curves_run_over(const std::vector<OperatingCondition>& conditions) {
+  const auto found = std::ranges::find_if(abscissas(), [&](const Abscissa& a) { return has_a_curve(a, conditions); });
+  return found == abscissas().end() ? nullptr : &*found;
+}
+
+Curves curves_against(const Abscissa& abscissa, const std::vector<OperatingCondition>& conditions, Spread spread) {
   Curves curves;
   std::vector<std::vector<std::size_t>> keys(conditions.size());
   std::vector<std::string> labels(conditions.size());
   for (const ConditionAxis& axis : axes()) {
+    if (axis.name == abscissa.name) continue;
     const AxisLevels found = levels(axis, conditions, spread);
-    if (found.value.size() < 2 || (axis.follows_slip && !splits_a_slip(found, keys, conditions))) continue;
+    if (found.value.size() < 2 || (axis.follows_slip && !splits_a_place(found, keys, abscissa, conditions))) continue;
     curves.varying += (curves.varying.empty() ? "" : ", ") + axis.name;
     for (std::size_t i = 0; i < conditions.size(); ++i) {
       keys[i].push_back(found.of[i]);
@@ -107,31 +149,31 @@ Curves curves_against_slip(const std::vector<OperatingCondition>& conditions, Sp
   return curves;
 }
 
-Case with_smooth_curves(Case question, int points) {
+Case with_smooth_curves(Case question, int points, const Abscissa& abscissa) {
   const Study asked = std::move(question.study);
   question.study = {asked.name, asked.models, {}, {}};
-  const Curves curves = curves_against_slip(asked.conditions, Spread::exact);
+  const Curves curves = curves_against(abscissa, asked.conditions, Spread::exact);
   for (std::size_t curve = 0; curve < curves.labels.size(); ++curve) {
     std::vector<std::size_t> members;
     for (std::size_t i = 0; i < asked.conditions.size(); ++i)
       if (curves.curve_of[i] == curve) members.push_back(i);
-    const auto slip_of = [&](std::size_t i) { return asked.conditions[i].slip; };
-    std::set<double> slips;
-    for (const std::size_t i : members) slips.insert(slip_of(i));
-    const double from = *slips.begin(), to = *slips.rbegin();
-    for (int k = 1; k < points - 1 && to > from; ++k) {
-      const double slip = std::lerp(from, to, static_cast<double>(k) / (points - 1));
-      const auto next = slips.lower_bound(slip);
-      const double gap = std::min(*next - slip, slip - *std::prev(next));
-      if (gap > 1e-3 * (to - from)) slips.insert(slip);
+    const auto place_of = [&](std::size_t i) { return abscissa.get(asked.conditions[i]); };
+    std::set<double> places;
+    for (const std::size_t i : members) places.insert(place_of(i));
+    const double from = *places.begin(), to = *places.rbegin();
+    for (int k = 1; abscissa.set && k < points - 1 && to > from; ++k) {
+      const double place = std::lerp(from, to, static_cast<double>(k) / (points - 1));
+      const auto next = places.lower_bound(place);
+      const double gap = std::min(*next - place, place - *std::prev(next));
+      if (gap > 1e-3 * (to - from)) places.insert(place);
     }
-    for (const double slip : slips) {
-      // Beside the condition with the nearest slip: its speed, where that varies along the curve, is the nearest too.
+    for (const double place : places) {
+      // Beside the nearest condition: its speed, where that varies along the curve, is the nearest too.
       const std::size_t near = *std::ranges::min_element(members, [&](std::size_t a, std::size_t b) {
-        return std::abs(slip_of(a) - slip) < std::abs(slip_of(b) - slip);
+        return std::abs(place_of(a) - place) < std::abs(place_of(b) - place);
       });
       OperatingCondition at = asked.conditions[near];
-      at.slip = slip;
+      if (abscissa.set) abscissa.set(at, place);
       if (near < asked.rotations.size() && asked.rotations[near])
         at.speed = speed_at_rotation(at, *asked.rotations[near], question.scenario.tire);
       question.study.conditions.push_back(at);
@@ -175,7 +217,7 @@ std::string in_words(const OperatingCondition& at) {
   std::string words = fmt::format("load {}, slip {:.4g} %", newtons(at.load), 100 * at.slip);
   const OperatingCondition plain;
   for (const ConditionAxis& axis : axes())
-    if (axis.name != "load" && axis.name != "speed" && axis.get(at) != axis.get(plain))
+    if (axis.name != "slip" && axis.name != "load" && axis.name != "speed" && axis.get(at) != axis.get(plain))
       words += ", " + axis.label(axis.get(at));
   if (at.speed != plain.speed) words += fmt::format(", {:.4g} m/s", at.speed);
   return words;

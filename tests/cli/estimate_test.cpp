@@ -175,7 +175,7 @@ TEST(Estimate, ARangeThatIsNoneIsRefusedByItsFlag) {
       {"--slip 10%,300%", "--slip: "},
       {"--slip 20% --pass 1..3", "--pass: expected a whole number of at least 1, not '1..3'"},
       {"--slip 0..1:0.0001 --yaw 0deg..1deg:0.01deg", "more than 100000 conditions"},
-      {"--slip 20% --plot a.svg", "--plot draws curves over slip: it takes more than one slip"}};
+      {"--slip 20% --plot a.svg", "--plot draws curves: it takes several values of slip or of another condition"}};
   for (const auto& [flags, said] : refused) {
     const Outcome r = soilbin("estimate " + wheel + flags);
     EXPECT_EQ(r.status, 2) << flags;
