@@ -203,7 +203,7 @@ int run(RunOptions options, const Session& session) {
   check_flags(options, question);
   if (options.dry_run) return plan(options, question);
   const std::optional<dem::StepCriteria> step = compare::step_of(settings_of(bin), question, bin.recorded);
-  if (asks(question.study, ModelKind::dem) && bin.recorded.empty()) tell_coarse_grains(question.scenario);
+  if (asks(question.study, ModelKind::dem) && bin.recorded.empty()) tell_grain_doubts(question);
   return bin.shard.empty() ? answer(options, question, whole, step, session)
                            : make_shard(options, question, whole, session);
 }
