@@ -87,8 +87,7 @@ auto recording(const RunOptions& options, const Work& work) {
     if (const fs::path file = options.soil_bin.record; !file.empty()) {
       clear_progress_line();
       const std::size_t there = fs::exists(file) ? compare::read_record(file).runs.size() : 0;
-      fmt::print(stderr, "{} in {}: the same command goes on from there\n", compare::counted(there, "run"),
-                 file.string());
+      fmt::print(stderr, "{} in {}{}\n", compare::counted(there, "run"), file.string(), compare::stopped_and_kept);
     }
     throw;
   } catch (const InputError&) {
