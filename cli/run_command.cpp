@@ -60,9 +60,35 @@ void save(Outputs& outputs, const RunOptions& options, const Case& question, con
   });
 }
 
+/// Throws InputError for a flag that means nothing beside --converge.
+void check_flags_of_converge(const RunOptions& options) {
+  const SoilBinFlags& bin = options.soil_bin;
+  const std::pair<const char*, bool> given[] = {
+      {"--shard", !bin.shard.empty()},
+      {"--known", !bin.known.empty()},
+      {"--recorded", !bin.recorded.empty()},
+      {"--packings", bin.packings != 1},
+      {"--half-step", !bin.half_step.empty()},
+      {"--replay", !bin.replay.empty()},
+      {"--paraview", !bin.paraview.empty()},
+      {"--plot", !options.plot.empty()},
+      {"--csv", !options.csv.empty()},
+      {"--output", !options.output.empty()},
+      {"--json", options.json && options.dry_run},
+  };
+  for (const auto& [flag, is_given] : given)
+    if (is_given)
+      throw InputError(fmt::format(
+          "{0} means nothing beside --converge{1}, which repeats one condition on one bed and prints what changes\n  "
+          "hint: leave out {0}, or --converge",
+          flag, options.json && options.dry_run ? " --dry-run" : ""));
+}
+
 /// Throws InputError for a flag that means nothing beside the others.
 void check_flags(const RunOptions& options, const Case& question) {
   const SoilBinFlags& bin = options.soil_bin;
+  if (options.converge && !asks(question.study, ModelKind::dem))
+    throw InputError("--converge is about runs of grains\n  hint: --model dem");
   if ((options.dry_run || !bin.shard.empty()) && !asks(question.study, ModelKind::dem))
     throw InputError("--shard and --dry-run are about runs of grains\n  hint: --model dem");
   if (!bin.shard.empty() && !options.dry_run && bin.record.empty())
@@ -93,8 +119,7 @@ auto recording(const RunOptions& options, const Work& work) {
     if (const fs::path file = options.soil_bin.record; !file.empty()) {
       clear_progress_line();
       const std::size_t there = fs::exists(file) ? compare::read_record(file).runs.size() : 0;
-      fmt::print(stderr, "{} in {}: the same command goes on from there\n", compare::counted(there, "run"),
-                 file.string());
+      fmt::print(stderr, "{} in {}{}\n", compare::counted(there, "run"), file.string(), compare::stopped_and_kept);
     }
     throw;
   } catch (const InputError&) {
@@ -109,13 +134,19 @@ auto recording(const RunOptions& options, const Work& work) {
 /// The study's only condition, again with each numerical choice changed.
 int converge(const RunOptions& options, const Case& question, const Session& session) {
   print_warnings(compare::doubts(question));
+  const std::string heading =
+      fmt::format("{}: {}\n\n", question.study.name, compare::in_words(question.study.conditions.front()));
+  if (options.dry_run) {
+    const auto plan = compare::plan_variants(settings_of(options.soil_bin), question, keeping_of(options.soil_bin));
+    fmt::print("{}{}", heading, compare::plan_text(plan));
+    return done;
+  }
   const auto runs = compare::run_variants(settings_of(options.soil_bin), question, session.place.effects,
                                           keeping_of(options.soil_bin));
   if (options.json) {
     print_json(compare::convergence_json(runs));
   } else {
-    fmt::print("{}: {}\n\n{}", question.study.name, compare::in_words(question.study.conditions.front()),
-               as_text(compare::convergence_table(runs)));
+    fmt::print("{}{}", heading, as_text(compare::convergence_table(runs)));
     for (const auto& [name, run] : runs)
       if (!run.answer.result) fmt::print("{}: {}\n", name, run.answer.error);
   }
@@ -196,6 +227,7 @@ int answer(const RunOptions& options, const Case& question, const Case& whole,
 
 int run(RunOptions options, const Session& session) {
   SoilBinFlags& bin = options.soil_bin;
+  if (options.converge) check_flags_of_converge(options);
   if (!bin.recorded.empty()) bin.recorded = find_record(session.place, options.study, bin.recorded);
   Case question = find_study(session.place, options.study);
   options.errors.apply(question.scenario.soil);
@@ -205,11 +237,11 @@ int run(RunOptions options, const Session& session) {
   if (bin.engine == "lammps") compare::name_lammps(question);
   const Case whole = question;  // a record that is begun holds all conditions
   options.conditions.pick(question.study, question.scenario.tire);
-  if (options.converge) return converge(options, question, session);
   check_flags(options, question);
+  if (options.converge) return converge(options, question, session);
   if (options.dry_run) return plan(options, question);
   const std::optional<dem::StepCriteria> step = compare::step_of(settings_of(bin), question, bin.recorded);
-  if (asks(question.study, ModelKind::dem) && bin.recorded.empty()) tell_coarse_grains(question.scenario);
+  if (asks(question.study, ModelKind::dem) && bin.recorded.empty()) tell_grain_doubts(question);
   return bin.shard.empty() ? answer(options, question, whole, step, session)
                            : make_shard(options, question, whole, session);
 }

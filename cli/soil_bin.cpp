@@ -293,10 +293,14 @@ void tell_unsealed(const compare::ExperimentStore& store, const fs::path& file) 
                file.string(), store.unsealed(), store.size());
 }
 
-void tell_coarse_grains(const Scenario& scenario) {
+void tell_grain_doubts(const Case& question) {
+  const Scenario& scenario = question.scenario;
   if (!scenario.soil.granular) return;
-  if (const std::string doubt = compare::coarse_grain_doubt(scenario, {}); !doubt.empty())
-    fmt::print(stderr, "note: {}\n", doubt);
+  std::vector<std::string> doubts = compare::grain_value_doubts(*scenario.soil.granular);
+  doubts.push_back(compare::soft_grain_doubt(scenario, question.study.conditions, {}));
+  doubts.push_back(compare::coarse_grain_doubt(scenario, {}));
+  for (const std::string& doubt : doubts)
+    if (!doubt.empty()) fmt::print(stderr, "note: {}\n", doubt);
 }
 
 void delete_restarts(const std::vector<compare::RecordedRun>& runs, const Outputs& outputs) {

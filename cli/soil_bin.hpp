@@ -78,9 +78,9 @@ dem::DemSettings settings_of(const SoilBinFlags& flags);
 /// What the flags have kept of runs, by this program.
 compare::RunKeeping keeping_of(const SoilBinFlags& flags);
 
-/// On standard error, before minutes of grains: that they are coarse for the wheel. Beside the answer stands what that
-/// does to it.
-void tell_coarse_grains(const Scenario& scenario);
+/// On standard error, before minutes of grains: that they are coarse for the wheel or too soft, and values that are
+/// hardly meant. Beside the answer stands what coarse ones do to it.
+void tell_grain_doubts(const Case& question);
 
 /// Who answers for grains with these flags; reads the record that is to answer (read_record_with_notes).
 compare::StudyGrains grains_of(const SoilBinFlags& flags);

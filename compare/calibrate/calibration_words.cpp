@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "compare/calibrate/decision_words.hpp"
@@ -86,6 +87,13 @@ std::string decided_by(const Calibration& calibration) {
   return fmt::format("; of {} candidates the nearest to {} in the soil bin", decision.trials.size(), decision.campaign);
 }
 
+/// An error with its hint, for a cell of a table.
+std::string on_one_line(std::string error) {
+  for (std::size_t at; (at = error.find("\n  hint: ")) != std::string::npos;) error.replace(at, 9, "; hint: ");
+  std::ranges::replace(error, '\n', ' ');
+  return error;
+}
+
 }  // namespace
 
 std::vector<std::string> calibration_sentences(const VirtualTest& test, const CalibrationOptions& options,
@@ -153,7 +161,7 @@ Table runs_table(const VirtualTest& test, const Calibration& calibration) {
   for (const CalibrationRun& run : calibration.runs) {
     std::vector<TableCell> row{stage_name(run.stage)};
     add_cells(row, test, run.experiment.values, run.experiment.results);
-    row.push_back(run.experiment.error);
+    row.push_back(on_one_line(run.experiment.error));
     table.add(std::move(row));
   }
   return table;

@@ -251,7 +251,8 @@ Warnings doubts_but_unused_inputs(const Case& question, const std::vector<ModelA
   append(warnings, doubts(scenario.tire, scenario.soil));
   append(warnings, doubts_of_speeds(question));
   append(warnings, doubts_of_answers(scenario, study, open));
-  if (open || asks(question.study, ModelKind::dem)) append(warnings, grain_doubts(scenario, study));
+  if (open || asks(question.study, ModelKind::dem))
+    append(warnings, grain_doubts(scenario, question.study.conditions, study));
   for (const ModelAnswers& model : study) append(warnings, model.doubts);
   return warnings;
 }

@@ -13,7 +13,8 @@
 //   an answer            deep sinkage, odd pressure, more power out than in        doubts.cpp
 //   no influence         lugs, inflation, passes, ... that change no digit         unused_inputs.cpp
 //   a presumption        what an effect takes the wheel to have, and nobody said   doubts.cpp
-//   grains               too coarse for the wheel, a law that hangs on the step    grain_doubts.cpp
+//   grains               odd values, too soft or coarse, a law that hangs on the   grain_doubts.cpp
+//                        step
 //   measured rows        repeated, flipped, impossible                             row_doubts.cpp
 //   measured columns     swapped, in another unit, of another sign                 column_doubts.cpp
 //   measured plates      a modulus below 0, no repeats, a form that misses         plate_doubts.cpp

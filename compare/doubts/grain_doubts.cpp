@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "bekker_wong/closed_forms.hpp"
 #include "compare/doubts/grain_resolution.hpp"
@@ -67,7 +68,114 @@ std::string depends_on_the_step(const GranularSoil& grains) {
   return text;
 }
 
+/// E* of two of these grains [Pa].
+double reduced_modulus(const GranularSoil& grains) {
+  return grains.youngs_modulus / (2.0 * (1.0 - grains.poisson_ratio * grains.poisson_ratio));
+}
+
+/// Mean overlap of equal grains of a packing under the pressure p, over their radius. By Rumpf a contact bears
+/// F = pi d^2 p/(phi Z), here with phi Z = 0.6 * 6 (chosen), and by Hertz delta = (3 F/(4 E* sqrt(R*)))^(2/3), R* =
+/// d/4: 2.39 (p/E*)^(2/3).
+double overlap_under(double pressure, const GranularSoil& grains) {
+  constexpr double contacts = 0.6 * 6.0;                              // phi Z
+  const double force = 4.0 * std::numbers::pi * pressure / contacts;  // of grains of radius 1
+  return std::pow(3.0 * force / (4.0 * reduced_modulus(grains) * std::sqrt(0.5)), 2.0 / 3.0);
+}
+
+/// The pressure that takes grains of E* = 1 Pa so deep, over E*.
+double pressure_for(double overlap) {
+  const GranularSoil unit{.youngs_modulus = 2.0, .poisson_ratio = 0.0, .grain_grain = {}, .grain_tire = {}};
+  return std::pow(overlap / overlap_under(1.0, unit), 1.5);
+}
+
+/// The overlap at which Hertz's force holds the linear cohesion, pi k_c R* delta, over the radius.
+double overlap_by_cohesion(const GranularSoil& grains) {
+  const double root = 0.75 * std::numbers::pi * grains.grain_grain.cohesion / reduced_modulus(grains);
+  return 0.5 * root * root;
+}
+
+/// An overlap over the radius, in words.
+std::string of_radius(double overlap) {
+  return overlap < 1.0 ? fmt::format("about {:.2g} % of their radius", 100 * overlap) : "more than their radius";
+}
+
+std::string modulus_text(double modulus) {
+  if (modulus < 1e3) return fmt::format("{:.3g} Pa", modulus);
+  return modulus < 1e6 ? fmt::format("{:.3g} kPa", modulus / 1e3) : fmt::format("{:.3g} MPa", modulus / 1e6);
+}
+
+std::string cohesion_doubt(const GranularSoil& grains) {
+  if (!(grains.youngs_modulus > 0.0)) return "";
+  const double overlap = overlap_by_cohesion(grains);
+  if (!(overlap > deep_overlap)) return "";
+  const double holds = reduced_modulus(grains) * std::sqrt(2.0 * deep_overlap) / (0.75 * std::numbers::pi);
+  return fmt::format(
+      "the cohesion of grain_grain, {:.6g} kJ/m^3, alone pulls these grains into each other by {}: Hertz's law holds "
+      "for "
+      "small overlaps; less than {:.3g} kJ/m^3 keeps it below {:.0f} %",
+      grains.grain_grain.cohesion / 1e3, of_radius(overlap), holds / 1e3, 100 * deep_overlap);
+}
+
+/// The largest pressure under the wheel: over its width and the contact of the answers, at least a grain long; where
+/// there are none, over half a radius (chosen).
+struct Pressed {
+  double pressure = 0.0;
+  OperatingCondition at;
+};
+
+Pressed largest_pressure(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
+                         const std::vector<ModelAnswers>& study) {
+  const Tire& tire = scenario.tire;
+  const double grain = mean_diameter(*scenario.soil.granular);
+  Pressed most;
+  const auto press = [&](const OperatingCondition& at, double contact) {
+    const double pressure = at.load / (tire.width * std::max(contact, grain));
+    if (pressure > most.pressure) most = {pressure, at};
+  };
+  each_answer_for_grains(study, [&](const Answer& answer, SinkageOf) {
+    press(answer.at, bekker_wong::contact_length(std::max(0.0, answer.result->sinkage.value), tire.radius));
+  });
+  if (most.pressure == 0.0)
+    for (const OperatingCondition& at : conditions) press(at, tire.radius / 2.0);
+  return most;
+}
+
 }  // namespace
+
+std::string soft_grain_doubt(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
+                             const std::vector<ModelAnswers>& study) {
+  if (!scenario.soil.granular || !(scenario.soil.granular->youngs_modulus > 0.0)) return "";
+  const GranularSoil& grains = *scenario.soil.granular;
+  const Pressed most = largest_pressure(scenario, conditions, study);
+  const double overlap = overlap_under(most.pressure, grains);
+  if (!(overlap > deep_overlap)) return "";
+  const double needed = most.pressure / pressure_for(deep_overlap) / reduced_modulus(grains) * grains.youngs_modulus;
+  return fmt::format(
+      "grains this soft, {}, are pressed into each other by {} under the wheel's {:.2g} kPa ({}): Hertz's law holds "
+      "for "
+      "small overlaps, and a run stops at 50 %; a youngs_modulus of {:.2g} MPa or more keeps them below {:.0f} %",
+      modulus_text(grains.youngs_modulus), of_radius(overlap), most.pressure / 1e3, in_words(most.at), needed / 1e6,
+      100 * deep_overlap);
+}
+
+std::vector<std::string> grain_value_doubts(const GranularSoil& grains) {
+  std::vector<std::string> doubts;
+  const double density = grains.grain_density;
+  if (density > 0.0 && (density < 500.0 || density > 8000.0))
+    doubts.push_back(fmt::format("grain_density = {:.4g} kg/m^3 is outside 500 .. 8000: quartz has 2650, steel 7850{}",
+                                 density, density < 10.0 ? "; is it meant in g/cm^3, 1000 times as much?" : ""));
+  for (const auto& [name, pair] : {std::pair{"grain_grain", &grains.grain_grain}, {"grain_tire", &grains.grain_tire}})
+    if (pair->sliding_friction > 1.5)
+      doubts.push_back(fmt::format("sliding_friction of {} = {:.4g} is above 1.5: rock on rock has 0.4 .. 1", name,
+                                   pair->sliding_friction));
+  if (grains.radius_min > 0.0 && grains.radius_max > 5.0 * grains.radius_min)
+    doubts.push_back(fmt::format(
+        "radius_max is {:.2g} times radius_min, more than 5: the smallest grains set the time step and the number of "
+        "grains, the largest the size of the bed, so runs take very long",
+        grains.radius_max / grains.radius_min));
+  if (const std::string doubt = cohesion_doubt(grains); !doubt.empty()) doubts.push_back(doubt);
+  return doubts;
+}
 
 bool grains_are_coarse(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
   return scenario.soil.granular && are_coarse(count_grains(scenario, study));
@@ -100,10 +208,12 @@ GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswer
   return counts;
 }
 
-std::vector<std::string> grain_doubts(const Scenario& scenario, const std::vector<ModelAnswers>& study) {
-  std::vector<std::string> doubts;
-  if (!scenario.soil.granular) return doubts;
-  for (const std::string& doubt : {coarse_grain_doubt(scenario, study), depends_on_the_step(*scenario.soil.granular)})
+std::vector<std::string> grain_doubts(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
+                                      const std::vector<ModelAnswers>& study) {
+  if (!scenario.soil.granular) return {};
+  std::vector<std::string> doubts = grain_value_doubts(*scenario.soil.granular);
+  for (const std::string& doubt : {soft_grain_doubt(scenario, conditions, study), coarse_grain_doubt(scenario, study),
+                                   depends_on_the_step(*scenario.soil.granular)})
     if (!doubt.empty()) doubts.push_back(doubt);
   return doubts;
 }

@@ -34,8 +34,23 @@ std::string coarse_grain_doubt(const Scenario& scenario, const std::vector<Model
 /// Whether they are.
 bool grains_are_coarse(const Scenario& scenario, const std::vector<ModelAnswers>& study);
 
-/// Sentences, each kind once: grains that are coarse for the wheel (coarse_grain_doubt); the directional rolling laws,
+/// Mean overlap of grains, over their radius, beyond which they are doubted (chosen): a run stops where two overlap by
+/// half a radius, and single contacts bear several times the mean.
+inline constexpr double deep_overlap = 0.2;
+
+/// One sentence on grains that the wheel's pressure presses into each other by more than deep_overlap, where that is
+/// most. The contact's length follows from the answers' sinkage; where there are none, half the wheel's radius is taken
+/// at each of the conditions. "" elsewhere.
+std::string soft_grain_doubt(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
+                             const std::vector<ModelAnswers>& study);
+
+/// Of the values by themselves: a density that no grain has, friction of more than any rock's, radii that differ by so
+/// much that runs take very long, cohesion that presses grains into each other by more than deep_overlap.
+std::vector<std::string> grain_value_doubts(const GranularSoil& grains);
+
+/// Sentences, each kind once: grain_value_doubts, soft_grain_doubt, coarse_grain_doubt; the directional rolling laws,
 /// whose answers depend on the time step, with where they turn into a dashpot. Empty where the soil has no grains.
-std::vector<std::string> grain_doubts(const Scenario& scenario, const std::vector<ModelAnswers>& study);
+std::vector<std::string> grain_doubts(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
+                                      const std::vector<ModelAnswers>& study);
 
 }  // namespace soilbin::compare

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/experiments/run_plan.hpp"
 #include "compare/measured/channels.hpp"
 #include "compare/report/number_text.hpp"
 #include "compare/sweep/result_json.hpp"
@@ -68,15 +69,61 @@ std::vector<Variant> variants_of(const dem::DemSettings& settings, const Scenari
   return all;
 }
 
-}  // namespace
-
-std::vector<VariantRun> run_variants(const dem::DemSettings& settings, const Case& question,
-                                     const EffectVocabulary& effects, const RunKeeping& keeping) {
+OperatingCondition only_condition(const dem::DemSettings& settings, const Case& question) {
   if (question.study.conditions.size() != 1)
     throw InputError(
         fmt::format("--converge takes one condition, not {}\n  hint: pick it, such as --load 4kN --slip 20%",
                     question.study.conditions.size()));
-  const OperatingCondition at = question.study.conditions.front();
+  dem::DemModel(settings).check(question.scenario);
+  return question.study.conditions.front();
+}
+
+}  // namespace
+
+std::vector<PlannedVariant> plan_variants(const dem::DemSettings& settings, const Case& question,
+                                          const RunKeeping& keeping) {
+  const OperatingCondition at = only_condition(settings, question);
+  std::vector<PlannedVariant> plan;
+  for (const Variant& variant : variants_of(settings, question.scenario)) {
+    Case changed = question;
+    changed.scenario = variant.scenario;
+    RunKeeping its_own = keeping;
+    its_own.record = file_of(keeping.record, variant.name);
+    PlannedVariant& planned = plan.emplace_back(PlannedVariant{.name = variant.name});
+    try {
+      dem::DemModel(variant.settings).check(variant.scenario);
+      const RunPlan of = plan_of(changed, variant.settings, {{at, variant.settings.packing, false}}, its_own);
+      planned.recorded = of.runs.front().recorded, planned.seconds = of.runs.front().seconds;
+      planned.settles = !of.unsettled.empty() && !planned.recorded;
+    } catch (const InputError& refused) {
+      planned.refused = refused.what();
+    }
+  }
+  return plan;
+}
+
+std::string plan_text(const std::vector<PlannedVariant>& plan) {
+  Table table{"", {"choice", "time", "bed"}};
+  double seconds = 0;
+  std::size_t left = 0;
+  std::string refusals;
+  for (const PlannedVariant& variant : plan) {
+    const bool possible = variant.refused.empty(), made = possible && !variant.recorded;
+    table.add({variant.name,
+               made       ? duration_text(variant.seconds)
+               : possible ? std::string("recorded")
+                          : std::string("-"),
+               variant.settles ? "to settle" : ""});
+    if (made) ++left, seconds += variant.seconds;
+    if (!possible) refusals += fmt::format("{}: {}\n", variant.name, variant.refused);
+  }
+  return fmt::format("{}\n{}{} to make, about {} beside the beds, one after the other\n", as_text(table), refusals,
+                     counted(left, "run"), duration_text(seconds));
+}
+
+std::vector<VariantRun> run_variants(const dem::DemSettings& settings, const Case& question,
+                                     const EffectVocabulary& effects, const RunKeeping& keeping) {
+  const OperatingCondition at = only_condition(settings, question);
   std::vector<VariantRun> runs;
   for (const Variant& variant : variants_of(settings, question.scenario)) {
     Case changed = question;

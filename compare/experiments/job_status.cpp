@@ -120,7 +120,7 @@ ShardStatus shard_status(const fs::path& folder, const WrittenJobs& jobs, int nu
     status.state = known->second == "RUNNING" || known->second == "COMPLETING" ? "running" : "waiting";
     status.words = said;
   } else {
-    status.state = fs::exists(log) ? "failed" : "missing";
+    status.state = said.ends_with(stopped_and_kept) ? "stopped" : fs::exists(log) ? "failed" : "missing";
     status.words = said;
   }
   return status;
@@ -151,11 +151,12 @@ std::string in_words(const JobStatus& status) {
     ++states[shard.state];
   }
   const int running = states["running"];
-  std::string text =
-      fmt::format("{}: {} of {} recorded{}; shards: {} done, {} running, {} waiting, {} failed, {} missing",
-                  status.study, status.recorded, counted(status.runs, "run"),
-                  status.without_result > 0 ? fmt::format(", {} without a result", status.without_result) : "",
-                  states["done"], running, states["waiting"], states["failed"], states["missing"]);
+  std::string text = fmt::format(
+      "{}: {} of {} recorded{}; shards: {} done, {} running, {} waiting, {}{} failed, {} missing", status.study,
+      status.recorded, counted(status.runs, "run"),
+      status.without_result > 0 ? fmt::format(", {} without a result", status.without_result) : "", states["done"],
+      running, states["waiting"], states["stopped"] > 0 ? fmt::format("{} stopped, ", states["stopped"]) : "",
+      states["failed"], states["missing"]);
   if (!status.complete())
     text += fmt::format(
         "; {} of work left{}", duration_text(status.seconds_left),

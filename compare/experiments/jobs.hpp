@@ -56,7 +56,7 @@ void write_jobs(const Jobs& jobs);
 struct ShardStatus {
   std::size_t runs = 0, recorded = 0, without_result = 0;
   double seconds_left = 0, seconds_planned = 0, seconds_taken = 0;  ///< planned and taken: of what is recorded
-  std::string state;  ///< "done", "running", "waiting", "failed", or "missing": it was never begun
+  std::string state;  ///< "done", "running", "waiting", "stopped", "failed", or "missing": it was never begun
   std::string words;  ///< the last that it said
 };
 

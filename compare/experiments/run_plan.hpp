@@ -41,6 +41,9 @@ struct RunPlan {
 RunPlan plan_of(const Case& question, const dem::DemSettings& settings, const std::vector<AskedRun>& list,
                 const RunKeeping& keeping);
 
+/// How the last line ends of a command that was stopped, by a person or a job's time limit, and kept what it had made.
+inline constexpr const char* stopped_and_kept = ": the same command goes on from there";
+
 std::string plan_text(const RunPlan& plan);
 /// soilbin-plan/1, in SI.
 Json plan_json(const RunPlan& plan);

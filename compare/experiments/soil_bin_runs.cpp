@@ -14,7 +14,6 @@
 #include "dem/bed/relative_density.hpp"
 #include "dem/rig/run_inputs.hpp"
 #include "dem/rig/staged_run.hpp"
-#include "dem/rig/wheel_in_bin.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/quantity.hpp"
 
@@ -170,9 +169,8 @@ std::vector<AskedRun> list_of(const Case& question, const dem::DemSettings& sett
 
 std::vector<AskedRun> runs_of(const Case& question, const dem::DemSettings& settings, int packings,
                               std::optional<bool> test) {
-  const Tire& tire = question.scenario.tire;
-  dem::way_in_bin(dem::DemModel(settings).recipe(question.scenario).size, tire, settings.rig);
-  for (const OperatingCondition& at : question.study.conditions) dem::wheel_motion(at, tire.radius);
+  dem::DemModel(settings).check(question.scenario);
+  for (const OperatingCondition& at : question.study.conditions) dem::wheel_motion(at, question.scenario.tire.radius);
   return list_of(question, settings, packings, test);
 }
 

@@ -74,6 +74,7 @@ void name_lammps(Case& question) {
 std::unique_ptr<const Model> grain_model(const StudyGrains& grains, const Case& whole, const EffectVocabulary& effects,
                                          const RunListener& on_run) {
   if (grains.recorded) return recorded_soil_bin(grains.recorded->record, whole.scenario, grains.recorded->file, on_run);
+  dem::DemModel(grains.settings).check(whole.scenario);  // what no run could answer is no answer of each
   return soil_bin_model(grains.settings, grains.packings, run_once(grains.settings, whole, effects, grains.keeping),
                         on_run);
 }

@@ -36,7 +36,8 @@ struct StudyGrains {
 };
 
 /// The model dem. A run that the engine had to stop is an answer without solution, with what it said. Every run goes to
-/// `on_run`; a record that is begun keeps `whole`. `effects` must outlive the model.
+/// `on_run`; a record that is begun keeps `whole`. `effects` must outlive the model. Throws what DemModel::check
+/// throws.
 std::unique_ptr<const Model> grain_model(const StudyGrains& grains, const Case& whole, const EffectVocabulary& effects,
                                          const RunListener& on_run);
 

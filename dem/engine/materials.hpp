@@ -27,7 +27,7 @@ struct Interaction {
   double restitution = 0.5;       ///< e, rebound over impact speed of a head-on impact, in [0, 1]
   double sliding_friction = 0.5;  ///< mu, at least 0
   double rolling_friction = 0;    ///< mu_r, at least 0
-  double rolling_damping = 0;     ///< eta of elastic_plastic rolling, share of critical, at least 0
+  double rolling_damping = 0;     ///< eta of elastic_plastic rolling, share of critical, at least 0; a soil's: 0.3
   double rolling_stiffness = 0;   ///< spring_slider: k [N/m]; torsion_spring: k_r [N m/rad]
   double rolling_viscosity = 0;   ///< spring_slider: c [N s/m]
   double cohesion = 0;            ///< linear: energy density k_c [J/m^3]; jkr: work of adhesion w [J/m^2]

@@ -93,4 +93,10 @@ class RunStopped : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// An overlap deeper than Numerics::deepest_overlap. Who lets people choose that adds how to what() says.
+class OverlapTooDeep : public RunStopped {
+ public:
+  using RunStopped::RunStopped;
+};
+
 }  // namespace soilbin::dem

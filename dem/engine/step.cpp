@@ -144,13 +144,13 @@ double move_bodies(World& world) {
     const bool of_grains = contact.second >= 0;
     const double radius = of_grains ? std::min(radii[contact.first], radii[contact.second]) : radii[contact.first];
     if (contact.overlap < 0.99 * deepest * radius) continue;
-    throw RunStopped(
+    throw OverlapTooDeep(
         fmt::format("grain {} overlaps {} {} by {:.3g} of the smaller radius, more than {:.3g}, time {:.6g} s"
-                    "\n  hint: a softer landing, stiffer grains, or a larger deepest_overlap",
+                    "\n  hint: stiffer grains, less load or stress, less cohesion, or a softer landing",
                     contact.first, of_grains ? "grain" : "body", of_grains ? contact.second : -1 - contact.second,
                     contact.overlap / radius, deepest, s.time));
   }
-  throw RunStopped(fmt::format("an overlap deeper than {:.3g} of a radius, time {:.6g} s", deepest, s.time));
+  throw OverlapTooDeep(fmt::format("an overlap deeper than {:.3g} of a radius, time {:.6g} s", deepest, s.time));
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "dem/rig/run_inputs.hpp"
 #include "dem/rig/staged_run.hpp"
+#include "dem/rig/step_criteria.hpp"
 #include "dem/rig/wheel_in_bin.hpp"
 #include "scenario/errors.hpp"
 
@@ -34,13 +37,26 @@ std::shared_ptr<const SettledBed> DemModel::bed(const BedRecipe& recipe) const {
       bed_in_lammps(settings_.lammps.value(), recipe, settings_.beds, settings_.how));
 }
 
+void DemModel::check(const Scenario& scenario) const {
+  const BedRecipe asked = recipe(scenario);
+  way_in_bin(asked.size, scenario.tire, settings_.rig);
+  dem::check(asked);
+  // Of the grains of a bed the smallest is a little larger than radius_min: by how much, the engine sees.
+  const double step = std::max(asked.dt, step_of(asked, settings_.rig)), usual = longest_step(asked.soil);
+  if (step > 1.1 * usual)
+    throw InputError(fmt::format(
+        "a time step of {:.3g} s is too long: it is {:.3g} of the Rayleigh time of these grains, {:.3g} s, and "
+        "{:.3g} of it is safe\n  hint: --time-step {:.3g}ms or less",
+        step, step / usual * Numerics{}.safe_share, usual / Numerics{}.safe_share, Numerics{}.safe_share, 1e3 * usual));
+}
+
 TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondition& at) const {
   if (!scenario.effects.empty())
     throw InputError("dem takes no effects, but '" + scenario.effects.front().id + "' is switched on");
   const BedRecipe asked = recipe(scenario);
   if (settings_.lammps) require_spheres(asked.soil);
   wheel_motion(at, scenario.tire.radius);  // these two refuse what can't be run before a bed is settled for it
-  way_in_bin(asked.size, scenario.tire, settings_.rig);
+  check(scenario);
   const auto bed = this->bed(asked);
   const ContactPair& contact = scenario.soil.granular->grain_tire;
   const Checkpoints kept = checkpoints_of(scenario, at);
@@ -55,10 +71,14 @@ TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondi
   } catch (const NoSolution&) {
     finished();
     throw;
+  } catch (const OverlapTooDeep& stopped) {
+    finished();
+    throw RunStopped(fmt::format("{}; or a larger --deepest-overlap", stopped.what()));
   } catch (const RunStopped&) {
     finished();
     throw;
   }
+  tell_of_ends(scenario.tire, run.result.sinkage.value);
   if (settings_.on_run) settings_.on_run(run);
   finished();
   if (settings_.only_steady && !run.steady)
@@ -69,9 +89,20 @@ TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondi
   return run.result;
 }
 
+void DemModel::tell_of_ends(const Tire& tire, double sinkage) const {
+  const Rig& rig = settings_.rig;
+  const double reach = reach_at(tire, sinkage);
+  if (!settings_.how.tell || reach <= std::min(rig.behind, rig.ahead)) return;
+  settings_.how.tell(fmt::format(
+      "note: the sunken wheel reaches {:.3g} m from its axle at the height of the soil, and the ends of the bin "
+      "are nearer where it begins or ends (--behind {:.3g} m, --ahead {:.3g} m): it had too little soil there",
+      reach, rig.behind, rig.ahead));
+}
+
 GrainDriveRecord DemModel::drive(const Scenario& scenario, const Drive& drive, int samples) const {
   check_drive(drive);
   if (settings_.lammps) throw InputError("a wheel that is free along the bin is driven by the engine alone");
+  check(scenario);
   const auto bed = beds_.bed(recipe(scenario), settings_.how);
   return drive_freely({*bed, scenario.tire, scenario.soil.granular->grain_tire, settings_.rig}, drive, samples,
                       settings_.how, checkpoints_of(scenario, drive, samples));

@@ -49,19 +49,22 @@ class DemModel : public Model {
 
   std::string name() const override { return model_name(settings_); }
   /// Sinkage, forces and torque are means over the steady part of one run, with the errors of its fluctuations; the
-  /// scatter between packings comes on top. Throws InputError without granular values, for effects, and
-  /// what run_wheel throws. One call at a time: a run uses all the threads it is given. Where runs are kept, what is
-  /// there is gone on with.
+  /// scatter between packings comes on top. Throws what check and run_wheel throw, and InputError for effects. One call
+  /// at a time: a run uses all the threads it is given. Where runs are kept, what is there is gone on with.
   TractionResult evaluate(const Scenario& scenario, const OperatingCondition& at) const override;
   /// Where a run is kept, whether it has an answer or failed; empty where none is.
   std::filesystem::path restart_of(const Scenario& scenario, const OperatingCondition& at) const;
 
-  /// A drive of the scenario's tire on a bed of its soil. Throws what drive_freely throws, and InputError without
-  /// granular values. The drive's effects belong to the analytic model and are not read. Where runs are kept the last
-  /// restart stays and answers the same call at once, until it is forgotten.
+  /// A drive of the scenario's tire on a bed of its soil. Throws what check and drive_freely throw. The drive's effects
+  /// belong to the analytic model and are not read. Where runs are kept the last restart stays and answers the same
+  /// call at once, until it is forgotten.
   GrainDriveRecord drive(const Scenario& scenario, const Drive& drive, int samples = 400) const;
   /// Removes what is kept of a drive.
   void forget(const Scenario& scenario, const Drive& drive, int samples = 400) const;
+
+  /// Throws InputError where no condition can be run, before a bed is settled: without granular values, for a bed that
+  /// makes no sense or has no room for the wheel (way_in_bin), for a time step that is too long or too short.
+  void check(const Scenario& scenario) const;
 
   /// The bed that a scenario's soil gets.
   BedRecipe recipe(const Scenario& scenario) const;
@@ -69,6 +72,8 @@ class DemModel : public Model {
   std::shared_ptr<const SettledBed> bed(const BedRecipe& recipe) const;
 
  private:
+  /// Where a sunken wheel reached over an end of the bin.
+  void tell_of_ends(const Tire& tire, double sinkage) const;
   /// With the restart's file: `kind` and key.
   Checkpoints checkpoints(const std::string& kind, const std::string& inputs) const;
   Checkpoints checkpoints_of(const Scenario& scenario, const OperatingCondition& at) const;

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scenario/errors.hpp"
@@ -23,21 +24,47 @@ Setup run_setup(const WheelOnBed& on, int threads) {
   return setup;
 }
 
+namespace {
+
+/// Refuses a wheel that stands in an end wall. `flag`: --behind or --ahead; `room`: from the axle to that wall [m].
+void check_end(const char* flag, double room, const Tire& tire) {
+  const double outer = tire.radius + tire.lugs.height;
+  if (room >= least_room * outer) return;
+  throw InputError(
+      fmt::format("{} {:.4g} m: that near to the end of the bin the wheel, of {:.4g} m outer radius, would hang over "
+                  "the end wall as "
+                  "soon as it has sunk by {:.2g} m\n  hint: {} {:.4g}m, the outer radius, or more; {:.4g}m at least",
+                  flag, room, outer, outer - std::sqrt(outer * outer - room * room), flag, outer, least_room * outer));
+}
+
+}  // namespace
+
 double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig) {
   const double room = size.length - rig.behind - rig.ahead;
-  const double way = rig.travel > 0 ? std::min(rig.travel, room) : room;
-  if (way <= 0)
+  if (room <= 0)
     throw InputError(
         fmt::format("a bed of {:.4g} m leaves the wheel no way: "
-                    "{:.4g} m behind and {:.4g} m ahead are kept"
+                    "--behind keeps {:.4g} m and --ahead {:.4g} m"
                     "\n  hint: --bed-length above {:.4g} m, or less --behind and --ahead",
                     size.length, rig.behind, rig.ahead, rig.behind + rig.ahead));
+  check_end("--behind", rig.behind, tire), check_end("--ahead", rig.ahead, tire);
+  if (rig.travel > room * (1 + 1e-9))  // whatever rounding says
+    throw InputError(fmt::format(
+        "--travel {:.4g} m is more than the {:.4g} m that a bed of {:.4g} m leaves: --behind keeps {:.4g} m "
+        "and --ahead {:.4g} m\n  hint: --bed-length {:.4g}m, or a shorter --travel",
+        rig.travel, room, size.length, rig.behind, rig.ahead, rig.behind + rig.travel + rig.ahead));
   if (size.width < 1.4999 * tire.width)  // 150 mm is 1.5 times 100 mm, whatever rounding says
     throw InputError(
         fmt::format("a bed {:.4g} m wide is too narrow for a tire "
-                    "of {:.4g} m: at least 1.5 times its width",
-                    size.width, tire.width));
-  return way;
+                    "of {:.4g} m: at least 1.5 times its width"
+                    "\n  hint: --bed-width {:.4g}m",
+                    size.width, tire.width, 1.5 * tire.width));
+  return rig.travel > 0 ? std::min(rig.travel, room) : room;
+}
+
+double reach_at(const Tire& tire, double sinkage) {
+  const double outer = tire.radius + tire.lugs.height, above = std::clamp(tire.radius - sinkage, 0.0, outer);
+  return std::sqrt(outer * outer - above * above);
 }
 
 StagedRun staged_run(const WheelOnBed& on, const WorkOptions& how, const Checkpoints& checkpoints, std::string inputs) {

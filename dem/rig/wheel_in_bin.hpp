@@ -59,8 +59,16 @@ void parts(Notes& notes, SampleUnderWay& s) {
   notes(s.sum, s.steps, s.taken, s.begun, s.travel, s.work);
 }
 
-/// That the axle may go [m]. Throws InputError for a bed too short or narrow.
+/// That the axle is kept from either end of the bin, at least, in outer radii (chosen): a wheel hangs over the end wall
+/// once it has sunk by 13 % of that radius. The paper's tire has 0.7.
+inline constexpr double least_room = 0.5;
+
+/// That the axle may go [m]. Throws InputError for a bed too short for the way or too narrow, and for an axle that
+/// least_room keeps from where it begins or ends.
 double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig);
+
+/// How far from the axle, along the bin, a wheel that has sunk so far [m] reaches at the height of the surface [m].
+double reach_at(const Tire& tire, double sinkage);
 
 /// The bed's setup with the tire's material and the rig's numerics.
 Setup run_setup(const WheelOnBed& on, int threads);

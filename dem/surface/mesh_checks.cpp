@@ -230,7 +230,7 @@ void check_closed(const std::vector<Vec3>& vertices, const std::vector<Corners>&
       refuse_mesh(name,
                   fmt::format("not closed: the edge from {} to {} of triangle {} has no other triangle",
                               show(vertices[c[i]]), show(vertices[c[next(i)]]), t),
-                  "close the hole, or take the mesh as an open sheet");
+                  "close the hole in the program that drew it");
     }
   }
   for (int v = 0; v < static_cast<int>(vertices.size()); ++v) {

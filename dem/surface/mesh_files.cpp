@@ -162,12 +162,8 @@ Content read_obj(const std::string& file) {
   return content;
 }
 
-}  // namespace
-
-TriangleMesh read_mesh(const std::filesystem::path& path, double unit, MeshOptions options) {
+Content read_content(const std::filesystem::path& path) {
   const std::string file = path.string();
-  options.name = file;
-  require_unit(file, unit);
   const std::string extension = lower(path.extension().string());
   if (extension != ".stl" && extension != ".obj") {
     refuse_mesh(file, fmt::format("'{}' is no kind of mesh file that is read", extension), "take .stl or .obj");
@@ -175,7 +171,17 @@ TriangleMesh read_mesh(const std::filesystem::path& path, double unit, MeshOptio
   if (!std::filesystem::is_regular_file(path) || !std::ifstream(path).good()) {
     refuse_mesh(file, "it can't be read", "is the name right, and may you read it?");
   }
-  Content content = extension == ".stl" ? read_stl(path, file) : read_obj(file);
+  return extension == ".stl" ? read_stl(path, file) : read_obj(file);
+}
+
+}  // namespace
+
+std::vector<Vec3> vertices_in(const std::filesystem::path& path) { return read_content(path).vertices; }
+
+TriangleMesh read_mesh(const std::filesystem::path& path, double unit, MeshOptions options) {
+  options.name = path.string();
+  require_unit(options.name, unit);
+  Content content = read_content(path);
   for (Vec3& v : content.vertices) v = unit * v;
   return {std::move(content.vertices), std::move(content.triangles), options};
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "dem/surface/triangle_mesh.hpp"
 
@@ -16,6 +17,10 @@ namespace soilbin::dem {
 /// `options.name` is replaced by the file's. Throws InputError, naming the file and, in text STL, the line, where it
 /// can't be read, is cut short, or TriangleMesh refuses what is in it.
 TriangleMesh read_mesh(const std::filesystem::path& file, double unit, MeshOptions options = {});
+
+/// The vertices of such a file before anything is checked of its surface, in the file's unit: for who is to find that
+/// unit. Throws InputError where the file can't be read or is cut short.
+std::vector<Vec3> vertices_in(const std::filesystem::path& file);
 
 /// Writes binary STL, atomically; coordinates in single precision, in lengths of `unit` [m]. std::runtime_error where
 /// the system refuses.

@@ -269,8 +269,8 @@ namespace {
 /// How far a mesh reaches from the y axis, and from where to where along it.
 struct Extent {
   double reach = 0.0, left = std::numeric_limits<double>::infinity(), right = -left;
-  explicit Extent(const TriangleMesh& mesh) {
-    for (const Vec3& p : mesh.vertices()) {
+  explicit Extent(const std::vector<Vec3>& vertices) {
+    for (const Vec3& p : vertices) {
       reach = std::max(reach, std::hypot(p.x, p.z));
       left = std::min(left, p.y), right = std::max(right, p.y);
     }
@@ -282,14 +282,17 @@ TriangleMesh drawn_wheel(const Tire& tire, const std::string& file) {
   constexpr double same_reach = 0.02, same_width = 0.05;
   constexpr std::array<double, 4> units = {1e-3, 1e-2, 1.0, 0.0254};  // mm, cm, m, inch
   const double outer = tire.radius + tire.lugs.height;
-  const Extent as_drawn(read_mesh(file, 1.0, {.closed = true}));
+  const std::vector<Vec3> vertices = vertices_in(file);
+  if (vertices.empty()) return read_mesh(file, 1.0, {.closed = true});  // which says what is wrong with none
+  const Extent as_drawn(vertices);
   const auto unit =
       std::ranges::find_if(units, [&](double one) { return std::abs(one * as_drawn.reach / outer - 1) <= same_reach; });
   if (unit == units.end())
     refuse_mesh(
         file,
-        fmt::format("it reaches {:.4g} from the y axis, which is {:.4g} mm in no unit", as_drawn.reach, 1000 * outer),
-        "radius and lug height of the tire are those of the mesh; mm, cm, m or inches");
+        fmt::format("it reaches {:.4g} from the y axis: no unit (mm, cm, m, inch) makes that the tire's {:.4g} mm",
+                    as_drawn.reach, 1000 * outer),
+        "the tire's radius and lug height together are how far the mesh reaches");
   for (const double side : {-as_drawn.left, as_drawn.right})
     if (!(std::abs(2 * *unit * side / tire.width - 1) <= same_width))
       refuse_mesh(file,

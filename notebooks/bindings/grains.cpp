@@ -60,7 +60,8 @@ void bind_materials(py::module_& module) {
       .def_readwrite("restitution", &Interaction::restitution, "e [-], 0 .. 1")
       .def_readwrite("sliding_friction", &Interaction::sliding_friction, "mu [-], at least 0")
       .def_readwrite("rolling_friction", &Interaction::rolling_friction, "mu_r [-], at least 0")
-      .def_readwrite("rolling_damping", &Interaction::rolling_damping, "of elastic_plastic, share of critical")
+      .def_readwrite("rolling_damping", &Interaction::rolling_damping,
+                     "of elastic_plastic, share of critical; 0 until set, where a soil's grains have 0.3")
       .def_readwrite("rolling_stiffness", &Interaction::rolling_stiffness,
                      "spring_slider [N/m], torsion_spring [N m/rad]")
       .def_readwrite("cohesion", &Interaction::cohesion, "linear: [J/m^3]; jkr: work of adhesion [J/m^2]")

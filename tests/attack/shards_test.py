@@ -101,6 +101,12 @@ class Shards(Attack):
         self.assertIn("9 runs in 3 shards", out)
         out, _ = self.expect(3, [], "sweep", "status", "swept")
         self.assertIn("0 of 9 runs recorded; shards: 0 done, 0 running, 0 waiting, 0 failed, 3 missing", out)
+        log = self.here / "swept/logs/run-2.log"
+        log.parent.mkdir(exist_ok=True)
+        log.write_text("run 3 of 3: load 60 N\n2 runs in 2-of-3.json: the same command goes on from there\n")
+        out, _ = self.expect(3, [], "sweep", "status", "swept")
+        self.assertIn("0 waiting, 1 stopped, 0 failed, 2 missing", out)
+        log.unlink()
         out, _ = self.expect(0, [], *sweep, "--submit")
         self.assertIn("9 of 9 runs recorded; shards: 3 done", out)
         self.expect(0, [], *self.run_words("--record", "one.json"))

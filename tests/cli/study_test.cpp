@@ -195,6 +195,64 @@ study:
   EXPECT_THAT(tested.err, testing::Not(untested));
 }
 
+/// A case of a light wheel on pebbles in `folder`, for a study of one condition or several.
+fs::path pebble_case(const Scratch& folder, const std::string& slip) {
+  folder.write("pebbles.yaml", pebbles());
+  return folder.write("case.yaml",
+                      "format: soilbin-case/1\nname: pebbles\ntire: {radius: 150 mm, width: 100 mm}\n"
+                      "soil: pebbles.yaml\nstudy:\n  models: [dem]\n  conditions: {load: 60 N, slip: " +
+                          slip + ", speed: 0.6 m/s}\n");
+}
+
+// It lists what it would make, and makes nothing: no record is begun.
+TEST(SlowRun, ADryRunOfConvergeListsTheRepetitions) {
+  const Scratch scratch;
+  const fs::path record = scratch / "r.json";
+  const Outcome dry =
+      soilbin("run '" + pebble_case(scratch, "20 %").string() +
+              "' --converge --dry-run --bed-length 1.2m --bed-width 0.25m --bed-depth 0.09m --record '" +
+              record.string() + "'");
+  EXPECT_EQ(dry.status, 0) << dry.err;
+  EXPECT_THAT(dry.out, AllOf(HasSubstr("as it is"), HasSubstr("time step halved"), HasSubstr("skin halved"),
+                             HasSubstr("to settle"), HasSubstr("runs to make, about")));
+  EXPECT_FALSE(fs::exists(record));
+}
+
+TEST(Run, ConvergeRefusesWhatMeansNothingBesideIt) {
+  const Scratch scratch;
+  const std::string run = "run '" + pebble_case(scratch, "[0 %, 20 %]").string() + "' --converge";
+  for (const char* flag : {"--shard 1/2", "--packings 3", "--half-step no", "--paraview views", "--replay r.replay",
+                           "--csv r.csv", "--plot r.svg", "--known r.json", "--recorded r.json"}) {
+    const Outcome refused = soilbin(run + " --slip 20% " + flag);
+    EXPECT_EQ(refused.status, 2) << flag;
+    const std::string name = std::string(flag).substr(0, std::string(flag).find(' '));
+    EXPECT_THAT(refused.err, HasSubstr(name)) << flag;
+    EXPECT_EQ(refused.out, "") << flag;
+  }
+  EXPECT_THAT(soilbin(run + " --slip 20% --shard 1/2").err, HasSubstr("--shard means nothing beside --converge"));
+  EXPECT_THAT(soilbin(run + " --dry-run").err, HasSubstr("--converge takes one condition, not 2"));
+  EXPECT_THAT(soilbin("run rover-slip --model bekker_wong --slip 20% --converge").err, HasSubstr("hint: --model dem"));
+}
+
+// What keeps every condition from being run is bad input, not a study without a solution.
+TEST(Run, ABinWithoutRoomForTheWheelIsBadInput) {
+  const Scratch scratch;
+  const std::string run = "run '" + pebble_case(scratch, "20 %").string() + "'";
+  const std::pair<const char*, const char*> wrong[] = {
+      {"--bed-length 0.4m", "no way: --behind keeps 0.35 m and --ahead 0.5 m"},
+      {"--bed-length 0.7m --behind 0.05m --ahead 0.2m", "hint: --behind 0.15m"},
+      {"--travel 2m", "--travel 2 m is more than the 1.65 m that a bed of 2.5 m leaves"},
+      {"--bed-width 0.1m", "hint: --bed-width 0.15m"},
+      {"--bed-depth 1mm", "less than two grains"},
+      {"--time-step 100ms", "hint: --time-step"}};
+  for (const auto& [flags, says] : wrong) {
+    const Outcome refused = soilbin(run + " " + flags);
+    EXPECT_EQ(refused.status, 2) << flags;
+    EXPECT_THAT(refused.err, HasSubstr(says)) << flags;
+    EXPECT_EQ(refused.out, "") << flags;
+  }
+}
+
 TEST(Run, NamesTheFlagOrModelThatIsWrong) {
   const Outcome length = soilbin("run paper-straight --model dem --bed-length 4");
   EXPECT_EQ(length.status, 2);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <random>
 
+#include "compare/calibrate/calibration_words.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 #include "tests/compare/stand_in_board.hpp"
@@ -164,14 +165,17 @@ TEST(Calibration, FailedExperimentsAreLeftOutAndKept) {
   VirtualTest test = board();
   const auto works = test.run;
   test.run = [works](const VectorXd& v, std::uint64_t seed) {
-    if (v[1] > 0.8 && v[2] > 0.6) throw NoSolution("the sand never slides");
+    if (v[1] > 0.8 && v[2] > 0.6) throw NoSolution("the sand never slides\n  hint: less friction");
     return works(v, seed);
   };
   const Calibration found = calibrate(test, {}, store);
   EXPECT_TRUE(found.reached);
   EXPECT_TRUE(found.analyses.empty());  // an unbalanced design has no range analysis
-  EXPECT_TRUE(std::any_of(found.runs.begin(), found.runs.end(),
-                          [](const CalibrationRun& run) { return run.experiment.error == "the sand never slides"; }));
+  EXPECT_TRUE(std::any_of(found.runs.begin(), found.runs.end(), [](const CalibrationRun& run) {
+    return run.experiment.error.starts_with("the sand never");
+  }));
+  EXPECT_THAT(as_text(runs_table(test, found)),
+              testing::AllOf(HasSubstr("-  the sand never slides; hint: less"), testing::Not(HasSubstr("\n  hint"))));
   test.run = [](const VectorXd&, std::uint64_t) -> std::vector<Estimate> { throw NoSolution("never"); };
   test.identity = "never";
   EXPECT_THROW(calibrate(test, {}, store), NoSolution);

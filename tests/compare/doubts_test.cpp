@@ -294,6 +294,66 @@ TEST(Doubts, GrainsAreCoarseByEachOfTheirLengths) {
   EXPECT_THAT(told(0.02, 0.16, 0.0), ElementsAre(HasSubstr("Of their mean diameter, 40 mm, 4 lie across it")));
 }
 
+// Ordinary grains under a wheel of 100 mm width: none of the values is odd.
+Case sand_and_wheel() {
+  Case question = papers_case();
+  question.scenario.tire.radius = 0.12, question.scenario.tire.width = 0.1, question.scenario.tire.lugs.height = 0;
+  question.scenario.soil.semi_empirical.reset();
+  question.study.conditions = {condition(80, 0.1)};
+  GranularSoil& grains = *question.scenario.soil.granular;
+  grains.radius_min = 0.002, grains.radius_max = 0.003, grains.grain_density = 2650, grains.youngs_modulus = 5e6;
+  grains.poisson_ratio = 0, grains.rolling_resistance = RollingResistance::elastic_plastic;
+  grains.grain_grain = {}, grains.grain_tire = {};
+  return question;
+}
+
+TEST(Doubts, ValuesThatNoGrainHasAreTold) {
+  const Case ordinary = sand_and_wheel();
+  EXPECT_THAT(doubts(ordinary, {}), IsEmpty());
+  const auto told = [&](const auto& change) {
+    Case question = ordinary;
+    change(*question.scenario.soil.granular);
+    return doubts(question, {});
+  };
+  using G = GranularSoil;
+  EXPECT_THAT(told([](G& g) { g.grain_density = 2.65; }),
+              ElementsAre(AllOf(HasSubstr("grain_density = 2.65 kg/m^3 is outside 500 .. 8000"), HasSubstr("g/cm^3"))));
+  EXPECT_THAT(told([](G& g) { g.grain_density = 20000; }), ElementsAre(Not(HasSubstr("g/cm^3"))));
+  EXPECT_THAT(told([](G& g) { g.grain_grain.sliding_friction = 5; }),
+              ElementsAre(HasSubstr("sliding_friction of grain_grain = 5 is above 1.5")));
+  EXPECT_THAT(told([](G& g) { g.grain_tire.sliding_friction = 5; }), ElementsAre(HasSubstr("of grain_tire = 5")));
+  EXPECT_THAT(told([](G& g) { g.radius_min = 0.0003, g.radius_max = 0.004; }),
+              ElementsAre(HasSubstr("radius_max is 13 times radius_min")));
+}
+
+// 80 N over 100 mm and half of 120 mm: 13.3 kPa, and 2.39 (13.3/(E/2))^(2/3) of a radius. For E = 5 MPa that is 0.073;
+// it is 0.2 for 1.1 MPa and 1.57 for 50 kPa.
+TEST(Doubts, GrainsTooSoftForTheWheelAreTold) {
+  Case question = sand_and_wheel();
+  double& young = question.scenario.soil.granular->youngs_modulus;
+  young = 1.15e6;
+  EXPECT_THAT(doubts(question, {}), IsEmpty());
+  young = 1.09e6;
+  EXPECT_THAT(doubts(question, {}), ElementsAre(HasSubstr("about 20 % of their radius")));
+  young = 50e3;
+  EXPECT_THAT(
+      doubts(question, {}),
+      ElementsAre(AllOf(HasSubstr("50 kPa, are pressed into each other by more than their radius"),
+                        HasSubstr("wheel's 13 kPa (load 80 N"), HasSubstr("youngs_modulus of 1.1 MPa or more"))));
+}
+
+// Hertz's 4/3 E* sqrt(R*) delta^1.5 holds pi k R* delta at delta/R* = (3 pi k/(4 E*))^2: for E* = 2.5 MPa and 0.2 of a
+// radius, 0.4 R*, at k = 671 kJ/m^3.
+TEST(Doubts, CohesionThatPressesGrainsTogetherIsTold) {
+  Case question = sand_and_wheel();
+  double& cohesion = question.scenario.soil.granular->grain_grain.cohesion;
+  cohesion = 660e3;
+  EXPECT_THAT(doubts(question, {}), IsEmpty());
+  cohesion = 99999e3;
+  EXPECT_THAT(doubts(question, {}),
+              ElementsAre(AllOf(HasSubstr("of grain_grain, 99999 kJ/m^3"), HasSubstr("less than 671 kJ/m^3"))));
+}
+
 TEST(Doubts, ARollingLawThatHangsOnTheStepIsToldWhereGrainsAnswer) {
   Case question = papers_case();
   const auto told = [&] { return doubts(question, answer_of_grains(0.25e-3)); };

@@ -120,11 +120,14 @@ TEST_F(MeshFiles, AWheelAsDrawnHasTheTiresSizeAndStandsOnItsAxle) {
   Tire other = small_rover();
   EXPECT_EQ(says(tire_surface(other, {.edge = 0.01})), "");
   other.radius = 0.12;
-  EXPECT_THAT(says(tire_surface(other, {.edge = 0.01})),
-              testing::AllOf(testing::HasSubstr("it reaches 130"), testing::HasSubstr("100 mm in no unit")));
+  EXPECT_THAT(
+      says(tire_surface(other, {.edge = 0.01})),
+      testing::HasSubstr("it reaches 130 from the y axis: no unit (mm, cm, m, inch) makes that the tire's 100 mm"));
   other = small_rover(), other.width = 0.08;
   EXPECT_THAT(says(tire_surface(other, {.edge = 0.01})), testing::HasSubstr("from -40 to 40 mm along y, 55 mm"));
-  EXPECT_THAT(says(plate(0.18, 0.1, 1, 1)), testing::HasSubstr("closed")) << "an open mesh";
+  EXPECT_THAT(says(plate(0.2, 0.11, 1, 1)),
+              testing::AllOf(testing::HasSubstr("not closed"), testing::HasSubstr("(0.1, -0.055, 0) m")))
+      << "an open mesh, drawn in mm and told in m";
 }
 
 TEST_F(MeshFiles, WritesWhatTheFormatSays) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "dem/rig/dem_model.hpp"
+#include "dem/rig/wheel_in_bin.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/unit.hpp"
 #include "tests/dem/small_bed.hpp"
@@ -15,6 +16,8 @@ namespace {
 
 using std::numbers::pi;
 using test::with_threads;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 OperatingCondition condition(double load, double slip, double speed) {
   OperatingCondition at;
@@ -210,6 +213,77 @@ TEST_F(SlowSmallWheel, GivesTheSameForAnyNumberOfThreadsAndStopsWhenAsked) {
   EXPECT_THROW(run_wheel({bed(), wheel(), rough(), brief}, at, two), Stopped);
 }
 
+/// What way_in_bin says against it; "" where it says nothing.
+std::string against(const BedSize& size, const Tire& tire, const Rig& rig) {
+  try {
+    way_in_bin(size, tire, rig);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// A wheel of 120 mm with lugs of 10 mm: its outer radius is 130 mm. At 50 mm from a wall it hangs over that from a
+// sinkage of 130 - sqrt(130^2 - 50^2) = 10 mm on; 65 mm are half the outer radius.
+TEST(WayInBin, HasRoomForTheWheelBehindAheadAndBeside) {
+  Tire tire;
+  tire.radius = 0.12, tire.width = 0.1, tire.lugs = {.height = 0.01, .count = 12, .thickness = 0.003};
+  const BedSize size{0.7, 0.3, 0.1};
+  Rig rig;
+  rig.behind = 0.13, rig.ahead = 0.2;
+  EXPECT_NEAR(way_in_bin(size, tire, rig), 0.37, 1e-12);
+  EXPECT_NEAR(reach_at(tire, 0), 0.05, 1e-12);
+  EXPECT_NEAR(reach_at(tire, 0.12), 0.13, 1e-12);
+  rig.behind = 0.05;
+  EXPECT_THAT(against(size, tire, rig), AllOf(HasSubstr("--behind 0.05 m"), HasSubstr("of 0.13 m outer radius"),
+                                              HasSubstr("sunk by 0.01 m"), HasSubstr("hint: --behind 0.13m")));
+  rig.behind = 0.066, rig.ahead = 0.064;
+  EXPECT_THAT(against(size, tire, rig), HasSubstr("--ahead 0.064 m"));
+  rig.ahead = 0.066;
+  EXPECT_EQ(against(size, tire, rig), "");
+  rig.behind = 0.35, rig.ahead = 0.5;
+  EXPECT_THAT(against(size, tire, rig), AllOf(HasSubstr("no way: --behind keeps 0.35 m and --ahead 0.5 m")));
+  EXPECT_THAT(against({2.5, 0.14, 0.1}, tire, rig),
+              AllOf(HasSubstr("too narrow"), HasSubstr("hint: --bed-width 0.15m")));
+}
+
+TEST(WayInBin, ATravelThatTheBedIsTooShortForIsRefused) {
+  Tire tire;
+  tire.radius = 0.1, tire.width = 0.1;
+  const BedSize size{1, 0.3, 0.1};
+  Rig rig;
+  rig.behind = 0.2, rig.ahead = 0.5, rig.travel = 1 - 0.7 + 1e-12;  // that much is rounding
+  EXPECT_NEAR(way_in_bin(size, tire, rig), 0.3, 1e-12);
+  rig.travel = 2;
+  EXPECT_THAT(against(size, tire, rig), AllOf(HasSubstr("--travel 2 m is more than the 0.3 m that a bed of 1 m leaves"),
+                                              HasSubstr("--bed-length 2.7m")));
+}
+
+// Before a bed is settled: the longest step is a fifth of the Rayleigh time; the engine itself decides just above it.
+TEST(DemModel, AStepOrABedThatMakesNoSenseIsRefusedAtOnce) {
+  DemSettings settings;
+  settings.size = {0.5, 0.16, 0.08};
+  settings.rig.behind = settings.rig.ahead = 0.12;
+  Scenario scenario;
+  scenario.tire = test::small_wheel();
+  scenario.soil.granular = test::soft_soil();
+  const auto says = [&] {
+    try {
+      DemModel(settings).check(scenario);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(says(), "");
+  settings.rig.dt = 1.05 * longest_step(*scenario.soil.granular);
+  EXPECT_EQ(says(), "");
+  settings.rig.dt = 5 * longest_step(*scenario.soil.granular);
+  EXPECT_THAT(says(), AllOf(HasSubstr("it is 1 of the Rayleigh time"), HasSubstr("--time-step")));
+  settings.rig.dt = 0, settings.size.depth = 0.001;
+  EXPECT_THAT(says(), HasSubstr("less than two grains"));
+}
+
 TEST_F(SlowSmallWheel, RefusesABedTooShortOrNarrow) {
   Rig far = rig();
   far.ahead = 0.45;
@@ -222,7 +296,7 @@ TEST_F(SlowSmallWheel, RefusesABedTooShortOrNarrow) {
 TEST_F(SlowSmallWheel, AnswersAsAModel) {
   DemSettings settings;
   settings.size = {0.3, 0.14, 0.06};
-  settings.rig = rig();
+  settings.rig = rig(), settings.rig.travel = 0;
   settings.how = with_threads(1);
   std::size_t samples = 0;
   settings.on_run = [&](const WheelRun& told) { samples = told.samples.size(); };

@@ -147,6 +147,10 @@ TEST(Quantity, APercentageWithoutItsSignIsGuessed) {
   const Measure slip{"-", {.lower = -1.0, .upper = 1.0}};
   EXPECT_THAT(test::refusal([&] { read_quantity("20", slip); }), testing::HasSubstr("did you mean '20%'?"));
   EXPECT_THAT(test::refusal([&] { read_quantity("2000", slip); }), testing::Not(testing::HasSubstr("did you mean")));
+  EXPECT_THAT(test::refusal([&] { read_quantity("-20", slip); }), testing::HasSubstr("did you mean '-20%'?"));
+  const Measure poisson_ratio{"-", {.lower = -1.0, .upper = 0.5}};
+  EXPECT_THAT(test::refusal([&] { read_quantity("0.6", poisson_ratio); }),
+              testing::Not(testing::HasSubstr("did you mean")));
 }
 
 TEST(Quantity, AMisspeltUnitIsFirstComparedWithThoseOfItsDimension) {

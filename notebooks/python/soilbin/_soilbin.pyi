@@ -1208,7 +1208,7 @@ class Interaction:
     def rolling_friction(self, value: float) -> None: ...
     @property
     def rolling_damping(self) -> float:
-        """of elastic_plastic, share of critical"""
+        """of elastic_plastic, share of critical; 0 until set, where a soil's grains have 0.3"""
     @rolling_damping.setter
     def rolling_damping(self, value: float) -> None: ...
     @property
