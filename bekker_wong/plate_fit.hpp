@@ -1,6 +1,6 @@
 // Bekker's n, k_c and k_phi from plates pressed into the soil: p = (k_c/b + k_phi) z^n, b: the plate's radius or
 // the width of a strip. Wong's method: logarithms weighted by p^2, so that the fit is close in pressure (Wong 1980,
-// J. Terramechanics 17:5; as Oravec 2009, Case Western Reserve University, applied it).
+// J. Terramechanics 17(1):13; as Oravec 2009, Case Western Reserve University, applied it).
 //
 //   const std::vector<PlateCurve> plates{{0.05, {20e3, 40e3, 60e3}, {0.0167, 0.0333, 0.05}},  // b [m], p [Pa], z [m]
 //                                        {0.10, {20e3, 40e3, 60e3}, {0.0182, 0.0364, 0.0545}}};

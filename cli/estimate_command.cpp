@@ -50,7 +50,12 @@ compare::Sheet sheet_of(const Case& question, const std::vector<compare::ModelAn
   compare::Sheet sheet = compare::study_sheet(question, compare::smoothed_for_plot(question, study, abscissa),
                                               compare::Panels::telling, abscissa);
   sheet.title = fmt::format("{} on {}", question.scenario.tire.name, compare::in_words(question.scenario.soil));
-  if (const std::string load = only_load(question.study.conditions); !load.empty()) sheet.title += ", " + load;
+  const std::vector<OperatingCondition>& all = question.study.conditions;
+  if (const std::string load = only_load(all); !load.empty()) sheet.title += ", " + load;
+  const double slip = all.front().slip;
+  if (&abscissa != &compare::slip_abscissa() &&
+      std::ranges::all_of(all, [&](const OperatingCondition& at) { return at.slip == slip; }))
+    sheet.title += fmt::format(", slip {:.4g} %", 100 * slip);
   return sheet;
 }
 

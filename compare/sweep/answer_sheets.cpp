@@ -37,7 +37,8 @@ std::vector<Shown> shown_of(const std::vector<ModelAnswers>& study, Panels panel
 }
 
 Plot empty_plot(const Shown& shown, const Abscissa& abscissa = slip_abscissa()) {
-  Plot plot{capital(shown.title) + " [" + shown.unit + "]", {abscissa.name + " [" + abscissa.unit + "]"}};
+  Plot plot{capital(shown.title) + " [" + shown.unit + "]",
+            {abscissa.name + (abscissa.unit == "-" ? "" : " [" + abscissa.unit + "]")}};
   if (shown.title == "sinkage" || shown.title == "tractive efficiency") plot.y.lower = 0.0;
   return plot;
 }

@@ -130,6 +130,19 @@ std::vector<std::pair<double, double>> loads_and_slips(const std::string& argume
   return all;
 }
 
+// At one slip curves run over what else varies, one for each pass.
+TEST(Estimate, ThePlotRunsOverLoadWhereSlipStays) {
+  const Scratch scratch;
+  const std::string plot = (scratch / "load.svg").string();
+  const Outcome r = soilbin(
+      "estimate --tire rover-wheel --soil dry-sand --slip 20% --load 40N..80N --pass 1,2,3 "
+      "--effect multipass --plot '" +
+      plot + "'");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(text_of(plot),
+              AllOf(HasSubstr("load [N]"), HasSubstr("pass 2"), HasSubstr("slip 20 %"), Not(HasSubstr("slip [%]"))));
+}
+
 TEST(Estimate, ListsAndStepsSpanAGridSlipFastest) {
   using testing::ElementsAre;
   using testing::Pair;
