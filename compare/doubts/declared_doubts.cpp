@@ -22,7 +22,7 @@ struct UsualRange {
   const char *unit, *why;
 };
 
-/// "n = 0.02 is outside 0.1 .. 1.8, ..." where it is.
+/// "n = 1.9 is outside 0.1 .. 1.8, ..." where it is.
 void expect(Warnings& warnings, const char* name, double value, const UsualRange& usual) {
   if (value < usual.lower || value > usual.upper)
     warnings.push_back(fmt::format("{} = {:.4g}{}{} is outside {:.4g} .. {:.4g}: {}", name, value,

@@ -213,7 +213,7 @@ TEST(Check, ValidFilesPassAndNonsenseIsWarnedOf) {
 name: nonsense
 tire: {radius: 50 mm, width: 200 mm}
 soil:
-  semi_empirical: {exponent: 0.15, k_c: 1 kN/m^(n+1), k_phi: 3000 kN/m^(n+2), cohesion: 0 kPa, friction_angle: 0 deg,
+  semi_empirical: {exponent: 1.9, k_c: 1 kN/m^(n+1), k_phi: 3000 kN/m^(n+2), cohesion: 0 kPa, friction_angle: 0 deg,
     shear_modulus: 200 mm, stress_angle_c1: 0.8, stress_angle_c2: 0.5, density: 9000 kg/m^3}
 study:
   conditions: {load: [100 N, 1000 kN], slip: 20 %}
@@ -221,7 +221,7 @@ study:
   const Outcome r = soilbin("check '" + file.string() + "' --json");
   EXPECT_EQ(r.status, 0) << r.err;
   const std::string warnings = r.json()["warnings"].dump();
-  for (const char* word : {"n = 0.15", "c and phi are both 0", "density", "c1 + c2", "K", "no solution", "wider"})
+  for (const char* word : {"n = 1.9", "c and phi are both 0", "density", "c1 + c2", "K", "no solution", "wider"})
     EXPECT_THAT(warnings, HasSubstr(word));
 }
 
