@@ -41,8 +41,8 @@ struct DriveRecord {
 using DriveProgress = std::function<void(double time, double duration)>;
 
 /// Drives the wheel. `samples`: how many intervals of time are recorded over the whole duration.
-/// Throws what DrivenWheel's constructor throws, InputError for samples below 1, NoSolution where the soil can't hold the wheel at its
-/// start.
+/// Throws what DrivenWheel's constructor throws, InputError for samples below 1, NoSolution where the soil can't hold
+/// the wheel at its start.
 DriveRecord drive_wheel(const Scenario& scenario, const Drive& drive, int samples = 400,
                         const DriveNumerics& numerics = {}, const DriveProgress& progress = {});
 
