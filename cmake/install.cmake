@@ -35,4 +35,15 @@ configure_package_config_file(cmake/soilbin-config.cmake.in ${PROJECT_BINARY_DIR
   INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/soilbin-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/soilbin-config.cmake ${PROJECT_BINARY_DIR}/soilbin-config-version.cmake
-  cmake/FindSUNDIALS.cmake DESTINATION ${package_folder} COMPONENT development)
+  DESTINATION ${package_folder} COMPONENT development)
+
+# The archives of CVODES, so that who links ours needs no package that brings MPI and PETSc (cmake/FindSUNDIALS.cmake).
+foreach(archive cvodes nvecserial sunmatrixdense sunlinsoldense)
+  install(FILES ${SUNDIALS_${archive}_LIBRARY} DESTINATION ${CMAKE_INSTALL_LIBDIR}/soilbin COMPONENT development)
+endforeach()
+find_file(SUNDIALS_COPYRIGHT copyright NO_DEFAULT_PATH
+  PATHS ${SUNDIALS_INCLUDE_DIR}/../share/doc/libsundials-dev)
+if(SUNDIALS_COPYRIGHT)
+  install(FILES ${SUNDIALS_COPYRIGHT} DESTINATION ${CMAKE_INSTALL_LIBDIR}/soilbin RENAME copyright.sundials
+    COMPONENT development)
+endif()

@@ -19,7 +19,7 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "libjs-three, node-d3")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsoilbin-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS libassimp-dev libeigen3-dev libfmt-dev libgsl-dev libhdf5-dev
-       libhwy-dev libsundials-dev libyaml-cpp-dev nlohmann-json3-dev zlib1g-dev)
+       libhwy-dev libyaml-cpp-dev nlohmann-json3-dev zlib1g-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS soilbin)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
   "The command soilbin with its tires, soils, studies and measured campaigns: drawbar pull, torque, sinkage and

@@ -1,6 +1,8 @@
 // A user's program: a published point by the analytic model, two independent codes agree on it
 // (docs/lab/verification.md).
+#include <bekker_wong/effect.hpp>
 #include <bekker_wong/model.hpp>
+#include <bekker_wong/rolling_wheel.hpp>
 #include <cmath>
 #include <cstdio>
 #include <scenario/scenario.hpp>
@@ -22,5 +24,12 @@ int main() {
   at.slip = 0.6;
   const soilbin::TractionResult result = soilbin::bekker_wong::BekkerWong().evaluate(scenario, at);
   std::printf("drawbar pull %.4f N\n", result.drawbar_pull.value);
-  return std::abs(result.drawbar_pull.value - 11.7861) < 5e-5 ? 0 : 1;
+
+  using namespace soilbin::bekker_wong;
+  const RollingWheel wheel(scenario.tire, values_of(*scenario.soil.semi_empirical), make_effects(scenario.effects));
+  const RolledWheel now = wheel.roll(at);  // at each step
+  std::printf("%.4f N, %.4f N m, %.4f m\n", now.reading.drawbar_pull, now.reading.torque, now.reading.sinkage);
+  return std::abs(result.drawbar_pull.value - 11.7861) < 5e-5 && now.reading.drawbar_pull == result.drawbar_pull.value
+             ? 0
+             : 1;
 }

@@ -16,8 +16,7 @@ function(run)
 endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
-run(${CMAKE_COMMAND} -G Ninja -S ${CONSUMER} -B ${SCRATCH}/build -D CMAKE_PREFIX_PATH=${prefix} -D SUNDIALS_ROOT=${BUILD}/../unpacked/usr
-  -D CMAKE_BUILD_TYPE=Debug)
+run(${CMAKE_COMMAND} -G Ninja -S ${CONSUMER} -B ${SCRATCH}/build -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_BUILD_TYPE=Debug)
 file(STRINGS ${SCRATCH}/build/CMakeCache.txt found REGEX "^soilbin_DIR:PATH=")
 if(NOT found MATCHES "=${prefix}/")
   message(FATAL_ERROR "found another soilbin: ${found}")

@@ -39,7 +39,7 @@ endif()
 
 run(dpkg-deb --info ${development})
 expect("${output}" "libsoilbin-dev's control file" "Package: libsoilbin-dev\n"
-  "Depends: [^\n]*libeigen3-dev[^\n]*libfmt-dev[^\n]*libgsl-dev[^\n]*libsundials-dev[^\n]*libyaml-cpp-dev[^\n]*nlohmann-json3-dev")
+  "Depends: [^\n]*libeigen3-dev[^\n]*libfmt-dev[^\n]*libgsl-dev[^\n]*libyaml-cpp-dev[^\n]*nlohmann-json3-dev")
 run(dpkg-deb --contents ${development})
 expect("${output}" "libsoilbin-dev's files" "/libsoilbin_scenario.a\n" "/libsoilbin_bekker_wong.a\n"
   "/libsoilbin_compare.a\n" "/cmake/soilbin/soilbin-config.cmake\n" " ./usr/include/soilbin/scenario/tire.hpp\n")
