@@ -8,7 +8,7 @@ namespace soilbin::dem {
 /// Energy that left the motion since the start [J], summed step by step where Numerics::ledger is set. Exact: counted
 /// at the mean of the velocities half a step before and after, which is what the motion got. By the velocity before
 /// alone: good to the first order in the step, and only where spins don't turn round from step to step, so not under
-/// the rolling laws `directional` and `directional_with_twist` (docs/lab/soil-bin.md).
+/// the rolling laws `directional` and `directional_with_twist` (docs/lab/element-tests.md).
 struct EnergyLosses {
   double damping = 0;        ///< lost in normal dashpots; exact
   double shear_damping = 0;  ///< part of into_slide: lost in tangential dashpots; by the velocity before alone
