@@ -1,6 +1,6 @@
 // Whether the numbers of a struct made in code, which no reader has checked, are those that a file may hold.
 //
-//   check_numbers(OperatingCondition{.load = 80, .slip = 1.2});  // throws InputError: slip 1.2 is out of range: ...
+//   check_numbers(OperatingCondition{.load = 80, .slip = 12});  // InputError: slip: 12 is out of range, ...
 #pragma once
 
 #include <cmath>
@@ -11,23 +11,27 @@
 #include "scenario/errors.hpp"
 
 namespace soilbin {
-namespace number_check_detail {
 
-void check(const char* key, double value, const Measure& measure);
-void check(const char* key, int value, int lowest);
+/// The SI unit of a value that files write in this one: "mm" -> "m", "%" -> "-".
+std::string si_unit_of(const std::string& unit);
+
+/// Throws InputError that names the key where the value [SI] is out of the measure's range or not finite.
+void check_number(const char* key, double value, const Measure& measure);
+
+namespace number_check_detail {
 
 template <class T>
 struct Visitor {
   const T& of;
 
   void number(const char* key, auto member, const Measure& measure, Need, const char*) const {
-    each(of.*member, [&](double value) { check(key, value, measure); });
+    each(of.*member, [&](double value) { check_number(key, value, measure); });
   }
   void exponent(const char* key, auto member, const Range& range, Need, const char*) const {
-    check(key, (of.*member).value, {"-", range});
+    check_number(key, (of.*member).value, {"-", range});
   }
   void integer(const char* key, auto member, int lowest, Need, const char*) const {
-    each(of.*member, [&](int value) { check(key, value, lowest); });
+    each(of.*member, [&](int value) { check_number(key, value, {"-", {.lower = static_cast<double>(lowest)}}); });
   }
   void group(const char*, auto member, Need, const char*) const;
   void list(const char*, auto member, Need, const char*) const;

@@ -1,40 +1,12 @@
 #include "notebooks/bindings/fields.hpp"
 
-#include <array>
-#include <utility>
-
 namespace soilbin::python {
-
-std::string si_unit_of(const std::string& unit) {
-  static constexpr std::array<std::pair<const char*, const char*>, 9> other = {{{"mm", "m"},
-                                                                                {"kPa", "Pa"},
-                                                                                {"MPa", "Pa"},
-                                                                                {"deg", "rad"},
-                                                                                {"%", "-"},
-                                                                                {"rpm", "rad/s"},
-                                                                                {"kJ/m^3", "J/m^3"},
-                                                                                {"kN/m^(n+1)", "N/m^(n+1)"},
-                                                                                {"kN/m^(n+2)", "N/m^(n+2)"}}};
-  for (const auto& [file, si] : other)
-    if (unit == file) return si;
-  return unit;
-}
 
 std::string field_doc(const std::string& meaning, const Measure& measure) {
   const std::string unit = si_unit_of(measure.unit);
   const bool bounded = std::isfinite(measure.range.lower) || std::isfinite(measure.range.upper);
   const std::string range = bounded ? describe_range({unit, measure.range}) : "";
   return fmt::format("{} [{}]{}", meaning, unit, range.empty() ? "" : ", " + range);
-}
-
-void check_value(const char* key, double value, const Measure& measure) {
-  if (!std::isfinite(value)) throw InputError(fmt::format("{}: {} is no number to work with", key, value));
-  if (measure.range.holds(value)) return;
-  const bool share = si_unit_of(measure.unit) == "-" && measure.range.upper <= 1.0;
-  const bool meant_percent = share && measure.range.holds(value / 100);
-  throw InputError(fmt::format("{}: {} is out of range, which is {}{}", key, value,
-                               describe_range({si_unit_of(measure.unit), measure.range}),
-                               meant_percent ? fmt::format(", did you mean {} ({} %)?", value / 100, value) : ""));
 }
 
 namespace {

@@ -10,15 +10,12 @@
 #include "scenario/description.hpp"
 #include "scenario/errors.hpp"
 #include "scenario/nearest_word.hpp"
+#include "scenario/number_check.hpp"
 
 namespace soilbin::python {
 
-/// The unit of an attribute whose key has this unit in files: "mm" -> "m", "%" -> "-".
-std::string si_unit_of(const std::string& unit);
 /// "radius to the tread base [m], above 0 m"
 std::string field_doc(const std::string& meaning, const Measure& measure);
-/// Throws InputError that names the attribute where the value is out of range or not finite.
-void check_value(const char* key, double value, const Measure& measure);
 
 /// What each number among a class's attributes measures.
 using Measures = std::map<std::string, Measure>;
@@ -93,7 +90,7 @@ class FieldsOf {
     to_.def_property(
         key, [member](const T& self) { return self.*member; },
         [=](T& self, const U& value) {
-          if (const std::optional<double> number = value_of(value)) check_value(key, *number, measure);
+          if (const std::optional<double> number = value_of(value)) check_number(key, *number, measure);
           self.*member = value;
         },
         doc.c_str());

@@ -30,17 +30,18 @@ TEST(NumberCheck, NamesTheFirstNumberThatIsNoneOrOutOfRange) {
   const auto refused = [](const OperatingCondition& at, const char* says) {
     EXPECT_THAT(refusal([&] { check_numbers(at); }), HasSubstr(says));
   };
-  refused({.load = 80, .slip = 1.2}, "slip 1.2 (SI) is out of range: must be -1 .. 1");
-  refused({.load = 80, .speed = nan}, "speed is nan: it must be a number");
-  refused({.load = infinity}, "load is inf: it must be a number");
-  refused({.load = 80, .pass = 0}, "pass 0 is out of range: must be at least 1");
-  refused({.load = 80, .moisture = -5.0}, "moisture -5 (SI) is out of range");
+  refused({.load = 80, .slip = 1.2}, "slip: 1.2 is out of range, which is -1 .. 1");
+  refused({.load = 80, .speed = nan}, "speed: nan is no number to work with");
+  refused({.load = 80, .slip = 20}, "did you mean 0.2 (20 %)?");
+  refused({.load = infinity}, "load: inf is no number to work with");
+  refused({.load = 80, .pass = 0}, "pass: 0 is out of range, which is at least 1");
+  refused({.load = 80, .moisture = -5.0}, "moisture: -5 is out of range");
 }
 
 TEST(NumberCheck, LooksIntoWhatAStructHolds) {
   Drive slow = drive();
   slow.controller.ramp = -1;
-  EXPECT_THAT(refusal([&] { check_numbers(slow); }), HasSubstr("ramp -1 (SI) is out of range"));
+  EXPECT_THAT(refusal([&] { check_numbers(slow); }), HasSubstr("ramp: -1 is out of range"));
   Drive two = drive();
   two.controller.torque = 1.0;
   EXPECT_THAT(refusal([&] { check_numbers(two); }), HasSubstr("either 'rim_speed' or 'torque'"));
@@ -49,7 +50,7 @@ TEST(NumberCheck, LooksIntoWhatAStructHolds) {
   EXPECT_THAT(refusal([&] { check_numbers(back); }), HasSubstr("the places of the profile don't rise"));
   Drive pulled = drive();
   pulled.profile = {{.at = 1, .drawbar = nan}};
-  EXPECT_THAT(refusal([&] { check_numbers(pulled); }), HasSubstr("drawbar is nan"));
+  EXPECT_THAT(refusal([&] { check_numbers(pulled); }), HasSubstr("drawbar: nan"));
 }
 
 }  // namespace
