@@ -13,8 +13,7 @@ class OddRequests(Attack):
             self.expect(2, "--threads: 0 (one a core) ..", *words, "--threads", "100000", within=10)
 
     def test_a_time_step_that_gets_nowhere(self):
-        out, _ = self.expect(1, "no condition of the study has a solution", *self.grains("--time-step", "1e-300s"), within=10)
-        self.assertIn("a time step of 1e-300 s is too short to get anywhere", out)
+        self.expect(2, "a time step of 1e-300 s is too short to get anywhere", *self.grains("--time-step", "1e-300s"), within=10)
 
     def test_a_label_that_looks_like_a_script(self):
         self.case.write_text(CASE.replace("name: pebbles", "name: '<!--<script>'")
