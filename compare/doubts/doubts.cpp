@@ -347,8 +347,9 @@ std::string tire_in_words(const Case& question) {
   const std::vector<UnusedInput> unused = unused_inputs(question);
   if (std::ranges::find(unused, "lugs", &UnusedInput::key) == unused.end()) return words;
   words.pop_back();  // the closing bracket
-  return words + (question.study.models.size() == 1 ? "; this model leaves the lugs out)"
-                                                    : "; these models leave the lugs out)");
+  return words + (asks(question.study, ModelKind::dem) ? "; the analytic wheel leaves them out)"
+                  : question.study.models.size() == 1  ? "; this model leaves the lugs out)"
+                                                       : "; these models leave the lugs out)");
 }
 
 Warnings doubts(const Case& question) {

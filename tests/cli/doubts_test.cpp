@@ -97,6 +97,9 @@ TEST(DoubtsOfCommands, TheFirstLineSaysThatLugsAreLeftOut) {
       "estimate --soil dry-sand --radius 110mm --width 100mm --lug-height 8mm --lug-count 24 "
       "--load 80N --slip 20% ";
   EXPECT_THAT(soilbin(lugged).out, HasSubstr("24 lugs of 8 mm; this model leaves the lugs out) on dry-sand"));
+  EXPECT_THAT(soilbin("run paper-straight --recorded --load 4kN --slip 20%").out,
+              HasSubstr("40 lugs of 11 mm; the analytic wheel leaves them out)"))
+      << "the grains have them";
   EXPECT_THAT(soilbin(lugged + "--effect lug_thrust").out, HasSubstr("24 lugs of 8 mm) on dry-sand"));
 }
 
