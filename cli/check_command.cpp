@@ -9,6 +9,7 @@
 #include "cli/text_output.hpp"
 #include "compare/doubts/declared_doubts.hpp"
 #include "compare/doubts/doubts.hpp"
+#include "compare/doubts/grain_doubts.hpp"
 #include "compare/recorded/step_pair.hpp"
 #include "compare/report/json_fields.hpp"
 #include "compare/report/number_text.hpp"
@@ -71,7 +72,10 @@ Verdict judge(const fs::path& file, const Workplace& place) {
   }
   if (format == soil_format) {
     const Soil soil = read_soil(file);
-    return {fmt::format("soil '{}'", soil.name), compare::doubts(soil)};
+    std::vector<std::string> doubts = compare::doubts(soil);
+    if (soil.granular)
+      for (std::string& doubt : compare::grain_value_doubts(*soil.granular)) doubts.push_back(std::move(doubt));
+    return {fmt::format("soil '{}'", soil.name), doubts};
   }
   const Case question =
       read_case(file, place.library, place.effects);  // refuses any other format with the nearest word

@@ -142,6 +142,7 @@ int element_test(const ElementTestOptions& options, const Session& session) {
   if (options.inertial < 0) throw InputError("--inertial: above 0");
   check_flags(options, test);
   const Soil soil = find_soil(options.soil, session.place.library);
+  print_warnings(options.flags.doubts(grains_of(soil)));
   dem::BedStore beds(folder_of_beds());
   compare::TestReport report =
       test.run({options, grains_of(soil), options.flags.specimen(grains_of(soil)), options.flags.work(), beds});

@@ -4,6 +4,7 @@
 
 #include "cli/flag_values.hpp"
 #include "cli/soil_bin.hpp"
+#include "compare/doubts/grain_doubts.hpp"
 #include "compare/report/number_text.hpp"
 #include "scenario/description.hpp"
 #include "scenario/errors.hpp"
@@ -44,6 +45,14 @@ dem::SpecimenSettings ElementTestFlags::specimen(const GranularSoil& soil) const
   else if (!rolling.empty())
     out.laws.rolling = dem::rolling_law(rolling_named(rolling, {"none"}));
   return out;
+}
+
+std::vector<std::string> ElementTestFlags::doubts(GranularSoil soil) const {
+  if (rolling == "none")
+    soil.grain_grain.rolling_friction = soil.grain_tire.rolling_friction = 0.0;
+  else if (!rolling.empty())
+    soil.rolling_resistance = rolling_named(rolling, {"none"});
+  return compare::grain_value_doubts(soil);
 }
 
 void PlateFlags::add_to(CLI::App& command) {

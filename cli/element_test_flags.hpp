@@ -23,6 +23,8 @@ struct ElementTestFlags {
   /// With the soil's own rolling resistance, where no flag gives another. Throws InputError that names the flag.
   dem::SpecimenSettings specimen(const GranularSoil& soil) const;
   dem::WorkOptions work() const;
+  /// What is doubtful in the grains, under the law that the flag gives.
+  std::vector<std::string> doubts(GranularSoil soil) const;
 };
 
 /// Plates of the size that a field test has, --plate and --plate-sinkage; without them they are sized in grains.

@@ -173,7 +173,8 @@ std::vector<std::string> grain_value_doubts(const GranularSoil& grains) {
         "radius_max is {:.2g} times radius_min, more than 5: the smallest grains set the time step and the number of "
         "grains, the largest the size of the bed, so runs take very long",
         grains.radius_max / grains.radius_min));
-  if (const std::string doubt = cohesion_doubt(grains); !doubt.empty()) doubts.push_back(doubt);
+  for (const std::string& doubt : {cohesion_doubt(grains), depends_on_the_step(grains)})
+    if (!doubt.empty()) doubts.push_back(doubt);
   return doubts;
 }
 
@@ -212,8 +213,7 @@ std::vector<std::string> grain_doubts(const Scenario& scenario, const std::vecto
                                       const std::vector<ModelAnswers>& study) {
   if (!scenario.soil.granular) return {};
   std::vector<std::string> doubts = grain_value_doubts(*scenario.soil.granular);
-  for (const std::string& doubt : {soft_grain_doubt(scenario, conditions, study), coarse_grain_doubt(scenario, study),
-                                   depends_on_the_step(*scenario.soil.granular)})
+  for (const std::string& doubt : {soft_grain_doubt(scenario, conditions, study), coarse_grain_doubt(scenario, study)})
     if (!doubt.empty()) doubts.push_back(doubt);
   return doubts;
 }

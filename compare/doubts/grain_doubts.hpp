@@ -45,11 +45,12 @@ std::string soft_grain_doubt(const Scenario& scenario, const std::vector<Operati
                              const std::vector<ModelAnswers>& study);
 
 /// Of the values by themselves: a density that no grain has, friction of more than any rock's, radii that differ by so
-/// much that runs take very long, cohesion that presses grains into each other by more than deep_overlap.
+/// much that runs take very long, cohesion that presses grains into each other by more than deep_overlap; the
+/// directional rolling laws, whose answers depend on the time step, with where they turn into a dashpot.
 std::vector<std::string> grain_value_doubts(const GranularSoil& grains);
 
-/// Sentences, each kind once: grain_value_doubts, soft_grain_doubt, coarse_grain_doubt; the directional rolling laws,
-/// whose answers depend on the time step, with where they turn into a dashpot. Empty where the soil has no grains.
+/// Sentences, each kind once: grain_value_doubts, soft_grain_doubt, coarse_grain_doubt. Empty where the soil has no
+/// grains.
 std::vector<std::string> grain_doubts(const Scenario& scenario, const std::vector<OperatingCondition>& conditions,
                                       const std::vector<ModelAnswers>& study);
 

@@ -11,6 +11,7 @@ namespace soilbin::cli::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(ElementTestCommand, RefusesWhatMakesNoSenseWithAHint) {
   struct {
@@ -39,6 +40,28 @@ TEST(ElementTestCommand, RefusesWhatMakesNoSenseWithAHint) {
     EXPECT_THAT(outcome.err, HasSubstr(says)) << arguments;
     EXPECT_EQ(outcome.out, "") << arguments;
   }
+}
+
+// The directional couple hangs on the step: said of a test that is asked for it, and of a soil's file.
+TEST(ElementTestCommand, WarnsOfALawWhoseAnswersDependOnTheStep) {
+  constexpr const char* said = "makes answers depend on the time step";
+  const std::string test = "element-test tilting-board paper-sand --size 0.5 --threads 1";
+  EXPECT_THAT(soilbin(test + " --rolling directional").err, HasSubstr(said));
+  EXPECT_THAT(soilbin(test).err, Not(HasSubstr(said)));
+  const Scratch scratch;
+  const std::string soil = R"(format: soilbin-soil/1
+name: turned
+granular:
+  radius_min: 5 mm
+  radius_max: 7 mm
+  grain_density: 2500 kg/m^3
+  youngs_modulus: 5 MPa
+  poisson_ratio: 0.25
+  rolling_resistance: directional
+  grain_grain: {restitution: 0.5, sliding_friction: 0.6, rolling_friction: 0.2}
+  grain_tire: {restitution: 0.5, sliding_friction: 0.7, rolling_friction: 0.2}
+)";
+  EXPECT_THAT(soilbin("check '" + scratch.write("soil.yaml", soil).string() + "'").out, HasSubstr(said));
 }
 
 TEST(SlowElementTestCommand, ShowsInDegreesWhatItsJsonHoldsAsARatio) {
