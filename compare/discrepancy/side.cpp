@@ -76,6 +76,10 @@ namespace {
 /// Of each channel, over all runs of a side.
 using PackingScatters = std::array<std::optional<PackingScatter>, channel_views.size()>;
 
+bool is_known(const PackingScatters& all) {
+  return std::ranges::any_of(all, &std::optional<PackingScatter>::has_value);
+}
+
 /// Scatter of one run, error of the mean, and the freedom behind both.
 void add_scatter(const std::vector<const RecordedRun*>& solved, const PackingScatters& all, SidePoint& point) {
   const double n = static_cast<double>(solved.size());
@@ -106,14 +110,16 @@ SidePoint combine(const std::vector<const RecordedRun*>& runs, const PackingScat
   add_scatter(solved, all, point);
   if (solved.size() < runs.size())
     point.doubts.push_back(fmt::format("{} of {} runs without a result", runs.size() - solved.size(), runs.size()));
-  const auto drifting = std::ranges::count_if(solved, [](const auto* run) { return !run->steady; });
   double most = 0.0;
-  for (const RecordedRun* run : solved)
+  for (const RecordedRun* run : solved) {
+    if (!run->steady) ++point.unsteady;
+    point.drift = std::max(point.drift, run->drift);
     if (std::isfinite(run->drift)) most = std::max(most, run->drift);
-  if (drifting > 0)
+  }
+  if (point.unsteady > 0)
     point.doubts.push_back(fmt::format("{} of {} run{} not steady: halves differ by up to {:.1f} standard errors",
-                                       drifting, solved.size(), solved.size() == 1 ? "" : "s", most));
-  if (solved.size() == 1 && std::ranges::none_of(all, &std::optional<PackingScatter>::has_value))
+                                       point.unsteady, solved.size(), solved.size() == 1 ? "" : "s", most));
+  if (solved.size() == 1 && !is_known(all))
     point.doubts.push_back("one packing: the scatter between packings is not known");
   doubt_budget(point);
   return point;
@@ -126,6 +132,7 @@ Side side_of(const std::string& label, const std::vector<RecordedRun>& runs,
   Side side{label, SideKind::grains, {}};
   PackingScatters scatters;
   for (std::size_t c = 0; c < scatters.size(); ++c) scatters[c] = packing_scatter(runs, channel_views[c].predicted);
+  side.scatter_known = is_known(scatters);
   for (const OperatingCondition& at : conditions) {
     std::vector<const RecordedRun*> members;
     for (const RecordedRun& run : runs)

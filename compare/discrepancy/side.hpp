@@ -42,6 +42,8 @@ struct SidePoint {
   /// Channels that the side speaks of; a measurement may lack some.
   std::array<bool, channel_views.size()> has{true, true, true, true};
   std::size_t runs = 1;             ///< behind the means
+  std::size_t unsteady = 0;         ///< of grains: those of them that did not become steady
+  double drift = 0.0;               ///< of grains: the largest of theirs (RecordedRun)
   std::vector<std::string> doubts;  ///< what limits them: "1 of 2 runs not steady"
   std::string error;                ///< why there is no result
 };
@@ -51,6 +53,8 @@ struct Side {
   std::string label;
   SideKind kind = SideKind::analytic;
   std::vector<SidePoint> points;
+  /// Of grains: whether the runs tell how far packings scatter, be it less than single runs' own errors.
+  bool scatter_known = false;
   /// Of a measurement: the noise of one run, from all re-runs of the campaign.
   std::optional<NoiseFloor> noise{};
   /// Of a measurement: the runs behind the points as they were measured, in the campaign's own frame and slip.

@@ -68,7 +68,7 @@ inline Side grain_side(const ModelAnswers& base, const std::vector<double>& offs
 
 /// The same where enough packings have shown how far they scatter.
 inline Side of_known_scatter(Side grains) {
-  for (SidePoint& point : grains.points) point.freedom.fill(1e6);
+  grains.scatter_known = true;
   return grains;
 }
 

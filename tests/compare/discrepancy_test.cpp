@@ -272,6 +272,13 @@ TEST_F(Pair, OnePackingOfUnknownScatterHasNoJointTest) {
   EXPECT_THAT(comparison.not_compared, Contains(HasSubstr("how far packings scatter is not known")));
 }
 
+// Packings that scatter less than single runs' own errors say so too: those errors are then the ones that count.
+TEST_F(Pair, PackingsThatHardlyScatterHaveAJointTest) {
+  const Side dem = grain_side(base, {-0.1, 0.1}, 5.0);
+  EXPECT_TRUE(std::isinf(dem.points.front().freedom.front()));  // of the drawbar pull
+  EXPECT_TRUE(joint_test(dem, question, {}).test);
+}
+
 TEST_F(Pair, TheBudgetNamesWhatPullsAndAddsUp) {
   const Comparison comparison = against({300}, 40.0);
   const BudgetTable table = budget_at(comparison, 2);
