@@ -29,7 +29,7 @@ struct Surroundings {
   const Tire& tire;
   const SoilValues& declared;  ///< the soil before any effect
   const OperatingCondition& at;
-  const Kinematics& motion;
+  Kinematics motion;
   const std::optional<Bin>& bin;
   double normal_load = 0.0;   ///< share of the load normal to the ground [N]
   double stress_share = 1.0;  ///< of the stresses that soil pressed so deep gives: less where slip has dug the wheel in

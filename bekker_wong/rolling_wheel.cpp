@@ -30,19 +30,7 @@ double ForceLedger::vertical() const {
 
 /// What one condition fixes before any trial sinkage.
 struct RollingWheel::Prepared {
-  Prepared(const RollingWheel& wheel, const OperatingCondition& at);
-  Prepared(const Prepared& other)  // around refers to the motion beside it
-      : at(other.at),
-        motion(other.motion),
-        soil(other.soil),
-        outline(other.outline),
-        around{other.around.tire,        other.around.declared,    at, motion, other.around.bin,
-               other.around.normal_load, other.around.stress_share},
-        layout(other.layout) {}
-  Prepared& operator=(const Prepared&) = delete;
-
   const OperatingCondition& at;
-  Kinematics motion;
   SoilValues soil;
   Outline outline;
   Surroundings around;
@@ -67,49 +55,45 @@ RollingWheel::RollingWheel(const Tire& tire, const SoilValues& soil, EffectList 
   need(soil_.pressure_modulus(tire_.width) > 0.0, "k_c/b + k_phi must be positive: this soil carries nothing");
 }
 
-RollingWheel::Prepared::Prepared(const RollingWheel& wheel, const OperatingCondition& condition)
-    : at(condition),
-      motion(kinematics(condition)),
-      soil(wheel.soil_),
-      outline{.radius = wheel.tire_.radius,
-              .width = wheel.tire_.width,
-              .shear_radius = wheel.tire_.radius,
-              .slip_radius = wheel.tire_.radius},
-      around{wheel.tire_, wheel.soil_, condition, motion, wheel.bin_, 0.0},
-      layout{} {
-  around.normal_load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
-  if (!(around.normal_load > 0.0)) throw InputError("on this incline no load presses on the ground");
-  for (const auto& effect : wheel.effects_) effect->soil(soil, around);
-  for (const auto& effect : wheel.effects_) effect->outline(outline, around);
-}
-
 RollingWheel::Prepared RollingWheel::prepare(const OperatingCondition& at) const {
   if (!(at.load > 0.0 && std::isfinite(at.load))) throw InputError("the load must be positive");
   if (!(at.speed >= 0.0 && std::isfinite(at.speed))) throw InputError("the speed must be 0 or more: slip has the sign");
   if (!std::isfinite(at.longitudinal_incline + at.transverse_incline)) throw InputError("an incline must be a number");
-  return {*this, at};
+  Prepared p{.at = at,
+             .soil = soil_,
+             .outline = {.radius = tire_.radius,
+                         .width = tire_.width,
+                         .shear_radius = tire_.radius,
+                         .slip_radius = tire_.radius},
+             .around = {tire_, soil_, at, kinematics(at), bin_, 0.0},
+             .layout = {}};
+  p.around.normal_load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
+  if (!(p.around.normal_load > 0.0)) throw InputError("on this incline no load presses on the ground");
+  for (const auto& effect : effects_) effect->soil(p.soil, p.around);
+  for (const auto& effect : effects_) effect->outline(p.outline, p.around);
+  return p;
 }
 
 ContactAngles RollingWheel::angles(const Prepared& p, double theta_1) const {
-  ContactAngles angles = base_angles(theta_1, p.soil, p.motion);
+  ContactAngles angles = base_angles(theta_1, p.soil, p.around.motion);
   for (const auto& effect : effects_) effect->angles(angles, p.outline, p.around);
   return angles;
 }
 
 void RollingWheel::fill_patch(const Prepared& p, double theta_1, ContactPatch& patch,
                               const DisplacementFill& displacement_of) const {
-  fill_geometry(patch, angles(p, theta_1), p.outline, p.motion, p.layout);
+  fill_geometry(patch, angles(p, theta_1), p.outline, p.around.motion, p.layout);
   for (const auto& effect : effects_) effect->geometry(patch, p.outline, p.around);
   fill_pressure(patch, p.soil, p.outline);
   for (const auto& effect : effects_) effect->pressure(patch, p.soil, p.outline, p.around);
   if (displacement_of)
     displacement_of(patch, p.outline);
   else
-    fill_displacement(patch, p.outline, p.motion);
+    fill_displacement(patch, p.outline, p.around.motion);
   fill_strength(patch, p.soil);
   for (const auto& effect : effects_) effect->strength(patch, p.soil, p.outline, p.around);
   ContactPatch::Array j;
-  fill_mobilised(patch, j, p.motion);
+  fill_mobilised(patch, j, p.around.motion);
   const std::span<const double> displacement{j.data(), static_cast<std::size_t>(patch.count)};
   for (const auto& effect : effects_) effect->mobilise(patch, displacement, p.soil, p.around);
   fill_shear(patch, j);
@@ -174,7 +158,7 @@ WheelForces RollingWheel::integrate(const Prepared& p, const ContactPatch& patch
 }
 
 NodeLayout RollingWheel::layout_at(const Prepared& p, double theta_1) const {
-  return node_layout(p.soil, p.outline, p.motion, angles(p, theta_1));
+  return node_layout(p.soil, p.outline, p.around.motion, angles(p, theta_1));
 }
 
 /// Load that the stresses carry [N].
@@ -212,7 +196,7 @@ double RollingWheel::static_angle(const Prepared& p) const {
 /// displacement turns back, rise again. Looks from a root downward until even what lifts the wheel would not carry the
 /// load.
 bool RollingWheel::is_smallest(const Prepared& p, double log_theta) const {
-  if (!p.motion.locked && p.motion.forward <= 1.0) return true;
+  if (!p.around.motion.locked && p.around.motion.forward <= 1.0) return true;
   constexpr double step = 0.05, lowest = -7.0;
   ContactPatch patch;
   for (double x = log_theta - step; x > lowest; x -= step) {
@@ -351,7 +335,7 @@ void RollingWheel::read(const Prepared& p, RolledWheel& wheel) const {
 
 double RollingWheel::finish(const Prepared& p, double theta_1, RolledWheel& wheel) const {
   wheel.at = p.at;
-  wheel.motion = p.motion;
+  wheel.motion = p.around.motion;
   wheel.balance_angle = theta_1;
   wheel.sinkage = sinkage_of(wheel.patch, p.outline);
   const double deeper = settled(p, wheel.patch, wheel.sinkage);

@@ -73,8 +73,7 @@ dem::PlateSettings PlateFlags::plates(const GranularSoil& soil) const {
       out.diameters.push_back(read_flag("--plate", text, length) / grain);
       if (out.diameters.back() < dem::narrowest_tool)
         throw InputError(
-            fmt::format("--plate {} is narrower than {:.3g} grains, of {} mm on average: single grains "
-                        "would carry it",
+            fmt::format("--plate {} is narrower than {:.3g} grains, of {} mm on average: single grains would carry it",
                         text, dem::narrowest_tool, compare::number(1e3 * grain)));
     }
   if (!sinkage.empty()) out.sinkage = read_flag("--plate-sinkage", sinkage, length) / grain;

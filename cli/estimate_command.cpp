@@ -46,15 +46,12 @@ struct EstimateOptions {
 };
 
 compare::Sheet sheet_of(const Case& question, const std::vector<compare::ModelAnswers>& study) {
-  const compare::Abscissa& abscissa = *compare::curves_run_over(question.study.conditions);
-  compare::Sheet sheet = compare::study_sheet(question, compare::smoothed_for_plot(question, study, abscissa),
-                                              compare::Panels::telling, abscissa);
+  compare::Sheet sheet = compare::plot_of_study(question, study);
   sheet.title = fmt::format("{} on {}", question.scenario.tire.name, compare::in_words(question.scenario.soil));
   const std::vector<OperatingCondition>& all = question.study.conditions;
   if (const std::string load = only_load(all); !load.empty()) sheet.title += ", " + load;
   const double slip = all.front().slip;
-  if (&abscissa != &compare::slip_abscissa() &&
-      std::ranges::all_of(all, [&](const OperatingCondition& at) { return at.slip == slip; }))
+  if (std::ranges::all_of(all, [&](const OperatingCondition& at) { return at.slip == slip; }))
     sheet.title += fmt::format(", slip {:.4g} %", 100 * slip);
   return sheet;
 }

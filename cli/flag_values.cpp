@@ -57,18 +57,16 @@ std::pair<double, double> read_range(const std::string& flag, const std::string&
 namespace {
 
 /// "80,5N" may be two loads, or one with a decimal comma.
-void refuse_decimal_comma(const std::string& flag, const std::vector<std::string>& numbers) {
+void refuse_decimal_comma(const std::string& flag, const std::vector<std::string>& numbers, const std::string& unit) {
   const std::string& whole = numbers.front();
   const bool may_be_one = numbers.size() == 2 && whole.find_first_not_of("-0123456789") == whole.npos &&
                           numbers.back().find_first_of("0123456789") == 0;
   if (!may_be_one) return;
   const std::string& last = numbers.back();
-  const std::string unit = last.substr(last.find_last_of("0123456789.") + 1);
   const std::string two =
       unit.empty() ? fmt::format("{}.0,{}.0", whole, last) : fmt::format("{}{},{}", whole, unit, last);
   throw InputError(
-      fmt::format("{}: '{},{}' may be two values or one with a decimal comma\n  hint: '{}' are two, "
-                  "'{}.{}' is one",
+      fmt::format("{}: '{},{}' may be two values or one with a decimal comma\n  hint: '{}' are two, '{}.{}' is one",
                   flag, clipped(whole), clipped(last), clipped(two), clipped(whole), clipped(last)));
 }
 
@@ -86,8 +84,8 @@ std::vector<std::string> several_values(const std::string& flag, const std::stri
                                                      : fmt::format("such as 1,2,5{0}, or 1..5{0}, or in steps "
                                                                    "1..5:0.5{0}",
                                                                    measure.unit)));
-  if (!is_range) refuse_decimal_comma(flag, numbers);
   const std::string unit = numbers.back().substr(numbers.back().find_last_of("0123456789.") + 1);
+  if (!is_range) refuse_decimal_comma(flag, numbers, unit);
   for (std::string& number : numbers)
     if (read_number(number)) number += unit;
   if (!is_range) return numbers;

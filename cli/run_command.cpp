@@ -39,19 +39,12 @@ compare::Json run_document(const Case& question, const compare::StudyResults& an
   return document;
 }
 
-compare::Sheet drawn(const Case& question, const std::vector<compare::ModelAnswers>& study) {
-  const compare::Abscissa* over = compare::curves_run_over(question.study.conditions);
-  const compare::Abscissa& abscissa = over ? *over : compare::slip_abscissa();
-  return compare::study_sheet(question, compare::smoothed_for_plot(question, study, abscissa), compare::Panels::telling,
-                              abscissa);
-}
-
 void save(Outputs& outputs, const RunOptions& options, const Case& question, const compare::StudyResults& answered,
           const Workplace& place) {
   const std::vector<compare::ModelAnswers>& study = answered.study;
   const auto csv = [&] { return compare::study_csv(study, compare::remarks_about(question.scenario, answered)); };
   outputs.file(options.csv, csv);
-  outputs.drawing(options.plot, [&] { return drawn(question, study); });
+  outputs.drawing(options.plot, [&] { return compare::plot_of_study(question, study); });
   outputs.write(options.output, [&] {
     const fs::path folder = options.output;
     write_file_atomically(folder / "case.yaml", write_case(question, place.effects));

@@ -38,6 +38,9 @@ struct Tire {
   std::map<std::string, std::string> sources{};  ///< where single numbers come from, by key: "lugs.height"
 };
 
+/// To the tips of the lugs [m].
+inline double outer_radius(const Tire& tire) { return tire.radius + tire.lugs.height; }
+
 inline bool is_lugged(const Tire& tire) { return tire.lugs.height > 0.0; }
 
 /// "24 lugs of 600 mm leave no gap ..." where count and thickness ask for more than the circumference of the tread

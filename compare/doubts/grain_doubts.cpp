@@ -73,20 +73,17 @@ double reduced_modulus(const GranularSoil& grains) {
   return grains.youngs_modulus / (2.0 * (1.0 - grains.poisson_ratio * grains.poisson_ratio));
 }
 
-/// Mean overlap of equal grains of a packing under the pressure p, over their radius. By Rumpf a contact bears
-/// F = pi d^2 p/(phi Z), here with phi Z = 0.6 * 6 (chosen), and by Hertz delta = (3 F/(4 E* sqrt(R*)))^(2/3), R* =
-/// d/4: 2.39 (p/E*)^(2/3).
-double overlap_under(double pressure, const GranularSoil& grains) {
+/// Mean overlap of equal grains of a packing, over their radius, under a pressure of so many E*. By Rumpf a contact
+/// bears F = pi d^2 p/(phi Z), here with phi Z = 0.6 * 6 (chosen), and by Hertz delta = (3 F/(4 E* sqrt(R*)))^(2/3),
+/// R* = d/4: 2.39 (p/E*)^(2/3).
+double overlap_under(double pressure) {
   constexpr double contacts = 0.6 * 6.0;                              // phi Z
   const double force = 4.0 * std::numbers::pi * pressure / contacts;  // of grains of radius 1
-  return std::pow(3.0 * force / (4.0 * reduced_modulus(grains) * std::sqrt(0.5)), 2.0 / 3.0);
+  return std::pow(3.0 * force / (4.0 * std::sqrt(0.5)), 2.0 / 3.0);
 }
 
-/// The pressure that takes grains of E* = 1 Pa so deep, over E*.
-double pressure_for(double overlap) {
-  const GranularSoil unit{.youngs_modulus = 2.0, .poisson_ratio = 0.0, .grain_grain = {}, .grain_tire = {}};
-  return std::pow(overlap / overlap_under(1.0, unit), 1.5);
-}
+/// The pressure over E* that takes grains so deep.
+double pressure_for(double overlap) { return std::pow(overlap / overlap_under(1.0), 1.5); }
 
 /// The overlap at which Hertz's force holds the linear cohesion, pi k_c R* delta, over the radius.
 double overlap_by_cohesion(const GranularSoil& grains) {
@@ -111,8 +108,7 @@ std::string cohesion_doubt(const GranularSoil& grains) {
   const double holds = reduced_modulus(grains) * std::sqrt(2.0 * deep_overlap) / (0.75 * std::numbers::pi);
   return fmt::format(
       "the cohesion of grain_grain, {:.6g} kJ/m^3, alone pulls these grains into each other by {}: Hertz's law holds "
-      "for "
-      "small overlaps; less than {:.3g} kJ/m^3 keeps it below {:.0f} %",
+      "for small overlaps; less than {:.3g} kJ/m^3 keeps it below {:.0f} %",
       grains.grain_grain.cohesion / 1e3, of_radius(overlap), holds / 1e3, 100 * deep_overlap);
 }
 
@@ -147,13 +143,12 @@ std::string soft_grain_doubt(const Scenario& scenario, const std::vector<Operati
   if (!scenario.soil.granular || !(scenario.soil.granular->youngs_modulus > 0.0)) return "";
   const GranularSoil& grains = *scenario.soil.granular;
   const Pressed most = largest_pressure(scenario, conditions, study);
-  const double overlap = overlap_under(most.pressure, grains);
+  const double overlap = overlap_under(most.pressure / reduced_modulus(grains));
   if (!(overlap > deep_overlap)) return "";
   const double needed = most.pressure / pressure_for(deep_overlap) / reduced_modulus(grains) * grains.youngs_modulus;
   return fmt::format(
       "grains this soft, {}, are pressed into each other by {} under the wheel's {:.2g} kPa ({}): Hertz's law holds "
-      "for "
-      "small overlaps, and a run stops at 50 %; a youngs_modulus of {:.2g} MPa or more keeps them below {:.0f} %",
+      "for small overlaps, and a run stops at 50 %; a youngs_modulus of {:.2g} MPa or more keeps them below {:.0f} %",
       modulus_text(grains.youngs_modulus), of_radius(overlap), most.pressure / 1e3, in_words(most.at), needed / 1e6,
       100 * deep_overlap);
 }

@@ -17,17 +17,27 @@ namespace {
 namespace fs = std::filesystem;
 
 /// One choice changed.
-struct Variant {
-  std::string name;  ///< "bed twice as long"
-  dem::DemSettings settings;
-  Scenario scenario;
-};
-
 fs::path file_of(const fs::path& record, std::string variant) {
   if (record.empty()) return {};
   std::ranges::replace(variant, ' ', '-');
   return record.parent_path() / (record.stem().string() + "." + variant + record.extension().string());
 }
+
+struct Variant {
+  std::string name;  ///< "bed twice as long"
+  dem::DemSettings settings;
+  Scenario scenario;
+
+  Case asked_of(Case question) const {
+    question.scenario = scenario;
+    return question;
+  }
+  /// In a file of its own beside the record.
+  RunKeeping kept(RunKeeping keeping) const {
+    keeping.record = file_of(keeping.record, name);
+    return keeping;
+  }
+};
 
 /// Difference of a channel to the first run, in standard errors of the difference; nothing for the first itself, and
 /// where either has no result.
@@ -85,14 +95,11 @@ std::vector<PlannedVariant> plan_variants(const dem::DemSettings& settings, cons
   const OperatingCondition at = only_condition(settings, question);
   std::vector<PlannedVariant> plan;
   for (const Variant& variant : variants_of(settings, question.scenario)) {
-    Case changed = question;
-    changed.scenario = variant.scenario;
-    RunKeeping its_own = keeping;
-    its_own.record = file_of(keeping.record, variant.name);
     PlannedVariant& planned = plan.emplace_back(PlannedVariant{.name = variant.name});
     try {
       dem::DemModel(variant.settings).check(variant.scenario);
-      const RunPlan of = plan_of(changed, variant.settings, {{at, variant.settings.packing, false}}, its_own);
+      const RunPlan of = plan_of(variant.asked_of(question), variant.settings, {{at, variant.settings.packing, false}},
+                                 variant.kept(keeping));
       planned.recorded = of.runs.front().recorded, planned.seconds = of.runs.front().seconds;
       planned.settles = !of.unsettled.empty() && !planned.recorded;
     } catch (const InputError& refused) {
@@ -126,11 +133,7 @@ std::vector<VariantRun> run_variants(const dem::DemSettings& settings, const Cas
   const OperatingCondition at = only_condition(settings, question);
   std::vector<VariantRun> runs;
   for (const Variant& variant : variants_of(settings, question.scenario)) {
-    Case changed = question;
-    changed.scenario = variant.scenario;
-    RunKeeping its_own = keeping;
-    its_own.record = file_of(keeping.record, variant.name);
-    const RunOnce run = run_once(variant.settings, changed, effects, its_own);
+    const RunOnce run = run_once(variant.settings, variant.asked_of(question), effects, variant.kept(keeping));
     try {
       runs.push_back({variant.name, run(variant.scenario, at, variant.settings.packing)});
     } catch (const InputError& refused) {

@@ -2,48 +2,47 @@
 
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "compare/doubts/doubts.hpp"
 #include "compare/doubts/grain_resolution.hpp"
 #include "compare/recorded/step_pair.hpp"
-#include "compare/sweep/varying.hpp"
 
 namespace soilbin::compare {
 namespace {
 
-/// What is doubtful in runs of grains at a condition; "" where nothing is.
-std::string remark_on_runs(const std::vector<RecordedRun>& runs, const OperatingCondition& at) {
-  return fmt::to_string(fmt::join(side_of("", runs, {at}).points.front().doubts, "; "));
+/// The runs of grains behind a model's answers, a point for each answer; none of another model.
+std::vector<SidePoint> points_of(const ModelAnswers& model, const std::vector<RecordedRun>& runs) {
+  if (model.choice.model != ModelKind::dem) return {};
+  std::vector<OperatingCondition> conditions;
+  for (const Answer& answer : model.answers) conditions.push_back(answer.at);
+  return side_of("", runs, conditions).points;
 }
 
-/// How many packings the answer of grains at a condition is the mean of, and whether their runs became steady.
-void add_runs(Json& row, const std::vector<RecordedRun>& runs, const OperatingCondition& at) {
-  std::size_t packings = 0;
-  bool steady = true;
-  double drift = 0.0;
-  for (const RecordedRun& run : runs) {
-    if (!run.answer.result || !alike(run.answer.at, at)) continue;
-    ++packings, steady = steady && run.steady, drift = std::max(drift, run.drift);
-  }
-  row["packings"] = packings, row["steady"] = steady, row["drift"] = finite(drift);
-  if (const std::string remark = remark_on_runs(runs, at); !remark.empty()) row["remark"] = remark;
+/// What is doubtful in them; "" where nothing is.
+std::string remark_on(const SidePoint& runs) { return fmt::to_string(fmt::join(runs.doubts, "; ")); }
+
+/// How many packings the answer is the mean of, and whether their runs became steady.
+void add_runs(Json& row, const SidePoint& runs) {
+  row["packings"] = runs.runs, row["steady"] = runs.unsteady == 0, row["drift"] = finite(runs.drift);
+  if (const std::string remark = remark_on(runs); !remark.empty()) row["remark"] = remark;
 }
 
 /// rows_json, with what the runs of grains say of themselves and what the size of the grains does to their answers.
 Json rows_with_runs(const Case& question, const StudyResults& results) {
   Json rows = rows_json(results.study);
   auto row = rows.begin();
-  for (const ModelAnswers& model : results.study)
-    for (const Answer& answer : model.answers) {
-      if (model.choice.model == ModelKind::dem && answer.result) {
-        (*row)["resolution_error"] =
-            to_json(resolution_error(question.scenario, answer.at, answer.result->sinkage.value));
-        add_runs(*row, results.runs, answer.at);
-      }
-      ++row;
+  for (const ModelAnswers& model : results.study) {
+    const std::vector<SidePoint> points = points_of(model, results.runs);
+    for (std::size_t i = 0; i < model.answers.size(); ++i, ++row) {
+      const Answer& answer = model.answers[i];
+      if (points.empty() || !answer.result) continue;
+      (*row)["resolution_error"] =
+          to_json(resolution_error(question.scenario, answer.at, answer.result->sinkage.value));
+      add_runs(*row, points[i]);
     }
+  }
   return rows;
 }
 
@@ -103,11 +102,17 @@ GrainSideRuns run_grain_side(const Case& question, const StudyGrains& grains, co
 }
 
 Remark remarks_about(const Scenario& scenario, const StudyResults& results) {
-  return [remark = remarks_about(scenario), &runs = results.runs](const ModelChoice& model, const Answer& answer) {
+  std::map<OperatingCondition, std::string> of_runs;
+  for (const ModelAnswers& model : results.study) {
+    const std::vector<SidePoint> points = points_of(model, results.runs);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (points[i].result) of_runs[model.answers[i].at] = remark_on(points[i]);
+  }
+  return [remark = remarks_about(scenario), of_runs](const ModelChoice& model, const Answer& answer) {
     const std::string of_answer = remark(model, answer);
-    if (model.model != ModelKind::dem || !answer.result) return of_answer;
-    const std::string of_runs = remark_on_runs(runs, answer.at);
-    return of_answer + (of_answer.empty() || of_runs.empty() ? "" : "; ") + of_runs;
+    const auto runs = of_runs.find(answer.at);
+    if (model.model != ModelKind::dem || runs == of_runs.end()) return of_answer;
+    return of_answer + (of_answer.empty() || runs->second.empty() ? "" : "; ") + runs->second;
   };
 }
 

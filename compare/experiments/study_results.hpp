@@ -61,7 +61,8 @@ struct GrainSideRuns {
 GrainSideRuns run_grain_side(const Case& question, const StudyGrains& grains, const EffectVocabulary& effects,
                              const Progress& progress = {});
 
-/// remarks_about, and of grains what their runs say of themselves: not steady, one packing. Both must outlive it.
+/// remarks_about, and of grains what their runs say of themselves: not steady, one packing. The scenario must outlive
+/// it.
 Remark remarks_about(const Scenario& scenario, const StudyResults& results);
 
 /// soilbin-run/1; answers of grains with packings, steady, drift and remark of their runs, and with what the size of

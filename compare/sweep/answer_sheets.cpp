@@ -36,9 +36,8 @@ std::vector<Shown> shown_of(const std::vector<ModelAnswers>& study, Panels panel
   return all;
 }
 
-Plot empty_plot(const Shown& shown, const Abscissa& abscissa = slip_abscissa()) {
-  Plot plot{capital(shown.title) + " [" + shown.unit + "]",
-            {abscissa.name + (abscissa.unit == "-" ? "" : " [" + abscissa.unit + "]")}};
+Plot empty_plot(const Shown& shown, const ConditionView& abscissa = slip_view()) {
+  Plot plot{capital(shown.title) + " [" + shown.unit + "]", {heading(abscissa)}};
   if (shown.title == "sinkage" || shown.title == "tractive efficiency") plot.y.lower = 0.0;
   return plot;
 }
@@ -46,8 +45,8 @@ Plot empty_plot(const Shown& shown, const Abscissa& abscissa = slip_abscissa()) 
 std::string join(const std::string& a, const std::string& b) { return a.empty() || b.empty() ? a + b : a + ", " + b; }
 
 /// A curve's points, from left to right.
-Series series_of(const std::vector<Answer>& answers, const Abscissa& abscissa, const Curves& curves, std::size_t curve,
-                 const Shown& shown) {
+Series series_of(const std::vector<Answer>& answers, const ConditionView& abscissa, const Curves& curves,
+                 std::size_t curve, const Shown& shown) {
   std::vector<const Answer*> members;
   for (std::size_t i = 0; i < answers.size(); ++i)
     if (curves.curve_of[i] == curve) members.push_back(&answers[i]);
@@ -116,7 +115,7 @@ Series predicted_line(const std::vector<const PredictedRun*>& runs, const Channe
 }  // namespace
 
 std::vector<ModelAnswers> smoothed_for_plot(const Case& question, std::vector<ModelAnswers> study,
-                                            const Abscissa& abscissa) {
+                                            const ConditionView& abscissa) {
   constexpr int points = 41;
   Case smooth = with_smooth_curves(question, points, abscissa);
   smooth.study.models.clear();
@@ -132,7 +131,7 @@ std::vector<ModelAnswers> smoothed_for_plot(const Case& question, std::vector<Mo
 }
 
 Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, Panels panels,
-                  const Abscissa& abscissa) {
+                  const ConditionView& abscissa) {
   Sheet sheet{question.study.name, {}, Palette::ordered};
   const Curves curves = curves_against(abscissa, question.study.conditions, Spread::exact);
   const bool one_curve = curves.labels.size() == 1;
@@ -166,6 +165,12 @@ Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, 
     sheet.plots.push_back(std::move(plot));
   }
   return sheet;
+}
+
+Sheet plot_of_study(const Case& question, const std::vector<ModelAnswers>& study) {
+  const ConditionView* over = curves_run_over(question.study.conditions);
+  const ConditionView& abscissa = over ? *over : slip_view();
+  return study_sheet(question, smoothed_for_plot(question, study, abscissa), Panels::telling, abscissa);
 }
 
 Sheet budget_sheet(const std::string& title, const std::vector<LabelledAnswers>& curves) {

@@ -20,15 +20,17 @@ enum class Panels { telling, all };
 /// The answers as a plot for people shows them: the models called in words, and the analytic one, which costs little,
 /// along many places of each curve.
 std::vector<ModelAnswers> smoothed_for_plot(const Case& question, std::vector<ModelAnswers> study,
-                                            const Abscissa& abscissa = slip_abscissa());
+                                            const ConditionView& abscissa = slip_view());
 
-/// Drawbar pull, torque, sinkage, tractive efficiency (and the lateral force where there is one) against slip or
-/// what else curves are to run over: a colour
-/// for each combination of the other conditions, a dash for each model; with up to five curves also error bands, else
-/// those of the first model where it has up to five. Every model's answers are of the question's curves, at its slips
-/// or others.
+/// Drawbar pull, torque, sinkage, tractive efficiency (and the lateral force where there is one) against slip or what
+/// else curves are to run over: a colour for each combination of the other conditions, a dash for each model; with up
+/// to five curves also error bands, else those of the first model where it has up to five. Every model's answers are of
+/// the question's curves, at its slips or others.
 Sheet study_sheet(const Case& question, const std::vector<ModelAnswers>& study, Panels panels = Panels::telling,
-                  const Abscissa& abscissa = slip_abscissa());
+                  const ConditionView& abscissa = slip_view());
+
+/// The two together, over what the question's curves run over (curves_run_over; slip where there is none).
+Sheet plot_of_study(const Case& question, const std::vector<ModelAnswers>& study);
 
 /// The parts of the drawbar pull piled up against slip, those that drive above zero and those that hold back below it,
 /// and their sum as a line. A panel for each of the answers, which are of one curve each.

@@ -312,8 +312,8 @@ std::string steps_in_words(const std::string& heading, const std::vector<Step>& 
 std::string in_words(const Explanation& explanation) {
   return steps_in_words(explanation.effects.empty() ? "Equations with their values"
                                                     : "Equations of the base model at this contact, with the soil's "
-                                                      "values that the effects below leave; what "
-                                                      "else they change is not in these equations",
+                                                      "values that the effects below leave; what else they change is "
+                                                      "not in these equations",
                         explanation.steps) +
          steps_in_words("Effects", explanation.effects) +
          steps_in_words("Closed forms to check by (no balance, no effects)", explanation.cross_checks);

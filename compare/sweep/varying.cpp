@@ -15,36 +15,38 @@
 namespace soilbin::compare {
 namespace {
 
-/// A condition that can tell curves apart.
+/// A condition that can tell curves apart, and over which they can run.
 struct ConditionAxis {
-  std::string name;
-  double (*get)(const OperatingCondition&);
+  const ConditionView& view;
   std::string (*label)(double);
   double relative_gap, absolute_gap;  ///< between neighbours of different setpoints, where measured
   bool follows_slip = false;          ///< may vary with slip alone, and then tells nothing apart
+
+  /// [SI]; 0 where it isn't told.
+  double get(const OperatingCondition& at) const {
+    const double value = view.get(at);
+    return std::isnan(value) ? 0.0 : value;
+  }
 };
 
 std::string angle(const char* name, double radian) { return fmt::format("{} {:.4g}°", name, radian / degree); }
 
 const std::vector<ConditionAxis>& axes() {
-  using C = OperatingCondition;
   static const std::vector<ConditionAxis> all = {
-      {"slip", [](const C& c) { return c.slip; }, [](double x) { return fmt::format("slip {:.4g} %", 100 * x); }, 0.0,
-       0.02},
-      {"load", [](const C& c) { return c.load; }, [](double x) { return newtons(x); }, 0.25, 0.0},
-      {"longitudinal incline", [](const C& c) { return c.longitudinal_incline; },
-       [](double x) { return angle("uphill", x); }, 0.0, 2 * degree},
-      {"transverse incline", [](const C& c) { return c.transverse_incline; },
-       [](double x) { return angle("cross slope", x); }, 0.0, 2 * degree},
-      {"yaw", [](const C& c) { return c.yaw; }, [](double x) { return angle("yaw", x); }, 0.0, 2 * degree},
-      {"pass", [](const C& c) { return static_cast<double>(c.pass); },
-       [](double x) { return fmt::format("pass {:g}", x); }, 0.0, 0.5},
-      {"moisture", [](const C& c) { return c.moisture.value_or(0.0); },
-       [](double x) { return fmt::format("moisture {:.3g} %", 100 * x); }, 0.25, 0.01},
-      {"speed", [](const C& c) { return c.speed; }, [](double x) { return fmt::format("{:.4g} m/s", x); }, 0.25, 0.0,
-       true},
+      {slip_view(), [](double x) { return fmt::format("slip {:.4g} %", 100 * x); }, 0.0, 0.02},
+      {condition_view("load"), [](double x) { return newtons(x); }, 0.25, 0.0},
+      {condition_view("longitudinal_incline"), [](double x) { return angle("uphill", x); }, 0.0, 2 * degree},
+      {condition_view("transverse_incline"), [](double x) { return angle("cross slope", x); }, 0.0, 2 * degree},
+      {condition_view("yaw"), [](double x) { return angle("yaw", x); }, 0.0, 2 * degree},
+      {condition_view("pass"), [](double x) { return fmt::format("pass {:g}", x); }, 0.0, 0.5},
+      {condition_view("moisture"), [](double x) { return fmt::format("moisture {:.3g} %", 100 * x); }, 0.25, 0.01},
+      {condition_view("speed"), [](double x) { return fmt::format("{:.4g} m/s", x); }, 0.25, 0.0, true},
   };
   return all;
+}
+
+const ConditionAxis& axis_of(const ConditionView& view) {
+  return *std::ranges::find_if(axes(), [&](const ConditionAxis& axis) { return &axis.view == &view; });
 }
 
 /// Level of each condition along an axis, and each level's mean value.
@@ -74,7 +76,7 @@ AxisLevels levels(const ConditionAxis& axis, const std::vector<OperatingConditio
 
 /// Whether levels differ between conditions that agree in the abscissa and in their curve so far.
 bool splits_a_place(const AxisLevels& levels, const std::vector<std::vector<std::size_t>>& keys,
-                    const Abscissa& abscissa, const std::vector<OperatingCondition>& conditions) {
+                    const ConditionAxis& abscissa, const std::vector<OperatingCondition>& conditions) {
   std::map<std::pair<std::vector<std::size_t>, double>, std::size_t> seen;
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     const auto [place, fresh] = seen.insert({{keys[i], abscissa.get(conditions[i])}, levels.of[i]});
@@ -83,30 +85,9 @@ bool splits_a_place(const AxisLevels& levels, const std::vector<std::vector<std:
   return false;
 }
 
-template <double OperatingCondition::*member>
-Abscissa abscissa(const char* name, const char* unit, double per_si) {
-  return {name, unit, per_si, [](const OperatingCondition& c) { return c.*member; },
-          [](OperatingCondition& c, double x) { c.*member = x; }};
-}
-
-const std::vector<Abscissa>& abscissas() {
-  using C = OperatingCondition;
-  static const std::vector<Abscissa> all = {
-      abscissa<&C::slip>("slip", "%", 100.0),
-      abscissa<&C::load>("load", "N", 1.0),
-      abscissa<&C::longitudinal_incline>("longitudinal incline", "deg", 1 / degree),
-      abscissa<&C::transverse_incline>("transverse incline", "deg", 1 / degree),
-      abscissa<&C::yaw>("yaw", "deg", 1 / degree),
-      {"pass", "-", 1.0, [](const C& c) { return static_cast<double>(c.pass); }, nullptr},
-      {"moisture", "%", 100.0, [](const C& c) { return c.moisture.value_or(0.0); },
-       [](C& c, double x) { c.moisture = x; }},
-      abscissa<&C::speed>("speed", "m/s", 1.0)};
-  return all;
-}
-
 /// Whether one of the curves has two places or more.
-bool has_a_curve(const Abscissa& abscissa, const std::vector<OperatingCondition>& conditions) {
-  const Curves curves = curves_against(abscissa, conditions, Spread::exact);
+bool has_a_curve(const ConditionAxis& abscissa, const std::vector<OperatingCondition>& conditions) {
+  const Curves curves = curves_against(abscissa.view, conditions, Spread::exact);
   std::map<std::size_t, double> place;
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     const double x = abscissa.get(conditions[i]);
@@ -117,22 +98,21 @@ bool has_a_curve(const Abscissa& abscissa, const std::vector<OperatingCondition>
 
 }  // namespace
 
-const Abscissa& slip_abscissa() { return abscissas().front(); }
-
-const Abscissa* curves_run_over(const std::vector<OperatingCondition>& conditions) {
-  const auto found = std::ranges::find_if(abscissas(), [&](const Abscissa& a) { return has_a_curve(a, conditions); });
-  return found == abscissas().end() ? nullptr : &*found;
+const ConditionView* curves_run_over(const std::vector<OperatingCondition>& conditions) {
+  const auto found = std::ranges::find_if(axes(), [&](const ConditionAxis& a) { return has_a_curve(a, conditions); });
+  return found == axes().end() ? nullptr : &found->view;
 }
 
-Curves curves_against(const Abscissa& abscissa, const std::vector<OperatingCondition>& conditions, Spread spread) {
+Curves curves_against(const ConditionView& abscissa, const std::vector<OperatingCondition>& conditions, Spread spread) {
   Curves curves;
   std::vector<std::vector<std::size_t>> keys(conditions.size());
   std::vector<std::string> labels(conditions.size());
   for (const ConditionAxis& axis : axes()) {
-    if (axis.name == abscissa.name) continue;
+    if (&axis.view == &abscissa) continue;
     const AxisLevels found = levels(axis, conditions, spread);
-    if (found.value.size() < 2 || (axis.follows_slip && !splits_a_place(found, keys, abscissa, conditions))) continue;
-    curves.varying += (curves.varying.empty() ? "" : ", ") + axis.name;
+    if (found.value.size() < 2 || (axis.follows_slip && !splits_a_place(found, keys, axis_of(abscissa), conditions)))
+      continue;
+    curves.varying += (curves.varying.empty() ? "" : ", ") + spaced(axis.view.name);
     for (std::size_t i = 0; i < conditions.size(); ++i) {
       keys[i].push_back(found.of[i]);
       labels[i] += (labels[i].empty() ? "" : ", ") + axis.label(found.value[found.of[i]]);
@@ -149,7 +129,7 @@ Curves curves_against(const Abscissa& abscissa, const std::vector<OperatingCondi
   return curves;
 }
 
-Case with_smooth_curves(Case question, int points, const Abscissa& abscissa) {
+Case with_smooth_curves(Case question, int points, const ConditionView& abscissa) {
   const Study asked = std::move(question.study);
   question.study = {asked.name, asked.models, {}, {}};
   const Curves curves = curves_against(abscissa, asked.conditions, Spread::exact);
@@ -157,11 +137,11 @@ Case with_smooth_curves(Case question, int points, const Abscissa& abscissa) {
     std::vector<std::size_t> members;
     for (std::size_t i = 0; i < asked.conditions.size(); ++i)
       if (curves.curve_of[i] == curve) members.push_back(i);
-    const auto place_of = [&](std::size_t i) { return abscissa.get(asked.conditions[i]); };
+    const auto place_of = [&](std::size_t i) { return axis_of(abscissa).get(asked.conditions[i]); };
     std::set<double> places;
     for (const std::size_t i : members) places.insert(place_of(i));
     const double from = *places.begin(), to = *places.rbegin();
-    for (int k = 1; abscissa.set && k < points - 1 && to > from; ++k) {
+    for (int k = 1; !abscissa.whole && k < points - 1 && to > from; ++k) {
       const double place = std::lerp(from, to, static_cast<double>(k) / (points - 1));
       const auto next = places.lower_bound(place);
       const double gap = std::min(*next - place, place - *std::prev(next));
@@ -173,7 +153,7 @@ Case with_smooth_curves(Case question, int points, const Abscissa& abscissa) {
         return std::abs(place_of(a) - place) < std::abs(place_of(b) - place);
       });
       OperatingCondition at = asked.conditions[near];
-      if (abscissa.set) abscissa.set(at, place);
+      abscissa.set(at, place);
       if (near < asked.rotations.size() && asked.rotations[near])
         at.speed = speed_at_rotation(at, *asked.rotations[near], question.scenario.tire);
       question.study.conditions.push_back(at);
@@ -214,11 +194,11 @@ std::string errors_in_words(const Case& question) {
 }
 
 std::string in_words(const OperatingCondition& at) {
+  const auto has_a_place = [](std::string_view name) { return name == "slip" || name == "load" || name == "speed"; };
   std::string words = fmt::format("load {}, slip {:.4g} %", newtons(at.load), 100 * at.slip);
   const OperatingCondition plain;
   for (const ConditionAxis& axis : axes())
-    if (axis.name != "slip" && axis.name != "load" && axis.name != "speed" && axis.get(at) != axis.get(plain))
-      words += ", " + axis.label(axis.get(at));
+    if (!has_a_place(axis.view.name) && axis.get(at) != axis.get(plain)) words += ", " + axis.label(axis.get(at));
   if (at.speed != plain.speed) words += fmt::format(", {:.4g} m/s", at.speed);
   return words;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/measured/condition_views.hpp"
 #include "scenario/case.hpp"
 
 namespace soilbin::compare {
@@ -11,18 +12,12 @@ namespace soilbin::compare {
 /// Whether equal setpoints have equal numbers (a study) or scatter about them (a measured campaign).
 enum class Spread { exact, measured };
 
-/// What curves of answers run over: slip most often.
-struct Abscissa {
-  std::string name, unit;
-  double per_si;
-  double (*get)(const OperatingCondition&);
-  void (*set)(OperatingCondition&, double);  ///< null where values between two that were asked mean nothing: pass
-};
+/// What curves run over most often.
+inline const ConditionView& slip_view() { return condition_view("slip"); }
 
 /// Slip, where two conditions that agree in all else differ in it; else the first of load, inclines, yaw, pass,
 /// moisture and speed of which that is so; null where it is so of none.
-const Abscissa* curves_run_over(const std::vector<OperatingCondition>& conditions);
-const Abscissa& slip_abscissa();
+const ConditionView* curves_run_over(const std::vector<OperatingCondition>& conditions);
 
 /// Conditions sorted into curves.
 struct Curves {
@@ -34,14 +29,15 @@ struct Curves {
 /// Sorts by load, inclines, yaw, pass, moisture and slip, whichever the curves don't run over, and by speed where that
 /// tells conditions of one slip apart. Measured loads count as one where neighbours lie within 25 %, angles within 2
 /// deg.
-Curves curves_against(const Abscissa& abscissa, const std::vector<OperatingCondition>& conditions, Spread spread);
+Curves curves_against(const ConditionView& abscissa, const std::vector<OperatingCondition>& conditions, Spread spread);
 inline Curves curves_against_slip(const std::vector<OperatingCondition>& conditions, Spread spread) {
-  return curves_against(slip_abscissa(), conditions, spread);
+  return curves_against(slip_view(), conditions, spread);
 }
 
 /// The question with `points` places or more on each of its curves, from the smallest to the largest value that the
-/// curve has: for smooth lines. The curve's own are among them. A speed that came from a rotation follows the slip.
-Case with_smooth_curves(Case question, int points, const Abscissa& abscissa = slip_abscissa());
+/// curve has: for smooth lines; of a whole number no others. The curve's own are among them. A speed that came from a
+/// rotation follows the slip.
+Case with_smooth_curves(Case question, int points, const ConditionView& abscissa = slip_view());
 
 /// The soil's name, or what to call one that a case describes and doesn't name.
 std::string in_words(const Soil& soil);

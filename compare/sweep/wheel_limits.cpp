@@ -209,8 +209,8 @@ std::string in_words(const WheelLimits& answer) {
   const double phi = answer.friction_angle;
   if (answer.steepest && *answer.steepest > phi)
     text += fmt::format(
-        "Beyond {:.3g} deg, its friction angle, the soil itself holds by its cohesion alone, or slides: "
-        "that is not looked at.\n",
+        "Beyond {:.3g} deg, its friction angle, the soil itself holds by its cohesion alone, or slides: that is not "
+        "looked at.\n",
         phi / degree);
   if (!answer.steepest) return text + "The steepest slope lies beyond -60 .. 80 deg.\n";
   return text + steepest_in_words({*answer.steepest, answer.steepest_error}, answer.slopes.back().best.slip) + "\n";

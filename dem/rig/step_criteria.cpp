@@ -46,7 +46,7 @@ StepCriteria step_criteria(const BedRecipe& recipe, const Rig& rig, double rim_s
 
 double rim_speed(const Tire& tire, const OperatingCondition& at) {
   const WheelMotion motion = wheel_motion(at, tire.radius);
-  return std::max(motion.rotation * (tire.radius + tire.lugs.height), motion.speed);
+  return std::max(motion.rotation * outer_radius(tire), motion.speed);
 }
 
 }  // namespace soilbin::dem

@@ -28,7 +28,7 @@ namespace {
 
 /// Refuses a wheel that stands in an end wall. `flag`: --behind or --ahead; `room`: from the axle to that wall [m].
 void check_end(const char* flag, double room, const Tire& tire) {
-  const double outer = tire.radius + tire.lugs.height;
+  const double outer = outer_radius(tire);
   if (room >= least_room * outer) return;
   throw InputError(
       fmt::format("{} {:.4g} m: that near to the end of the bin the wheel, of {:.4g} m outer radius, would hang over "
@@ -63,7 +63,7 @@ double way_in_bin(const BedSize& size, const Tire& tire, const Rig& rig) {
 }
 
 double reach_at(const Tire& tire, double sinkage) {
-  const double outer = tire.radius + tire.lugs.height, above = std::clamp(tire.radius - sinkage, 0.0, outer);
+  const double outer = outer_radius(tire), above = std::clamp(tire.radius - sinkage, 0.0, outer);
   return std::sqrt(outer * outer - above * above);
 }
 

@@ -180,7 +180,7 @@ void WheelInBinOf<Run>::tilt() {
 
 template <class Run>
 double WheelInBinOf<Run>::free_height() const {
-  const double rim = tire_.radius + tire_.lugs.height, y = bed_.recipe.size.width / 2;
+  const double rim = outer_radius(tire_), y = bed_.recipe.size.width / 2;
   double z = 0;
   const Grains& grains = own_grains(simulation());
   for (std::size_t k = 0; k < grains.count(); ++k) {

@@ -123,7 +123,7 @@ void WheelRunStages<Run>::let_turn() {
 template <class Run>
 FlowMeter WheelRunStages<Run>::flow_meter() const {
   const GranularSoil& soil = bed_.recipe.soil;
-  const double depth = bed_.recipe.size.depth, rim = tire_.radius + tire_.lugs.height;
+  const double depth = bed_.recipe.size.depth, rim = outer_radius(tire_);
   return FlowMeter(mean_diameter(soil), 2 * rim, rim + depth, 0, proportions_of(soil).solid);
 }
 
@@ -157,7 +157,7 @@ void WheelRunStages<Run>::end_sample() {
 /// Behind the wheel, from where it had gone half its way, or its radius if that is more, to where it lets go.
 template <class Run>
 Rut WheelRunStages<Run>::rut_behind() const {
-  const double rim = tire_.radius + tire_.lugs.height, x = bin_.wheel().position.x;
+  const double rim = outer_radius(tire_), x = bin_.wheel().position.x;
   const double begun = std::max((x - bin_.begin()) / 2, tire_.radius);
   const Track track{bed_.recipe.size.width / 2, tire_.width, bin_.begin() + begun, x - rim, x};
   const GranularSoil& soil = bed_.recipe.soil;

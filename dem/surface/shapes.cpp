@@ -281,7 +281,7 @@ struct Extent {
 TriangleMesh drawn_wheel(const Tire& tire, const std::string& file) {
   constexpr double same_reach = 0.02, same_width = 0.05;
   constexpr std::array<double, 4> units = {1e-3, 1e-2, 1.0, 0.0254};  // mm, cm, m, inch
-  const double outer = tire.radius + tire.lugs.height;
+  const double outer = outer_radius(tire);
   const std::vector<Vec3> vertices = vertices_in(file);
   if (vertices.empty()) return read_mesh(file, 1.0, {.closed = true});  // which says what is wrong with none
   const Extent as_drawn(vertices);
