@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
 #include "dem/engine/rayleigh_time.hpp"
@@ -98,6 +99,20 @@ Margins margins_of(const World& world, double largest) {
 int threads_for(const Numerics& numerics, std::size_t grains) {
   if (numerics.threads > 0) return numerics.threads;
   return static_cast<int>(std::clamp<std::size_t>(grains / grains_a_thread, 1, omp_get_num_procs()));
+}
+
+/// Seconds from some start on: of the clock, and of all threads of the process together.
+struct Clocks {
+  double wall, processor;
+};
+
+Clocks clocks_now() {
+  const auto seconds = [](clockid_t of) {
+    timespec now{};
+    clock_gettime(of, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  };
+  return {seconds(CLOCK_MONOTONIC), seconds(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
 /// What follows from the setup, once the grains are there.
@@ -331,7 +346,24 @@ std::size_t Simulation::hold_grains(const std::function<bool(const GrainNow&)>& 
 
 void Simulation::run(std::int64_t steps) {
   settle_changes(world_);
-  for (std::int64_t k = 0; k < steps; ++k) step(world_);
+  if (world_.setup.numerics.threads == 0 && world_.threads > 1)
+    run_at_the_best_pace(steps);
+  else
+    for (std::int64_t k = 0; k < steps; ++k) step(world_);
+}
+
+void Simulation::run_at_the_best_pace(std::int64_t steps) {
+  const int most = threads_for(world_.setup.numerics, world_.state.grains.count());
+  if (pace_.most() != most) pace_ = ThreadPace(most);
+  Clocks before = clocks_now();
+  for (std::int64_t k = 0; k < steps; ++k) {
+    world_.threads = pace_.threads();
+    step(world_);
+    const Clocks now = clocks_now();
+    pace_.count_step(now.wall - before.wall, now.processor - before.processor);
+    before = now;
+  }
+  world_.threads = most;
 }
 
 GrainNow Simulation::grain(GrainId id) const {

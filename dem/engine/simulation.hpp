@@ -12,6 +12,7 @@
 #include <functional>
 
 #include "dem/engine/evaluation.hpp"
+#include "dem/engine/thread_pace.hpp"
 #include "dem/engine/world.hpp"
 
 namespace soilbin::dem {
@@ -72,13 +73,18 @@ class Simulation {
   /// What is where: kinetic, potential, elastic, and what the ledger has counted. Grains added since the last run are
   /// not yet in it.
   EnergyBalance energy() const { return energy_of(world_); }
-  /// How many threads the last run() has used (Numerics::threads).
+  /// How many threads there are for the next run() (Numerics::threads).
   int threads() const { return world_.threads; }
+  /// How many of them run() uses: fewer where other programs keep the cores busy and nobody has asked for a number.
+  int threads_in_use() const { return pace_.most() == world_.threads ? pace_.kept() : world_.threads; }
   /// Share of the grains that sleep.
   double share_asleep() const { return world_.sleeping.share(world_.state); }
 
  private:
+  void run_at_the_best_pace(std::int64_t steps);
+
   World world_;
+  ThreadPace pace_;
 };
 
 }  // namespace soilbin::dem

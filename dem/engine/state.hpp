@@ -42,8 +42,9 @@ struct Numerics {
   double deepest_overlap = 0.3;  ///< of the smaller radius; deeper stops the run
   double safe_share = 0.2;       ///< of the Rayleigh time; a longer step is refused
   bool force_step = false;       ///< takes a longer one all the same
-  /// 0: one a core, but no more than one for each 2000 grains. Give 1 inside a host with threads of its own. At most
-  /// most_threads(). No number of them changes a bit.
+  /// 0: one a core, but no more than one for each 2000 grains, and fewer while other programs keep the cores busy
+  /// (thread_pace.hpp). Give 1 inside a host with threads of its own. At most most_threads(). No number of them changes
+  /// a bit.
   int threads = 0;
   std::string instruction_set;  ///< of instruction_sets(); empty: the widest
   bool ledger = false;          ///< counts where the energy goes; a step takes about twice as long

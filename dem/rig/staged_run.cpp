@@ -115,7 +115,17 @@ void StagedRun::step() {
 
 void StagedRun::look(std::string_view stage, double share) {
   tell(stage, share);
+  tell_of_threads();
   if (is_kept() && checkpointer_.is_due(simulation().state().step)) write_restart();
+}
+
+/// Once, where the run has given up threads.
+void StagedRun::tell_of_threads() {
+  const int all = simulation().threads(), used = simulation().threads_in_use();
+  if (told_of_threads_ || used == all || !how_.tell) return;
+  told_of_threads_ = true;
+  how_.tell(fmt::format("other programs keep the cores busy: the run is faster with {} of {} threads (same answer)",
+                        used, all));
 }
 
 /// Whatever stops the work here leaves its state.

@@ -49,6 +49,7 @@ class StagedRun final : public RunStages {
   bool write_restart();
   void look(std::string_view stage, double share) override;
   void tell(std::string_view stage, double share);
+  void tell_of_threads();
 
   Checkpoints checkpoints_;
   std::unique_ptr<const FileLock> lock_;
@@ -56,6 +57,7 @@ class StagedRun final : public RunStages {
   const WorkOptions& how_;
   Start start_;
   Checkpointer checkpointer_;
+  bool told_of_threads_ = false;
 };
 
 /// Removes what is kept of a run whose answer is safe, unless another process is at it; its folder of LAMMPS too.

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 #include "tests/dem/worlds.hpp"
 
@@ -65,6 +67,84 @@ TEST(Threads, AreAsManyAsAreAskedForOrAsGrainsKeepBusy) {
   EXPECT_EQ(threads_on(3999, 0), 1);
   EXPECT_EQ(threads_on(4000, 0), std::min(2, threads_on(16000, 0)));
   EXPECT_EQ(threads_on(2, 3), 3);
+}
+
+// A machine that takes `seconds(threads)` for a step and gives the process `share` of a core for each thread.
+struct Machine {
+  std::function<double(int)> seconds;
+  double share;
+};
+
+/// Threads kept after some seconds of steps, and how much of the time went into steps of another number.
+struct Paced {
+  int kept = 0;
+  double share_on_trial = 0;
+};
+
+Paced pace_on(const Machine& machine, ThreadPace& pace, double duration) {
+  double time = 0, on_trial = 0;
+  while (time < duration) {
+    const int threads = pace.threads();
+    const double wall = machine.seconds(threads);
+    time += wall;
+    if (threads != pace.kept()) on_trial += wall;
+    pace.count_step(wall, machine.share * threads * wall);
+  }
+  return {pace.kept(), on_trial / time};
+}
+
+TEST(ThreadPace, GivesUpThreadsThatWaitForCores) {
+  const Machine quiet{[](int threads) { return 1e-3 / threads; }, 1.0};
+  const Machine busy{[](int threads) { return threads == 1 ? 3e-3 : 8e-3; }, 0.4};
+  ThreadPace pace(2);
+  EXPECT_EQ(pace_on(busy, pace, 10).kept, 1);
+  EXPECT_LT(pace_on(busy, pace, 300).share_on_trial, 0.04);
+  EXPECT_EQ(pace_on(quiet, pace, 75).kept, 2) << "the other programs have ended";
+  EXPECT_EQ(pace_on(quiet, pace, 300).share_on_trial, 0) << "threads that have their cores are left alone";
+}
+
+TEST(ThreadPace, KeepsThreadsThatAreFasterThoughTheyWait) {
+  const Machine shared{[](int threads) { return 1e-3 / threads; }, 0.5};
+  ThreadPace pace(8);
+  const Paced paced = pace_on(shared, pace, 300);
+  EXPECT_EQ(paced.kept, 8);
+  EXPECT_LT(paced.share_on_trial, 0.04);
+}
+
+// The share of the cores that a process gets differs by half from one half second to the next.
+TEST(ThreadPace, IsNotMisledByOneGoodHalfSecond) {
+  Random random(3);
+  double share = 1, until = 0, time = 0;
+  const auto seconds = [&](int threads) {
+    if (time >= until) share = std::exp(random.uniform(-0.5, 0.5)), until += 0.5;
+    const double wall = 1e-3 / threads / share;  // two are twice as fast on average
+    time += wall;
+    return wall;
+  };
+  ThreadPace pace(2);
+  double with_one = 0, all = 0;
+  for (int k = 0; k < 60; ++k) {
+    pace_on({seconds, 0.5}, pace, 10);
+    ++all, with_one += pace.kept() == 1;
+  }
+  EXPECT_LT(with_one / all, 0.1);
+}
+
+TEST(ThreadPace, FindsTheBestOfMany) {
+  const Machine busy{[](int threads) { return 1e-3 / threads + (threads > 4 ? 2e-4 * threads : 0); }, 0.5};  // 4 cores
+  ThreadPace pace(16);
+  EXPECT_EQ(pace_on(busy, pace, 60).kept, 4);
+}
+
+TEST(Threads, ThatChangeOnTheWayGiveTheSameBits) {
+  Simulation one = stirred_bed({}, 1), changing = stirred_bed({}, 1);
+  for (const int threads : {1, 3, 2, 4}) {
+    Numerics numerics = one.setup().numerics;
+    one.set_numerics(numerics), one.run(20);
+    numerics.threads = threads;
+    changing.set_numerics(numerics), changing.run(20);
+  }
+  EXPECT_EQ(test::bits(changing.state()), test::bits(one.state()));
 }
 
 TEST(SlowThreads, OfTwoGiveTheSameBitsUnderEachLaw) {
