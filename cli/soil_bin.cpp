@@ -188,7 +188,8 @@ void SoilBinFlags::add_rig_to(CLI::App& command) {
             "meanwhile: 1 loose .. 0 densest")
       ->group(grains_heading);
   add_value(command, "--threads", threads, "N",
-            "number of threads, which changes no bit of the answer; 0: one for each core, fewer for few grains or while other "
+            "number of threads, which changes no bit of the answer; 0: one for each core, fewer for few grains or "
+            "while other "
             "programs keep the cores busy")
       ->group(grains_heading);
 }
