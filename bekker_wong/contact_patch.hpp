@@ -58,11 +58,12 @@ struct ContactPatch {
   Array theta;        ///< angle from the vertical [rad]
   Array normal_sine;  ///< direction of the surface's normal: sin and cos of its angle from the vertical
   Array normal_cosine;
-  Array arc;          ///< quadrature weight times arc length [m]
-  Array arm;          ///< arm of the shear stress about the axle [m]
-  Array depth;        ///< depth that the pressure law sees [m]; behind theta_m that of the mirror angle theta_e
-  Array since_entry;  ///< theta_1 - theta [rad]
-  Array sine_drop;    ///< sin(theta_1) - sin(theta)
+  Array arc;           ///< quadrature weight times arc length [m]
+  Array arm;           ///< arm of the shear stress about the axle [m]
+  Array depth;         ///< depth that the pressure law sees [m]; behind theta_m that of the mirror angle theta_e
+  Array circle_depth;  ///< depth of the circle there [m], where the tread of a carcass that flattens lies less deep
+  Array since_entry;   ///< theta_1 - theta [rad]
+  Array sine_drop;     ///< sin(theta_1) - sin(theta)
   // stresses
   Array sigma;         ///< normal stress [Pa]
   Array j_x, j_y;      ///< shear displacement in the wheel's plane and across it [m]; locked: direction only

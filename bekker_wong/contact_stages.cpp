@@ -121,10 +121,11 @@ void fill_trigonometry(ContactPatch& p, const Outline& outline, int first_rear) 
     sine[i] = rise;
   }
   for (std::size_t i = 0; i < rear; ++i) p.depth[i] = radius * sine[i];
-  if (rear == count) return;
-  half_angle({&p.depth[rear], count - rear}, {&sine[rear], count - rear}, {&cosine[rear], count - rear});
+  if (rear < count)
+    half_angle({&p.depth[rear], count - rear}, {&sine[rear], count - rear}, {&cosine[rear], count - rear});
   for (std::size_t i = rear; i < count; ++i)
     p.depth[i] = radius * 2 * sine[i] * (sine_1 * cosine[i] - cosine_1 * sine[i]);
+  std::copy_n(p.depth.begin(), count, p.circle_depth.begin());
 }
 
 /// v_x/(r w) and v_y/(r w) as the shear circle has them: of its own radius in place of r.

@@ -24,6 +24,8 @@
 
 namespace soilbin::bekker_wong {
 
+class Effect;
+
 /// What an effect may look at.
 struct Surroundings {
   const Tire& tire;
@@ -33,7 +35,14 @@ struct Surroundings {
   const std::optional<Bin>& bin;
   double normal_load = 0.0;   ///< share of the load normal to the ground [N]
   double stress_share = 1.0;  ///< of the stresses that soil pressed so deep gives: less where slip has dug the wheel in
+  SoilValues soil = declared;                                   ///< the soil that acts: after the soil joint
+  std::span<const std::shared_ptr<const Effect>> effects = {};  ///< all that act on this wheel
 };
+
+/// Fills sigma at the depths of a patch: the pressure law of the soil that acts, with what every effect makes of the
+/// soil's depth and of the pressure there. Looks at depth, circle_depth and the angle of entry alone, so that a carcass
+/// may ask how hard the soil presses at a depth which its tread has not reached.
+void press(ContactPatch& patch, const Outline& outline, const Surroundings& around);
 
 /// A force that an effect adds to the stress integrals, in the wheel's axes.
 struct AddedForce {
@@ -84,15 +93,18 @@ class Effect {
   virtual void outline(Outline&, const Surroundings&) const {}
   /// Every trial sinkage: theta_m and theta_2, from theta_1.
   virtual void angles(ContactAngles&, const Outline&, const Surroundings&) const {}
-  /// Every trial sinkage: depth, normals, arcs, arms at the nodes (a carcass that flattens, a shifted depth).
+  /// Every trial sinkage: depth, normals, arcs, arms at the nodes (a carcass that flattens).
   virtual void geometry(ContactPatch&, const Outline&, const Surroundings&) const {}
   /// The share of the soil's stresses at which geometry leaves the tread this deep under the axle where the circle's
-  /// lowest point lies so deep [m], 0 where both are one; nothing where geometry leaves the tread on the circle.
+  /// lowest point lies so deep [m], 0 where both lie equally deep; nothing where geometry leaves the tread on the
+  /// circle.
   virtual std::optional<double> stress_share([[maybe_unused]] double tread_depth, [[maybe_unused]] double circle_depth,
                                              const Outline&, const Surroundings&) const {
     return std::nullopt;
   }
-  /// sigma is filled; change it in place.
+  /// Depths at which the pressure law looks, from those of the tread: soil that was pressed before. In press.
+  virtual void soil_depth(ContactPatch&, const Surroundings&) const {}
+  /// sigma is filled; change it in place. In press: of the geometry only the depths and the angle of entry are there.
   virtual void pressure(ContactPatch&, const SoilValues&, const Outline&, const Surroundings&) const {}
   /// strength and modulus are filled; change them in place.
   virtual void strength(ContactPatch&, const SoilValues&, const Outline&, const Surroundings&) const {}

@@ -28,10 +28,15 @@ double ForceLedger::vertical() const {
   return sum;
 }
 
+void press(ContactPatch& patch, const Outline& outline, const Surroundings& around) {
+  for (const auto& effect : around.effects) effect->soil_depth(patch, around);
+  fill_pressure(patch, around.soil, outline);
+  for (const auto& effect : around.effects) effect->pressure(patch, around.soil, outline, around);
+}
+
 /// What one condition fixes before any trial sinkage.
 struct RollingWheel::Prepared {
   const OperatingCondition& at;
-  SoilValues soil;
   Outline outline;
   Surroundings around;
   NodeLayout layout;
@@ -59,23 +64,24 @@ RollingWheel::Prepared RollingWheel::prepare(const OperatingCondition& at) const
   if (!(at.load > 0.0 && std::isfinite(at.load))) throw InputError("the load must be positive");
   if (!(at.speed >= 0.0 && std::isfinite(at.speed))) throw InputError("the speed must be 0 or more: slip has the sign");
   if (!std::isfinite(at.longitudinal_incline + at.transverse_incline)) throw InputError("an incline must be a number");
-  Prepared p{.at = at,
-             .soil = soil_,
-             .outline = {.radius = tire_.radius,
-                         .width = tire_.width,
-                         .shear_radius = tire_.radius,
-                         .slip_radius = tire_.radius},
-             .around = {tire_, soil_, at, kinematics(at), bin_, 0.0},
-             .layout = {}};
+  Prepared p{
+      .at = at,
+      .outline = {.radius = tire_.radius,
+                  .width = tire_.width,
+                  .shear_radius = tire_.radius,
+                  .slip_radius = tire_.radius},
+      .around =
+          {.tire = tire_, .declared = soil_, .at = at, .motion = kinematics(at), .bin = bin_, .effects = effects_},
+      .layout = {}};
   p.around.normal_load = at.load * std::cos(at.longitudinal_incline) * std::cos(at.transverse_incline);
   if (!(p.around.normal_load > 0.0)) throw InputError("on this incline no load presses on the ground");
-  for (const auto& effect : effects_) effect->soil(p.soil, p.around);
+  for (const auto& effect : effects_) effect->soil(p.around.soil, p.around);
   for (const auto& effect : effects_) effect->outline(p.outline, p.around);
   return p;
 }
 
 ContactAngles RollingWheel::angles(const Prepared& p, double theta_1) const {
-  ContactAngles angles = base_angles(theta_1, p.soil, p.around.motion);
+  ContactAngles angles = base_angles(theta_1, p.around.soil, p.around.motion);
   for (const auto& effect : effects_) effect->angles(angles, p.outline, p.around);
   return angles;
 }
@@ -84,18 +90,17 @@ void RollingWheel::fill_patch(const Prepared& p, double theta_1, ContactPatch& p
                               const DisplacementFill& displacement_of) const {
   fill_geometry(patch, angles(p, theta_1), p.outline, p.around.motion, p.layout);
   for (const auto& effect : effects_) effect->geometry(patch, p.outline, p.around);
-  fill_pressure(patch, p.soil, p.outline);
-  for (const auto& effect : effects_) effect->pressure(patch, p.soil, p.outline, p.around);
+  press(patch, p.outline, p.around);
   if (displacement_of)
     displacement_of(patch, p.outline);
   else
     fill_displacement(patch, p.outline, p.around.motion);
-  fill_strength(patch, p.soil);
-  for (const auto& effect : effects_) effect->strength(patch, p.soil, p.outline, p.around);
+  fill_strength(patch, p.around.soil);
+  for (const auto& effect : effects_) effect->strength(patch, p.around.soil, p.outline, p.around);
   ContactPatch::Array j;
   fill_mobilised(patch, j, p.around.motion);
   const std::span<const double> displacement{j.data(), static_cast<std::size_t>(patch.count)};
-  for (const auto& effect : effects_) effect->mobilise(patch, displacement, p.soil, p.around);
+  for (const auto& effect : effects_) effect->mobilise(patch, displacement, p.around.soil, p.around);
   fill_shear(patch, j);
 }
 
@@ -145,7 +150,7 @@ WheelForces RollingWheel::integrate(const Prepared& p, const ContactPatch& patch
   const double b = p.outline.width;
   WheelForces f;
   if (!effects_.empty()) {
-    const Rolling rolling{p.around, p.soil, p.outline, patch, sinkage_of(patch, p.outline)};
+    const Rolling rolling{p.around, p.around.soil, p.outline, patch, sinkage_of(patch, p.outline)};
     for (const auto& effect : effects_) effect->added_forces(f.added, rolling);
   }
   f.thrust = b * thrust;
@@ -158,7 +163,7 @@ WheelForces RollingWheel::integrate(const Prepared& p, const ContactPatch& patch
 }
 
 NodeLayout RollingWheel::layout_at(const Prepared& p, double theta_1) const {
-  return node_layout(p.soil, p.outline, p.around.motion, angles(p, theta_1));
+  return node_layout(p.around.soil, p.outline, p.around.motion, angles(p, theta_1));
 }
 
 /// Load that the stresses carry [N].
@@ -171,7 +176,7 @@ double RollingWheel::pressed(const Prepared& p, const ContactPatch& patch) {
 /// Load that the added forces carry [N].
 double RollingWheel::lifted(const Prepared& p, const ContactPatch& patch) const {
   if (std::none_of(effects_.begin(), effects_.end(), [](const auto& effect) { return effect->lifts(); })) return 0.0;
-  const Rolling rolling{p.around, p.soil, p.outline, patch, sinkage_of(patch, p.outline)};
+  const Rolling rolling{p.around, p.around.soil, p.outline, patch, sinkage_of(patch, p.outline)};
   ForceLedger added;
   for (const auto& effect : effects_)
     if (effect->lifts()) effect->added_forces(added, rolling);
@@ -185,7 +190,7 @@ double RollingWheel::vertical(const Prepared& p, const ContactPatch& patch) cons
 
 /// theta_1 of the wheel standing still, by Bekker's formula: where a search starts.
 double RollingWheel::static_angle(const Prepared& p) const {
-  SoilValues guessed = p.soil;
+  SoilValues guessed = p.around.soil;
   guessed.exponent = std::min(guessed.exponent, 2.5);  // Bekker's formula ends at 3
   const double share =
       bekker_static_sinkage(guessed, p.outline.radius, p.outline.width, p.around.normal_load) / p.outline.radius;
@@ -235,7 +240,7 @@ FirstRoot RollingWheel::balance(Prepared& p, const NearBalance& known, ContactPa
     if (const auto root = rising_root(imbalance, std::log(start), known.steepness, upper, 1e-8))
       if (is_smallest(p, root->x)) return {root->x, {}};
   p.layout = coarse(p.layout);
-  const auto near = rising_root(imbalance, std::log(start), 2 * p.soil.exponent + 1, upper, 1e-4);
+  const auto near = rising_root(imbalance, std::log(start), 2 * p.around.soil.exponent + 1, upper, 1e-4);
   if (near && is_smallest(p, near->x)) {
     p.layout = layout_at(p, std::exp(near->x));
     if (const auto root = rising_root(imbalance, near->x, near->slope, upper, 1e-12)) return {root->x, {}};
@@ -265,7 +270,8 @@ void RollingWheel::refuse(const Prepared& p, double highest, ContactPatch& patch
 
 double RollingWheel::settled(const Prepared& p, const ContactPatch& patch, double sinkage) const {
   double deeper = sinkage;
-  for (const auto& effect : effects_) deeper = effect->settle(deeper, {p.around, p.soil, p.outline, patch, sinkage});
+  for (const auto& effect : effects_)
+    deeper = effect->settle(deeper, {p.around, p.around.soil, p.outline, patch, sinkage});
   return deeper;
 }
 

@@ -11,9 +11,11 @@
 namespace soilbin::bekker_wong {
 namespace {
 
-/// Sets the exit and keeps theta_m between it and the entry: off both by 2 % where the soil leaves early.
+/// Moves the exit and keeps theta_m between it and the entry: off both by 2 % where the soil leaves early. Where a
+/// carcass that gives way is in contact behind the axle, the contact ends no sooner than that.
 void leave_at(ContactAngles& a, double exit) {
-  a.exit = exit;
+  const double flattened = a.exit;
+  a.exit = flattened < 0.0 ? std::min(exit, flattened) : exit;
   if (exit <= 0.0) return;  // the base model's theta_m lies in 0 .. 0.98 theta_1
   const double margin = 0.02 * (a.entry - exit);
   a.max_stress = std::clamp(a.max_stress, exit + margin, a.entry - margin);

@@ -18,7 +18,7 @@ namespace {
 constexpr double creep = 0.01;
 
 /// Sine of the angle that a node's pressure belongs to: its own in front, the mirror angle's behind theta_m, from the
-/// depth r (cos(theta) - cos(theta_1)).
+/// circle's depth r (cos(theta) - cos(theta_1)).
 double sine_of_depth(double depth, double cosine_1, double radius) {
   const double cosine = cosine_1 + depth / radius;
   return std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
@@ -33,7 +33,7 @@ void harden_with_speed(ContactPatch& patch, const Outline& outline, const Surrou
   const auto count = static_cast<std::size_t>(patch.count);
   ContactPatch::Array ratios, factors;
   for (std::size_t i = 0; i < count; ++i)
-    ratios[i] = ratio(speed * sine_of_depth(patch.depth[i], cosine_1, outline.radius));
+    ratios[i] = ratio(speed * sine_of_depth(patch.circle_depth[i], cosine_1, outline.radius));
   scaled_power({ratios.data(), count}, m, 1.0, {factors.data(), count});
   for (std::size_t i = 0; i < count; ++i) patch.sigma[i] *= factors[i];
 }

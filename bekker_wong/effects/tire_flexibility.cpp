@@ -12,7 +12,8 @@
 // A form is a law S: the tread reaches the depth y = S(d) where the rigid circle would reach d = r (cos theta -
 // cos theta_1). Slope, arc and belt travel follow from the outline y(x), x = r sin theta. The contact ends where
 // the circle rises from the rut behind the axle: theta_2 = -theta_f, r (1 - cos theta_f) = deflection under the axle.
-// S takes the declared soil.
+// S takes the soil that acts, P(y), with all that other effects make of it: the tread rests where soil and carcass
+// press alike. Of the base model's power law S is known in closed form; of another law it is found at each node.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -49,28 +50,34 @@ constexpr Presumption inflation_pressure = {.key = "inflation_pressure",
 
 double ground_pressure(const Tire& tire) { return inflation_pressure(tire) + carcass_pressure(tire); }
 
-/// k of the declared soil, as far as its stresses act.
+using Array = ContactPatch::Array;
+
+/// k of the soil that acts, as far as its stresses do, without what effects make of the pressure.
 double pressing_modulus(const Outline& outline, const Surroundings& around) {
-  return around.stress_share * around.declared.pressure_modulus(outline.width);
+  return around.stress_share * around.soil.pressure_modulus(outline.width);
 }
 
 /// S(d) and dS/dd at the depths d of many nodes.
 struct Depths {
-  ContactPatch::Array value, slope;
+  Array value, slope;
 };
 
-/// Wong's flat: the pressure stays below p_g/a, so the depth below z_g = (p_g/(a k))^(1/n). The corner is rounded by
-/// the power 6 (the depth is 11 % below z_g where the circle's is z_g), so that the balance stays smooth.
+/// Wong's flat: the pressure stays below p_g/a, so the depth below z_g, P(z_g) = p_g/a. The corner is rounded by the
+/// power 6 (the depth is 11 % below z_g where the circle's is z_g), so that the balance stays smooth.
 struct PressureCap {
-  double n, deepest;
+  double n, most, deepest;  // z_g of the power law, (p_g/(a k))^(1/n)
   PressureCap(double a, const Outline& outline, const Surroundings& around)
-      : n(around.declared.exponent),
-        deepest(std::pow(ground_pressure(around.tire) / (a * pressing_modulus(outline, around)),
-                         1 / around.declared.exponent)) {}
-  /// The share of the stresses at which S(d) = y.
-  double share(double y, double d) const {
-    return std::pow(deepest / y, n) * std::pow(-std::expm1(6 * std::log(y / d)), n / 6);
-  }
+      : n(around.soil.exponent),
+        most(ground_pressure(around.tire) / a),
+        deepest(std::pow(most / pressing_modulus(outline, around), 1 / n)) {}
+  /// The depth at which the soil's pressure decides where the tread lies: z_g; that of the power law.
+  double decisive(double) const { return deepest; }
+  /// Rises with that depth, 1 where it is right.
+  double residual(double, double pressure, double) const { return pressure / most; }
+  double tread(double z_g, double d) const { return d * rounded(d / z_g); }
+  /// That depth, and the pressure there, where the tread lies at y below the circle's d.
+  static double decisive_under(double y, double d) { return y * std::pow(-std::expm1(6 * std::log(y / d)), -1.0 / 6); }
+  double pressure_under(double, double) const { return most; }
   void operator()(std::span<const double> d, Depths& reached) const {
     constexpr double largest = 1e50;  // of d/z_g, whose sixth power is still a number
     ContactPatch::Array q, root;
@@ -81,17 +88,27 @@ struct PressureCap {
     scaled_power({q.data(), d.size()}, -1.0 / 6, 1.0, {root.data(), d.size()});
     for (std::size_t i = 0; i < d.size(); ++i) reached.value[i] = d[i] * root[i], reached.slope[i] = root[i] / q[i];
   }
+
+ private:
+  static double rounded(double x) { return std::pow(1 + std::pow(std::min(x, 1e50), 6), -1.0 / 6); }
 };
 
-/// Carcass and soil in series: d = S + (r a^2/2) sigma(S)/p_g; a is the half angle of the flat at sigma = p_g.
+/// Carcass and soil in series: d = S + (r a^2/2) P(S)/p_g; a is the half angle of the flat at sigma = p_g.
 struct CarcassSpring {
-  double n, give, log_give;  // give [m^(1-n)]: deflection = give S^n
+  double n, softness, give, log_give;  // softness [m/Pa]; give [m^(1-n)]: deflection = give S^n
   CarcassSpring(double a, const Outline& outline, const Surroundings& around)
-      : n(around.declared.exponent),
-        give(0.5 * a * a * outline.radius * pressing_modulus(outline, around) / ground_pressure(around.tire)),
+      : n(around.soil.exponent),
+        softness(0.5 * a * a * outline.radius / ground_pressure(around.tire)),
+        give(softness * pressing_modulus(outline, around)),
         log_give(std::log(give)) {}
-  /// The share of the stresses at which S(d) = y.
-  double share(double y, double d) const { return (d - y) / (give * std::pow(y, n)); }
+  /// The depth at which the soil's pressure decides where the tread lies: its own; that of the power law.
+  double decisive(double d) const { return at(d).first; }
+  /// Rises with that depth, 1 where it is right.
+  double residual(double y, double pressure, double d) const { return (y + softness * pressure) / d; }
+  static double tread(double y, double) { return y; }
+  /// That depth, and the pressure there, where the tread lies at y below the circle's d.
+  static double decisive_under(double y, double) { return y; }
+  double pressure_under(double y, double d) const { return (d - y) / softness; }
   void operator()(std::span<const double> d, Depths& reached) const {
     for (std::size_t i = 0; i < d.size(); ++i) std::tie(reached.value[i], reached.slope[i]) = at(d[i]);
   }
@@ -111,6 +128,113 @@ struct CarcassSpring {
   }
 };
 
+/// S on the soil that acts, for one angle of entry.
+template <class Law>
+class Tread {
+ public:
+  Tread(double amplitude, const Outline& outline, const Surroundings& around, double entry)
+      : law_(amplitude, outline, around), outline_(outline), around_(around), entry_(entry) {}
+
+  void operator()(std::span<const double> d, Depths& reached) const {
+    constexpr double step = 1e-5;  // relative, of d
+    law_(d, reached);
+    Array decisive;
+    if (d.empty() || around_.effects.size() < 2 || around_.stress_share == 0.0 || power_law_acts(d, decisive)) return;
+    Array low, high, below, above;
+    for (std::size_t i = 0; i < d.size(); ++i) low[i] = d[i] * (1 - step), high[i] = d[i] * (1 + step);
+    const std::span<const double> lower{low.data(), d.size()}, higher{high.data(), d.size()};
+    solve(d, decisive, reached.value);
+    solve(lower, decisive, below);
+    solve(higher, decisive, above);
+    for (std::size_t i = 0; i < d.size(); ++i)
+      if (d[i] > least()) reached.slope[i] = (above[i] - below[i]) / (high[i] - low[i]);
+  }
+
+  /// The share of the stresses at which S(d) = y.
+  double share(double y, double d) const {
+    if (!(d > y)) return 0.0;
+    const double deep = law_.decisive_under(y, d);
+    Array pressure;
+    press_at({&deep, 1}, {&d, 1}, pressure);
+    return law_.pressure_under(y, d) / pressure[0];
+  }
+
+  /// How far the lowest point of the tread stays above the circle's.
+  double deflection() const {
+    const double half = std::sin(0.5 * entry_), depth = 2 * outline_.radius * half * half;
+    Depths reached;
+    (*this)({&depth, 1}, reached);
+    return depth - reached.value[0];
+  }
+
+ private:
+  /// Below this depth the tread's share of it stays the same [m].
+  double least() const { return 1e-9 * outline_.radius; }
+
+  void press_at(std::span<const double> depth, std::span<const double> circle, Array& pressure) const {
+    ContactPatch probe;
+    probe.count = static_cast<int>(depth.size());
+    probe.angles.entry = entry_;
+    std::ranges::copy(depth, probe.depth.begin());
+    std::ranges::copy(circle, probe.circle_depth.begin());
+    press(probe, outline_, around_);
+    for (std::size_t i = 0; i < depth.size(); ++i) pressure[i] = around_.stress_share * probe.sigma[i];
+  }
+
+  /// ln of the law's residual at the decisive depths e^t, 0 where they are right; gives the largest.
+  double residuals(std::span<const double> d, const Array& t, Array& left) const {
+    Array depth, pressure;
+    for (std::size_t i = 0; i < d.size(); ++i) depth[i] = std::exp(t[i]);
+    press_at({depth.data(), d.size()}, d, pressure);
+    double most = 0.0;
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      left[i] = std::log(law_.residual(depth[i], pressure[i], std::max(d[i], least())));
+      most = std::max(most, std::abs(left[i]));
+    }
+    return most;
+  }
+
+  /// Whether no effect changes the pressure where it decides; leaves ln of the decisive depths of the power law.
+  bool power_law_acts(std::span<const double> d, Array& t) const {
+    Array left;
+    for (std::size_t i = 0; i < d.size(); ++i) t[i] = std::log(law_.decisive(std::max(d[i], least())));
+    return residuals(d, t, left) < 1e-12;
+  }
+
+  /// S at many nodes at once by the secant method on ln of the residual over t, which rises; where it leaves the
+  /// bracket found so far, the bracket is halved.
+  void solve(std::span<const double> d, Array t, Array& value) const {
+    constexpr double longest = 2.0, unknown = 1e3, accuracy = 1e-13;
+    Array left, before, slope, step, low, high;
+    slope.fill(law_.n), low.fill(-unknown), high.fill(unknown);
+    double most = residuals(d, t, left);
+    for (int round = 0; round < 100 && most > accuracy; ++round) {
+      for (std::size_t i = 0; i < d.size(); ++i) {
+        const double wanted = t[i] + std::clamp(-left[i] / slope[i], -longest, longest);
+        before[i] = left[i], step[i] = 0.0;
+        if (std::abs(left[i]) < accuracy || wanted == t[i]) continue;
+        (left[i] < 0.0 ? low : high)[i] = t[i];
+        step[i] = (wanted > low[i] && wanted < high[i] ? wanted : 0.5 * (low[i] + high[i])) - t[i];
+        t[i] += step[i];
+      }
+      const double now = residuals(d, t, left);
+      for (std::size_t i = 0; i < d.size(); ++i)
+        if (const double secant = (left[i] - before[i]) / step[i]; step[i] != 0.0 && secant > 0.01) slope[i] = secant;
+      if (now < 100 * accuracy && now >= most) break;  // rounding is left
+      most = now;
+    }
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      const double circle = std::max(d[i], least());
+      value[i] = law_.tread(std::exp(t[i]), circle) * (std::max(d[i], 0.0) / circle);
+    }
+  }
+
+  Law law_;
+  const Outline& outline_;
+  const Surroundings& around_;
+  double entry_;
+};
+
 template <class Law>
 class Flattening final : public Effect {
  public:
@@ -118,27 +242,28 @@ class Flattening final : public Effect {
 
   void angles(ContactAngles& a, const Outline& outline, const Surroundings& around) const override {
     if (amplitude_ == 0.0) return;
-    const double deflection = deflection_of(Law(amplitude_, outline, around), a.entry, outline);
+    const double deflection = Tread<Law>(amplitude_, outline, around, a.entry).deflection();
     a.exit = std::min(a.exit, -2 * std::asin(std::sqrt(std::clamp(deflection / (2 * outline.radius), 0.0, 1.0))));
   }
 
   std::optional<double> stress_share(double tread_depth, double circle_depth, const Outline& outline,
                                      const Surroundings& around) const override {
     if (amplitude_ == 0.0) return std::nullopt;
-    return Law(amplitude_, outline, around).share(tread_depth, circle_depth);
+    const double entry = 2 * std::asin(std::sqrt(std::clamp(circle_depth / (2 * outline.radius), 0.0, 1.0)));
+    return Tread<Law>(amplitude_, outline, around, entry).share(tread_depth, circle_depth);
   }
 
   void geometry(ContactPatch& p, const Outline& outline, const Surroundings& around) const override {
     if (amplitude_ == 0.0) return;
-    const Law law(amplitude_, outline, around);
+    const Tread<Law> law(amplitude_, outline, around, p.angles.entry);
     const auto count = static_cast<std::size_t>(p.count);
     const double surface = std::cos(p.angles.entry);
     Depths tread, mirrored;
     law({circle_depths(p.of(&ContactPatch::normal_cosine), surface, outline).data(), count}, tread);
     std::size_t first_rear = 0;  // behind theta_m the pressure law looks at the mirror angle's depth
     while (first_rear < count && p.theta[first_rear] >= p.angles.max_stress) ++first_rear;
-    law({&p.depth[first_rear], count - first_rear}, mirrored);
-    ContactPatch::Array rise, stretch;  // of the tread a radian; arc length of the tread over the circle's
+    law({&p.circle_depth[first_rear], count - first_rear}, mirrored);
+    Array rise, stretch;  // of the tread a radian; arc length of the tread over the circle's
     for (std::size_t i = 0; i < count; ++i) rise[i] = tread.slope[i] * p.normal_sine[i];
     length({rise.data(), count}, p.of(&ContactPatch::normal_cosine), {stretch.data(), count});
     follow_belt(law, outline, stretch, p);
@@ -148,23 +273,23 @@ class Flattening final : public Effect {
       p.arc[i] *= stretch[i];
       p.depth[i] = i < first_rear ? tread.value[i] : mirrored.value[i - first_rear];
     }
-    p.deflection = deflection_of(law, p.angles.entry, outline);
+    p.deflection = law.deflection();
   }
 
  private:
   /// Depths of the circle where the cosine of its angle is this; surface: that of theta_1.
-  static ContactPatch::Array circle_depths(std::span<const double> cosine, double surface, const Outline& outline) {
-    ContactPatch::Array depth;
+  static Array circle_depths(std::span<const double> cosine, double surface, const Outline& outline) {
+    Array depth;
     for (std::size_t i = 0; i < cosine.size(); ++i) depth[i] = std::max(0.0, outline.radius * (cosine[i] - surface));
     return depth;
   }
 
   /// Makes since_entry, at nodes that still lie on the circle, the belt's travel since the entry over r: the integral
   /// of the stretch, sqrt((S' sin)^2 + cos^2), by Simpson's rule from node to node.
-  static void follow_belt(const Law& law, const Outline& outline, const ContactPatch::Array& stretch, ContactPatch& p) {
+  static void follow_belt(const Tread<Law>& law, const Outline& outline, const Array& stretch, ContactPatch& p) {
     const auto count = static_cast<std::size_t>(p.count);
     const double sine_1 = std::sin(p.angles.entry), cosine_1 = std::cos(p.angles.entry), surface = 0.0;
-    ContactPatch::Array rise, cosine, half_way;  // half way from the node before
+    Array rise, cosine, half_way;  // half way from the node before
     for (std::size_t i = 0; i < count; ++i) {
       rise[i] = (i == 0 ? sine_1 : p.normal_sine[i - 1]) + p.normal_sine[i];
       cosine[i] = (i == 0 ? cosine_1 : p.normal_cosine[i - 1]) + p.normal_cosine[i];
@@ -185,19 +310,13 @@ class Flattening final : public Effect {
     }
   }
 
-  static double deflection_of(const Law& law, double entry, const Outline& outline) {
-    const double half = std::sin(0.5 * entry), depth = 2 * outline.radius * half * half;
-    Depths reached;
-    law({&depth, 1}, reached);
-    return depth - reached.value[0];
-  }
   double amplitude_;
 };
 
 /// Schmid: the deflected tire's contact is that of a larger rigid circle, sqrt(R/r) = sqrt(1 + f/z) + sqrt(f/z), with
-/// the deflection f = (r a^2/2) W/(2 r b p_g) and Bekker's static sinkage z of the rigid wheel. The formula says that
-/// the contact sqrt(2r (z + f)) before the axle and sqrt(2r f) behind it has the circle's length sqrt(2R z): the circle
-/// stands sqrt(2r f) behind the axle.
+/// the deflection f = (r a^2/2) W/(2 r b p_g) and Bekker's static sinkage z of the rigid wheel on the soil that acts.
+/// The formula says that the contact sqrt(2r (z + f)) before the axle and sqrt(2r f) behind it has the circle's length
+/// sqrt(2R z): the circle stands sqrt(2r f) behind the axle.
 class SubstituteCircle final : public Effect {
  public:
   explicit SubstituteCircle(const std::vector<double>& p) : amplitude_(p[0]) {}
@@ -219,7 +338,9 @@ class SubstituteCircle final : public Effect {
     return 0.25 * amplitude_ * amplitude_ * around.normal_load / (width * ground_pressure(around.tire));
   }
   double enlargement(double radius, double width, const Surroundings& around) const {
-    const double z = bekker_static_sinkage(around.declared, radius, width, around.normal_load);
+    SoilValues soil = around.soil;
+    soil.exponent = std::min(soil.exponent, 2.5);  // Bekker's formula ends at 3
+    const double z = bekker_static_sinkage(soil, radius, width, around.normal_load);
     const double share = deflection(width, around) / z, root = std::sqrt(1 + share) + std::sqrt(share);
     return root * root;
   }
@@ -234,7 +355,7 @@ std::vector<EffectForm> tire_flexibility_forms() {
   return {
       {.id = id,
        .form = "flat_section",
-       .equation = "sigma <= p_g/a, p_g = p_i + p_c; d -> d (1 + (d/z_g)^6)^(-1/6), k z_g^n = p_g/a",
+       .equation = "sigma <= p_g/a, p_g = p_i + p_c; d -> d (1 + (d/z_g)^6)^(-1/6), sigma(z_g) = p_g/a",
        .source = "after Wong, Theory of Ground Vehicles, ch. 2 (pneumatic tire below the critical ground pressure)",
        .parameters = {{"a", "-", 1.0, 0.0, 30.0, "declared ground pressure over the one that acts"}},
        .steady_only = "the shear displacement is followed along a rigid rim",
@@ -242,7 +363,7 @@ std::vector<EffectForm> tire_flexibility_forms() {
        .make = maker<Flattening<PressureCap>>()},
       {.id = id,
        .form = "carcass_spring",
-       .equation = "d = y + (r a^2/2) k y^n/p_g: carcass and soil in series, theta_2 = -theta_f",
+       .equation = "d = y + (r a^2/2) sigma(y)/p_g: carcass and soil in series, theta_2 = -theta_f",
        .source = "stated: radial springs of stiffness 2 p_g/(r a^2) between rim and tread",
        .parameters = {{"a", "rad", 0.3, 0.0, 2.0, "half angle of the flat where the soil presses with p_g"}},
        .steady_only = "the shear displacement is followed along a rigid rim",
