@@ -79,7 +79,7 @@ std::vector<SharedMesh> load_meshes(const Loader& a) {
   for (std::size_t k = 0; k < meshes.size(); ++k) {
     const Loader one = a.inner(std::to_string(k));
     MeshOptions options;
-    options.weld = 0;  // it is welded; so its vertices stay what they are
+    options.as_given = true;  // it was welded or mended: its vertices stay what they are
     one.text("name", options.name);
     one.value("closed", options.closed);
     std::vector<Vec3> vertices;

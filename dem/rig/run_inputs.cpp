@@ -6,13 +6,12 @@
 
 #include "dem/bed/bed_store.hpp"
 #include "dem/rig/step_criteria.hpp"
+#include "dem/surface/mesh_files.hpp"
 #include "scenario/checksum.hpp"
 #include "scenario/file_bytes.hpp"
 
 namespace soilbin::dem {
 namespace {
-
-constexpr std::size_t largest_mesh = 1'000'000'000;  // bytes
 
 using Inputs = std::vector<std::pair<std::string, std::string>>;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "dem/surface/vertex_tree.hpp"
 #include "scenario/errors.hpp"
 
 namespace soilbin::dem {
@@ -19,11 +20,7 @@ bool finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && 
 
 int next(int i) { return i == 2 ? 0 : i + 1; }
 
-/// One side of one triangle, ends in ascending order.
-struct Side {
-  int low, high, triangle, edge;
-  bool forward;  ///< the triangle runs from low to high
-};
+}  // namespace
 
 std::vector<Side> sorted_sides(const std::vector<Corners>& triangles) {
   std::vector<Side> sides;
@@ -39,81 +36,6 @@ std::vector<Side> sorted_sides(const std::vector<Corners>& triangles) {
   });
   return sides;
 }
-
-/// Vertices sorted into a tree of boxes, to find those near an edge.
-class VertexTree {
- public:
-  explicit VertexTree(const std::vector<Vec3>& vertices) : vertices_(vertices) {
-    for (int i = 0; i < static_cast<int>(vertices.size()); ++i) order_.push_back(i);
-    build(0, static_cast<int>(order_.size()));
-  }
-
-  /// The lowest vertex within `distance` of the segment from a to b and neither of the two, or -1.
-  int near_segment(int a, int b, double distance) const {
-    int found = -1;
-    search(0, {vertices_[a], vertices_[b]}, a, b, distance, found);
-    return found;
-  }
-
- private:
-  struct Node {
-    Vec3 centre;
-    double radius;
-    int first, last;            // of order_
-    int left = -1, right = -1;  // -1 both: a leaf
-  };
-  struct Segment {
-    Vec3 from, to;
-    double squared_distance(const Vec3& p) const {
-      const Vec3 along = to - from;
-      return squared(p - from - std::clamp(dot(p - from, along) / squared(along), 0.0, 1.0) * along);
-    }
-  };
-
-  int build(int first, int last) {
-    Box box{vertices_[order_[first]], vertices_[order_[first]]};
-    for (int i = first; i < last; ++i) {
-      const Vec3& p = vertices_[order_[i]];
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-    }
-    const Vec3 size = box.high - box.low;
-    const int node = static_cast<int>(nodes_.size());
-    nodes_.push_back({0.5 * (box.low + box.high), 0.5 * length(size) * (1 + 1e-12), first, last});
-    if (last - first <= 4) return node;
-    const auto part = [&](const Vec3& p) {
-      return size.x >= std::max(size.y, size.z) ? p.x : size.y >= size.z ? p.y : p.z;
-    };
-    const int middle = (first + last) / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                     [&](int i, int j) { return part(vertices_[i]) < part(vertices_[j]); });
-    const int left = build(first, middle), right = build(middle, last);
-    nodes_[node].left = left, nodes_[node].right = right;
-    return node;
-  }
-
-  void search(int at, const Segment& segment, int a, int b, double distance, int& found) const {
-    const Node& node = nodes_[at];
-    const double reach = node.radius + distance;
-    if (segment.squared_distance(node.centre) > reach * reach) return;
-    if (node.left >= 0) {
-      search(node.left, segment, a, b, distance, found);
-      search(node.right, segment, a, b, distance, found);
-      return;
-    }
-    for (int i = node.first; i < node.last; ++i) {
-      const int v = order_[i];
-      if (v == a || v == b || (found >= 0 && v > found)) continue;
-      if (segment.squared_distance(vertices_[v]) <= distance * distance) found = v;
-    }
-  }
-
-  const std::vector<Vec3>& vertices_;
-  std::vector<int> order_;
-  std::vector<Node> nodes_;
-};
-
-}  // namespace
 
 void refuse_mesh(const std::string& name, const std::string& message, const std::string& hint) {
   throw InputError({name, 0, 0}, message, "", hint);
@@ -162,7 +84,7 @@ void check_triangles(const std::vector<Vec3>& vertices, const std::vector<Corner
           name,
           fmt::format("triangle {} at {} has no area: its height is {:.3g} m, below the welding distance {:.3g} m", t,
                       show(a), longest > 0 ? twice_area / longest : 0.0, distance),
-          "leave it out and split its longest edge in the neighbour, or weld less (MeshOptions::weld)");
+          "leave it out and split its longest edge in the neighbour");
     }
     std::sort(c.begin(), c.end());
     sorted.push_back({c, t});
@@ -188,7 +110,7 @@ std::vector<std::array<EdgeLink, 3>> link_edges(const std::vector<Vec3>& vertice
       refuse_mesh(name,
                   fmt::format("{} is shared by more than two triangles: {}, {}, {}", edge, a.triangle, b.triangle,
                               sides[i + 2].triangle),
-                  "a surface may not branch: give each sheet a mesh of its own");
+                  "a surface may not branch: leave out the walls inside, or keep the parts apart");
     }
     if (a.forward == b.forward) {
       refuse_mesh(name, fmt::format("triangles {} and {} face opposite sides at {}", a.triangle, b.triangle, edge),
@@ -234,6 +156,7 @@ void check_closed(const std::vector<Vec3>& vertices, const std::vector<Corners>&
     }
   }
   for (int v = 0; v < static_cast<int>(vertices.size()); ++v) {
+    if (round[v] == 0) continue;  // of no triangle
     int turned = 0;
     for (int t = any[v]; turned == 0 || t != any[v]; ++turned) {
       int i = 0;

@@ -1,4 +1,5 @@
-// What TriangleMesh does to vertices and triangles before it takes them, step by step. Each throws InputError.
+// What TriangleMesh does to vertices and triangles before it takes them, step by step; mesh_mending.hpp takes some of
+// the steps too. Those that refuse throw InputError.
 #pragma once
 
 #include <array>
@@ -8,6 +9,15 @@
 #include "dem/surface/triangle_mesh.hpp"
 
 namespace soilbin::dem {
+
+/// One side of one triangle, ends in ascending order.
+struct Side {
+  int low, high, triangle, edge;
+  bool forward;  ///< the triangle runs from low to high
+};
+
+/// All sides, those of one edge next to each other.
+std::vector<Side> sorted_sides(const std::vector<TriangleMesh::Corners>& triangles);
 
 /// "name: message" and a hint.
 [[noreturn]] void refuse_mesh(const std::string& name, const std::string& message, const std::string& hint);

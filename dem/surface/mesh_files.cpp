@@ -1,10 +1,13 @@
 #include "dem/surface/mesh_files.hpp"
 
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <assimp/IOStream.hpp>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <bit>
 #include <charconv>
@@ -14,6 +17,7 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -21,6 +25,7 @@
 #include "dem/surface/positive.hpp"
 #include "scenario/atomic_file.hpp"
 #include "scenario/errors.hpp"
+#include "scenario/file_bytes.hpp"
 
 namespace soilbin::dem {
 namespace {
@@ -52,19 +57,13 @@ std::uint32_t get(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-/// What a file holds, before it is checked. Lengths as in the file.
-struct Content {
-  std::vector<Vec3> vertices;
-  std::vector<TriangleMesh::Corners> triangles;
+/// The last three vertices are a triangle.
+void close_triangle(MeshSoup& content) {
+  const int last = static_cast<int>(content.vertices.size()) - 1;
+  content.triangles.push_back({last - 2, last - 1, last});
+}
 
-  /// The last three vertices are a triangle.
-  void close_triangle() {
-    const int last = static_cast<int>(vertices.size()) - 1;
-    triangles.push_back({last - 2, last - 1, last});
-  }
-};
-
-Content parse_binary_stl(const std::string& bytes, const std::string& file) {
+MeshSoup parse_binary_stl(const std::string& bytes, const std::string& file) {
   if (bytes.size() < header_size + count_size) {
     refuse_mesh(file, fmt::format("{} bytes are too few for an STL file", bytes.size()), "copy or export it again");
   }
@@ -74,14 +73,14 @@ Content parse_binary_stl(const std::string& bytes, const std::string& file) {
                 fmt::format("it is cut short: {} triangles take {} bytes, there are {}", count, whole, bytes.size()),
                 "copy or export it again");
   }
-  Content content;
+  MeshSoup content;
   for (std::size_t t = 0; t < count; ++t) {
     const std::size_t at = header_size + count_size + record_size * t + 12;  // after the normal
     for (std::size_t i = 0; i < 3; ++i) {
       const auto part = [&](std::size_t k) { return std::bit_cast<float>(get(bytes, at + 12 * i + 4 * k)); };
       content.vertices.push_back({part(0), part(1), part(2)});
     }
-    content.close_triangle();
+    close_triangle(content);
   }
   return content;
 }
@@ -99,8 +98,8 @@ bool parse_vertex(std::istringstream& words, Vec3& p) {
 }
 
 /// The normals of facets are not looked at: the order of the vertices tells them.
-Content parse_text_stl(const std::string& text, const std::string& file) {
-  Content content;
+MeshSoup parse_text_stl(const std::string& text, const std::string& file) {
+  MeshSoup content;
   std::istringstream lines(text);
   std::string line, word, last;
   for (int number = 1; std::getline(lines, line); ++number) {
@@ -118,7 +117,7 @@ Content parse_text_stl(const std::string& text, const std::string& file) {
       content.vertices.push_back(p);
     } else if (last == "endloop") {
       if (content.vertices.size() != 3 * content.triangles.size() + 3) refuse("a facet has three vertices");
-      content.close_triangle();
+      close_triangle(content);
     } else if (last != "solid" && last != "facet" && last != "outer" && last != "endfacet" && last != "endsolid") {
       refuse(fmt::format("'{}' is no word of text STL", word));
     }
@@ -128,10 +127,7 @@ Content parse_text_stl(const std::string& text, const std::string& file) {
   return content;
 }
 
-Content read_stl(const std::filesystem::path& path, const std::string& file) {
-  std::ostringstream whole;
-  whole << std::ifstream(path, std::ios::binary).rdbuf();
-  const std::string bytes = whole.str();
+MeshSoup parse_stl(const std::string& bytes, const std::string& file) {
   // Some binary files start with 'solid' too; no text has a zero.
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");
   const bool text = start != std::string::npos && lower(bytes.substr(start, 5)) == "solid" &&
@@ -139,11 +135,29 @@ Content read_stl(const std::filesystem::path& path, const std::string& file) {
   return text ? parse_text_stl(bytes, file) : parse_binary_stl(bytes, file);
 }
 
-Content read_obj(const std::string& file) {
+/// All files that assimp gets to see: the one that was read. What it names (an OBJ's mtllib) isn't there.
+class OneFile : public Assimp::IOSystem {
+ public:
+  static constexpr const char* name = "drawing.obj";
+  explicit OneFile(const std::string& bytes) : bytes_(bytes) {}
+  bool Exists(const char* file) const override { return std::string_view(file) == name; }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* file, const char*) override {
+    if (!Exists(file)) return nullptr;
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes_.data()), bytes_.size());
+  }
+  void Close(Assimp::IOStream* file) override { delete file; }
+
+ private:
+  const std::string& bytes_;
+};
+
+MeshSoup parse_obj(const std::string& bytes, const std::string& file) {
   Assimp::Importer importer;
-  const aiScene* const scene = importer.ReadFile(file, aiProcess_Triangulate);
+  importer.SetIOHandler(new OneFile(bytes));  // which the importer deletes
+  const aiScene* const scene = importer.ReadFile(OneFile::name, aiProcess_Triangulate);
   if (!scene) refuse_mesh(file, fmt::format("it can't be read: {}", importer.GetErrorString()), "export it again");
-  Content content;
+  MeshSoup content;
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
     const aiMesh& part = *scene->mMeshes[m];
     const int first = static_cast<int>(content.vertices.size());
@@ -162,7 +176,9 @@ Content read_obj(const std::string& file) {
   return content;
 }
 
-Content read_content(const std::filesystem::path& path) {
+}  // namespace
+
+MeshSoup read_triangles(const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::string extension = lower(path.extension().string());
   if (extension != ".stl" && extension != ".obj") {
@@ -171,17 +187,14 @@ Content read_content(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path) || !std::ifstream(path).good()) {
     refuse_mesh(file, "it can't be read", "is the name right, and may you read it?");
   }
-  return extension == ".stl" ? read_stl(path, file) : read_obj(file);
+  const std::string bytes = read_bytes(path, largest_mesh);
+  return extension == ".stl" ? parse_stl(bytes, file) : parse_obj(bytes, file);
 }
-
-}  // namespace
-
-std::vector<Vec3> vertices_in(const std::filesystem::path& path) { return read_content(path).vertices; }
 
 TriangleMesh read_mesh(const std::filesystem::path& path, double unit, MeshOptions options) {
   options.name = path.string();
   require_unit(options.name, unit);
-  Content content = read_content(path);
+  MeshSoup content = read_triangles(path);
   for (Vec3& v : content.vertices) v = unit * v;
   return {std::move(content.vertices), std::move(content.triangles), options};
 }

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
 #include "dem/surface/triangle_mesh.hpp"
 
@@ -18,9 +17,11 @@ namespace soilbin::dem {
 /// can't be read, is cut short, or TriangleMesh refuses what is in it.
 TriangleMesh read_mesh(const std::filesystem::path& file, double unit, MeshOptions options = {});
 
-/// The vertices of such a file before anything is checked of its surface, in the file's unit: for who is to find that
-/// unit. Throws InputError where the file can't be read or is cut short.
-std::vector<Vec3> vertices_in(const std::filesystem::path& file);
+/// What such a file holds before anything is checked of its surface, in the file's unit: for who is to find that unit,
+/// or to mend it. No other file is opened, whatever this one names. Throws InputError where it can't be read, is larger
+/// than largest_mesh or is cut short.
+MeshSoup read_triangles(const std::filesystem::path& file);
+inline constexpr std::size_t largest_mesh = 1'000'000'000;  ///< [bytes]
 
 /// Writes binary STL, atomically; coordinates in single precision, in lengths of `unit` [m]. std::runtime_error where
 /// the system refuses.

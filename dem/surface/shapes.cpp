@@ -3,14 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 
+#include "dem/surface/drawn_wheel.hpp"
 #include "dem/surface/mesh_checks.hpp"
-#include "dem/surface/mesh_files.hpp"
 #include "dem/surface/positive.hpp"
 
 namespace soilbin::dem {
@@ -264,51 +262,11 @@ TriangleMesh smooth_wheel(double radius, double width, int segments, double edge
   return swept("smooth wheel", section, sweep_over("smooth wheel", width, edge, 0), edge);
 }
 
-namespace {
-
-/// How far a mesh reaches from the y axis, and from where to where along it.
-struct Extent {
-  double reach = 0.0, left = std::numeric_limits<double>::infinity(), right = -left;
-  explicit Extent(const std::vector<Vec3>& vertices) {
-    for (const Vec3& p : vertices) {
-      reach = std::max(reach, std::hypot(p.x, p.z));
-      left = std::min(left, p.y), right = std::max(right, p.y);
-    }
-  }
-};
-
-/// The wheel in a file, in the unit that makes it the tire's size.
-TriangleMesh drawn_wheel(const Tire& tire, const std::string& file) {
-  constexpr double same_reach = 0.02, same_width = 0.05;
-  constexpr std::array<double, 4> units = {1e-3, 1e-2, 1.0, 0.0254};  // mm, cm, m, inch
-  const double outer = outer_radius(tire);
-  const std::vector<Vec3> vertices = vertices_in(file);
-  if (vertices.empty()) return read_mesh(file, 1.0, {.closed = true});  // which says what is wrong with none
-  const Extent as_drawn(vertices);
-  const auto unit =
-      std::ranges::find_if(units, [&](double one) { return std::abs(one * as_drawn.reach / outer - 1) <= same_reach; });
-  if (unit == units.end())
-    refuse_mesh(
-        file,
-        fmt::format("it reaches {:.4g} from the y axis: no unit (mm, cm, m, inch) makes that the tire's {:.4g} mm",
-                    as_drawn.reach, 1000 * outer),
-        "the tire's radius and lug height together are how far the mesh reaches");
-  for (const double side : {-as_drawn.left, as_drawn.right})
-    if (!(std::abs(2 * *unit * side / tire.width - 1) <= same_width))
-      refuse_mesh(file,
-                  fmt::format("it goes from {:.4g} to {:.4g} mm along y, {:.4g} mm either way are the tire's width",
-                              1000 * *unit * as_drawn.left, 1000 * *unit * as_drawn.right, 500 * tire.width),
-                  "the axle is the y axis, the wheel's middle the origin");
-  return read_mesh(file, *unit, {.closed = true});
-}
-
-}  // namespace
-
 TriangleMesh tire_surface(const Tire& tire, const TireMeshing& meshing) {
   const std::string name = tire.name.empty() ? "tire" : tire.name;
   require_size(name, "its radius", tire.radius);
   require_size(name, "its width", tire.width);
-  if (!meshing.drawn.empty()) return drawn_wheel(tire, meshing.drawn);
+  if (!meshing.drawn.empty()) return read_wheel(meshing.drawn, tire).mesh;
   require_size(name, "the target edge", meshing.edge);
   if (!is_lugged(tire)) {
     const int segments = std::max(24, parts_of(name, 2 * pi * tire.radius, meshing.edge));

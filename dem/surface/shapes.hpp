@@ -42,9 +42,7 @@ struct TireMeshing {
 /// Volume, as the edge goes to zero: width (pi R^2 + count (A(R + h) - A(R))), A(r) = s sqrt(r^2 - s^2) + r^2 asin(s/r)
 /// with s half the thickness.
 ///
-/// Where meshing.drawn names a file, the mesh in it: closed, the axle the y axis through the origin, in mm, cm, m or
-/// inches, whichever makes it as large as the tire. Throws InputError where none does: it reaches radius + lugs.height
-/// to 2 %, and is tire.width wide, half on either side, to 5 %.
+/// Where meshing.drawn names a file, the mesh in it (drawn_wheel.hpp).
 TriangleMesh tire_surface(const Tire& tire, const TireMeshing& meshing = {});
 
 }  // namespace soilbin::dem

@@ -85,6 +85,15 @@ void find_minima(const TriangleMesh& mesh, std::span<const int> candidates, cons
                  Minima& found) {
   found.count = found.dropped = 0;
   ClosestPoint closest;
+  int judged = -1;  // the last vertex that was closest: all triangles of a fan ask of the same one
+  bool verdict = false;
+  const auto is_one = [&](int t) {
+    if (closest.feature < ClosestPoint::corner || closest.feature == ClosestPoint::face)
+      return is_minimum(mesh, t, closest, c, slack);
+    const int vertex = mesh.triangles()[t][closest.feature - ClosestPoint::corner];
+    if (vertex != judged) judged = vertex, verdict = is_minimum(mesh, t, closest, c, slack);
+    return verdict;
+  };
   // Some at a time: first those whose ball is near, without branches to guess wrong.
   constexpr std::size_t at_a_time = 64;
   int near[at_a_time];
@@ -98,9 +107,7 @@ void find_minima(const TriangleMesh& mesh, std::span<const int> candidates, cons
     }
     for (int k = 0; k < count; ++k) {
       const int t = near[k];
-      if (closest_within(mesh, t, c, radius, closest) && is_minimum(mesh, t, closest, c, slack)) {
-        add(closest, t, slack, found);
-      }
+      if (closest_within(mesh, t, c, radius, closest) && is_one(t)) add(closest, t, slack, found);
     }
   }
 }

@@ -47,10 +47,10 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Corners> tria
   if (!(options.weld >= 0 && options.weld < 0.1)) {
     refuse_mesh(name_, "the welding distance must be from 0 to 0.1 of the mesh's diagonal", "1e-6 is the default");
   }
-  weld(vertices_, triangles_, distance);
-  check_triangles(vertices_, triangles_, distance, name_);
+  if (!options.as_given) weld(vertices_, triangles_, distance);
+  check_triangles(vertices_, triangles_, options.as_given ? 0 : distance, name_);
   links_ = link_edges(vertices_, triangles_, name_);
-  check_t_joints(vertices_, triangles_, distance, name_);
+  if (!options.as_given) check_t_joints(vertices_, triangles_, distance, name_);
   if (closed_) check_closed(vertices_, triangles_, links_, name_);
 
   bounds_ = box_of(vertices_, triangles_);
@@ -86,15 +86,14 @@ void TriangleMesh::set_vertex_data() {
   }
   vertex_normals_.resize(vertices_.size());
   first_direction_ = {0};
-  std::vector<int> ends;
+  std::vector<int> reached_from(vertices_.size(), -1);  // the last vertex from which an edge led here
   for (int v = 0; v < static_cast<int>(vertices_.size()); ++v) {
-    ends.clear();
     for (const auto& [t, i] : round[v]) {
       const int b = triangles_[t][(i + 1) % 3], c = triangles_[t][(i + 2) % 3];
       const Vec3 to_b = unit(vertices_[b] - vertices_[v]), to_c = unit(vertices_[c] - vertices_[v]);
       for (const int end : {b, c}) {
-        if (std::find(ends.begin(), ends.end(), end) == ends.end()) {
-          ends.push_back(end);
+        if (reached_from[end] != v) {
+          reached_from[end] = v;
           directions_.push_back(end == b ? to_b : to_c);
         }
       }

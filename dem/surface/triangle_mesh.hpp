@@ -17,6 +17,9 @@ struct MeshOptions {
   /// Two vertices closer than this share of the bounding box's diagonal are one; so close, a vertex lies on an edge
   /// and a triangle has no height. Far above the rounding of a file in single precision.
   double weld = 1e-6;
+  /// Vertices stay as they are, and parts of the surface may touch: nothing is welded, and T-joints are not looked for.
+  /// For what was welded or mended before (mesh_mending.hpp, restarts).
+  bool as_given = false;
   std::string name = "mesh";  ///< what messages call it, a file's path say
 };
 
@@ -100,6 +103,12 @@ class TriangleMesh {
   double area_ = 0, rounding_ = 0;
   bool closed_ = false;
   std::string name_;
+};
+
+/// Vertices and triangles of which nothing is checked. Lengths in any unit.
+struct MeshSoup {
+  std::vector<Vec3> vertices;
+  std::vector<TriangleMesh::Corners> triangles;
 };
 
 }  // namespace soilbin::dem

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -122,12 +123,13 @@ TEST_F(MeshFiles, AWheelAsDrawnHasTheTiresSizeAndStandsOnItsAxle) {
   other.radius = 0.12;
   EXPECT_THAT(
       says(tire_surface(other, {.edge = 0.01})),
-      testing::HasSubstr("it reaches 130 from the y axis: no unit (mm, cm, m, inch) makes that the tire's 100 mm"));
+      testing::HasSubstr("it reaches 130 from its axle, y: no unit (mm, cm, m, inch) makes that the tire's 100 mm"));
   other = small_rover(), other.width = 0.08;
-  EXPECT_THAT(says(tire_surface(other, {.edge = 0.01})), testing::HasSubstr("from -40 to 40 mm along y, 55 mm"));
+  EXPECT_THAT(says(tire_surface(other, {.edge = 0.01})),
+              testing::HasSubstr("in mm it goes from -40 to 40 mm along y, 55 mm"));
   EXPECT_THAT(says(plate(0.2, 0.11, 1, 1)),
-              testing::AllOf(testing::HasSubstr("not closed"), testing::HasSubstr("(0.1, -0.055, 0) m")))
-      << "an open mesh, drawn in mm and told in m";
+              testing::AllOf(testing::HasSubstr("not closed"), testing::HasSubstr("(100, -55, 0)")))
+      << "an open mesh, told in the drawing's unit";
 }
 
 TEST_F(MeshFiles, WritesWhatTheFormatSays) {
@@ -161,6 +163,21 @@ TEST_F(MeshFiles, ObjHasPolygonsAndParts) {
   const TriangleMesh two = read_mesh(file("two.obj", cube + second), 1, {.closed = true});
   EXPECT_EQ(two.size(), 16);
   EXPECT_NEAR(mass_properties(two).volume, 1 + 1.0 / 6, 1e-7);
+}
+
+// What an OBJ names is not opened: a pipe would hang the command, and lines of another file would be quoted.
+TEST_F(MeshFiles, AnObjOpensNothingButItself) {
+  const std::string cube =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nusemtl red\n"
+      "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  for (const std::string& other : {(folder_ / "pipe").string(), std::string("pipe"), std::string("/etc/passwd")}) {
+    const TriangleMesh mesh = read_mesh(file("named.obj", "mtllib " + other + "\n" + cube), 1, {.closed = true});
+    EXPECT_EQ(mesh.size(), 12) << other;
+  }
+  EXPECT_THAT(refusal(folder_ / "pipe"), testing::HasSubstr("no kind of mesh file"));
+  fs::rename(folder_ / "pipe", folder_ / "pipe.obj");
+  EXPECT_THAT(refusal(folder_ / "pipe.obj"), testing::HasSubstr("it can't be read"));
 }
 
 TEST_F(MeshFiles, BrokenFilesAreRefusedByName) {
