@@ -49,7 +49,7 @@ std::vector<std::string> presumptions(const std::vector<EffectChoice>& choices, 
     std::string name = id, listed;
     std::replace(name.begin(), name.end(), '_', ' ');
     for (const std::string& value : values) listed += (listed.empty() ? "" : ", ") + value;
-    sentences.push_back(fmt::format("{} presumes {}, which the tire does not declare{}.", name, listed, else_do));
+    sentences.push_back(fmt::format("{} assumes {}, which the tire does not declare{}.", name, listed, else_do));
   }
   return sentences;
 }

@@ -98,7 +98,7 @@ int check(const std::string& name, bool json, const Session& session) {
   }
   fmt::print("valid: {}\n", verdict.what);
   for (const std::string& warning : verdict.warnings) fmt::print("warning: {}\n", warning);
-  if (verdict.warnings.empty()) fmt::print("nothing doubtful found\n");
+  if (verdict.warnings.empty()) fmt::print("no warnings\n");
   return done;
 }
 

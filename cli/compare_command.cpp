@@ -71,7 +71,7 @@ void ask_loop(const compare::Comparison& comparison, unsigned seed, compare::Com
   try {
     compare::ask_loop(comparison, options, about);
   } catch (const NoSolution& none) {
-    fmt::print(stderr, "soilbin: the loop has no answer: {}\n", none.what());
+    fmt::print(stderr, "soilbin: the loop gives no answer: {}\n", none.what());
   }
 }
 

@@ -170,7 +170,7 @@ int print_shelves(bool json, const Workplace& place) {
     text += fmt::format("{}{} (soilbin list {}){}", text.empty() ? "" : "\n", view.title, folder, as_text(table));
     document[folder] = std::move(names);
   }
-  text += fmt::format("\nEffects: {} forms (soilbin list effects)\n", bekker_wong::effect_catalogue().size());
+  text += fmt::format("\nEffects: {} variants (soilbin list effects)\n", bekker_wong::effect_catalogue().size());
   fmt::print("{}", json ? compare::json_text(document) : text);
   return done;
 }
@@ -222,7 +222,7 @@ int print_effects(bool json) {
       fmt::print("      {} = {}, from {} to {}: {}\n", p.name, in_unit(p.fallback, p.unit), in_unit(p.lower, p.unit),
                  in_unit(p.upper, p.unit), p.meaning);
     for (const bekker_wong::Presumption& p : form.presumes)
-      fmt::print("      presumes {} = {} where the tire declares none\n", p.key, p.rule);
+      fmt::print("      assumes {} = {} if the tire declares none\n", p.key, p.rule);
   }
   if (json) print_json({{"format", "soilbin-list/1"}, {"effects", all}});
   return done;

@@ -25,7 +25,7 @@ const EffectFormWords& pick_form(const std::string& id, const std::string& form,
     if (form.empty() || f.form == form) return f;
     names.push_back(f.form);
   }
-  throw InputError(fmt::format("--effect: '{}' has no form '{}'{}\n  hint: its forms are {}", id, clipped(form),
+  throw InputError(fmt::format("--effect: '{}' has no variant '{}'{}\n  hint: its variants are {}", id, clipped(form),
                                did_you_mean(form, names), listed(names)));
 }
 
@@ -134,8 +134,8 @@ void add_effect(std::vector<EffectChoice>& effects, const std::string& text, con
   for (const EffectChoice& known : effects)
     if (known.id == effect.id)
       throw InputError(
-          fmt::format("--effect: '{}' is given twice ({} and {}): its forms describe the same physics\n"
-                      "  hint: give one form; a case file can set models with different forms side by side",
+          fmt::format("--effect: '{}' is given twice ({} and {}): its variants describe the same physics\n"
+                      "  hint: give one variant; a case file can set models with different variants side by side",
                       effect.id, known.form, effect.form));
   effects.push_back(std::move(effect));
 }

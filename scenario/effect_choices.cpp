@@ -73,7 +73,7 @@ EffectChoice read_effect(const YamlNode& node, const EffectVocabulary& vocabular
 EffectFormWords form_of(const EffectChoice& choice, const EffectVocabulary& vocabulary) {
   for (EffectFormWords& form : vocabulary.forms(choice.id))
     if (choice.form.empty() || form.form == choice.form) return std::move(form);
-  throw InputError(fmt::format("effect '{}' has no form '{}'", choice.id, choice.form));
+  throw InputError(fmt::format("effect '{}' has no variant '{}'", choice.id, choice.form));
 }
 
 std::vector<EffectChoice> read_effects(const YamlNode& list, const EffectVocabulary& vocabulary,

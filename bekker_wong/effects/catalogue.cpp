@@ -86,7 +86,7 @@ const EffectForm& find_form(const EffectChoice& choice) {
   }
   if (forms.empty()) throw InputError(fmt::format("unknown effect '{}'{}", choice.id, suggestion(choice.id, ids)));
   throw InputError(
-      fmt::format("effect '{}' has no form '{}'{}", choice.id, choice.form, suggestion(choice.form, forms)));
+      fmt::format("effect '{}' has no variant '{}'{}", choice.id, choice.form, suggestion(choice.form, forms)));
 }
 
 const EffectParameter& find_parameter(const EffectForm& form, const std::string& name) {

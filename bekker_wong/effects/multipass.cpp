@@ -102,7 +102,7 @@ EffectForm reload(const std::string& form, bool from_surface) {
       .parameters = {{"a", "-", 0.6, 0.0, 1.5, "depth of the rut left by many passes over the static sinkage"},
                      {"p0", "-", 1.0, 0.2, 20.0, "passes after which most of the compaction is done"},
                      {"e", "-", 0.1, 0.02, 1.0, "elastic share: rebound of the rut over the static sinkage"}},
-      .steady_only = from_surface ? "a drive counts its sinkage from the rut's floor: take the form reload" : "",
+      .steady_only = from_surface ? "a drive counts its sinkage from the rut's floor: take the variant reload" : "",
       .conditions = {"pass"},
       .make = [from_surface](const std::vector<double>& p) { return std::make_unique<const Reload>(p, from_surface); }};
 }

@@ -10,6 +10,8 @@
 namespace soilbin::compare {
 namespace {
 
+constexpr double noise_level = 0.05;  // p below which noise alone is no explanation
+
 /// "4,000"
 std::string thousands_apart(long long value) {
   std::string text = std::to_string(value);
@@ -48,22 +50,12 @@ std::string times_likelier(double log_odds) {
   return thousands_apart(std::llround(std::round(odds / step) * step)) + " times";
 }
 
-std::string odds_words(const ResidualSignatures& signatures) {
-  constexpr double often = 0.095;
-  const double p = signatures.p_value;
-  if (in_none(signatures))
-    return fmt::format("none of {} simulated campaigns", thousands_apart(signatures.simulations));
-  if (p >= often) return fmt::format("{:.0f} of 100 campaigns", 100 * p);
-  const double one_in = 1 / std::max(p, 1e-12), step = std::pow(10.0, std::floor(std::log10(one_in)) - 1);
-  return fmt::format("1 of {} campaigns", thousands_apart(std::llround(std::round(one_in / step) * step)));
-}
-
 std::string p_words(const ResidualSignatures& signatures) {
   return fmt::format("p {} {:.2g}", in_none(signatures) ? "<" : "=", signatures.p_value);
 }
 
-std::string odds_and_p(const ResidualSignatures& signatures) {
-  return fmt::format("noise alone would look like this in {}, {}", odds_words(signatures), p_words(signatures));
+std::string noise_verdict(const ResidualSignatures& signatures) {
+  return fmt::format("{}explained by noise ({})", signatures.p_value < noise_level ? "not " : "", p_words(signatures));
 }
 
 std::string share_words(double weight) {

@@ -1,6 +1,6 @@
 // Sets of effects and the evidence for them in words: names, odds, shares.
 //
-//   odds_and_p(found.signatures);   // "noise alone would look like this in 1 of 81 campaigns, p = 0.012"
+//   noise_verdict(found.signatures);   // "not explained by noise (p = 0.012)"
 #pragma once
 
 #include <set>
@@ -20,13 +20,10 @@ std::string joined(const std::set<std::string>& ids);
 /// Names for people: "side-wall bulldozing, slip sinkage and hard layer"; "no effect" for an empty set.
 std::string named_effects(const std::set<std::string>& ids);
 
-/// How often noise alone would look like this: "1 of 81 campaigns", "30 of 100 campaigns", "none of 4,000 simulated
-/// campaigns".
-std::string odds_words(const ResidualSignatures& signatures);
 /// "p = 0.012"; "p < 0.00025" where no simulated campaign looked like this.
 std::string p_words(const ResidualSignatures& signatures);
-/// "noise alone would look like this in 1 of 81 campaigns, p = 0.012".
-std::string odds_and_p(const ResidualSignatures& signatures);
+/// "not explained by noise (p = 0.012)"; from p = 0.05 on "explained by noise (p = 0.3)".
+std::string noise_verdict(const ResidualSignatures& signatures);
 
 /// Odds from their logarithm: "132 times", "more than a million times".
 std::string times_likelier(double log_odds);

@@ -51,20 +51,19 @@ Conclusion without_effect(const Attribution& found, const ResidualTests& before,
   std::string why;
   if (found.unnamed.gain > thresholds::unnamed_instead)
     why = fmt::format(
-        "a function of the conditions that none of them makes explains the residual {} better than noise: it looks "
-        "most like {}",
+        "a function of the conditions unlike any of them explains the residual {} better than noise: most like {}",
         times_likelier(found.unnamed.gain), found.unnamed.most_likely);
   else if (p <= thresholds::first_test_level)
     why = fmt::format("the residual is more than noise (p = {:.2g})", p);
   else if (p_reruns <= thresholds::rerun_level)
-    why = fmt::format("the setpoints are off by more than their re-runs differ (p = {:.2g})", p_reruns);
+    why = fmt::format("setpoints deviate more than their re-runs scatter (p = {:.2g})", p_reruns);
   else if (before.serial.p_value <= thresholds::serial_level)
     why = fmt::format("the residuals of the {} are alike in runs made one after the other (p = {:.2g})",
                       before.serial.series, before.serial.p_value);
   else
     return {Verdict::nothing_missing, std::move(nothing)};
   return {Verdict::unknown_effect,
-          fmt::format("no effect of the catalogue is accepted ({}), but {}", odds_and_p(found.signatures), why)};
+          fmt::format("no known effect is accepted ({}), but {}", noise_verdict(found.signatures), why)};
 }
 
 /// Why what the chosen candidate leaves is the work of another effect; nothing where it may be noise or its form's.
@@ -75,17 +74,16 @@ std::optional<std::string> more_than_named(const Attribution& found, const Resid
   const double test_level = one ? thresholds::dominant_test_level : thresholds::second_test_level;
   const double unnamed_level = one ? thresholds::dominant_unnamed_beside : thresholds::unnamed_beside;
   if (choice.after.lack_of_fit.p_value < test_level && left > thresholds::unexplained_share)
-    return fmt::format("but the best set of named effects leaves {:.0f} % of it", 100 * left);
+    return fmt::format("but the best set of known effects leaves {:.0f} % of it", 100 * left);
   if (choice.unnamed.gain > unnamed_level)
     return fmt::format(
-        "and after the best set of named effects a function of the conditions that none of them makes explains what is "
-        "left {} better than noise: it looks most like {}",
+        "and after the best set of known effects a function of the conditions unlike any of them explains the rest {} "
+        "better than noise: most like {}",
         times_likelier(choice.unnamed.gain), choice.unnamed.most_likely);
   if (choice.after.reruns.p_value < thresholds::rerun_level &&
       choice.after.reruns.excess > thresholds::rerun_share * before.reruns.excess)
     return fmt::format(
-        "and after the best set of named effects the setpoints are still off by more than their re-runs differ (p = "
-        "{:.2g})",
+        "and after the best set of known effects setpoints still deviate more than their re-runs scatter (p = {:.2g})",
         choice.after.reruns.p_value);
   return std::nullopt;
 }
@@ -94,10 +92,10 @@ std::optional<std::string> more_than_named(const Attribution& found, const Resid
 std::optional<std::string> not_judgeable(const Attribution& found) {
   const double freedom = found.base.data().noise.typical_freedom();
   if (freedom < thresholds::min_noise_freedom)
-    return fmt::format("the noise of a channel rests on {:.1f} degrees of freedom only, too few to judge by", freedom);
+    return fmt::format("the noise of a channel has only {:.1f} degrees of freedom, too few to judge by", freedom);
   const std::vector<Signature>& all = found.signatures.all;
   if (std::ranges::none_of(all, [](const Signature& s) { return s.testable; }))
-    return "no effect of the catalogue would show in these data, whatever its size";
+    return "no known effect would be visible in these data, whatever its size";
   return std::nullopt;
 }
 
@@ -105,14 +103,14 @@ Conclusion conclude(const Attribution& found, const ResidualTests& before,
                     const std::optional<ChosenCandidate>& choice) {
   const double p = found.signatures.p_value;
   if (!choice)
-    return without_effect(found, before,
-                          fmt::format("the strongest of all effects reaches p = {:.3g} among the whole catalogue", p));
+    return without_effect(found, before, fmt::format("the strongest of all known effects reaches p = {:.3g}", p));
   if (const auto more = more_than_named(found, before, *choice))
-    return {Verdict::unknown_effect, fmt::format("the residual is real ({}), {}", odds_and_p(found.signatures), *more)};
+    return {Verdict::unknown_effect,
+            fmt::format("the residual is real ({}), {}", noise_verdict(found.signatures), *more)};
   if (!choice->stands)
     return without_effect(found, before,
-                          fmt::format("the best effect fits ({}) but does not predict held-out conditions "
-                                      "better (gain in ln density a condition {:.2g} +- {:.2g})",
+                          fmt::format("the best effect fits ({}) but does not improve cross-validated "
+                                      "predictions (gain in ln density a condition {:.2g} +- {:.2g})",
                                       p_words(found.signatures), choice->gain.mean, choice->gain.std_error));
   return {Verdict::effect_found, fmt::format("{} among the whole catalogue", p_words(found.signatures))};
 }
@@ -132,7 +130,7 @@ std::optional<std::string> too_small(const Campaign& campaign, const Observation
   const int free = free_parameters(campaign.soil);
   if (values - free >= thresholds::min_spare_values && observations.blocks() >= thresholds::min_conditions)
     return std::nullopt;
-  return fmt::format("{} measured values of {} for {} soil values leave too little to judge by", values,
+  return fmt::format("{} measured values of {} are too few for {} soil values", values,
                      counted(observations.blocks(), "condition"), free);
 }
 
@@ -157,10 +155,9 @@ Judgement without_its_effects(Judgement judgement, const std::string& why_not) {
 Judgement judge_with_model_discrepancy(Attribution found, const AttributionOptions& options) {
   const ResidualTests before = test_residual(found.base, options.seed);
   auto choice = settle(found, options);
-  std::string reason = fmt::format(
-      "the base model is off by what a smooth function of load and slip makes good, and beside that {} stands out most "
-      "({})",
-      named_effects(found.best().ids), odds_and_p(found.signatures));
+  std::string reason =
+      fmt::format("the base model is wrong by a smooth function of load and slip; beside that {} is strongest ({})",
+                  named_effects(found.best().ids), noise_verdict(found.signatures));
   return {std::move(found), before, std::move(choice), Verdict::unknown_effect, std::move(reason)};
 }
 

@@ -105,7 +105,7 @@ void write_markdown(const fs::path& folder, const Comparison& answered, const Co
   md.text("# " + plain(about.page.title));
   for (const Clause& clause : summary(comparison, about.loop ? &*about.loop : nullptr))
     md.text(fmt::format("- {}{}", clause.about.empty() ? "" : "**" + plain(clause.about) + ".** ", plain(clause.text)));
-  if (!about.page.doubts.empty()) md.text("## What is doubtful");
+  if (!about.page.doubts.empty()) md.text("## Warnings");
   for (const std::string& doubt : about.page.doubts) md.text("- " + plain(doubt));
   md.text("## Curves");
   md.figure("overview", overview_sheet(comparison));

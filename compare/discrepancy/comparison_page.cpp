@@ -45,12 +45,12 @@ std::vector<std::pair<std::string, std::string>> evidence_of(const Comparison& c
                        fmt::format("{} row{}", clause.rows.size(), clause.rows.size() == 1 ? "" : "s"));
   }
   for (const std::string& evidence : clause.evidence) {
-    const std::string anchor = evidence == "budget"             ? "why"
-                               : evidence == "the loop"         ? "loop"
-                               : evidence == "rule"             ? "method"
-                               : evidence == "table of points"  ? "points"
-                               : evidence == "what is doubtful" ? "doubts"
-                                                                : "tallies";
+    const std::string anchor = evidence == "budget"            ? "why"
+                               : evidence == "the loop"        ? "loop"
+                               : evidence == "rule"            ? "method"
+                               : evidence == "table of points" ? "points"
+                               : evidence == "warnings"        ? "doubts"
+                                                               : "tallies";
     links.emplace_back(anchor, evidence);
   }
   return links;
@@ -113,19 +113,18 @@ void add_channels(Page& page, const Comparison& comparison) {
   if (comparison.tallies.empty()) return;
   page.section("Channel by channel", "tallies");
   Table tally = tally_table(comparison);
-  tally.caption += ". Green: no more than the stated errors alone would give";
+  tally.caption += ". Green: within what uncertainty explains";
   page.table(tally);
   const auto count = [&](DifferenceFinding finding) {
     return std::to_string(
         std::ranges::count_if(comparison.differences, [&](const Difference& d) { return d.finding == finding; }));
   };
-  page.figures_at_a_glance(
-      {{std::to_string(comparison.question.study.conditions.size()), "conditions"},
-       {std::to_string(comparison.differences.size()), "numbers compared"},
-       {count(DifferenceFinding::difference), "differences"},
-       {count(DifferenceFinding::within_scatter), "within the scatter of a run"},
-       {count(DifferenceFinding::within_errors), "covered by the errors"},
-       {count(DifferenceFinding::not_judged), "not judged: both sides share their errors or state none"}});
+  page.figures_at_a_glance({{std::to_string(comparison.question.study.conditions.size()), "conditions"},
+                            {std::to_string(comparison.differences.size()), "numbers compared"},
+                            {count(DifferenceFinding::difference), "differences"},
+                            {count(DifferenceFinding::within_scatter), "within the scatter of a run"},
+                            {count(DifferenceFinding::within_errors), "within the errors"},
+                            {count(DifferenceFinding::not_judged), "not tested: same soil data"}});
 }
 
 void add_differences(Page& page, const Comparison& comparison) {
@@ -147,8 +146,9 @@ void add_causes(Page& page, const Comparison& comparison) {
     page.backed_summary(backed(comparison, causes));
   }
   page.paragraph(
-      "The pull is what shears the soil backward less what presses it down and away. Stresses lie under the wheel from "
-      "where the soil lets go (behind, negative) to where it meets the wheel.");
+      "Pull is the soil's thrust less its resistance. Stresses run from the exit angle (behind the axle, negative) to "
+      "the "
+      "entry angle.");
   std::vector<Choice> parts;
   const auto& conditions = comparison.question.study.conditions;
   for (std::size_t i = 0; i < conditions.size(); ++i) {
@@ -160,8 +160,8 @@ void add_causes(Page& page, const Comparison& comparison) {
                        const Sheet stresses = stress_sheet(comparison, i);
                        if (!stresses.plots.empty())
                          page.figure(stresses,
-                                     "How hard the soil presses on the wheel along the contact, and how it "
-                                     "shears it: each model at this condition.");
+                                     "Normal and shear stress on the wheel along the contact, of each model at this "
+                                     "condition.");
                      }});
   }
   const std::string telling = in_words(conditions[condition_of_largest_difference(comparison)]);
@@ -173,7 +173,7 @@ void add_causes(Page& page, const Comparison& comparison) {
   for (std::size_t c = 0; c < names.size(); ++c)
     contacts.push_back({named(names[c]), [&page, &comparison, c] {
                           page.figure(contact_sheet(comparison, c),
-                                      "Where the contact begins and ends, and the sinkage beyond that at slip 0.");
+                                      "Entry and exit angles, and the sinkage that slip adds.");
                         }});
   page.choices("Curve", contacts, (names.size() - 1) / 2);
   if (const Table table = sinkage_table(comparison); !table.rows.empty()) page.table(table);
@@ -183,8 +183,8 @@ void add_loop(Page& page, const ComparisonAbout& about) {
   if (!about.loop) return;
   page.section("What the analytic model lacks", "loop");
   page.paragraph(fmt::format(
-      "The loop takes the results of '{}' as if they had been measured: it refits the soil within its declared doubt, "
-      "tests every effect of the catalogue, and judges on conditions that neither choice nor fit has seen.",
+      "The loop takes the results of '{}' as measured: it refits the soil within its declared uncertainty, tests every "
+      "known effect, and judges by cross-validation.",
       about.loop->campaign));
   page.backed_summary(headline(*about.loop, about.mistaken_columns));
   if (const Table next = next_run_table(*about.loop); !next.rows.empty()) page.table(next);
@@ -224,8 +224,8 @@ void add_method(Page& page, const Comparison& comparison, const ComparisonAbout&
        "Analytic: the standard deviations of the soil's values, propagated to first order. They move all conditions "
        "together; the joint test takes that in. " +
            errors_in_words(comparison.question.scenario),
-       "Grains: block averages of each run, or the spread between packings where that is larger. A point from one "
-       "packing says nothing of that spread, and its row carries the doubt.",
+       "Grains: block averages of each run, or the scatter between bed samples where that is larger. With one bed "
+       "sample that scatter is unknown, and its row says so.",
        "Convergence of the balance: 1e-14 of the load; of its quadrature 1e-9. Of grains with their size: by the study "
        "of grain sizes (docs/lab/grain-size.md), where it reaches; with the time step and the bed: not part of a "
        "comparison; see docs/guide/soil-bin.md.",

@@ -108,7 +108,7 @@ std::string label_with_limits(const Side& side, bool coarse_grains) {
   if (coarse_grains) label += ", coarse for the wheel";
   const bool single =
       std::ranges::all_of(side.points, [](const SidePoint& point) { return !point.result || of_one_packing(point); });
-  return single ? label + ", one packing each" : label;
+  return single ? label + ", one bed sample each" : label;
 }
 
 /// The points of a series at which `marked` holds of the side's point, as marks of their own; no points: none is.
@@ -129,8 +129,8 @@ void mark_limits(Plot& plot, const Comparison& comparison, const std::vector<std
     const auto series = std::ranges::find_if(plot.series, [&](const Series& one) { return one.label == side.label; });
     if (side.kind != SideKind::grains || series == plot.series.end()) continue;
     series->label = label_with_limits(side, coarse_grains);
-    if (series->label.find("one packing") == std::string::npos)
-      marks.push_back(marks_on(*series, "one packing: the scatter between beds is not known", single_color, members,
+    if (series->label.find("one bed sample") == std::string::npos)
+      marks.push_back(marks_on(*series, "one bed sample: the scatter is unknown", single_color, members,
                                [&](std::size_t i, double) { return of_one_packing(side.points[i]); }));
     if (sinkage)
       marks.push_back(marks_on(*series, "negative sinkage: the tread stands above the mean surface", negative_color,

@@ -33,9 +33,10 @@ std::string rows_anchor(const Tally& t) { return fmt::format("rows-{}-{}-{}", t.
 Table tally_table(const Comparison& comparison) {
   constexpr std::size_t more_than_a_channel = 2;
   const bool several = comparison.sides.size() > more_than_a_channel;
-  MarkedTable table{"Channel by channel, the widest apart first",
-                    {"channel", "root mean square", "errors alone", "mean difference", "differ", "widest at"},
-                    {true, false, false, false, true, true}};
+  MarkedTable table{
+      "Channel by channel, the widest apart first",
+      {"channel", "RMS difference", "expected from uncertainty", "mean difference", "differ", "widest at"},
+      {true, false, false, false, true, true}};
   for (const Tally* t : widest_first(comparison)) {
     const Difference& worst = comparison.differences[t->worst];
     const std::string pair =
@@ -50,7 +51,7 @@ Table tally_table(const Comparison& comparison) {
          {in_unit(t->channel, t->rms), fmt::format("{} of {}", percent(t->rms_share), measure_of(*t)), tone},
          t->expected_rms > 0 ? in_unit(t->channel, t->expected_rms) : "-",
          in_unit(t->channel, t->bias),
-         {t->unknown == t->values ? "not judged" : fmt::format("{} of {}", t->differ, t->values),
+         {t->unknown == t->values ? "not tested" : fmt::format("{} of {}", t->differ, t->values),
           t->unknown == t->values ? ""
                                   : fmt::format("{} within scatter, {} within errors", t->in_scatter, t->in_errors)},
          {in_words(comparison.question.study.conditions[worst.condition]),
@@ -80,7 +81,7 @@ Table rows_table(const Comparison& comparison, const Tally& tally) {
 Table points_table(const Comparison& comparison, const Side& side) {
   Table table{side.label,
               {"condition", "drawbar pull [N]", "torque [N m]", "sinkage [mm]", "lateral force [N]", "runs",
-               "scatter of the pull [N]", "doubts"},
+               "scatter of the pull [N]", "warnings"},
               {true, false, false, false, false, false, false, true}};
   for (std::size_t i = 0; i < side.points.size(); ++i) {
     const SidePoint& point = side.points[i];
@@ -106,7 +107,7 @@ Table budget_table(const Comparison& comparison, std::size_t condition) {
     for (const double force : row.force) cells.push_back(number(force));
     table.add(std::move(cells));
   }
-  std::vector<TableCell> rest = {"left unexplained (largest that chance leaves)"}, pull = {"drawbar pull"};
+  std::vector<TableCell> rest = {"unexplained (at most by chance)"}, pull = {"drawbar pull"};
   for (const std::size_t s : budget.sides) {
     const TractionResult& result = *comparison.sides[s].points[condition].result;
     rest.push_back(rest_cell(result.budget_rest));
@@ -117,7 +118,7 @@ Table budget_table(const Comparison& comparison, std::size_t condition) {
 }
 
 Table sinkage_table(const Comparison& comparison) {
-  Table table{"Sinkage [mm]: what the load presses in at slip 0, and what slip adds at the largest slip",
+  Table table{"Sinkage [mm] at slip 0, and what the largest slip adds",
               {"curve", "side", "at slip 0", "slip [%]", "added by slip"},
               {true, true}};
   const auto& conditions = comparison.question.study.conditions;
@@ -135,7 +136,7 @@ Table sinkage_table(const Comparison& comparison) {
 }
 
 Table joint_table(const Comparison& comparison) {
-  Table table{"All values at once, with the soil's doubt that conditions share",
+  Table table{"All values together, with the soil's uncertainty, which all conditions share",
               {"side", "against", "values", "chi2, soil exact", "chi2", "freedom of the noise", "p-value"},
               {true, true}};
   for (const JointTest& test : comparison.joint)

@@ -13,7 +13,7 @@ namespace {
 constexpr std::pair<std::string_view, std::string_view> finding_words[] = {{"difference", "difference"},
                                                                            {"within_scatter", "within the scatter"},
                                                                            {"within_errors", "within the errors"},
-                                                                           {"not_judged", "not judged"}};
+                                                                           {"not_judged", "not tested"}};
 
 bool speaks(const SidePoint& point, std::size_t channel) {
   return point.result && point.has[channel] && std::isfinite(((*point.result).*channel_views[channel].predicted).value);

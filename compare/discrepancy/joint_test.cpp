@@ -106,7 +106,7 @@ JointOutcome joint_test(const Side& reference, const Case& question, const Model
   const WheelPredictor predictor(campaign, observations);
   const Estimated estimated = estimated_of(observations, reference);
   if (reference.kind == SideKind::grains && !reference.scatter_known && std::isinf(estimated.freedom))
-    return {std::nullopt, "how far packings scatter is not known; it takes two of them or more, at some conditions"};
+    return {std::nullopt, "the scatter between bed samples is unknown: run two or more at some conditions"};
   if (std::string why = why_not_tested(estimated); !why.empty()) return {std::nullopt, why};
   VectorXd predicted;
   BalanceMemory balanced;

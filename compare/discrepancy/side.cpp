@@ -19,10 +19,8 @@ void doubt_budget(SidePoint& point) {
   if (!point.result) return;
   const BudgetRest& rest = point.result->budget_rest;
   if (std::abs(rest.force) > rest.bound)
-    point.doubts.push_back(
-        fmt::format("the parts of its drawbar pull leave {:.3g} N unexplained, where at most {:.3g} N can be chance: "
-                    "look at them with caution",
-                    rest.force, rest.bound));
+    point.doubts.push_back(fmt::format("the parts of the pull leave {:.3g} N unexplained (chance: at most {:.3g} N)",
+                                       rest.force, rest.bound));
 }
 
 }  // namespace
@@ -63,7 +61,7 @@ Side side_of(const ModelAnswers& answers) {
     if (answer.result && side.kind == SideKind::grains) {
       for (std::size_t c = 0; c < channel_views.size(); ++c)
         point.scatter[c] = ((*answer.result).*channel_views[c].predicted).std_error;
-      point.doubts.push_back("one run: the scatter between packings is not known");
+      point.doubts.push_back("one run: the scatter between bed samples is unknown");
     }
     doubt_budget(point);
     side.points.push_back(std::move(point));
@@ -117,10 +115,11 @@ SidePoint combine(const std::vector<const RecordedRun*>& runs, const PackingScat
     if (std::isfinite(run->drift)) most = std::max(most, run->drift);
   }
   if (point.unsteady > 0)
-    point.doubts.push_back(fmt::format("{} of {} run{} not steady: halves differ by up to {:.1f} standard errors",
-                                       point.unsteady, solved.size(), solved.size() == 1 ? "" : "s", most));
+    point.doubts.push_back(
+        fmt::format("{} of {} run{} not steady (drift up to {:.1f} standard errors): lengthen the run", point.unsteady,
+                    solved.size(), solved.size() == 1 ? "" : "s", most));
   if (solved.size() == 1 && !is_known(all))
-    point.doubts.push_back("one packing: the scatter between packings is not known");
+    point.doubts.push_back("one bed sample: the scatter between bed samples is unknown");
   doubt_budget(point);
   return point;
 }
@@ -153,7 +152,7 @@ GrainSide grain_side(const std::vector<RecordedRun>& runs, const std::vector<Ope
   }
   GrainSide grains{side_of("dem", runs, conditions),
                    {{"runs of grains", fmt::format("{}, {:.0f} s in all", runs.size(), seconds)},
-                    {"packings (seeds of the beds)", listed({packings.begin(), packings.end()})},
+                    {"bed samples (seeds)", listed({packings.begin(), packings.end()})},
                     {"sources of the runs", listed({sources.begin(), sources.end()})}}};
   if (record.empty()) return grains;
   const Record kept = read_record(record);

@@ -30,64 +30,52 @@ std::vector<std::size_t> rows_of(const Comparison& comparison, const Tally& tall
   return rows;
 }
 
-/// "3 of 28 conditions differ beyond errors and scatter, 20 lie within one run's scatter, ...".
+/// "3 of 28 conditions differ significantly, 20 within the scatter of a run. "; "" where none is tested.
 std::string counts(const Tally& t) {
-  if (t.unknown == t.values)
-    return "both rest on the same soil values or state no doubt, so the rows are numbers without a verdict";
-  std::string text = fmt::format("{} of {} condition{} differ{} beyond the errors and the scatter", t.differ, t.values,
-                                 t.values == 1 ? "" : "s", t.differ == 1 ? "s" : "");
-  if (t.in_scatter > 0)
-    text += fmt::format(", {} lie{} within the scatter of a single run and {} no difference", t.in_scatter,
-                        t.in_scatter == 1 ? "s" : "", t.in_scatter == 1 ? "is" : "are");
-  if (t.in_errors > 0)
-    text += fmt::format(", {} {} covered by the standard errors", t.in_errors, t.in_errors == 1 ? "is" : "are");
-  return text;
+  if (t.unknown == t.values) return "";
+  std::string text = fmt::format("{} of {} conditions differ significantly", t.differ, t.values);
+  if (t.in_scatter > 0) text += fmt::format(", {} within the scatter of a run", t.in_scatter);
+  if (t.in_errors > 0) text += fmt::format(", {} within the errors", t.in_errors);
+  return text + ". ";
 }
 
 Clause tally_clause(const Comparison& comparison, const Tally& t) {
   const Difference& worst = comparison.differences[t.worst];
   const std::string side = comparison.sides[t.side].label, reference = comparison.sides[t.reference].label;
   Clause clause{std::string(channel_views[t.channel].title), "", {}, rows_of(comparison, t)};
-  clause.text = fmt::format("{} against {}: {}. ", side, reference, counts(t));
+  clause.text = fmt::format("{} less {}: {}", side, reference, counts(t));
   const std::string expected =
-      t.expected_rms > 0.0 ? fmt::format("; the stated errors alone would give {}", in_unit(t.channel, t.expected_rms))
-                           : "";
-  clause.text += fmt::format(
-      "The root mean square is {} ({} of {}), on average {} is {} {}{}. Widest at {}: {} against {}.",
-      in_unit(t.channel, t.rms), percent(t.rms_share), measure_of(t), side, in_unit(t.channel, std::abs(t.bias)),
-      t.bias < 0 ? "lower" : "higher", expected, in_words(comparison.question.study.conditions[worst.condition]),
-      in_unit(t.channel, worst.value.value), in_unit(t.channel, worst.reference_value.value));
-  return clause;
-}
-
-/// How many rows differ at all, and where the sides are widest apart.
-Clause in_short(const Comparison& comparison, const Tally& widest) {
-  Clause clause{"In short", ""};
-  std::size_t judged = 0;
-  for (std::size_t i = 0; i < comparison.differences.size(); ++i) {
-    judged += comparison.differences[i].finding != DifferenceFinding::not_judged;
-    if (comparison.differences[i].finding == DifferenceFinding::difference) clause.rows.push_back(i);
-  }
-  if (judged > 0)
-    clause.text = fmt::format(
-        "{} of {} numbers differ by more than their errors and a run's scatter; the others agree within them. ",
-        clause.rows.size(), judged);
-  else
-    clause.text =
-        "Which is right only a measurement can tell: these models share the soil's values, so their errors do not "
-        "judge a difference. ";
-  const Difference& worst = comparison.differences[widest.worst];
+      t.expected_rms > 0.0 ? fmt::format("; expected from uncertainty: {}", in_unit(t.channel, t.expected_rms)) : "";
   clause.text +=
-      fmt::format("Widest apart is the {}, of {} and {}: {} of {}, root mean square; at {} it is {} against {}.",
-                  channel_views[widest.channel].title, comparison.sides[widest.side].label,
-                  comparison.sides[widest.reference].label, percent(widest.rms_share), measure_of(widest),
+      fmt::format("RMS difference {} ({} of {}{}), mean {}. Largest at {}: {} against {}.", in_unit(t.channel, t.rms),
+                  percent(t.rms_share), measure_of(t), expected, in_unit(t.channel, t.bias),
                   in_words(comparison.question.study.conditions[worst.condition]),
-                  in_unit(widest.channel, worst.value.value), in_unit(widest.channel, worst.reference_value.value));
-  if (std::ranges::find(clause.rows, widest.worst) == clause.rows.end()) clause.rows.push_back(widest.worst);
+                  in_unit(t.channel, worst.value.value), in_unit(t.channel, worst.reference_value.value));
   return clause;
 }
 
-/// Share of the squared difference that other soil values within their declared bands would take away.
+/// "the analytic wheel", "the grains", "the measurement": a side as the owner of a value.
+std::string in_a_sentence(const Side& side) {
+  if (side.kind == SideKind::measured) return "the measurement";
+  const bool named = side.label.starts_with("analytic wheel") || side.label.starts_with("grains");
+  return named ? "the " + side.label : side.label;
+}
+
+/// "6.3 kN", "11.2 mm": to two or three digits.
+std::string amount(std::size_t channel, double value) {
+  const ChannelView& view = channel_views[channel];
+  const bool kilo = view.unit.starts_with("N") && value >= 1000.0;
+  return fmt::format("{:.3g} {}{}", value * view.per_si / (kilo ? 1000.0 : 1.0), kilo ? "k" : "", view.unit);
+}
+
+/// "4 kN and 20 % slip".
+std::string where_of(const Comparison& comparison, std::size_t condition) {
+  const std::string &curve = comparison.curves.labels[comparison.curves.curve_of[condition]],
+                    slip = fmt::format("{:.4g} % slip", 100 * comparison.question.study.conditions[condition].slip);
+  return curve.empty() ? slip : curve + " and " + slip;
+}
+
+/// Share of the squared difference that other soil values within their declared uncertainty would take away.
 double taken_by_the_soil(const JointTest& test) { return 1.0 - test.chi2 / test.chi2_soil_exact; }
 
 constexpr double joint_level = 0.01;  // p below which more is left than noise
@@ -97,13 +85,12 @@ Clause joint_clause(const Comparison& comparison, const JointTest& test) {
   Clause clause{"All together", "", {"joint test"}};
   const std::string p = test.p_value < 1e-300 ? "p < 1e-300" : fmt::format("p = {:.2g}", test.p_value);
   const std::string errors =
-      std::isinf(test.freedom) ? "" : fmt::format("; the noise rests on {:.0f} degrees of freedom", test.freedom);
+      std::isinf(test.freedom) ? "" : fmt::format("; noise with {:.0f} degrees of freedom", test.freedom);
   clause.text = fmt::format(
-      "Other soil values within their declared bands would take {:.0f} % off the squared difference of {} and {}. What "
-      "is left is {}: chi2 = {} for {} values ({}{}).",
-      100 * taken_by_the_soil(test), side, reference,
-      test.p_value < joint_level ? "still more than noise" : "no more than noise", number(test.chi2), test.values, p,
-      errors);
+      "The soil's uncertainty explains {:.0f} % of the squared difference between {} and {}. The rest is {}: chi2 = {} "
+      "for {} values ({}{}).",
+      100 * taken_by_the_soil(test), side, reference, test.p_value < joint_level ? "significant" : "noise",
+      number(test.chi2), test.values, p, errors);
   return clause;
 }
 
@@ -119,12 +106,10 @@ std::optional<Clause> soil_clause(const Comparison& comparison) {
   std::string share = fmt::format("{:.0f} %", 100 * most);
   if (std::lround(100 * least) != std::lround(100 * most)) share = fmt::format("{:.0f} to {}", 100 * least, share);
   return Clause{"The soil",
-                fmt::format("A better known soil could explain {} of the squared difference: that much goes away with "
-                            "other soil values within their declared bands. {}.",
-                            share,
-                            none_left  ? "What is left is no more than noise"
-                            : all_left ? "What is left is small beside it, and yet more than noise"
-                                       : "What is left is noise for some sides and more for others"),
+                fmt::format("The soil's uncertainty explains {} of the squared difference. {}.", share,
+                            none_left  ? "The rest is noise"
+                            : all_left ? "The rest is significant"
+                                       : "The rest is significant for some sides and noise for others"),
                 {"joint test"}};
 }
 
@@ -150,13 +135,13 @@ std::optional<Clause> grains_clause(const Comparison& comparison) {
   const auto n = static_cast<double>(known);
   const Estimate rms{std::sqrt(squares / n), std::sqrt(squared_errors / n)};
   if (rms.value < worth_a_line) return std::nullopt;
-  return Clause{"The grains",
-                fmt::format("Grains of {:.3g} mm are coarse for this wheel: their own drawbar pull is estimated to be "
-                            "too {} by {} % of the load against infinitely fine ones (root mean square of the {} of {} "
-                            "points that the study of grain sizes reaches).",
-                            1000 * mean_diameter(*scenario.soil.granular), sum > 0 ? "large" : "small",
-                            number(rms, 100), known, with_result),
-                {"what is doubtful"}};
+  return Clause{
+      "The grains",
+      fmt::format("Grains of {:.3g} mm are coarse for this wheel: their own pull is too {} by about {} % of the "
+                  "load (RMS of {} of {} points; the others are not studied).",
+                  1000 * mean_diameter(*scenario.soil.granular), sum > 0 ? "large" : "small", number(rms, 100), known,
+                  with_result),
+      {"warnings"}};
 }
 
 /// The rule, and how many rows it would let pass by chance.
@@ -167,13 +152,13 @@ Clause chance_clause(const Comparison& comparison) {
     if (d.finding != DifferenceFinding::not_judged) ++counted, fewest = std::min(fewest, d.freedom);
   const std::string student = std::isinf(fewest) ? ""
                                                  : fmt::format(
-                                                       " Errors that rest on few re-runs count more (Student's t): "
-                                                       "{:.3g} of them at {:.3g} degrees of freedom, the fewest here.",
+                                                       " With few re-runs Student's t counts: {:.3g} standard "
+                                                       "errors at {:.3g} degrees of freedom, the fewest here.",
                                                        counting_errors(fewest), fewest);
   return {"How sure",
-          fmt::format("A row counts as a difference beyond two standard errors of both sides together and beyond the "
-                      "scatter of one run.{} Of {} rows about {:.0f} would pass the errors by chance alone.",
-                      student, counted, std::ceil(chance_level * static_cast<double>(counted))),
+          fmt::format("A difference is significant above two standard errors of both sides together and above the "
+                      "scatter of one run.{} By chance about {:.0f} of {} rows exceed two standard errors.",
+                      student, std::ceil(chance_level * static_cast<double>(counted)), counted),
           {"rule"}};
 }
 
@@ -191,11 +176,10 @@ std::vector<Clause> doubt_clauses(const Comparison& comparison) {
         if (doubts.insert(doubt).second && first.empty()) first = doubt;
     }
     if (doubted == 0) continue;
-    clauses.push_back(
-        {"Limits",
-         fmt::format("{}: {} of {} points carry a doubt ({}{}).", side.label, doubted, with_result, first,
-                     doubts.size() > 1 ? fmt::format("; and {} more, in the table", doubts.size() - 1) : ""),
-         {"table of points"}});
+    clauses.push_back({"Limits",
+                       fmt::format("{}: warnings at {} of {} points ({}{}).", side.label, doubted, with_result, first,
+                                   doubts.size() > 1 ? fmt::format("; {} more in the table", doubts.size() - 1) : ""),
+                       {"table of points"}});
   }
   return clauses;
 }
@@ -217,7 +201,7 @@ std::vector<Clause> cause_clauses(const Comparison& comparison) {
     if (!part) continue;
     clauses.push_back(
         {"Why",
-         fmt::format("At {} the pull of {} and {} is {} apart; the widest part of that is the {}: {} N against {} N.",
+         fmt::format("At {} the pulls of {} and {} differ by {}. Largest part: {}, {} N against {} N.",
                      in_words(comparison.question.study.conditions[worst.condition]), comparison.sides[t.side].label,
                      comparison.sides[t.reference].label, in_unit(t.channel, std::abs(worst.difference)),
                      part_in_words(part->name), number(part->side), number(part->reference)),
@@ -246,31 +230,35 @@ std::vector<std::string> label_sides_in_words(Comparison& comparison) {
 }
 
 std::optional<Clause> headline(const Comparison& comparison) {
-  const Difference* worst = widest_difference(comparison);
-  if (worst == nullptr) return std::nullopt;
-  Clause clause = in_short(comparison, *widest_first(comparison).front());
-  const auto judged = std::ranges::count_if(
-      comparison.differences, [](const Difference& d) { return d.finding != DifferenceFinding::not_judged; });
-  const auto differ = std::ranges::count(comparison.differences, DifferenceFinding::difference, &Difference::finding);
-  const std::string &curve = comparison.curves.labels[comparison.curves.curve_of[worst->condition]],
-                    slip =
-                        fmt::format("{:.4g} % slip", 100 * comparison.question.study.conditions[worst->condition].slip);
-  const ChannelView& channel = channel_views[worst->channel];
-  const auto with_unit = [&](const Estimate& value) {
-    return fmt::format("{} {}", number(value.value * channel.per_si, 3), channel.unit);
+  if (comparison.tallies.empty()) return std::nullopt;
+  const Tally& widest = *widest_first(comparison).front();
+  const Difference& worst = comparison.differences[widest.worst];
+  Clause clause{"In short", "", {}, rows_of(comparison, widest)};
+  clause.text =
+      fmt::format("The {} of {} is {} ({} of {}) {} that of {}, at {}", channel_views[worst.channel].title,
+                  in_a_sentence(comparison.sides[worst.side]), amount(worst.channel, std::abs(worst.difference)),
+                  percent(std::abs(worst.share)), measure_of(widest), worst.difference < 0.0 ? "below" : "above",
+                  in_a_sentence(comparison.sides[worst.reference]), where_of(comparison, worst.condition));
+  clause.text += worst.finding == DifferenceFinding::difference       ? ": significant."
+                 : worst.finding == DifferenceFinding::within_scatter ? ": within the scatter of a run."
+                 : worst.finding == DifferenceFinding::within_errors  ? ": within the errors."
+                                                                      : ".";
+  const auto count = [&](DifferenceFinding finding) {
+    return std::ranges::count(comparison.differences, finding, &Difference::finding);
   };
-  clause.text = judged > 0 ? fmt::format("{} of {} numbers differ by more than errors and scatter. ", differ, judged)
-                           : "These models share the soil's values: only a measurement can tell which is right. ";
-  clause.text += fmt::format("Widest apart is the {} at {}: {} ({}) against {} ({}).", channel.title,
-                             curve.empty() ? slip : curve + " and " + slip, with_unit(worst->value),
-                             comparison.sides[worst->side].label, with_unit(worst->reference_value),
-                             comparison.sides[worst->reference].label);
+  const auto all = std::ssize(comparison.differences), untested = count(DifferenceFinding::not_judged);
+  if (untested < all)
+    clause.text +=
+        fmt::format(" {} of {} differences are significant.", count(DifferenceFinding::difference), all - untested);
+  if (untested > 0)
+    clause.text += untested < all ? " The others share their soil data and are not tested."
+                                  : " Same soil data: no significance test.";
   return clause;
 }
 
 std::vector<Clause> opening(const Comparison& comparison) {
   std::vector<Clause> clauses;
-  if (!comparison.tallies.empty()) clauses.push_back(in_short(comparison, *widest_first(comparison).front()));
+  if (std::optional<Clause> first = headline(comparison)) clauses.push_back(std::move(*first));
   if (auto soil = soil_clause(comparison)) clauses.push_back(std::move(*soil));
   if (auto grains = grains_clause(comparison)) clauses.push_back(std::move(*grains));
   return clauses;

@@ -73,8 +73,8 @@ void add_value_doubts(const SemiEmpiricalSoil& soil, Warnings& warnings) {
     warnings.push_back("c and phi are both 0: this soil has no strength and gives no traction");
   const double most = soil.stress_angle_c1.value + std::max(0.0, soil.stress_angle_c2.value);
   if (most > bekker_wong::max_stress_share)
-    warnings.push_back(fmt::format("c1 + c2 = {:.3g}: at full slip theta_m would pass {} theta_1 and is held there",
-                                   most, bekker_wong::max_stress_share));
+    warnings.push_back(fmt::format("c1 + c2 = {:.3g}: at full slip theta_m is limited to {} theta_1", most,
+                                   bekker_wong::max_stress_share));
   if (soil.stress_angle_c1.value + std::min(0.0, soil.stress_angle_c2.value) < 0.0)
     warnings.push_back("c1 + c2 is negative: at full slip the largest stress would lie behind the axle");
   for (const auto& [name, value] :
@@ -84,7 +84,7 @@ void add_value_doubts(const SemiEmpiricalSoil& soil, Warnings& warnings) {
                               ? fmt::format("the standard deviation of {} is {:.0f} % of its value", name,
                                             100 * value.std_error / value.value)
                               : fmt::format("{} is 0 with a standard deviation, and can only be larger", name)) +
-                         ": errors propagated to first order are a rough guide");
+                         ": first-order errors are rough");
   if (is_from_command_line(soil, "exponent") && !is_from_command_line(soil, "k_phi"))
     warnings.push_back(
         "n was changed and k_phi was not: their units and values belong together, as a plate test found them");

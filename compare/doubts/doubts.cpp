@@ -52,7 +52,7 @@ Warnings once_each(const Warnings& warnings) {
 }
 
 /// Of the radius. The base model has no balance beyond 0.9; its stresses are tested up to about this.
-constexpr double stretched_sinkage_share = 0.5;
+constexpr double unreliable_sinkage_share = 0.5;
 
 void append(Warnings& all, Warnings more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
@@ -62,20 +62,19 @@ void append(Warnings& all, Warnings more) {
 std::string too_deep(const Scenario& scenario, const Answer& answer) {
   const double share = answer.result->sinkage.value / scenario.tire.radius;
   if (share > bekker_wong::max_sinkage_share)
-    return fmt::format(
-        "the wheel settles to {:.0f} % of its radius at {}: the stresses are not meant for more than {:.0f} %",
-        100 * share, in_words(answer.at), 100 * bekker_wong::max_sinkage_share);
-  if (!(share > stretched_sinkage_share)) return "";
-  return fmt::format("the wheel sinks {:.0f} % of its radius at {}: the model's rigid outline is a stretch there",
-                     100 * share, in_words(answer.at));
+    return fmt::format("the wheel settles to {:.0f} % of its radius at {}: the stresses are unreliable above {:.0f} %",
+                       100 * share, in_words(answer.at), 100 * bekker_wong::max_sinkage_share);
+  if (!(share > unreliable_sinkage_share)) return "";
+  return fmt::format("the wheel sinks {:.0f} % of its radius at {}: unreliable above {:.0f} %", 100 * share,
+                     in_words(answer.at), 100 * unreliable_sinkage_share);
 }
 
 /// A steady wheel gives out no more than is put in; what instruments show may.
 void add_power_doubt(const Answer& answer, Warnings& warnings) {
   if (answer.result->tractive_efficiency > 1.0)
     warnings.push_back(
-        fmt::format("more power comes out at the drawbar than is put in at {}: an instrument's fault, or an effect "
-                    "that tells one; no efficiency is told",
+        fmt::format("drawbar power exceeds the power put in at {}: an instrument error, or an effect that adds one; "
+                    "no efficiency is given",
                     in_words(answer.at)));
 }
 
@@ -92,10 +91,11 @@ std::string too_steep_across(const Scenario& scenario, const Answer& answer, dou
   const double thrust = budget == answer.result->budget.end() ? 0.0 : std::abs(budget->force);
   constexpr double hardly = 0.05;  // of what the soil holds: no slope to speak of
   if (!(share > hardly * held && std::hypot(share, thrust) > held)) return "";
-  const std::string beside = share > held ? "" : fmt::format(", {:.3g} N are its thrust", thrust);
+  const std::string beside = share > held ? "" : fmt::format(", with a thrust of {:.3g} N", thrust);
   return fmt::format(
-      "the cross slope is steeper than the soil holds at {}: {:.3g} N of the load pull the wheel down it{}, and the "
-      "soil under the wheel shears at {:.3g} N (c, phi): it slides",
+      "the wheel slides down the cross slope at {}: {:.3g} N of the load act down it{}, and the soil shears at {:.3g} "
+      "N "
+      "(c, phi)",
       in_words(at), share, beside, held);
 }
 
@@ -107,16 +107,16 @@ void add_answer_doubts(const Scenario& scenario, const Answer& answer, Warnings&
   const double length = tire.radius * (r.entry_angle - r.exit_angle);
   const double pressure = answer.at.load / (tire.width * tire.radius * std::sin(r.entry_angle));
   if (pressure < 500.0 || pressure > 2e6)
-    warnings.push_back(fmt::format("mean ground pressure {:.3g} kPa{}: wheels on soil press with 0.5 .. 2000 kPa",
-                                   pressure / 1000, at));
+    warnings.push_back(
+        fmt::format("mean ground pressure {:.3g} kPa{}: usual are 0.5 .. 2000 kPa", pressure / 1000, at));
   const double arc = bekker_wong::contact_length(r.sinkage.value, tire.radius);
   if (std::string slides = too_steep_across(scenario, answer, std::fmax(length, arc)); !slides.empty())
     warnings.push_back(std::move(slides));
   if (std::string deep = too_deep(scenario, answer); !deep.empty()) warnings.push_back(std::move(deep));
   if (scenario.bin && r.sinkage.value > 0.5 * scenario.bin->depth)
-    warnings.push_back(
-        fmt::format("the wheel sinks {:.0f} % of the bin's depth{}: its floor will be felt (effect hard_layer)",
-                    100 * r.sinkage.value / scenario.bin->depth, at));
+    warnings.push_back(fmt::format(
+        "the wheel sinks {:.0f} % of the bin's depth{}: its floor acts on the wheel; add --effect hard_layer",
+        100 * r.sinkage.value / scenario.bin->depth, at));
   const double modulus = scenario.soil.semi_empirical->shear_modulus.value;
   if (modulus > length)
     warnings.push_back(fmt::format("K ({:.3g} mm) is longer than the contact ({:.3g} mm){}: shear hardly develops",
@@ -216,11 +216,9 @@ Warnings doubts_of_declarations(const Case& question) {
   const std::optional<SemiEmpiricalSoil>& soil = question.scenario.soil.semi_empirical;
   const bool asks_wheel = asks(question.study, ModelKind::bekker_wong);
   if (soil && is_from_command_line(*soil, "gravity") && asks_wheel && !question.drive && !weighs_soil(question))
-    words.push_back(
-        "the soil's gravity changes nothing: loads are forces here, and the analytic wheel weighs soil by effects "
-        "alone (such as bulldozing)");
+    words.push_back("the soil's gravity is ignored: loads are forces, and only effects such as bulldozing weigh soil");
   if (soil && !soil->density && !effects.empty() && weighs_soil(question))
-    words.push_back(fmt::format("the soil declares no density: {:g} kg/m^3 is presumed, and the answers hang on it",
+    words.push_back(fmt::format("the soil declares no density: {:g} kg/m^3 is assumed, and the answers depend on it",
                                 presumed_bulk_density));
   return words;
 }
@@ -347,9 +345,9 @@ std::string tire_in_words(const Case& question) {
   const std::vector<UnusedInput> unused = unused_inputs(question);
   if (std::ranges::find(unused, "lugs", &UnusedInput::key) == unused.end()) return words;
   words.pop_back();  // the closing bracket
-  return words + (asks(question.study, ModelKind::dem) ? "; the analytic wheel leaves them out)"
-                  : question.study.models.size() == 1  ? "; this model leaves the lugs out)"
-                                                       : "; these models leave the lugs out)");
+  return words + (asks(question.study, ModelKind::dem) ? "; the analytic wheel ignores them)"
+                  : question.study.models.size() == 1  ? "; this model ignores the lugs)"
+                                                       : "; these models ignore the lugs)");
 }
 
 Warnings doubts(const Case& question) {

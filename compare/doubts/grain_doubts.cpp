@@ -39,10 +39,8 @@ std::string by_how_much(const Scenario& scenario, const std::vector<ModelAnswers
       return;
     largest = std::move(error), where = answer.at;
   });
-  if (largest)
-    return fmt::format(": they are estimated to change {} against infinitely fine ones ({})", in_words(*largest),
-                       in_words(where));
-  return beyond.empty() ? "" : fmt::format(": by how much that changes the answer is not known, since {}", beyond);
+  if (largest) return fmt::format(": estimated error {} ({})", in_words(*largest), in_words(where));
+  return beyond.empty() ? "" : fmt::format(": the error is unknown, since {}", beyond);
 }
 
 bool are_coarse(const GrainCounts& counts) {
@@ -59,8 +57,9 @@ std::string depends_on_the_step(const GranularSoil& grains) {
   const double mass = 4.0 / 3.0 * std::numbers::pi * grains.grain_density * r * r * r, inertia = 0.2 * mass * r * r;
   const double speed = grains.grain_grain.rolling_friction * r / 2.0 * 100.0 * step / inertia;
   std::string text = fmt::format(
-      "the grains' rolling law '{}' makes answers depend on the time step: below the angular speed mu_r R* F_N dt/I* a "
-      "contact is a dashpot of I*/dt, whatever mu_r. At the longest step, {:.3g} ms, two mean grains that 100 N press "
+      "with the rolling law '{}' answers depend on the time step: below the angular speed mu_r R* F_N dt/I* a contact "
+      "is "
+      "a dashpot of I*/dt, whatever mu_r. At the longest step, {:.3g} ms, two mean grains that 100 N press "
       "together are so below {:.2g} rad/s. At a quarter of the step a tire of 0.5 m radius at 4 kN, 20 % slip pulled "
       "1183 ± 43 N in place of 773 ± 19 N. rolling_resistance: elastic_plastic does not depend on it",
       with_twist ? "directional_with_twist" : "directional", 1e3 * step, speed);
@@ -181,13 +180,11 @@ std::string coarse_grain_doubt(const Scenario& scenario, const std::vector<Model
   if (!scenario.soil.granular) return "";
   const GrainCounts counts = count_grains(scenario, study);
   if (!are_coarse(counts)) return "";
-  std::string lengths = fmt::format("{:.2g} lie across it ({} wanted)", counts.width, grains_wanted);
+  std::string lengths = fmt::format("{:.2g} across its width ({} wanted)", counts.width, grains_wanted);
   if (counts.contact) lengths += fmt::format(", {:.2g} along its contact ({})", *counts.contact, grains_wanted);
   if (counts.lug) lengths += fmt::format(", {:.2g} in a lug's height ({})", *counts.lug, grains_wanted_in_a_lug);
-  return fmt::format(
-      "the grains are coarse for this wheel{}. Of their mean diameter, {:.3g} mm, {}: see "
-      "docs/lab/grain-size.md",
-      by_how_much(scenario, study), 1000 * counts.diameter, lengths);
+  return fmt::format("the grains are coarse for this wheel{}. Mean diameter {:.3g} mm: {}. See docs/lab/grain-size.md",
+                     by_how_much(scenario, study), 1000 * counts.diameter, lengths);
 }
 
 GrainCounts count_grains(const Scenario& scenario, const std::vector<ModelAnswers>& study) {

@@ -87,7 +87,7 @@ void widen(Estimate& error, double share) { error.std_error = std::hypot(error.s
 /// Why the study does not reach to grains this large beside that length; "" where it does.
 std::string coarser(const char* length, double grains, double most) {
   if (!(grains > most * size_reach)) return "";
-  return fmt::format("a grain is {:.2g} {}, and in the study it was at most {:.2g}", grains, length, most);
+  return fmt::format("a grain is {:.2g} {} (studied: at most {:.2g})", grains, length, most);
 }
 
 ResolutionError leaves_it(std::string beyond) { return {{}, {}, {}, std::move(beyond)}; }
@@ -158,9 +158,8 @@ ResolutionError resolution_error(const Scenario& scenario, const OperatingCondit
 }
 
 std::string in_words(const ResolutionError& error) {
-  return fmt::format("the drawbar pull by {} N, the torque by {} N m and the sinkage by {} mm",
-                     signed_number(error.drawbar_pull, 1), signed_number(error.torque, 1),
-                     signed_number(error.sinkage, 1000));
+  return fmt::format("drawbar pull {} N, torque {} N m, sinkage {} mm", signed_number(error.drawbar_pull, 1),
+                     signed_number(error.torque, 1), signed_number(error.sinkage, 1000));
 }
 
 Json to_json(const ResolutionError& error) {

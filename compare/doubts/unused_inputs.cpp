@@ -28,32 +28,31 @@ const std::vector<Declared>& declarable() {
   const auto some = [](auto has) { return [has](const Case& question) { return any_condition(question, has); }; };
   const auto of_condition = [&](const std::string& key, const std::string& of_grains, const std::string& needs,
                                 auto has) {
-    return Declared{key, "'" + key + "' changes nothing: the analytic model hears of it by {}", of_grains, needs,
-                    some(has)};
+    return Declared{key, "'" + key + "' is ignored: add {}", of_grains, needs, some(has)};
   };
   static const std::vector<Declared> all = {
-      {"lugs", "the tire's lugs change nothing: the analytic wheel is smooth without {}", "", "",
+      {"lugs", "lugs are ignored: add {}", "", "",
        [](const Case& question) { return is_lugged(question.scenario.tire); }},
-      {"inflation_pressure", "the tire's inflation pressure changes nothing: the analytic wheel is rigid without {}",
-       "the tire's inflation pressure changes nothing: grains meet a rigid tire", "",
+      {"inflation_pressure", "the inflation pressure is ignored: add {}",
+       "the inflation pressure is ignored: grains meet a rigid tire", "",
        [](const Case& question) { return question.scenario.tire.inflation_pressure.has_value(); }},
       of_condition("pass", "", "no condition has a 'pass' of 2 or more", [](At at) { return at.pass > 1; }),
-      of_condition("moisture", "'moisture' changes nothing of the grains", "no condition has a 'moisture'",
+      of_condition("moisture", "grains ignore 'moisture'", "no condition has a 'moisture'",
                    [](At at) { return at.moisture.has_value(); }),
-      of_condition("position", "'position' changes nothing of the grains", "no condition has a 'position'",
+      of_condition("position", "grains ignore 'position'", "no condition has a 'position'",
                    [](At at) { return at.position.has_value(); }),
-      of_condition("run", "'run' changes nothing of the grains", "no condition has a 'run'",
-                   [](At at) { return at.run.has_value(); }),
+      of_condition("run", "grains ignore 'run'", "no condition has a 'run'", [](At at) { return at.run.has_value(); }),
   };
   return all;
 }
 
-/// The effects of the catalogue of which some form hears of this, for a person: "effect soil_gradient or bed_tilt".
+/// The effects of the catalogue of which some form hears of this, as a flag takes them: "--effect soil_gradient or
+/// bed_tilt".
 std::string hearing_effects(const std::string& key) {
   std::vector<std::string> ids;
   for (const bekker_wong::EffectForm& form : bekker_wong::effect_catalogue())
     if (depends_on(form, key) && (ids.empty() || ids.back() != form.id)) ids.push_back(form.id);
-  return ids.empty() ? "" : fmt::format("effect {}", fmt::join(ids, " or "));
+  return ids.empty() ? "" : fmt::format("--effect {}", fmt::join(ids, " or "));
 }
 
 bool hears(const ModelChoice& choice, const Declared& declared) {
@@ -93,7 +92,7 @@ void add_depths_of_the_bin(const Case& question, std::vector<UnusedInput>& all) 
         const auto own = effect.parameters.find(parameter.name);
         if (!parameter.is_the_bins || own == effect.parameters.end() || own->second == bin) continue;
         all.push_back({parameter.name, fmt::format("effect {} takes the bin's depth, {:g} mm: its own '{}' of {:g} mm "
-                                                   "changes nothing",
+                                                   "is ignored",
                                                    effect.id, 1000 * bin, parameter.name, 1000 * own->second)});
       }
 }
@@ -109,7 +108,7 @@ std::vector<UnusedInput> unused_inputs(const Case& question) {
       if (const std::string why = why_unused(models, declared); !why.empty()) all.push_back({declared.key, why});
     } else if (!declared.needs.empty()) {
       for (const std::string& id : in_need(models, declared))
-        all.push_back({"effect", fmt::format("effect {} changes nothing: {}", id, declared.needs)});
+        all.push_back({"effect", fmt::format("effect {} does not act: {}", id, declared.needs)});
     }
   }
   add_depths_of_the_bin(question, all);

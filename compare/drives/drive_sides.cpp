@@ -155,8 +155,8 @@ DriveOverPackings as_one(const std::vector<const DriveSide*>& grains) {
 }
 
 std::string steady_words(const dem::SteadyDrive& s) {
-  return fmt::format("; steady{} at a slip of {} %, {} mm deep, with {} N m",
-                     s.steady ? "" : " by its way and motor, but still drifting,", number(s.slip, 100),
+  return fmt::format("; steady{} at {} % slip, {} mm sinkage, {} N m torque",
+                     s.steady ? "" : " by way and motor, but still drifting,", number(s.slip, 100),
                      number(s.sinkage, 1000), number(s.torque));
 }
 
@@ -169,9 +169,9 @@ std::string sentence_of(const DriveOverPackings& one) {
     listed.push_back(end);
     ends += fmt::format("{}{} on {}", ends.empty() ? "" : ", ", word_of(end), std::ranges::count(one.ends, end));
   }
-  std::string text = fmt::format("dem, mean of {} packings: {}, after {} s and {} m", one.ends.size(), ends,
+  std::string text = fmt::format("dem, mean of {} bed samples: {}, after {} s and {} m", one.ends.size(), ends,
                                  number(one.end_time), number(one.travelled));
-  return text + (one.steady ? steady_words(*one.steady) : "; not all packings have a steady state") + ".";
+  return text + (one.steady ? steady_words(*one.steady) : "; not all bed samples have a steady state") + ".";
 }
 
 std::string sentence_of(const DriveSide& side) {
@@ -235,8 +235,8 @@ std::optional<dem::SteadyDrive> steady_of_grains(const DriveSides& drive) {
 
 Table packings_table(const DriveSides& drive) {
   Table table{
-      "± is one standard error; of the mean from the scatter of packings or, where it is larger, from their own",
-      {"on each packing"},
+      "± is one standard error; of the mean from the scatter of bed samples or, where it is larger, from their own",
+      {"on each bed sample"},
       {true}};
   if (!drive.over_packings) return table;
   const DriveOverPackings& mean = *drive.over_packings;
@@ -277,9 +277,9 @@ std::vector<std::string> in_words(const DriveSides& drive) {
       apart += fmt::format("{}{} by {} {}", apart.empty() ? "" : ", ", row.name,
                            number({row.difference, row.std_error}, row.per_si), row.unit);
   if (!apart.empty())
-    sentences.push_back("Steadily the models part in " + apart + ".");
+    sentences.push_back("In the steady state the models differ in " + apart + ".");
   else if (!drive.differences.empty())
-    sentences.push_back("Steadily nothing parts the models beyond what they don't know.");
+    sentences.push_back("In the steady state no difference is significant.");
   return sentences;
 }
 

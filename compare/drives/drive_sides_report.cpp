@@ -118,9 +118,9 @@ Table happenings_table(const DriveSides& drive) {
 }  // namespace
 
 Table differences_table(const DriveSides& drive) {
-  Table table{fmt::format("± is one standard error: of the analytic wheel the soil's doubt, of grains {}",
-                          drive.over_packings ? "the scatter of packings" : "block averages of one run"),
-              {"steadily", "bekker_wong", "dem", "difference", ""},
+  Table table{fmt::format("± is one standard error: of the analytic wheel the soil's uncertainty, of grains {}",
+                          drive.over_packings ? "the scatter of bed samples" : "block averages of one run"),
+              {"steady state", "bekker_wong", "dem", "difference", ""},
               {true, false, false, false, true}};
   for (const DriveDifference& row : drive.differences)
     table.add({fmt::format("{} [{}]", row.name, row.unit), number(row.analytic, row.per_si),
@@ -212,13 +212,13 @@ std::string drive_page(const DriveSides& answered, const PageAbout& about) {
               "Instants of the analytic wheel; of grains means since the sample before. Dashed: mean of the grains "
               "where way and motor no longer change, with its standard error.");
   if (!drive.differences.empty()) {
-    page.section("Where nothing changes any more");
+    page.section("Steady state");
     Table table = differences_table(drive);
     for (std::string& name : table.header) name = model_in_words(name);
     page.table(table);
   }
   if (drive.over_packings) {
-    page.section("On each packing");
+    page.section("On each bed sample");
     page.table(packings_table(drive));
   }
   page.section("Where the motor's work went");

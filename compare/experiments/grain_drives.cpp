@@ -18,7 +18,7 @@ void GrainDrives::run() {
   began_ = std::chrono::steady_clock::now();
   for (int k = 0; k < packings_; ++k) {
     const auto named = [&](const std::exception& error) {
-      return fmt::format("packing {}: {}", packing(k), error.what());
+      return fmt::format("bed sample {}: {}", packing(k), error.what());
     };
     try {
       drive(k);
@@ -49,7 +49,7 @@ dem::DemModel GrainDrives::model(int k) {
 
 /// Time left: this packing's, and for those to come what one has taken so far.
 void GrainDrives::show(int k, dem::Progress progress) const {
-  const std::string stage = fmt::format("packing {} of {}, {}", k + 1, packings_, progress.stage);
+  const std::string stage = fmt::format("bed sample {} of {}, {}", k + 1, packings_, progress.stage);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began_;
   progress.stage = stage;
   progress.seconds_left += (packings_ - k - 1) * (spent.count() + progress.seconds_left) / (k + 1);
@@ -68,7 +68,8 @@ void GrainDrives::drive(int k) {
 void GrainDrives::note(const dem::GrainDriveRecord& record, std::uint64_t packing, double seconds) {
   const dem::BedSize& size = settings_.size;
   notes_.push_back(fmt::format(
-      "dem: {} grains in {:.4g} x {:.4g} x {:.4g} m, packing {}, settling friction {:.3g}; {} steps, {:.0f} s with the "
+      "dem: {} grains in {:.4g} x {:.4g} x {:.4g} m, bed sample {}, settling friction {:.3g}; {} steps, {:.0f} s with "
+      "the "
       "bed",
       record.grains, size.length, size.width, size.depth, packing, settings_.settling_friction, record.steps, seconds));
 }

@@ -165,7 +165,7 @@ RunPlan plan_of(const Case& question, const dem::DemSettings& settings, const st
 }
 
 std::string plan_text(const RunPlan& plan) {
-  Table table{"", {"run", "packing", "condition", "time"}};
+  Table table{"", {"run", "bed sample", "condition", "time"}};
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     const PlannedRun& planned = plan.runs[k];
     table.add({std::to_string(k + 1), std::to_string(planned.run.packing),

@@ -147,7 +147,7 @@ std::string text_of(const FailureQuestion& question, const std::vector<Role>& ro
       if (const std::string range = range_of(factor, clause.lower[j], clause.upper[j]); !range.empty())
         ranges += (ranges.empty() ? " with " : ", ") + range;
   }
-  return fmt::format("{}: within {:.3g} % of the load{}{}{}; of {} conditions run there, the farthest is {:.1f} % off",
+  return fmt::format("{}: within {:.3g} % of the load{}{}{}; {} conditions run there, largest error {:.1f} %",
                      question.name, 100 * question.tolerance, limits, held, ranges, clause.rows, 100 * clause.largest);
 }
 

@@ -47,13 +47,13 @@ std::string rows_sentence(const FailureMapResult& result) {
   const std::string side = low == 0    ? "too high at all of them"
                            : high == 0 ? "too low at all of them"
                                        : fmt::format("too high at {}, too low at {}", high, low);
-  std::string text = fmt::format("{}: of {} conditions run, {} are beyond {:.3g} % of the load and two standard errors",
-                                 result.question.name, answered, high + low, 100 * tolerance);
+  std::string text =
+      fmt::format("{}: {} of {} conditions run differ by more than {:.3g} % of the load and two standard errors",
+                  result.question.name, high + low, answered, 100 * tolerance);
   if (high + low > 0) text += ": the analytic pull is " + side;
-  if (answered < result.rows.rows.size())
-    text += fmt::format("; at {} more one of the models has no answer", result.rows.rows.size() - answered);
+  if (answered < result.rows.rows.size()) text += fmt::format("; {} not answered", result.rows.rows.size() - answered);
   if (const FailureRow* worst = worst_of(result.rows))
-    text += fmt::format("; farthest off is {} % of the load, at {}", in_percent(*worst->difference),
+    text += fmt::format("; largest error {} % of the load, at {}", in_percent(*worst->difference),
                         factors_in_words(result.question.factors, worst->values));
   return text + ".";
 }
@@ -118,8 +118,9 @@ std::string checks_sentence(const FailureMapResult& result) {
     }
   if (found == 0) return "";
   return fmt::format(
-      "Fresh conditions: {} that the map had not seen; predicted and found differ by {:.1f} % of the load (root mean "
-      "square), {} within two standard errors, {} on the side of the tolerance that was predicted.",
+      "Check on {} fresh conditions: error {:.1f} % of the load (RMS), {} within two standard errors, {} on the "
+      "predicted "
+      "side of the tolerance.",
       found, 100 * rms_of(result.checks), within, right);
 }
 
@@ -139,7 +140,7 @@ HeatCell cell_at(const FailureMapResult& result, const VectorXd& values) {
   for (std::size_t j = 0; j < factors.size(); ++j)
     cell.meaning += fmt::format("{}{} {}", j == 0 ? "" : ", ", factors[j].name, in_units(factors[j], values[j]));
   cell.meaning += fmt::format(": {} % of the load, {}", number({100 * there.value, 100 * there.std_error}),
-                              cell.counts                                  ? "the models part"
+                              cell.counts                                  ? "the models differ"
                               : size + 1.645 * there.std_error < tolerance ? "the models agree"
                                                                            : "the map cannot tell");
   return cell;
@@ -190,13 +191,10 @@ SlidingMap sliding_map_of(const FailureMapResult& result) {
 
 std::vector<std::string> map_summary(const FailureMapResult& result) {
   std::vector<std::string> text = {rows_sentence(result)};
-  text.push_back(fmt::format("By the map, {:.0f} % of the box asked for is beyond {:.3g} % of the load.",
-                             100 * share_beyond(result), 100 * result.question.tolerance));
+  text.push_back(fmt::format("The error exceeds {:.3g} % of the load in {:.0f} % of the range.",
+                             100 * result.question.tolerance, 100 * share_beyond(result)));
   for (const AgreementClause& clause : result.clauses) text.push_back(clause.text + ".");
-  if (result.clauses.empty())
-    text.push_back(
-        "No box from the lower corner in which the models are sure to agree: with 95 % confidence they may part even "
-        "there.");
+  if (result.clauses.empty()) text.push_back("No part of the range is within the tolerance with 95 % confidence.");
   text.push_back(knowledge_sentence(result));
   for (const std::string& more : {coordinates_sentence(result), checks_sentence(result)})
     if (!more.empty()) text.push_back(more);
@@ -215,18 +213,16 @@ std::vector<std::pair<std::string, std::string>> opening(const FailureMapResult&
   parts.emplace_back(
       "Trust it",
       result.clauses.empty()
-          ? fmt::format("Nowhere for sure: no box of conditions is within {:.3g} % of the load with 95 % confidence.",
-                        tolerance)
-          : fmt::format("The estimate is within {:.3g} % of the load of what grains give, with 95 % confidence, {}",
+          ? fmt::format("Nowhere: no part of the range is within {:.3g} % of the load with 95 % confidence.", tolerance)
+          : fmt::format("The analytic pull is within {:.3g} % of the load of the grains' with 95 % confidence {}",
                         tolerance, boxes));
   const double beyond = 100 * share_beyond(result);
   parts.emplace_back("Do not trust it",
-                     fmt::format("By the map it is off by more in {:.0f} % of the conditions asked for. {}", beyond,
-                                 capital(rows_sentence(result))));
-  std::string sure = fmt::format(
-      "The map predicts a condition that it has not seen to {:.1f} % of the load (root mean square, each row left out "
-      "in turn).",
-      100 * result.rows.held_out.rms());
+                     fmt::format("The error exceeds {:.3g} % of the load in {:.0f} % of the range. {}", tolerance,
+                                 beyond, capital(rows_sentence(result))));
+  std::string sure =
+      fmt::format("Cross-validated error of the map: {:.1f} % of the load (RMS, each row left out in turn).",
+                  100 * result.rows.held_out.rms());
   if (const std::string fresh = checks_sentence(result); !fresh.empty()) sure += " " + fresh;
   parts.emplace_back("How sure", sure);
   return parts;
@@ -236,9 +232,9 @@ std::string in_short(const FailureMapResult& result) {
   const Tire& tire = result.map.scenario.tire;
   const double tolerance = 100 * result.question.tolerance;
   return fmt::format(
-      "By the map the quick estimate of the pull lies within {:.3g} % of the load of what grains give in {:.0f} % of "
-      "the "
-      "conditions. Which ones: set the sliders to your lugs and slip{}.",
+      "The analytic pull is within {:.3g} % of the load of the grains' in {:.0f} % of the range. Set the sliders to "
+      "your "
+      "lugs and slip{}.",
       tolerance, 100 * (1 - share_beyond(result)),
       tire.lugs.height > 0.0
           ? fmt::format(" (they start next to the lugs of {}, {:.3g} mm)", tire.name, 1000 * tire.lugs.height)
@@ -254,7 +250,7 @@ std::vector<std::string> details(const FailureMapResult& result) {
 Table rows_table(const FailureMapResult& result) {
   Table table{"Every condition run, in order: analytic less grains, share of the load", {}};
   for (const Factor& factor : result.question.factors) table.header.push_back(heading(factor.name, factor.unit));
-  table.header.insert(table.header.end(), {"difference [%]", "left out, predicted [%]", "beyond"});
+  table.header.insert(table.header.end(), {"difference [%]", "cross-validated [%]", "beyond"});
   Index k = 0;
   for (const FailureRow& row : result.rows.rows) {
     std::vector<TableCell> cells;
@@ -266,7 +262,7 @@ Table rows_table(const FailureMapResult& result) {
                                  row.beyond(result.question.tolerance) ? "yes" : "no"});
       ++k;
     } else {
-      cells.insert(cells.end(), {"-", "-", "no answer"});
+      cells.insert(cells.end(), {"-", "-", "not answered"});
     }
     table.add(std::move(cells));
   }
@@ -282,13 +278,13 @@ Table coordinates_table(const FailureMapResult& result) {
 Table checks_table(const FailureMapResult& result) {
   Table table{"Fresh conditions: predicted, then run", {}};
   for (const Factor& factor : result.question.factors) table.header.push_back(heading(factor.name, factor.unit));
-  table.header.insert(table.header.end(), {"predicted [%]", "found [%]", "apart [standard errors]"});
+  table.header.insert(table.header.end(), {"predicted [%]", "found [%]", "difference [standard errors]"});
   for (const FreshCheck& check : result.checks) {
     std::vector<TableCell> cells;
     for (std::size_t j = 0; j < result.question.factors.size(); ++j)
       cells.push_back(number(check.values[j] * per_unit(result.question.factors[j].unit)));
     cells.push_back(in_percent(check.predicted));
-    cells.push_back(check.found ? in_percent(*check.found) : "no answer");
+    cells.push_back(check.found ? in_percent(*check.found) : "not answered");
     cells.push_back(check.found ? fmt::format("{:.1f}", check.sigma()) : "-");
     table.add(std::move(cells));
   }
@@ -335,7 +331,7 @@ std::string failure_map_page(const FailureMapResult& result, const PageAbout& ab
   page.figures_at_a_glance(
       {{std::to_string(result.rows.rows.size()), "conditions run"},
        {fmt::format("{:.1f} %", 100 * result.rows.held_out.rms()), "cross-validated error, of the load"},
-       {fmt::format("{:.0f} %", 100 * share_beyond(result)), "of the box beyond the tolerance"}});
+       {fmt::format("{:.0f} %", 100 * share_beyond(result)), "of the range beyond the tolerance"}});
   page.list(details(result));
   page.doubts(about.doubts);
   const std::vector<Factor>& factors = result.question.factors;

@@ -81,9 +81,8 @@ Table next_run_table(const LoopAnswer& answer) {
 /// Of a model that takes no effects: no "after".
 Table base_error_table(const LoopAnswer& answer) {
   Table table{
-      "Root mean square error on conditions that the fit has not seen, the soil refitted; noise alone: what no "
-      "smooth function of the conditions explains",
-      {"channel", "values", "error", "noise alone"}};
+      "Cross-validated RMS error, the soil refitted; noise: scatter about any smooth function of the conditions",
+      {"channel", "values", "error", "noise"}};
   for (std::size_t c = 0; c < channel_views.size(); ++c)
     if (const HeldOutErrors& e = answer.validation.channels[c]; e.cells > 0)
       table.add({std::string(channel_views[c].title), std::to_string(e.cells), in_unit(c, e.before),
@@ -96,9 +95,9 @@ Table base_error_table(const LoopAnswer& answer) {
 Table error_table(const LoopAnswer& answer) {
   if (!takes_effects(answer)) return base_error_table(answer);
   MarkedTable table{
-      "Root mean square error on conditions that neither choice nor fit has seen; before: soil refitted, no effect "
-      "added; noise alone: what no smooth function of the conditions explains",
-      {"channel", "values", "before", "after", "change", "noise alone"}};
+      "Cross-validated RMS error; before: soil refitted, no effect added; noise: scatter about any smooth function of "
+      "the conditions",
+      {"channel", "values", "before", "after", "change", "noise"}};
   for (std::size_t c = 0; c < channel_views.size(); ++c) {
     const HeldOutErrors& e = answer.validation.channels[c];
     if (e.cells == 0) continue;
@@ -122,13 +121,13 @@ Table error_table(const LoopAnswer& answer) {
 
 Table candidates_table(const LoopAnswer& answer) {
   const std::string premise = !answer.second           ? ""
-                              : answer.second->decides ? ", beside a base model that may be off by itself"
+                              : answer.second->decides ? ", with a base model that may itself be wrong"
                                                        : ", the base model taken as exact";
   const std::string shares = answer.verdict == Verdict::unknown_effect
-                                 ? "; none of them explains the data, shares are among those that come nearest"
-                                 : "; shares are of those that these data do not rule out";
+                                 ? "; none explains the data, shares are among the nearest"
+                                 : "; shares are of those not ruled out";
   MarkedTable table{"Candidates, each fitted in full" + premise + shares,
-                    {"effects", "form", "share", "odds to the first", "chi2", "values"},
+                    {"effects", "variant", "share", "odds to the first", "chi2", "values"},
                     {true, true}};
   const std::string values = std::to_string(answer.found().base.data().cells());
   const std::vector<const WeightedSet*> sets = sets_shown(answer);
@@ -153,15 +152,14 @@ std::string candidates_columns_in_words() {
 }
 
 Table parameters_table(const LoopAnswer& answer) {
-  MarkedTable table{answer.effects.empty() ? "The stand-in of the saved model: its fitted parameters"
-                                           : "The effects of the saved model: their fitted parameters",
-                    {"effect", "parameter", "value", "95 %", "the form allows", "determined?"},
+  MarkedTable table{answer.effects.empty() ? "Empirical correction: fitted parameters" : "Effects: fitted parameters",
+                    {"effect", "parameter", "value", "95 %", "allowed", "determined?"},
                     {true, true, false, false, false, true}};
   for (const AcceptedEffect& effect : answer.taken()) {
     const bekker_wong::EffectForm& form = bekker_wong::find_form(effect.choice);
     if (form.id == bekker_wong::learned_id) {  // its weights mean nothing one by one
       table.add({{std::string(bekker_wong::effect_title(form.id).name), form.id},
-                 {form.equation, "form " + form.form},
+                 {form.equation, "variant " + form.form},
                  std::to_string(effect.fitted.size()) + " weights",
                  "-",
                  "-",
@@ -173,21 +171,21 @@ Table parameters_table(const LoopAnswer& answer) {
       const double scale = per_unit(p.unit);
       const std::string unit = unit_behind(p.unit);
       const auto& [low, high] = effect.ci95[i];
-      table.add({i == 0
-                     ? TableCell(std::string(bekker_wong::effect_title(form.id).name), form.id + ", form " + form.form)
-                     : TableCell{},
-                 {p.meaning, p.name},
-                 number(scale * effect.choice.parameters.at(p.name)) + unit,
-                 fmt::format("{} to {}{}", number(scale * low), number(scale * high), unit),
-                 fmt::format("{:.4g} to {:.4g}{}", scale * p.lower, scale * p.upper, unit),
-                 effect.at_bound[i] ? TableCell("no: at its bound", "", Tone::bad) : TableCell("yes")});
+      table.add(
+          {i == 0 ? TableCell(std::string(bekker_wong::effect_title(form.id).name), form.id + ", variant " + form.form)
+                  : TableCell{},
+           {p.meaning, p.name},
+           number(scale * effect.choice.parameters.at(p.name)) + unit,
+           fmt::format("{} to {}{}", number(scale * low), number(scale * high), unit),
+           fmt::format("{:.4g} to {:.4g}{}", scale * p.lower, scale * p.upper, unit),
+           effect.at_bound[i] ? TableCell("no: at its bound", "", Tone::bad) : TableCell("yes")});
     }
   }
   return table;
 }
 
 Table soil_table(const LoopAnswer& answer) {
-  MarkedTable table{"The soil's values, and the bias that leaving the effects out puts into them",
+  MarkedTable table{"Soil values with and without the effects; bias: without less with",
                     {"value", "with", "without", "bias", "unit", "determined?"},
                     {true, false, false, false, true, true}};
   constexpr double hardly_less = 0.9;  // of the declared standard deviation: the data tell next to nothing

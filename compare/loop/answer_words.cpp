@@ -72,8 +72,7 @@ std::string legend_of(const std::string& formula) {
 /// The learned change as people would write it.
 std::string formula_sentence(const LearnedFormula& formula) {
   const std::string text = fmt::format("{}, with {}", formula.joint, formula_text(formula));
-  return fmt::format(" A formula that does as well on conditions left out as the learned curve: {}{}.", text,
-                     legend_of(text));
+  return fmt::format(" Equally good formula: {}{}.", text, legend_of(text));
 }
 
 /// Sets from the first one on, with their shares; those below `least`, of the evidence, are only counted.
@@ -94,9 +93,8 @@ std::string why_taken(const std::vector<WeightedSet>& sets) {
   const auto lighter = [](const WeightedSet& a, const WeightedSet& b) { return a.weight < b.weight; };
   const WeightedSet &taken = sets.front(), &heaviest = *std::ranges::max_element(sets, lighter);
   if (heaviest.ids == taken.ids) return "";
-  return fmt::format(
-      " The model takes {} all the same: what {} has beyond it does not predict conditions left out better.",
-      named_effects(taken.ids), named_effects(heaviest.ids));
+  return fmt::format(" The model uses {}: what {} adds does not improve predictions.", named_effects(taken.ids),
+                     named_effects(heaviest.ids));
 }
 
 /// How far behind the best set the next one stands, where the best stands alone. The odds are those of the catalogue's
@@ -108,11 +106,11 @@ std::string next_candidate(const LoopAnswer& answer) {
   const double behind = sets[0]->log_evidence - sets[1]->log_evidence;
   if (!(behind > 0)) return "";
   constexpr double clear_share = 0.9;
-  return fmt::format("The next candidate, {}, is {} less likely{}.", named_effects(sets[1]->ids),
-                     times_likelier(behind),
-                     sets[0]->weight < clear_share
-                         ? ""
-                         : " by the catalogue's equations; where nature had others, 9 in 10 such names were right");
+  return fmt::format(
+      "Next candidate: {}, {} less likely{}.", named_effects(sets[1]->ids), times_likelier(behind),
+      sets[0]->weight < clear_share
+          ? ""
+          : " by the catalogue's equations (in tests with other equations 9 in 10 such names were right)");
 }
 
 /// What an accepted effect takes the wheel to have and the campaign does not declare: without it the verdict misleads.
@@ -125,8 +123,7 @@ std::string presumed_of_the_wheel(const LoopAnswer& answer) {
       values += (values.empty() ? "" : ", ") + value.words;
     if (!values.empty())
       text += fmt::format(
-          " The campaign does not declare what {0} needs, so this is presumed: {1}. If the wheel has no such thing, "
-          "something that acts like {0} is missing, not {0} itself.",
+          " Not declared and assumed for {0}: {1}. If the wheel has none, something that acts like {0} is missing.",
           effect_title(effect.choice.id).name, values);
   }
   return text;
@@ -137,8 +134,7 @@ std::string odds_clause(const LoopAnswer& answer) {
   if (!answer.judgement || answer.verdict == Verdict::not_enough_data) return "";
   if (answer.verdict == Verdict::unknown_effect) return answer.judgement->reason;
   const ResidualSignatures& signatures = answer.found().signatures;
-  return fmt::format("noise alone would make some effect stand out this much in {} ({})", odds_words(signatures),
-                     p_words(signatures));
+  return noise_verdict(signatures);
 }
 
 /// Effects whose amplitude ends at the bound of its form; "" where there is none.
@@ -147,10 +143,8 @@ std::string sizes_at_a_bound(const LoopAnswer& answer) {
   for (const AcceptedEffect& effect : answer.effects)
     if (!effect.at_bound.empty() && effect.at_bound.front()) names.push_back(named_effects({effect.choice.id}));
   if (names.empty()) return "";
-  return fmt::format(
-      " The size of {} ends at the bound of its form: something else may act like it, such as a column in another unit "
-      "or a wheel of another size than is declared.",
-      joined_with_and(names));
+  return fmt::format(" {} reaches the bound of its variant: check the columns' units and the declared wheel.",
+                     capital(joined_with_and(names)));
 }
 
 /// What else to know of the verdict; "" where there is nothing.
@@ -163,8 +157,8 @@ std::string beside_the_verdict(const LoopAnswer& answer) {
                               : next_candidate(answer)) +
              sizes_at_a_bound(answer) + presumed_of_the_wheel(answer);
     case Verdict::unknown_effect:
-      return sets.size() > 1 ? "Of the known effects these come nearest: " + sets_with_shares(sets, 0, worth_listing) +
-                                   "." + (takes_effects(answer) ? why_taken(sets) : "")
+      return sets.size() > 1 ? "Nearest known effects: " + sets_with_shares(sets, 0, worth_listing) + "." +
+                                   (takes_effects(answer) ? why_taken(sets) : "")
                              : "";
     case Verdict::nothing_missing:
       return capital(answer.judgement->reason) + ".";
@@ -195,7 +189,7 @@ std::vector<std::string> channels_that(bool (*moves)(const HeldOutErrors&), cons
     const ChannelView& view = channel_views[c];
     if (e.cells == 0 || !moves(e)) continue;
     const std::string noise =
-        with_noise ? fmt::format("; noise alone: {} {}", error_number(e.noise_floor * view.per_si), view.unit) : "";
+        with_noise ? fmt::format("; noise {} {}", error_number(e.noise_floor * view.per_si), view.unit) : "";
     said.push_back(fmt::format("{} ({} to {} {}{})", view.title, error_number(e.before * view.per_si),
                                error_number(e.after * view.per_si), view.unit, noise));
   }
@@ -214,20 +208,18 @@ std::string error_sentence(const LoopAnswer& answer) {
   if (!takes_effects(answer)) {
     for (std::size_t c = 0; c < channel_views.size(); ++c)
       if (const HeldOutErrors& e = validation.channels[c]; e.cells > 0)
-        parts.push_back(fmt::format("{0} {1} {3} (noise alone: {2} {3})", channel_views[c].title,
+        parts.push_back(fmt::format("{0} {1} {3} (noise {2} {3})", channel_views[c].title,
                                     error_number(e.before * channel_views[c].per_si),
                                     error_number(e.noise_floor * channel_views[c].per_si), channel_views[c].unit));
-    return fmt::format("With the soil refitted the root mean square error on conditions left out is: {}.",
-                       joined_with_and(parts));
+    return fmt::format("With the soil refitted the cross-validated RMS error is: {}.", joined_with_and(parts));
   }
   const auto add = [&](const char* what, const std::vector<std::string>& channels) {
     if (!channels.empty()) parts.push_back(fmt::format("{} {}", what, with_the(channels)));
   };
   add("rises for", channels_that(rises, validation, true));
   add("falls for", channels_that(falls_clearly, validation, true));
-  add("hardly changes for", channels_that(hardly_changes, validation, true));
-  return fmt::format("On conditions that neither the choice nor the fit has seen the root mean square error {}.",
-                     joined_with_and(parts));
+  add("changes little for", channels_that(hardly_changes, validation, true));
+  return fmt::format("The cross-validated RMS error {}.", joined_with_and(parts));
 }
 
 // Parameters.
@@ -244,7 +236,7 @@ std::string effect_sentence(const AcceptedEffect& effect) {
     parameters.push_back(fmt::format("{} {}{} (95 %: {} to {}{})", p.meaning,
                                      number(scale * effect.choice.parameters.at(p.name)), unit_behind(p.unit),
                                      number(scale * effect.ci95[i].first), number(scale * effect.ci95[i].second),
-                                     effect.at_bound[i] ? "; at its bound: these data do not determine it" : ""));
+                                     effect.at_bound[i] ? "; at its bound, not determined" : ""));
   }
   return fmt::format("{} ({}): {}.", capital(std::string(effect_title(effect.choice.id).name)),
                      spaced(effect.choice.form), fmt::join(parameters, "; "));
@@ -255,20 +247,19 @@ std::string effect_sentence(const AcceptedEffect& effect) {
 /// What the attribution says that does not decide.
 std::string note_on_the_other_attribution(const LoopAnswer& answer) {
   const Attribution& note = answer.second->alternative;
-  std::string names = "no named effect stands out";
+  std::string names = "no known effect is significant";
   std::vector<std::string> others;
   if (note.candidates.best) {
     const std::set<std::string>& best = note.best().ids;
-    names = fmt::format("{} stands out most (p = {:.2g})", named_effects(best), note.signatures.p_value);
+    names = fmt::format("{} is strongest (p = {:.2g})", named_effects(best), note.signatures.p_value);
     for (const WeightedSet& w : answer.alternative_sets)
       if (w.ids != best) others.push_back(joined(w.ids));
   }
-  if (!others.empty()) names += fmt::format("; these compete with it: {}", fmt::join(others, ", "));
-  const char* other = answer.second->decides
-                          ? "a base model that is taken as exact"
-                          : "a base model that may itself be off by any smooth function of load and slip";
-  return fmt::format("A second reading of the data, with {}{}: {}.", other,
-                     note.candidates.best ? ", which explains them less well" : "", names);
+  if (!others.empty()) names += fmt::format("; competing: {}", fmt::join(others, ", "));
+  const char* other = answer.second->decides ? "the base model taken as exact"
+                                             : "the base model wrong by a smooth function of load and slip";
+  return fmt::format("Second analysis, with {}{}: {}.", other,
+                     note.candidates.best ? " (explains the data less well)" : "", names);
 }
 
 /// The forms that the answer names: of the effects in the model, and of the sets that compete.
@@ -299,8 +290,8 @@ std::string note_on_noise(const LoopAnswer& answer) {
   }
   if (channels.empty()) return "";
   return fmt::format(
-      "The noise is more than re-runs of a setpoint scatter, for {}: setpoints lie that far off any smooth function of "
-      "the conditions, and the loop counts that as noise.",
+      "The noise exceeds the scatter of re-runs for {}: setpoints deviate that much from any smooth function of the "
+      "conditions.",
       joined_with_and(channels));
 }
 
@@ -328,8 +319,8 @@ std::string note_on_declared_soil(const LoopAnswer& answer) {
   }
   if (values.empty()) return "";
   return fmt::format(
-      "The fit leaves what is known of the soil by more than three standard deviations: {}. Where that is declared too "
-      "surely, an effect may stand in for the soil.",
+      "The fitted soil differs from the declared one by more than three standard deviations: {}. If the declared "
+      "uncertainty is too small, an effect may be a soil error.",
       fmt::join(values, "; "));
 }
 
@@ -341,11 +332,9 @@ std::string outlier_sentence(const LoopAnswer& answer) {
   for (std::size_t i = 0; i < std::min(most, answer.set_aside.size()); ++i)
     listed.push_back(value_in_words(answer.set_aside[i]));
   if (answer.set_aside.size() > most) listed.push_back("...");
-  std::string said = fmt::format(
-      "{} {} farther off than noise puts any value in 99 of 100 campaigns, and {} set aside "
-      "({}).",
-      counted(answer.set_aside.size(), "measured value"), one ? "is" : "are", one ? "was" : "were",
-      fmt::join(listed, "; "));
+  std::string said = fmt::format("{} {} set aside as outlier{} (noise exceeds this in 1 of 100 campaigns): {}.",
+                                 counted(answer.set_aside.size(), "measured value"), one ? "is" : "are", one ? "" : "s",
+                                 fmt::join(listed, "; "));
   if (!answer.with_outliers) return said;
   const WithOutliers& kept = *answer.with_outliers;
   said += fmt::format(" With {} kept ", one ? "it" : "them");
@@ -388,7 +377,7 @@ std::string verdict_sentence(const LoopAnswer& answer) {
                              : fmt::format("The model lacks {}.", names);
     }
     case Verdict::nothing_missing:
-      return "Nothing is missing that these data show.";
+      return "No missing effect is detected.";
     case Verdict::unknown_effect:
       return fmt::format("Something is missing that none of the {} known effects explains.",
                          bekker_wong::effect_ids().size());
@@ -400,8 +389,8 @@ std::string verdict_sentence(const LoopAnswer& answer) {
 
 std::string stand_in_sentence(const LoopAnswer& answer) {
   if (answer.stand_in.empty()) return "";
-  return fmt::format("The saved model takes {}. That explains nothing, but predicts conditions left out better.{}",
-                     stand_in_words(answer), answer.formula ? formula_sentence(*answer.formula) : "");
+  return fmt::format("Empirical correction: {}. Better predictions, no physical cause.{}", stand_in_words(answer),
+                     answer.formula ? formula_sentence(*answer.formula) : "");
 }
 
 std::vector<BackedSentence> headline(const LoopAnswer& answer, const std::vector<std::string>& column_doubts) {
@@ -412,15 +401,16 @@ std::vector<BackedSentence> headline(const LoopAnswer& answer, const std::vector
   }
   std::vector<BackedSentence> parts;
   if (!column_doubts.empty())
-    parts.push_back({.about = "Before you believe what follows",
-                     .text = fmt::format("A column of these data looks mistaken, and the loop may have taken that for "
-                                         "an effect. Settle it and ask again: {}.",
-                                         fmt::join(column_doubts, "; "))});
+    parts.push_back(
+        {.about = "Check first",
+         .text = fmt::format("A column looks wrong, and the loop may have taken that for an effect. Correct "
+                             "it and run the loop again: {}.",
+                             fmt::join(column_doubts, "; "))});
   parts.push_back({.about = "What is missing", .text = std::move(verdict), .detail = beside_the_verdict(answer)});
   if (answer.validation.overall.cells > 0)
-    parts.push_back({.about = !takes_effects(answer)    ? "How large the error is"
-                              : answer.stand_in.empty() ? "What it does to the error"
-                                                        : "What a stand-in does to the error",
+    parts.push_back({.about = !takes_effects(answer)    ? "Error"
+                              : answer.stand_in.empty() ? "Error with the effect"
+                                                        : "Error with the empirical correction",
                      .text = error_sentence(answer),
                      .detail = stand_in_sentence(answer)});
   if (const std::vector<std::string> next = what_next(answer); !next.empty())
@@ -439,20 +429,18 @@ std::vector<std::string> notes(const LoopAnswer& answer) {
     sentences.push_back("No two rows share a setpoint: the noise was estimated together with the fit.");
   if (const int near = answer.judgement ? answer.found().base.data().observations.conditions_in_blocks() : 0; near > 0)
     sentences.push_back(fmt::format(
-        "{} conditions without a label lie so near another one that they may be re-runs: such are left out together. A "
-        "label (setpoint) says which are re-runs, and tells the noise better.",
+        "{} conditions without a label may be re-runs of another one and are left out together. A label (setpoint) "
+        "says which are re-runs, and gives a better estimate of the noise.",
         near));
   if (std::string noise = note_on_noise(answer); !noise.empty()) sentences.push_back(std::move(noise));
   if (answer.outliers() > 0) sentences.push_back(outlier_sentence(answer));
   if (!answer.judgement) return sentences;
   if (std::string soil = note_on_declared_soil(answer); !soil.empty()) sentences.push_back(std::move(soil));
   if (const auto& impossible = answer.found().base.data().campaign->impossible; !impossible.empty())
-    sentences.push_back(
-        fmt::format("Not looked for, since these data can't hold them: {}.", named_effects(impossible)));
+    sentences.push_back(fmt::format("Not tested, since these runs exclude them: {}.", named_effects(impossible)));
   if (!answer.not_testable.empty()) {
     std::set<std::string> ids(answer.not_testable.begin(), answer.not_testable.end());
-    sentences.push_back(
-        fmt::format("Not testable with these data, which does not mean absent: {}.", named_effects(ids)));
+    sentences.push_back(fmt::format("Not testable with these data, but possible: {}.", named_effects(ids)));
   }
   return sentences;
 }
@@ -490,8 +478,8 @@ std::vector<int> worse_channels(const LoopAnswer& answer) {
 std::string held_out_words(const CrossValidation& validation) {
   const std::vector<std::string> better = channels_that(falls, validation), worse = channels_that(rises, validation);
   std::string text =
-      fmt::format("held-out error {} by {:.2g} +- {:.2g} sigma^2 a value", validation.gain < 0 ? "rises" : "falls",
-                  std::abs(validation.gain), validation.gain_error);
+      fmt::format("cross-validated error {} by {:.2g} +- {:.2g} noise variances a value",
+                  validation.gain < 0 ? "rises" : "falls", std::abs(validation.gain), validation.gain_error);
   if (!better.empty()) text += fmt::format("; predicted better: {}", fmt::join(better, ", "));
   if (!worse.empty()) text += fmt::format("; predicted worse: {}", fmt::join(worse, ", "));
   return text;

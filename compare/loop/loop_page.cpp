@@ -75,7 +75,7 @@ std::vector<const Signature*> strongest_signatures(const LoopAnswer& answer) {
 
 Table signature_table(const std::vector<const Signature*>& signatures) {
   Table table{"The strongest signatures against the base model; kept: the share that the soil's values cannot absorb",
-              {"effect", "form", "score [sd]", "amplitude [SI]", "kept [%]", "detectable from [SI]"},
+              {"effect", "variant", "score [sd]", "amplitude [SI]", "kept [%]", "detectable from [SI]"},
               {true, true}};
   for (const Signature* s : signatures)
     table.add({s->term.form->id, s->term.form->form, number(s->score), number(Estimate{s->amplitude, s->std_error}),
@@ -110,12 +110,13 @@ std::string caption_of_models(const LoopAnswer& answer) {
   const std::string noise = "Bars: one standard deviation of a run's noise. ";
   if (!takes_effects(answer)) return noise + "The model's soil values are refitted to these runs.";
   return noise + fmt::format("Before: the soil refitted to these runs, no effect added. After: with {}{}.",
-                             named_effects(ids_of(answer.taken())), answer.effects.empty() ? " as a stand-in" : "");
+                             named_effects(ids_of(answer.taken())),
+                             answer.effects.empty() ? " as an empirical correction" : "");
 }
 
 /// The figure that answers: curves where the runs lie on curves, else what the base model misses.
 void add_main_figure(Page& page, const LoopAnswer& answer, const std::vector<Covariate>& variables) {
-  page.section("Measured, and the model before and after", "figure");
+  page.section("Measured and modelled", "figure");
   const auto curves = curves_of_the_fit(answer);
   if (curves.empty()) {
     if (variables.empty()) return;
@@ -148,7 +149,7 @@ void add_tables(Page& page, const LoopAnswer& answer) {
     page.table(error_table(answer));
   }
   if (takes_effects(answer)) {
-    page.section(answer.effects.empty() ? "The stand-in of the saved model" : "The effects and their size", "effects");
+    page.section(answer.effects.empty() ? "Empirical correction" : "The effects and their size", "effects");
     page.table(parameters_table(answer));
     if (!answer.soil_shifts.empty()) page.table(soil_table(answer));
   }
@@ -191,7 +192,7 @@ void add_appendix(Page& page, const LoopAnswer& answer, const std::vector<Covari
   page.folded("Noise", [&] {
     page.table(noise_table(answer));
     if (answer.validation.overall.cells > 0 && takes_effects(answer))
-      page.paragraph(fmt::format("The squared error on conditions left out falls by {} ± {} noise variances a value.",
+      page.paragraph(fmt::format("The cross-validated squared error falls by {} ± {} noise variances a value.",
                                  number(answer.validation.gain), number(answer.validation.gain_error)));
   });
 }

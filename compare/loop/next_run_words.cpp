@@ -31,12 +31,11 @@ std::vector<std::string> without_a_condition(const LoopAnswer& answer) {
   const UnnamedEvidence& unnamed = answer.found().unnamed;
   if (unnamed.gain > thresholds::unnamed_instead && unnamed.most_likely == misread_kind)
     return {"Before more runs, check how slip and load are measured, and at which conditions.",
-            "The unexplained part looks like a slip or load that was misread."};
+            "The unexplained part looks like a misread slip or load."};
   if (answer.judgement->before.serial.p_value <= thresholds::serial_level)
     return {"Measure one setpoint, repeated through the whole campaign.",
             "The unexplained part changes from run to run, not by chance."};
-  return {"Vary one condition alone, each setting run twice.",
-          "Where the unexplained part comes from does not show yet."};
+  return {"Vary one condition alone, each setting run twice.", "The cause of the unexplained part is not visible yet."};
 }
 
 /// What has no name predicts nothing; but where it shows can be said.
@@ -73,23 +72,22 @@ std::vector<std::string> to_set_apart(const LoopAnswer& answer) {
   const std::string ahead = named_effects(next.separates.front()), behind = named_effects(next.separates.back());
   std::vector<std::string> sentences;
   if (answer.verdict == Verdict::unknown_effect)
-    sentences = {
-        fmt::format("To choose between the named effects that come nearest, measure {}.", condition_words(answer))};
+    sentences = {fmt::format("To choose between the nearest known effects, measure {}.", condition_words(answer))};
   else if (answer.ambiguity_set.size() == 1)
-    sentences = {fmt::format("One name is left; to be surer still, measure {}.", condition_words(answer)),
+    sentences = {fmt::format("To confirm, measure {}.", condition_words(answer)),
                  fmt::format("There it differs most from the next candidate, {}: by {:.1f} standard deviations of one "
                              "run.",
                              behind, std::sqrt(next.distance))};
   else
     sentences = {fmt::format("Measure {}.", condition_words(answer))};
   if (sentences.size() == 1)
-    sentences.push_back(fmt::format("{} run{} there should decide between {} on the one hand and {} on the other.",
-                                    next.runs, next.runs == 1 ? "" : "s", ahead, behind));
+    sentences.push_back(
+        fmt::format("{} run{} there should decide: {} or {}.", next.runs, next.runs == 1 ? "" : "s", ahead, behind));
   if (next.beyond.empty()) return sentences;
   std::vector<std::string> names = next.beyond;
   for (std::string& name : names) name = spaced(name);
   sentences.push_back(
-      fmt::format("Its {} lie{} beyond what was run; if your rig cannot go there: --limit {}=LOW..HIGH.",
+      fmt::format("Its {} lie{} beyond the measured range; if your rig cannot reach it, give --limit {}=LOW..HIGH.",
                   joined_with_and(names), names.size() == 1 ? "s" : "", next.beyond.front()));
   return sentences;
 }
@@ -102,9 +100,9 @@ std::vector<std::string> what_next(const LoopAnswer& answer) {
     sentences = to_show_its_shape(answer);
   } else if (!proposes_next(answer)) {
     if (answer.ambiguity_set.size() > 1)
-      return {"No condition within the limits would set these candidates apart in 50 runs."};
+      return {"No condition within the limits separates these candidates in 50 runs."};
     if (answer.verdict == Verdict::effect_found && answer.ambiguity_set.size() == 1)
-      return {"One name is left, and no condition within the limits would set it further apart in one run."};
+      return {"One candidate is left; no condition within the limits confirms it further in one run."};
   }
   if (proposes_next(answer))
     for (std::string& sentence : to_set_apart(answer)) sentences.push_back(std::move(sentence));

@@ -375,8 +375,9 @@ std::string notes_on(const std::vector<RecordedRun>& runs) {
   for (const RecordedRun& run : runs) {
     seconds += run.seconds;
     if (run.answer.result && !run.steady)
-      notes += fmt::format("not steady at {}{}: halves differ by {:.3g} standard errors\n", in_words(run.answer.at),
-                           run.packing == 1 ? "" : fmt::format(", packing {}", run.packing), run.drift);
+      notes +=
+          fmt::format("not steady at {}{} (drift {:.3g} standard errors): lengthen the run\n", in_words(run.answer.at),
+                      run.packing == 1 ? "" : fmt::format(", bed sample {}", run.packing), run.drift);
   }
   if (runs.empty()) return "";
   return notes + density_of_beds(runs) +

@@ -22,7 +22,7 @@ Table packings_table(const Record& record) {
     ++line.runs, line.seconds += run.seconds;
     line.answers += run.answer.result.has_value(), line.steady += run.answer.result && run.steady;
   }
-  Table table{"", {"packing", "runs", "with a result", "steady", "seconds"}};
+  Table table{"", {"bed sample", "runs", "with a result", "steady", "seconds"}};
   for (const auto& [packing, line] : packings)
     table.add({std::to_string(packing), std::to_string(line.runs), std::to_string(line.answers),
                std::to_string(line.steady), fmt::format("{:.0f}", line.seconds)});

@@ -91,7 +91,7 @@ constexpr double least_freedom = 4;
 
 /// What a run answers, in a line: for a person who has nothing else of it.
 std::string in_a_line(const RecordedRun& run) {
-  std::string line = fmt::format("{}, packing {}:", in_words(run.answer.at), run.packing);
+  std::string line = fmt::format("{}, bed sample {}:", in_words(run.answer.at), run.packing);
   if (!run.answer.result) return line + " " + run.answer.error;
   for (const TractionChannel& channel : traction_channels) {
     const Estimate& value = (*run.answer.result).*channel.predicted;
@@ -166,11 +166,11 @@ std::optional<double> packing_factor(const Record& record, Estimate TractionResu
 }
 
 TractionResult mean_of_packings(const Runs& runs) {
-  if (runs.empty()) throw InputError("no packing to answer with: at least one is needed");
+  if (runs.empty()) throw InputError("no bed sample to answer with: at least one is needed");
   for (const RecordedRun* run : runs)
     if (!run->answer.result)
       throw NoSolution(runs.size() == 1 ? run->answer.error
-                                        : fmt::format("packing {}: {}", run->packing, run->answer.error));
+                                        : fmt::format("bed sample {}: {}", run->packing, run->answer.error));
   TractionResult mean = *runs.front()->answer.result;
   if (runs.size() == 1) return mean;
   for (const ChannelView& channel : channel_views) mean.*channel.predicted = mean_channel(runs, channel.predicted);

@@ -82,7 +82,7 @@ std::vector<AskedRun> missing_runs(const std::vector<AskedRun>& list, const std:
 }
 
 std::string in_words(const AskedRun& run) {
-  return fmt::format("{}, packing {}{}", in_words(run.at), run.packing, run.half_step ? ", half the time step" : "");
+  return fmt::format("{}, bed sample {}{}", in_words(run.at), run.packing, run.half_step ? ", half the time step" : "");
 }
 
 }  // namespace soilbin::compare

@@ -49,7 +49,7 @@ const RecordedRun* find_run(const Record& record, const AskedRun& asked);
 /// Those of the list that none of the records holds.
 std::vector<AskedRun> missing_runs(const std::vector<AskedRun>& list, const std::vector<Record>& records);
 
-/// "load 4 kN, slip 20 %, packing 2"; with ", half the time step" where it is that.
+/// "load 4 kN, slip 20 %, bed sample 2"; with ", half the time step" where it is that.
 std::string in_words(const AskedRun& run);
 
 }  // namespace soilbin::compare

@@ -52,7 +52,7 @@ bool agrees(const StepPair& pair) {
 
 std::string in_words(const StepPair& pair) {
   std::string words =
-      fmt::format("at {}, packing {}, half the time step ", in_words(pair.half->answer.at), pair.half->packing);
+      fmt::format("at {}, bed sample {}, half the time step ", in_words(pair.half->answer.at), pair.half->packing);
   if (!pair.difference)
     return words + fmt::format("has no answer to compare: {}",
                                pair.half->answer.result ? pair.whole->answer.error : pair.half->answer.error);
@@ -63,7 +63,7 @@ std::string in_words(const StepPair& pair) {
     words += fmt::format("{}{} by {:.3g} ± {:.2g} {} ({:.1f} errors)", c == 0 ? "" : ", ", channel.title,
                          of.value * channel.per_si, of.std_error * channel.per_si, channel.unit, in_errors(of));
   }
-  return words + (pair.widened ? "; the errors hold the scatter between packings" : "");
+  return words + (pair.widened ? "; the errors hold the scatter between bed samples" : "");
 }
 
 std::vector<std::string> step_doubts(const Record& record) {

@@ -35,7 +35,7 @@ std::vector<StepPair> step_pairs(const Record& record);
 /// Whether no channel differs by more than step_alike standard errors. A pair without results is not.
 bool agrees(const StepPair& pair);
 
-/// "at 8 kN, slip 60 %, packing 1, half the step changes pull by 12 ± 30 N (0.4 errors), ...".
+/// "at 8 kN, slip 60 %, bed sample 1, half the step changes pull by 12 ± 30 N (0.4 errors), ...".
 std::string in_words(const StepPair& pair);
 
 /// The doubt in a record whose step nobody tested, or whose answers hang on it; none where a pair agrees and no other

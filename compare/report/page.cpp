@@ -156,7 +156,7 @@ void Page::list(const std::vector<std::string>& items) {
 
 void Page::doubts(const std::vector<std::string>& doubts) {
   if (doubts.empty()) return;
-  section("What is doubtful", "doubts");
+  section("Warnings", "doubts");
   list(doubts);
 }
 

@@ -260,11 +260,10 @@ std::vector<Answer> recorded_answers(const Record& record, const std::vector<Ope
     factors[c] = std::max(1.0, factor.value_or(1.0));
     if (factor) remark += fmt::format("{}{} {:.2g}", remark.empty() ? "" : ", ", channel_views[c].title, *factor);
   }
-  remark =
-      remark.empty()
-          ? "errors are those of single runs: too few conditions have several packings to know more"
-          : "scatter between packings over the errors of single runs (errors are widened by it where it is above 1): " +
-                remark;
+  remark = remark.empty() ? "errors are those of single runs: too few conditions have several bed samples"
+                          : "scatter between bed samples over the errors of single runs (errors are widened by it "
+                            "where it is above 1): " +
+                                remark;
   const RecordedModel model(record);
   std::vector<Answer> answers;
   for (const OperatingCondition& at : conditions) {

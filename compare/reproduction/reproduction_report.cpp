@@ -248,11 +248,10 @@ std::vector<std::pair<std::string, std::string>> opening(const Reproduction& rep
     const std::string name = model_in_words(label);
     sentences.emplace_back(
         name == label ? label : fmt::format("{} ({})", label.starts_with("dem") ? capital(name) : "The " + name, label),
-        fmt::format("{} of {} findings are shown, {} contradicted and {} left open{}.", count(FindingVerdict::shown),
-                    asked, count(FindingVerdict::contradicted), count(FindingVerdict::not_shown),
-                    asked < static_cast<long>(rows.size())
-                        ? fmt::format("; to {} more it has no answer", rows.size() - asked)
-                        : ""));
+        fmt::format(
+            "{} of {} findings are shown, {} contradicted and {} left open{}.", count(FindingVerdict::shown), asked,
+            count(FindingVerdict::contradicted), count(FindingVerdict::not_shown),
+            asked < static_cast<long>(rows.size()) ? fmt::format(", {} not answered", rows.size() - asked) : ""));
   }
   std::string contradicted;
   for (const ReproducedFinding& row : rows) {

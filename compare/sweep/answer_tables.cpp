@@ -73,13 +73,10 @@ std::vector<PrintedValue> printed_values(const TractionResult& r) {
   const std::string none = why_no_efficiency(r);
   all.push_back(
       {"Tractive efficiency", none.empty() ? efficiency_in_percent(r) : "none: " + none, none.empty() ? "%" : ""});
-  all.push_back(
-      {"Contact",
-       fmt::format(
-           "soil meets the wheel {:.1f}° before the axle (theta_1), presses most at {:.1f}° (theta_m), lets go at "
-           "{:.1f}° (theta_2)",
-           r.entry_angle / degree, r.max_stress_angle / degree, r.exit_angle / degree + 0.0),
-       ""});
+  all.push_back({"Contact",
+                 fmt::format("entry {:.1f} deg, peak stress {:.1f} deg, exit {:.1f} deg", r.entry_angle / degree,
+                             r.max_stress_angle / degree, r.exit_angle / degree + 0.0),
+                 ""});
   std::string sum;
   for (const Contribution& part : r.budget) {
     const std::string sign = sum.empty() ? (part.force < 0 ? "-" : "") : (part.force < 0 ? " - " : " + ");
@@ -87,8 +84,8 @@ std::vector<PrintedValue> printed_values(const TractionResult& r) {
   }
   if (const BudgetRest& rest = r.budget_rest; std::abs(rest.force) > 1e-9 * r.at.load)
     sum +=
-        fmt::format("; {} N of it is in none of these{}", number(rest.force),
-                    std::isfinite(rest.bound) ? fmt::format(" (sampling leaves up to {} N)", number(rest.bound)) : "");
+        fmt::format("; {} N unexplained{}", number(rest.force),
+                    std::isfinite(rest.bound) ? fmt::format(" (sampling error: up to {} N)", number(rest.bound)) : "");
   all.push_back({"Drawbar pull is", sum, ""});
   if (!r.without_error_of.empty())
     all.push_back(

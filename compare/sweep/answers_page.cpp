@@ -75,8 +75,8 @@ std::string change(const Peak& first, const Peak& last) {
   const double a = first.pull->drawbar_pull.value, b = last.pull->drawbar_pull.value;
   if (std::abs(b - a) < 0.01 * std::abs(a))
     return fmt::format("From {} to {} the largest pull hardly changes.", first.label, last.label);
-  return fmt::format("Curve by curve the largest pull {} from {} at {} to {} at {}{}.", b > a ? "rises" : "falls",
-                     force(a), first.label, force(b), last.label, b < 0.0 ? ", where the wheel has to be pushed" : "");
+  return fmt::format("The largest pull {} from {} at {} to {} at {}{}.", b > a ? "rises" : "falls", force(a),
+                     first.label, force(b), last.label, b < 0.0 ? " (the wheel must be pushed)" : "");
 }
 
 std::string largest_pull(const Peak& peak) {
@@ -86,7 +86,7 @@ std::string largest_pull(const Peak& peak) {
                                  100 * r.drawbar_pull.value / r.at.load, 100 * r.at.slip,
                                  peak.at_the_end() ? ", the largest slip asked for, where it still grows" : "");
   if (peak.efficiency != nullptr)
-    text += fmt::format("; at most {:.0f} % of the power put in goes into pull, at {:.3g} % slip",
+    text += fmt::format("; peak tractive efficiency {:.0f} %, at {:.3g} % slip",
                         100 * peak.efficiency->tractive_efficiency, 100 * peak.efficiency->at.slip);
   return text + ".";
 }
@@ -154,8 +154,8 @@ Table answers_table(const StudyPart& part) {
 }
 
 Table error_table(const Prediction& prediction) {
-  Table table{"Predicted less measured, nothing fitted",
-              {"channel", "runs", "root mean square", "bias", "range measured", "share of range [%]"}};
+  Table table{"Predicted less measured, without fitting",
+              {"channel", "runs", "RMS error", "bias", "measured range", "share of range [%]"}};
   for (const ChannelError& error : prediction.errors) {
     table.add({std::string(channel_views[error.channel].title), std::to_string(error.runs),
                in_unit(error.channel, error.rmse), in_unit(error.channel, error.bias),
@@ -175,8 +175,7 @@ Table soil_table(const std::string& name, const SemiEmpiricalSoil& soil, const s
               {true, false, true, true}};
   for (const SoilParameter& p : soil_parameters)
     table.add({p.title, number(soil.*p.value, p.per_si), p.unit, source_of(soil.sources, p.name)});
-  if (!soil.density)
-    table.add({"density", number(presumed_bulk_density), "kg/m^3", "presumed: the soil declares none"});
+  if (!soil.density) table.add({"density", number(presumed_bulk_density), "kg/m^3", "assumed: the soil declares none"});
   for (const ExactSoilValue& exact : exact_soil_values)
     if (const std::optional<double>& value = soil.*exact.value)
       table.add({exact.name, number(*value), exact.unit, source_of(soil.sources, exact.name)});
@@ -287,10 +286,11 @@ std::vector<KeyFigure> key_figures(const std::vector<StudyPart>& studies, const 
   for (const CampaignPart& part : campaigns)
     for (const ChannelError& error : part.prediction.errors)
       if (channel_views[error.channel].name == "drawbar_pull")
-        figures.push_back({fmt::format("{:.3g} N", error.rmse),
-                           fmt::format("error of the predicted drawbar pull, nothing fitted: root mean square over {} "
-                                       "runs, {:.0f} % of the measured range ({})",
-                                       error.runs, 100 * error.share_of_range, part.campaign.name)});
+        figures.push_back(
+            {fmt::format("{:.3g} N", error.rmse),
+             fmt::format("error of the predicted drawbar pull without fitting: RMS over {} runs, {:.0f} % of the "
+                         "measured range ({})",
+                         error.runs, 100 * error.share_of_range, part.campaign.name)});
   return figures;
 }
 
@@ -315,20 +315,20 @@ std::string in_words(const StudyPart& part) {
 }
 
 std::string in_words(const CampaignPart& part) {
-  std::string text = "Without any fitting the model misses";
+  std::string text = fmt::format("Prediction error without fitting (RMS over {} runs", part.prediction.runs.size());
+  if (part.prediction.unsolved > 0) text += fmt::format(", {} not answered", part.prediction.unsolved);
+  text += "):";
   const ChannelError* worst = nullptr;
   for (std::size_t i = 0; i < part.prediction.errors.size(); ++i) {
     const ChannelError& error = part.prediction.errors[i];
     const ChannelView& channel = channel_views[error.channel];
-    text += fmt::format("{} {} by {:.3g} {} ({:.0f} % of the range measured)", i == 0 ? "" : ",", channel.title,
+    text += fmt::format("{} {} {:.3g} {} ({:.0f} % of the measured range)", i == 0 ? "" : ",", channel.title,
                         error.rmse * channel.per_si, channel.unit, 100 * error.share_of_range);
     if (worst == nullptr || error.share_of_range > worst->share_of_range) worst = &error;
   }
-  text += fmt::format(", root mean square over {} runs", part.prediction.runs.size());
-  if (part.prediction.unsolved > 0) text += fmt::format(", of which {} have no solution", part.prediction.unsolved);
   if (worst != nullptr) {
     const ChannelView& channel = channel_views[worst->channel];
-    text += fmt::format(". Worst is {}, on average predicted {:.3g} {} too {}", channel.title,
+    text += fmt::format(". Worst: {}, on average {:.3g} {} too {}", channel.title,
                         std::abs(worst->bias) * channel.per_si, channel.unit, worst->bias < 0 ? "small" : "large");
   }
   return text + ".";

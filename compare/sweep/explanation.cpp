@@ -165,7 +165,7 @@ Step torque_step(const Facts& f, const TractionResult& result) {
           parts.size() > 1 ? sum_in_words(parts) + " N m" : "over the contact",
           result.torque.value,
           "N m",
-          on_the_rim ? "" : "R_s: the arm that the effects below give to the shear"};
+          on_the_rim ? "" : "R_s: the arm of the shear, which the effects below change"};
 }
 
 std::vector<Step> result_steps(const Facts& f, const TractionResult& result) {
@@ -311,12 +311,10 @@ std::string steps_in_words(const std::string& heading, const std::vector<Step>& 
 
 std::string in_words(const Explanation& explanation) {
   return steps_in_words(explanation.effects.empty() ? "Equations with their values"
-                                                    : "Equations of the base model at this contact, with the soil's "
-                                                      "values that the effects below leave; what else they change is "
-                                                      "not in these equations",
+                                                    : "Base-model equations; effects change only the soil values shown",
                         explanation.steps) +
          steps_in_words("Effects", explanation.effects) +
-         steps_in_words("Closed forms to check by (no balance, no effects)", explanation.cross_checks);
+         steps_in_words("Closed-form checks (no balance, no effects)", explanation.cross_checks);
 }
 
 Json to_json(const Explanation& explanation, const ModelChoice& choice, const OperatingCondition& at) {

@@ -42,7 +42,7 @@ std::string model_in_words(const std::string& label) {
   if (label == "dem") return "grains";
   if (label == "dem-lammps") return "grains (LAMMPS)";
   if (const std::string packing = "dem packing "; label.starts_with(packing))
-    return "grains, packing " + label.substr(packing.size());
+    return "grains, bed sample " + label.substr(packing.size());
   const std::vector<std::string> parts = parts_of(label);
   if (parts.front() != "bekker_wong") return label;
   std::string words = "analytic wheel";

@@ -9,7 +9,7 @@
 namespace soilbin::compare {
 
 /// "bekker_wong + slip_sinkage:ding" is "analytic wheel with slip sinkage (ding)", "dem" is "grains", "dem packing 2"
-/// is "grains, packing 2". A label that somebody chose stays as it is, and so does one that is in words already.
+/// is "grains, bed sample 2". A label that somebody chose stays as it is, and so does one that is in words already.
 std::string model_in_words(const std::string& label);
 
 /// Calls the sides (anything with a label) in words; gives the labels that they had.

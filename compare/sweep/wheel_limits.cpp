@@ -132,21 +132,17 @@ bool only_bounds(const WheelLimits& answer) {
 
 std::string slip_in_words(const SlopeRow& row) {
   if (!row.slip) return "-";
-  if (spins_on_the_spot(*row.slip)) return "100: spins on the spot";
+  if (spins_on_the_spot(*row.slip)) return "100 (no travel)";
   if (row.perhaps_not_at_all()) return number(100 * *row.slip) + ", or not at all";
   return number({*row.slip, std::isfinite(row.slip_error) ? row.slip_error : 0.0}, 100);
 }
 
 std::string steepest_in_words(const Estimate& steepest, double slip) {
   if (steepest.value >= 0.0 && spins_on_the_spot(slip))
-    return fmt::format(
-        "It climbs slopes of less than {} deg: on that slope it needs 100 % slip, and spins on the spot.",
-        number(steepest, 1 / degree));
-  if (steepest.value >= 0.0)
-    return fmt::format("The steepest slope that it climbs is {} deg.", number(steepest, 1 / degree));
-  return fmt::format(
-      "It climbs no slope and doesn't move on level ground: it needs a downhill slope of {} deg or more.",
-      number({-steepest.value, steepest.std_error}, 1 / degree));
+    return fmt::format("Theoretical limit {} deg (100 % slip).", number(steepest, 1 / degree));
+  if (steepest.value >= 0.0) return fmt::format("Steepest slope {} deg.", number(steepest, 1 / degree));
+  return fmt::format("It does not move on level ground: it needs a downhill slope of {} deg or more.",
+                     number({-steepest.value, steepest.std_error}, 1 / degree));
 }
 
 }  // namespace
@@ -204,13 +200,11 @@ std::string in_words(const WheelLimits& answer) {
     text += "or not at all: with the soil one standard error weaker it does not climb this slope.\n";
   if (only_bounds(answer))
     text +=
-        "The model has no slip sinkage: the largest pull lies at a slip at which a wheel digs itself in. So the "
-        "largest pull\nand the steepest slope are upper bounds; --effect slip_sinkage lowers them.\n";
+        "Without slip sinkage the largest pull and the steepest slope are upper bounds. Add --effect slip_sinkage.\n";
   const double phi = answer.friction_angle;
   if (answer.steepest && *answer.steepest > phi)
     text += fmt::format(
-        "Beyond {:.3g} deg, its friction angle, the soil itself holds by its cohesion alone, or slides: that is not "
-        "looked at.\n",
+        "Slopes above the friction angle, {:.3g} deg, may slide by themselves: slope stability is not checked.\n",
         phi / degree);
   if (!answer.steepest) return text + "The steepest slope lies beyond -60 .. 80 deg.\n";
   return text + steepest_in_words({*answer.steepest, answer.steepest_error}, answer.slopes.back().best.slip) + "\n";

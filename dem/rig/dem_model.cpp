@@ -82,10 +82,10 @@ TractionResult DemModel::evaluate(const Scenario& scenario, const OperatingCondi
   if (settings_.on_run) settings_.on_run(run);
   finished();
   if (settings_.only_steady && !run.steady)
-    throw NoSolution(
-        fmt::format("the run did not become steady: its halves differ by {:.3g} standard errors, {:.3g} is "
-                    "allowed\n  hint: a longer bed",
-                    run.drift, settings_.rig.steady_drift));
+    throw NoSolution(fmt::format(
+        "the run did not become steady: drift {:.3g} standard errors, at most {:.3g} allowed\n  hint: lengthen "
+        "the bed",
+        run.drift, settings_.rig.steady_drift));
   return run.result;
 }
 

@@ -89,12 +89,11 @@ TEST(Presumption, IsToldInWordsOneSentenceAnEffect) {
   EXPECT_EQ(
       presumptions({{"lug_thrust", "shear_radius", {}}, {"lug_thrust", "free_blade", {}}, {"bulldozing", "", {}}},
                    smooth_tire()),
-      std::vector<std::string>{"lug thrust presumes lug height = 12.5 mm (5 % of the radius), number of lugs = 24, "
+      std::vector<std::string>{"lug thrust assumes lug height = 12.5 mm (5 % of the radius), number of lugs = 24, "
                                "which the tire does not declare; leave the effect out for a wheel without lugs."});
-  EXPECT_EQ(
-      presumptions({{"tire_flexibility", "flat_section", {}}}, smooth_tire()),
-      std::vector<std::string>{"tire flexibility presumes inflation pressure = 100 kPa, carcass pressure = 0 kPa, "
-                               "which the tire does not declare."});
+  EXPECT_EQ(presumptions({{"tire_flexibility", "flat_section", {}}}, smooth_tire()),
+            std::vector<std::string>{"tire flexibility assumes inflation pressure = 100 kPa, carcass pressure = 0 kPa, "
+                                     "which the tire does not declare."});
   EXPECT_TRUE(presumptions({{"lug_thrust", "shear_radius", {}}}, fully_declared()).empty());
 }
 

@@ -44,7 +44,7 @@ TEST(ElementTestCommand, RefusesWhatMakesNoSenseWithAHint) {
 
 // The directional couple hangs on the step: said of a test that is asked for it, and of a soil's file.
 TEST(ElementTestCommand, WarnsOfALawWhoseAnswersDependOnTheStep) {
-  constexpr const char* said = "makes answers depend on the time step";
+  constexpr const char* said = "answers depend on the time step";
   const std::string test = "element-test tilting-board paper-sand --size 0.5 --threads 1";
   EXPECT_THAT(soilbin(test + " --rolling directional").err, HasSubstr(said));
   EXPECT_THAT(soilbin(test).err, Not(HasSubstr(said)));

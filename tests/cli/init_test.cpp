@@ -18,7 +18,7 @@ TEST(Init, ACampaignIsTakenAsItStands) {
   EXPECT_THAT(made.out, AllOf(HasSubstr("campaign.yaml"), HasSubstr("runs.csv"), HasSubstr("next: soilbin check")));
   const Outcome checked = soilbin("check '" + folder + "'");
   EXPECT_EQ(checked.status, 0) << checked.err;
-  EXPECT_THAT(checked.out, HasSubstr("nothing doubtful found"));
+  EXPECT_THAT(checked.out, HasSubstr("no warnings"));
   EXPECT_EQ(soilbin("predict '" + folder + "' --json").json()["rows"].size(), 24u);
   EXPECT_EQ(soilbin("loop '" + folder + "' --json").json()["verdict"], "effect_found");
   const Outcome again = soilbin("init '" + folder + "' --campaign");

@@ -19,7 +19,7 @@ TEST(SlowLoopCommand, NamesTheLessonsEffectInWordsAndLeavesItsFiles) {
                                   "' --save-model '" + model + "'");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("The model lacks multipass"));
-  EXPECT_THAT(outcome.out, HasSubstr("One name is left"));
+  EXPECT_THAT(outcome.out, HasSubstr("To confirm, measure"));
   EXPECT_THAT(text_of(page), HasSubstr("<svg"));
   EXPECT_THAT(text_of(page), HasSubstr("soilbin loop made-lesson --folds 4 --limit load=0.3kN..400N --report"));
   const Outcome predicted = soilbin("predict made-lesson --model '" + model + "'");
@@ -101,7 +101,7 @@ data: runs.csv
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.json().at("verdict"), "not_enough_data");
   EXPECT_THAT(outcome.json().at("warnings").dump(), HasSubstr("counted twice"));
-  EXPECT_THAT(text_of(page), AllOf(HasSubstr("What is doubtful"), HasSubstr("counted twice")));
+  EXPECT_THAT(text_of(page), AllOf(HasSubstr("Warnings"), HasSubstr("counted twice")));
 }
 
 // Torques ten times too large: the answer opens with that, in text, in JSON and on the page.
@@ -114,10 +114,9 @@ TEST(SlowLoopCommand, OpensWithAColumnThatLooksMistaken) {
   const std::string folder = "loop '" + (scratch / "c").string() + "' --folds 2 ";
   const Outcome said = soilbin(folder + "--report '" + page + "'");
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_LT(said.out.find("Before you believe what follows. A column"), said.out.find("What is missing."));
+  EXPECT_LT(said.out.find("Check first. A column"), said.out.find("What is missing."));
   EXPECT_THAT(said.out, HasSubstr("column 'torque_Nm' looks 1000 times too large"));
-  EXPECT_THAT(text_of(page),
-              HasSubstr("<b>Before you believe what follows.</b> A column of these data looks mistaken"));
+  EXPECT_THAT(text_of(page), HasSubstr("<b>Check first.</b> A column looks wrong"));
   EXPECT_THAT(soilbin(folder + "--json").json().at("column_doubts").at(0).get<std::string>(), HasSubstr("'torque_Nm'"));
 }
 

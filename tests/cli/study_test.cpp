@@ -47,7 +47,7 @@ TEST(Run, WritesPlotTableAndResolvedCase) {
   EXPECT_THAT(text_of(csv), HasSubstr("drawbar_pull_N"));
   EXPECT_EQ(text_of(csv), text_of(fs::path(folder) / "results.csv"));
   EXPECT_THAT(text_of(csv), HasSubstr(",error,remark\n"));
-  EXPECT_THAT(text_of(csv), HasSubstr("% of its radius: the model's rigid outline is a stretch there\n"));
+  EXPECT_THAT(text_of(csv), HasSubstr("% of its radius: unreliable above 50 %\n"));
   const Outcome again = soilbin("run '" + folder + "/case.yaml' --json");
   EXPECT_EQ(again.out, text_of(fs::path(folder) / "results.json")) << "the resolved case gives the same results";
 }

@@ -31,7 +31,7 @@ TEST(LoopChoices, AnEffectThatPredictsNothingIsNotNamed) {
   for (std::uint64_t seed = 23; seed < 150 && !seen_but_useless(answer); ++seed) answer = answer_to(0.03, seed);
   ASSERT_TRUE(seen_but_useless(answer));
   EXPECT_EQ(answer.verdict, Verdict::nothing_missing) << answer.reason;
-  EXPECT_THAT(answer.reason, testing::HasSubstr("does not predict held-out conditions better"));
+  EXPECT_THAT(answer.reason, testing::HasSubstr("does not improve cross-validated predictions"));
   EXPECT_TRUE(answer.effects.empty());
   EXPECT_FALSE(answer.next);
 }

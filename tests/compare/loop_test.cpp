@@ -101,7 +101,7 @@ TEST(SlowLoop, SetsTheOneNameThatIsLeftAgainstTheNextOne) {
   const std::set<std::string> behind = answer.next->separates.back();
   EXPECT_FALSE(behind.empty());
   EXPECT_EQ(behind.count("drift"), 0u);
-  EXPECT_EQ(what_next(answer).front().rfind("One name is left;", 0), 0u) << what_next(answer).front();
+  EXPECT_EQ(what_next(answer).front().rfind("To confirm, measure", 0), 0u) << what_next(answer).front();
 }
 
 // Each setpoint's torque off by its own amount, the same in both of its runs: re-runs say that this is no noise.
@@ -250,8 +250,7 @@ TEST(SlowLoop, LetsNamedEffectsStandInForAnUnknownOne) {
   EXPECT_EQ(to_json(answer).at("stand_in").at(0).at("id"), answer.stand_in[0].choice.id);
   const Case saved = resolved_model(campaign, answer);
   EXPECT_EQ(saved.study.models[0].effects.size(), answer.stand_in.size());
-  EXPECT_NE(saved.description.find("That explains nothing, but predicts conditions left out better."),
-            std::string::npos);
+  EXPECT_NE(saved.description.find("Better predictions, no physical cause."), std::string::npos);
 }
 
 // Where no model comes near the noise a set of effects still loses nothing by one more: of nested fits the larger
@@ -318,7 +317,8 @@ TEST(Loop, SaysWhereTheFitLeavesTheDeclaredSoilFarBehind) {
   const auto told = [&] {
     const std::vector<std::string> said = notes(run_loop(campaign, quick()));
     return std::ranges::any_of(said, [](const std::string& sentence) {
-      return sentence.starts_with("The fit leaves what is known of the soil by more than three standard deviations: ");
+      return sentence.starts_with(
+          "The fitted soil differs from the declared one by more than three standard deviations: ");
     });
   };
   EXPECT_FALSE(told());
@@ -392,13 +392,13 @@ TEST(SlowLoop, TellsWhatAnEffectPresumesOfTheWheel) {
     EXPECT_EQ(presumed.at("key"), "lugs.height");
     EXPECT_DOUBLE_EQ(presumed.at("value").get<double>(), 0.0125);
   }
-  const std::string words = "lug thrust presumes lug height = 12.5 mm (5 % of the radius)";
+  const std::string words = "lug thrust assumes lug height = 12.5 mm (5 % of the radius)";
   const auto tells = [&](const std::string& text) { return text.find(words) != std::string::npos; };
   const std::vector<std::string> said = explanation(answer);
   EXPECT_TRUE(std::any_of(said.begin(), said.end(), tells));
   EXPECT_TRUE(tells(resolved_model(campaign, answer).description));
   const std::string page = loop_page(campaign, answer, {"rows 3 and 7 repeat each other"}, {}, "");
-  EXPECT_NE(page.find("lug thrust presumes lug height = 12.5 mm (5"), std::string::npos);
+  EXPECT_NE(page.find("lug thrust assumes lug height = 12.5 mm (5"), std::string::npos);
   EXPECT_NE(page.find("rows 3 and 7 repeat each other"), std::string::npos);
   campaign.wheel.lugs.height = 0.0125;
   campaign.wheel.lugs.count = 24;

@@ -21,7 +21,8 @@ CrossValidation mixed() {
 
 TEST(HeldOutWords, TellGainAndLossInTheSameBreath) {
   EXPECT_EQ(held_out_words(mixed()),
-            "held-out error falls by 29 +- 6.2 sigma^2 a value; predicted better: sinkage (20.6 to 7.04 mm); predicted "
+            "cross-validated error falls by 29 +- 6.2 noise variances a value; predicted better: sinkage (20.6 to 7.04 "
+            "mm); predicted "
             "worse: drawbar pull (5.95 to 6.30 N)");
 }
 
@@ -91,7 +92,7 @@ TEST(RigSetting, TakesRoundingForNoScatter) {
 TEST(HeldOutWords, SayThatAllInAllTheErrorRises) {
   CrossValidation validation = mixed();
   validation.gain = -0.2;
-  EXPECT_EQ(held_out_words(validation).find("held-out error rises by 0.2 +- 6.2 sigma^2 a value"), 0u);
+  EXPECT_EQ(held_out_words(validation).find("cross-validated error rises by 0.2 +- 6.2 noise variances a value"), 0u);
 }
 
 // A channel is worse only for a model that takes effects; without any there is nothing that it could be worse for.
@@ -115,11 +116,10 @@ TEST(ErrorSentence, TellsGainLossAndWhatHardlyChanges) {
   answer.verdict = Verdict::not_enough_data;
   const auto parts = headline(answer, {});
   ASSERT_EQ(parts.size(), 2u);
-  EXPECT_EQ(parts[1].about, "What it does to the error");
-  EXPECT_EQ(parts[1].text.find(
-                "On conditions that neither the choice nor the fit has seen the root mean square error rises for the "
-                "drawbar pull (5.95 to 6.30 N; noise alone: 5.00 N), falls for the sinkage (20.6 to 7.04 mm; "
-                "noise alone: 3.40 mm) and hardly changes for the torque (2.00 to 2.00 N m; noise alone: 1.90 N m)."),
+  EXPECT_EQ(parts[1].about, "Error with the effect");
+  EXPECT_EQ(parts[1].text.find("The cross-validated RMS error rises for the "
+                               "drawbar pull (5.95 to 6.30 N; noise 5.00 N), falls for the sinkage (20.6 to 7.04 mm; "
+                               "noise 3.40 mm) and changes little for the torque (2.00 to 2.00 N m; noise 1.90 N m)."),
             0u)
       << parts[1].text;
   const Table table = error_table(answer);
@@ -134,7 +134,7 @@ TEST(Headline, OpensWithAColumnThatLooksMistaken) {
   LoopAnswer answer;
   EXPECT_EQ(headline(answer, {}).front().about, "What is missing");
   const auto parts = headline(answer, {"runs.csv:1:5: column 'load_N' looks as if it were in kg: ..."});
-  EXPECT_EQ(parts.front().about, "Before you believe what follows");
+  EXPECT_EQ(parts.front().about, "Check first");
   EXPECT_NE(parts.front().text.find("column 'load_N' looks as if it were in kg"), std::string::npos);
   EXPECT_EQ(parts[1].about, "What is missing");
 }
@@ -151,13 +151,11 @@ TEST(Notes, SayWhereTheNoiseIsMoreThanReRunsScatter) {
   EXPECT_TRUE(notes(answer).empty());
 }
 
-TEST(Odds, AreSharesOfCampaigns) {
+TEST(Noise, IsAnExplanationUnlessItIsUnlikely) {
   const auto of = [](double p) { return ResidualSignatures{{}, p, 4000}; };
-  EXPECT_EQ(odds_words(of(0.0123)), "1 of 81 campaigns");
-  EXPECT_EQ(odds_words(of(0.3)), "30 of 100 campaigns");
-  EXPECT_EQ(odds_words(of(2.0 / 4001)), "1 of 2,000 campaigns");
-  EXPECT_EQ(odds_and_p(of(1.0 / 4001)),
-            "noise alone would look like this in none of 4,000 simulated campaigns, p < 0.00025");
+  EXPECT_EQ(noise_verdict(of(0.0123)), "not explained by noise (p = 0.012)");
+  EXPECT_EQ(noise_verdict(of(0.3)), "explained by noise (p = 0.3)");
+  EXPECT_EQ(noise_verdict(of(1.0 / 4001)), "not explained by noise (p < 0.00025)");
 }
 
 // A parameter stands in its own unit, with its meaning, and says where the data did not determine it.

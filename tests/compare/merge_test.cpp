@@ -113,7 +113,8 @@ TEST(Merge, AnotherAnswerToTheSameRunNamesBothSources) {
   shards.push_back({"b.json", recorded_in_turn(asked_runs())});
   RecordedRun& run = shards[1].record.runs[3];
   run.source = "def-dirty", run.answer.result->torque.value *= 1 + 1e-15;  // its last bit
-  expect_merge_refused(shards, {"load 70 N, slip 10 %, packing 1", "a.json (made by abc", "b.json (made by def-dirty"});
+  expect_merge_refused(shards,
+                       {"load 70 N, slip 10 %, bed sample 1", "a.json (made by abc", "b.json (made by def-dirty"});
 }
 
 // A key that came to case files after a shard was made stands in the others' cases with its default: the same question.

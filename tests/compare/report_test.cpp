@@ -166,7 +166,7 @@ TEST(ModelNames, AreThoseOfPeople) {
   EXPECT_EQ(model_in_words("bekker_wong + sidewall_bulldozing:passive_wedge + cross_talk"),
             "analytic wheel with side-wall bulldozing (passive wedge) and cross-talk");
   EXPECT_EQ(model_in_words("dem"), "grains");
-  EXPECT_EQ(model_in_words("dem packing 2"), "grains, packing 2");
+  EXPECT_EQ(model_in_words("dem packing 2"), "grains, bed sample 2");
   for (const char* own : {"my bekker_wong", "grains", "analytic wheel", "cmu-smooth (measured)", ""})
     EXPECT_EQ(model_in_words(own), own);
   EXPECT_EQ(models_in_words("dem and bekker_wong + exit_angle share no demand",

@@ -36,9 +36,9 @@ std::vector<std::string> in_words_all(const std::vector<AskedRun>& list) {
 TEST(TheRunList, GoesPackingByPackingAndInEachByLoadAndSlip) {
   const auto list = run_list(six_conditions(), {3, 1}, TestStep::no);
   ASSERT_EQ(list.size(), 12U);
-  EXPECT_EQ(in_words(list[0]), "load 40 N, slip 10 %, packing 3");
-  EXPECT_EQ(in_words(list[5]), "load 70 N, slip 40 %, packing 3");
-  EXPECT_EQ(in_words(list[6]), "load 40 N, slip 10 %, packing 1");
+  EXPECT_EQ(in_words(list[0]), "load 40 N, slip 10 %, bed sample 3");
+  EXPECT_EQ(in_words(list[5]), "load 70 N, slip 40 %, bed sample 3");
+  EXPECT_EQ(in_words(list[6]), "load 40 N, slip 10 %, bed sample 1");
 }
 
 TEST(TheRunList, IsTheSameForConditionsInAnyOrderAndCountsThoseThatAreAlikeOnce) {
@@ -52,8 +52,8 @@ TEST(TheRunList, IsTheSameForConditionsInAnyOrderAndCountsThoseThatAreAlikeOnce)
 TEST(TheRunList, BeginsWithTheHardestConditionAtBothSteps) {
   const auto list = run_list(six_conditions(), {5, 6}, TestStep::yes);
   ASSERT_EQ(list.size(), 13U);
-  EXPECT_EQ(in_words(list[0]), "load 70 N, slip 40 %, packing 5");
-  EXPECT_EQ(in_words(list[1]), "load 70 N, slip 40 %, packing 5, half the time step");
+  EXPECT_EQ(in_words(list[0]), "load 70 N, slip 40 %, bed sample 5");
+  EXPECT_EQ(in_words(list[1]), "load 70 N, slip 40 %, bed sample 5, half the time step");
   const std::set<std::string> once = [&] {
     const auto words = in_words_all(list);
     return std::set<std::string>(words.begin(), words.end());

@@ -110,8 +110,7 @@ TEST(Sweep, PeaksAreThoseOfTheSmoothCurves) {
       most = answer.result->tractive_efficiency, at = answer.at.slip;
   EXPECT_NE(at, 0.3);
   EXPECT_THAT(in_words(part),
-              HasSubstr(fmt::format("at most {:.0f} % of the power put in goes into pull, at {:.3g} % slip", 100 * most,
-                                    100 * at)));
+              HasSubstr(fmt::format("peak tractive efficiency {:.0f} %, at {:.3g} % slip", 100 * most, 100 * at)));
   const double end = part.along_curves.front().answers.back().result->drawbar_pull.value;
   const bool grows = std::ranges::all_of(part.along_curves.front().answers,
                                          [&](const Answer& a) { return a.result->drawbar_pull.value <= end; });

@@ -72,10 +72,10 @@ class Pages(unittest.TestCase):
         for name in ("loop", "scattered"):
             self.show(name)
             self.assertEqual([about for about, _ in self.parts()],
-                             ["What is missing", "What it does to the error", "What to measure next"])
+                             ["What is missing", "Error with the effect", "What to measure next"])
             for about, text in self.parts():
                 self.assertIn(f"{about}. {text}".replace("\u00a0", " "), self.words[name])
-            self.assertIn("none of 4,000 simulated campaigns", self.parts()[0][1])
+            self.assertIn("not explained by noise (p < 0.00025)", self.parts()[0][1])
 
     def test_the_loops_figure_holds_measured_points_and_both_models(self):
         self.show("loop")
@@ -170,7 +170,7 @@ class Pages(unittest.TestCase):
         of = lambda plot, label: self.js(f"{sheet}.plots.find(p => p.title.startsWith('{plot}')).series.find(s => s.label === {label!r})")
         text = self.js("document.querySelector('.summary p').textContent").replace("\u00a0", " ")
         told = re.search(r"At (.*?) the largest pull is ([0-9.]+)(?: ± [0-9.]+)? kN, .*? at ([0-9.]+) % slip.*?; "
-                         r"at most ([0-9]+) % of the power put in goes into pull, at ([0-9.]+) % slip", text)
+                         r"peak tractive efficiency ([0-9]+) %, at ([0-9.]+) % slip", text)
         self.assertTrue(told, text)
         label = self.js(f"{sheet}.plots[0].series[1].label")
         self.assertTrue(label.endswith(told[1]), label)

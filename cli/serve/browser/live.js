@@ -119,7 +119,7 @@ soilbin.Live = class {
     const {make} = soilbin, box = make('input', {type: 'checkbox'}), forms = make('select'), note = make('small');
     const parameters = make('div', {className: 'parameters'});
     for (const {form} of effect.forms) forms.add(new Option(form, form));
-    forms.setAttribute('aria-label', `Form of ${effect.id}`);
+    forms.setAttribute('aria-label', `Variant of ${effect.id}`);
     box.addEventListener('change', () => this.switchEffect(effect, box.checked ? effect.on || effect.id : null));
     forms.addEventListener('change', () => this.switchEffect(effect, `${effect.id}:${forms.value}`));
     effect.show = word => {
